@@ -1,0 +1,1 @@
+"""scene2hap: scene-wide vibrotactile haptics for virtual reality."""

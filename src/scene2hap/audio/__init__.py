@@ -1,0 +1,1 @@
+"""Sound: clips, their analysis and choice, loops, and their conversion into touch."""

@@ -1,0 +1,55 @@
+"""A sound in memory, with where it came from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap import checks
+from scene2hap.errors import AudioError
+
+Samples = NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class Credit:
+    """Whom a sound is owed to; written next to the haptics."""
+
+    title: str
+    author: str
+    licence: str
+    address: str = ""
+    query: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class AudioClip:
+    """A mono sound: float32 samples (n_samples,), nominally in [-1, 1].
+
+    Raises: AudioError: no samples, a value that is not finite, or a sample rate that is not positive.
+    """
+
+    samples: Samples
+    sample_rate_hz: int
+    credit: Credit = field(default_factory=lambda: Credit("untitled", "unknown", "unknown"))
+
+    def __post_init__(self) -> None:
+        rate = checks.number("sample_rate_hz", self.sample_rate_hz, "Hz", at_least=1, error=AudioError)
+        samples = np.array(self.samples, dtype=np.float32)
+        if samples.ndim != 1:
+            raise AudioError(f"samples has shape {samples.shape}; a clip is mono, (n_samples,). Mix channels first.")
+        if samples.size == 0:
+            raise AudioError(f"{self.credit.title!r} has no samples; use a sound that is longer than 0 s.")
+        if not np.isfinite(samples).all():
+            first = int(np.argmin(np.isfinite(samples)))
+            raise AudioError(f"{self.credit.title!r}: sample {first} is {samples[first]}; every sample must be finite.")
+        samples.flags.writeable = False
+        object.__setattr__(self, "samples", samples)
+        object.__setattr__(self, "sample_rate_hz", int(rate))
+
+    @property
+    def duration_s(self) -> float:
+        """Length [s]."""
+        return len(self.samples) / self.sample_rate_hz

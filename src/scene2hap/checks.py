@@ -1,0 +1,76 @@
+"""Bounds on numbers that people, files and language models hand in.
+
+One door for every "value, unit, bound, what to do" message, so that they read alike everywhere.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from numbers import Real
+
+from scene2hap.errors import Scene2HapError
+
+
+def number(
+    name: str,
+    value: object,
+    unit: str,
+    *,
+    above: float | None = None,
+    at_least: float | None = None,
+    below: float | None = None,
+    at_most: float | None = None,
+    error: type[Scene2HapError],
+    hint: str = "",
+) -> float:
+    """Return `value` as a finite float inside its bounds, or raise `error` naming value, unit and bound."""
+    # numpy scalars register as Real; bool is an int by accident of history and never a measurement.
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise error(_sentence(f"{name} is {value!r}; it must be a number{_in(unit)}", hint))
+    result = float(value)
+    bounds = [
+        (not math.isfinite(result), "finite"),
+        (above is not None and result <= above, f"above {above}"),
+        (at_least is not None and result < at_least, f"at least {at_least}"),
+        (below is not None and result >= below, f"below {below}"),
+        (at_most is not None and result > at_most, f"at most {at_most}"),
+    ]
+    broken = [bound for is_broken, bound in bounds if is_broken]
+    if broken:
+        shown = f"{result:g}{' ' + unit if unit != '-' else ''}"
+        raise error(_sentence(f"{name} is {shown}; it must be {broken[0]}{_in(unit)}", hint))
+    return result
+
+
+def vector(
+    name: str,
+    value: object,
+    unit: str,
+    *,
+    size: int,
+    above: float | None = None,
+    at_least: float | None = None,
+    error: type[Scene2HapError],
+    hint: str = "",
+) -> tuple[float, ...]:
+    """Return `value` as `size` finite floats, or raise `error` naming the component that is wrong."""
+    items: Sequence[object]
+    try:
+        items = tuple(value)  # type: ignore[arg-type]  # any iterable will do; the rest is the error below
+    except TypeError:
+        items = ()
+    if len(items) != size or isinstance(value, str):
+        raise error(_sentence(f"{name} is {value!r}; it must be {size} numbers{_in(unit)}", hint))
+    return tuple(
+        number(f"{name}[{i}]", item, unit, above=above, at_least=at_least, error=error, hint=hint)
+        for i, item in enumerate(items)
+    )
+
+
+def _in(unit: str) -> str:
+    return "" if unit == "-" else f" [{unit}]"
+
+
+def _sentence(message: str, hint: str) -> str:
+    return f"{message}. {hint}" if hint else f"{message}."

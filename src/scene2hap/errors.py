@@ -1,0 +1,139 @@
+"""The whole exception tree.
+
+Every error that scene2hap raises on purpose is a `Scene2HapError`; most also inherit the builtin that fits, so
+that ``except ValueError`` keeps working for people who do not know the tree::
+
+    Scene2HapError
+    ├── ConfigError (ValueError)            a setting that cannot work
+    │   ├── UnknownPlugin (LookupError)     a `kind` that nobody registered
+    │   └── MissingExtra (ImportError)      an optional dependency is not installed; names the extra
+    ├── SceneError (ValueError)             a scene that cannot be read or makes no sense
+    │   ├── SceneFormatError                the file is not what it says it is
+    │   └── UnknownObject (LookupError)     an object id that the scene does not have
+    ├── MaterialError (ValueError)          a material constant outside its bound
+    │   └── UnknownMaterial (LookupError)   no row in the table under that name
+    ├── ModelDomainError (ValueError)       a physical model asked outside the range where it holds
+    ├── AudioError (ValueError)             a sound that cannot be used
+    ├── BundleError (ValueError)            a bundle folder that cannot be read or written
+    │   ├── BundleIncomplete                a file is missing, cut short or was changed by halves
+    │   └── BundleVersionError              written by a newer scene2hap
+    ├── SessionError (ValueError)           play-time input that cannot be honoured
+    ├── BackendError                        a language-model or sound service
+    │   ├── BackendUnavailable (ConnectionError)
+    │   ├── BadAnswer (ValueError)          the answer fails its schema; carries the raw text
+    │   └── ReplayMiss (LookupError)        no recorded answer for this request; carries the key
+    └── DeviceError (OSError)               an actuator
+        ├── DeviceNotFound
+        ├── DeviceLost
+        └── DeviceTimeout (TimeoutError)
+
+A message gives the value, its unit, the bound, and what to do next.
+"""
+
+from __future__ import annotations
+
+
+class Scene2HapError(Exception):
+    """Root of every error raised by scene2hap."""
+
+
+class ConfigError(Scene2HapError, ValueError):
+    """A setting that cannot work."""
+
+
+class UnknownPlugin(ConfigError, LookupError):
+    """A `kind` that neither scene2hap nor an installed package registered."""
+
+
+class MissingExtra(ConfigError, ImportError):
+    """An optional dependency is not installed; the message names the extra that brings it."""
+
+
+class SceneError(Scene2HapError, ValueError):
+    """A scene that cannot be read or makes no sense."""
+
+
+class SceneFormatError(SceneError):
+    """A scene file that is not what its name or header says."""
+
+
+class UnknownObject(SceneError, LookupError):
+    """An object id that the scene does not have."""
+
+
+class MaterialError(Scene2HapError, ValueError):
+    """A material constant outside its physical bound."""
+
+
+class UnknownMaterial(MaterialError, LookupError):
+    """No row of the material table carries that name or alias."""
+
+
+class ModelDomainError(Scene2HapError, ValueError):
+    """A physical model was asked outside the range where it holds."""
+
+
+class AudioError(Scene2HapError, ValueError):
+    """A sound that cannot be used: empty, not finite, unreadable."""
+
+
+class BundleError(Scene2HapError, ValueError):
+    """A bundle folder that cannot be read or written."""
+
+
+class BundleIncomplete(BundleError):
+    """A bundle folder that lacks a file or holds one that was not written to its end."""
+
+
+class BundleVersionError(BundleError):
+    """A bundle folder written by a newer scene2hap."""
+
+
+class SessionError(Scene2HapError, ValueError):
+    """Play-time input that cannot be honoured."""
+
+
+class BackendError(Scene2HapError):
+    """A language-model or sound service failed."""
+
+
+class BackendUnavailable(BackendError, ConnectionError):
+    """The service could not be reached or refused to serve."""
+
+
+class BadAnswer(BackendError, ValueError):
+    """An answer that does not fit its schema.
+
+    `raw_text` is what the service said.
+    """
+
+    def __init__(self, message: str, raw_text: str = "") -> None:
+        super().__init__(message)
+        self.raw_text = raw_text
+
+
+class ReplayMiss(BackendError, LookupError):
+    """A replay was asked something that it has not recorded.
+
+    `key` identifies the request.
+    """
+
+    def __init__(self, message: str, key: str = "") -> None:
+        super().__init__(message)
+        self.key = key
+
+
+class DeviceError(Scene2HapError, OSError):
+    """An actuator failed."""
+
+
+class DeviceNotFound(DeviceError):
+    """No device of that name or index."""
+
+
+class DeviceLost(DeviceError):
+    """A device that was open has gone."""
+
+
+class DeviceTimeout(DeviceError, TimeoutError):
+    """A device did not answer in time."""

@@ -1,0 +1,151 @@
+"""Plain data that design time and play time both speak: what an object is, how it vibrates, what plays it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap import checks
+from scene2hap.errors import ConfigError
+from scene2hap.materials import Material
+
+
+@dataclass(frozen=True)
+class SourceState:
+    """One way in which an object vibrates, such as "on", "ringing" or "boiling".
+
+    Parameters:
+    name : what the state is called; unique within its object.
+    intensity : strength of the vibration at the object itself, 0..1 [-], on a scale where 1 is a washing machine
+        at full spin, 0.5 a ringing phone on the palm, 0.1 a refrigerator's hum.
+    sentence : at most 15 words that begin with the category; drives sound generation.
+    keywords : "category verb"; drives sound retrieval.
+    needs_contact : category or id of the object it must touch to vibrate (a pan on a heater); None means always.
+    """
+
+    name: str
+    intensity: float
+    sentence: str
+    keywords: str
+    needs_contact: str | None = None
+
+    def __post_init__(self) -> None:
+        intensity = checks.number("intensity", self.intensity, "-", above=0.0, at_most=1.0, error=ConfigError)
+        object.__setattr__(self, "intensity", intensity)
+
+
+@dataclass(frozen=True)
+class ObjectHaptics:
+    """What inference says about one object.
+
+    `estimated_size_m` is length, width and thickness of the dominant surface, corrected where the mesh cannot be
+    right. `material` is None where nobody could tell; vibration then does not spread through the object.
+    `confidence` is 0..1; `reasons` explain category, size and vibration; `provenance` names the backend, the model
+    and the prompt version that answered, by component.
+    """
+
+    object_category: str
+    material_category: str
+    material: Material | None
+    estimated_size_m: tuple[float, float, float]
+    usage: str
+    vibrates: bool
+    states: tuple[SourceState, ...] = ()
+    confidence: float = 1.0
+    reasons: Mapping[str, str] = field(default_factory=dict)
+    provenance: Mapping[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        size = checks.vector("estimated_size_m", self.estimated_size_m, "m", size=3, at_least=0.0, error=ConfigError)
+        object.__setattr__(self, "estimated_size_m", size)
+        confidence = checks.number("confidence", self.confidence, "-", at_least=0.0, at_most=1.0, error=ConfigError)
+        object.__setattr__(self, "confidence", confidence)
+        object.__setattr__(self, "states", tuple(self.states))
+        if self.vibrates and not self.states:
+            raise ConfigError(f"{self.object_category!r} vibrates but has no state; give it at least one SourceState.")
+
+
+@dataclass(frozen=True)
+class VibrationDescription:
+    """What a sound source is asked for: one state of one object.
+
+    `size_m` and `material` let a synthesizer shape the sound; `seed` makes its answer repeatable.
+    """
+
+    object_category: str
+    state: str
+    sentence: str
+    keywords: str
+    intensity: float
+    size_m: tuple[float, float, float]
+    material: str = ""
+    seed: int = 0
+
+
+@dataclass(frozen=True)
+class ActuatorProfile:
+    """What an actuator can render: its name, usable band and resonance [Hz]."""
+
+    name: str = "flat"
+    min_frequency_hz: float = 10.0
+    max_frequency_hz: float = 1000.0
+    resonance_hz: float | None = None
+
+    def __post_init__(self) -> None:
+        low = checks.number("min_frequency_hz", self.min_frequency_hz, "Hz", above=0.0, error=ConfigError)
+        checks.number("max_frequency_hz", self.max_frequency_hz, "Hz", above=low, error=ConfigError)
+
+
+@dataclass(frozen=True)
+class Bands:
+    """The frequency bands in which gains are told.
+
+    Either true bands between neighbouring edges [Hz], or `Bands.dominant()`: one band that stands for each source's
+    own dominant frequency, as in the paper.
+    """
+
+    edges_hz: tuple[float, ...]
+    kind: Literal["edges", "dominant"] = "edges"
+
+    def __post_init__(self) -> None:
+        if self.kind == "dominant":
+            object.__setattr__(self, "edges_hz", ())
+            return
+        edges = tuple(
+            checks.number(f"edges_hz[{i}]", edge, "Hz", above=0.0, error=ConfigError)
+            for i, edge in enumerate(self.edges_hz)
+        )
+        if len(edges) < 2 or any(low >= high for low, high in zip(edges, edges[1:], strict=False)):
+            raise ConfigError(f"edges_hz is {list(edges)}; it must be at least two rising frequencies [Hz].")
+        object.__setattr__(self, "edges_hz", edges)
+
+    @classmethod
+    def dominant(cls) -> Bands:
+        """One band: each source at its own dominant frequency."""
+        return cls((), "dominant")
+
+    @classmethod
+    def third_octaves(cls, low_hz: float = 10.0, high_hz: float = 1000.0) -> Bands:
+        """Base-ten third octaves whose edges run from `low_hz` to `high_hz`; 10 to 1000 Hz are 20 bands.
+
+        Source: IEC 61260-1 (2014), section 5: edges a ratio of 10^(1/10) apart.
+        """
+        low = checks.number("low_hz", low_hz, "Hz", above=0.0, error=ConfigError)
+        high = checks.number("high_hz", high_hz, "Hz", above=low, error=ConfigError)
+        n = max(1, round(10 * math.log10(high / low)))
+        return cls(tuple(float(edge) for edge in np.geomspace(low, high, n + 1)))
+
+    @property
+    def n_bands(self) -> int:
+        """How many gains a source has."""
+        return 1 if self.kind == "dominant" else len(self.edges_hz) - 1
+
+    def widths_hz(self) -> NDArray[np.float64]:
+        """Lower and upper edge of each band (n_bands, 2) [Hz]; empty for `Bands.dominant()`."""
+        edges: Sequence[float] = self.edges_hz
+        return np.array([edges[:-1], edges[1:]], dtype=np.float64).T.reshape(-1, 2)

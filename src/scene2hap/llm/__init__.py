@@ -1,0 +1,1 @@
+"""Inference: language models and what stands in for them."""

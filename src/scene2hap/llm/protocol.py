@@ -1,0 +1,48 @@
+"""What the inference chain asks of a language model, whoever answers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal, Protocol, runtime_checkable
+
+Component = Literal["scene_analyzer", "object_analyzer", "material_estimator", "vibration_describer"]
+"""The four chained components of the paper, section "LLM Workflow and Components"."""
+
+
+@dataclass(frozen=True)
+class LLMRequest:
+    """One question.
+
+    `prompt` is the filled template; `facts` are the values it was filled with (JSON values), for backends that do
+    not read prose; `answer_schema` is the JSON schema of the answer; `subject` is the object's id, "" for the scene.
+    `images` are PNG files in the order in which the prompt speaks of them.
+    """
+
+    component: Component
+    subject: str
+    prompt: str
+    facts: Mapping[str, Any]
+    answer_schema: Mapping[str, Any]
+    prompt_version: str
+    images: tuple[bytes, ...] = ()
+    temperature: float = 0.2
+
+
+@dataclass(frozen=True)
+class LLMReply:
+    """One answer: `text` is a JSON document; `model` says who wrote it; `usage` counts tokens where known."""
+
+    text: str
+    model: str
+    finish_reason: str = "stop"
+    usage: Mapping[str, int] = field(default_factory=dict)
+
+
+@runtime_checkable
+class LLMBackend(Protocol):
+    """Answers requests; may be asked several at once."""
+
+    async def complete(self, request: LLMRequest) -> LLMReply:
+        """The answer. Raises: BackendUnavailable, BadAnswer, ReplayMiss."""
+        ...

@@ -1,0 +1,109 @@
+"""Materials and the sourced table of their constants.
+
+`table.csv` gives nominal value, range and source of each constant for 94 materials of everyday life.
+"""
+
+from __future__ import annotations
+
+import csv
+import difflib
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+from scene2hap import checks
+from scene2hap.errors import MaterialError, UnknownMaterial
+
+__all__ = ["Material", "MaterialRow", "lookup", "table"]
+
+
+@dataclass(frozen=True)
+class Material:
+    """Elastic constants of an isotropic solid.
+
+    Parameters: density_kg_m3 > 0; youngs_modulus_pa > 0; -1 < poisson_ratio < 0.5 (both bounds make a plate's
+    stiffness or the bulk modulus infinite); loss_factor 0..2 [-], twice the damping ratio.
+    Raises: MaterialError: a constant is outside its bound.
+    """
+
+    name: str
+    density_kg_m3: float
+    youngs_modulus_pa: float
+    poisson_ratio: float
+    loss_factor: float = 0.01
+
+    def __post_init__(self) -> None:
+        hint = f"Material {self.name!r}; `materials.lookup` knows usual values."
+
+        def bound(field: str, unit: str, **bounds: float) -> None:
+            value = checks.number(field, getattr(self, field), unit, error=MaterialError, hint=hint, **bounds)
+            object.__setattr__(self, field, value)
+
+        bound("density_kg_m3", "kg/m3", above=0.0)
+        bound("youngs_modulus_pa", "Pa", above=0.0)
+        bound("poisson_ratio", "-", above=-1.0, below=0.5)
+        bound("loss_factor", "-", at_least=0.0, at_most=2.0)
+
+
+@dataclass(frozen=True)
+class MaterialRow:
+    """A row of the table: nominal constants, the range that sources give for each, and the sources."""
+
+    material: Material
+    aliases: tuple[str, ...]
+    density_range_kg_m3: tuple[float, float]
+    youngs_range_pa: tuple[float, float]
+    poisson_range: tuple[float, float]
+    loss_range: tuple[float, float]
+    source: str
+
+
+def lookup(name: str) -> Material:
+    """The nominal constants of a material by name or alias, upper or lower case.
+
+    Raises: UnknownMaterial: no row has that name; the message names the nearest.
+    """
+    key = " ".join(name.lower().replace("_", " ").replace("-", " ").split())
+    try:
+        return _by_name()[key].material
+    except KeyError:
+        near = difflib.get_close_matches(key, list(_by_name()), n=3)
+        hint = f"Did you mean {', '.join(map(repr, near))}? " if near else ""
+        raise UnknownMaterial(
+            f"no material {name!r} in the table of {len(table())}. {hint}Or give a Material with your own constants."
+        ) from None
+
+
+@cache
+def table() -> tuple[MaterialRow, ...]:
+    """Every row, in the order of the file."""
+    text = files(__package__).joinpath("table.csv").read_text(encoding="utf-8")
+    return tuple(_row(fields) for fields in csv.DictReader(text.splitlines()))
+
+
+@cache
+def _by_name() -> dict[str, MaterialRow]:
+    return {
+        " ".join(name.replace("-", " ").split()): row for row in table() for name in (row.material.name, *row.aliases)
+    }
+
+
+def _row(fields: dict[str, str]) -> MaterialRow:
+    def span(name: str) -> tuple[float, float]:
+        return float(fields[f"{name}_lo"]), float(fields[f"{name}_hi"])
+
+    return MaterialRow(
+        Material(
+            fields["material"],
+            float(fields["density_kg_m3"]),
+            float(fields["youngs_modulus_pa"]),
+            float(fields["poisson_ratio"]),
+            float(fields["loss_factor"]),
+        ),
+        tuple(alias for alias in fields["aliases"].split(";") if alias),
+        span("density"),
+        span("youngs"),
+        span("poisson"),
+        span("loss"),
+        fields["source"],
+    )

@@ -1,0 +1,68 @@
+"""Name -> implementation, for built-ins and guests alike.
+
+A room that can be extended declares one `PluginGroup`. Its built-ins are written as ``"module:attribute"`` and are
+imported only when asked for; a guest package joins by an entry point of the same group and spelling::
+
+    [project.entry-points."scene2hap.propagation"]
+    my_model = "my_package.models:MyModel"
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import import_module
+from importlib.metadata import EntryPoint, entry_points
+
+from scene2hap.errors import ConfigError, MissingExtra, UnknownPlugin
+
+
+@dataclass(frozen=True)
+class PluginGroup:
+    """The implementations of one protocol.
+
+    `name` is the entry-point group (``"scene2hap.llm"``); `builtins` maps a kind to ``"module:attribute"``; `extras`
+    maps a kind to the extra that brings its optional dependency.
+    """
+
+    name: str
+    builtins: Mapping[str, str]
+    extras: Mapping[str, str]
+
+    def kinds(self) -> tuple[str, ...]:
+        """Every name that `load` accepts, sorted."""
+        return tuple(sorted({*self.builtins, *(guest.name for guest in self._guests())}))
+
+    def load(self, kind: str) -> object:
+        """The class or factory registered under `kind`.
+
+        Raises: UnknownPlugin: nobody registered it. MissingExtra: its optional dependency is absent. ConfigError: a
+        guest's entry point does not import.
+        """
+        if kind in self.builtins:
+            return self._resolve(EntryPoint(kind, self.builtins[kind], self.name))
+        for guest in self._guests():
+            if guest.name == kind:
+                return self._resolve(guest)
+        raise UnknownPlugin(
+            f"{self.name} has no kind {kind!r}. Known: {', '.join(self.kinds())}. "
+            f"A package adds one by an entry point in the group {self.name!r}."
+        )
+
+    def _guests(self) -> tuple[EntryPoint, ...]:
+        return tuple(entry_points(group=self.name))
+
+    def _resolve(self, entry: EntryPoint) -> object:
+        try:
+            import_module(entry.module)
+            return entry.load()
+        except ImportError as cause:
+            if entry.name in self.extras:
+                extra = self.extras[entry.name]
+                raise MissingExtra(
+                    f"{entry.name!r} needs {cause.name or 'a package'} that is not installed. "
+                    f"Run: pip install 'scene2hap[{extra}]'"
+                ) from cause
+            raise ConfigError(f"{self.name} kind {entry.name!r} ({entry.value}) does not import: {cause}") from cause
+        except AttributeError as cause:
+            raise ConfigError(f"{self.name} kind {entry.name!r}: {entry.value} does not exist.") from cause

@@ -1,0 +1,1 @@
+"""Scenes: typed snapshots, and how they are read from files and engines."""
