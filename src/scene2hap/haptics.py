@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Literal
 
 import numpy as np
@@ -120,7 +121,7 @@ class Bands:
             checks.number(f"edges_hz[{i}]", edge, "Hz", above=0.0, error=ConfigError)
             for i, edge in enumerate(self.edges_hz)
         )
-        if len(edges) < 2 or any(low >= high for low, high in zip(edges, edges[1:], strict=False)):
+        if len(edges) < 2 or any(low >= high for low, high in pairwise(edges)):
             raise ConfigError(f"edges_hz is {list(edges)}; it must be at least two rising frequencies [Hz].")
         object.__setattr__(self, "edges_hz", edges)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
 from scene2hap.audio.clip import AudioClip, Samples
@@ -23,7 +23,7 @@ class ConversionContext:
     """What a converter is told: the actuator, the source's intensity 0..1, and the scene's other sources' dominant
     frequencies [Hz]."""
 
-    actuator: ActuatorProfile = ActuatorProfile()
+    actuator: ActuatorProfile = field(default_factory=ActuatorProfile)
     intensity: float = 1.0
     neighbours_hz: tuple[float, ...] = ()
 

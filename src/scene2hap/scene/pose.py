@@ -54,12 +54,14 @@ class Pose:
     def to_world(self, points_own_m: ArrayLike) -> NDArray[np.float64]:
         """Points (n, 3) [m] of the own frame, in the world."""
         points: NDArray[np.float64] = np.asarray(points_own_m, dtype=np.float64)
-        return points @ self.rotation.T + np.asarray(self.position_m)
+        moved: NDArray[np.float64] = points @ self.rotation.T + np.asarray(self.position_m)
+        return moved
 
     def to_own(self, points_m: ArrayLike) -> NDArray[np.float64]:
         """Points (n, 3) [m] of the world, in the own frame."""
         points: NDArray[np.float64] = np.asarray(points_m, dtype=np.float64)
-        return (points - np.asarray(self.position_m)) @ self.rotation
+        own: NDArray[np.float64] = (points - np.asarray(self.position_m)) @ self.rotation
+        return own
 
     def compose(self, inner: Pose) -> Pose:
         """The pose whose frame is `inner`, given in the frame of this one."""
