@@ -1,1 +1,161 @@
-"""scene2hap: scene-wide vibrotactile haptics for virtual reality."""
+"""scene2hap: scene-wide vibrotactile haptics for virtual reality.
+
+    scene = load_scene("kitchen.glb")
+    bundle = bake(scene)
+    session = HapticSession(scene, bundle)
+
+Every public name below is imported when it is first used, so that ``import scene2hap`` costs next to nothing and a
+game pays only for the playing side.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+__version__ = "0.1.0"
+
+_HOME = {
+    "scene2hap.scene.load": ("load_scene",),
+    "scene2hap.scene.pose": ("Pose",),
+    "scene2hap.scene.snapshot": ("Box", "Contact", "DominantSurface", "SceneObject", "SceneSnapshot", "TriMesh"),
+    "scene2hap.materials": ("Material",),
+    "scene2hap.haptics": ("ActuatorProfile", "Bands", "ObjectHaptics", "SourceState", "VibrationDescription"),
+    "scene2hap.contact.graph": ("ContactChange", "ContactGraph"),
+    "scene2hap.propagation.plate": ("Plate", "RigidBody"),
+    "scene2hap.propagation.protocol": ("ContactNetwork", "Excitation", "PropagationField", "PropagationModel"),
+    "scene2hap.propagation.exponential_plate": ("ExponentialPlate",),
+    "scene2hap.propagation.controls": ("FullPropagation", "NoPropagation"),
+    "scene2hap.audio.clip": ("AudioClip", "Credit"),
+    "scene2hap.audio.haptic_loop": ("HapticLoop",),
+    "scene2hap.audio.protocol": ("AudioSource", "ConversionContext", "TactileConverter"),
+    "scene2hap.audio.select": ("select_clip",),
+    "scene2hap.llm.protocol": ("LLMBackend", "LLMReply", "LLMRequest"),
+    "scene2hap.llm.lexicon": ("LexiconBackend",),
+    "scene2hap.llm.replay": ("RecordingBackend", "ReplayBackend"),
+    "scene2hap.llm.chain": ("infer_haptics",),
+    "scene2hap.bundle": ("HapticBundle",),
+    "scene2hap.baking": ("BakeConfig", "abake", "bake"),
+    "scene2hap.session": ("HapticFrame", "HapticSession", "SessionConfig", "Touch"),
+    "scene2hap.touch_track": ("TouchTrack", "play_track"),
+    "scene2hap.devices.protocol": ("ActuatorSink",),
+    "scene2hap.devices.memory": ("MemorySink",),
+    "scene2hap.devices.wav": ("WavSink",),
+}
+_MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
+_ROOMS = ("audio", "contact", "devices", "errors", "haptics", "llm", "materials", "propagation", "render", "scene")
+
+__all__ = ["__version__", *sorted(_MODULE_OF)]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _MODULE_OF:
+        value = getattr(import_module(_MODULE_OF[name]), name)
+        globals()[name] = value
+        return value
+    if name in _ROOMS:
+        return import_module(f"scene2hap.{name}")
+    raise AttributeError(f"module 'scene2hap' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__, *_ROOMS})
+
+
+if TYPE_CHECKING:
+    from scene2hap.audio.clip import AudioClip as AudioClip
+    from scene2hap.audio.clip import Credit as Credit
+    from scene2hap.audio.haptic_loop import HapticLoop as HapticLoop
+    from scene2hap.audio.protocol import (
+        AudioSource as AudioSource,
+    )
+    from scene2hap.audio.protocol import (
+        ConversionContext as ConversionContext,
+    )
+    from scene2hap.audio.protocol import (
+        TactileConverter as TactileConverter,
+    )
+    from scene2hap.audio.select import select_clip as select_clip
+    from scene2hap.baking import BakeConfig as BakeConfig
+    from scene2hap.baking import abake as abake
+    from scene2hap.baking import bake as bake
+    from scene2hap.bundle import HapticBundle as HapticBundle
+    from scene2hap.contact.graph import ContactChange as ContactChange
+    from scene2hap.contact.graph import ContactGraph as ContactGraph
+    from scene2hap.devices.memory import MemorySink as MemorySink
+    from scene2hap.devices.protocol import ActuatorSink as ActuatorSink
+    from scene2hap.devices.wav import WavSink as WavSink
+    from scene2hap.haptics import (
+        ActuatorProfile as ActuatorProfile,
+    )
+    from scene2hap.haptics import (
+        Bands as Bands,
+    )
+    from scene2hap.haptics import (
+        ObjectHaptics as ObjectHaptics,
+    )
+    from scene2hap.haptics import (
+        SourceState as SourceState,
+    )
+    from scene2hap.haptics import (
+        VibrationDescription as VibrationDescription,
+    )
+    from scene2hap.llm.chain import infer_haptics as infer_haptics
+    from scene2hap.llm.lexicon import LexiconBackend as LexiconBackend
+    from scene2hap.llm.protocol import LLMBackend as LLMBackend
+    from scene2hap.llm.protocol import LLMReply as LLMReply
+    from scene2hap.llm.protocol import LLMRequest as LLMRequest
+    from scene2hap.llm.replay import RecordingBackend as RecordingBackend
+    from scene2hap.llm.replay import ReplayBackend as ReplayBackend
+    from scene2hap.materials import Material as Material
+    from scene2hap.propagation.controls import FullPropagation as FullPropagation
+    from scene2hap.propagation.controls import NoPropagation as NoPropagation
+    from scene2hap.propagation.exponential_plate import ExponentialPlate as ExponentialPlate
+    from scene2hap.propagation.plate import Plate as Plate
+    from scene2hap.propagation.plate import RigidBody as RigidBody
+    from scene2hap.propagation.protocol import (
+        ContactNetwork as ContactNetwork,
+    )
+    from scene2hap.propagation.protocol import (
+        Excitation as Excitation,
+    )
+    from scene2hap.propagation.protocol import (
+        PropagationField as PropagationField,
+    )
+    from scene2hap.propagation.protocol import (
+        PropagationModel as PropagationModel,
+    )
+    from scene2hap.scene.load import load_scene as load_scene
+    from scene2hap.scene.pose import Pose as Pose
+    from scene2hap.scene.snapshot import (
+        Box as Box,
+    )
+    from scene2hap.scene.snapshot import (
+        Contact as Contact,
+    )
+    from scene2hap.scene.snapshot import (
+        DominantSurface as DominantSurface,
+    )
+    from scene2hap.scene.snapshot import (
+        SceneObject as SceneObject,
+    )
+    from scene2hap.scene.snapshot import (
+        SceneSnapshot as SceneSnapshot,
+    )
+    from scene2hap.scene.snapshot import (
+        TriMesh as TriMesh,
+    )
+    from scene2hap.session import (
+        HapticFrame as HapticFrame,
+    )
+    from scene2hap.session import (
+        HapticSession as HapticSession,
+    )
+    from scene2hap.session import (
+        SessionConfig as SessionConfig,
+    )
+    from scene2hap.session import (
+        Touch as Touch,
+    )
+    from scene2hap.touch_track import TouchTrack as TouchTrack
+    from scene2hap.touch_track import play_track as play_track

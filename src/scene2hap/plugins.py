@@ -49,6 +49,27 @@ class PluginGroup:
             f"A package adds one by an entry point in the group {self.name!r}."
         )
 
+    def build(self, spec: object) -> object:
+        """An implementation from configuration: a kind, a mapping with a `kind` and its settings, or one ready made.
+
+        Raises: ConfigError: no `kind`, or settings that the implementation does not take; and as `load`.
+        """
+        if isinstance(spec, str):
+            spec = {"kind": spec}
+        if not isinstance(spec, Mapping):
+            return spec
+        settings = dict(spec)
+        kind = settings.pop("kind", None)
+        if not isinstance(kind, str):
+            raise ConfigError(f"{self.name}: {dict(spec)!r} names no kind. Known: {', '.join(self.kinds())}.")
+        factory = self.load(kind)
+        if not callable(factory):
+            raise ConfigError(f"{self.name} kind {kind!r} is {factory!r}; it must be a class or a function.")
+        try:
+            return factory(**settings)
+        except TypeError as cause:
+            raise ConfigError(f"{self.name} kind {kind!r} does not take {settings!r}: {cause}.") from cause
+
     def _guests(self) -> tuple[EntryPoint, ...]:
         return tuple(entry_points(group=self.name))
 

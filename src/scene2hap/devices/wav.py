@@ -1,0 +1,81 @@
+"""A sink that writes a WAV file, one channel per hand."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from pathlib import Path
+
+import soundfile
+
+from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
+from scene2hap.errors import DeviceError
+
+
+class WavSink:
+    """Writes the mix as 24-bit PCM. It has no clock of its own: `pull` asks for the next frames.
+
+    The file appears under its name when the sink is closed, whole; a run that dies leaves none. Integer PCM rather
+    than float, whose header carries a time stamp, so that equal runs give equal files.
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = Path(path)
+        self._draft = self.path.with_name(f".{self.path.name}.part")
+        self._file: soundfile.SoundFile | None = None
+        self._fill: Fill | None = None
+        self._frames = 0
+
+    def open(self, format: SinkFormat) -> None:
+        """Begin the file. Raises: DeviceError: it cannot be written."""
+        self.close()
+        self._frames = 0
+        try:
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            self._file = soundfile.SoundFile(
+                self._draft, "w", format.sample_rate_hz, len(format.channels), subtype="PCM_24", format="WAV"
+            )
+        except (OSError, soundfile.SoundFileError) as cause:
+            raise DeviceError(f"{self.path} cannot be written: {cause}.") from cause
+
+    def start(self, fill: Fill) -> None:
+        """Take blocks from `fill` from now on."""
+        if self._file is None:
+            raise DeviceError(f"WavSink {self.path} is not open; call open(SinkFormat(...)) before start.")
+        self._fill = fill
+
+    def pull(self, n_frames: int) -> Block:
+        """Take and write the next frames; they are returned too."""
+        if self._fill is None or self._file is None:
+            raise DeviceError(f"WavSink {self.path} is not started; start the session that it belongs to first.")
+        block = self._fill(n_frames)
+        self._file.write(block)
+        self._frames += len(block)
+        return block
+
+    def stop(self) -> None:
+        """Take no more blocks."""
+        self._fill = None
+
+    def close(self) -> None:
+        """Complete the file and give it its name."""
+        self.stop()
+        if self._file is None:
+            return
+        self._file.close()
+        self._file = None
+        os.replace(self._draft, self.path)
+
+    def discard(self) -> None:
+        """Leave no file behind, for a run that failed."""
+        self.stop()
+        if self._file is not None:
+            self._file.close()
+            self._file = None
+            with contextlib.suppress(FileNotFoundError):
+                self._draft.unlink()
+
+    @property
+    def stats(self) -> SinkStats:
+        """Frames written so far."""
+        return SinkStats(frames=self._frames)

@@ -1,0 +1,68 @@
+"""The two control conditions of the paper's second study: no propagation, and full propagation.
+
+Source: Jingu, AliAbbasi et al., Scene2Hap, CHI 2026, section "Effect of Vibration Propagation on Haptic Perception".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from scene2hap.haptics import Bands
+from scene2hap.propagation.paths import cheapest_arrivals
+from scene2hap.propagation.points import as_points
+from scene2hap.propagation.protocol import ContactNetwork, Excitation
+
+
+@dataclass(frozen=True)
+class NoPropagation:
+    """Only the source itself vibrates."""
+
+    kind: Literal["no_propagation"] = "no_propagation"
+
+    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> ReachField:
+        """The field in which every source reaches itself alone."""
+        return ReachField(tuple((item.source_id, frozenset({item.source_id})) for item in excitations), bands.n_bands)
+
+
+@dataclass(frozen=True)
+class FullPropagation:
+    """Whatever a source reaches over contacts vibrates as strongly as the source; `max_hops` as in the paper's law."""
+
+    max_hops: int | None = None
+    kind: Literal["full_propagation"] = "full_propagation"
+
+    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> ReachField:
+        """The field in which every source reaches all that it is connected with by contacts of weight above 0."""
+        touching = [contact for contact in network.contacts if contact.weight > 0]
+        source_ids = [item.source_id for item in excitations]
+        free = dict.fromkeys(network.bodies, 0.0)
+        arrivals = cheapest_arrivals(free, touching, [0.0] * len(touching), source_ids, self.max_hops)
+        reached = (
+            (source_id, frozenset({source_id, *(key for key, way in arrivals.items() if (way.costs[row] == 0).any())}))
+            for row, source_id in enumerate(source_ids)
+        )
+        return ReachField(tuple(reached), bands.n_bands)
+
+
+@dataclass(frozen=True)
+class ReachField:
+    """Attenuation 1 on the objects that a source reaches, 0 elsewhere."""
+
+    reach: tuple[tuple[str, frozenset[str]], ...]
+    n_bands: int
+
+    @property
+    def source_ids(self) -> tuple[str, ...]:
+        """The sources, in the order of the answer's second axis."""
+        return tuple(source_id for source_id, _ in self.reach)
+
+    def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
+        """1 or 0; see `PropagationField`."""
+        reached = np.array([float(object_id in objects) for _, objects in self.reach])
+        n_points = len(as_points(points_m, 3))
+        return np.broadcast_to(reached[None, :, None], (n_points, len(reached), self.n_bands)).copy()

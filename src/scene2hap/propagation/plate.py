@@ -1,0 +1,89 @@
+"""A thin plate: its constants and the wavenumber of the bending waves that it carries.
+
+Letters: E [Pa] Young's modulus, nu [-] Poisson's ratio, rho [kg/m3] density, h [m] thickness,
+D [N m] bending stiffness per width, omega [rad/s], k [rad/m].
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from scene2hap import checks
+from scene2hap.errors import ModelDomainError
+from scene2hap.materials import Material
+
+_EDGES = {"free": "FFFF", "simply-supported": "SSSS", "clamped": "CCCC"}
+
+
+@dataclass(frozen=True)
+class Plate:
+    """A rectangular plate of one material.
+
+    Parameters: length_m, width_m, thickness_m > 0 [m]; boundary : "free", "simply-supported", "clamped", or four
+    letters F, S, C for the edges x=0, x=length, y=0, y=width.
+    Raises: ModelDomainError: a dimension is not positive and finite, or the boundary is not one of these.
+    """
+
+    length_m: float
+    width_m: float
+    thickness_m: float
+    material: Material
+    boundary: str = "free"
+
+    def __post_init__(self) -> None:
+        hint = "A mesh without thickness needs an estimated one (ObjectHaptics.estimated_size_m)."
+        for name in ("length_m", "width_m", "thickness_m"):
+            value = checks.number(name, getattr(self, name), "m", above=0.0, error=ModelDomainError, hint=hint)
+            object.__setattr__(self, name, value)
+        if len(self.edges) != 4 or set(self.edges) - set("FSC"):
+            raise ModelDomainError(
+                f"boundary is {self.boundary!r}; it must be one of {', '.join(map(repr, _EDGES))}, "
+                "or four letters F, S, C for the edges x=0, x=length, y=0, y=width."
+            )
+
+    @property
+    def edges(self) -> str:
+        """Four letters F, S, C for the edges x=0, x=length, y=0, y=width."""
+        return _EDGES.get(self.boundary, self.boundary)
+
+    @cached_property
+    def bending_stiffness_nm(self) -> float:
+        """D = E h^3 / (12 (1 - nu^2)) [N m].
+
+        Source: Jingu, AliAbbasi et al., Scene2Hap, CHI 2026, third equation of the propagation model.
+        """
+        E, nu, h = self.material.youngs_modulus_pa, self.material.poisson_ratio, self.thickness_m
+        return E * h**3 / (12 * (1 - nu**2))
+
+    @cached_property
+    def wavenumber_per_root_omega(self) -> float:
+        """c in k = c sqrt(omega) [rad/m (rad/s)^-1/2]: the plate's part of the wavenumber."""
+        rho, h = self.material.density_kg_m3, self.thickness_m
+        return math.sqrt(math.sqrt(rho * h / self.bending_stiffness_nm))
+
+    def wavenumber_rad_m(self, frequency_hz: ArrayLike) -> NDArray[np.float64]:
+        """Wavenumber of free bending waves, k^4 = rho h omega^2 / D [rad/m]; same shape as `frequency_hz`, >= 0 [Hz].
+
+        Source: Scene2Hap, CHI 2026, second equation of the propagation model.
+        """
+        f = np.asarray(frequency_hz, dtype=np.float64)
+        if not np.isfinite(f).all() or (f < 0).any():
+            raise ModelDomainError("frequency_hz holds a negative or infinite value; it must be >= 0 and finite [Hz].")
+        k: NDArray[np.float64] = self.wavenumber_per_root_omega * np.sqrt(2 * math.pi * f)
+        return k
+
+
+@dataclass(frozen=True)
+class RigidBody:
+    """A compact body that moves as a whole: mass_kg > 0 [kg]."""
+
+    mass_kg: float
+
+    def __post_init__(self) -> None:
+        mass = checks.number("mass_kg", self.mass_kg, "kg", above=0.0, error=ModelDomainError)
+        object.__setattr__(self, "mass_kg", mass)

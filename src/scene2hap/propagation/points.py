@@ -1,0 +1,45 @@
+"""Points that callers hand in, and what arrives there over the contacts of their object."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from scene2hap.errors import ModelDomainError
+from scene2hap.propagation.paths import Arrivals
+
+
+def as_points(points_m: ArrayLike, dimensions: int) -> NDArray[np.float64]:
+    """Points as (n_points, dimensions) float64 [m]; one point may come without its outer brackets.
+
+    Raises: ModelDomainError: another shape, or a coordinate that is not finite.
+    """
+    points = np.atleast_2d(np.asarray(points_m, dtype=np.float64))
+    if points.ndim != 2 or points.shape[1] != dimensions:
+        raise ModelDomainError(f"points have shape {points.shape}; they must be (n_points, {dimensions}) [m].")
+    if not np.isfinite(points).all():
+        raise ModelDomainError("points hold a coordinate that is not finite; every one must be a number [m].")
+    return points
+
+
+def arrivals_at(
+    arrivals: Mapping[str, Arrivals],
+    price_per_m: Mapping[str, float],
+    source_ids: Sequence[str],
+    object_id: str,
+    points_m: ArrayLike,
+) -> NDArray[np.float64]:
+    """Price of the cheapest way from each source to each point (n_points, n_sources): 0 on the source itself,
+    infinite where nothing arrives."""
+    points = as_points(points_m, 3)
+    costs = np.full((len(points), len(source_ids)), np.inf)
+    if object_id in arrivals:
+        arrived = arrivals[object_id]
+        distance = np.linalg.norm(points[:, None, :] - arrived.points_m[None, :, :], axis=2)
+        costs = np.min(arrived.costs[None, :, :] + price_per_m[object_id] * distance[:, None, :], axis=2)
+    for column, source_id in enumerate(source_ids):
+        if source_id == object_id:
+            costs[:, column] = 0.0
+    return costs

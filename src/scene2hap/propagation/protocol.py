@@ -1,0 +1,75 @@
+"""What every propagation model answers: how much of each source arrives at a point of an object.
+
+Two phases, since a scene is prepared seldom and asked often: ``prepare`` does what depends on the scene and its
+contacts, ``PropagationField.attenuation`` what depends on where a hand is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from scene2hap import checks
+from scene2hap.errors import ModelDomainError
+from scene2hap.haptics import Bands
+from scene2hap.propagation.plate import Plate, RigidBody
+from scene2hap.scene.snapshot import Contact
+
+Body = Plate | RigidBody
+
+
+@dataclass(frozen=True)
+class Excitation:
+    """A vibrating object: its dominant frequency before and after the tactile band-pass [Hz], and its mass [kg]."""
+
+    source_id: str
+    frequency_raw_hz: float
+    frequency_tactile_hz: float
+    mass_kg: float = 1.0
+
+    def __post_init__(self) -> None:
+        for name, unit in (("frequency_raw_hz", "Hz"), ("frequency_tactile_hz", "Hz"), ("mass_kg", "kg")):
+            value = checks.number(name, getattr(self, name), unit, above=0.0, error=ModelDomainError)
+            object.__setattr__(self, name, value)
+
+
+@dataclass(frozen=True)
+class ContactNetwork:
+    """The bodies of a scene and where they touch (world points [m]).
+
+    An object without a body, since nobody knows its material, does not carry vibration; it may still be a source.
+    """
+
+    bodies: Mapping[str, Body]
+    contacts: Sequence[Contact] = field(default_factory=tuple)
+
+
+@runtime_checkable
+class PropagationField(Protocol):
+    """A prepared scene."""
+
+    @property
+    def source_ids(self) -> tuple[str, ...]:
+        """The sources, in the order of the answer's second axis."""
+        ...
+
+    def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
+        """Response at points of one object over each source's free vibration.
+
+        Parameters: points_m : (n_points, 3) float64 [m], world, on or near the object as it was when prepared.
+        Returns: (n_points, n_sources, n_bands) float64 [-], >= 0; 1 on the source itself, 0 where nothing arrives.
+        """
+        ...
+
+
+@runtime_checkable
+class PropagationModel(Protocol):
+    """Prepares fields."""
+
+    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> PropagationField:
+        """The field of a whole scene, over any number of contacts that the model allows."""
+        ...
