@@ -37,7 +37,8 @@ _HOME = {
     "scene2hap.bundle": ("HapticBundle",),
     "scene2hap.baking": ("BakeConfig", "abake", "bake"),
     "scene2hap.session": ("HapticFrame", "HapticSession", "SessionConfig", "Touch"),
-    "scene2hap.touch_track": ("TouchTrack", "play_track"),
+    "scene2hap.touch_track": ("TouchTrack",),
+    "scene2hap.track_player": ("play_track",),
     "scene2hap.devices.protocol": ("ActuatorSink",),
     "scene2hap.devices.memory": ("MemorySink",),
     "scene2hap.devices.wav": ("WavSink",),
@@ -158,4 +159,4 @@ if TYPE_CHECKING:
         Touch as Touch,
     )
     from scene2hap.touch_track import TouchTrack as TouchTrack
-    from scene2hap.touch_track import play_track as play_track
+    from scene2hap.track_player import play_track as play_track

@@ -44,12 +44,12 @@ class BakeConfig(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True)
 
-    llm: Annotated[Any, BeforeValidator(BACKENDS.build)] = Field("lexicon", validate_default=True)
-    audio: Annotated[Any, BeforeValidator(_sources)] = Field("synth", validate_default=True)
-    tactile: Annotated[Any, BeforeValidator(CONVERTERS.build)] = Field("svf_bandpass", validate_default=True)
+    llm: Annotated[Any, BeforeValidator(BACKENDS.build)] = Field(default="lexicon", validate_default=True)
+    audio: Annotated[Any, BeforeValidator(_sources)] = Field(default="synth", validate_default=True)
+    tactile: Annotated[Any, BeforeValidator(CONVERTERS.build)] = Field(default="svf_bandpass", validate_default=True)
     actuator: ActuatorProfile = Field(default_factory=ActuatorProfile)
     seed: int = 0
-    concurrency: int = Field(8, ge=1)
+    concurrency: int = Field(default=8, ge=1)
 
     @classmethod
     def parse(cls, settings: BakeConfig | Mapping[str, Any] | None) -> BakeConfig:

@@ -66,8 +66,8 @@ class WavSink:
         self._file = None
         os.replace(self._draft, self.path)
 
-    def discard(self) -> None:
-        """Leave no file behind, for a run that failed."""
+    def abort(self) -> None:
+        """Stop and leave no file behind, for a run that failed."""
         self.stop()
         if self._file is not None:
             self._file.close()

@@ -124,4 +124,5 @@ def band_rms(length: NDArray[np.float64], edges_hz: NDArray[np.float64]) -> NDAr
     )
     mean_square = 2 * np.exp(-b * u1) * (u1 * width * first + width**2 * second) / (u2**2 - u1**2)
     gains: NDArray[np.float64] = np.sqrt(np.clip(mean_square, 0.0, 1.0))
+    gains[length == 0] = 1.0  # to the last bit: the source itself
     return gains

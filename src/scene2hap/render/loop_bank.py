@@ -13,7 +13,7 @@ from scene2hap.haptics import Bands
 
 
 class LoopBank:
-    """Loops of several sources at one sample rate.
+    """Loops at one sample rate, in a fixed order.
 
     A loop of another rate is resampled as the periodic signal that it is, to the nearest whole number of samples.
     """
@@ -23,16 +23,15 @@ class LoopBank:
         self._loops = [split_bands(samples, sample_rate_hz, bands) for samples in resampled]
         self.n_rows = len(loops) * bands.n_bands
 
-    def replace(self, source: int, bank: LoopBank) -> None:
-        """Play the only loop of `bank` for that source from now on."""
-        self._loops[source] = bank._loops[0]
+    def __len__(self) -> int:
+        return len(self._loops)
 
-    def length(self, source: int) -> int:
-        """Samples after which that source's loop begins anew."""
-        return int(self._loops[source].shape[1])
+    def length(self, loop: int) -> int:
+        """Samples after which that loop begins anew."""
+        return int(self._loops[loop].shape[1])
 
     def read(self, start: int, n_frames: int) -> NDArray[np.float32]:
-        """Samples (n_sources * n_bands, n_frames) from a position on the common clock; every loop wraps by itself."""
+        """Samples (n_loops * n_bands, n_frames) from a position on the common clock; every loop wraps by itself."""
         if not self._loops:
             return np.zeros((0, n_frames), dtype=np.float32)
         return np.concatenate([_wrapped(loop, start, n_frames) for loop in self._loops])

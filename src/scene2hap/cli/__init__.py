@@ -1,0 +1,64 @@
+"""The command line: ``scene2hap demo``, ``bake``, ``render``, ``inspect``.
+
+A command returns what it did as plain JSON values; ``--json`` prints them, otherwise the command has shown tables.
+Errors that a person can act on are one line on standard error and exit status 1; wrong usage is 2.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import warnings
+from collections.abc import Sequence
+
+from scene2hap import __version__
+from scene2hap.cli import bake, demo, inspect, render
+from scene2hap.cli.console import Console
+from scene2hap.errors import Scene2HapError
+
+COMMANDS = (demo, bake, render, inspect)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run a command; the exit status is returned."""
+    arguments = _parser().parse_args(argv)
+    console = Console(quiet=arguments.quiet or arguments.json)
+    try:
+        with warnings.catch_warnings():
+            warnings.showwarning = lambda message, category, *rest, **more: console.warn(str(message))
+            warnings.simplefilter("once")
+            outcome = arguments.run(arguments, console)
+    except Scene2HapError as error:
+        console.fail(str(error))
+        return 1
+    except KeyboardInterrupt:
+        console.fail("interrupted; nothing was left half written.")
+        return 130
+    except BrokenPipeError:
+        # The reader of a pipe (`| head`) has gone; there is nobody left to tell.
+        sys.stderr.close()
+        return 0
+    if arguments.json:
+        print(json.dumps(outcome, indent=1, ensure_ascii=False))
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="scene2hap", description="Scene-wide vibrotactile haptics.")
+    parser.add_argument("--version", action="version", version=f"scene2hap {__version__}")
+    common = argparse.ArgumentParser(add_help=False)
+    common.add_argument("-q", "--quiet", action="store_true", help="show no progress and no tables")
+    common.add_argument("--json", action="store_true", help="print the outcome as JSON instead")
+    commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
+    for module in COMMANDS:
+        command = commands.add_parser(
+            module.__name__.rpartition(".")[2],
+            parents=[common],
+            help=module.HELP,
+            description=module.__doc__,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )
+        module.add_arguments(command)
+        command.set_defaults(run=module.run)
+    return parser

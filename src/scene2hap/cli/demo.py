@@ -1,0 +1,97 @@
+"""Bake the built-in kitchen and take a tour of it with both hands.
+
+Writes, below the current folder (scene2hap-demo/, or -o), the bundle, tour.wav (left, right) and tour.png, a picture
+of what each hand felt over time.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+from importlib.resources import as_file, files
+from pathlib import Path
+from typing import Any
+
+from scene2hap.baking import bake
+from scene2hap.cli.console import Console
+from scene2hap.cli.picture import draw_envelopes
+from scene2hap.cli.render import render_track
+from scene2hap.cli.tables import bundle_outcome, show_bundle
+from scene2hap.scene.load import load_scene
+from scene2hap.session import SessionConfig
+from scene2hap.touch_track import TouchTrack
+from scene2hap.track_player import PlayedFrame
+
+HELP = "bake and play the built-in kitchen"
+
+_FELT_FLOOR_DB = -60.0
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``scene2hap demo``."""
+    parser.add_argument("-o", "--output", metavar="FOLDER", default="scene2hap-demo", help="default: scene2hap-demo")
+
+
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
+    """Bake, play, draw, and tell."""
+    folder = Path(arguments.output)
+    kitchen = files("scene2hap.demo")
+    with console.progress() as tell, as_file(kitchen / "kitchen.glb") as path:
+        bundle = bake(load_scene(path), progress=tell)
+    bundle.save(folder / "bundle")
+    with as_file(kitchen / "tour.json") as path:
+        track = TouchTrack.load(path)
+    wav, picture = folder / "tour.wav", folder / "tour.png"
+    frames = render_track(console, bundle, track, str(wav), SessionConfig(), update_rate_hz=100.0)
+    draw_envelopes(frames, ("left", "right"), SessionConfig().sample_rate_hz, picture)
+    felt = what_was_felt(frames)
+    show_bundle(console, bundle)
+    console.table(
+        "What each hand felt, dB re touching the source itself",
+        (">from s", ">to s", "hand", "on", "felt"),
+        (
+            (f"{row['from_s']:.1f}", f"{row['to_s']:.1f}", row["hand"], row["on"], _in_words(row["felt_db"]))
+            for row in felt
+        ),
+    )
+    for path in (folder / "bundle", wav, picture):
+        console.say(f"wrote {path}")
+    return {
+        "bundle": str(folder / "bundle"),
+        "wav": str(wav),
+        "picture": str(picture),
+        **bundle_outcome(bundle),
+        "felt": felt,
+    }
+
+
+def what_was_felt(frames: list[PlayedFrame]) -> list[dict[str, Any]]:
+    """Each stay of a hand on an object as a row: when, where, and the sources felt there at the end of the stay [dB].
+
+    Sources below -60 dB re the source itself are left out.
+    """
+    rows: list[dict[str, Any]] = []
+    under_way: dict[str, dict[str, Any]] = {}
+    for played in frames:
+        for touch in played.touches:
+            row = under_way.get(touch.hand)
+            felt = _felt_db(played, touch.hand)
+            if row is None or row["on"] != touch.object_id or set(row["felt_db"]) != set(felt):
+                row = {"from_s": played.time_s, "hand": touch.hand, "on": touch.object_id}
+                under_way[touch.hand] = row
+                rows.append(row)
+            row.update(to_s=played.time_s, felt_db=felt)
+        for hand in set(under_way) - {touch.hand for touch in played.touches}:
+            del under_way[hand]
+    return rows
+
+
+def _felt_db(played: PlayedFrame, hand: str) -> dict[str, float]:
+    gains = {source: played.frame.gain(hand, source) for source in played.frame.sources}
+    levels = {source: 20 * math.log10(gain) for source, gain in gains.items() if gain > 0}
+    loud = {source: round(level, 1) for source, level in levels.items() if level > _FELT_FLOOR_DB}
+    return dict(sorted(loud.items(), key=lambda item: -item[1]))
+
+
+def _in_words(felt_db: dict[str, float]) -> str:
+    return ", ".join(f"{source} {level:+.0f}" for source, level in felt_db.items()) or "nothing"

@@ -1,0 +1,73 @@
+"""Play a file of touches on a bundle into a WAV file, one channel per hand.
+
+docs/touches.md describes the file. A settings file (TOML or JSON) with a table [session] chooses another propagation
+model or other bands.
+"""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+import numpy as np
+
+from scene2hap.bundle import HapticBundle
+from scene2hap.cli.console import Console
+from scene2hap.cli.settings import read_settings
+from scene2hap.devices.wav import WavSink
+from scene2hap.session import HapticSession, SessionConfig
+from scene2hap.touch_track import TouchTrack
+from scene2hap.track_player import PlayedFrame, play_track
+
+HELP = "bundle + touches -> WAV"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``scene2hap render``."""
+    parser.add_argument("bundle", metavar="BUNDLE", help="folder that `bake` wrote")
+    parser.add_argument("--touches", metavar="FILE", required=True, help="touches and moves over time, JSON or CSV")
+    parser.add_argument("-o", "--output", metavar="WAV", required=True, help="file to write")
+    parser.add_argument("--propagation", metavar="KIND", help="exponential_plate (default), no_propagation, ...")
+    parser.add_argument("--update-rate-hz", type=float, default=100.0, help="frames per second of the game (100)")
+    parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [session]")
+
+
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
+    """Render, and show the level of each hand."""
+    settings = read_settings(arguments.settings, "session")
+    if arguments.propagation:
+        settings["propagation"] = arguments.propagation
+    config = SessionConfig.parse(settings)
+    track = TouchTrack.load(arguments.touches)
+    bundle = HapticBundle.load(arguments.bundle)
+    frames = render_track(console, bundle, track, arguments.output, config, arguments.update_rate_hz)
+    samples = np.concatenate([frame.samples for frame in frames])
+    peaks = {hand: float(np.abs(samples[:, i]).max()) for i, hand in enumerate(("left", "right"))}
+    console.table(
+        arguments.output,
+        ("hand", ">peak"),
+        ((hand, f"{peak:.3f}") for hand, peak in peaks.items()),
+    )
+    console.say(f"wrote {arguments.output}")
+    return {"wav": arguments.output, "duration_s": track.duration_s, "peaks": peaks}
+
+
+def render_track(
+    console: Console,
+    bundle: HapticBundle,
+    track: TouchTrack,
+    path: str,
+    config: SessionConfig,
+    update_rate_hz: float,
+) -> list[PlayedFrame]:
+    """Play a track on a bundle into a WAV file, with a progress bar; the frames are returned."""
+    frames: list[PlayedFrame] = []
+    sink = WavSink(path)
+    with console.progress() as tell, HapticSession(bundle.snapshot, bundle, config, sink=sink) as session:
+
+        def on_frame(frame: PlayedFrame) -> None:
+            frames.append(frame)
+            tell("rendering", f"{frame.time_s:.1f} s", round(frame.time_s * 10), round(track.duration_s * 10))
+
+        play_track(session, track, sink, update_rate_hz=update_rate_hz, on_frame=on_frame)
+    return frames

@@ -1,0 +1,104 @@
+"""Scenes and bundles as rows, for tables and for JSON."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from scene2hap.bundle import HapticBundle
+from scene2hap.cli.console import Console
+from scene2hap.llm.chain import UNKNOWN
+from scene2hap.scene.snapshot import SceneSnapshot
+
+
+def scene_outcome(scene: SceneSnapshot) -> dict[str, Any]:
+    """A scene as JSON values, without its meshes."""
+    return {
+        "scene": scene.name,
+        "up_axis": scene.up_axis,
+        "objects": [
+            {
+                "id": item.id,
+                "name": item.name,
+                "position_m": list(item.pose.position_m),
+                "size_m": list(item.size_m),
+                "relative_height_m": item.relative_height_m,
+                "surface_flags": list(item.surface.flags),
+                "triangles": len(item.geometry.mesh.faces),
+            }
+            for item in scene.objects
+        ],
+    }
+
+
+def show_scene(console: Console, scene: SceneSnapshot) -> None:
+    """The objects of a scene as a table."""
+    console.table(
+        f"{scene.name}: {len(scene.objects)} objects, {scene.up_axis} up",
+        ("object", ">length m", ">width m", ">thick m", ">height m", ">triangles", "measured"),
+        (
+            (
+                item.id,
+                *(f"{edge:.3f}" for edge in item.size_m),
+                f"{item.relative_height_m:.2f}",
+                str(len(item.geometry.mesh.faces)),
+                ", ".join(item.surface.flags) or "well",
+            )
+            for item in scene.objects
+        ),
+    )
+
+
+def bundle_outcome(bundle: HapticBundle) -> dict[str, Any]:
+    """What a bundle says, as JSON values."""
+    return {
+        "scene": bundle.snapshot.name,
+        "scene_category": bundle.scene_category,
+        "counts": bundle_counts(bundle),
+        "objects": {
+            object_id: {
+                "category": haptics.object_category,
+                "material": haptics.material.name if haptics.material else None,
+                "confidence": haptics.confidence,
+                "vibrates": haptics.vibrates,
+                "states": {
+                    state: {"raw_hz": loop.frequency_raw_hz, "tactile_hz": loop.frequency_tactile_hz}
+                    for state, loop in bundle.loops.get(object_id, {}).items()
+                },
+            }
+            for object_id, haptics in bundle.objects.items()
+        },
+    }
+
+
+def bundle_counts(bundle: HapticBundle) -> dict[str, int]:
+    """How many objects, sources, and objects that nobody recognised."""
+    unknown = sum(haptics.object_category.lower() in UNKNOWN for haptics in bundle.objects.values())
+    return {"objects": len(bundle.objects), "sources": len(bundle.loops), "unknown": unknown}
+
+
+def show_bundle(console: Console, bundle: HapticBundle) -> None:
+    """What inference says of each object, sources first."""
+    counts = bundle_counts(bundle)
+    console.table(
+        f"{bundle.snapshot.name}: {bundle.scene_category}, "
+        + ", ".join(f"{number} {what}" for what, number in counts.items()),
+        ("object", "is", "of", ">sure", "vibrates", ">raw Hz", ">felt Hz"),
+        (
+            _bundle_row(bundle, object_id)
+            for object_id in sorted(bundle.objects, key=lambda key: key not in bundle.loops)
+        ),
+    )
+
+
+def _bundle_row(bundle: HapticBundle, object_id: str) -> tuple[str, ...]:
+    haptics = bundle.objects[object_id]
+    loops = bundle.loops.get(object_id, {})
+    return (
+        object_id,
+        haptics.object_category,
+        haptics.material_category,
+        f"{haptics.confidence:.2f}",
+        ", ".join(f"{state.name} ({state.keywords})" for state in haptics.states),
+        ", ".join(f"{loop.frequency_raw_hz:.0f}" for loop in loops.values()),
+        ", ".join(f"{loop.frequency_tactile_hz:.0f}" for loop in loops.values()),
+    )

@@ -1,0 +1,7 @@
+"""Play time: poses and touches in, vibration for every hand out."""
+
+from scene2hap.session.config import SessionConfig
+from scene2hap.session.frame import HapticFrame, SessionStats, Touch
+from scene2hap.session.haptic_session import HapticSession
+
+__all__ = ["HapticFrame", "HapticSession", "SessionConfig", "SessionStats", "Touch"]

@@ -1,0 +1,151 @@
+"""Plays a touch track on a session, as a game would: one update per frame, then the samples up to the next."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.devices.protocol import Block
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.session import HapticFrame, HapticSession, Touch
+from scene2hap.touch_track import LiftStep, MoveStep, TouchStep, TouchTrack
+
+
+class PullSink(Protocol):
+    """A sink without a clock of its own, such as WavSink and MemorySink."""
+
+    def pull(self, n_frames: int) -> Block:
+        """Take the next frames."""
+        ...
+
+
+@dataclass(frozen=True)
+class PlayedFrame:
+    """One update of a played track: when [s], where the hands were, and what they were given."""
+
+    time_s: float
+    touches: tuple[Touch, ...]
+    frame: HapticFrame
+    samples: Block
+
+
+def play_track(
+    session: HapticSession,
+    track: TouchTrack,
+    sink: PullSink,
+    *,
+    update_rate_hz: float = 100.0,
+    on_frame: Callable[[PlayedFrame], None] | None = None,
+) -> None:
+    """Play a track on a started session, as a game of `update_rate_hz` frames per second would, into its sink.
+
+    Raises: SessionError, UnknownObject: a step names a hand or an object that is not there.
+    """
+    stage = _Stage(session.snapshot)
+    rate = session.config.sample_rate_hz
+    origin = session.position
+    n_frames = max(1, round(track.duration_s * update_rate_hz))
+    waiting = list(track.steps)
+    for i in range(n_frames):
+        time_s = i / update_rate_hz
+        while waiting and waiting[0].time_s <= time_s + 1e-9:
+            stage.take(waiting.pop(0), session)
+        begin = origin + round(time_s * rate)
+        end = origin + round(min((i + 1) / update_rate_hz, track.duration_s) * rate)
+        touches = stage.touches(time_s)
+        frame = session.update(stage.moved(time_s), touches, at_sample=begin)
+        samples = sink.pull(end - begin)
+        if on_frame is not None:
+            on_frame(PlayedFrame(time_s, touches, frame, samples))
+
+
+@dataclass
+class _Glide:
+    """A straight way from one point to another."""
+
+    start_s: float
+    duration_s: float
+    begin: NDArray[np.float64]
+    end: NDArray[np.float64]
+
+    def at(self, time_s: float) -> NDArray[np.float64]:
+        if self.duration_s <= 0:
+            return self.end
+        done = min(max((time_s - self.start_s) / self.duration_s, 0.0), 1.0)
+        return self.begin + done * (self.end - self.begin)
+
+    def is_over(self, time_s: float) -> bool:
+        return time_s >= self.start_s + self.duration_s
+
+
+@dataclass
+class _Stage:
+    """Where objects and hands are, as the steps go by."""
+
+    scene: SceneSnapshot
+    poses: dict[str, Pose] = field(default_factory=dict)
+    moves: dict[str, _Glide] = field(default_factory=dict)
+    hands: dict[str, tuple[str, _Glide]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.poses = {item.id: item.pose for item in self.scene.objects}
+
+    def take(self, step: Any, session: HapticSession) -> None:
+        if isinstance(step, TouchStep):
+            self._touch(step)
+        elif isinstance(step, LiftStep):
+            self.hands.pop(step.hand, None)
+        elif isinstance(step, MoveStep):
+            self._move(step)
+        else:
+            session.set_source(step.source, on=step.on, state=step.state, gain_db=step.gain_db)
+
+    def moved(self, time_s: float) -> dict[str, Pose]:
+        """Poses of the objects that are under way; called once per frame, before what is over is forgotten."""
+        for object_id, glide in list(self.moves.items()):
+            position = glide.at(time_s)
+            self.poses[object_id] = Pose(_triple(position), self.poses[object_id].rotation_xyzw)
+        under_way = {object_id: self.poses[object_id] for object_id in self.moves}
+        self.moves = {object_id: glide for object_id, glide in self.moves.items() if not glide.is_over(time_s)}
+        return under_way
+
+    def touches(self, time_s: float) -> tuple[Touch, ...]:
+        return tuple(
+            Touch(hand, object_id, _triple(self._pose_at(object_id, time_s).to_world(glide.at(time_s))))
+            for hand, (object_id, glide) in self.hands.items()
+        )
+
+    def _touch(self, step: TouchStep) -> None:
+        item = self.scene.object(step.touch)
+        pose = self._pose_at(item.id, step.time_s)
+        if step.point_m is not None:
+            target = pose.to_own(step.point_m)
+        else:
+            surface = item.surface
+            target = surface.pose.to_world([surface.length_m / 2, surface.width_m / 2, surface.thickness_m / 2])
+        begin = target
+        if step.hand in self.hands and self.hands[step.hand][0] == item.id:
+            begin = self.hands[step.hand][1].at(step.time_s)
+        self.hands[step.hand] = (item.id, _Glide(step.time_s, step.glide_s, begin, target))
+
+    def _move(self, step: MoveStep) -> None:
+        item = self.scene.object(step.move)
+        pose = self._pose_at(item.id, step.time_s)
+        begin = np.asarray(pose.position_m)
+        end = np.asarray(step.to_m) if step.to_m is not None else begin + np.asarray(step.by_m)
+        self.poses[item.id] = Pose(pose.position_m, step.rotation_xyzw or pose.rotation_xyzw)
+        self.moves[item.id] = _Glide(step.time_s, step.glide_s, begin, end)
+
+    def _pose_at(self, object_id: str, time_s: float) -> Pose:
+        pose = self.poses[object_id]
+        glide = self.moves.get(object_id)
+        return pose if glide is None else Pose(_triple(glide.at(time_s)), pose.rotation_xyzw)
+
+
+def _triple(values: NDArray[np.float64] | Sequence[float]) -> tuple[float, float, float]:
+    return (float(values[0]), float(values[1]), float(values[2]))

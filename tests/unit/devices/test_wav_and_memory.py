@@ -1,0 +1,79 @@
+"""The two sinks without a clock."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import soundfile
+from numpy.typing import NDArray
+
+from scene2hap import MemorySink, WavSink
+from scene2hap.devices.protocol import SinkFormat
+from scene2hap.errors import DeviceError
+
+FORMAT = SinkFormat(8000, ("left", "right"))
+
+
+class Ramp:
+    """A source of known samples."""
+
+    def __init__(self) -> None:
+        self.position = 0
+
+    def __call__(self, n: int) -> NDArray[np.float32]:
+        x = (np.arange(self.position, self.position + n) % 1000) / 1000
+        self.position += n
+        return np.stack([x, -x], axis=1).astype(np.float32)
+
+
+def test_memory_keeps_all_blocks() -> None:
+    sink = MemorySink()
+    sink.open(FORMAT)
+    sink.start(Ramp())
+    for n in (1, 10, 100):
+        sink.pull(n)
+    np.testing.assert_array_equal(sink.samples, Ramp()(111))
+    assert sink.stats.frames == 111
+    sink.close()
+    sink.close()
+    assert len(sink.samples) == 111
+
+
+def test_wav_holds_what_was_pulled_to_24_bits(tmp_path: Path) -> None:
+    sink = WavSink(tmp_path / "deep" / "out.wav")
+    sink.open(FORMAT)
+    sink.start(Ramp())
+    for n in (1, 10, 1500):
+        sink.pull(n)
+    sink.stop()
+    assert not sink.path.exists()
+    sink.close()
+    sink.close()
+    samples, rate = soundfile.read(sink.path)
+    assert rate == 8000
+    assert sink.stats.frames == 1511
+    np.testing.assert_allclose(samples, Ramp()(1511), atol=2**-23)
+    assert [path.name for path in sink.path.parent.iterdir()] == ["out.wav"]
+
+
+def test_an_aborted_run_leaves_no_file(tmp_path: Path) -> None:
+    sink = WavSink(tmp_path / "out.wav")
+    sink.open(FORMAT)
+    sink.start(Ramp())
+    sink.pull(100)
+    sink.abort()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_pull_before_start(tmp_path: Path) -> None:
+    for sink in (WavSink(tmp_path / "out.wav"), MemorySink()):
+        with pytest.raises(DeviceError, match="not started"):
+            sink.pull(1)
+        with pytest.raises(DeviceError, match="not open"):
+            sink.start(Ramp())
+
+
+def test_a_place_that_cannot_be_written(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("in the way")
+    with pytest.raises(DeviceError, match="cannot be written"):
+        WavSink(tmp_path / "file" / "out.wav").open(FORMAT)

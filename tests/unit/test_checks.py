@@ -1,0 +1,56 @@
+"""Bounds on numbers, and the sentences they end in."""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from scene2hap import checks
+from scene2hap.errors import MaterialError
+
+
+@pytest.mark.parametrize("value", [1, 1.0, np.float32(1), np.int64(1), Fraction(1)])
+def test_any_real_number_becomes_a_float(value: object) -> None:
+    result = checks.number("x", value, "m", error=MaterialError)
+    assert type(result) is float
+    assert result == 1.0
+
+
+@pytest.mark.parametrize(
+    ("value", "bounds", "sentence"),
+    [
+        (-1.0, {"above": 0.0}, "density is -1 kg/m3; it must be above 0.0 [kg/m3]."),
+        (0.0, {"above": 0.0}, "density is 0 kg/m3; it must be above 0.0 [kg/m3]."),
+        (0.5, {"below": 0.5}, "density is 0.5 kg/m3; it must be below 0.5 [kg/m3]."),
+        (3.0, {"at_most": 2.0}, "density is 3 kg/m3; it must be at most 2.0 [kg/m3]."),
+        (-1.0, {"at_least": 0.0}, "density is -1 kg/m3; it must be at least 0.0 [kg/m3]."),
+        (math.nan, {}, "density is nan kg/m3; it must be finite [kg/m3]."),
+        (math.inf, {"above": 0.0}, "density is inf kg/m3; it must be finite [kg/m3]."),
+        ("7", {}, "density is '7'; it must be a number [kg/m3]."),
+        (True, {}, "density is True; it must be a number [kg/m3]."),
+        (None, {}, "density is None; it must be a number [kg/m3]."),
+    ],
+)
+def test_what_is_out_of_bounds_says_value_unit_and_bound(
+    value: object, bounds: dict[str, float], sentence: str
+) -> None:
+    with pytest.raises(MaterialError) as caught:
+        checks.number("density", value, "kg/m3", error=MaterialError, **bounds)
+    assert str(caught.value) == sentence
+
+
+def test_hint_ends_the_sentence() -> None:
+    with pytest.raises(MaterialError, match=r"above 0\.0 \[m\]\. Measure again\.$"):
+        checks.number("x", -1, "m", above=0.0, error=MaterialError, hint="Measure again.")
+
+
+@pytest.mark.parametrize("value", [(1, 2), (1, 2, 3, 4), 5, "abc", None])
+def test_vector_of_the_wrong_size(value: object) -> None:
+    with pytest.raises(MaterialError, match="it must be 3 numbers"):
+        checks.vector("point", value, "m", size=3, error=MaterialError)
+
+
+def test_vector_names_the_component() -> None:
+    with pytest.raises(MaterialError, match=r"point\[1\] is nan m"):
+        checks.vector("point", (0, math.nan, 0), "m", size=3, error=MaterialError)

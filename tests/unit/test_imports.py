@@ -1,0 +1,48 @@
+"""What importing costs, seen in the modules of a fresh process."""
+
+import subprocess
+import sys
+
+import pytest
+
+HEAVY = {"numpy", "pydantic", "trimesh", "scipy", "httpx", "networkx"}
+
+
+def modules_after(statement: str) -> set[str]:
+    code = f"import sys\n{statement}\nprint(*sys.modules)"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return set(run.stdout.split())
+
+
+def test_import_scene2hap_is_lazy() -> None:
+    assert not modules_after("import scene2hap") & HEAVY
+
+
+def test_the_playing_side_loads_no_scene_reader_and_no_network() -> None:
+    loaded = modules_after("from scene2hap import HapticSession")
+    assert not loaded & {"trimesh", "httpx"}
+    assert not {name for name in loaded if name.startswith(("scene2hap.llm", "scene2hap.baking"))}
+
+
+def test_the_session_package_stays_behind_the_wall() -> None:
+    loaded = modules_after("import scene2hap.session")
+    assert not {name for name in loaded if name.startswith(("scene2hap.llm", "scene2hap.audio.sources", "httpx"))}
+
+
+def test_every_public_name_is_there() -> None:
+    import scene2hap
+
+    for name in scene2hap.__all__:
+        assert getattr(scene2hap, name) is not None
+
+
+def test_rooms_are_reachable_as_attributes() -> None:
+    loaded = modules_after("import scene2hap; scene2hap.materials.lookup('oak')")
+    assert "scene2hap.materials" in loaded
+
+
+def test_unknown_name_is_an_attribute_error() -> None:
+    import scene2hap
+
+    with pytest.raises(AttributeError, match="no attribute 'Haptic'"):
+        _ = scene2hap.Haptic  # type: ignore[attr-defined]

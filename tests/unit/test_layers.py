@@ -1,0 +1,77 @@
+"""The import layers of docs/architecture.md, read from the source by `ast`."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).parents[2] / "src" / "scene2hap"
+
+# Bottom to top; rooms of one row never import each other.
+LAYERS = [
+    {"errors"},
+    {"checks"},
+    {"plugins"},
+    {"scene"},
+    {"contact", "materials"},
+    {"haptics"},
+    {"propagation", "audio"},
+    {"bundle"},
+    {"llm", "render", "devices", "export"},
+    {"baking", "session"},
+    {"touch_track"},
+    {"track_player"},
+    {"demo"},
+    {"cli"},
+    {"__main__"},
+]
+HEIGHT = {room: height for height, rooms in enumerate(LAYERS) for room in rooms}
+PLAY_SIDE = ("session", "touch_track", "track_player", "render", "devices", "propagation", "contact")
+DESIGN_TIME_ONLY = ("scene2hap.llm", "scene2hap.baking", "scene2hap.audio.sources", "httpx", "trimesh")
+
+
+def room_of(path: Path) -> str:
+    return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
+
+
+def imports_of(path: Path) -> set[str]:
+    """Every module that a file imports, at the top or inside a function."""
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}: relative imports hide the layer"
+            found |= {f"{node.module}.{alias.name}" for alias in node.names} | {str(node.module)}
+    return found
+
+
+SOURCES = [path for path in sorted(PACKAGE.rglob("*.py")) if path != PACKAGE / "__init__.py"]
+
+
+def test_every_room_has_a_layer() -> None:
+    assert {room_of(path) for path in SOURCES} <= set(HEIGHT)
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_imports_point_down(path: Path) -> None:
+    here = room_of(path)
+    for name in imports_of(path):
+        parts = name.split(".")
+        if parts[0] == "scene2hap" and len(parts) > 1 and parts[1] in HEIGHT and parts[1] != here:
+            assert HEIGHT[parts[1]] < HEIGHT[here], f"{here} must not import {name}"
+
+
+@pytest.mark.parametrize("path", [p for p in SOURCES if room_of(p) in PLAY_SIDE], ids=lambda p: p.name)
+def test_the_playing_side_reaches_no_network(path: Path) -> None:
+    for name in imports_of(path):
+        assert not name.startswith(DESIGN_TIME_ONLY), f"{path.name} imports {name}"
+
+
+def test_sound_sources_are_imported_by_baking_alone() -> None:
+    users = {
+        room_of(path)
+        for path in SOURCES
+        if "sources" not in path.parts and any(name.startswith("scene2hap.audio.sources") for name in imports_of(path))
+    }
+    assert users == {"baking"}

@@ -1,0 +1,64 @@
+"""One door for built-ins and guests."""
+
+from importlib.metadata import EntryPoint
+
+import pytest
+
+from scene2hap import plugins
+from scene2hap.errors import ConfigError, MissingExtra, UnknownPlugin
+from scene2hap.plugins import PluginGroup
+
+GROUP = PluginGroup(
+    "scene2hap.test",
+    builtins={"fraction": "fractions:Fraction", "absent": "scene2hap_no_such_module:Thing", "gone": "math:no_such"},
+    extras={"absent": "things"},
+)
+
+
+def test_builtin_is_built_from_kind_and_settings() -> None:
+    assert str(GROUP.build({"kind": "fraction", "numerator": 3, "denominator": 6})) == "1/2"
+    assert str(GROUP.build("fraction")) == "0"
+
+
+def test_ready_made_passes_through() -> None:
+    ready = object()
+    assert GROUP.build(ready) is ready
+
+
+def test_unknown_kind_names_the_known() -> None:
+    with pytest.raises(UnknownPlugin, match=r"no kind 'fractoin'.*absent, fraction, gone"):
+        GROUP.load("fractoin")
+
+
+def test_missing_extra_is_named() -> None:
+    with pytest.raises(MissingExtra, match=r"pip install 'scene2hap\[things\]'"):
+        GROUP.load("absent")
+
+
+def test_wrong_settings_name_the_kind() -> None:
+    with pytest.raises(ConfigError, match=r"'fraction' does not take \{'colour': 1\}"):
+        GROUP.build({"kind": "fraction", "colour": 1})
+
+
+def test_no_kind() -> None:
+    with pytest.raises(ConfigError, match="names no kind"):
+        GROUP.build({"numerator": 1})
+
+
+def test_missing_attribute() -> None:
+    with pytest.raises(ConfigError, match="math:no_such does not exist"):
+        GROUP.load("gone")
+
+
+def test_guests_come_by_entry_points(monkeypatch: pytest.MonkeyPatch) -> None:
+    guest = EntryPoint("decimal", "decimal:Decimal", "scene2hap.test")
+    monkeypatch.setattr(plugins, "entry_points", lambda group: (guest,) if group == "scene2hap.test" else ())
+    assert "decimal" in GROUP.kinds()
+    assert str(GROUP.build({"kind": "decimal", "value": "1.5"})) == "1.5"
+
+
+def test_broken_guest_is_our_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    guest = EntryPoint("broken", "scene2hap_no_such_module:Thing", "scene2hap.test")
+    monkeypatch.setattr(plugins, "entry_points", lambda group: (guest,))
+    with pytest.raises(ConfigError, match="does not import"):
+        GROUP.load("broken")
