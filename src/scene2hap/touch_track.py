@@ -128,10 +128,16 @@ class TouchTrack(BaseModel):
             return cls.model_validate(document)
         except ValidationError as cause:
             problem = cause.errors()[0]
-            where = [f"step {part + 1}" if isinstance(part, int) else str(part) for part in problem["loc"]]
-            place = ", ".join(part for part in where if part not in {"steps", *_ACTIONS}) or "whole file"
             reason = problem["msg"].removeprefix("Value error, ")
-            raise SessionError(f"{name}: {place}: {reason}. See docs/touches.md.") from cause
+            raise SessionError(f"{name}: {_place(problem['loc'])}: {reason}. See docs/touches.md.") from cause
+
+
+def _place(location: tuple[int | str, ...]) -> str:
+    """Where in a file an error is, in its reader's words: "step 3, point_m.1"."""
+    if location[:1] == ("steps",) and len(location) > 1:
+        field = ".".join(str(part) for part in location[2:] if part not in _ACTIONS)
+        return f"step {int(location[1]) + 1}{', ' + field if field else ''}"
+    return ".".join(map(str, location)) or "whole file"
 
 
 def _from_csv(text: str) -> dict[str, Any]:
@@ -139,7 +145,9 @@ def _from_csv(text: str) -> dict[str, Any]:
     steps: list[dict[str, Any]] = []
     for row in csv.DictReader(text.splitlines()):
         cells = {key.strip(): value.strip() for key, value in row.items() if key and value and value.strip()}
-        step: dict[str, Any] = {key: value for key, value in cells.items() if key not in _VECTOR_CELLS}
+        step: dict[str, Any] = {
+            key: _TRUTH.get(value.lower(), value) for key, value in cells.items() if key not in _VECTOR_CELLS
+        }
         for name, columns in _VECTORS.items():
             if any(column in cells for column in columns):
                 step[name] = [cells.get(column, "0") for column in columns]
@@ -149,6 +157,7 @@ def _from_csv(text: str) -> dict[str, Any]:
     return {"duration_s": steps[-1]["time_s"], "steps": steps[:-1]}
 
 
+_TRUTH = {"true": True, "false": False}
 _VECTORS = {
     "point_m": ("x_m", "y_m", "z_m"),
     "to_m": ("to_x_m", "to_y_m", "to_z_m"),

@@ -1,0 +1,161 @@
+"""What a sound is like: where it is silent, how steady, how tonal, at which frequency.
+
+Pure functions of samples (n,) in any scale and their rate. All of them look at the samples without their mean, since
+an offset is neither heard nor felt and would count as a loud, perfectly steady tone.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.fft
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import ArrayLike, NDArray
+
+from scene2hap import checks
+from scene2hap.audio.clip import Samples
+from scene2hap.errors import AudioError
+
+Signal = NDArray[np.float64]
+
+TRIM_DB = 40.0
+"""Frames this far below the loudest one are silence at the ends [dB]; assumed, as most trimmers have it."""
+TRIM_FRAME_S = 0.010
+SILENCE_DBFS = -90.0
+"""A sound whose loudest frame lies below this is silent altogether [dB re 1]: that is the noise of 16-bit rounding."""
+
+LEVEL_FRAME_S = 0.050
+SLOW_LEVEL_FRAME_S = 0.100
+SLOW_HZ = 30.0
+"""Below this dominant frequency a 50 ms frame holds so few cycles that a steady tone would seem to flutter."""
+LEVEL_FLOOR_DB = -60.0
+
+FLATNESS_BAND_HZ = (20.0, 7000.0)
+"""What codecs and sample rates from 16 kHz up leave alone; a low-passed file would otherwise pass for a tonal one."""
+FLATNESS_FRAME_S = 0.125
+FLATNESS_FLOOR_DB = -60.0
+"""Bins are lifted to this far below the mean of their frame [dB]: what lies deeper is masked, and is where codecs
+write zeros."""
+
+TACTILE_RANGE_HZ = (20.0, 1000.0)
+
+
+def trim_silence(samples: ArrayLike, sample_rate_hz: float) -> Samples:
+    """The samples without their silent ends, cut on a grid of 10 ms; empty where everything is silent.
+
+    Silent are frames whose RMS lies `TRIM_DB` below that of the loudest frame.
+    """
+    original = np.asarray(samples, dtype=np.float32)
+    x, rate = _checked(original, sample_rate_hz)
+    frame = max(1, round(TRIM_FRAME_S * rate))
+    starts = np.arange(0, len(x), frame)
+    power = np.add.reduceat(x**2, starts) / np.diff(np.append(starts, len(x)))
+    loudest = float(power.max())
+    if loudest <= 10 ** (SILENCE_DBFS / 10):
+        return np.zeros(0, dtype=np.float32)
+    audible = np.flatnonzero(power > loudest * 10 ** (-TRIM_DB / 10))
+    return original[starts[audible[0]] : starts[audible[-1]] + frame].copy()
+
+
+def dynamic_range_db(samples: ArrayLike, sample_rate_hz: float) -> float:
+    """How much the level of a sound varies: 95th minus 10th percentile of its short-time RMS level [dB].
+
+    Frames of 50 ms (100 ms below `SLOW_HZ`), overlapping by half. Frames more than 60 dB below the loudest count as
+    60 dB below it: dropping them would call clicks with silence between them steady.
+    Measured on 5 s: sine 0, white noise 0.3, a 20 dB decay 17, clicks above 25. (Loudness range after EBU R 128 takes
+    3 s blocks and cannot see clicks; the crest factor gives 13 dB to steady noise.)
+    Raises: AudioError: the samples are empty or all equal.
+    """
+    x, rate = _sounding(samples, sample_rate_hz)
+    is_slow = dominant_frequency_hz(x, rate) < SLOW_HZ
+    frames = _frames(x, round((SLOW_LEVEL_FRAME_S if is_slow else LEVEL_FRAME_S) * rate))
+    power = np.mean(frames**2, axis=1)
+    level_db = 10 * np.log10(np.maximum(power / power.max(), 10 ** (LEVEL_FLOOR_DB / 10)))
+    high, low = np.percentile(level_db, [95, 10])
+    return float(high - low)
+
+
+def spectral_flatness(
+    samples: ArrayLike, sample_rate_hz: float, *, band_hz: tuple[float, float] = FLATNESS_BAND_HZ
+) -> float:
+    """How noisy a sound is, from 0 (a pure tone) to 0.56 = exp(-Euler's gamma) (white noise) [-].
+
+    The geometric over the arithmetic mean of the power spectrum within `band_hz`, averaged over Hann-windowed frames.
+    Frames last 125 ms at any rate and the band is the same for all, which gives each sound the same bins: as if all
+    had been brought to one rate first. Level does not matter; frames 60 dB below the loudest are left out, since
+    digital silence would count as perfectly flat.
+    Raises: AudioError: the samples are empty or all equal, or the band does not fit below half the rate.
+    """
+    x, rate = _sounding(samples, sample_rate_hz)
+    low, high = band_hz
+    checks.number("band_hz[1]", high, "Hz", above=low, error=AudioError)
+    frames = _frames(x, round(FLATNESS_FRAME_S * rate))
+    frequencies = scipy.fft.rfftfreq(frames.shape[1], 1 / rate)
+    in_band = (frequencies >= low) & (frequencies <= high)
+    if high > rate / 2 or not in_band.any():
+        raise AudioError(
+            f"band_hz is {low:g} to {high:g} Hz; a sound of {len(x)} samples at {rate:g} Hz has no such band. "
+            "Choose one below half the rate, or a longer sound."
+        )
+    spectrum = scipy.fft.rfft(frames * np.hanning(frames.shape[1] + 2)[1:-1], axis=1)[:, in_band]
+    power = spectrum.real**2 + spectrum.imag**2
+    mean = power.mean(axis=1)
+    is_heard = mean > mean.max() * 10 ** (LEVEL_FLOOR_DB / 10)
+    if not is_heard.any():
+        raise AudioError(f"there is nothing between {low:g} and {high:g} Hz; flatness needs a sound in that band.")
+    relative = power[is_heard] / mean[is_heard, None]
+    lifted = np.maximum(relative, 10 ** (FLATNESS_FLOOR_DB / 10))
+    return float(np.mean(np.exp(np.log(lifted).mean(axis=1)) / lifted.mean(axis=1)))
+
+
+def dominant_frequency_hz(
+    samples: ArrayLike, sample_rate_hz: float, *, range_hz: tuple[float, float] = TACTILE_RANGE_HZ
+) -> float:
+    """The frequency of the strongest peak of a sound's spectrum within `range_hz` [Hz].
+
+    Hann-windowed Fourier transform of the whole sound, zero-padded to twice its length, and a parabola through the
+    logarithms of the three bins around the peak; for a tone in noise the error is below 0.1 Hz from 0.25 s on. Only
+    true peaks count: the flank of something louder outside the range does not, unless the range holds nothing else.
+    Raises: AudioError: the samples are empty or all equal, or the range does not begin below half the rate.
+    """
+    x, rate = _sounding(samples, sample_rate_hz)
+    low, high = range_hz
+    checks.number("range_hz[0]", low, "Hz", above=0.0, below=min(high, rate / 2), error=AudioError)
+    n = scipy.fft.next_fast_len(2 * len(x), real=True)
+    magnitude = np.abs(scipy.fft.rfft(x * np.hanning(len(x) + 2)[1:-1], n))
+    first = max(1, int(np.ceil(low * n / rate)))
+    last = min(len(magnitude) - 2, int(np.floor(high * n / rate)))
+    bins = np.arange(first, last + 1)
+    if bins.size == 0:
+        raise AudioError(
+            f"a sound of {len(x) / rate:g} s does not resolve {low:g} to {high:g} Hz. "
+            "Use a longer sound or a wider range."
+        )
+    left, centre, right = magnitude[bins - 1], magnitude[bins], magnitude[bins + 1]
+    is_peak = (centre >= left) & (centre >= right)
+    k = int(bins[np.argmax(np.where(is_peak, centre, 0.0) if is_peak.any() else centre)])
+    a, b, c = np.log(np.maximum(magnitude[k - 1 : k + 2], np.finfo(float).tiny))
+    curvature = a - 2 * b + c
+    offset = float(np.clip(0.5 * (a - c) / curvature, -0.5, 0.5)) if curvature < 0 else 0.0
+    return float((k + offset) * rate / n)
+
+
+def _checked(samples: ArrayLike, sample_rate_hz: float) -> tuple[Signal, float]:
+    """Float64 samples without their mean, and the rate."""
+    rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=AudioError)
+    x = np.asarray(samples, dtype=np.float64)
+    if x.ndim != 1 or x.size == 0:
+        raise AudioError(f"samples has shape {x.shape}; analysis wants one channel with at least one sample, (n,).")
+    return x - x.mean(), rate
+
+
+def _sounding(samples: ArrayLike, sample_rate_hz: float) -> tuple[Signal, float]:
+    x, rate = _checked(samples, sample_rate_hz)
+    if np.ptp(x) == 0.0:
+        raise AudioError(f"all {len(x)} samples are equal; silence has neither level nor spectrum. Drop this sound.")
+    return x, rate
+
+
+def _frames(x: Signal, size: int) -> Signal:
+    """Overlapping frames (n_frames, size), half a frame apart; the whole signal where it is shorter than one."""
+    size = min(max(size, 2), len(x))
+    return sliding_window_view(x, size)[:: max(1, size // 2)]

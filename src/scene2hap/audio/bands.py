@@ -1,0 +1,49 @@
+"""A loop split into frequency bands that add up to it exactly.
+
+A loop is periodic, so its Fourier coefficients describe it completely, and weighting them is a filter without delay,
+start-up or end. Each inner edge gets one rising step S_j(f), a raised cosine in log f; band j is S_j - S_(j+1) with
+S_0 = 1 and S_N = 0, so the sum over all bands telescopes to one at every frequency. A step spans half of the narrower
+band on each side: a band's centre belongs to that band alone, and nothing leaks further than the neighbour.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from scene2hap import checks
+from scene2hap.errors import AudioError
+from scene2hap.haptics import Bands
+
+
+def split_bands(loop_samples: ArrayLike, sample_rate_hz: float, bands: Bands) -> NDArray[np.float32]:
+    """The part of a loop (n_samples,) in each band, (n_bands, n_samples), without delay between them.
+
+    The lowest band reaches down to 0 Hz and the highest up to half the rate, so that nothing is lost; for
+    `Bands.dominant()` the loop itself is the one band.
+    Raises: AudioError: the loop is empty, not one channel, or not finite.
+    """
+    rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=AudioError)
+    x = np.asarray(loop_samples, dtype=np.float64)
+    if x.ndim != 1 or x.size == 0 or not np.isfinite(x).all():
+        raise AudioError(f"loop_samples has shape {x.shape}; it must be one channel of finite samples, (n_samples,).")
+    if bands.n_bands == 1:
+        return x.astype(np.float32)[None, :]
+    spectrum = np.fft.rfft(x)
+    frequencies = np.fft.rfftfreq(len(x), 1 / rate).astype(np.float64)
+    masks = _masks(frequencies, np.asarray(bands.edges_hz))
+    return np.stack([np.fft.irfft(spectrum * mask, len(x)).astype(np.float32) for mask in masks])
+
+
+def _masks(f: NDArray[np.float64], edges: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Weights (n_bands, n_frequencies) in 0..1 that add up to 1 at each frequency."""
+    log_edges = np.log(edges)
+    half_widths = [0.5 * min(below, above) for below, above in pairwise(np.diff(log_edges))]
+    log_f = np.log(np.maximum(f, np.finfo(float).tiny))
+    steps = [np.ones_like(f)]
+    for edge, half_width in zip(log_edges[1:-1], half_widths, strict=True):
+        steps.append(0.5 + 0.5 * np.sin(0.5 * np.pi * np.clip((log_f - edge) / half_width, -1.0, 1.0)))
+    steps.append(np.zeros_like(f))
+    return np.array([below - above for below, above in pairwise(steps)])

@@ -1,0 +1,101 @@
+"""Sound files: reading what people bring, writing what a bundle keeps."""
+
+from __future__ import annotations
+
+import io
+import os
+import uuid
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import soundfile
+from numpy.typing import ArrayLike
+
+from scene2hap import checks
+from scene2hap.audio.clip import AudioClip, Credit
+from scene2hap.errors import AudioError
+
+PcmSubtype = Literal["PCM_16", "PCM_24", "PCM_32"]
+
+MAX_FILE_S = 600.0
+"""Longer files are refused before they are decoded [s]; assumed: no sound of an object needs ten minutes, and a
+damaged header may promise a thousand hours."""
+
+_BITS: dict[str, int] = {"PCM_16": 16, "PCM_24": 24, "PCM_32": 32}
+
+
+def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
+    """A WAV, FLAC, Ogg or MP3 file as a mono clip at its own rate; several channels are mixed by their mean.
+
+    Without a `credit` the file's stem becomes the title, author and licence are "unknown".
+    Raises: AudioError: the file is absent, is not audio, has no samples, a sample that is not finite, or more than
+    `MAX_FILE_S`.
+    """
+    path = Path(path)
+    try:
+        encoded = path.read_bytes()
+    except OSError as cause:
+        raise AudioError(
+            f"{path}: cannot be read ({cause.strerror}). Give the path of an existing sound file."
+        ) from cause
+    try:
+        with soundfile.SoundFile(io.BytesIO(encoded)) as file:
+            rate = int(file.samplerate)
+            if file.frames > MAX_FILE_S * rate:
+                raise AudioError(
+                    f"{path} lasts {file.frames / rate:.0f} s; it must be at most {MAX_FILE_S:.0f} s. "
+                    "Cut out the part you want."
+                )
+            channels = file.read(dtype="float32", always_2d=True)
+    except soundfile.SoundFileError as cause:
+        raise AudioError(f"{path}: not a readable sound ({cause}). Use a WAV, FLAC, Ogg or MP3 file.") from cause
+    if channels.shape[0] == 0:
+        raise AudioError(f"{path} has no samples. Use a sound that is longer than 0 s.")
+    finite = np.isfinite(channels).all(axis=1)
+    if not finite.all():
+        first = int(np.argmin(finite))
+        raise AudioError(f"{path}: sample {first} is {channels[first]}; every sample must be finite. Export it again.")
+    mono = channels.mean(axis=1, dtype=np.float64)
+    return AudioClip(mono.astype(np.float32), rate, credit or Credit(path.stem, "unknown", "unknown"))
+
+
+def write_wav(path: str | Path, samples: ArrayLike, sample_rate_hz: int, subtype: PcmSubtype = "PCM_24") -> None:
+    """Write samples (n,) or (n, channels) in [-1, 1] as a WAV file, whole or not at all.
+
+    Equal samples give equal bytes (the header of a float WAV would carry the time). Samples become integers of
+    2^(bits-1) steps per unit, the scale at which they are read back, so that a file read and written again does not
+    change; only +1 itself loses one step.
+    Raises: AudioError: a sample beyond full scale or not finite, a wrong shape, or a path that cannot be written.
+    """
+    path = Path(path)
+    rate = int(checks.number("sample_rate_hz", sample_rate_hz, "Hz", at_least=1, error=AudioError))
+    if subtype not in _BITS:
+        raise AudioError(f"subtype is {subtype!r}; it must be one of {', '.join(_BITS)}.")
+    encoded = io.BytesIO()
+    soundfile.write(encoded, _quantised(path, samples, _BITS[subtype]), rate, subtype=subtype, format="WAV")
+    beside = path.with_name(f".{path.name}.{uuid.uuid4().hex}.part")
+    try:
+        with beside.open("wb") as file:
+            file.write(encoded.getbuffer())
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(beside, path)
+    except OSError as cause:
+        beside.unlink(missing_ok=True)
+        raise AudioError(
+            f"{path}: cannot be written ({cause.strerror}). Choose a folder that exists and is yours."
+        ) from cause
+
+
+def _quantised(path: Path, samples: ArrayLike, bits: int) -> np.ndarray[tuple[int, ...], np.dtype[np.int32]]:
+    """Integers of `bits` bits in the upper bits of int32, where the encoder looks for them."""
+    values = np.asarray(samples, dtype=np.float64)
+    if values.ndim not in (1, 2) or values.size == 0:
+        raise AudioError(f"{path}: samples has shape {values.shape}; it must be (n,) or (n, channels) with n > 0.")
+    peak = float(np.abs(values).max())
+    if not peak <= 1.0:  # also when it is not a number
+        raise AudioError(f"{path}: the largest sample is {peak:g}; it must be within 1 [-]. Scale the sound first.")
+    full_scale = 2.0 ** (bits - 1)
+    steps = np.minimum(np.rint(values * full_scale), full_scale - 1)
+    return np.left_shift(steps.astype(np.int32), 32 - bits)

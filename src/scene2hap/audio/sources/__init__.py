@@ -1,0 +1,14 @@
+"""Where sounds come from. Only baking imports this room: some sources use the network."""
+
+from __future__ import annotations
+
+from scene2hap.plugins import PluginGroup
+
+SOURCES = PluginGroup(
+    "scene2hap.audio",
+    builtins={
+        "library": "scene2hap.audio.sources.library:FolderLibrary",
+        "synth": "scene2hap.audio.sources.synth:Synthesizer",
+    },
+    extras={},
+)

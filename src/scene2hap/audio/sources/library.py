@@ -1,0 +1,99 @@
+"""Sounds from a folder of one's own."""
+
+from __future__ import annotations
+
+import csv
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from scene2hap.audio.clip import AudioClip, Credit
+from scene2hap.audio.files import read_clip
+from scene2hap.audio.sources.words import noun_phrase, stems
+from scene2hap.errors import AudioError, ConfigError
+from scene2hap.haptics import VibrationDescription
+
+INDEX_NAME = "sounds.csv"
+MAX_CANDIDATES = 5
+"""As many as the paper retrieves."""
+
+_SUFFIXES = frozenset({".wav", ".flac", ".ogg", ".mp3"})
+
+
+class UnreadableSound(UserWarning):
+    """A file of the library that cannot be used was skipped."""
+
+
+@dataclass(frozen=True)
+class FolderLibrary:
+    """Finds sounds in a folder, and the folders in it, by the words of their names.
+
+    If the folder holds a `sounds.csv`, its rows are the library instead. Columns: file (relative to the folder),
+    keywords (the file's name where empty), title, author, licence, address; all but the first may be missing.
+    Raises: ConfigError: the folder is missing, or its `sounds.csv` is not such a table.
+    """
+
+    folder: Path
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "folder", Path(self.folder))
+        self._require_folder()
+
+    def find(self, description: VibrationDescription) -> list[AudioClip]:
+        """Up to five sounds that name the object, those that share most words with the description first.
+
+        A sound of the right verb but another object is none: a boiling kettle is no boiling pan. Files that cannot be
+        read are skipped with an `UnreadableSound` warning. Raises: ConfigError: as above.
+        """
+        self._require_folder()
+        nouns = noun_phrase(description.object_category)
+        wanted = {*nouns, *stems(description.keywords)}
+        matches = [(path, words, credit) for path, words, credit in self._entries() if words.intersection(nouns[-1:])]
+        matches.sort(key=lambda match: (-len(wanted & match[1]), match[0].as_posix()))
+        found: list[AudioClip] = []
+        for path, _, credit in matches:
+            if len(found) == MAX_CANDIDATES:
+                break
+            try:
+                found.append(read_clip(path, replace(credit, query=description.keywords)))
+            except AudioError as cause:
+                warnings.warn(f"skipped: {cause}", UnreadableSound, stacklevel=2)
+        return found
+
+    def _require_folder(self) -> None:
+        if not self.folder.is_dir():
+            raise ConfigError(f"the sound library {self.folder} is not a folder. Create it, or choose another source.")
+
+    def _entries(self) -> Iterator[tuple[Path, set[str], Credit]]:
+        """Every sound: path, words, and whom it is owed to."""
+        index = self.folder / INDEX_NAME
+        if index.is_file():
+            yield from self._listed(index)
+            return
+        for path in self.folder.rglob("*"):
+            if path.suffix.lower() in _SUFFIXES:
+                yield path, set(stems(path.stem)), Credit(path.stem, "unknown", "unknown")
+
+    def _listed(self, index: Path) -> Iterator[tuple[Path, set[str], Credit]]:
+        try:
+            # utf-8-sig: spreadsheets put a byte-order mark in front.
+            text = index.read_text(encoding="utf-8-sig")
+        except (OSError, UnicodeDecodeError) as cause:
+            raise ConfigError(f"{index}: cannot be read as UTF-8 text ({cause}). Save it as CSV in UTF-8.") from cause
+        table = csv.DictReader(text.splitlines())
+        if "file" not in (table.fieldnames or ()):
+            raise ConfigError(
+                f"{index}: the first line is {table.fieldnames}; it must name the columns, at least 'file', "
+                "separated by commas."
+            )
+        for row in table:
+            # A short row leaves None behind.
+            name, keywords, title, author, licence, address = (
+                (row.get(column) or "").strip()
+                for column in ("file", "keywords", "title", "author", "licence", "address")
+            )
+            if name:
+                path = self.folder / name
+                credit = Credit(title or path.stem, author or "unknown", licence or "unknown", address)
+                yield path, set(stems(keywords or path.stem)), credit

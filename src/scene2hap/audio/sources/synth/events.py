@@ -1,0 +1,83 @@
+"""Sounds made of single events: bubbles, ticks, blows, beeps, notes.
+
+Levels, decays and patterns are tuned; where a frequency follows from physics, that is said.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from scene2hap.audio.sources.synth.signals import (
+    DURATION_S,
+    N_SAMPLES,
+    SAMPLE_RATE_HZ,
+    Signal,
+    Take,
+    noise,
+    partials,
+    phase,
+    ringing,
+    times,
+    unit_peak,
+    unit_rms,
+)
+
+_BUBBLE_CLASSES = 10
+_BUBBLE_CYCLES = 3.0
+
+
+def bubbles(take: Take, *, largest_hz: float, smallest_hz: float, per_second: float = 600.0) -> Signal:
+    """Boiling or sizzling: bubbles of many sizes at random, each ringing at its own pitch, more of them when driven.
+
+    A bubble of radius R rings at 3.26 / R [Hz] (Minnaert, Phil. Mag. 16, 1933): 100 Hz for 33 mm, 400 Hz for 8 mm.
+    """
+    pitches = np.geomspace(largest_hz, smallest_hz, _BUBBLE_CLASSES)
+    n = round(per_second * (0.6 + 0.8 * take.drive) * DURATION_S / _BUBBLE_CLASSES)
+    y = np.zeros(N_SAMPLES)
+    for pitch in pitches:
+        at = take.rng.uniform(0.0, DURATION_S, n)
+        strength = take.rng.uniform(0.5, 1.0, n) * take.rng.choice((-1.0, 1.0), n)
+        y += unit_rms(ringing(at, strength, pitch, _BUBBLE_CYCLES / pitch))
+    return unit_rms(y) + 0.1 * noise(take.rng, 60.0, 1500.0, -3.0)
+
+
+def blows(
+    take: Take, *, per_second: float, body_hz: float, decay_s: float, click_hz: float = 1200.0, click: float = 0.2
+) -> Signal:
+    """Equal blows on a body that rings at its own pitch: the ticks of a clock, the strokes of a jackhammer."""
+    n = round(per_second * DURATION_S)
+    at = (np.arange(n) + 0.3) / per_second
+    strength = 1.0 + 0.05 * take.rng.uniform(-1.0, 1.0, n)
+    body = unit_peak(ringing(at, strength, take.shaft_hz(body_hz), decay_s))
+    edge = unit_peak(ringing(at, strength, take.about(click_hz), 0.003))
+    return body + click * (0.5 + take.drive) * edge
+
+
+def buzzer(take: Take, *, pitch_hz: float, on_s: float = 0.0, off_s: float = 0.0) -> Signal:
+    """An armature that hits its stop once per cycle, for `on_s` and `off_s` seconds in turn; always on without them.
+
+    The clear beep of a piezo disc lies in the kilohertz, where nothing is felt; this is the buzz of its case.
+    """
+    phi = phase(take.about(pitch_hz, 0.01))
+    tone = partials(phi, take.roll_off(8, 0.3), take.rng)
+    if on_s == 0.0:
+        return tone
+    gate = (times() % (on_s + off_s) < on_s).astype(np.float64)
+    edge = np.hanning(round(0.01 * SAMPLE_RATE_HZ))
+    return tone * np.convolve(gate, edge / edge.sum(), mode="same")
+
+
+def music(take: Take, *, beats_per_minute: float = 120.0) -> Signal:
+    """A loudspeaker that plays: a bass line of four notes, one per beat, and a drum under every second beat."""
+    beat_s = 60.0 / beats_per_minute
+    root_hz = take.about(65.4, 0.05)
+    t = times()
+    beat = np.floor(t / beat_s).astype(np.int64)
+    since_s = t - beat * beat_s
+    line = root_hz * 2.0 ** (take.rng.permutation([0, 0, 7, 10])[beat % 4] / 12.0)
+    # Phase runs from each beat anew, so that every bar is the same and the piece loops.
+    note = np.exp(-since_s / 0.6) * (1.0 - np.exp(-since_s / 0.01))
+    bass = partials(2.0 * np.pi * line * since_s, [1.0, 0.4, 0.15])
+    drum = np.where(beat % 2 == 0, np.sin(2.0 * np.pi * 55.0 * since_s) * np.exp(-since_s / 0.08), 0.0)
+    release = np.minimum(1.0, (beat_s - since_s) / 0.02)
+    return (bass * note + (0.5 + 0.5 * take.drive) * drum) * release

@@ -1,0 +1,94 @@
+"""Machines that turn: once-per-turn imbalance, blades and vanes passing, flow, load.
+
+Levels are RMS, relative to the strongest part of the voice. All levels, slopes and wanders here are tuned by ear and by
+spectrum to plausible machines; frequencies follow from speeds of real ones.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from scene2hap.audio.sources.synth.signals import Signal, Take, noise, partials, phase, times, unit_rms, wander
+
+MAINS_HZ = 50.0
+
+
+def motor(take: Take, *, shaft_hz: float = 48.0) -> Signal:
+    """Some electric motor: shaft, harmonics and a little of the mains' magnetic pull at twice its frequency."""
+    phi = phase(take.shaft_hz(shaft_hz) * (1.0 + 0.003 * wander(take.rng)))
+    shaft = partials(phi, take.roll_off(8), take.rng)
+    pull = np.cos(2.0 * np.pi * 2.0 * MAINS_HZ * times())
+    return (
+        unit_rms(shaft) * (1.0 + 0.05 * wander(take.rng, 3.0))
+        + 0.25 * unit_rms(pull)
+        + (0.1 + 0.1 * take.drive) * noise(take.rng, 40.0, 1500.0, -4.0)
+    )
+
+
+def compressor(take: Take, *, slip: float = 0.018) -> Signal:
+    """A refrigerator's piston compressor: a two-pole induction motor that turns a little slower than the mains.
+
+    Its second order beats slowly against the magnetic pull at twice the mains frequency.
+    """
+    shaft_hz = MAINS_HZ * (1.0 - take.about(slip, 0.3))
+    phi = phase(shaft_hz * (1.0 + 0.0005 * wander(take.rng, 0.3)))
+    strokes = partials(phi, take.roll_off(10), take.rng)
+    pull = np.cos(2.0 * np.pi * 2.0 * MAINS_HZ * times())
+    flow = noise(take.rng, 100.0, 2500.0, -4.0)
+    return unit_rms(strokes) + 0.2 * unit_rms(pull) + (0.05 + 0.1 * take.drive) * flow
+
+
+def fan(
+    take: Take, *, shaft_hz: float, blades: int, rotor: float = 1.0, blade: float = 0.5, flow: float = 0.5
+) -> Signal:
+    """A fan: rotor imbalance once per turn, blades passing, and the broadband noise of the flow, louder when driven."""
+    phi = phase(take.shaft_hz(shaft_hz) * (1.0 + 0.003 * wander(take.rng)))
+    turns = partials(phi, [1.0, 0.25, 0.11, 0.06], take.rng)
+    passing = partials(blades * phi, take.roll_off(4), take.rng)
+    breeze = noise(take.rng, 40.0, 3000.0, -4.5) * (1.0 + 0.05 * wander(take.rng, 2.0))
+    return rotor * unit_rms(turns) + blade * unit_rms(passing) + flow * (0.6 + 0.6 * take.drive) * breeze
+
+
+def spinner(take: Take, *, drum_hz: float = 18.5, belt_ratio: float = 11.5) -> Signal:
+    """A washing machine at spin: an unbalanced drum, and its motor, which the belt turns `belt_ratio` times as fast.
+
+    The laundry loads the motor once per turn of the drum; the belt goes round about every second turn.
+    """
+    drum_speed = take.shaft_hz(drum_hz) * (1.0 + 0.003 * wander(take.rng, 0.5))
+    drum = phase(drum_speed)
+    motor_tone = partials(belt_ratio * drum, take.roll_off(5), take.rng)
+    load = 1.0 + 0.25 * np.cos(drum) + 0.1 * np.cos(0.45 * drum) + 0.05 * wander(take.rng)
+    return (
+        unit_rms(motor_tone) * load
+        + (0.4 + 0.3 * take.drive) * unit_rms(partials(drum, [1.0, 0.5, 0.25], take.rng))
+        + 0.25 * noise(take.rng, 40.0, 1500.0, -4.0)
+    )
+
+
+def pump(take: Take, *, shaft_hz: float = 48.0, vanes: int = 6) -> Signal:
+    """A centrifugal pump: pressure pulses as its vanes pass the outlet, shaft imbalance, and rushing water."""
+    phi = phase(take.shaft_hz(shaft_hz) * (1.0 + 0.002 * wander(take.rng)))
+    pulses = partials(vanes * phi, take.roll_off(4), take.rng)
+    shaft = partials(phi, [1.0, 0.35, 0.2], take.rng)
+    return unit_rms(pulses) + 0.5 * unit_rms(shaft) + (0.2 + 0.2 * take.drive) * noise(take.rng, 60.0, 1200.0, -3.0)
+
+
+def power_tool(
+    take: Take, *, motor_hz: float, spindle_hz: float, spindle: float = 0.4, teeth: int = 7, segments: int = 24
+) -> Signal:
+    """A universal motor behind a gear: motor and spindle imbalance, gear mesh (teeth) and commutator (segments).
+
+    What the spindle cuts loads the motor twice per turn. `spindle` is its level; above 1 it dominates, as the disc of a
+    grinder does.
+    """
+    motor_speed = take.shaft_hz(motor_hz) * (1.0 + 0.004 * wander(take.rng, 2.0))
+    turn = phase(motor_speed)
+    cut = turn * (spindle_hz / motor_hz)
+    armature = partials(turn, take.roll_off(4), take.rng)
+    whine = partials(turn, [0.0] * (teeth - 1) + [1.0] + [0.0] * (segments - teeth - 1) + [0.5], take.rng)
+    return (
+        unit_rms(armature) * (1.0 + 0.15 * take.drive * np.cos(2.0 * cut))
+        + spindle * unit_rms(partials(cut, [1.0, 0.5, 0.25], take.rng))
+        + (0.1 + 0.1 * take.drive) * unit_rms(whine)
+        + 0.15 * noise(take.rng, 80.0, 3000.0, -3.0)
+    )

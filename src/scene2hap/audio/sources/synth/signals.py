@@ -1,0 +1,103 @@
+"""What voices are built from: phases, partials, wander, noise.
+
+t [s] time, f [Hz] frequency, phi [rad] phase, k [-] order of a partial, n number of samples
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Signal = NDArray[np.float64]
+
+SAMPLE_RATE_HZ = 48_000
+DURATION_S = 5.0
+N_SAMPLES = round(DURATION_S * SAMPLE_RATE_HZ)
+
+
+@dataclass(frozen=True)
+class Take:
+    """What a voice is told apart from its own constants.
+
+    `rng` is the only source of chance. `drive` 0..1 is how hard the thing works: harder is brighter. `size_factor`
+    multiplies the frequencies that depend on the machine's size.
+    """
+
+    rng: np.random.Generator
+    drive: float = 0.5
+    size_factor: float = 1.0
+
+    def about(self, value: float, spread: float = 0.03) -> float:
+        """`value`, a few per cent beside it: no two machines are alike. Spread assumed."""
+        return value * (1.0 + spread * self.rng.uniform(-1.0, 1.0))
+
+    def shaft_hz(self, nominal_hz: float) -> float:
+        """A speed for this machine: slower if it is large."""
+        return self.about(nominal_hz * self.size_factor)
+
+    def roll_off(self, n_partials: int, steeper_by: float = 0.0) -> Signal:
+        """Amplitudes k^-slope (n_partials,), the slope being 2.2 when idling and 1.2 at full drive; assumed."""
+        return np.asarray(np.arange(1.0, n_partials + 1) ** -(2.2 - self.drive + steeper_by))
+
+
+def times() -> Signal:
+    """Time of each sample (n,) [s]."""
+    return np.arange(N_SAMPLES) / SAMPLE_RATE_HZ
+
+
+def phase(frequency_hz: ArrayLike) -> Signal:
+    """Phase (n,) [rad] of an oscillator at a constant or varying frequency, phi = 2 pi int f dt."""
+    f = np.broadcast_to(np.asarray(frequency_hz, dtype=np.float64), N_SAMPLES)
+    return np.asarray(2.0 * np.pi * (np.cumsum(f) - f[0]) / SAMPLE_RATE_HZ)
+
+
+def partials(phi: Signal, amplitudes: Sequence[float] | Signal, rng: np.random.Generator | None = None) -> Signal:
+    """sum_k a_k cos(k phi + phi_k), k = 1, 2, ...; random phases with an `rng`, a pulse train without."""
+    offsets = np.zeros(len(amplitudes)) if rng is None else rng.uniform(0.0, 2.0 * np.pi, len(amplitudes))
+    y = np.zeros_like(phi)
+    for k, (a, offset) in enumerate(zip(amplitudes, offsets, strict=True), start=1):
+        if a:
+            y += a * np.cos(k * phi + offset)
+    return y
+
+
+def wander(rng: np.random.Generator, fastest_hz: float = 1.0) -> Signal:
+    """A slow random motion (n,) within -1..1: eight sinusoids up to `fastest_hz`."""
+    t = times()
+    f = rng.uniform(0.1 * fastest_hz, fastest_hz, 8)
+    offsets = rng.uniform(0.0, 2.0 * np.pi, 8)
+    motions = [np.cos(2.0 * np.pi * fi * t + offset) for fi, offset in zip(f, offsets, strict=True)]
+    return np.asarray(np.mean(motions, axis=0))
+
+
+def noise(rng: np.random.Generator, low_hz: float, high_hz: float, tilt_db_per_octave: float = 0.0) -> Signal:
+    """Noise (n,) of unit RMS between two frequencies, falling or rising from one octave to the next."""
+    f = np.fft.rfftfreq(N_SAMPLES, 1.0 / SAMPLE_RATE_HZ)
+    in_band = (f >= low_hz) & (f <= high_hz)
+    weight = np.zeros_like(f)
+    weight[in_band] = (f[in_band] / low_hz) ** (tilt_db_per_octave / (20.0 * np.log10(2.0)))
+    return unit_rms(np.fft.irfft(weight * np.fft.rfft(rng.standard_normal(N_SAMPLES)), N_SAMPLES))
+
+
+def ringing(times_s: ArrayLike, strengths: ArrayLike, frequency_hz: float, decay_s: float) -> Signal:
+    """Strokes at given times, each of them A exp(-t / decay) sin(2 pi f t); the end runs on into the beginning."""
+    at = np.asarray(times_s, dtype=np.float64) * SAMPLE_RATE_HZ
+    strokes = np.bincount(
+        np.rint(at).astype(np.int64) % N_SAMPLES, np.broadcast_to(strengths, at.shape), minlength=N_SAMPLES
+    )
+    t = times()
+    response = np.exp(-t / decay_s) * np.sin(2.0 * np.pi * frequency_hz * t)
+    return np.fft.irfft(np.fft.rfft(strokes) * np.fft.rfft(response), N_SAMPLES)
+
+
+def unit_rms(y: Signal) -> Signal:
+    """The signal at an RMS of 1, so that voices can mix parts by their share."""
+    return np.asarray(y / np.sqrt(np.mean(y**2)))
+
+
+def unit_peak(y: Signal) -> Signal:
+    """The signal at a peak of 1."""
+    return np.asarray(y / np.abs(y).max())

@@ -1,0 +1,89 @@
+"""Words as sound sources compare them: "Washing machines" and "washer" are one thing, "humming" and "hum" another.
+
+Stems are keys, not English: both sides of a comparison go through `stems`, so it does not matter that "machine"
+becomes "machin".
+"""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+# Spelling (plain English) -> the usual short name of the same thing; only where the last word alone would not tell.
+_SAME_THING = {
+    "air conditioner": "aircon",
+    "air conditioning": "aircon",
+    "air con": "aircon",
+    "automobile": "car",
+    "cellphone": "phone",
+    "chain saw": "chainsaw",
+    "coffee machine": "coffeemaker",
+    "coffee maker": "coffeemaker",
+    "dish washer": "dishwasher",
+    "espresso machine": "coffeemaker",
+    "fridge": "refrigerator",
+    "game controller": "gamepad",
+    "hair drier": "hairdryer",
+    "hair dryer": "hairdryer",
+    "hoover": "vacuum",
+    "laundry machine": "washer",
+    "lawn mower": "lawnmower",
+    "leaf blower": "leafblower",
+    "microwave oven": "microwave",
+    "motor bike": "motorcycle",
+    "motorbike": "motorcycle",
+    "mower": "lawnmower",
+    "saucepan": "pan",
+    "shaving machine": "shaver",
+    "smartphone": "phone",
+    "smart watch": "smartwatch",
+    "telephone": "phone",
+    "television": "tv",
+    "tooth brush": "toothbrush",
+    "vacuum cleaner": "vacuum",
+    "washing machine": "washer",
+}
+
+_AFTER_THE_HEAD = re.compile(r"\b(?:of|on|in|with|for|at|from|to|by|under|near)\b|[(,;:/]")
+_LONGEST_NAME = max(len(name.split()) for name in _SAME_THING)
+
+
+def stems(text: str) -> tuple[str, ...]:
+    """The words of a text or file name in order, lower case, without numbers, plural, -ing and double endings."""
+    spaced = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", text)
+    words = [_stem(word) for word in re.findall(r"[^\W\d_]+", spaced.lower())]
+    found: list[str] = []
+    while words:
+        for n in range(min(_LONGEST_NAME, len(words)), 0, -1):
+            name = _names().get(tuple(words[:n]))
+            if name is not None or n == 1:
+                found.append(name if name is not None else words[0])
+                words = words[n:]
+                break
+    return tuple(found)
+
+
+def noun_phrase(category: str) -> tuple[str, ...]:
+    """The stems of what a category names: ("pan",) for "pan on a heater"; the last is the head noun. Empty if none."""
+    phrases = (stems(part) for part in _AFTER_THE_HEAD.split(category.lower()))
+    return next((phrase for phrase in phrases if phrase), ())
+
+
+@cache
+def _names() -> dict[tuple[str, ...], str]:
+    return {tuple(map(_stem, spelling.split())): _stem(name) for spelling, name in _SAME_THING.items()}
+
+
+def _stem(word: str) -> str:
+    if len(word) > 4 and word.endswith("ies"):
+        word = word[:-3] + "y"
+    elif len(word) > 4 and word.endswith(("ches", "shes", "sses", "xes", "zes")):
+        word = word[:-2]
+    elif len(word) > 3 and word.endswith("s") and not word.endswith(("ss", "us", "is")):
+        word = word[:-1]
+    # "ring" and "string" have no vowel before -ing: there it belongs to the word.
+    if word.endswith("ing") and len(word) > 4 and re.search("[aeiouy]", word[:-3]):
+        word = word[:-3]
+    if len(word) > 2 and word[-1] == word[-2]:
+        word = word[:-1]
+    return word[:-1] if len(word) > 2 and word.endswith("e") else word

@@ -1,0 +1,238 @@
+"""Two objects at a time: how far apart their surfaces are, and where they meet.
+
+Surfaces, not volumes: surfaces that cut each other have gap 0, but a thing wholly inside a closed other, out of reach
+of its surface, does not touch it, as a chair in a room does not touch the room's walls.
+
+Everything is computed in the frame of the larger object: a wall's long triangles have thin boxes there, and moving both
+objects rigidly changes nothing but the last bits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+from weakref import WeakValueDictionary
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.contact.broad import Boxes, Floats, Indices, box_pairs
+from scene2hap.contact.triangles import Meetings, closest_points, meetings, plane_gap
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import SceneObject, TriMesh
+
+MAX_POINTS = 4
+"""Contact points of one pair: the corners of a patch, few enough for a dense solve over a scene (assumed)."""
+
+_SPREAD_M = 0.005  # Points of a pair nearer than this are one (assumed: the width of a chair's foot).
+_TIE_M = 1e-6  # Lengths this near are equal, so that rounding does not choose between the corners of a square.
+_TOUCHING_M = 1e-9  # Below this a gap is rounding.
+_BATCH = 4096  # Triangle pairs in the kernel at once: some 10 MB.
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """The triangles (m, 3, 3) [m] of a mesh in its own frame, their boxes, and the corners in use (n, 3)."""
+
+    triangles: Floats
+    boxes: Boxes
+    corners: Floats
+
+    @cached_property
+    def size_m(self) -> float:
+        """Diagonal of the own bounding box, which no motion changes."""
+        return float(np.linalg.norm(self.boxes.high.max(axis=0) - self.boxes.low.min(axis=0)))
+
+
+# Instances share a mesh, and sessions come and go over one scene: a shape lives as long as some body uses it.
+_shapes: WeakValueDictionary[str, Shape] = WeakValueDictionary()
+
+
+def shape_of(mesh: TriMesh) -> Shape:
+    """The shape of a mesh, made once for equal meshes."""
+    shape = _shapes.get(mesh.digest)
+    if shape is None:
+        triangles = mesh.vertices_m[mesh.faces]
+        corners = mesh.vertices_m[np.unique(mesh.faces)]
+        shape = Shape(triangles, _boxes_of(triangles), corners)
+        _shapes[mesh.digest] = shape
+    return shape
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """A shape at a place: what the contact graph keeps of an object."""
+
+    id: str
+    shape: Shape
+    pose: Pose
+
+    @classmethod
+    def of(cls, item: SceneObject) -> Body:
+        """The body of a scene's object."""
+        return cls(item.id, shape_of(item.geometry.mesh), item.pose)
+
+    @cached_property
+    def box(self) -> Boxes:
+        """The bounding box (1, 3) in the world."""
+        points = self.pose.to_world(self.shape.corners)
+        return Boxes(points.min(axis=0, keepdims=True), points.max(axis=0, keepdims=True))
+
+    @property
+    def size_m(self) -> float:
+        """Diagonal of the own bounding box."""
+        return self.shape.size_m
+
+
+class Gap(NamedTuple):
+    """The least distance of two surfaces [m], and the way (3,) [m] from `a` to `b` there, in the world."""
+
+    distance_m: float
+    way_m: Floats
+
+
+class Patch(NamedTuple):
+    """Up to `MAX_POINTS` points of contact: on a's surface in a's own frame, on b's in b's own, both (n, 3) [m]."""
+
+    on_a_m: Floats
+    on_b_m: Floats
+
+
+class Meeting:
+    """Two bodies in the frame of the larger, the host; the other is the guest."""
+
+    def __init__(self, a: Body, b: Body) -> None:
+        self.a, self.b = a, b
+        self.guest_is_a = a.size_m < b.size_m
+        self.guest, self.host = (a, b) if self.guest_is_a else (b, a)
+        host, guest = self.host.pose, self.guest.pose
+        self._rotation: Floats = host.rotation.T @ guest.rotation
+        self._position: Floats = host.to_own(np.asarray(guest.position_m))
+
+    def gap(self, within_m: float) -> Gap | None:
+        """The least distance, if it is at most `within_m`."""
+        best = within_m
+        found: tuple[Floats, Floats] | None = None
+        for guest, host in self.near(within_m):
+            for p, q in _nearest_first(guest, host, best):
+                near = plane_gap(p, q) <= best
+                if not near.any():
+                    continue
+                distance, on_guest, on_host = closest_points(p[near], q[near])
+                k = int(np.argmin(distance))
+                if distance[k] < best or (found is None and distance[k] <= best):
+                    best, found = float(distance[k]), (on_guest[k], on_host[k])
+                if best <= _TOUCHING_M:
+                    return Gap(0.0, np.zeros(3))
+        if found is None:
+            return None
+        way = self.host.pose.rotation @ (found[1] - found[0])
+        return Gap(best, way if self.guest_is_a else -way)
+
+    def patch(self, way_m: Floats, within_m: float) -> Patch:
+        """Where the surfaces are at most `within_m` apart once `a` has gone `way_m` (3,) [m] in the world.
+
+        The points are told for the bodies where they are now. They are spread by farthest-point sampling: first the one
+        farthest from the middle of all, then ever the one farthest from those taken.
+        """
+        way = self.host.pose.rotation.T @ (way_m if self.guest_is_a else -way_m)
+        ends = [(np.empty((0, 3)), np.empty((0, 3)))]
+        for guest, host in self.near(within_m, way):
+            for start in range(0, len(guest), _BATCH):
+                p, q = guest[start : start + _BATCH] + way, host[start : start + _BATCH]
+                close = plane_gap(p, q) <= within_m
+                every: Meetings = meetings(p[close], q[close])
+                hits = every.distance <= within_m
+                ends.append((every.on_p[hits] - way, every.on_q[hits]))
+        on_guest, on_host = (np.concatenate(side) for side in zip(*ends, strict=True))
+        chosen = _spread((on_guest + on_host) / 2)
+        guest_own = (on_guest[chosen] - self._position) @ self._rotation
+        host_own = on_host[chosen]
+        return Patch(guest_own, host_own) if self.guest_is_a else Patch(host_own, guest_own)
+
+    def near(
+        self,
+        within_m: float,
+        way: Floats | None = None,
+        *,
+        sweep: bool = False,
+        guest_rows: Indices | None = None,
+        host_rows: Indices | None = None,
+    ) -> Iterator[tuple[Floats, Floats]]:
+        """Triangles (n, 3, 3) of guest and host, in the host's frame, whose boxes are within reach, in chunks.
+
+        The guest's boxes stand at the end of `way` (3,), in the host's frame, or with `sweep` on all of it. Rows
+        restrict either side to some triangles.
+        """
+        way = np.zeros(3) if way is None else way
+        host_boxes = _rows(self.host.shape.boxes, host_rows)
+        guest_boxes = _rows(self.guest.shape.boxes, guest_rows)
+        host_triangles = self.host.shape.triangles if host_rows is None else self.host.shape.triangles[host_rows]
+        guest_triangles = self.guest.shape.triangles if guest_rows is None else self.guest.shape.triangles[guest_rows]
+
+        reach = _along(host_boxes.hull().grown(within_m), -way, sweep)
+        kept = np.flatnonzero(guest_boxes.meets(self._in_guest_frame(reach)))
+        if not len(kept):
+            return
+        guest = guest_triangles[kept] @ self._rotation.T + self._position
+        moving = _along(_boxes_of(guest).grown(within_m), way, sweep)
+        host_kept = np.flatnonzero(host_boxes.meets(moving.hull()))
+        if not len(host_kept):
+            return
+        resting = Boxes(host_boxes.low[host_kept], host_boxes.high[host_kept])
+        again = np.flatnonzero(moving.meets(resting.hull()))
+        for i, j in box_pairs(Boxes(moving.low[again], moving.high[again]), resting):
+            if len(i):
+                yield guest[again[i]], host_triangles[host_kept[j]]
+
+    def _in_guest_frame(self, box: Boxes) -> Boxes:
+        corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+        points = (box.low + corners * (box.high - box.low) - self._position) @ self._rotation
+        return Boxes(points.min(axis=0, keepdims=True), points.max(axis=0, keepdims=True))
+
+
+def _along(boxes: Boxes, way: Floats, sweep: bool) -> Boxes:
+    return boxes.swept(way) if sweep else Boxes(boxes.low + way, boxes.high + way)
+
+
+def _rows(boxes: Boxes, rows: Indices | None) -> Boxes:
+    return boxes if rows is None else Boxes(boxes.low[rows], boxes.high[rows])
+
+
+def _boxes_of(triangles: Floats) -> Boxes:
+    return Boxes(triangles.min(axis=1), triangles.max(axis=1))
+
+
+def _nearest_first(p: Floats, q: Floats, within_m: float) -> Iterator[tuple[Floats, Floats]]:
+    """The pairs in batches, those with the nearest boxes first, so that later ones are out of reach of the best."""
+    a, b = _boxes_of(p), _boxes_of(q)
+    apart = np.linalg.norm(np.maximum(np.maximum(a.low - b.high, b.low - a.high), 0.0), axis=1)
+    order = np.argsort(apart, kind="stable")
+    order = order[: int(np.searchsorted(apart[order], within_m, "right"))]
+    for start in range(0, len(order), _BATCH):
+        rows = order[start : start + _BATCH]
+        yield p[rows], q[rows]
+
+
+def _spread(points: Floats) -> list[int]:
+    """Rows of at most `MAX_POINTS` of the points (n, 3) [m], far from each other."""
+    if not len(points):
+        return []
+    apart = np.linalg.norm(points - points.mean(axis=0), axis=1)
+    chosen = [_first(points, apart >= apart.max() - _TIE_M)]
+    apart = np.linalg.norm(points - points[chosen[0]], axis=1)
+    while len(chosen) < MAX_POINTS and apart.max() > _SPREAD_M:
+        chosen.append(_first(points, apart >= apart.max() - _TIE_M))
+        apart = np.minimum(apart, np.linalg.norm(points - points[chosen[-1]], axis=1))
+    return chosen
+
+
+def _first(points: Floats, tied: NDArray[np.bool_]) -> int:
+    """Of the tied points the one with the least x, then y, then z, each up to rounding."""
+    rows = np.flatnonzero(tied)
+    for axis in range(3):
+        values = points[rows, axis]
+        rows = rows[values <= values.min() + _TIE_M]
+    return int(rows[0])

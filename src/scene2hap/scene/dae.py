@@ -1,0 +1,96 @@
+"""COLLADA files as authored trees, through pycollada.
+
+pycollada is asked directly, not through trimesh (5.2), whose reader drops the names of nodes. Images are never opened;
+skinned and animated geometry is left out.
+
+Source: COLLADA 1.4.1 specification (Khronos, 2008), chapter 5: <asset>, <node>, <instance_geometry>.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import warnings
+from typing import Any
+
+import numpy as np
+
+from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
+from scene2hap.scene import limits
+from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Piece
+
+
+def read_dae(data: bytes, name: str) -> AuthoredScene:
+    """The file's scene; `up_axis` and `unit_m` are those of its <asset>.
+
+    Raises: MissingExtra: pycollada is not installed. SceneFormatError: the file is not COLLADA, or broken. SceneError:
+    its up axis is X.
+    """
+    try:
+        import collada
+    except ImportError as cause:
+        raise MissingExtra(f"{name!r} is COLLADA, and its reader is not installed. Run: pip install pycollada") from cause
+    # A document type could name other files or grow without end; pycollada also unpacks archives. COLLADA needs neither.
+    if not data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<") or re.search(rb"<!(DOCTYPE|ENTITY)", data):
+        raise SceneFormatError(f"{name!r} is not COLLADA: it must be XML without a document type.")
+    tolerated = [collada.common.DaeUnsupportedError, collada.common.DaeBrokenRefError]
+    try:
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            document = collada.Collada(io.BytesIO(data), ignore=tolerated)
+            reader = _Reader(collada)
+            roots = [] if document.scene is None else document.scene.nodes
+            nodes = tuple(node for root in roots for node in reader.nodes(root, 1))
+            up_axis, unit = document.assetInfo.upaxis, document.assetInfo.unitmeter
+    except SceneError:
+        raise
+    # pycollada raises its own tree, and whatever broken numbers and references lead to.
+    except Exception as cause:
+        raise SceneFormatError(f"{name!r} cannot be read as COLLADA: {cause}.") from cause
+    if up_axis == collada.asset.UP_AXIS.X_UP:
+        raise SceneError(f"{name!r} has X up; scene2hap knows Y and Z. Export it with Y or Z up.")
+    is_z_up = up_axis == collada.asset.UP_AXIS.Z_UP
+    return AuthoredScene(nodes, "z" if is_z_up else "y", None if unit is None else float(unit))
+
+
+class _Reader:
+    """Turns pycollada's nodes into authored ones."""
+
+    def __init__(self, collada: Any) -> None:
+        self._scene, self._collada = collada.scene, collada
+        self._n_nodes = 0
+        self._n_triangles = 0
+
+    def nodes(self, node: Any, depth: int) -> tuple[AuthoredNode, ...]:
+        """The node as none or one authored node; cameras, lights and controllers give none."""
+        if not isinstance(node, self._scene.Node | self._scene.NodeNode):
+            return ()
+        # Instanced nodes may hang below themselves, so depth is bounded before anything else.
+        limits.at_most("the depth of the node tree", depth, "MAX_DEPTH")
+        self._n_nodes += 1
+        limits.at_most("the number of nodes", self._n_nodes, "MAX_NODES")
+        actual = node.node if isinstance(node, self._scene.NodeNode) else node
+        name = (actual.name or "").strip()
+        pieces = tuple(
+            piece
+            for child in actual.children
+            if isinstance(child, self._scene.GeometryNode)
+            for piece in self._pieces(child, f"node {name!r}")
+        )
+        children = tuple(below for child in actual.children for below in self.nodes(child, depth + 1))
+        return (AuthoredNode(name, np.array(actual.matrix, dtype=np.float64), pieces, children),)
+
+    def _pieces(self, drawn: Any, place: str) -> list[Piece]:
+        targets = {link.symbol: link.target.id for link in drawn.materials}
+        pieces = []
+        for i, primitive in enumerate(drawn.geometry.primitives):
+            if isinstance(primitive, self._collada.polylist.Polylist | self._collada.polygons.Polygons):
+                primitive = primitive.triangleset()
+            if not isinstance(primitive, self._collada.triangleset.TriangleSet) or primitive.vertex is None:
+                continue  # lines
+            self._n_triangles += len(primitive.vertex_index)
+            limits.at_most("the number of triangles", self._n_triangles, "MAX_TRIANGLES")
+            material = str(targets.get(primitive.material, primitive.material or ""))
+            key = (drawn.geometry.id, i)
+            pieces.append(Piece.checked(key, primitive.vertex, primitive.vertex_index, material, place))
+        return [piece for piece in pieces if len(piece.faces)]

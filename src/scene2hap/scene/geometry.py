@@ -1,0 +1,214 @@
+"""The dominant surface of a mesh: the plate that a person would name first, such as the top of a table.
+
+1. Box the mesh in a frame of its own (`_frame`), so that a shelf authored at 30 degrees measures like a straight one.
+2. Send a grid of parallel rays through the box along each of the three axes. The axis along which the mesh hides most
+   area is the plate's normal.
+3. Thickness is the median length of the first solid that the rays meet from above. Table legs, knobs and back-rests
+   are met by few rays and do not move the median.
+4. Length and width are the median spans of rays in the mid-plane of that solid; where the surface is not flat (a bowl,
+   a curtain), they are the median spans of its outline, seen along the normal.
+
+Source: Scene2Hap, section "Automatic Data Extraction": the size of an object is that of its dominant surface, "by
+raycasting within the 3D mesh's bounding box and calculating its median values".
+Differs: the paper does not say in which frame or on which side the rays start; steps 1, 3 and 4 settle that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.rays import Hits, cast_grid, cut, first_solids, median_span, outline, share_open
+from scene2hap.scene.snapshot import DominantSurface, SurfaceFlag, TriMesh
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+RAYS_PER_SIDE = 32
+"""Rays along each side of the bounding box: what is no box is measured to about 1/32 of it (tuned: 5 ms an object)."""
+
+# All of these are tuned on real scenes, and none is critical to a factor of two.
+_SAME_DEPTH = 1e-6  # surfaces closer than this part of the object are one
+_OPEN_SHARE = 0.02  # more rays than this that do not come out again make the mesh an open one
+_FLAT_SHARE = 0.5  # a plate is flat if this part of its rays crosses its mid-plane
+_FILLED_SHARE = 0.75  # its rectangle covers this part of what the rays see of it (a disc: 0.95)
+_PAIRED_SHARE = 0.5  # and has a thickness if this part of its rays comes out again
+_OWN_FRAME_GAIN = 0.95  # another frame must make the box smaller than this to replace the author's axes
+_SAME_AREA = 0.99  # sides this near in area are equal, and the more upright normal wins
+_SAME_DIRECTION_RAD = np.deg2rad(1.0)
+
+
+def dominant_surface(mesh: TriMesh, *, up: ArrayLike | None = None) -> DominantSurface:
+    """Length, width, thickness and place of the mesh's dominant surface, in the mesh's own frame.
+
+    Parameters: up : (3,) direction of the own frame that the plate's normal should rather point along than against;
+        without it, normals point along the axes of the own frame.
+    Returns: length_m >= width_m; exact for boxes and for slabs on legs, else to about a ray's spacing. Flags:
+        "open-mesh", rays enter and never leave; "zero-thickness", a sheet; "box-fallback", too few rays met the
+        surface twice and its thickness is that of the box around it.
+    """
+    used, faces = np.unique(mesh.faces, return_inverse=True)
+    points, faces = mesh.vertices_m[used].T.copy(), faces.reshape(-1, 3).T.copy()
+    axes = _pointing(_frame(points, faces), up)
+    is_open = False
+    best: tuple[float, Floats, Hits] | None = None
+    for axis in _by_uprightness(axes, up):
+        own_to_plate = np.stack((np.cross(axes[axis - 1], axes[axis]), axes[axis - 1], axes[axis]))
+        placed = own_to_plate @ points
+        hits = cast_grid(placed[:, faces], RAYS_PER_SIDE)
+        area = float(np.prod(np.ptp(placed[:2], axis=1))) * len(hits.starts) / RAYS_PER_SIDE**2
+        is_open |= share_open(hits) > _OPEN_SHARE
+        if len(hits.ray) and (best is None or area > best[0] * _SAME_AREA):
+            best = (area, own_to_plate, hits)
+    flags: tuple[SurfaceFlag, ...] = ("open-mesh",) if is_open else ()
+    if best is None:
+        return _box(axes @ points, axes, flags)
+    _, own_to_plate, hits = best
+    return _plate((own_to_plate @ points)[:, faces], own_to_plate, hits, flags)
+
+
+def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
+    """The plate across w, given triangles (3, 3, m) and hits in the frame whose axes are the rows of `own_to_plate`."""
+    corners = triangles.reshape(3, -1)
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    size = float((high - low).max())
+    solids = first_solids(hits, _SAME_DEPTH * size)
+    paired = np.isfinite(solids.bottom)
+    cell = float(np.prod(high[:2] - low[:2])) / RAYS_PER_SIDE**2
+    spans = None
+    if paired.mean() >= _PAIRED_SHARE:
+        thickness = float(np.median((solids.top - solids.bottom)[paired]))
+        middle = float(np.median((solids.top + solids.bottom)[paired])) / 2
+        across = (solids.top >= middle) & (solids.bottom <= middle)
+        if across.mean() >= _FLAT_SHARE:
+            spans = _spans(cut(triangles, middle), at_least=_FILLED_SHARE * cell * across.sum())
+    else:
+        thickness = float(high[2] - low[2])
+        middle = float(high[2] + low[2]) / 2
+        if thickness > _SAME_DEPTH * size:
+            flags = (*flags, "box-fallback")
+    if thickness <= _SAME_DEPTH * size:
+        thickness, middle = 0.0, float(np.median(solids.top))
+        flags = (*flags, "zero-thickness")
+    spans = spans or _spans(outline(triangles), at_least=_FILLED_SHARE * cell * len(paired))
+    if spans is None:
+        # An L, a ring with gaps, a heap: no rectangle of medians covers it, the one around it does.
+        spans = (high - low)[:2], (high + low)[:2] / 2
+        flags = flags if "box-fallback" in flags else (*flags, "box-fallback")
+    (u_m, v_m), (u_mid, v_mid) = spans
+    return _placed(np.array([u_m, v_m, thickness]), np.array([u_mid, v_mid, middle]), own_to_plate, flags)
+
+
+def _spans(segments: Floats, at_least: float) -> tuple[Floats, Floats] | None:
+    """Median extents and middles (2,) [m] along u and v; None if the rectangle that they make is too small [m2]."""
+    along_u, along_v = (median_span(segments, axis, RAYS_PER_SIDE) for axis in (0, 1))
+    if along_u is None or along_v is None or along_u[0] * along_v[0] < at_least:
+        return None
+    extents, middles = np.array([along_u, along_v]).T
+    return extents, middles
+
+
+def _box(points: Floats, axes: Floats, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
+    """The box around points (3, n) as a plate, for meshes that no ray meets: needles, triangles without area."""
+    size, middle = np.ptp(points, axis=1), (points.min(axis=1) + points.max(axis=1)) / 2
+    thinnest = int(np.argmin(size))
+    order = [(thinnest + 1) % 3, (thinnest + 2) % 3, thinnest]
+    flags = (*flags, "box-fallback")
+    if size[thinnest] == 0:
+        flags = (*flags, "zero-thickness")
+    return _placed(size[order], middle[order], axes[order], flags)
+
+
+def _placed(size: Floats, middle: Floats, own_to_plate: Floats, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
+    """The surface with its length along x, given size and middle [m] along the rows of `own_to_plate`."""
+    x, y, normal = own_to_plate
+    if size[1] > size[0]:
+        x, y = y, -x
+        size, middle = size[[1, 0, 2]], middle[[1, 0, 2]] * [1, -1, 1]
+    frame = np.eye(4)
+    frame[:3, :3] = np.stack((x, y, normal), axis=1)
+    frame[:3, 3] = frame[:3, :3] @ (middle - [size[0] / 2, size[1] / 2, 0.0])
+    return DominantSurface(Pose.from_matrix(frame), float(size[0]), float(size[1]), float(size[2]), flags)
+
+
+# -- the frame -------------------------------------------------------------------------------------------------------
+
+
+def _frame(points: Floats, faces: Ints) -> Floats:
+    """Axes (3, 3), one per row, of the tightest of three boxes around points (3, n) with triangles `faces` (3, m).
+
+    The author's own axes win unless another box is clearly smaller, since legs and handles tilt any fitted box a bit.
+    """
+
+    def volume(axes: Floats) -> float:
+        size = np.ptp(axes @ points, axis=1)
+        return float(np.prod(np.maximum(size, 1e-3 * size.max())))
+
+    own = np.eye(3)
+    fitted = min(_fitted_frames(points[:, faces]), key=volume, default=own)
+    return fitted if volume(fitted) < _OWN_FRAME_GAIN * volume(own) else own
+
+
+def _fitted_frames(triangles: Floats) -> Iterator[Floats]:
+    """Frames that turn with triangles (3, 3, m): along the principal axes, and along the largest flat faces."""
+    b, c = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    doubled = np.stack([b[i - 2] * c[i - 1] - b[i - 1] * c[i - 2] for i in range(3)])
+    area = np.sqrt((doubled**2).sum(axis=0))
+    with_area = area > 0
+    if not with_area.any():
+        return
+    area, normals = area[with_area], doubled[:, with_area] / area[with_area]
+    spread = _surface_spread(triangles[:, :, with_area], area)
+    yield np.linalg.eigh(spread)[1].T
+
+    first = _largest_direction(normals, area)
+    across = np.flatnonzero(np.abs(first @ normals) < _SAME_DIRECTION_RAD)
+    if len(across):
+        second = _largest_direction(normals[:, across], area[across])
+    else:
+        level = np.eye(3) - np.outer(first, first)
+        second = np.linalg.eigh(level @ spread @ level)[1][:, -1]
+    second = second - first * (first @ second)
+    second /= np.linalg.norm(second)
+    yield np.stack((first, second, np.cross(first, second)))
+
+
+def _surface_spread(triangles: Floats, area: Floats) -> Floats:
+    """Second moments (3, 3) of the surface about its centre: the same however finely it is cut into triangles.
+
+    integral of x x^T over a triangle = A/12 (a a^T + b b^T + c c^T + s s^T), s = a + b + c.
+    """
+    weight = area / area.sum()
+    centre = (triangles.sum(axis=1) @ weight) / 3
+    a, b, c = np.moveaxis(triangles - centre[:, None, None], 1, 0)
+    spread: Floats = sum((x * weight) @ x.T for x in (a, b, c, a + b + c)) / 12
+    return spread
+
+
+def _largest_direction(normals: Floats, area: Floats) -> Floats:
+    """The unit direction that most area faces, both ways counted as one, given normals (3, m)."""
+    strongest = np.abs(normals).argmax(axis=0)
+    one_way = normals * np.sign(normals[strongest, np.arange(len(area))])
+    cell = np.array([1, 2048, 2048**2]) @ np.round(one_way * 500).astype(np.int64)
+    _, group = np.unique(cell, return_inverse=True)
+    seed = one_way[:, group == np.bincount(group, area).argmax()].mean(axis=1)
+    cosine = (seed / np.linalg.norm(seed)) @ one_way
+    direction: Floats = one_way @ (area * np.sign(cosine) * (np.abs(cosine) > np.cos(_SAME_DIRECTION_RAD)))
+    return direction / np.linalg.norm(direction)
+
+
+def _pointing(axes: Floats, up: ArrayLike | None) -> Floats:
+    """The axes, each turned so that it points up, or along the author's axes where it lies level."""
+    strongest = axes[np.arange(3), np.abs(axes).argmax(axis=1)]
+    lift = np.zeros(3) if up is None else axes @ np.asarray(up, dtype=np.float64)
+    sign = np.where(np.abs(lift) > 0.1, np.sign(lift), np.sign(strongest))
+    return axes * sign[:, None]
+
+
+def _by_uprightness(axes: Floats, up: ArrayLike | None) -> list[int]:
+    """Axis numbers, the least upright first, so that among equal areas the most upright is the last to be taken."""
+    lift = axes @ np.asarray((0.0, 0.0, 0.0) if up is None else up, dtype=np.float64)
+    return [int(axis) for axis in np.argsort(np.abs(lift), kind="stable")]

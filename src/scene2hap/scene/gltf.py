@@ -1,0 +1,156 @@
+"""glTF and GLB files as authored trees.
+
+Nodes are told apart by their number in the file, so that an object is the same on every load whatever it is called.
+Cameras, lights, skins and animations are left out: a skinned mesh stands as it was modelled.
+
+Source: glTF 2.0 specification, sections 3.5 (scenes and nodes) and 3.7 (meshes).
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap import checks
+from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene import limits
+from scene2hap.scene.gltf_accessors import DRACO, draco, indices, positions
+from scene2hap.scene.gltf_container import GltfFile, Json, natural
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece, digest
+
+_TRIANGLES, _STRIP, _FAN = 4, 5, 6
+
+
+def read_gltf(path: Path, assets_root: Path) -> AuthoredScene:
+    """The file's default scene.
+
+    Raises: SceneFormatError, SceneError: the file is broken, refers to what is not there or needs what nobody can read.
+    """
+    file = GltfFile(path, assets_root)
+    reader = _Reader(file)
+    return AuthoredScene(tuple(reader.node(number, 1) for number in _roots(file)))
+
+
+class _Reader:
+    """Turns nodes into authored nodes and reads each mesh once."""
+
+    def __init__(self, file: GltfFile) -> None:
+        self._file = file
+        self._seen: set[int] = set()
+        self._pieces: dict[int, tuple[Piece, ...]] = {}
+        self._n_triangles = 0
+
+    def node(self, number: int, depth: int) -> AuthoredNode:
+        row = self._file.row("nodes", number, "a node or scene")
+        if number in self._seen:
+            raise SceneFormatError(f"nodes[{number}] hangs below itself or below two nodes; nodes must form a tree.")
+        self._seen.add(number)
+        limits.at_most("the depth of the node tree", depth, "MAX_DEPTH")
+        name = _name(row)
+        place = f"node {name!r}" if name else f"nodes[{number}]"
+        pieces: tuple[Piece, ...] = ()
+        if "mesh" in row:
+            mesh = self._file.row("meshes", row["mesh"], place)
+            pieces = self._mesh(row["mesh"], mesh, place)
+            name = name or _name(mesh)
+            self._n_triangles += sum(len(piece.faces) for piece in pieces)
+            limits.at_most("the number of triangles", self._n_triangles, "MAX_TRIANGLES")
+        children = tuple(self.node(child, depth + 1) for child in _numbers(row.get("children", []), f"{place}.children"))
+        return AuthoredNode(name, _matrix(row, place), pieces, children)
+
+    def _mesh(self, number: int, mesh: Json, place: str) -> tuple[Piece, ...]:
+        if number not in self._pieces:
+            rows = mesh.get("primitives")
+            if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+                raise SceneFormatError(f"meshes[{number}].primitives must be a list of objects.")
+            place = f"{place}, meshes[{number}]"
+            pieces = (self._piece((number, i), row, place) for i, row in enumerate(rows))
+            self._pieces[number] = tuple(piece for piece in pieces if piece is not None and len(piece.faces))
+        return self._pieces[number]
+
+    def _piece(self, key: tuple[int, int], row: Json, place: str) -> Piece | None:
+        mode = natural(row.get("mode", _TRIANGLES), f"{place}.mode")
+        if mode not in (_TRIANGLES, _STRIP, _FAN):
+            return None  # points and lines cannot be touched
+        attributes = row.get("attributes")
+        if not isinstance(attributes, dict):
+            raise SceneFormatError(f"{place}.attributes must be an object.")
+        if "POSITION" not in attributes:
+            return None
+        extensions = row.get("extensions")
+        compressed = extensions.get(DRACO) if isinstance(extensions, dict) else None
+        if isinstance(compressed, dict):
+            points, faces = draco(self._file, compressed, place)
+        else:
+            points = positions(self._file, attributes["POSITION"], place)
+            order = indices(self._file, row["indices"], place) if "indices" in row else np.arange(len(points))
+            faces = _triangles(order, mode)
+        return Piece.checked(key, points, faces, self._material(row.get("material"), place), place)
+
+    def _material(self, number: object, place: str) -> str:
+        if number is None:
+            return ""
+        return digest(json.dumps(self._file.row("materials", number, place), sort_keys=True))
+
+
+def _roots(file: GltfFile) -> list[int]:
+    """The nodes of the default scene; without one, all nodes that hang below no other."""
+    if file.table("scenes"):
+        scene = file.row("scenes", file.header.get("scene", 0), "scene")
+        return _numbers(scene.get("nodes", []), "scene.nodes")
+    below = {child for row in file.table("nodes") for child in _numbers(row.get("children", []), "node.children")}
+    return [number for number in range(len(file.table("nodes"))) if number not in below]
+
+
+def _triangles(order: NDArray[np.int64], mode: int) -> NDArray[np.int64]:
+    """Faces (m, 3) of vertex numbers in the order of a list, strip or fan of triangles."""
+    if mode == _TRIANGLES:
+        return order[: len(order) // 3 * 3].reshape(-1, 3)
+    n = max(len(order) - 2, 0)
+    if mode == _FAN:
+        return np.stack((order[1 : n + 1], order[2 : n + 2], np.repeat(order[:1], n)), axis=1)
+    faces = np.stack((order[:n], order[1 : n + 1], order[2 : n + 2]), axis=1)
+    # Every other triangle of a strip runs the other way round.
+    faces[1::2] = faces[1::2, [0, 2, 1]]
+    # Strips are joined by triangles that use a vertex twice.
+    joins = (faces == np.roll(faces, 1, axis=1)).any(axis=1)
+    return faces[~joins]
+
+
+def _matrix(row: Json, place: str) -> Matrix:
+    """The node's transform: `matrix` by columns, or translation, rotation and scale."""
+    if "matrix" in row:
+        entries = checks.vector(f"{place}.matrix", row["matrix"], "-", size=16, error=SceneFormatError)
+        matrix = np.array(entries).reshape(4, 4).T
+        if not np.allclose(matrix[3], [0, 0, 0, 1], atol=1e-6):
+            raise SceneFormatError(f"{place}.matrix ends in the row {matrix[3].tolist()}; it must be 0, 0, 0, 1.")
+        matrix[3] = 0, 0, 0, 1
+        return matrix
+
+    def numbers(key: str, default: float) -> NDArray[np.float64]:
+        given = row.get(key, [default] * 3)
+        return np.array(checks.vector(f"{place}.{key}", given, "-", size=3, error=SceneFormatError))
+
+    try:
+        rotation = Pose(rotation_xyzw=row.get("rotation", (0.0, 0.0, 0.0, 1.0))).rotation
+    except SceneError as cause:
+        raise SceneFormatError(f"{place}.rotation: {cause}") from cause
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation * numbers("scale", 1.0)
+    matrix[:3, 3] = numbers("translation", 0.0)
+    return matrix
+
+
+def _numbers(value: object, place: str) -> list[int]:
+    if not isinstance(value, list):
+        raise SceneFormatError(f"{place} is {value!r}; it must be a list of node numbers.")
+    return [natural(item, place) for item in value]
+
+
+def _name(row: Json) -> str:
+    name = row.get("name")
+    return name.strip() if isinstance(name, str) else ""

@@ -1,0 +1,194 @@
+"""The shell of a glTF 2.0 file: chunks of a GLB, the JSON header, and the bytes of its buffers.
+
+Nothing here trusts the file. Every length is held against the bytes that are there, and a buffer outside the file is
+read only from inside `assets_root`.
+
+Source: glTF 2.0 specification (Khronos, 2.0.1), sections 3.6 and 4.4.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import json
+import struct
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote, urlsplit
+
+from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene import limits
+
+Json = dict[str, Any]
+
+_GLB_MAGIC = b"glTF"
+_JSON_CHUNK = 0x4E4F534A
+_BIN_CHUNK = 0x004E4942
+_TABLES = ("accessors", "buffers", "bufferViews", "materials", "meshes", "nodes", "scenes")
+# Extensions that do not move a vertex, by the start of their names; geometry is read correctly without them.
+_HARMLESS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "EXT_lights_", "KHR_xmp", "MSFT_texture_")
+_UNDERSTOOD = ("KHR_draco_mesh_compression", "KHR_mesh_quantization", "KHR_animation_pointer")
+
+
+class GltfFile:
+    """A header whose tables are lists of objects, and buffers that are read when something asks for them."""
+
+    def __init__(self, path: Path, assets_root: Path) -> None:
+        self._path, self._assets_root = path, assets_root
+        text, self._binary = _split(path.name, read_bytes(path))
+        self.header = _header(text)
+        self._buffers: dict[int, bytes] = {}
+
+    def table(self, name: str) -> list[Json]:
+        """One of the header's tables; empty if the file has none."""
+        rows: list[Json] = self.header[name]
+        return rows
+
+    def row(self, name: str, number: object, place: str) -> Json:
+        """Row `number` of a table.
+
+        Raises: SceneFormatError: there is no such row; the message names `place`, which asked for it.
+        """
+        rows = self.table(name)
+        if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number < len(rows):
+            raise SceneFormatError(f"{place} refers to {name}[{number!r}]; the file has {len(rows)} {name} (from 0).")
+        return rows[number]
+
+    def buffer(self, number: int) -> bytes:
+        """The bytes of a buffer.
+
+        Raises: SceneFormatError: fewer bytes than the header promises. SceneError: its file is missing, too large, or
+        lies outside the assets root.
+        """
+        if number not in self._buffers:
+            place = f"buffers[{number}]"
+            row = self.row("buffers", number, "a buffer view")
+            promised = natural(row.get("byteLength"), f"{place}.byteLength")
+            data = self._buffer_bytes(row.get("uri"), number, place)
+            if len(data) < promised:
+                raise SceneFormatError(f"{place} has {len(data)} bytes, the header promises {promised}: cut short?")
+            self._buffers[number] = data
+        return self._buffers[number]
+
+    def _buffer_bytes(self, uri: object, number: int, place: str) -> bytes:
+        if uri is None:
+            if number != 0 or self._binary is None:
+                raise SceneFormatError(f"{place} names no file, and the file has no binary chunk for it.")
+            return self._binary
+        if not isinstance(uri, str):
+            raise SceneFormatError(f"{place}.uri is {uri!r}; it must be a file name or a data: URI.")
+        if uri.startswith("data:"):
+            _, is_base64, payload = uri.partition(";base64,")
+            try:
+                if not is_base64:
+                    raise ValueError("only base64 data is understood")
+                return base64.b64decode(unquote(payload), validate=True)
+            except (ValueError, binascii.Error) as cause:
+                raise SceneFormatError(f"{place}: its data: URI cannot be decoded: {cause}.") from cause
+        return read_bytes(inside(self._assets_root, self._path.parent, uri, place))
+
+
+def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
+    """The path that a scene file means by `uri`, a relative reference from its own folder.
+
+    Raises: SceneError: it is no plain relative path, or leads outside `assets_root` (also through a link).
+    """
+    refusal = f"{place} wants {uri!r}, which lies outside {assets_root}; only files inside it are read."
+    try:
+        parts = urlsplit(uri)
+        if parts.scheme or parts.netloc:
+            raise SceneError(f"{refusal} Addresses are never fetched: store the file beside the scene.")
+        path = (folder / unquote(uri)).resolve()
+        if not path.is_relative_to(assets_root.resolve()):
+            raise SceneError(f"{refusal} Copy it there, or give assets_root=<a folder that holds both>.")
+    except (ValueError, OSError, RuntimeError) as cause:
+        if isinstance(cause, SceneError):
+            raise
+        raise SceneError(f"{place} wants {uri!r}, which is no usable file name: {cause}.") from cause
+    return path
+
+
+def read_bytes(path: Path) -> bytes:
+    """The content of a regular file.
+
+    Raises: SceneError: it is missing, no regular file, unreadable or above `limits.MAX_FILE_BYTES`.
+    """
+    try:
+        if not path.exists():
+            raise SceneError(f"there is no file {str(path)!r}. Check the path, or export the scene with all its files.")
+        if not path.is_file():
+            raise SceneError(f"{str(path)!r} is not a file; give the path of the scene file itself.")
+        limits.at_most(f"the size of {path.name!r} in bytes", path.stat().st_size, "MAX_FILE_BYTES")
+        return path.read_bytes()
+    except OSError as cause:
+        raise SceneError(f"{str(path)!r} cannot be read: {cause}.") from cause
+
+
+def natural(value: object, place: str, *, at_least: int = 0) -> int:
+    """A whole number from a header.
+
+    Raises: SceneFormatError: it is anything else.
+    """
+    # Some exporters write 12.0 for 12.
+    if isinstance(value, float) and value.is_integer():
+        value = int(value)
+    if isinstance(value, bool) or not isinstance(value, int) or value < at_least:
+        raise SceneFormatError(f"{place} is {value!r}; it must be a whole number from {at_least}.")
+    return value
+
+
+def _split(name: str, data: bytes) -> tuple[bytes, bytes | None]:
+    """The JSON text and, of a GLB, the binary chunk."""
+    if data[:4] != _GLB_MAGIC:
+        if name.lower().endswith(".glb"):
+            raise SceneFormatError(f"{name!r} is no GLB: it starts with {data[:4]!r}, not {_GLB_MAGIC!r}.")
+        return data, None
+    if len(data) < 20:
+        raise SceneFormatError(f"{name!r} is a GLB of {len(data)} bytes: cut short before its first chunk.")
+    version, length = struct.unpack_from("<II", data, 4)
+    if version != 2:
+        raise SceneFormatError(f"{name!r} is GLB version {version}; version 2 is read. Export it as glTF 2.0.")
+    if length != len(data):
+        fault = "cut short" if length > len(data) else "its header is wrong"
+        raise SceneFormatError(f"{name!r} says it has {length} bytes and has {len(data)}: {fault}.")
+    chunks: dict[int, bytes] = {}
+    at = 12
+    while at < len(data):
+        size, kind = struct.unpack_from("<II", data, at) if at + 8 <= len(data) else (1 << 32, 0)
+        if at + 8 + size > len(data):
+            raise SceneFormatError(f"{name!r}: the chunk at byte {at} runs past the end of the file.")
+        chunks.setdefault(kind, data[at + 8 : at + 8 + size])
+        at += 8 + size
+    if _JSON_CHUNK not in chunks:
+        raise SceneFormatError(f"{name!r} is a GLB without a JSON chunk.")
+    return chunks[_JSON_CHUNK], chunks.get(_BIN_CHUNK)
+
+
+def _header(text: bytes) -> Json:
+    """The header, with every table that geometry needs present and made of objects."""
+    try:
+        header = json.loads(text.decode("utf-8-sig"))
+    except (ValueError, RecursionError) as cause:
+        raise SceneFormatError(f"not glTF: its JSON cannot be read: {cause}.") from cause
+    if not isinstance(header, dict):
+        raise SceneFormatError(f"not glTF: its JSON is a {type(header).__name__}, not an object.")
+    asset = header.get("asset")
+    version = asset.get("version") if isinstance(asset, dict) else None
+    if not isinstance(version, str) or version.split(".")[0] != "2":
+        raise SceneFormatError(f"asset.version is {version!r}; glTF 2.0 is read. Export the scene as glTF 2.0.")
+    for name in _TABLES:
+        rows = header.setdefault(name, [])
+        if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+            raise SceneFormatError(f"{name} must be a list of objects.")
+    limits.at_most("the number of nodes", len(header["nodes"]), "MAX_NODES")
+    required = header.get("extensionsRequired", [])
+    if not isinstance(required, list):
+        raise SceneFormatError("extensionsRequired must be a list of names.")
+    unknown = sorted({str(name) for name in required if not str(name).startswith((*_HARMLESS, *_UNDERSTOOD))})
+    if unknown:
+        raise SceneError(
+            f"the file requires {', '.join(unknown)}, which scene2hap cannot read. Export it without, for example "
+            "with `gltf-transform copy` or uncompressed from the modelling tool."
+        )
+    return header
+

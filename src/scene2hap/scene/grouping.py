@@ -1,0 +1,200 @@
+"""Which nodes of an authored tree are objects: the things that a user would point at.
+
+Authors do not mark objects. Exporters split one mesh by material into several leaves, wrap things in groups and put
+their own nodes on top. The rule "authored" undoes this:
+
+a. A node with a mesh of its own is an object. Its leaf children with meshes (a door, a drawer, a lid) are part of it; a
+   child that has children of its own is a thing in its own right.
+b. A node without a mesh whose leaf children are named as its pieces (their names begin with its name: `Cooktop` with
+   `Cooktop_Burner_mat`, or they have none) is one object made of these pieces. What else hangs below it follows (a) to
+   (d) for itself: the knobs `Controller` below `Cooktop`.
+c. A node without a mesh that holds nothing but one object, directly or through others like it, gives that object its
+   name and place (`washing_machine` over `washer(Clone)`); the outermost such name wins. Names that exporters give to
+   their own nodes (`RootNode`, `Sketchfab_model`, `kitchen.fbx`) and names of places (`house`) are never taken.
+d. Every other node without a mesh is a container, and is looked through.
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from scene2hap.errors import SceneError
+from scene2hap.scene.tree import AuthoredNode, Matrix, Piece
+
+Grouping = Literal["authored", "leaf"] | int | Mapping[str, str]
+"""How nodes become objects.
+
+"authored": the rule above. "leaf": every node with a mesh is an object. An int from 1: every node at that depth below
+the scene is one object with all that hangs below it (the scene's own nodes have depth 1); meshes above stand alone. A
+mapping from a node's name to an object's name: that node and all below it belong to that object, and nodes mapped to
+one name make one object; the rest of the scene follows "authored".
+"""
+
+_EXPORTER_NODE = re.compile(
+    r"(sketchfab_model|osg_scene|auxscene|gltf_sceneroot\w*|rootnode\b.*|root|scene|scene root|world|group|empty"
+    r"|.*\.(fbx|obj|dae|3ds|gltf|glb|blend|max|stl|ply|skp|c4d|usdz?)(\..*)?)",
+    re.IGNORECASE,
+)
+# Words for what holds objects: a group of that name is never one thing.
+_PLACE = re.compile(
+    r"(level|map|environment|building|house|home|flat|apartment|room|floorplan|furniture|props"
+    r"|(living|bed|bath|dining|class)[ _-]?room|kitchen|office|hall|garage|workshop)[ _-]?\d*",
+    re.IGNORECASE,
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Group:
+    """The pieces of one object: `frame` is the world transform of the node that names it, each part its own."""
+
+    name: str
+    frame: Matrix
+    parts: tuple[tuple[Matrix, Piece], ...]
+
+
+def group_objects(roots: Sequence[AuthoredNode], how: Grouping = "authored") -> list[Group]:
+    """The objects of a scene in file order.
+
+    Raises: SceneError: `how` is none of the forms of `Grouping`, or names a node that the scene does not have.
+    """
+    kept = [node for root in roots if (node := root.with_geometry()) is not None]
+    origin = np.eye(4)
+    if how == "authored":
+        return [group for root in kept for group in _authored(root, origin).groups]
+    if how == "leaf":
+        return [group for root in kept for group in _leaves(root, origin)]
+    if isinstance(how, int) and not isinstance(how, bool) and how >= 1:
+        return [group for root in kept for group in _at_depth(root, origin, how)]
+    if isinstance(how, Mapping):
+        return _mapped(kept, how)
+    raise SceneError(
+        f"group is {how!r}; it must be 'authored', 'leaf', a depth from 1, or a mapping of node names to object names."
+    )
+
+
+def unique_ids(names: Sequence[str]) -> list[str]:
+    """An id for each name: the name itself where it is the first of its kind, else `name#2`, `name#3`, ..."""
+    given = [name.strip() or "object" for name in names]
+    written = set(given)
+    used: Counter[str] = Counter()
+    ids = []
+    for name in given:
+        used[name] += 1
+        candidate = name
+        while used[name] > 1:
+            candidate = f"{name}#{used[name]}"
+            # A generated id must not push out a name that an author wrote in full.
+            if candidate not in written:
+                break
+            used[name] += 1
+        ids.append(candidate)
+    return ids
+
+
+# -- authored --------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Subtree:
+    """The objects at and below a node. `has_head`: the first of them is the node itself, under whatever name."""
+
+    groups: list[Group]
+    has_head: bool
+
+
+def _authored(node: AuthoredNode, above: Matrix) -> _Subtree:
+    frame = above @ node.matrix
+    parts = [(frame, piece) for piece in node.pieces]
+    below = []
+    for child in node.children:
+        if _is_part(child, node):
+            parts += [(frame @ child.matrix, piece) for piece in child.pieces]
+        else:
+            below.append(_authored(child, frame))
+    others = [group for subtree in below for group in subtree.groups]
+    if parts:
+        return _Subtree([Group(node.name, frame, tuple(parts)), *others], has_head=True)
+    if len(below) == 1 and below[0].has_head:
+        if _names_a_thing(node):
+            others[0] = replace(others[0], name=node.name, frame=frame)
+        return _Subtree(others, has_head=True)
+    return _Subtree(others, has_head=False)
+
+
+def _is_part(child: AuthoredNode, node: AuthoredNode) -> bool:
+    if child.children:
+        return False
+    if node.pieces:
+        return True
+    return _names_a_thing(node) and (not child.name or _continues(child.name, node.name))
+
+
+def _continues(name: str, start: str) -> bool:
+    """Whether `name` is `start` and more: `Table_mat_0`, `Table.001`, `tableTop`, not `Tablet` after `Table`."""
+    return name.startswith(start) and not name[len(start) :][:1].islower()
+
+
+def _names_a_thing(node: AuthoredNode) -> bool:
+    return bool(node.name) and not _EXPORTER_NODE.fullmatch(node.name) and not _PLACE.fullmatch(node.name)
+
+
+# -- the other groupings ---------------------------------------------------------------------------------------------
+
+
+def _leaves(node: AuthoredNode, above: Matrix) -> Iterator[Group]:
+    frame = above @ node.matrix
+    if node.pieces:
+        yield Group(node.name, frame, tuple((frame, piece) for piece in node.pieces))
+    for child in node.children:
+        yield from _leaves(child, frame)
+
+
+def _at_depth(node: AuthoredNode, above: Matrix, depth: int) -> Iterator[Group]:
+    frame = above @ node.matrix
+    if depth == 1:
+        yield Group(node.name, frame, tuple(_all_parts(node, above)))
+        return
+    if node.pieces:
+        yield Group(node.name, frame, tuple((frame, piece) for piece in node.pieces))
+    for child in node.children:
+        yield from _at_depth(child, frame, depth - 1)
+
+
+def _all_parts(node: AuthoredNode, above: Matrix) -> Iterator[tuple[Matrix, Piece]]:
+    frame = above @ node.matrix
+    for piece in node.pieces:
+        yield frame, piece
+    for child in node.children:
+        yield from _all_parts(child, frame)
+
+
+def _mapped(roots: Sequence[AuthoredNode], names: Mapping[str, str]) -> list[Group]:
+    known = {node.name for root in roots for node in root.walk()}
+    for wanted in names:
+        if wanted not in known:
+            near = difflib.get_close_matches(wanted, sorted(known), n=3)
+            hint = f"Did you mean {', '.join(map(repr, near))}?" if near else "Names are those that the author wrote."
+            raise SceneError(f"group maps the node {wanted!r}, which the scene does not have. {hint}")
+    objects: dict[str, Group] = {}
+
+    def take(node: AuthoredNode, above: Matrix, owner: str | None) -> AuthoredNode:
+        """Give what is mapped at and below `node` to its objects; the node that is left."""
+        frame = above @ node.matrix
+        owner = names.get(node.name, owner)
+        pieces = node.pieces
+        if owner is not None:
+            object_so_far = objects.setdefault(owner, Group(owner, frame, ()))
+            parts = (*object_so_far.parts, *((frame, piece) for piece in pieces))
+            objects[owner] = replace(object_so_far, parts=parts)
+            pieces = ()
+        return replace(node, pieces=pieces, children=tuple(take(child, frame, owner) for child in node.children))
+
+    rest = [take(root, np.eye(4), None) for root in roots]
+    return [*(group for group in objects.values() if group.parts), *group_objects(rest)]

@@ -1,0 +1,123 @@
+"""Scene files as snapshots: glTF, GLB, OBJ, COLLADA, STL, PLY, and scene2hap's own JSON."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+
+from scene2hap import checks
+from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene.geometry import dominant_surface
+from scene2hap.scene.gltf_container import read_bytes
+from scene2hap.scene.grouping import Grouping, group_objects, unique_ids
+from scene2hap.scene.meshes import MeshPool
+from scene2hap.scene.snapshot import DominantSurface, SceneObject, SceneSnapshot, UpAxis, with_relative_heights
+from scene2hap.scene.tree import AuthoredScene
+from scene2hap.scene.units import UnitWarning, warn_if_implausible
+
+__all__ = ["UnitWarning", "load_scene"]
+
+SUFFIXES = (".glb", ".gltf", ".obj", ".dae", ".stl", ".ply", ".json")
+
+
+def load_scene(
+    path: str | os.PathLike[str],
+    *,
+    up_axis: UpAxis | None = None,
+    unit_m: float | None = None,
+    group: Grouping = "authored",
+    assets_root: str | os.PathLike[str] | None = None,
+) -> SceneSnapshot:
+    """Read a scene file.
+
+    Parameters:
+    up_axis : "y" or "z"; None means what the file says, else "y". Nothing is turned; it only tells which way is up.
+    unit_m : metres per unit of the file; None means what the file says, else 1.
+    group : which nodes are objects; see `scene2hap.scene.grouping`.
+    assets_root : the folder that buffers beside the scene are read from, with those below it; None means the scene's
+        own folder. Nothing outside it is opened. Materials and textures are not read; geometry is all that counts.
+
+    Returns: the scene named after the file. Each object stands where the node that names it stands, without scale;
+    copies of one mesh share one TriMesh and one instance_key. Ids are the authored names, with `#2`, `#3`, ... behind
+    the second and third of a name in file order, and the same on every load.
+    Raises: SceneFormatError: the file is not what its name says, or broken. SceneError: it is missing, too large
+    (`scene2hap.scene.limits`), empty, wants a file outside assets_root, or holds geometry that makes no sense.
+    MissingExtra: a decoder is not installed.
+    Warns: UnitWarning: without unit_m, if sizes are implausible as metres.
+    """
+    path = Path(path)
+    if up_axis not in ("y", "z", None):
+        raise SceneError(f"up_axis is {up_axis!r}; it must be 'y' or 'z', or None for what the file says.")
+    if unit_m is not None:
+        unit_m = checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
+    if path.suffix.lower() == ".json":
+        return _from_json(path, up_axis, unit_m, group)
+    authored = _read(path, path.parent if assets_root is None else Path(assets_root))
+    unit = unit_m or authored.unit_m or 1.0
+    snapshot = _snapshot(path.stem, authored, up_axis or authored.up_axis, unit, group)
+    if unit_m is None:
+        warn_if_implausible(snapshot, unit)
+    return snapshot
+
+
+def _read(path: Path, assets_root: Path) -> AuthoredScene:
+    suffix = path.suffix.lower()
+    # Readers are imported by need: a game that loads GLB pays for no other.
+    if suffix in (".glb", ".gltf"):
+        from scene2hap.scene.gltf import read_gltf
+
+        return read_gltf(path, assets_root)
+    data = read_bytes(path)
+    if suffix in SUFFIXES and not data:
+        raise SceneFormatError(f"{path.name!r} is empty (0 bytes). Export the scene again.")
+    if suffix == ".obj":
+        from scene2hap.scene.obj import read_obj
+
+        return read_obj(data.decode("utf-8", errors="replace"), path.stem)
+    if suffix == ".dae":
+        from scene2hap.scene.dae import read_dae
+
+        return read_dae(data, path.name)
+    if suffix in (".stl", ".ply"):
+        from scene2hap.scene.stl_ply import read_stl_ply
+
+        return read_stl_ply(data, suffix[1:], path.stem)
+    raise SceneFormatError(f"{path.name!r} is of no kind that is read: {', '.join(SUFFIXES)}. Export it as GLB.")
+
+
+def _from_json(path: Path, up_axis: UpAxis | None, unit_m: float | None, group: Grouping) -> SceneSnapshot:
+    if unit_m not in (None, 1.0) or group != "authored" or up_axis is not None:
+        raise SceneError("a scene in JSON tells its own axis, metres and objects; leave up_axis, unit_m and group out.")
+    try:
+        text = read_bytes(path).decode("utf-8")
+    except UnicodeDecodeError as cause:
+        raise SceneFormatError(f"{path.name!r} is not text: {cause}.") from cause
+    return SceneSnapshot.from_json(text)
+
+
+def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float, group: Grouping) -> SceneSnapshot:
+    groups = group_objects(authored.roots, group)
+    if not groups:
+        raise SceneError(f"scene {name!r} holds no triangles; nothing in it can be touched. Export it with meshes.")
+    pool = MeshPool(unit_m)
+    up = np.array({"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}[up_axis])
+    surfaces: dict[str, DominantSurface] = {}
+    objects = []
+    for item, object_id in zip(groups, unique_ids([item.name for item in groups]), strict=True):
+        placed = pool.place(item)
+        key = placed.mesh.digest
+        if key not in surfaces:
+            surfaces[key] = dominant_surface(placed.mesh, up=placed.pose.rotation.T @ up)
+        objects.append(
+            SceneObject(
+                id=object_id,
+                name=item.name,
+                pose=placed.pose,
+                geometry=placed.mesh,
+                surface=surfaces[key],
+                instance_key=placed.instance_key,
+            )
+        )
+    return SceneSnapshot(name, up_axis, with_relative_heights(objects, up_axis))

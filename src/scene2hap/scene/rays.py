@@ -1,0 +1,191 @@
+"""Parallel rays against triangles: where a grid of rays enters and leaves a mesh, and how wide a section of it is.
+
+The mesh is given in a frame whose third axis is the direction of the rays, so that casting becomes drawing: each
+triangle is rasterised onto the grid once, and a sort along every ray replaces a search tree.
+
+Letters: u, v across the rays and w along them [m]; n rays per side [-]. Triangles are held as (3 coordinates, 3 corners,
+m), so that arithmetic runs along the triangles.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+# Pairs of triangle and ray that are tested at once; bounds memory to some 100 MB (assumed).
+_MAX_PAIRS = 1_000_000
+# Rays stand up to this part of a cell off its centre, so that none runs along the diagonal of a quad, where it would
+# meet both triangles or neither. The fractions are powers of the plastic number, which fill the plane evenly.
+_JITTER = 0.25
+_PLASTIC = (0.7548776662466927, 0.5698402909980532)
+
+
+@dataclass(frozen=True)
+class Hits:
+    """Where rays meet triangles, sorted by ray and then by falling w.
+
+    Parameters: ray : (n_hits,) number of the ray; w : (n_hits,) [m]; side : (n_hits,) +1 where the triangle faces
+    against the ray as seen from above, -1 where it faces along it.
+    """
+
+    ray: Ints
+    w: Floats
+    side: Ints
+
+    @cached_property
+    def starts(self) -> Ints:
+        """Index of the first hit of each ray that hits anything (n_rays,)."""
+        return np.flatnonzero(np.diff(self.ray, prepend=-1))
+
+
+def cast_grid(triangles: Floats, n: int) -> Hits:
+    """Hits of n x n rays that run along w through the bounding rectangle of triangles (3, 3, m) [m]."""
+    flat = triangles[:2].reshape(2, -1)
+    low = flat.min(axis=1)
+    extent = flat.max(axis=1) - low
+    if (extent <= 0).any():
+        return Hits(np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))
+    cells = (triangles[:2] - low[:, None, None]) * (n / extent)[:, None, None]
+    a, b, c = cells[:, 0], cells[:, 1], cells[:, 2]
+    # Twice the signed area; edge-on triangles meet no ray.
+    area = _cross(b - a, c - a)
+    first = np.ceil(np.minimum(np.minimum(a, b), c) - (0.5 + _JITTER)).astype(np.int64).clip(0)
+    last = np.floor(np.maximum(np.maximum(a, b), c) - (0.5 - _JITTER)).astype(np.int64).clip(None, n - 1)
+    span = (last - first + 1).clip(0) * (area != 0)
+    pairs = span[0] * span[1]
+    drawn = np.flatnonzero(pairs)
+    breaks = np.flatnonzero(np.diff(np.cumsum(pairs[drawn]) // _MAX_PAIRS)) + 1
+    found = [
+        _draw(cells[:, :, some], triangles[2][:, some], area[some], first[:, some], span[:, some], n)
+        for some in np.split(drawn, breaks)
+    ]
+    ray, w, side = (np.concatenate(columns) for columns in zip(*found, strict=True))
+    order = np.lexsort((-w, ray))
+    return Hits(ray[order], w[order], side[order])
+
+
+def _draw(cells: Floats, w: Floats, area: Floats, first: Ints, span: Ints, n: int) -> tuple[Ints, Floats, Ints]:
+    """Rays, heights and sides of the hits of some triangles, unsorted; u and v in cells of the grid."""
+    pairs = span[0] * span[1]
+    which = np.repeat(np.arange(len(pairs)), pairs)
+    nth = np.arange(len(which)) - np.repeat(np.cumsum(pairs) - pairs, pairs)
+    across = span[1][which]
+    i = first[0][which] + nth // across
+    j = first[1][which] + nth % across
+    ray = i * n + j
+    at = np.stack((_off_centre(i, ray, _PLASTIC[0]), _off_centre(j, ray, _PLASTIC[1])))
+    a, b, c = cells[:, 0, which], cells[:, 1, which], cells[:, 2, which]
+    weight_a = _cross(c - b, at - b) / area[which]
+    weight_c = _cross(b - a, at - a) / area[which]
+    weight_b = 1 - weight_a - weight_c
+    inside = np.flatnonzero((weight_a >= 0) & (weight_b >= 0) & (weight_c >= 0))
+    which = which[inside]
+    height = weight_a[inside] * w[0][which] + weight_b[inside] * w[1][which] + weight_c[inside] * w[2][which]
+    return ray[inside], height, np.where(area[which] > 0, 1, -1)
+
+
+def _off_centre(cell: Ints, ray: Ints, fraction: float) -> Floats:
+    place: Floats = cell + (0.5 - _JITTER) + 2 * _JITTER * np.modf((ray + 1) * fraction)[0]
+    return place
+
+
+@dataclass(frozen=True)
+class Solids:
+    """The first solid that each ray meets from above.
+
+    Parameters: top, bottom : (n_rays,) [m] where the ray enters and leaves; bottom is NaN if it meets nothing more.
+    """
+
+    top: Floats
+    bottom: Floats
+
+
+def first_solids(hits: Hits, tolerance: float) -> Solids:
+    """Follow each ray from above until it has left what it entered, counting faces as a winding number.
+
+    Counting makes one solid of parts that overlap (legs that reach into a table top). Surfaces closer than `tolerance`
+    [m] are one; a sheet drawn from both sides is passed over if a solid follows, else it is a solid of no thickness. If
+    the count never returns to zero (inconsistent faces, or an open mesh), the solid ends at the second surface.
+    """
+    new_ray = np.zeros(len(hits.ray), dtype=bool)
+    new_ray[hits.starts] = True
+    layers = np.flatnonzero(new_ray | (-np.diff(hits.w, prepend=np.inf) > tolerance))
+    w = hits.w[layers]
+    side = np.add.reduceat(hits.side, layers)
+    start = np.flatnonzero(new_ray[layers])
+    stop = np.append(start[1:], len(layers))
+    before = np.cumsum(side) - side
+    is_out = before + side == np.repeat(before[start], stop - start)
+
+    entered = _next(~is_out, start)
+    has_solid = entered < stop
+    left = _next(is_out, np.minimum(entered + 1, stop))
+    left = np.where(left < stop, left, np.where(entered + 1 < stop, entered + 1, len(w)))
+    top = np.where(has_solid, entered, start)
+    return Solids(w[top], np.append(w, np.nan)[np.where(has_solid, left, start)])
+
+
+def _next(is_wanted: NDArray[np.bool_], start: Ints) -> Ints:
+    """The first place from each `start` on that is wanted; the length of `is_wanted` if none follows."""
+    places = np.append(np.flatnonzero(is_wanted), len(is_wanted))
+    return places[np.searchsorted(places, start)]
+
+
+def share_open(hits: Hits) -> float:
+    """Part of the rays that do not leave as many faces as they enter [-]."""
+    return float(np.mean(np.add.reduceat(hits.side, hits.starts) != 0)) if len(hits.ray) else 0.0
+
+
+def cut(triangles: Floats, height: float) -> Floats:
+    """Segments (2 coordinates, 2 ends, n) [m] in which triangles (3, 3, m) cross the plane w = height."""
+    above = triangles[2] > height
+    n_above = above.sum(axis=0)
+    crossing = np.flatnonzero((n_above == 1) | (n_above == 2))
+    # The corner that lies alone on its side of the plane is the end of both edges that cross.
+    alone = np.argmax(above[:, crossing] == (n_above[crossing] == 1), axis=0)
+    tip = triangles[:, alone, crossing]
+    ends = [triangles[:, (alone + k) % 3, crossing] for k in (1, 2)]
+    return np.stack([(tip + (end - tip) * ((height - tip[2]) / (end[2] - tip[2])))[:2] for end in ends], axis=1)
+
+
+def outline(triangles: Floats) -> Floats:
+    """Edges (2 coordinates, 2 ends, 3 m) [m] of triangles (3, 3, m), seen along w."""
+    flat = triangles[:2]
+    return np.stack((flat.reshape(2, -1), np.roll(flat, -1, axis=1).reshape(2, -1)), axis=1)
+
+
+def median_span(segments: Floats, along: int, n: int) -> tuple[float, float] | None:
+    """Median extent and median middle [m] of what n rays in the plane of the segments (2, 2, k) meet.
+
+    The rays run along coordinate `along` and stand evenly on the other one. None if none meets anything.
+    """
+    across = segments[1 - along]
+    low, high = across.min(initial=np.inf), across.max(initial=-np.inf)
+    if not high > low:
+        return None
+    row = low + (high - low) * (np.arange(n) + 0.5) / n
+    # The rows that a segment crosses are neighbours: those from `first` up to, not including, `last`.
+    first, last = np.searchsorted(row, across.min(axis=0)), np.searchsorted(row, across.max(axis=0))
+    count = last - first
+    which = np.repeat(np.arange(len(count)), count)
+    met_row = first[which] + np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)
+    ahead, aside = segments[along][:, which], across[:, which]
+    place = ahead[0] + (ahead[1] - ahead[0]) * ((row[met_row] - aside[0]) / (aside[1] - aside[0]))
+    start, end = np.full(n, np.inf), np.full(n, -np.inf)
+    np.minimum.at(start, met_row, place)
+    np.maximum.at(end, met_row, place)
+    start, end = start[end >= start], end[end >= start]
+    if not len(start):
+        return None
+    return float(np.median(end - start)), float(np.median(end + start)) / 2
+
+
+def _cross(a: Floats, b: Floats) -> Floats:
+    product: Floats = a[0] * b[1] - a[1] * b[0]
+    return product

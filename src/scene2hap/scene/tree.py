@@ -1,0 +1,92 @@
+"""The scene as its author built it: nodes, transforms and pieces of mesh, whatever file it came from."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Hashable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene.snapshot import UpAxis
+
+Matrix = NDArray[np.float64]
+"""A (4, 4) affine transform of column vectors; its last row is (0, 0, 0, 1)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """Triangles of one material, in the frame of the node that draws them.
+
+    Parameters: key : equal for pieces that were read from the same place in the file, so for instances;
+    vertices : (n, 3) float64 in the file's unit, all of them used and finite; faces : (m, 3) int32; material : equal
+    for equal materials.
+    """
+
+    key: Hashable
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.int32]
+    material: str = ""
+
+    @classmethod
+    def checked(cls, key: Hashable, vertices: ArrayLike, faces: ArrayLike, material: str, place: str) -> Piece:
+        """A piece without the vertices that no face uses.
+
+        Raises: SceneFormatError: a face points outside the vertices. SceneError: a vertex is not finite. Both name
+        `place`, the node or mesh at fault.
+        """
+        points = np.asarray(vertices, dtype=np.float64).reshape(-1, 3)
+        corners = np.asarray(faces).reshape(-1, 3)
+        if corners.size and not (0 <= int(corners.min()) and int(corners.max()) < len(points)):
+            wrong = int(corners.min()) if corners.min() < 0 else int(corners.max())
+            raise SceneFormatError(f"{place}: a face uses vertex {wrong}; there are {len(points)} (from 0).")
+        is_used = np.zeros(len(points), dtype=bool)
+        is_used[corners] = True
+        compact = points[is_used]
+        if not np.isfinite(compact).all():
+            row = int(np.flatnonzero(is_used & ~np.isfinite(points).all(axis=1))[0])
+            raise SceneError(f"{place}: vertex {row} is {points[row].tolist()}; every coordinate must be finite.")
+        renumbered = (np.cumsum(is_used) - 1)[corners] if len(compact) < len(points) else corners
+        return cls(key, compact, renumbered.astype(np.int32), material)
+
+
+@dataclass(frozen=True, eq=False)
+class AuthoredNode:
+    """A node of the author's tree: `matrix` places it in its parent; `name` is empty if the author gave none."""
+
+    name: str
+    matrix: Matrix
+    pieces: tuple[Piece, ...] = ()
+    children: tuple[AuthoredNode, ...] = ()
+
+    def walk(self) -> Iterator[AuthoredNode]:
+        """The node and all below it, in file order."""
+        yield self
+        for child in self.children:
+            yield from child.walk()
+
+    def with_geometry(self) -> AuthoredNode | None:
+        """The node without those below it that draw nothing (cameras, lights, bones); None if nothing is left."""
+        children = tuple(kept for child in self.children if (kept := child.with_geometry()) is not None)
+        if not children and not self.pieces:
+            return None
+        return AuthoredNode(self.name, self.matrix, self.pieces, children)
+
+
+@dataclass(frozen=True, eq=False)
+class AuthoredScene:
+    """The nodes that stand at the top of a scene, with what the file says about axes and units.
+
+    `unit_m` is None where the format leaves the unit open, or where files are known to say metres and mean others.
+    """
+
+    roots: tuple[AuthoredNode, ...]
+    up_axis: UpAxis = "y"
+    unit_m: float | None = None
+
+
+def digest(*parts: str) -> str:
+    """A short name for a text's content."""
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:8]

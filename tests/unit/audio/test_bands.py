@@ -1,0 +1,102 @@
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from scene2hap.audio.bands import split_bands
+from scene2hap.errors import AudioError
+from scene2hap.haptics import Bands
+
+RATE = 8000
+
+
+def tone(frequency_hz: float, n: int = 2 * RATE) -> np.ndarray:
+    """The nearest tone that closes into a loop."""
+    cycles = round(frequency_hz * n / RATE)
+    return np.sin(2 * np.pi * cycles * np.arange(n) / n + 0.3)
+
+
+def level_db(x: np.ndarray) -> np.ndarray:
+    return 10 * np.log10(np.maximum(np.mean(np.asarray(x, dtype=float) ** 2, axis=-1), 1e-30))
+
+
+@pytest.mark.parametrize("n", [1, 2, 999, 16_000, 16_001])
+@pytest.mark.parametrize("bands", [Bands.third_octaves(), Bands((50.0, 60.0, 400.0)), Bands((100.0, 200.0))])
+def test_bands_add_up_to_the_loop(n: int, bands: Bands) -> None:
+    x = np.random.default_rng(n).uniform(-1, 1, n).astype(np.float32)
+    parts = split_bands(x, RATE, bands)
+    assert parts.shape == (bands.n_bands, n)
+    assert parts.dtype == np.float32
+    assert level_db(parts.sum(axis=0, dtype=float) - x) < level_db(x) - 100
+
+
+def test_a_tone_at_a_band_centre_is_in_that_band_alone() -> None:
+    bands = Bands.third_octaves()
+    for j, (low, high) in enumerate(bands.widths_hz()):
+        levels = level_db(split_bands(tone(np.sqrt(low * high), 10 * RATE), RATE, bands))
+        assert levels[j] == pytest.approx(level_db(tone(100)), abs=0.01)
+        beyond = np.abs(np.arange(bands.n_bands) - j) >= 2
+        assert (levels[beyond] < levels[j] - 24).all()
+
+
+def test_a_tone_on_an_edge_is_shared_equally_by_its_neighbours() -> None:
+    bands = Bands((50.0, 100.0, 200.0, 400.0))
+    parts = split_bands(tone(200.0), RATE, bands)
+    np.testing.assert_allclose(parts[1], 0.5 * tone(200.0), atol=1e-6)
+    np.testing.assert_allclose(parts[2], 0.5 * tone(200.0), atol=1e-6)
+    np.testing.assert_allclose(parts[0], 0.0, atol=1e-6)
+
+
+def test_nothing_is_lost_below_the_first_edge_or_above_the_last() -> None:
+    bands = Bands.third_octaves(20, 500)
+    for frequency_hz, home in ((0.0, 0), (4.0, 0), (1500.0, -1), (3999.0, -1)):
+        x = tone(frequency_hz) + (1.0 if frequency_hz == 0.0 else 0.0)
+        np.testing.assert_allclose(split_bands(x, RATE, bands)[home], x, atol=1e-6)
+
+
+def test_bands_above_half_the_rate_are_silent() -> None:
+    x = np.random.default_rng(5).uniform(-1, 1, 3000)
+    parts = split_bands(x, 200, Bands((20.0, 50.0, 300.0, 500.0)))
+    assert level_db(parts[2]) < -100
+
+
+def test_there_is_no_delay_and_the_seam_stays_closed() -> None:
+    """A shift of the loop shifts every band alike: the split knows neither beginning nor end."""
+    x = np.random.default_rng(6).uniform(-1, 1, 5000)
+    bands = Bands.third_octaves()
+    shifted = split_bands(np.roll(x, 1234), RATE, bands)
+    np.testing.assert_allclose(shifted, np.roll(split_bands(x, RATE, bands), 1234, axis=1), atol=1e-6)
+
+
+def test_the_dominant_band_is_the_loop_itself() -> None:
+    x = np.random.default_rng(7).uniform(-1, 1, 1000).astype(np.float32)
+    parts = split_bands(x, RATE, Bands.dominant())
+    np.testing.assert_array_equal(parts, x[None, :])
+    assert not np.shares_memory(parts, x)
+
+
+@pytest.mark.parametrize("bad", [np.zeros(0), np.zeros((2, 3)), np.array([0.0, np.nan])])
+def test_what_is_no_loop_is_refused(bad: np.ndarray) -> None:
+    with pytest.raises(AudioError, match="one channel of finite samples"):
+        split_bands(bad, RATE, Bands.dominant())
+
+
+def test_the_playing_side_of_this_room_stays_light() -> None:
+    code = (
+        "import sys, scene2hap.audio.bands, scene2hap.audio.clip, scene2hap.audio.files, scene2hap.audio.haptic_loop;"
+        "print([m for m in sys.modules if m.split('.')[0] in ('scipy', 'httpx') or 'audio.sources' in m])"
+    )
+    shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert shown.stdout.strip() == "[]"
+
+
+def test_nothing_but_baking_needs_the_sources() -> None:
+    code = (
+        "import sys, scene2hap.audio.loops, scene2hap.audio.select, scene2hap.audio.tactile.svf_bandpass;"
+        "print([m for m in sys.modules if 'audio.sources' in m])"
+    )
+    shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert shown.stdout.strip() == "[]"

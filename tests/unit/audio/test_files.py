@@ -1,0 +1,142 @@
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+import soundfile
+
+from scene2hap.audio.clip import Credit
+from scene2hap.audio.files import read_clip, write_wav
+from scene2hap.errors import AudioError
+
+RATE = 8000
+
+
+def tone(n: int = RATE, amplitude: float = 0.5) -> np.ndarray:
+    return (amplitude * np.sin(2 * np.pi * 200 * np.arange(n) / RATE)).astype(np.float32)
+
+
+def test_equal_samples_give_equal_bytes_and_other_samples_do_not(tmp_path: Path) -> None:
+    for name, amplitude in (("a.wav", 0.5), ("b.wav", 0.5), ("c.wav", 0.4)):
+        write_wav(tmp_path / name, tone(amplitude=amplitude), RATE)
+    a, b, c = ((tmp_path / name).read_bytes() for name in ("a.wav", "b.wav", "c.wav"))
+    assert a == b
+    assert a != c
+    # A RIFF header of chunks "fmt " and "data" and three bytes per sample: no room for a time stamp.
+    assert len(a) == 44 + 3 * RATE
+    assert b"PEAK" not in a
+
+
+@pytest.mark.parametrize(("subtype", "bits"), [("PCM_16", 16), ("PCM_24", 24), ("PCM_32", 32)])
+def test_what_was_read_is_written_back_bit_for_bit(tmp_path: Path, subtype: str, bits: int) -> None:
+    write_wav(tmp_path / "first.wav", tone(), RATE, subtype)
+    clip = read_clip(tmp_path / "first.wav")
+    np.testing.assert_allclose(clip.samples, tone(), rtol=0, atol=max(0.5 / 2 ** (bits - 1), 2**-25))
+    write_wav(tmp_path / "second.wav", clip.samples, RATE, subtype)
+    np.testing.assert_array_equal(read_clip(tmp_path / "second.wav").samples, clip.samples)
+
+
+def test_full_scale_fits_and_loses_one_step_upwards_only(tmp_path: Path) -> None:
+    write_wav(tmp_path / "full.wav", np.array([1.0, -1.0, 0.0], np.float32), RATE, "PCM_16")
+    assert read_clip(tmp_path / "full.wav").samples.tolist() == [32767 / 32768, -1.0, 0.0]
+
+
+@pytest.mark.parametrize("suffix", ["flac", "ogg", "mp3", "wav"])
+def test_reads_the_usual_formats_and_mixes_channels_by_their_mean(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"two.{suffix}"
+    soundfile.write(path, np.stack([tone(amplitude=0.6), tone(amplitude=0.2)], axis=1), RATE)
+    clip = read_clip(path)
+    assert clip.sample_rate_hz == RATE
+    assert clip.credit == Credit("two", "unknown", "unknown")
+    middle = clip.samples[2000:6000].astype(float)
+    # Lossy codecs shift and colour a little; the mean of 0.6 and 0.2 stays 0.4.
+    assert np.sqrt(2 * np.mean(middle**2)) == pytest.approx(0.4, rel=0.03)
+
+
+def test_keeps_the_credit_it_is_given(tmp_path: Path) -> None:
+    write_wav(tmp_path / "a.wav", tone(), RATE)
+    credit = Credit("hum", "someone", "CC0-1.0")
+    assert read_clip(str(tmp_path / "a.wav"), credit).credit is credit
+
+
+def test_what_is_no_sound_is_refused_by_name(tmp_path: Path) -> None:
+    (tmp_path / "text.wav").write_text("not audio")
+    (tmp_path / "nothing.wav").write_bytes(b"")
+    # Headerless files cannot be told from noise; soundfile itself would ask for a rate with a TypeError.
+    (tmp_path / "headerless.raw").write_bytes(bytes(1000))
+    for name in ("text.wav", "nothing.wav", "headerless.raw"):
+        with pytest.raises(AudioError, match=rf"{name}: not a readable sound .* WAV, FLAC"):
+            read_clip(tmp_path / name)
+    for absent in (tmp_path / "absent.wav", tmp_path):
+        with pytest.raises(AudioError, match="cannot be read"):
+            read_clip(absent)
+
+
+def test_a_sound_without_samples_is_refused(tmp_path: Path) -> None:
+    soundfile.write(tmp_path / "empty.wav", np.zeros((0, 1), np.float32), RATE)
+    with pytest.raises(AudioError, match=r"empty\.wav has no samples"):
+        read_clip(tmp_path / "empty.wav")
+
+
+def test_a_sample_that_is_not_a_number_is_refused_with_its_place(tmp_path: Path) -> None:
+    samples = tone()
+    samples[123] = np.nan
+    soundfile.write(tmp_path / "broken.wav", samples, RATE, subtype="FLOAT")
+    with pytest.raises(AudioError, match=r"broken\.wav: sample 123 is .*nan"):
+        read_clip(tmp_path / "broken.wav")
+
+
+def test_a_file_of_a_quarter_of_an_hour_is_refused_before_it_is_decoded(tmp_path: Path) -> None:
+    soundfile.write(tmp_path / "long.wav", np.zeros(15 * 60 * 100, np.int16), 100)
+    with pytest.raises(AudioError, match=r"lasts 900 s; it must be at most 600 s"):
+        read_clip(tmp_path / "long.wav")
+
+
+@pytest.mark.parametrize("bad", [1.0001, -1.5, np.nan, np.inf])
+def test_clipping_is_refused(tmp_path: Path, bad: float) -> None:
+    samples = tone()
+    samples[7] = bad
+    with pytest.raises(AudioError, match=r"largest sample is .*; it must be within 1"):
+        write_wav(tmp_path / "a.wav", samples, RATE)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_wrong_shapes_rates_and_subtypes_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(AudioError, match=r"shape \(0,\)"):
+        write_wav(tmp_path / "a.wav", [], RATE)
+    with pytest.raises(AudioError, match=r"shape \(2, 2, 2\)"):
+        write_wav(tmp_path / "a.wav", np.zeros((2, 2, 2)), RATE)
+    with pytest.raises(AudioError, match="sample_rate_hz is 0 Hz"):
+        write_wav(tmp_path / "a.wav", tone(), 0)
+    with pytest.raises(AudioError, match="subtype is 'FLOAT'"):
+        write_wav(tmp_path / "a.wav", tone(), RATE, "FLOAT")  # type: ignore[arg-type]
+
+
+def test_a_failed_write_leaves_the_old_file_and_no_litter(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "a.wav"
+    write_wav(path, tone(), RATE)
+    before = path.read_bytes()
+
+    def fail(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", fail)
+    with pytest.raises(AudioError, match=r"a\.wav: cannot be written \(No space left on device\)"):
+        write_wav(path, tone(amplitude=0.1), RATE)
+    assert [child.name for child in tmp_path.iterdir()] == ["a.wav"]
+    assert path.read_bytes() == before
+
+
+def test_a_missing_folder_is_named(tmp_path: Path) -> None:
+    with pytest.raises(AudioError, match="Choose a folder that exists"):
+        write_wav(tmp_path / "absent" / "a.wav", tone(), RATE)
+
+
+def test_stereo_is_written_as_it_is(tmp_path: Path) -> None:
+    both = np.stack([tone(), -tone()], axis=1)
+    write_wav(tmp_path / "two.wav", both, RATE)
+    read, rate = soundfile.read(tmp_path / "two.wav", dtype="float32")
+    assert rate == RATE
+    np.testing.assert_allclose(read, both, rtol=0, atol=2**-24)

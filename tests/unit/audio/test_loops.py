@@ -1,0 +1,260 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+from scene2hap.audio.clip import AudioClip, Credit, Samples
+from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.audio.loops import (
+    MAX_LOOP_S,
+    TACTILE_HEADROOM_DB,
+    Seam,
+    apply_seam,
+    find_seam,
+    loop_pair,
+    make_loop,
+)
+from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
+from scene2hap.errors import AudioError
+
+RATE = 48_000
+CREDIT = Credit("hum", "someone", "CC0-1.0")
+RECORDINGS = [
+    "fridge_hum_kitchen.wav",
+    "oven_hum.wav",
+    "computer_fan_hum.wav",
+    "washing_machine_rinse.wav",
+    "chainsaw_1-116765-A.ogg",
+    "clock_tick_1-62849-A.ogg",
+]
+
+
+def tone(frequency_hz: float, duration_s: float = 4.0, rate: int = RATE) -> np.ndarray:
+    return np.sin(2 * np.pi * frequency_hz * np.arange(round(duration_s * rate)) / rate + 0.7)
+
+
+def noise(duration_s: float = 4.0, seed: int = 0) -> np.ndarray:
+    return 0.1 * np.random.default_rng(seed).standard_normal(round(duration_s * RATE))
+
+
+def clip(x: np.ndarray, rate: int = RATE) -> AudioClip:
+    return AudioClip(x, rate, CREDIT)
+
+
+# the seam ------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("rate", [48_000, 44_100, 16_000])
+@pytest.mark.parametrize("frequency_hz", [20.0, 23.7, 58.72, 100.0, 187.3, 250.0, 333.3, 499.7])
+def test_a_tone_wraps_within_a_degree(frequency_hz: float, rate: int) -> None:
+    seam = find_seam(tone(frequency_hz, rate=rate), rate)
+    cycles = frequency_hz * seam.length / rate
+    assert abs(cycles - round(cycles)) * 360 < 1.0
+    assert seam.law == "linear"
+    assert seam.length / rate > 1.5
+
+
+def test_partials_that_share_no_cycle_still_all_wrap() -> None:
+    frequencies = (61.3, 97.9, 143.1)
+    seam = find_seam(sum(tone(f) for f in frequencies), RATE)
+    for f in frequencies:
+        cycles = f * seam.length / RATE
+        assert abs(cycles - round(cycles)) * 360 < 20.0
+
+
+def test_an_offset_does_not_hide_the_cycles() -> None:
+    plain = find_seam(0.1 * tone(123.4), RATE)
+    assert find_seam(0.1 * tone(123.4) + 0.8, RATE) == plain
+
+
+def test_level_counts_as_well_as_shape() -> None:
+    """A tone that swells and fades once a second: a loop must hold a whole number of seconds."""
+    t = np.arange(5 * RATE) / RATE
+    seam = find_seam((1.2 + np.cos(2 * np.pi * t)) * np.sin(2 * np.pi * 100 * t), RATE)
+    assert seam.length / RATE == pytest.approx(round(seam.length / RATE), abs=0.011)
+
+
+def test_a_rhythm_keeps_its_beat() -> None:
+    t = np.arange(5 * RATE) / RATE
+    ticks = np.sin(2 * np.pi * 300 * t) * np.exp(-(t % 0.5) / 0.01) + 0.02 * noise(5.0)
+    beats = find_seam(ticks, RATE).length / RATE / 0.5
+    assert beats == pytest.approx(round(beats), abs=0.001)
+
+
+def test_noise_keeps_its_level_through_an_equal_power_fade() -> None:
+    levels = []
+    for seed in range(6):
+        x = noise(seed=seed)
+        seam = find_seam(x, RATE)
+        assert seam.law == "equal-power"
+        loop = apply_seam(x, seam).astype(float)
+        middle = slice(seam.crossfade // 4, 3 * seam.crossfade // 4)
+        levels.append(10 * np.log10(np.mean(loop[middle] ** 2) / np.mean(loop[seam.crossfade :] ** 2)))
+    # A linear fade would dip by up to 3 dB, 2.4 dB over this stretch.
+    assert np.mean(levels) == pytest.approx(0.0, abs=0.4)
+
+
+@pytest.mark.parametrize("name", RECORDINGS)
+def test_real_recordings_have_no_step_at_the_wrap(recording: Callable[[str], AudioClip], name: str) -> None:
+    original = recording(name)
+    loop = loop_pair(original, SvfBandpass(), ConversionContext())
+    for samples in (loop.audible.samples, loop.tactile.samples):
+        around = np.concatenate([samples[-480:], samples[:480]])
+        assert np.abs(np.diff(around)).max() <= 1.1 * np.abs(np.diff(samples)).max()
+        at_the_wrap = abs(float(samples[0]) - float(samples[-1]))
+        assert at_the_wrap <= np.abs(np.diff(samples)).max()
+    # Nor a hole or a bump: the level of the fade lies within that of the other stretches of the same length.
+    fade = round(0.2 * original.sample_rate_hz)
+    for samples in (loop.audible.samples, loop.tactile.samples):
+        stretches = samples[: len(samples) // fade * fade].reshape(-1, fade).astype(float)
+        levels = 10 * np.log10(np.mean(stretches**2, axis=1))
+        assert levels[1:].min() - 1.5 < levels[0] < levels[1:].max() + 1.5
+
+
+def test_the_fade_itself_sample_by_sample() -> None:
+    x = np.arange(20.0)
+    linear = apply_seam(x, Seam(2, 8, 4, "linear"))
+    assert linear.dtype == np.float32
+    # First sample is the successor of the last: x[10] after x[9]; then three quarters of x[11], one of x[3], ...
+    assert linear.tolist() == [10, 0.75 * 11 + 0.25 * 3, 0.5 * 12 + 0.5 * 4, 0.25 * 13 + 0.75 * 5, 6, 7, 8, 9]
+    equal_power = apply_seam(np.ones(20), Seam(2, 8, 4, "equal-power"))
+    np.testing.assert_allclose(equal_power[[0, 2, 4]], [1, np.sqrt(2), 1], rtol=1e-6)
+
+
+def test_a_long_sound_gives_a_loop_from_its_middle() -> None:
+    x = np.concatenate([noise(8.0), tone(100, 12.0), noise(8.0)])
+    seam = find_seam(x, RATE)
+    assert seam.start / RATE > 8.0
+    assert seam.n_samples_needed / RATE < 20.0
+    assert seam.length / RATE <= MAX_LOOP_S
+
+
+def test_silent_stretches_do_not_upset_the_search() -> None:
+    x = tone(100)
+    x[RATE : 3 * RATE] = 0.0
+    seam = find_seam(x, RATE)
+    assert np.isfinite(apply_seam(x, seam)).all()
+    assert find_seam(np.zeros(RATE), RATE).n_samples_needed <= RATE
+
+
+def test_what_cannot_be_looped_is_refused() -> None:
+    with pytest.raises(AudioError, match=r"duration is 0\.05 s; it must be at least 0\.1"):
+        find_seam(tone(100, 0.05), RATE)
+    with pytest.raises(AudioError, match="equally long"):
+        find_seam(tone(100), RATE, tone(100, 3.0))
+    with pytest.raises(AudioError, match="needs one channel of 14 samples"):
+        apply_seam(np.zeros(13), Seam(2, 8, 4, "linear"))
+    with pytest.raises(AudioError, match=r"shape \(2, 3\)"):
+        find_seam(np.zeros((2, 3)), RATE)
+    for start, length, crossfade in ((-1, 8, 4), (0, 0, 0), (0, 4, 5)):
+        with pytest.raises(AudioError, match="impossible"):
+            Seam(start, length, crossfade, "linear")
+
+
+def test_make_loop_keeps_level_and_credit() -> None:
+    loop = make_loop(clip(0.3 * tone(80)))
+    assert loop.credit == CREDIT
+    assert np.abs(loop.samples).max() == pytest.approx(0.3, rel=1e-3)
+
+
+# the pair ------------------------------------------------------------------------------------------------------------
+
+
+def test_both_loops_share_length_rate_and_seam() -> None:
+    x = tone(97.3) + 0.4 * tone(2500.1) + 0.2 * noise()
+    loop = loop_pair(clip(x), SvfBandpass(), ConversionContext())
+    assert len(loop.audible.samples) == len(loop.tactile.samples)
+    assert loop.audible.sample_rate_hz == loop.tactile.sample_rate_hz == RATE
+    assert loop.audible.credit == loop.tactile.credit == CREDIT
+    # In step: at 250 Hz the band-pass has no phase, so a 250 Hz tone is the same in both, sample for sample.
+    same = loop_pair(clip(tone(250.0)), SvfBandpass(), ConversionContext())
+    np.testing.assert_allclose(
+        same.tactile.samples / np.abs(same.tactile.samples).max(),
+        same.audible.samples / np.abs(same.audible.samples).max(),
+        atol=2e-4,
+    )
+
+
+def test_the_seam_is_not_felt_where_a_whine_above_touch_drowns_the_hum() -> None:
+    """Aligned by ear alone, the whine would put the hum out of phase, which touch alone would notice."""
+    hum_hz = 71.3
+    x = 0.05 * tone(hum_hz) + tone(3000.7) + 0.02 * noise()
+    loop = loop_pair(clip(x), SvfBandpass(), ConversionContext())
+    cycles = hum_hz * len(loop.tactile.samples) / RATE
+    assert abs(cycles - round(cycles)) * 360 < 30.0
+
+
+def test_peaks_are_headroom_and_intensity() -> None:
+    assert TACTILE_HEADROOM_DB == 6.0
+    for intensity in (1.0, 0.3):
+        loop = loop_pair(clip(0.01 * tone(60)), SvfBandpass(), ConversionContext(intensity=intensity))
+        assert np.abs(loop.audible.samples).max() == pytest.approx(10 ** (-1 / 20), rel=1e-6)
+        assert np.abs(loop.tactile.samples).max() == pytest.approx(intensity * 0.501187, rel=1e-6)
+
+
+def test_frequencies_are_those_before_and_after_the_band_pass() -> None:
+    # |H(40 Hz)| = (1 + Q^2 (40/250 - 250/40)^2)^(-1/2) = 0.226, so three times as loud becomes 0.68 times as strong.
+    x = 3.0 * tone(40.0) + tone(250.0)
+    loop = loop_pair(clip(x), SvfBandpass(), ConversionContext())
+    assert loop.frequency_raw_hz == pytest.approx(40.0, abs=0.05)
+    assert loop.frequency_tactile_hz == pytest.approx(250.0, abs=0.05)
+
+
+def test_the_filter_is_settled_when_the_loop_begins() -> None:
+    """A narrow filter needs 0.13 s to swing in; without a run-up the loop would begin too weak."""
+    loop = loop_pair(clip(tone(250.0)), SvfBandpass(q=100.0), ConversionContext())
+    cycles = loop.tactile.samples[: len(loop.tactile.samples) // 192 * 192].reshape(-1, 192)
+    peaks = np.abs(cycles).max(axis=1)
+    assert peaks.min() > 0.99 * peaks.max()
+
+
+@dataclass(frozen=True)
+class Delay:
+    """A converter that holds samples back and returns them at the end; `loses` keeps some for ever."""
+
+    held: int
+    loses: int = 0
+    gain: float = 1.0
+
+    def stream(self, sample_rate_hz: int, context: ConversionContext) -> Delay:
+        object.__setattr__(self, "_kept", np.zeros(0, np.float32))
+        return self
+
+    def process(self, block: Samples) -> Samples:
+        everything = self.gain * np.concatenate([self._kept, block])
+        object.__setattr__(self, "_kept", everything[len(everything) - self.held :])
+        return everything[: len(everything) - self.held]
+
+    def finish(self) -> Samples:
+        return self._kept[self.loses :]
+
+
+def test_what_a_converter_holds_back_is_fetched() -> None:
+    x = tone(100) + 0.3 * noise()
+    loop = loop_pair(clip(x), Delay(held=1000), ConversionContext())
+    ratio = np.abs(loop.tactile.samples).max() / np.abs(loop.audible.samples).max()
+    np.testing.assert_allclose(loop.tactile.samples, ratio * loop.audible.samples, atol=1e-6)
+
+
+def test_converters_that_lose_samples_or_everything_are_refused() -> None:
+    with pytest.raises(AudioError, match="Delay made .* samples"):
+        loop_pair(clip(tone(100)), Delay(held=1000, loses=1), ConversionContext())
+    with pytest.raises(AudioError, match="'hum': the tactile signal is silent"):
+        loop_pair(clip(tone(100)), Delay(held=0, gain=0.0), ConversionContext())
+    with pytest.raises(AudioError, match="'hum': the sound is silent"):
+        loop_pair(clip(np.zeros(RATE)), SvfBandpass(), ConversionContext())
+    with pytest.raises(AudioError, match="intensity is 0"):
+        loop_pair(clip(tone(100)), SvfBandpass(), ConversionContext(intensity=0.0))
+
+
+def test_a_pair_that_would_drift_apart_cannot_be_made() -> None:
+    a = clip(tone(100))
+    for other in (clip(tone(100)[1:]), replace(a, sample_rate_hz=44_100)):
+        with pytest.raises(AudioError, match="both must be equal"):
+            HapticLoop(a, other, 100.0, 100.0)
+    with pytest.raises(AudioError, match="frequency_tactile_hz is 0 Hz"):
+        HapticLoop(a, a, 100.0, 0.0)

@@ -1,0 +1,101 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from scipy.signal import butter, resample_poly, sosfiltfilt
+
+from scene2hap.audio.clip import AudioClip, Credit
+from scene2hap.audio.select import explain_choice, select_clip
+from scene2hap.errors import AudioError
+
+RATE = 48_000
+T = np.arange(4 * RATE) / RATE
+WHITE = np.random.default_rng(2).standard_normal(len(T))
+HUM = sum(np.sin(2 * np.pi * 100 * k * T) / k for k in range(1, 6)) + 0.05 * WHITE
+
+
+def clip(title: str, x: np.ndarray, rate: int = RATE) -> AudioClip:
+    return AudioClip(0.1 * x / np.abs(x).max() if x.any() else x, rate, Credit(title, "test", "CC0-1.0"))
+
+
+def clicks() -> np.ndarray:
+    x = np.zeros(len(T))
+    for at in range(0, len(T), RATE // 4):
+        x[at : at + 960] = np.sin(2 * np.pi * 200 * T[:960]) * np.exp(-T[:960] / 0.005)
+    return x
+
+
+def test_a_steady_hum_beats_clicks_decays_noise_and_silence() -> None:
+    pure = np.sin(2 * np.pi * 100 * T)
+    candidates = [
+        clip("clicks", clicks()),
+        clip("decay", pure * np.exp(-T)),
+        clip("noise", WHITE),
+        clip("silence", np.zeros(len(T))),
+        clip("short", pure[: 2 * RATE]),
+        clip("hum", HUM),
+    ]
+    choice = explain_choice(candidates)
+    assert choice.winner.credit.title == "hum"
+    assert [row.title for row in choice.rows] == [each.credit.title for each in candidates]
+    assert [row.verdict for row in choice.rows] == [
+        "not steady: dynamic range above 5 dB",
+        "not steady: dynamic range above 5 dB",
+        "noisier than the chosen one",
+        "silent",
+        "too short: not longer than 2.5 s",
+        "chosen",
+    ]
+    silence, short, hum = choice.rows[3:]
+    assert (silence.duration_s, silence.dynamic_range_db, silence.flatness) == (0.0, None, None)
+    assert (short.duration_s, short.dynamic_range_db, short.flatness) == (2.0, None, None)
+    assert hum.duration_s == 4.0
+    assert hum.dynamic_range_db is not None
+    assert hum.dynamic_range_db < 1.0
+
+
+def test_a_codec_does_not_make_noise_tonal() -> None:
+    """Noise that lost its treble, or its upper half by a low rate, is still noisier than a hum with audible hiss."""
+    hissing = HUM + 0.5 * WHITE
+    lowpassed = sosfiltfilt(butter(8, 7500, fs=RATE, output="sos"), WHITE)
+    for rival in (clip("codec", lowpassed), clip("codec", resample_poly(WHITE, 1, 6), 8000)):
+        assert select_clip([rival, clip("hum", hissing)]).credit.title == "hum"
+
+
+def test_the_limit_rises_until_something_is_left() -> None:
+    # Straight falls in dB: 85 % of 14, 22 and 40 dB are dynamic ranges of 11.9, 18.7 and 34.
+    falls = [clip(f"{db} dB", np.sin(2 * np.pi * 100 * T) * 10 ** (-db * T / 4 / 20)) for db in (40, 22, 14)]
+    choice = explain_choice(falls)
+    assert choice.winner.credit.title == "14 dB"
+    assert choice.rows[0].verdict == "not steady: dynamic range above 15 dB"
+
+
+def test_the_winner_is_trimmed_and_peaks_at_exactly_one() -> None:
+    x = np.concatenate([np.zeros(RATE), HUM, np.zeros(RATE)])
+    winner = select_clip([clip("hum", x)])
+    assert float(np.abs(winner.samples).max()) == 1.0
+    assert winner.duration_s == pytest.approx(4.0, abs=0.021)
+
+
+def test_of_equal_candidates_the_first_wins() -> None:
+    assert select_clip([clip("one", HUM), clip("two", HUM), clip("three", HUM)]).credit.title == "one"
+
+
+def test_without_a_long_enough_candidate_the_error_names_the_longest() -> None:
+    padded = np.concatenate([np.zeros(3 * RATE), HUM[: 2 * RATE]])
+    with pytest.raises(AudioError, match=r"none of 2 candidates .* longest, 'padded', lasts 2\.00 s .* above 2\.5 s"):
+        select_clip([clip("quiet", np.zeros(5 * RATE)), clip("padded", padded)])
+    with pytest.raises(AudioError, match="longest, 'just', lasts 2.50 s"):
+        select_clip([clip("just", HUM[: 5 * RATE // 2])])
+    with pytest.raises(AudioError, match="no candidate to choose from"):
+        select_clip([])
+
+
+def test_among_real_recordings_a_steady_hum_wins(recording: Callable[[str], AudioClip]) -> None:
+    names = ["chainsaw_3-118972-A.ogg", "clock_tick_1-62849-A.ogg", "computer_fan_hum.wav", "oven_hum.wav"]
+    choice = explain_choice([recording(name) for name in names])
+    assert choice.winner.credit.title == "oven_hum"
+    assert choice.rows[2].verdict == "noisier than the chosen one"
+    assert all(row.verdict.startswith("not steady") for row in choice.rows[:2])

@@ -1,0 +1,171 @@
+"""The bundle folder: what it holds, and what is wrong with one that cannot be read."""
+
+import json
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from scene2hap import Box, Credit, HapticBundle, HapticLoop
+from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError, UnknownObject
+from scenes import box, haptics, scene, table_with_two_phones, tone_loop
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    return table_with_two_phones()[1].save(tmp_path / "room")
+
+
+def with_meshes() -> HapticBundle:
+    """Two objects that share a mesh, one with letters that no file system likes."""
+    mesh = Box((0.3, 0.3, 0.3)).mesh
+    objects = [replace(box(name, (0.3,) * 3, (i, 0, 0)), geometry=mesh) for i, name in enumerate(["Куб/1", "Куб:2"])]
+    snapshot = scene(*objects)
+    ringing = haptics("oak", (0.3, 0.3, 0.3), "on/off", "on:off")
+    loops = {name: {"on/off": tone_loop(50), "on:off": tone_loop(90)} for name in ("Куб/1", "Куб:2")}
+    return HapticBundle(snapshot, "room", dict.fromkeys(loops, ringing), loops)
+
+
+def assert_same(a: HapticBundle, b: HapticBundle) -> None:
+    assert a.snapshot == b.snapshot
+    assert a.scene_category == b.scene_category
+    assert a.objects == b.objects
+    assert {key: list(states) for key, states in a.loops.items()} == {key: list(s) for key, s in b.loops.items()}
+    for key, states in a.loops.items():
+        for state, loop in states.items():
+            other = b.loops[key][state]
+            assert (loop.frequency_raw_hz, loop.frequency_tactile_hz) == (
+                other.frequency_raw_hz,
+                other.frequency_tactile_hz,
+            )
+            assert loop.audible.credit == other.audible.credit
+            np.testing.assert_allclose(loop.tactile.samples, other.tactile.samples, atol=2**-23)
+
+
+@pytest.mark.parametrize("make", [lambda: table_with_two_phones()[1], with_meshes])
+def test_round_trip(tmp_path: Path, make: object) -> None:
+    bundle = make()  # type: ignore[operator]
+    assert_same(HapticBundle.load(bundle.save(tmp_path / "b")), bundle)
+
+
+def test_instances_share_a_mesh_file_and_names_stay_apart(tmp_path: Path) -> None:
+    folder = with_meshes().save(tmp_path / "b")
+    assert len(list((folder / "meshes").iterdir())) == 1
+    assert len(list((folder / "sounds").iterdir())) == 8
+
+
+def test_saving_again_gives_the_same_bytes(tmp_path: Path) -> None:
+    def content(folder: Path) -> dict[str, bytes]:
+        return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
+
+    bundle = with_meshes()
+    first = content(bundle.save(tmp_path / "one"))
+    assert content(bundle.save(tmp_path / "two")) == first
+    assert content(bundle.save(tmp_path / "one")) == first
+    assert content(HapticBundle.load(tmp_path / "one").save(tmp_path / "three")) == first
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["one", "three", "two"]
+
+
+def test_a_person_may_edit_the_json(folder: Path) -> None:
+    path = folder / "objects.json"
+    path.write_text(path.read_text(encoding="utf-8").replace('"usage": "stands there"', '"usage": "for eating"'))
+    assert HapticBundle.load(folder).objects["table"].usage == "for eating"
+
+
+def test_another_folder_is_not_overwritten(tmp_path: Path) -> None:
+    (tmp_path / "letters").mkdir()
+    (tmp_path / "letters" / "dear.txt").write_text("Dear Ann")
+    with pytest.raises(BundleError, match="not empty and not a bundle"):
+        table_with_two_phones()[1].save(tmp_path / "letters")
+    assert (tmp_path / "letters" / "dear.txt").read_text() == "Dear Ann"
+
+
+def test_a_failed_save_leaves_the_old_bundle(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("scene2hap.bundle.write_wav", full)
+    with pytest.raises(BundleError, match="No space left"):
+        with_meshes().save(folder)
+    monkeypatch.undo()
+    assert_same(HapticBundle.load(folder), table_with_two_phones()[1])
+    assert [path.name for path in folder.parent.iterdir()] == [folder.name]
+
+
+def test_a_newer_version(folder: Path) -> None:
+    manifest = json.loads((folder / "bundle.json").read_text())
+    (folder / "bundle.json").write_text(json.dumps({**manifest, "version": 2}))
+    with pytest.raises(BundleVersionError, match=r"bundle version 2; this scene2hap reads up to 1\. Upgrade"):
+        HapticBundle.load(folder)
+
+
+@pytest.mark.parametrize(
+    "name", ["bundle.json", "scene.json", "objects.json", "loops.json", "sounds/phone.ringing.tactile.wav"]
+)
+def test_half_written_a_file_is_missing(folder: Path, name: str) -> None:
+    (folder / name).unlink()
+    with pytest.raises(BundleIncomplete, match=name):
+        HapticBundle.load(folder)
+
+
+@pytest.mark.parametrize(
+    "name", ["bundle.json", "scene.json", "objects.json", "loops.json", "sounds/phone.ringing.tactile.wav"]
+)
+def test_half_written_a_file_is_cut_short(folder: Path, name: str) -> None:
+    whole = (folder / name).read_bytes()
+    (folder / name).write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(BundleIncomplete, match=name):
+        HapticBundle.load(folder)
+
+
+def test_half_written_mesh(tmp_path: Path) -> None:
+    folder = with_meshes().save(tmp_path / "b")
+    mesh = next((folder / "meshes").iterdir())
+    mesh.write_bytes(mesh.read_bytes()[:-7])
+    with pytest.raises(BundleIncomplete, match="PLY"):
+        HapticBundle.load(folder)
+
+
+def test_not_a_bundle(tmp_path: Path) -> None:
+    with pytest.raises(BundleIncomplete, match="has no bundle.json"):
+        HapticBundle.load(tmp_path)
+    (tmp_path / "bundle.json").write_text("{}")
+    with pytest.raises(BundleError, match="not a bundle"):
+        HapticBundle.load(tmp_path)
+    with pytest.raises(BundleIncomplete):
+        HapticBundle.load(tmp_path / "nowhere")
+
+
+def test_a_value_out_of_bounds_names_file_and_field(folder: Path) -> None:
+    path = folder / "objects.json"
+    path.write_text(path.read_text().replace('"density_kg_m3": 750.0', '"density_kg_m3": -750.0'))
+    with pytest.raises(BundleError, match=r"objects\.json: table\.material.*density_kg_m3 is -750 kg/m3"):
+        HapticBundle.load(folder)
+
+
+def test_a_bundle_reads_its_own_files_only(folder: Path) -> None:
+    shutil.copy(folder / "sounds" / "phone.ringing.tactile.wav", folder.parent / "elsewhere.wav")
+    path = folder / "loops.json"
+    path.write_text(path.read_text().replace("sounds/phone.ringing.tactile.wav", "../elsewhere.wav"))
+    with pytest.raises(BundleError, match=r"refers to '\.\./elsewhere\.wav', outside itself"):
+        HapticBundle.load(folder)
+
+
+def test_loops_of_an_object_that_is_not_there() -> None:
+    snapshot, bundle = table_with_two_phones()
+    with pytest.raises(UnknownObject, match="no object 'sofa'"):
+        HapticBundle(snapshot, "room", bundle.objects, {"sofa": {"on": tone_loop(50)}})
+
+
+def test_credits_are_written_once_each(tmp_path: Path) -> None:
+    snapshot, bundle = table_with_two_phones()
+    loop = bundle.loops["alarm"]["ringing"]
+    owed = Credit("Buzz", "Ann", "CC-BY-4.0", "https://example.org/buzz")
+    credited = HapticLoop(replace(loop.audible, credit=owed), loop.tactile, 100.0, 100.0)
+    both = HapticBundle(
+        snapshot, "room", bundle.objects, {"alarm": {"ringing": credited}, "phone": {"ringing": credited}}
+    )
+    text = (both.save(tmp_path / "b") / "credits.txt").read_text()
+    assert text.count("Buzz, by Ann, CC-BY-4.0, https://example.org/buzz") == 1

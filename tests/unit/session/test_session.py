@@ -1,0 +1,286 @@
+"""A session on a table with two phones."""
+
+import math
+
+import numpy as np
+import pytest
+
+from scene2hap import (
+    Bands,
+    HapticSession,
+    MemorySink,
+    NoPropagation,
+    Pose,
+    Touch,
+    WavSink,
+    materials,
+)
+from scene2hap.errors import ConfigError, SessionError, UnknownObject
+from scenes import RATE, table_with_two_phones
+
+CONFIG = {"sample_rate_hz": RATE}
+ON_TABLE = Touch("left", "table", (0.8, 0.72, 0.4))
+
+
+def session(**config: object) -> HapticSession:
+    return HapticSession(*table_with_two_phones(), {**CONFIG, **config})
+
+
+def gamma(distance_m: float, frequency_hz: float) -> float:
+    """The paper's law on the table top, written out."""
+    oak = materials.lookup("oak")
+    D = oak.youngs_modulus_pa * 0.02**3 / (12 * (1 - oak.poisson_ratio**2))
+    k = (oak.density_kg_m3 * 0.02 * (2 * math.pi * frequency_hz) ** 2 / D) ** 0.25
+    return math.exp(-k * distance_m)
+
+
+def test_the_source_itself_is_1_and_each_hand_is_independent() -> None:
+    frame = session().update(touches=[Touch("right", "phone", (0.1, 0.73, 0.4))])
+    assert frame.gain("right", "phone") == 1.0
+    assert frame.gain("left", "phone") == 0.0
+    assert frame.gains.shape == (2, 2, 1)
+    assert frame.gains.dtype == np.float32
+
+
+def test_the_table_carries_both_phones_by_the_distance_to_their_nearest_contact() -> None:
+    frame = session().update(touches=[ON_TABLE])
+    # The phones' edges are at x = 0.15 and x = 1.45; the nearest contact points are corners of their footprints.
+    corner = math.hypot(0.65, 0.05)
+    assert frame.gain("left", "phone") == pytest.approx(gamma(corner, 100), rel=1e-4)
+    assert frame.gain("left", "alarm") == pytest.approx(gamma(corner, 160), rel=1e-4)
+
+
+def test_an_object_of_unknown_material_carries_nothing() -> None:
+    s = session()
+    assert s.update(touches=[Touch("left", "block", (0.8, 0.3, 0.2))]).gain("left", "phone") == 0.0
+    assert s.stats.bodiless == ("block",)
+
+
+def test_an_object_that_touches_nothing_feels_nothing() -> None:
+    frame = session().update(touches=[Touch("left", "cup", (5.0, 0.1, 5.0))])
+    assert not frame.gains.any()
+
+
+def test_lifting_the_hand_ends_it() -> None:
+    s = session()
+    s.update(touches=[ON_TABLE])
+    s.render(RATE)
+    assert not s.update().gains.any()
+    s.render(RATE)
+    assert not s.render(RATE).any()
+
+
+def test_lifting_the_phone_off_the_table_ends_its_way_and_putting_it_back_restores_it() -> None:
+    s = session()
+    before = s.update(touches=[ON_TABLE]).gains
+    home = s.snapshot.object("phone").pose
+    lifted = s.update({"phone": Pose((0.1, 1.2, 0.4))}, [ON_TABLE])
+    assert lifted.gain("left", "phone") == 0.0
+    assert lifted.gain("left", "alarm") > 0.0
+    np.testing.assert_array_equal(s.update({"phone": home}, [ON_TABLE]).gains, before)
+
+
+def test_several_touches_of_a_hand_give_the_largest_gain_per_source() -> None:
+    s = session()
+    near_phone, near_alarm = Touch("left", "table", (0.2, 0.72, 0.4)), Touch("left", "table", (1.4, 0.72, 0.4))
+    both = s.update(touches=[near_phone, near_alarm]).gains[0]
+    apart = [s.update(touches=[touch]).gains[0] for touch in (near_phone, near_alarm)]
+    np.testing.assert_array_equal(both, np.maximum(*apart))
+
+
+def test_two_sources_add_exactly_while_quiet() -> None:
+    def mix(*on: str) -> np.ndarray:
+        s = session()
+        for source in s.source_ids:
+            s.set_source(source, on=source in on)
+        s.update(touches=[ON_TABLE])
+        return s.render(2 * RATE)
+
+    both, phone, alarm = mix("phone", "alarm"), mix("phone"), mix("alarm")
+    assert np.abs(phone).max() > 0.001
+    assert np.abs(alarm).max() > 0.001
+    np.testing.assert_allclose(both, phone + alarm, atol=1e-7)
+
+
+def test_sources_are_switched_muted_and_set_in_level() -> None:
+    s = session()
+    touch = [Touch("left", "phone", (0.1, 0.73, 0.4))]
+    s.set_source("phone", gain_db=-20.0)
+    assert s.update(touches=touch).gain("left", "phone") == pytest.approx(0.1)
+    s.set_source("phone", mute=True)
+    assert s.update(touches=touch).gain("left", "phone") == 0.0
+    s.set_source("phone", mute=False, gain_db=0.0)
+    s.set_user(gain_db=-6.0)
+    assert s.update(touches=touch).gain("left", "phone") == pytest.approx(10 ** (-0.3))
+    s.set_user(gain_db=0.0, mute=True)
+    assert s.update(touches=touch).gain("left", "phone") == 0.0
+    s.set_user(mute=False)
+    s.set_source("phone", on=False)
+    assert s.update(touches=touch).gain("left", "phone") == 0.0
+
+
+def test_another_state_plays_another_loop_without_a_click() -> None:
+    s = session()
+    touch = [Touch("left", "phone", (0.1, 0.73, 0.4))]
+    s.update(touches=touch)
+    ringing = s.render(RATE)[-800:, 0]
+    s.set_source("phone", state="alarm")
+    s.update(touches=touch)
+    change = s.render(RATE)[:, 0]
+    spectrum = [int(np.argmax(np.abs(np.fft.rfft(x)))) * RATE // 800 for x in (ringing, change[-800:])]
+    assert spectrum == [100, 240]
+    steepest = 0.3 * 2 * np.pi * 240 / RATE
+    assert np.abs(np.diff(np.append(ringing[-1:], change))).max() < 1.5 * steepest
+
+
+def test_position_follows_the_loop() -> None:
+    s = session()
+    s.render(RATE * 3 // 4)
+    assert s.position_s("phone") == pytest.approx(0.25)
+    with pytest.raises(UnknownObject, match="no source 'table'; the sources are 'phone', 'alarm'"):
+        s.position_s("table")
+
+
+def test_a_source_that_needs_contact_is_silent_without_it() -> None:
+    from scene2hap import HapticBundle
+    from scenes import haptics, tone_loop
+
+    snapshot, bundle = table_with_two_phones()
+    objects = {**bundle.objects, "phone": haptics("glass", (0.1, 0.1, 0.01), "boiling", needs_contact="table")}
+    pan = HapticBundle(snapshot, "room", objects, {"phone": {"boiling": tone_loop(100)}})
+    s = HapticSession(snapshot, pan, CONFIG)
+    assert s.update(touches=[Touch("left", "phone", (0.1, 0.73, 0.4))]).gain("left", "phone") == 1.0
+    lifted = s.update({"phone": Pose((0.1, 1.2, 0.4))}, [Touch("left", "phone", (0.1, 1.2, 0.4))])
+    assert lifted.gain("left", "phone") == 0.0
+
+
+@pytest.mark.parametrize(
+    ("model", "expected"),
+    [("no_propagation", [0.0, 1.0]), ({"kind": "full_propagation"}, [1.0, 1.0]), (NoPropagation(), [0.0, 1.0])],
+)
+def test_the_model_is_one_line_of_configuration(model: object, expected: list[float]) -> None:
+    s = session(propagation=model)
+    found = [
+        s.update(touches=[touch]).gain("left", "phone")
+        for touch in (ON_TABLE, Touch("left", "phone", (0.1, 0.73, 0.4)))
+    ]
+    assert found == expected
+
+
+def test_true_bands() -> None:
+    s = session(bands=Bands.third_octaves(), propagation="exponential_plate")
+    frame = s.update(touches=[ON_TABLE])
+    assert frame.gains.shape == (2, 2, 20)
+    assert (np.diff(frame.gains[0, 0]) < 0).all()
+
+
+def test_gain_limit_caps_and_counts() -> None:
+    class Loud:
+        """A guest model that answers three times too much, or nonsense."""
+
+        def __init__(self, value: float) -> None:
+            self.value = value
+
+        def prepare(self, network: object, excitations: list[object], bands: Bands) -> "Loud":
+            self.source_ids = tuple(e.source_id for e in excitations)  # type: ignore[attr-defined]
+            return self
+
+        def attenuation(self, object_id: str, points_m: object) -> np.ndarray:
+            return np.full((1, 2, 1), self.value)
+
+    capped = session(propagation=Loud(3.0))
+    assert capped.update(touches=[ON_TABLE]).gain("left", "phone") == 1.0
+    assert capped.stats.gains_capped == 2
+    assert session(propagation=Loud(3.0), gain_limit_db=None).update(touches=[ON_TABLE]).gain("left", "phone") == 3.0
+    for nonsense in (math.nan, math.inf, -1.0):
+        s = session(propagation=Loud(nonsense), gain_limit_db=None)
+        s.update(touches=[ON_TABLE])
+        out = s.render(4000)
+        assert np.isfinite(out).all()
+        assert np.abs(out).max() <= 1.0
+
+
+def test_nothing_is_prepared_again_at_rest() -> None:
+    s = session()
+    for x in np.linspace(0.3, 1.3, 20):
+        s.update(touches=[Touch("left", "table", (float(x), 0.72, 0.4))])
+    assert s.stats.fields_prepared == 1
+    assert s.stats.updates == 20
+
+
+def test_sinks_get_the_mix(tmp_path: object) -> None:
+    sink = MemorySink()
+    with HapticSession(*table_with_two_phones(), CONFIG, sink=sink) as s:
+        s.update(touches=[ON_TABLE])
+        sink.pull(1000)
+    alone = session()
+    alone.update(touches=[ON_TABLE])
+    np.testing.assert_array_equal(sink.samples, alone.render(1000))
+
+
+def test_a_run_that_fails_leaves_no_wav(tmp_path: object) -> None:
+    sink = WavSink(f"{tmp_path}/out.wav")
+    with pytest.raises(UnknownObject), HapticSession(*table_with_two_phones(), CONFIG, sink=sink) as s:
+        sink.pull(10)
+        s.update(touches=[Touch("left", "tabel", (0, 0, 0))])
+    assert not sink.path.exists()
+
+
+def test_touch_on_an_unknown_object_names_the_nearest() -> None:
+    with pytest.raises(UnknownObject, match=r"no object 'tabel'. Did you mean 'table'"):
+        session().update(touches=[Touch("left", "tabel", (0, 0, 0))])
+
+
+def test_moving_an_unknown_object() -> None:
+    with pytest.raises(UnknownObject, match="no object 'sofa'"):
+        session().update({"sofa": Pose()})
+
+
+def test_unknown_hand() -> None:
+    with pytest.raises(SessionError, match="no hand 'middle'; this session has 'left', 'right'"):
+        session().update(touches=[Touch("middle", "table", (0, 0, 0))])
+
+
+def test_time_cannot_go_back() -> None:
+    s = session()
+    s.update(at_sample=480)
+    s.update(at_sample=480)
+    with pytest.raises(SessionError, match="at_sample is 479; the last update was at 480"):
+        s.update(at_sample=479)
+
+
+def test_a_touch_point_must_be_finite() -> None:
+    with pytest.raises(SessionError, match=r"point_m\[1\] is nan m"):
+        Touch("left", "table", (0.0, math.nan, 0.0))
+
+
+def test_unknown_state_and_gain_out_of_bounds() -> None:
+    s = session()
+    with pytest.raises(SessionError, match="no state 'purring'; it has 'ringing', 'alarm'"):
+        s.set_source("phone", state="purring")
+    with pytest.raises(SessionError, match="gain_db is 200 dB; it must be at most"):
+        s.set_source("phone", gain_db=200.0)
+
+
+@pytest.mark.parametrize(
+    ("config", "sentence"),
+    [
+        ({"sample_rate": 8000}, "sample_rate"),
+        ({"sample_rate_hz": 10}, "sample_rate_hz"),
+        ({"propagation": "telepathy"}, "no kind 'telepathy'"),
+        ({"propagation": {"kind": "exponential_plate", "max_hops": 0}}, "max_hops is 0"),
+    ],
+)
+def test_bad_settings(config: dict[str, object], sentence: str) -> None:
+    with pytest.raises(ConfigError, match=sentence):
+        HapticSession(*table_with_two_phones(), config)
+
+
+def test_hands_are_named_once() -> None:
+    with pytest.raises(ConfigError, match="hands is"):
+        HapticSession(*table_with_two_phones(), hands=("left", "left"))
+
+
+def test_start_without_a_sink() -> None:
+    with pytest.raises(SessionError, match="no sink"):
+        session().start()

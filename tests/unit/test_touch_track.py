@@ -1,0 +1,124 @@
+"""Touch files: both forms say the same, and what is wrong is named."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from scene2hap import HapticSession, MemorySink, TouchTrack, play_track
+from scene2hap.errors import SessionError, UnknownObject
+from scene2hap.track_player import PlayedFrame
+from scenes import RATE, table_with_two_phones
+
+DOCUMENT = {
+    "format": "scene2hap/touches",
+    "version": 1,
+    "duration_s": 4.0,
+    "steps": [
+        {"time_s": 0.5, "hand": "left", "touch": "phone"},
+        {"time_s": 1.0, "hand": "left", "touch": "table", "point_m": [0.2, 0.72, 0.4]},
+        {"time_s": 1.5, "hand": "left", "touch": "table", "point_m": [1.2, 0.72, 0.4], "glide_s": 1.0},
+        {"time_s": 2.6, "move": "alarm", "by_m": [0.0, 0.3, 0.0], "glide_s": 0.2},
+        {"time_s": 3.0, "source": "phone", "on": False},
+        {"time_s": 3.5, "hand": "left", "lift": True},
+    ],
+}
+CSV = """\
+time_s,hand,touch,x_m,y_m,z_m,glide_s,move,by_x_m,by_y_m,by_z_m,source,on,lift
+0.5,left,phone,,,,,,,,,,,
+1.0,left,table,0.2,0.72,0.4,,,,,,,,
+1.5,left,table,1.2,0.72,0.4,1.0,,,,,,,
+2.6,,,,,,0.2,alarm,0,0.3,0,,,
+3.0,,,,,,,,,,,phone,false,
+3.5,left,,,,,,,,,,,,true
+4.0,,,,,,,,,,,,,
+"""
+
+
+def changed(step: int, **fields: object) -> dict[str, object]:
+    steps = [dict(item) for item in DOCUMENT["steps"]]  # type: ignore[union-attr]
+    steps[step].update(fields)
+    return {**DOCUMENT, "steps": steps}
+
+
+def test_json_and_csv_say_the_same(tmp_path: Path) -> None:
+    (tmp_path / "touches.json").write_text(json.dumps(DOCUMENT))
+    (tmp_path / "touches.csv").write_text(CSV)
+    assert TouchTrack.load(tmp_path / "touches.json") == TouchTrack.load(tmp_path / "touches.csv")
+
+
+def play(document: object = DOCUMENT) -> list[PlayedFrame]:
+    frames: list[PlayedFrame] = []
+    sink = MemorySink()
+    with HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE}, sink=sink) as session:
+        play_track(session, TouchTrack.parse(document), sink, on_frame=frames.append)
+    assert len(sink.samples) == 4 * RATE
+    return frames
+
+
+def test_playing_follows_the_steps() -> None:
+    frames = {round(played.time_s, 2): played for played in play()}
+    assert frames[0.4].touches == ()
+    on_phone = frames[0.6]
+    assert on_phone.frame.gain("left", "phone") == 1.0
+    # Without a point: the middle of the dominant surface, here the phone's top.
+    assert on_phone.touches[0].point_m == pytest.approx((0.1, 0.73, 0.4))
+    assert [frames[t].touches[0].point_m[0] for t in (1.2, 1.5, 1.75, 2.0, 2.5, 2.55)] == pytest.approx(
+        [0.2, 0.2, 0.45, 0.7, 1.2, 1.2]
+    )
+    gains = [frames[t].frame.gain("left", "alarm") for t in (1.2, 1.75, 2.0, 2.5)]
+    assert gains == sorted(gains)
+    assert frames[2.9].frame.gain("left", "alarm") == 0.0
+    assert frames[2.9].frame.gain("left", "phone") > 0.0
+    assert frames[3.1].frame.gain("left", "phone") == 0.0
+    assert frames[3.6].touches == ()
+
+
+def test_a_hand_goes_along_with_the_object_it_holds() -> None:
+    steps = [
+        {"time_s": 0.0, "hand": "left", "touch": "phone", "point_m": [0.12, 0.73, 0.4]},
+        {"time_s": 1.0, "move": "phone", "to_m": [0.1, 1.725, 0.4], "glide_s": 1.0},
+    ]
+    frames = {round(played.time_s, 2): played for played in play({**DOCUMENT, "steps": steps})}
+    assert [frames[t].touches[0].point_m[1] for t in (0.5, 1.5, 2.5)] == pytest.approx([0.73, 1.23, 1.73])
+    assert all(frames[t].touches[0].point_m[0] == pytest.approx(0.12) for t in (0.5, 1.5, 2.5))
+
+
+@pytest.mark.parametrize(
+    ("document", "sentence"),
+    [
+        (changed(1, time_s=0.1), r"step 2 is at 0\.1 s, before the one above it at 0\.5 s"),
+        (changed(5, time_s=9.0), r"the last step is at 9\.0 s, after the end at 4\.0 s"),
+        (changed(0, time_s=-1.0), r"step 1, time_s: .*greater than or equal to 0"),
+        (changed(3, to_m=[0, 0, 0]), r"step 4: give either to_m or by_m"),
+        (changed(2, point_m=[1, 2]), r"step 3, point_m"),
+        (changed(0, colour="red"), r"step 1, colour"),
+        (changed(1, point_m=[1, float("nan"), 2]), r"step 2, point_m\.1: .*finite"),
+        ({**DOCUMENT, "steps": [{"time_s": 1.0, "hand": "left"}]}, r"step 1"),
+        ({**DOCUMENT, "version": 2}, "version"),
+        ({**DOCUMENT, "duration_s": 0}, "duration_s"),
+        ([], "whole file"),
+    ],
+)
+def test_what_is_wrong_is_named(document: object, sentence: str) -> None:
+    with pytest.raises(SessionError, match=sentence):
+        TouchTrack.parse(document)
+
+
+@pytest.mark.parametrize(
+    ("name", "text"), [("t.json", "{"), ("t.json", "\x00"), ("t.csv", "time_s,hand\n1.0,left\n"), ("t.csv", "")]
+)
+def test_a_file_that_is_none(tmp_path: Path, name: str, text: str) -> None:
+    (tmp_path / name).write_text(text)
+    with pytest.raises(SessionError, match="cannot be read as touches"):
+        TouchTrack.load(tmp_path / name)
+
+
+def test_a_file_that_is_missing(tmp_path: Path) -> None:
+    with pytest.raises(SessionError, match="cannot be read"):
+        TouchTrack.load(tmp_path / "nowhere.json")
+
+
+def test_touch_on_an_unknown_object() -> None:
+    with pytest.raises(UnknownObject, match="no object 'tabel'"):
+        play(changed(1, touch="tabel"))
