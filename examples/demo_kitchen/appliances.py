@@ -26,6 +26,10 @@ from demo_kitchen.shapes import (
 
 SHEET_M = 0.001
 """Sheet steel of housings; assumed, 0.6-1 mm is common."""
+_DOME = (0.047, 0.0170), (0.030, 0.0190), (0.013, 0.020)
+"""Radius and height [m] of the wires that ring the fan's guard."""
+_HEAD = (-0.007, 0.007), (-0.003, 0.003), (-0.012, 0.012)
+"""The brush head before it is laid to the front: ranges in x, y, z [m]."""
 
 
 def microwave() -> list[Part]:
@@ -64,8 +68,8 @@ def washing_machine() -> list[Part]:
     """A white housing on four feet, with a round glass door, a detergent drawer, a programme knob and a display."""
     face = (0.26, 0.28)
     porthole = facing_front(
-        ring("chrome", 0.135, 0.19, (0.0, 0.03), 32),
-        lathe("black_glass", [(0.0, 0.0), (0.134, 0.0), (0.134, 0.024), (0.09, 0.05), (0.0, 0.06)], 32),
+        ring("chrome", 0.135, 0.19, (0.0, 0.03), 24),
+        lathe("black_glass", [(0.0, 0.0), (0.134, 0.0), (0.134, 0.024), (0.09, 0.05), (0.0, 0.06)], 24),
     )
     return [
         *at_each(cylinder("black_rubber", 0.025, (0.0, 0.02), 12), (-0.25, 0.25), (-0.23, 0.21)),
@@ -88,7 +92,7 @@ def cooker_hood() -> list[Part]:
     """A sheet steel canopy under a chimney, open below, with a filter, two lamps and three buttons."""
     depth, chimney, top = 0.48, 0.26, 0.85
     outer = [(0.0, 0.30, depth), (0.06, 0.30, depth), (0.24, 0.12, chimney), (top, 0.12, chimney)]
-    inner = [(0.0, 0.30, depth), (0.06, 0.30, depth), (0.24, 0.12, chimney), (top - SHEET_M, 0.12, chimney)]
+    inner = [*outer[:-1], (top - SHEET_M, 0.12, chimney)]
     levels = [(y, (-half + SHEET_M, half - SHEET_M), (SHEET_M, front - SHEET_M)) for y, half, front in inner[::-1]]
     levels += [(y, (-half, half), (0.0, front)) for y, half, front in outer]
     slat = box("dark_steel", (-0.27, 0.27), (0.008, 0.014), (-0.008, 0.008))
@@ -126,8 +130,8 @@ def electric_toothbrush() -> list[Part]:
     tufts = [tuft.moved(x=x, y=y) for x in (-0.0035, 0.0035) for y in (0.232, 0.239, 0.246)]
     return [
         lathe("white_plastic", charger),
-        lathe("white_plastic", handle, 20),
-        ring("mint_rubber", 0.0140, 0.0155, (0.060, 0.140), 20),
+        lathe("white_plastic", handle),
+        ring("mint_rubber", 0.0140, 0.0155, (0.060, 0.140)),
         *(part.moved(y=0.115, z=0.0150) for part in facing_front(cylinder("white_plastic", 0.006, (0.0, 0.0025), 12))),
         lathe("mint_rubber", neck, 12),
         *(part.moved(y=0.239) for part in facing_front(rounded("mint_rubber", *_HEAD, 0.006))),
@@ -144,15 +148,12 @@ def handheld_fan() -> list[Part]:
     hub = facing_front(lathe("white_plastic", [(0.0, -0.012), (0.013, -0.012), (0.013, 0.010), (0.0, 0.014)], 16))
     motor = facing_front(cylinder("coral_plastic", 0.016, (-0.026, -0.012)))
     blades = [_blade().turned("z", 72 * i) for i in range(5)]
-    rim = facing_front(ring("coral_plastic", 0.0625, 0.0650, (-0.014, 0.014), 32))
+    rim = facing_front(ring("coral_plastic", 0.0625, 0.0650, (-0.014, 0.014), 20))
     return [
         lathe("coral_plastic", handle),
         *(part.moved(y=0.095, z=0.0155) for part in facing_front(cylinder("white_plastic", 0.007, (0.0, 0.003), 12))),
         *(part.moved(y=0.209) for part in (*rim, *guard, *back, *hub, *motor, *blades)),
     ]
-
-
-_HEAD = (-0.007, 0.007), (-0.003, 0.003), (-0.012, 0.012)
 
 
 def _knob(colour: str, radius: float) -> list[Part]:
@@ -162,13 +163,10 @@ def _knob(colour: str, radius: float) -> list[Part]:
 
 def _guard() -> list[Part]:
     """The wires in front of the blades: rings and spokes on a shallow dome."""
-    rings = facing_front(*(ring("white_plastic", r - 0.0012, r, (y - 0.0006, y + 0.0006), 20) for r, y in _DOME))
+    rings = facing_front(*(ring("white_plastic", r - 0.0012, r, (y - 0.0006, y + 0.0006)) for r, y in _DOME))
     spoke = tube("white_plastic", [(r, 0.0, y) for r, y in ((0.0635, 0.012), *_DOME)], 0.0008, 4)
     cap = facing_front(lathe("coral_plastic", [(0.014, 0.018), (0.014, 0.022), (0.0, 0.024)], 16))
-    return [*rings, *(spoke.turned("z", 30 * i) for i in range(12)), *cap]
-
-
-_DOME = (0.047, 0.0170), (0.030, 0.0190), (0.013, 0.020)
+    return [*rings, *(spoke.turned("z", 36 * i) for i in range(10)), *cap]
 
 
 def _blade() -> Part:

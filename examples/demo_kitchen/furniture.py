@@ -49,11 +49,11 @@ def window(height: float, width: float) -> list[Part]:
     hole = (light, (-half + rim, half - rim))
     panes = [(-half + rim, -mullion), (mullion, half - rim)]
     return [
-        frame("white_lacquer", (-0.08, -0.02), (0.0, height), (-half, half), hole, through="x"),
-        box("white_lacquer", (-0.08, -0.02), light, (-mullion, mullion)),
-        *(box("window_glass", (-0.052, -0.048), light, pane) for pane in panes),
-        box("brushed_steel", (-0.02, 0.0), (0.5, 0.52), (-0.02, 0.02)),
-        box("brushed_steel", (-0.008, 0.0), (0.52, 0.61), (-0.012, 0.012)),
+        frame("white_lacquer", (-0.06, 0.01), (0.0, height), (-half, half), hole, through="x"),
+        box("white_lacquer", (-0.06, 0.01), light, (-mullion, mullion)),
+        *(box("window_glass", (-0.027, -0.023), light, pane) for pane in panes),
+        box("brushed_steel", (0.01, 0.03), (0.50, 0.53), (-0.015, 0.015)),
+        box("brushed_steel", (0.03, 0.042), (0.50, 0.62), (-0.010, 0.010)),
     ]
 
 
@@ -71,7 +71,7 @@ def worktop(length: float, sink_x: Range, sink_z: Range) -> list[Part]:
 def base_cabinet(width: float) -> list[Part]:
     """Panels of 18 mm, open above, with two doors."""
     doors = _halves(width)
-    return [*_carcass(width), *(part for x in doors for part in _front(x, (0.10, 0.855), BASE_DEPTH_M)), *_pulls(0.76)]
+    return [*_carcass(width), *(part for x in doors for part in _front(x, (0.10, 0.855), BASE_DEPTH_M)), *_knobs(0.76)]
 
 
 def drawer_unit(width: float) -> list[Part]:
@@ -92,7 +92,7 @@ def wall_cabinet(width: float) -> list[Part]:
         tray("sage_lacquer", (-side, side), (0.0, height), (0.0, depth), PANEL_M, opening="+z"),
         box("sage_lacquer", (-side + PANEL_M, side - PANEL_M), (0.34, 0.34 + PANEL_M), (PANEL_M, depth - 0.02)),
         *(part for x in _halves(width) for part in _front(x, (0.002, height - 0.002), depth)),
-        *_pulls(0.04, z=depth + PANEL_M),
+        *_knobs(0.04, z=depth + PANEL_M),
     ]
 
 
@@ -219,7 +219,7 @@ def _halves(width: float) -> tuple[Range, Range]:
     return (-width / 2 + 0.002, -0.002), (0.002, width / 2 - 0.002)
 
 
-def _pulls(y: float, z: float = BASE_DEPTH_M + PANEL_M) -> list[Part]:
+def _knobs(y: float, z: float = BASE_DEPTH_M + PANEL_M) -> list[Part]:
     knob = facing_front(lathe("black_steel", [(0.006, 0.0), (0.006, 0.012), (0.014, 0.018), (0.012, 0.026)], 12))
     return [part.moved(x=x, y=y + 0.03, z=z) for part in knob for x in (-0.037, 0.037)]
 

@@ -42,73 +42,85 @@ class Node:
 
     def to_world(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Vertices (n, 3) [m] in the world, as the file rounds them, and triangles (m, 3)."""
-        vertices = [_rounded(part.vertices_m).astype(np.float64) for part in self.shape]
-        starts = np.cumsum([0, *map(len, vertices)])
-        faces = np.concatenate([part.faces + start for part, start in zip(self.shape, starts, strict=False)])
+        points, faces = _joined(self.shape)
         c, s = cos(radians(self.yaw_deg)), sin(radians(self.yaw_deg))
         turn = np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
-        return np.concatenate(vertices) @ turn.T + self.position_m, faces
+        return points.astype(np.float64) @ turn.T + np.array(self.position_m), faces
 
 
 def encode(scene_name: str, nodes: Iterable[Node], palette: Mapping[str, Colour]) -> bytes:
     """The bytes of a .glb file."""
-    vertices, indices = bytearray(), bytearray()
-    accessors: list[dict[str, Any]] = []
-    meshes: list[dict[str, Any]] = []
-    mesh_of: dict[bytes, int] = {}
-    rows: list[dict[str, Any]] = []
-    used: list[str] = []
-
-    def primitive(colour: str, parts: list[Part]) -> dict[str, Any]:
-        if colour not in used:
-            used.append(colour)
-        points = np.concatenate([_rounded(part.vertices_m) for part in parts])
-        starts = np.cumsum([0, *(len(part.vertices_m) for part in parts)])
-        corners = np.concatenate([part.faces + start for part, start in zip(parts, starts, strict=False)])
-        bounds = {"min": _decimals(points.min(axis=0)), "max": _decimals(points.max(axis=0))}
-        place = {"bufferView": 0, "byteOffset": len(vertices), "componentType": _FLOAT32}
-        accessors.append({**place, "count": len(points), "type": "VEC3", **bounds})
-        place = {"bufferView": 1, "byteOffset": len(indices), "componentType": _UINT16}
-        accessors.append({**place, "count": corners.size, "type": "SCALAR"})
-        vertices.extend(points.astype("<f4").tobytes())
-        indices.extend(corners.astype("<u2").tobytes())
-        position = len(accessors) - 2
-        return {"attributes": {"POSITION": position}, "indices": position + 1, "material": used.index(colour)}
-
-    for node in nodes:
-        content = b"".join(part.colour.encode() + part.vertices_m.tobytes() for part in node.shape)
-        if content not in mesh_of:
-            mesh_of[content] = len(meshes)
-            by_colour: dict[str, list[Part]] = {}
-            for part in node.shape:
-                by_colour.setdefault(part.colour, []).append(part)
-            primitives = [primitive(colour, parts) for colour, parts in by_colour.items()]
-            meshes.append({"name": node.name, "primitives": primitives})
-        row: dict[str, Any] = {"name": node.name, "mesh": mesh_of[content], "translation": list(node.position_m)}
-        if node.yaw_deg:
-            half = radians(node.yaw_deg) / 2
-            row["rotation"] = [0.0, round(sin(half), 12), 0.0, round(cos(half), 12)]
-        rows.append(row)
-
-    indices.extend(bytes(-len(indices) % 4))
+    meshes = _Meshes()
+    rows = [_node(node, meshes.index_of(node)) for node in nodes]
+    vertices, indices = bytes(meshes.vertices), bytes(meshes.indices) + bytes(-len(meshes.indices) % 4)
     document = {
         "asset": {"version": "2.0", "generator": "scene2hap examples/build_demo_kitchen.py"},
         "scene": 0,
         "scenes": [{"name": scene_name, "nodes": list(range(len(rows)))}],
         "nodes": rows,
-        "meshes": meshes,
-        "materials": [_material(name, palette[name]) for name in used],
-        "accessors": accessors,
+        "meshes": meshes.rows,
+        "materials": [_material(name, palette[name]) for name in meshes.colours],
+        "accessors": meshes.accessors,
         "bufferViews": [
-            {"buffer": 0, "byteLength": len(vertices), "target": _VERTEX_BUFFER},
+            {"buffer": 0, "byteLength": len(vertices), "byteStride": 12, "target": _VERTEX_BUFFER},
             {"buffer": 0, "byteOffset": len(vertices), "byteLength": len(indices), "target": _INDEX_BUFFER},
         ],
         "buffers": [{"byteLength": len(vertices) + len(indices)}],
     }
     text = json.dumps(document, separators=(",", ":")).encode()
-    text += b" " * (-len(text) % 4)
-    chunks = _chunk(b"JSON", text) + _chunk(b"BIN\0", bytes(vertices + indices))
+    chunks = _chunk(b"JSON", text + b" " * (-len(text) % 4)) + _chunk(b"BIN\0", vertices + indices)
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+class _Meshes:
+    """Meshes as they gather: their rows, the accessors and bytes these refer to, the colours in order of first use."""
+
+    def __init__(self) -> None:
+        self.rows: list[dict[str, Any]] = []
+        self.accessors: list[dict[str, Any]] = []
+        self.colours: list[str] = []
+        self.vertices, self.indices = bytearray(), bytearray()
+        self._by_content: dict[bytes, int] = {}
+
+    def index_of(self, node: Node) -> int:
+        """The number of a node's mesh, which it shares with the nodes of the same shape and colours."""
+        content = b"".join(part.colour.encode() + part.vertices_m.tobytes() for part in node.shape)
+        if content not in self._by_content:
+            by_colour: dict[str, list[Part]] = {}
+            for part in node.shape:
+                by_colour.setdefault(part.colour, []).append(part)
+            self._by_content[content] = len(self.rows)
+            primitives = [self._primitive(colour, parts) for colour, parts in by_colour.items()]
+            self.rows.append({"name": node.name, "primitives": primitives})
+        return self._by_content[content]
+
+    def _primitive(self, colour: str, parts: Sequence[Part]) -> dict[str, Any]:
+        if colour not in self.colours:
+            self.colours.append(colour)
+        points, corners = _joined(parts)
+        bounds = {"min": _decimals(points.min(axis=0)), "max": _decimals(points.max(axis=0))}
+        place = {"bufferView": 0, "byteOffset": len(self.vertices), "componentType": _FLOAT32}
+        self.accessors.append({**place, "count": len(points), "type": "VEC3", **bounds})
+        place = {"bufferView": 1, "byteOffset": len(self.indices), "componentType": _UINT16}
+        self.accessors.append({**place, "count": corners.size, "type": "SCALAR"})
+        self.vertices += points.astype("<f4").tobytes()
+        self.indices += corners.astype("<u2").tobytes()
+        position = len(self.accessors) - 2
+        material = self.colours.index(colour)
+        return {"attributes": {"POSITION": position}, "indices": position + 1, "material": material}
+
+
+def _joined(parts: Sequence[Part]) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
+    starts = np.cumsum([0, *(len(part.vertices_m) for part in parts[:-1])])
+    faces = [part.faces + start for part, start in zip(parts, starts, strict=True)]
+    points = (np.round(np.concatenate([part.vertices_m for part in parts]), 6) + 0.0).astype(np.float32)
+    return points, np.concatenate(faces)
+
+
+def _node(node: Node, mesh: int) -> dict[str, Any]:
+    half = radians(node.yaw_deg) / 2
+    turn = {"rotation": [0.0, round(sin(half), 12), 0.0, round(cos(half), 12)]} if node.yaw_deg else {}
+    return {"name": node.name, "mesh": mesh, "translation": list(node.position_m), **turn}
 
 
 def _chunk(kind: bytes, content: bytes) -> bytes:
@@ -122,10 +134,6 @@ def _material(name: str, colour: Colour) -> dict[str, Any]:
         "roughnessFactor": colour.roughness,
     }
     return {"name": name, "pbrMetallicRoughness": surface}
-
-
-def _rounded(vertices_m: NDArray[np.float64]) -> NDArray[np.float32]:
-    return (np.round(vertices_m, 6) + 0.0).astype(np.float32)
 
 
 def _decimals(point: NDArray[np.float32]) -> list[float]:

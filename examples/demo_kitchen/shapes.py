@@ -110,7 +110,7 @@ def rounded(colour: str, x: Range, y: Range, z: Range, radius: float) -> Part:
     return loft(colour, [[(px, height, pz) for px, pz in outline] for height in y])
 
 
-def lathe(colour: str, profile: Sequence[tuple[float, float]], sides: int = 24, *, loop: bool = False) -> Part:
+def lathe(colour: str, profile: Sequence[tuple[float, float]], sides: int = 18, *, loop: bool = False) -> Part:
     """A turned shape about the Y axis from its profile of (radius, height) [m]; with `loop`, a ring."""
     return loft(colour, [_circle(radius, height, sides) for radius, height in profile], loop=loop)
 
@@ -120,13 +120,13 @@ def cylinder(colour: str, radius: float, y: Range, sides: int = 16) -> Part:
     return lathe(colour, [(radius, height) for height in y], sides)
 
 
-def ball(colour: str, radius: float, sides: int = 12) -> Part:
+def ball(colour: str, radius: float, sides: int = 10) -> Part:
     """A sphere about the origin."""
     angles = [radians(-90 + 30 * step) for step in range(7)]
     return lathe(colour, [(radius * cos(angle), radius * sin(angle)) for angle in angles], sides)
 
 
-def ring(colour: str, inner_radius: float, outer_radius: float, y: Range, sides: int = 24) -> Part:
+def ring(colour: str, inner_radius: float, outer_radius: float, y: Range, sides: int = 18) -> Part:
     """A flat ring about the Y axis."""
     profile = [(outer_radius, y[0]), (outer_radius, y[1]), (inner_radius, y[1]), (inner_radius, y[0])]
     return lathe(colour, profile, sides, loop=True)

@@ -22,8 +22,8 @@ from demo_kitchen.shapes import (
 
 def sink() -> list[Part]:
     """A basin of 1 mm steel that hangs in the worktop's hole by a rim of 3 mm."""
-    basin = [(-0.17, 0.23, 0.17), (0.0, 0.245, 0.185), (0.0, 0.28, 0.22), (0.003, 0.28, 0.22)]
-    basin += [(0.003, 0.244, 0.184), (-0.169, 0.229, 0.169)]
+    basin = [(-0.17, 0.23, 0.14), (0.0, 0.245, 0.155), (0.0, 0.28, 0.19), (0.003, 0.28, 0.19)]
+    basin += [(0.003, 0.244, 0.154), (-0.169, 0.229, 0.139)]
     return [
         stacked("brushed_steel", [(y, (-half_x, half_x), (-half_z, half_z)) for y, half_x, half_z in basin]),
         cylinder("black_steel", 0.035, (-0.169, -0.166)),
@@ -36,13 +36,13 @@ def tap() -> list[Part]:
     neck += [*arc((0.0, 0.24, 0.09), 0.09, (180, 0), 8), (0.0, 0.20, 0.18)]
     return [
         lathe("chrome", [(0.026, 0.0), (0.026, 0.006), (0.020, 0.012)]),
-        tube("chrome", neck, 0.011, 12),
+        tube("chrome", neck, 0.011),
         tube("chrome", [(0.009, 0.05, 0.0), (0.04, 0.06, 0.0), (0.085, 0.085, 0.0)], 0.006),
     ]
 
 
 def cutting_board() -> list[Part]:
-    """A maple board of 18 mm with a loaf's worth of room and a handle."""
+    """A maple board of 18 mm with a handle."""
     return [
         rounded("maple", (-0.15, 0.15), (0.0, 0.018), (-0.12, 0.12), 0.02),
         box("maple", (0.15, 0.21), (0.0, 0.018), (-0.022, 0.022)),
@@ -79,7 +79,7 @@ def frying_pan() -> list[Part]:
 
 
 def olive_oil_bottle() -> list[Part]:
-    """A tall green bottle with a pourer's cap and a label."""
+    """A tall green bottle with a cap and a label."""
     body = [(0.0, 0.0), (0.032, 0.0), (0.034, 0.01), (0.034, 0.17), (0.013, 0.22), (0.013, 0.27), (0.0, 0.27)]
     return [
         lathe("green_glass", body),
@@ -116,9 +116,8 @@ def cup(colour: str) -> list[Part]:
 def fruit_bowl() -> list[Part]:
     """A wide earthenware bowl with apples and oranges."""
     wall = [(0.06, 0.0), (0.062, 0.012), (0.13, 0.075), (0.126, 0.078), (0.058, 0.018)]
-    turns = [radians(120 * i) for i in range(3)]
-    fruit = [ball("apple_red" if i else "orange", 0.036).moved(x=0.042 * cos(a), y=0.056, z=0.042 * sin(a))
-             for i, a in enumerate(turns)]  # fmt: skip
+    turns = [("orange", 0.0), ("apple_red", radians(120)), ("apple_red", radians(240))]
+    fruit = [ball(colour, 0.036).moved(0.042 * cos(turn), 0.056, 0.042 * sin(turn)) for colour, turn in turns]
     return [lathe("blue_stoneware", wall, 28), *fruit, ball("orange", 0.036).moved(y=0.108)]
 
 
@@ -136,8 +135,8 @@ def cookbook() -> list[Part]:
 
 def tea_towel() -> list[Part]:
     """A folded cotton towel with stripes."""
-    layers = [rounded("white_cotton", (-0.12, 0.12), (0.006 * i, 0.006 * i + 0.006), (-0.08, 0.08), 0.008)
-              for i in range(3)]  # fmt: skip
+    heights = [(0.0, 0.006), (0.006, 0.012), (0.012, 0.018)]
+    layers = [rounded("white_cotton", (-0.12, 0.12), y, (-0.08, 0.08), 0.008) for y in heights]
     stripes = [box("red_wool", (x, x + 0.02), (0.018, 0.0186), (-0.079, 0.079)) for x in (-0.09, -0.05, 0.07)]
     return [*layers, *stripes]
 

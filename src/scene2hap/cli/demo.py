@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 import math
-from importlib.resources import as_file, files
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +16,7 @@ from scene2hap.cli.console import Console
 from scene2hap.cli.picture import draw_envelopes
 from scene2hap.cli.render import render_track
 from scene2hap.cli.tables import bundle_outcome, show_bundle
+from scene2hap.demo import kitchen_path, tour_path
 from scene2hap.scene.load import load_scene
 from scene2hap.session import SessionConfig
 from scene2hap.touch_track import TouchTrack
@@ -35,12 +35,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Bake, play, draw, and tell."""
     folder = Path(arguments.output)
-    kitchen = files("scene2hap.demo")
-    with console.progress() as tell, as_file(kitchen / "kitchen.glb") as path:
-        bundle = bake(load_scene(path), progress=tell)
+    with console.progress() as tell:
+        bundle = bake(load_scene(kitchen_path()), progress=tell)
     bundle.save(folder / "bundle")
-    with as_file(kitchen / "tour.json") as path:
-        track = TouchTrack.load(path)
+    track = TouchTrack.load(tour_path())
     wav, picture = folder / "tour.wav", folder / "tour.png"
     frames = render_track(console, bundle, track, str(wav), SessionConfig(), update_rate_hz=100.0)
     draw_envelopes(frames, ("left", "right"), SessionConfig().sample_rate_hz, picture)
