@@ -46,6 +46,7 @@ AUDIBLE_RANGE_HZ = (20.0, 20_000.0)
 
 _SHORTEST_SHARE = 0.5
 _N_STARTS = 12
+_FEWEST_SAMPLES = 16
 _AS_GOOD = 1e-4
 """Seams whose likeness is this close to the best are as good, and the longest of them wins: a tone out of phase by 0.8
 degrees differs by as much."""
@@ -114,7 +115,8 @@ def find_seam(samples: ArrayLike, sample_rate_hz: float, *others: ArrayLike) -> 
     rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=AudioError)
     signals = [_centred(signal) for signal in (samples, *others)]
     n = len(signals[0])
-    checks.number("duration", n / rate, "s", at_least=MIN_CLIP_S, error=AudioError, hint="Use a longer sound.")
+    shortest_s = max(MIN_CLIP_S, _FEWEST_SAMPLES / rate)
+    checks.number("duration", n / rate, "s", at_least=shortest_s, error=AudioError, hint="Use a longer sound.")
     if any(len(signal) != n for signal in signals):
         raise AudioError(
             f"the signals have {[len(x) for x in signals]} samples; a shared seam wants them equally long."
@@ -154,13 +156,18 @@ def apply_seam(samples: ArrayLike, seam: Seam) -> Samples:
 
 
 def _likeness(x: NDArray[np.float64], width: int, shortest: int) -> NDArray[np.float64]:
-    """How alike the first `width` samples are to as many at `shortest`, `shortest` + 1, ... up to the end."""
-    template = x[:width]
+    """How alike the first `width` samples are to as many at `shortest`, `shortest` + 1, ... up to the end.
+
+    Each stretch counts without its own mean, or silence beside an offset would be the perfect seam.
+    """
+    template = x[:width] - x[:width].mean()
     rest = x[shortest:]
-    energies = np.cumsum(np.concatenate([[0.0], rest**2]))
-    total = template @ template + energies[width:] - energies[:-width]
+    sums = np.cumsum(np.concatenate([[0.0], rest]))
+    squares = np.cumsum(np.concatenate([[0.0], rest**2]))
+    energies = squares[width:] - squares[:-width] - (sums[width:] - sums[:-width]) ** 2 / width
+    total = template @ template + energies
     products = correlate(rest, template, mode="valid", method="fft")
-    has_sound = total > _SILENT * energies[-1]
+    has_sound = total > _SILENT * squares[-1]
     return np.where(has_sound, 2 * products / np.where(has_sound, total, 1.0), 0.0)
 
 

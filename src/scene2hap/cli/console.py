@@ -13,6 +13,9 @@ from rich.table import Table
 Tell = Callable[[str, str, int, int], None]
 """Told (stage, what is done, how many are done, of how many)."""
 
+_FILE_WIDTH = 160
+"""Columns for output into a file or a pipe, which have no width of their own."""
+
 
 class Console:
     """Output for a person; with `quiet`, errors and warnings alone."""
@@ -20,6 +23,8 @@ class Console:
     def __init__(self, *, quiet: bool) -> None:
         self.is_quiet = quiet
         self._out = rich.console.Console(quiet=quiet, highlight=False)
+        if not self._out.is_terminal:
+            self._out.width = _FILE_WIDTH
         self._error = rich.console.Console(stderr=True, highlight=False, soft_wrap=True)
 
     def say(self, text: str) -> None:

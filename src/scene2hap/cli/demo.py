@@ -25,6 +25,7 @@ from scene2hap.track_player import PlayedFrame
 HELP = "bake and play the built-in kitchen"
 
 _FELT_FLOOR_DB = -60.0
+_STAY_S = 0.15
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -64,24 +65,22 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 def what_was_felt(frames: list[PlayedFrame]) -> list[dict[str, Any]]:
-    """Each stay of a hand on an object as a row: when, where, and the sources felt there at the end of the stay [dB].
+    """Each stay of a hand as a row: when, on what, and the sources felt there [dB], those above -60 dB.
 
-    Sources below -60 dB re the source itself are left out.
+    While a hand glides its gains change from frame to frame; a stay is where they hold for `_STAY_S` at least.
     """
     rows: list[dict[str, Any]] = []
-    under_way: dict[str, dict[str, Any]] = {}
-    for played in frames:
-        for touch in played.touches:
-            row = under_way.get(touch.hand)
-            felt = _felt_db(played, touch.hand)
-            if row is None or row["on"] != touch.object_id or set(row["felt_db"]) != set(felt):
-                row = {"from_s": played.time_s, "hand": touch.hand, "on": touch.object_id}
-                under_way[touch.hand] = row
-                rows.append(row)
-            row.update(to_s=played.time_s, felt_db=felt)
-        for hand in set(under_way) - {touch.hand for touch in played.touches}:
-            del under_way[hand]
-    return rows
+    for hand in frames[0].frame.hands:
+        stays: list[dict[str, Any]] = []
+        for played in frames:
+            on = next((touch.object_id for touch in played.touches if touch.hand == hand), None)
+            felt = {"on": on, "felt_db": _felt_db(played, hand)}
+            if stays and stays[-1].items() >= felt.items():
+                stays[-1]["to_s"] = played.time_s
+            else:
+                stays.append({"from_s": played.time_s, "to_s": played.time_s, "hand": hand, **felt})
+        rows += [stay for stay in stays if stay["on"] is not None and stay["to_s"] - stay["from_s"] >= _STAY_S]
+    return sorted(rows, key=lambda row: (row["from_s"], row["hand"]))
 
 
 def _felt_db(played: PlayedFrame, hand: str) -> dict[str, float]:

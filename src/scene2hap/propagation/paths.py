@@ -5,13 +5,12 @@ straight through the object that has both, at that object's price per metre. Ins
 is free, since the source vibrates as a whole.
 
 The paper collects all paths by depth-first search and knows one object between source and hand. The cheapest path is
-the loudest one, so a search that settles each contact once (Dijkstra) gives the same answer over any number of hops.
+the loudest one, so it is enough to improve, round by round, what it costs to arrive over each contact (Bellman-Ford):
+after n rounds all ways over at most n contacts are known, and when a round improves nothing, all ways are.
 """
 
 from __future__ import annotations
 
-import heapq
-import math
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -47,65 +46,40 @@ def cheapest_arrivals(
     (it may be a source); crossing_cost : what each contact costs, >= 0; max_hops : contacts that a way may cross,
     None for any number.
     """
-    points = np.array([contact.point_m for contact in contacts], dtype=np.float64).reshape(-1, 3)
-    contacts_of: dict[str, list[int]] = defaultdict(list)
+    # A contact has two sides, numbered 2 i on its object a and 2 i + 1 on b: side ^ 1 is the one across.
+    sides_of: dict[str, list[int]] = defaultdict(list)
     for i, contact in enumerate(contacts):
-        contacts_of[contact.a].append(i)
-        contacts_of[contact.b].append(i)
-    rank = {
-        object_id: {contact: position for position, contact in enumerate(own)} for object_id, own in contacts_of.items()
-    }
-    between = {
-        object_id: price_per_m[object_id] * _distances(points[own])
-        for object_id, own in contacts_of.items()
+        sides_of[contact.a].append(2 * i)
+        sides_of[contact.b].append(2 * i + 1)
+    sides = {object_id: np.array(own) for object_id, own in sides_of.items()}
+    owner = [object_id for contact in contacts for object_id in (contact.a, contact.b)]
+    points = np.array([contact.point_m for contact in contacts], dtype=np.float64).reshape(-1, 3)
+    crossing = np.asarray(crossing_cost, dtype=np.float64)
+    # What it costs to come in by one contact (row) and leave by another (column).
+    transit = {
+        object_id: price_per_m[object_id] * _distances(points[own // 2]) + crossing[own // 2]
+        for object_id, own in sides.items()
         if object_id in price_per_m
     }
-    arrivals = {
-        object_id: Arrivals(points[own], np.full((len(source_ids), len(own)), np.inf))
-        for object_id, own in contacts_of.items()
-        if object_id in price_per_m
-    }
+
+    costs = np.full((len(source_ids), 2 * len(contacts)), np.inf)
     for row, source_id in enumerate(source_ids):
-        # (cost so far, hops, contact just crossed, object entered by it)
-        front: list[tuple[float, int, int, str]] = []
-        for i in contacts_of.get(source_id, ()):
-            _push(front, crossing_cost[i], 1, i, _across(contacts[i], source_id), source_id, price_per_m, max_hops)
-        fewest_hops: dict[tuple[int, str], int] = {}
-        while front:
-            cost, hops, i, here = heapq.heappop(front)
-            # Ways come in order of cost, so a later one to the same place matters only if it crossed fewer contacts.
-            if hops >= fewest_hops.get((i, here), math.inf):
-                continue
-            if (i, here) not in fewest_hops:
-                arrivals[here].costs[row, rank[here][i]] = cost
-            fewest_hops[i, here] = hops if max_hops is not None else 0
-            for j, step in zip(contacts_of[here], between[here][rank[here][i]], strict=True):
-                if j != i:
-                    onward = cost + float(step) + crossing_cost[j]
-                    _push(front, onward, hops + 1, j, _across(contacts[j], here), source_id, price_per_m, max_hops)
-    return arrivals
-
-
-def _push(
-    front: list[tuple[float, int, int, str]],
-    cost: float,
-    hops: int,
-    contact: int,
-    entered: str,
-    source_id: str,
-    price_per_m: Mapping[str, float],
-    max_hops: int | None,
-) -> None:
-    reachable = entered in price_per_m and entered != source_id and math.isfinite(cost)
-    if reachable and (max_hops is None or hops <= max_hops):
-        heapq.heappush(front, (cost, hops, contact, entered))
-
-
-def _across(contact: Contact, here: str) -> str:
-    return contact.b if contact.a == here else contact.a
+        if source_id in sides:
+            out = sides[source_id]
+            costs[row, out ^ 1] = crossing[out // 2]
+    hops, entered = 1, {owner[side] for side in np.flatnonzero(np.isfinite(costs).any(axis=0))}
+    while entered and (max_hops is None or hops < max_hops):
+        improved = costs.copy()
+        for object_id in entered & transit.keys():
+            own = sides[object_id]
+            onward = (costs[:, own, None] + transit[object_id]).min(axis=1)
+            improved[:, own ^ 1] = np.minimum(improved[:, own ^ 1], onward)
+        entered = {owner[side] for side in np.flatnonzero((improved < costs).any(axis=0))}
+        hops, costs = hops + 1, improved
+    return {object_id: Arrivals(points[sides[object_id] // 2], costs[:, sides[object_id]]) for object_id in transit}
 
 
 def _distances(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
-    # hypot over explicit differences: the Gram-matrix shortcut loses half the digits for close points.
+    # The norm of explicit differences: the Gram-matrix shortcut loses half the digits for close points.
     distances: NDArray[np.float64] = np.linalg.norm(points_m[:, None, :] - points_m[None, :, :], axis=2)
     return distances

@@ -61,7 +61,7 @@ class Box:
         return TriMesh(corners * half, np.array(faces, dtype=np.int32))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class TriMesh:
     """A triangle mesh in its object's own frame.
 
@@ -88,6 +88,9 @@ class TriMesh:
             )
         object.__setattr__(self, "vertices_m", vertices)
         object.__setattr__(self, "faces", faces)
+
+    def __repr__(self) -> str:
+        return f"TriMesh({len(self.vertices_m)} vertices, {len(self.faces)} faces)"
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, TriMesh) and self.digest == other.digest

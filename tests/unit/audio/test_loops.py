@@ -48,7 +48,7 @@ def clip(x: np.ndarray, rate: int = RATE) -> AudioClip:
 # the seam ------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("rate", [48_000, 44_100, 16_000])
+@pytest.mark.parametrize("rate", [44_100, 16_000])
 @pytest.mark.parametrize("frequency_hz", [20.0, 23.7, 58.72, 100.0, 187.3, 250.0, 333.3, 499.7])
 def test_a_tone_wraps_within_a_degree(frequency_hz: float, rate: int) -> None:
     seam = find_seam(tone(frequency_hz, rate=rate), rate)
@@ -141,9 +141,18 @@ def test_silent_stretches_do_not_upset_the_search() -> None:
     assert find_seam(np.zeros(RATE), RATE).n_samples_needed <= RATE
 
 
+def test_a_single_knock_is_not_cut_out_for_the_silence_around_it() -> None:
+    x = np.zeros(2 * RATE)
+    x[5000:5500] = np.hanning(500)
+    assert apply_seam(x, find_seam(x, RATE)).max() > 0.1
+
+
 def test_what_cannot_be_looped_is_refused() -> None:
     with pytest.raises(AudioError, match=r"duration is 0\.05 s; it must be at least 0\.1"):
         find_seam(tone(100, 0.05), RATE)
+    with pytest.raises(AudioError, match="duration is 1.5 s"):
+        find_seam(np.zeros(15), 10)
+    assert find_seam(np.arange(16), 10).n_samples_needed <= 16
     with pytest.raises(AudioError, match="equally long"):
         find_seam(tone(100), RATE, tone(100, 3.0))
     with pytest.raises(AudioError, match="needs one channel of 14 samples"):

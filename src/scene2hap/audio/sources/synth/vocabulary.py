@@ -83,7 +83,7 @@ _DRILL = Patch(partial(power_tool, motor_hz=250.0, spindle_hz=18.0), (240.0, 260
 _GRINDER = Patch(partial(power_tool, motor_hz=420.0, spindle_hz=183.0, spindle=1.5), (176.0, 190.0), 0.3)
 _PUMP = Patch(pump, (276.0, 300.0), 0.3)
 _MUSIC = Patch(music, (60.0, 135.0), is_steady=False)
-_BREEZE = _fan(40.0, 5, 0.3)
+_BREEZE = _fan(22.0, 5, 0.4, rotor=0.5, blade=1.0)
 
 # Names (any of them), verbs (any of them; "" for all), patch.
 _TABLE: tuple[tuple[str, str, Patch], ...] = (
@@ -93,7 +93,8 @@ _TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("hood", "", _fan(42.0, 7, 0.6, flow=0.7)),
     ("oven, stove, cooktop, cooker, hob, hotplate, toaster", "", _HUM),
     ("pan, pot, kettle, wok, cauldron, fryer, soup", "", _BOILING),
-    ("pan, wok, fryer, grill, barbecue", "sizzle, fry, sear, grill", _SIZZLING),
+    ("pan, wok, fryer", "sizzle, fry, sear", _SIZZLING),
+    ("grill, barbecue", "", _SIZZLING),
     ("dishwasher", "", Patch(pump, (276.0, 300.0), 0.6)),
     ("coffeemaker", "", _to_and_fro(50.0, rattle=0.2)),
     ("blender, mixer, food processor, juicer, coffee grinder", "", Patch(_DRILL.voice, (240.0, 260.0), 0.4)),
@@ -114,7 +115,7 @@ _TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("gamepad, controller, joystick", "", Patch(partial(vibration_motor, motor_hz=48.0), (45.0, 51.0))),
     ("clock, watch, metronome, timer", "", _TICK),
     ("alarm clock, alarm, siren, smoke detector", "", _ALARM),
-    ("clock, watch, timer, alarm clock", "ring, beep, buzz, alarm", _ALARM),
+    ("clock, watch, timer, alarm clock", "ring, beep, buzz", _ALARM),
     ("clock, alarm clock", "tick", _TICK),
     ("buzzer, doorbell, bell, intercom", "", _BUZZER),
     ("speaker, loudspeaker, radio, stereo, subwoofer, jukebox, turntable, boombox, piano, guitar", "", _MUSIC),
@@ -157,7 +158,8 @@ def patch_for(category: str, *phrases: str) -> Patch:
     before one for any, more shared words before fewer.
     """
     nouns = noun_phrase(category)
-    spoken = {stem for phrase in phrases for stem in stems(phrase)}
+    # A boiling frying pan does not fry: what belongs to the name is no verb.
+    spoken = {stem for phrase in phrases for stem in stems(phrase)}.difference(nouns)
     best, best_fit = MOTOR, (False, False, False, 0)
     for name, verbs, patch in _rows():
         if verbs and not verbs & spoken:

@@ -1,0 +1,112 @@
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from scene2hap.audio.clip import Credit
+from scene2hap.audio.files import write_wav
+from scene2hap.audio.protocol import AudioSource
+from scene2hap.audio.sources import SOURCES
+from scene2hap.audio.sources.library import FolderLibrary, UnreadableSound
+from scene2hap.errors import ConfigError
+from scene2hap.haptics import VibrationDescription
+
+
+def describe(category: str, keywords: str) -> VibrationDescription:
+    return VibrationDescription(category, "on", f"{category} runs", keywords, 0.5, (0.6, 0.6, 0.02))
+
+
+def fill(folder: Path, *names: str) -> Path:
+    for name in names:
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_wav(path, 0.1 * np.ones(100), 8000)
+    return folder
+
+
+def titles(folder: Path, category: str, keywords: str) -> list[str]:
+    return [clip.credit.title for clip in FolderLibrary(folder).find(describe(category, keywords))]
+
+
+def test_finds_by_name_what_shares_most_words_first(tmp_path: Path) -> None:
+    fill(tmp_path, "fan_1.wav", "computer-fan-hum.wav", "sub/Computer_Fans.WAV", "fridge_hum.wav", "notes.txt.wav")
+    assert titles(tmp_path, "computer fan", "computer fan humming") == ["computer-fan-hum", "Computer_Fans", "fan_1"]
+
+
+def test_a_shared_verb_is_not_enough_nor_a_shared_modifier(tmp_path: Path) -> None:
+    fill(tmp_path, "fridge_humming.wav", "electric_toothbrush.wav")
+    assert titles(tmp_path, "electric fan", "electric fan humming") == []
+    assert titles(tmp_path, "refrigerators", "refrigerator hums") == ["fridge_humming"]
+
+
+def test_returns_five_at_most_in_an_order_that_does_not_depend_on_the_disk(tmp_path: Path) -> None:
+    fill(tmp_path, *(f"pump_{letter}.wav" for letter in "gecafbd"))
+    assert titles(tmp_path, "pump", "pump pumping") == [f"pump_{letter}" for letter in "abcde"]
+
+
+def test_an_index_says_what_sounds_are_and_whose(tmp_path: Path) -> None:
+    fill(tmp_path, "a.wav", "b.wav", "pump.wav")
+    (tmp_path / "sounds.csv").write_text(
+        "\ufefffile,keywords,title,author,licence,address\n"
+        "a.wav,pump bubbling,Aquarium,Ann,CC0-1.0,https://example.org/1\n"
+        "\n"
+        "b.wav,water pump\n"
+        ",pump,no file,,,\n",
+        encoding="utf-8",
+    )
+    found = FolderLibrary(tmp_path).find(describe("pump", "pump bubbling"))
+    assert [clip.credit for clip in found] == [
+        Credit("Aquarium", "Ann", "CC0-1.0", "https://example.org/1", "pump bubbling"),
+        Credit("b", "unknown", "unknown", "", "pump bubbling"),
+    ]
+
+
+def test_an_index_that_is_no_table_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "sounds.csv").write_text("name;keywords\n")
+    with pytest.raises(ConfigError, match=r"sounds\.csv: the first line is .*at least 'file'"):
+        FolderLibrary(tmp_path).find(describe("pump", "pump"))
+    (tmp_path / "sounds.csv").write_bytes(b"file\n\xff\xfe.wav\n")
+    with pytest.raises(ConfigError, match="Save it as CSV in UTF-8"):
+        FolderLibrary(tmp_path).find(describe("pump", "pump"))
+
+
+def test_unreadable_files_are_skipped_aloud(tmp_path: Path) -> None:
+    fill(tmp_path, "pump_b.wav")
+    (tmp_path / "pump_a.wav").write_text("no sound")
+    with pytest.warns(UnreadableSound, match=r"skipped: .*pump_a\.wav"):
+        assert titles(tmp_path, "pump", "pump") == ["pump_b"]
+    (tmp_path / "sounds.csv").write_text("file,keywords\ngone.wav,fan\n")
+    with pytest.warns(UnreadableSound, match=r"gone\.wav"):
+        assert titles(tmp_path, "fan", "fan") == []
+
+
+def test_files_that_do_not_match_are_never_opened(tmp_path: Path) -> None:
+    (tmp_path / "fan.wav").write_text("no sound")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert titles(tmp_path, "pump", "pump") == []
+
+
+def test_a_missing_folder_is_refused_at_once_and_when_it_goes(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match="absent is not a folder"):
+        FolderLibrary(tmp_path / "absent")
+    folder = tmp_path / "there"
+    folder.mkdir()
+    library = FolderLibrary(folder)
+    folder.rmdir()
+    with pytest.raises(ConfigError, match="there is not a folder"):
+        library.find(describe("pump", "pump"))
+
+
+def test_nameless_things_match_nothing(tmp_path: Path) -> None:
+    fill(tmp_path, "pump.wav")
+    assert titles(tmp_path, "", "") == []
+
+
+def test_is_known_by_its_kind(tmp_path: Path) -> None:
+    assert SOURCES.load("library") is FolderLibrary
+    assert {"library", "synth"} <= set(SOURCES.kinds())
+    assert isinstance(FolderLibrary(tmp_path), AudioSource)

@@ -1,0 +1,235 @@
+from __future__ import annotations
+
+import hashlib
+import subprocess
+import sys
+from functools import cache, partial
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from scene2hap.audio.analysis import dynamic_range_db
+from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.loops import make_loop
+from scene2hap.audio.protocol import AudioSource
+from scene2hap.audio.select import select_clip
+from scene2hap.audio.sources import SOURCES
+from scene2hap.audio.sources.synth import Synthesizer
+from scene2hap.audio.sources.synth.signals import SAMPLE_RATE_HZ, Signal, Take
+from scene2hap.audio.sources.synth.vocabulary import MOTOR, Patch, patch_for, patches
+from scene2hap.errors import AudioError, ConfigError
+from scene2hap.haptics import VibrationDescription
+
+EVERYDAY = {
+    # category and keywords -> bounds of what is felt most [Hz], from real machines
+    ("refrigerator", "refrigerator humming"): (48, 50),
+    ("microwave oven", "microwave oven heating"): (99.5, 100.5),
+    ("transformer", "transformer humming"): (99.5, 100.5),
+    ("washing machine", "washing machine spinning"): (190, 260),
+    ("electric toothbrush", "electric toothbrush vibrating"): (250, 270),
+    ("smartphone", "smartphone vibrating"): (175, 190),
+    ("range hood", "range hood venting"): (25, 50),
+    ("handheld fan", "handheld fan blowing"): (50, 110),
+    ("frying pan", "frying pan boiling"): (80, 420),
+    ("truck", "truck idling"): (50, 110),
+    ("speaker", "speaker playing"): (40, 140),
+    ("thingamajig", "thingamajig running"): (35, 65),
+}
+
+
+def describe(category: str, keywords: str, **changes: object) -> VibrationDescription:
+    fields = {"intensity": 0.5, "size_m": (0.0, 0.0, 0.0), "seed": 7} | changes
+    return VibrationDescription(category, "on", f"{category} at work", keywords, **fields)  # type: ignore[arg-type]
+
+
+def make(category: str, keywords: str, **changes: object) -> AudioClip:
+    (clip,) = Synthesizer().find(describe(category, keywords, **changes))
+    return clip
+
+
+def strongest_hz(y: Signal, above_hz: float = 10.0) -> float:
+    """The largest bin of a Hann-windowed spectrum, to the nearest 0.2 Hz."""
+    magnitude = np.abs(np.fft.rfft(y * np.hanning(len(y))))
+    frequencies = np.fft.rfftfreq(len(y), 1 / SAMPLE_RATE_HZ)
+    return float(frequencies[np.argmax(np.where(frequencies > above_hz, magnitude, 0))])
+
+
+@cache
+def played(patch: Patch) -> Signal:
+    return patch.voice(Take(np.random.default_rng(11), 0.6))
+
+
+def name_of(patch: Patch) -> str:
+    voice = patch.voice.func if isinstance(patch.voice, partial) else patch.voice
+    return f"{voice.__name__}-{patch.dominant_hz[0]:.0f}Hz"
+
+
+every_patch = pytest.mark.parametrize("patch", patches(), ids=name_of)
+
+
+# every voice ---------------------------------------------------------------------------------------------------------
+
+
+@every_patch
+def test_its_strongest_frequency_lies_where_it_says(patch: Patch) -> None:
+    low, high = patch.dominant_hz
+    assert low <= strongest_hz(played(patch)) <= high
+
+
+@every_patch
+def test_most_of_it_lies_where_touch_is(patch: Patch) -> None:
+    power = np.abs(np.fft.rfft(played(patch))) ** 2
+    frequencies = np.fft.rfftfreq(len(played(patch)), 1 / SAMPLE_RATE_HZ)
+    felt = (frequencies >= 40) & (frequencies <= 400)
+    assert power[felt].sum() > 0.5 * power.sum()
+
+
+@every_patch
+def test_steady_voices_pass_the_selection_and_only_they_say_so(patch: Patch) -> None:
+    assert (dynamic_range_db(played(patch), SAMPLE_RATE_HZ) <= 5.0) == patch.is_steady
+
+
+# the source ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("words", "bounds_hz"), EVERYDAY.items(), ids=lambda value: str(value[0]))
+def test_everyday_things_sound_at_the_pitch_of_real_ones(
+    words: tuple[str, str], bounds_hz: tuple[float, float]
+) -> None:
+    clip = make(*words)
+    assert clip.sample_rate_hz == 48_000
+    assert clip.samples.shape == (240_000,)
+    assert 0.5 < np.abs(clip.samples).max() < 1.0
+    assert bounds_hz[0] <= strongest_hz(clip.samples.astype(float)) <= bounds_hz[1]
+
+
+def test_two_fresh_processes_give_identical_bytes() -> None:
+    code = (
+        "import sys; from scene2hap.audio.sources.synth import Synthesizer;"
+        "from scene2hap.haptics import VibrationDescription as V;"
+        "described = V('fan', 'on', 'A fan blows.', 'fan blowing', 0.4, (0.3, 0.3, 0.1), seed=3);"
+        "clips = Synthesizer(takes=2).find(described);"
+        "sys.stdout.buffer.write(b''.join(clip.samples.tobytes() for clip in clips))"
+    )
+    runs = [
+        subprocess.run(
+            [sys.executable, "-c", code], capture_output=True, check=True, env={"PYTHONHASHSEED": seed}
+        ).stdout
+        for seed in ("1", "2")
+    ]
+    assert len(runs[0]) == 2 * 240_000 * 4
+    assert hashlib.sha256(runs[0]).digest() == hashlib.sha256(runs[1]).digest()
+
+
+def test_words_seed_and_take_each_change_the_sound() -> None:
+    reference = make("fan", "fan blowing")
+    np.testing.assert_array_equal(make("fan", "fan blowing").samples, reference.samples)
+    for other in (
+        make("fan", "fan blowing", seed=8),
+        make("fan", "fan humming"),
+        make("fan", "fan blowing", intensity=1),
+    ):
+        assert not np.array_equal(other.samples, reference.samples)
+    takes = Synthesizer(takes=3).find(describe("fan", "fan blowing"))
+    np.testing.assert_array_equal(takes[0].samples, reference.samples)
+    assert len({take.samples.tobytes() for take in takes}) == 3
+
+
+def test_larger_machines_are_slower_within_bounds() -> None:
+    sizes_m = (0.01, 0.3, 0.4, 0.6, 50.0)
+    pitches = [strongest_hz(make("fan", "fan", size_m=(size, 0.1, 0.1)).samples) for size in sizes_m]
+    assert all(small > large for small, large in pairwise(pitches))
+    # One and the same machine but for its size: speeds in the ratio of the roots, and never beyond 3/4 and 4/3.
+    expected = [4 / 3, (0.4 / 0.3) ** 0.5, 1, (0.4 / 0.6) ** 0.5, 3 / 4]
+    np.testing.assert_allclose(np.array(pitches) / pitches[2], expected, rtol=0.01)
+
+
+def test_what_runs_on_the_mains_does_not_change_with_size() -> None:
+    for size in (0.1, 5.0):
+        assert strongest_hz(make("transformer", "hum", size_m=(size, size, size)).samples) == pytest.approx(
+            100, abs=0.3
+        )
+
+
+def test_intensity_is_brightness() -> None:
+    def centroid_hz(clip: AudioClip) -> float:
+        power = np.abs(np.fft.rfft(clip.samples)) ** 2
+        return float((np.fft.rfftfreq(len(clip.samples), 1 / SAMPLE_RATE_HZ) * power).sum() / power.sum())
+
+    for words in (("transformer", "hum"), ("fan", "blow"), ("drill", "drill"), ("refrigerator", "hum")):
+        assert centroid_hz(make(*words, intensity=0.1)) < centroid_hz(make(*words, intensity=0.9))
+
+
+def test_credits_say_that_nobody_is_owed() -> None:
+    first, second = Synthesizer(takes=2).find(describe("electric toothbrush", "electric toothbrush vibrating"))
+    assert first.credit.title == "electric toothbrush (reciprocating), take 1"
+    assert second.credit.title == "electric toothbrush (reciprocating), take 2"
+    assert (first.credit.author, first.credit.licence) == ("scene2hap synthesizer", "CC0-1.0")
+    assert first.credit.query == "electric toothbrush vibrating"
+
+
+def test_its_sounds_can_be_chosen_and_looped() -> None:
+    clip = select_clip(Synthesizer(takes=2).find(describe("refrigerator", "refrigerator humming")))
+    assert make_loop(clip).duration_s > 2.0
+
+
+def test_impossible_requests_are_refused() -> None:
+    for takes in (0, 6, 1.5):
+        with pytest.raises(ConfigError, match="takes is"):
+            Synthesizer(takes)  # type: ignore[arg-type]
+    with pytest.raises(AudioError, match="intensity is 1.5"):
+        make("fan", "fan", intensity=1.5)
+    with pytest.raises(AudioError, match=r"size_m\[0\] is -1 m"):
+        make("fan", "fan", size_m=(-1.0, 0.0, 0.0))
+
+
+def test_is_known_by_its_kind() -> None:
+    assert SOURCES.load("synth") is Synthesizer
+    assert isinstance(Synthesizer(), AudioSource)
+
+
+# which voice ---------------------------------------------------------------------------------------------------------
+
+
+def voice_of(category: str, *phrases: str) -> str:
+    return name_of(patch_for(category, *phrases)).split("-")[0]
+
+
+@pytest.mark.parametrize(
+    ("category", "keywords", "voice"),
+    [
+        ("Refrigerator", "refrigerator humming", "compressor"),
+        ("fridge", "fridge whirring", "compressor"),
+        ("desk fans", "desk fan rotating", "fan"),
+        ("microwave on refrigerator", "microwave heating", "microwave"),
+        ("alarm clock", "alarm clock ringing", "buzzer"),
+        ("alarm clock", "alarm clock ticking", "blows"),
+        ("wall clock", "wall clock ticking", "blows"),
+        ("clock", "clock ringing", "buzzer"),
+        ("frying pan", "pan boiling", "bubbles"),
+        ("washing machine drum", "drum spinning", "spinner"),
+        ("phone charger", "phone charger humming", "mains_hum"),
+        ("delivery truck", "truck idling", "combustion"),
+        ("hammer drill", "hammer drill drilling", "blows"),
+        ("gizmo", "gizmo vibrating", "vibration_motor"),
+        ("gizmo", "gizmo humming", "mains_hum"),
+        ("gizmo", "gizmo existing", "motor"),
+        ("", "", "motor"),
+    ],
+)
+def test_category_and_verb_choose_the_voice(category: str, keywords: str, voice: str) -> None:
+    assert voice_of(category, keywords) == voice
+
+
+def test_a_sizzling_pan_is_brighter_than_a_boiling_one() -> None:
+    boiling, sizzling = (patch_for("frying pan", f"frying pan {verb}") for verb in ("boiling", "sizzling"))
+    assert sizzling.dominant_hz[0] > boiling.dominant_hz[0]
+
+
+def test_the_state_may_hold_the_verb() -> None:
+    assert voice_of("clock", "clock", "ringing") == "buzzer"
+
+
+def test_the_unknown_is_some_motor() -> None:
+    assert patch_for("frobnicator", "frobnicator frobbing") is MOTOR
