@@ -35,6 +35,8 @@ def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
     path = Path(path)
     if not path.is_file():
         raise AudioError(f"{path} is not a file. Give the path of an existing sound file.")
+    if _is_cut_short(path):
+        raise AudioError(f"{path} is cut short: fewer bytes than its header says. Copy it again.")
     try:
         with soundfile.SoundFile(path) as file:
             rate = int(file.samplerate)
@@ -56,13 +58,15 @@ def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
     return AudioClip(mono.astype(np.float32), rate, credit or Credit(path.stem, "unknown", "unknown"))
 
 
-def _is_cut_short(encoded: bytes) -> bool:
+def _is_cut_short(path: Path) -> bool:
     """Whether a RIFF file ends before its stated length, which libsndfile passes over in silence.
 
     Programs that write into a pipe leave 0 or the largest number there.
     """
-    stated = int.from_bytes(encoded[4:8], "little")
-    return encoded[:4] == b"RIFF" and stated not in (0, 0xFFFFFFFF) and len(encoded) < stated + 8
+    with path.open("rb") as file:
+        header = file.read(8)
+    stated = int.from_bytes(header[4:], "little")
+    return header[:4] == b"RIFF" and stated not in (0, 0xFFFFFFFF) and path.stat().st_size < stated + 8
 
 
 def write_wav(path: str | Path, samples: ArrayLike, sample_rate_hz: int, subtype: PcmSubtype = "PCM_24") -> None:

@@ -139,3 +139,13 @@ def test_stereo_is_written_as_it_is(tmp_path: Path) -> None:
     read, rate = soundfile.read(tmp_path / "two.wav", dtype="float32")
     assert rate == RATE
     np.testing.assert_allclose(read, both, rtol=0, atol=2**-24)
+
+
+def test_a_file_cut_short_is_refused_and_one_from_a_pipe_is_read(tmp_path: Path) -> None:
+    write_wav(tmp_path / "a.wav", tone(), RATE)
+    whole = (tmp_path / "a.wav").read_bytes()
+    (tmp_path / "a.wav").write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(AudioError, match="is cut short"):
+        read_clip(tmp_path / "a.wav")
+    (tmp_path / "a.wav").write_bytes(whole[:4] + b"\xff" * 4 + whole[8:])
+    assert len(read_clip(tmp_path / "a.wav").samples) == RATE
