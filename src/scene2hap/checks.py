@@ -8,8 +8,32 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from numbers import Real
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from scene2hap.errors import Scene2HapError
+
+if TYPE_CHECKING:
+    from pydantic import ValidationError
+
+
+class Problem(NamedTuple):
+    """The first thing that pydantic found wrong: where, why, and the value."""
+
+    location: tuple[int | str, ...]
+    reason: str
+    value: Any
+
+    @property
+    def place(self) -> str:
+        """The location with dots between its parts."""
+        return ".".join(map(str, self.location))
+
+
+def first_problem(error: ValidationError) -> Problem:
+    """What to tell a person of a failed validation: one thing at a time, in our words where we raised it."""
+    first = error.errors()[0]
+    reason = first["msg"].removeprefix("Value error, ").removesuffix(".")
+    return Problem(first["loc"], reason, first["input"])
 
 
 def number(

@@ -47,7 +47,9 @@ def parse(text: str) -> SceneSnapshot:
 
 def to_document(snapshot: SceneSnapshot) -> dict[str, Any]:
     """The snapshot as plain JSON values, each object with its geometry."""
-    document: dict[str, Any] = _scene.dump_python(snapshot, mode="json", exclude={"_by_id"})
+    document: dict[str, Any] = _scene.dump_python(
+        snapshot, mode="json", exclude={"_by_id": True, "objects": {"__all__": {"appearance"}}}
+    )
     return document
 
 

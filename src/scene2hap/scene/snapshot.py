@@ -15,10 +15,11 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from pydantic import PlainSerializer, PlainValidator
+from pydantic import InstanceOf, PlainSerializer, PlainValidator
 
 from scene2hap import checks
 from scene2hap.errors import SceneError, UnknownObject
+from scene2hap.scene.appearance import Appearance
 from scene2hap.scene.pose import Pose
 
 UpAxis = Literal["y", "z"]
@@ -179,7 +180,7 @@ class SceneObject:
 
     `id` is unique in the scene and stable over loads; `name` is what the author wrote, which many objects may share.
     `instance_key` is equal for objects of equal mesh and materials. `relative_height_m` is the height of the lowest
-    point above the lowest point of the whole scene.
+    point above the lowest point of the whole scene. `appearance` is for pictures alone, None where unknown.
     """
 
     id: str
@@ -189,6 +190,7 @@ class SceneObject:
     surface: DominantSurface
     relative_height_m: float = 0.0
     instance_key: str = ""
+    appearance: InstanceOf[Appearance] | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         if not self.id:
