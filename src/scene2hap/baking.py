@@ -12,6 +12,7 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
+from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.loops import loop_pair
@@ -62,9 +63,8 @@ class BakeConfig(BaseModel):
         try:
             return cls.model_validate(settings or {})
         except ValidationError as cause:
-            problem = cause.errors()[0]
-            place = ".".join(str(part) for part in problem["loc"])
-            raise ConfigError(f"bake setting {place}: {problem['msg']}, got {problem['input']!r}.") from cause
+            problem = checks.first_problem(cause)
+            raise ConfigError(f"bake setting {problem.place}: {problem.reason}, got {problem.value!r}.") from cause
 
 
 def bake(

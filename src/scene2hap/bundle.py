@@ -24,6 +24,7 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
+from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import read_clip, write_wav
 from scene2hap.audio.haptic_loop import HapticLoop
@@ -179,9 +180,8 @@ def _read(folder: Path) -> HapticBundle:
             },
         )
     except ValidationError as cause:
-        problem = cause.errors()[0]
-        place = ".".join(str(part) for part in problem["loc"])
-        raise BundleError(f"{folder / 'objects.json'}: {place}: {problem['msg']}.") from cause
+        problem = checks.first_problem(cause)
+        raise BundleError(f"{folder / 'objects.json'}: {problem.place}: {problem.reason}.") from cause
     except (AudioError, SceneError) as cause:
         raise BundleIncomplete(f"{folder}: {cause}") from cause
     except (AttributeError, KeyError, TypeError) as cause:

@@ -15,6 +15,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, model_validator
 
+from scene2hap import checks
 from scene2hap.errors import SessionError
 
 FORMAT: Literal["scene2hap/touches"] = "scene2hap/touches"
@@ -127,9 +128,8 @@ class TouchTrack(BaseModel):
         try:
             return cls.model_validate(document)
         except ValidationError as cause:
-            problem = cause.errors()[0]
-            reason = problem["msg"].removeprefix("Value error, ")
-            raise SessionError(f"{name}: {_place(problem['loc'])}: {reason}. See docs/touches.md.") from cause
+            problem = checks.first_problem(cause)
+            raise SessionError(f"{name}: {_place(problem.location)}: {problem.reason}. See docs/touches.md.") from cause
 
 
 def _place(location: tuple[int | str, ...]) -> str:

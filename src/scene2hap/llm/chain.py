@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
+from scene2hap import checks
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import BadAnswer
 from scene2hap.haptics import ObjectHaptics, SourceState
@@ -181,9 +182,9 @@ class _Chain:
         try:
             return shape.model_validate_json(reply.text), f"{reply.model}, prompt {prompts.VERSION}"
         except ValidationError as cause:
-            problem = cause.errors()[0]
-            place = ".".join(str(part) for part in problem["loc"]) or "(whole answer)"
-            raise BadAnswer(f"{about}: {place}: {problem['msg']}.", reply.text) from cause
+            problem = checks.first_problem(cause)
+            place = problem.place or "(whole answer)"
+            raise BadAnswer(f"{about}: {place}: {problem.reason}.", reply.text) from cause
 
 
 def _neighbour_names(scene: SceneSnapshot) -> dict[str, list[str]]:

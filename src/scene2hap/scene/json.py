@@ -10,6 +10,7 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
+from scene2hap import checks
 from scene2hap.errors import SceneError
 from scene2hap.scene.snapshot import Geometry, SceneSnapshot
 
@@ -47,9 +48,8 @@ def parse(text: str) -> SceneSnapshot:
 
 def to_document(snapshot: SceneSnapshot) -> dict[str, Any]:
     """The snapshot as plain JSON values, each object with its geometry."""
-    document: dict[str, Any] = _scene.dump_python(
-        snapshot, mode="json", exclude={"_by_id": True, "objects": {"__all__": {"appearance"}}}
-    )
+    hidden: Any = {"_by_id": True, "objects": {"__all__": {"appearance"}}}
+    document: dict[str, Any] = _scene.dump_python(snapshot, mode="json", exclude=hidden)
     return document
 
 
@@ -67,9 +67,8 @@ def from_document(document: dict[str, Any]) -> SceneSnapshot:
         fields = {key: document[key] for key in ("name", "up_axis", "contacts") if key in document}
         return _scene.validate_python({**fields, "objects": objects})
     except ValidationError as cause:
-        problem = cause.errors()[0]
-        place = ".".join(str(part) for part in problem["loc"])
-        raise SceneError(f"scene field {place or '(top)'}: {problem['msg']}.") from cause
+        problem = checks.first_problem(cause)
+        raise SceneError(f"scene field {problem.place or '(top)'}: {problem.reason}.") from cause
 
 
 def geometry_key(geometry: Geometry) -> str:

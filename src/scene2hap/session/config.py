@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
+from scene2hap import checks
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation import MODELS
@@ -47,6 +48,5 @@ class SessionConfig(BaseModel):
         try:
             return cls.model_validate(settings or {})
         except ValidationError as cause:
-            problem = cause.errors()[0]
-            place = ".".join(str(part) for part in problem["loc"])
-            raise ConfigError(f"session setting {place}: {problem['msg']}, got {problem['input']!r}.") from cause
+            problem = checks.first_problem(cause)
+            raise ConfigError(f"session setting {problem.place}: {problem.reason}, got {problem.value!r}.") from cause
