@@ -1,0 +1,88 @@
+"""LexiconBackend: the four components of the chain answered from the table, without network or chance."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from scene2hap import checks
+from scene2hap.errors import BadAnswer, UnknownMaterial
+from scene2hap.llm.answers import Answer, MaterialAnswer, SceneAnswer, VibrationAnswer
+from scene2hap.llm.lexicon import describing, judging, places, table
+from scene2hap.llm.protocol import Component, LLMReply, LLMRequest
+from scene2hap.materials import lookup
+
+_Facts = Mapping[str, Any]
+
+
+class LexiconBackend:
+    """Answers from `request.facts` alone; prompt, pictures and temperature do not matter.
+
+    What the table does not know becomes category "unknown" with confidence of at most 0.2 and stays silent.
+    Raises (from `complete`): BadAnswer: a fact is missing or of the wrong kind, or no row of the material table has
+    the material that is asked for.
+    """
+
+    async def complete(self, request: LLMRequest) -> LLMReply:
+        """The answer to one request, always the same for the same facts."""
+        answer = _ANSWERS[request.component](request.facts)
+        return LLMReply(text=json.dumps(answer.model_dump()), model=f"lexicon/{table.version()}")
+
+
+def _scene(facts: _Facts) -> Answer:
+    return SceneAnswer(scene_category=places.kind_of_place(_text(facts, "scene_name"), _texts(facts, "object_names")))
+
+
+def _object(facts: _Facts) -> Answer:
+    length, width, thickness = (
+        checks.number(name, facts.get(name), "m", at_least=0.0, error=BadAnswer, hint="The lexicon reads it as a fact.")
+        for name in ("length_m", "width_m", "thickness_m")
+    )
+    return judging.judge(
+        judging.Measured(_text(facts, "object_name"), (length, width, thickness), _texts(facts, "surface_flags")),
+        _texts(facts, "neighbour_names"),
+    )
+
+
+def _material(facts: _Facts) -> Answer:
+    word = _text(facts, "material_category")
+    try:
+        material = lookup(word)
+    except UnknownMaterial as cause:
+        raise BadAnswer(f"the lexicon cannot estimate a material: {cause}") from cause
+    return MaterialAnswer(
+        density_kg_m3=material.density_kg_m3,
+        youngs_modulus_gpa=material.youngs_modulus_pa / 1e9,
+        poisson_ratio=material.poisson_ratio,
+        loss_factor=material.loss_factor,
+    )
+
+
+def _vibration(facts: _Facts) -> VibrationAnswer:
+    return describing.describe(
+        _text(facts, "object_category"), _text(facts, "state"), _text(facts, "scene_category", default="")
+    )
+
+
+_ANSWERS: dict[Component, Callable[[_Facts], Answer]] = {
+    "scene_analyzer": _scene,
+    "object_analyzer": _object,
+    "material_estimator": _material,
+    "vibration_describer": _vibration,
+}
+
+
+def _text(facts: _Facts, name: str, default: str | None = None) -> str:
+    value = facts.get(name, default)
+    if not isinstance(value, str):
+        raise BadAnswer(f"fact {name!r} is {value!r}; the lexicon needs a text there.")
+    # A lone surrogate (a file name that is not UTF-8) has no JSON.
+    return value.encode("utf-8", "replace").decode()
+
+
+def _texts(facts: _Facts, name: str) -> tuple[str, ...]:
+    value = facts.get(name, ())
+    if isinstance(value, str) or not isinstance(value, (list, tuple)):
+        raise BadAnswer(f"fact {name!r} is {value!r}; the lexicon needs a list of texts there.")
+    return tuple(_text({name: item}, name) for item in value)

@@ -1,0 +1,54 @@
+"""One state of a vibrating object in words: a sentence for making its sound, keywords for finding it."""
+
+from __future__ import annotations
+
+from scene2hap.llm.answers import VibrationAnswer
+from scene2hap.llm.lexicon.names import read_name
+from scene2hap.llm.lexicon.places import UNDEFINED
+from scene2hap.llm.lexicon.table import StateRow
+
+MAX_WORDS = 15
+"""Longest sentence; paper, section "Vibration Describer"."""
+
+_MAX_KEYWORDS = 60  # letters, as in VibrationAnswer
+_CATEGORY_WORDS, _STATE_WORDS, _PLACE_WORDS = 4, 2, 2
+_MAX_LETTERS = 24  # of one word; a longer one is no word and would break the answer's bound
+_ANYTHING = StateRow("", 0.0, "humming")
+
+# Upper bounds of intensity and the adverb for it. Assumed, on the scale of haptics.SourceState.
+_STRENGTHS = ((0.15, "softly"), (0.35, "gently"), (0.65, "firmly"), (1.0, "strongly"))
+_RHYTHMS = {"ticking": "regularly", "ringing": "in bursts", "alerting": "in bursts", "sounding": "in bursts"}
+
+
+def describe(category: str, state_name: str, scene_category: str = "") -> VibrationAnswer:
+    """What the object does and how: "refrigerator humming softly and steadily while switched on in the kitchen".
+
+    A category that the table does not know, as a language model may have found it, is described by its state alone.
+    """
+    thing = _words(category, _CATEGORY_WORDS) or "object"
+    name = _words(state_name, _STATE_WORDS)
+    state = _state(category, state_name)
+    verb = state.verb
+    if state is _ANYTHING and name.endswith("ing"):
+        verb = name.split()[-1]
+    rhythm = _RHYTHMS.get(state_name, "steadily")
+    strength = next((adverb for bound, adverb in _STRENGTHS if 0.0 < state.intensity <= bound), "")
+    parts = [thing, verb, f"{strength} and {rhythm}" if strength else rhythm]
+    if name and name != verb:
+        parts.append(f"while {'switched on' if name == 'on' else name}")
+    place = _words(scene_category, _PLACE_WORDS)
+    if place and place != UNDEFINED:
+        parts.append(f"in the {place}")
+    keywords = f"{thing[: _MAX_KEYWORDS - len(verb) - 1].rstrip()} {verb}"
+    return VibrationAnswer(sentence=" ".join(parts), keywords=keywords)
+
+
+def _state(category: str, state_name: str) -> StateRow:
+    row = read_name(category).row
+    return next((state for state in row.states if state.name == state_name), _ANYTHING) if row else _ANYTHING
+
+
+def _words(text: str, most: int) -> str:
+    """The first words of a text. Forms of "vibrate" are left out: they say that, not how, a thing moves."""
+    kept = [word[:_MAX_LETTERS] for word in text.split() if "vibrat" not in word.casefold()]
+    return " ".join(kept[:most])

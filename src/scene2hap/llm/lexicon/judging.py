@@ -1,0 +1,169 @@
+"""What an object is, how large, of what, and whether it vibrates, from its name, its size and its neighbours' names."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from scene2hap.llm.answers import ObjectAnswer, StateAnswer
+from scene2hap.llm.lexicon.names import NameReading, read_name
+from scene2hap.llm.lexicon.table import ObjectRow, StateRow, table
+
+UNKNOWN = "unknown"
+
+# Below half of the smallest real one a thing is a miniature; beyond three times the largest, the scene's unit is in
+# doubt. Both assumed, wide enough for asset kits at half or double scale.
+_MINIATURE = 0.5
+_GIANT = 3.0
+_MINIATURE_TRUST = 0.8
+_GIANT_TRUST = 0.5
+
+_THINNEST_M = 1e-3  # a plate measured below this is taken as modelled without thickness
+_MINIATURE_MATERIAL = "plastic"  # assumed for all of them
+_MINIATURE_THICKNESS_M = 2e-3  # assumed
+
+
+@dataclass(frozen=True)
+class Measured:
+    """An object as the scene has it: authored name, size of its dominant surface and the doubts about it."""
+
+    name: str
+    size_m: tuple[float, float, float]
+    flags: Sequence[str] = ()
+
+
+def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
+    """The Object Analyzer's answer; category "unknown", silent and unsure where the name says nothing."""
+    reading = read_name(item.name)
+    if reading.row is None:
+        return _unknown(item, reading)
+    miniature = _miniature(reading, reading.row, item.size_m)
+    if miniature:
+        return _as_miniature(item, reading, reading.row, miniature)
+    return _as_real(item, reading, reading.row, neighbour_names)
+
+
+def _unknown(item: Measured, reading: NameReading) -> ObjectAnswer:
+    words = ", ".join(map(repr, reading.unread)) or "no word for an object"
+    return ObjectAnswer(
+        object_category=UNKNOWN,
+        category_reason=f"the name {item.name!r} holds {words}; the table of {len(table())} objects cannot tell.",
+        material_category=UNKNOWN,
+        estimated_length_m=item.size_m[0],
+        estimated_width_m=item.size_m[1],
+        estimated_thickness_m=item.size_m[2],
+        size_reason="as measured; nothing to compare it with.",
+        usage=UNKNOWN,
+        vibrates=False,
+        vibration_reason="nothing is known about it, so it stays silent.",
+        states=[],
+        confidence=reading.confidence,
+    )
+
+
+def _as_real(item: Measured, reading: NameReading, row: ObjectRow, neighbour_names: Sequence[str]) -> ObjectAnswer:
+    material, thickness_m = _make(reading, row)
+    thickness, size_reason = _thickness(item, thickness_m, row.noun)
+    confidence = reading.confidence
+    if row.max_size_m is not None and max(item.size_m) > _GIANT * row.max_size_m:
+        confidence *= _GIANT_TRUST
+        size_reason += f" A real {row.noun} is at most {row.max_size_m:g} m long: check the scene's unit."
+    states, vibration_reason = _states(row, neighbour_names)
+    return ObjectAnswer(
+        object_category=row.noun,
+        category_reason=_category_reason(item.name, reading, row),
+        material_category=material,
+        estimated_length_m=item.size_m[0],
+        estimated_width_m=item.size_m[1],
+        estimated_thickness_m=thickness,
+        size_reason=size_reason,
+        usage=row.usage,
+        vibrates=bool(states),
+        vibration_reason=vibration_reason,
+        states=states,
+        confidence=confidence,
+    )
+
+
+def _as_miniature(item: Measured, reading: NameReading, row: ObjectRow, why: str) -> ObjectAnswer:
+    category = f"{'toy' if row.role == 'vehicle' else 'miniature'} {row.noun}"
+    thickness, size_reason = _thickness(item, _MINIATURE_THICKNESS_M, category)
+    return ObjectAnswer(
+        object_category=category,
+        category_reason=f"{_category_reason(item.name, reading, row)} {why}",
+        material_category=reading.material or _MINIATURE_MATERIAL,
+        estimated_length_m=item.size_m[0],
+        estimated_width_m=item.size_m[1],
+        estimated_thickness_m=thickness,
+        size_reason=size_reason,
+        usage="Played with, or stands there as decoration.",
+        vibrates=False,
+        vibration_reason=f"a {category} has no working mechanism.",
+        states=[],
+        confidence=reading.confidence * _MINIATURE_TRUST,
+    )
+
+
+def _miniature(reading: NameReading, row: ObjectRow, size_m: tuple[float, float, float]) -> str:
+    """Why this is not the real thing; "" where it may be."""
+    if reading.toy:
+        return "The name says that it is not a real one."
+    longest = max(size_m)
+    if row.min_size_m is not None and 0.0 < longest < _MINIATURE * row.min_size_m:
+        return f"It is {longest:.2g} m long, far below a real one of at least {row.min_size_m:g} m."
+    return ""
+
+
+def _category_reason(name: str, reading: NameReading, row: ObjectRow) -> str:
+    reason = f"{reading.head!r} in the name {name!r} names a {row.noun}."
+    if reading.unread:
+        reason += f" Not understood: {', '.join(map(repr, reading.unread))}."
+    return reason
+
+
+def _make(reading: NameReading, row: ObjectRow) -> tuple[str, float]:
+    """Material and plate thickness [m]: the table's, the whole's for a part, or the material that the name gives.
+
+    A machine keeps its own: beside a machine an adjective tells what it works on (wood chipper, metal saw).
+    """
+    whole = reading.whole
+    material, thickness_m = row.material, row.thickness_m
+    if whole is not None and (whole.vibrates or whole.role in ("vessel", "vehicle")):
+        material, thickness_m = whole.material, whole.thickness_m
+    if reading.material is not None and not row.vibrates and row.role != "content":
+        material = reading.material
+    return material, thickness_m
+
+
+def _thickness(item: Measured, plausible_m: float, category: str) -> tuple[float, str]:
+    measured = item.size_m[2]
+    if measured >= _THINNEST_M and "zero-thickness" not in item.flags:
+        return measured, "as measured."
+    return plausible_m, (
+        f"measured thickness of {measured:g} m replaced by {plausible_m:g} m, which is assumed for a {category}."
+    )
+
+
+def _states(row: ObjectRow, neighbour_names: Sequence[str]) -> tuple[list[StateAnswer], str]:
+    """The states that hold here, and why; a pan's only where it touches something that heats it."""
+    own = [state for state in row.states if not state.needs_contact]
+    if own:
+        doing = ", ".join(f"{state.verb} when {state.name}" for state in own)
+        return [_state(state, None) for state in own], f"by a mechanism or sound of its own: {doing}."
+    touched = [reading.row.noun for reading in map(read_name, neighbour_names) if reading.row and not reading.toy]
+    heated = [
+        (state, noun)
+        for state in row.states
+        for noun in [next((noun for noun in touched if noun in state.needs_contact), None)]
+        if noun is not None
+    ]
+    if heated:
+        return [_state(state, noun) for state, noun in heated], f"it touches the {heated[0][1]}, which can heat it."
+    if row.states:
+        heaters = ", ".join(row.states[0].needs_contact)
+        return [], f"a {row.noun} is still by itself; it would be heard only on one of: {heaters}; it touches none."
+    return [], f"a {row.noun} has no mechanism, sound or heated content of its own; being shaken does not count."
+
+
+def _state(state: StateRow, needs_contact: str | None) -> StateAnswer:
+    return StateAnswer(name=state.name, intensity=state.intensity, needs_contact=needs_contact)

@@ -1,0 +1,190 @@
+"""Reading authored object names: "kitchenFridge", "SM_Prop_Table_02", "washer(Clone)", "Cupboard_Big_door_upper".
+
+1. A name falls into words at separators, digits and changes of case; run-together words are cut where all pieces are
+   known ("kitchentable").
+2. Everything from a preposition on is left out ("bottle_of_wine").
+3. The last noun is the object, as in English compounds, and the longest match wins: a sink counter is a counter, a
+   coffee machine is no coffee. Words of tools, sides, colours and rooms never are the object.
+4. Asset kits also write the object first. A two-word noun of the table is found in that order too (tableCoffee), a
+   container goes before its content (crate_tomatoes), a material after its noun (tableGlass).
+5. What no rule reads stays unknown. Guessing stops at plurals and at one slip of the keyboard in a long word.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+from scene2hap.llm.lexicon import spelling, words
+from scene2hap.llm.lexicon.table import ObjectRow
+
+# How sure a reading is. Assumed; they only order readings by how much of the name was understood.
+_ALL_READ = 0.95
+_UNREAD_BEFORE = 0.9  # "zorgon_lamp" is some lamp
+_UNREAD_AFTER = 0.5  # "fridge_zorgon" may be a fridge, or a zorgon
+_OBJECT_FIRST = 0.8
+_UNKNOWN = 0.1
+
+_LONGEST_NOUN = 4  # words
+
+_HOLDS = {"container": ("vessel", "content"), "vessel": ("content",)}
+# 3ds Max calls its primitives so; "Box_01" is a box.
+_PRIMITIVE = re.compile(r"box\d+", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class NameReading:
+    """What an authored name says.
+
+    `words` are its words in lower case; `row` is the table's row or None; `confidence` is 0..1 and at most 0.2 where
+    `row` is None. `head` is the recognised part, `unread` the words that nothing knows, `material` a material that an
+    adjective names, `toy` whether the name itself denies that it is the real thing, `whole` the thing that a part
+    belongs to (the oven of an oven door).
+    """
+
+    words: tuple[str, ...]
+    row: ObjectRow | None
+    confidence: float
+    head: str = ""
+    unread: tuple[str, ...] = ()
+    material: str | None = None
+    toy: bool = False
+    whole: ObjectRow | None = None
+
+
+@dataclass(frozen=True)
+class _Noun:
+    """A noun of the table found at words[start:end]."""
+
+    row: ObjectRow
+    start: int
+    end: int
+    plural: bool
+
+
+@lru_cache(maxsize=4096)
+def read_name(name: str) -> NameReading:
+    """Read one authored name; never fails."""
+    tokens, trust = spelling.read_words(name)
+    trust *= _ALL_READ
+    unread = tuple(word for word in tokens if not spelling.is_known(word))
+    unknown = NameReading(tuple(tokens), None, _UNKNOWN, unread=unread)
+    if _PRIMITIVE.fullmatch(name.strip()):
+        return unknown
+    nouns = _nouns(tokens)
+    clause = _before_preposition(tokens, nouns)
+    nouns = [noun for noun in nouns if noun.end <= clause]
+    if not nouns:
+        return unknown
+    head = _head(tokens, nouns)
+    turned = _object_first(tokens[:clause], nouns)
+    if turned is not None:
+        trust *= 1.0 if turned.row is head.row else _OBJECT_FIRST
+        head = turned
+    in_nouns = {i for noun in (*nouns, head) for i in range(noun.start, noun.end)}
+    behind = tuple(tokens[i] for i in range(head.end, clause) if i not in in_nouns and not _is_beside(tokens[i]))
+    before = tuple(word for word in tokens[: head.start] if word in unread)
+    trust *= (_UNREAD_BEFORE if before else 1.0) * (_UNREAD_AFTER if behind else 1.0)
+    rest = [*tokens[: head.start], *tokens[head.end : clause]]
+    return NameReading(
+        tuple(tokens),
+        head.row,
+        round(trust, 3),
+        head=" ".join(tokens[head.start : head.end]),
+        unread=before + behind,
+        material=next((words.MATERIAL_WORDS[word] for word in rest if word in words.MATERIAL_WORDS), None),
+        toy=any(word in words.TOY_WORDS for word in tokens[: head.start]),
+        whole=_whole(tokens, head, nouns),
+    )
+
+
+def places_named(name: str) -> tuple[str, ...]:
+    """The kinds of place that a name's words name, each once."""
+    found = (words.PLACE_WORDS.get(word) for word in spelling.read_words(name)[0])
+    return tuple(dict.fromkeys(place for place in found if place is not None))
+
+
+def _nouns(tokens: Sequence[str]) -> list[_Noun]:
+    """The table's nouns in a name, from the right, longest first, without overlap; in reading order."""
+    found = []
+    end = len(tokens)
+    while end > 0:
+        for start in range(max(0, end - _LONGEST_NOUN), end):
+            noun = _noun_at(tokens, start, end)
+            if noun is not None:
+                found.append(noun)
+                end = start
+                break
+        else:
+            end -= 1
+    return found[::-1]
+
+
+def _noun_at(tokens: Sequence[str], start: int, end: int) -> _Noun | None:
+    last = tokens[end - 1]
+    for form in words.forms(last):
+        spelled = (*tokens[start : end - 1], form)
+        entry = spelling.nouns().get("".join(spelled))
+        # "Table_T" is no tablet: a single letter belongs to a noun only where the table writes it so ("x box").
+        if entry is not None and (spelled == entry[1] or min(map(len, spelled)) > 1):
+            return _Noun(entry[0], start, end, plural=form != last)
+    return None
+
+
+def _before_preposition(tokens: Sequence[str], nouns: Sequence[_Noun]) -> int:
+    """The index of the first preposition that follows a noun and is not inside one ("chest of drawers")."""
+    for i, word in enumerate(tokens):
+        inside = any(noun.start <= i < noun.end for noun in nouns)
+        if word in words.PREPOSITIONS and not inside and any(noun.end <= i for noun in nouns):
+            return i
+    return len(tokens)
+
+
+def _head(tokens: Sequence[str], nouns: Sequence[_Noun]) -> _Noun:
+    """The noun that is the object: the last, but for leftovers, materials and content."""
+    left = list(nouns)
+    while len(left) > 1:
+        last, previous = left[-1], left[-2]
+        word = " ".join(tokens[last.start : last.end])
+        is_material = word in words.MATERIAL_NOUNS and not previous.row.vibrates
+        held = last.row.role in _HOLDS.get(previous.row.role, ())
+        # A vessel in a container shows by its plural: "crate_bottles", but "box_plate".
+        is_content = held and (last.plural or last.row.role == "content")
+        if word not in words.LEFTOVER_NOUNS and not is_material and not is_content:
+            break
+        left.pop()
+    return left[-1]
+
+
+def _object_first(tokens: Sequence[str], nouns: Sequence[_Noun]) -> _Noun | None:
+    """A two-word noun written object first ("table coffee"), nothing but side words between and behind."""
+    telling = [
+        i
+        for i, word in enumerate(tokens)
+        if len(word) > 1 and (word not in spelling.side_words() or any(noun.start <= i < noun.end for noun in nouns))
+    ]
+    telling = [i for i in telling if tokens[i] not in words.MATERIAL_NOUNS | words.LEFTOVER_NOUNS] or telling
+    if len(telling) < 2:
+        return None
+    first, second = telling[-2:]
+    entry = spelling.nouns().get(tokens[second] + tokens[first])
+    if entry is None or entry[1] != (tokens[second], tokens[first]) or _noun_at((tokens[first], tokens[second]), 0, 2):
+        return None
+    return _Noun(entry[0], first, second + 1, plural=False)
+
+
+def _whole(tokens: Sequence[str], head: _Noun, nouns: Sequence[_Noun]) -> ObjectRow | None:
+    """What a part belongs to: the noun before it, unless that is its material (glass door)."""
+    before = [noun for noun in nouns if noun.end <= head.start]
+    if head.row.role != "part" or not before or tokens[before[-1].end - 1] in words.MATERIAL_WORDS:
+        return None
+    return before[-1].row
+
+
+def _is_beside(word: str) -> bool:
+    """Whether a word behind the noun leaves it the object: a side, a room, a material, a serial."""
+    return len(word) < 3 or any(
+        form in spelling.side_words() or form in words.MATERIAL_WORDS for form in words.forms(word)
+    )

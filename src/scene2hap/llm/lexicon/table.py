@@ -1,0 +1,113 @@
+"""The lexicon's table of everyday objects, one row per head noun.
+
+`table.csv` gives for each noun its other names, the places where it stands, the material and thickness of its dominant
+surface, the span of its longest edge, its use, and the states in which it vibrates by itself. Each row names what it
+rests on. Intensities are ranked by published hand-arm vibration where there is any and assumed throughout, on the
+scale of `haptics.SourceState`; thicknesses and sizes are assumed unless the row's source says otherwise.
+
+`role` tells names apart that hold two nouns: a "container" or "vessel" may be followed by its "content"
+(crate_tomatoes); a "part" belongs to the noun before it (oven_door). A "vehicle" that is far too small is a toy.
+"""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import Literal, cast
+
+Role = Literal["", "container", "vessel", "content", "part", "vehicle"]
+
+PLACES = (
+    "kitchen",
+    "bathroom",
+    "laundry",
+    "living-room",
+    "bedroom",
+    "office",
+    "workshop",
+    "garden",
+    "building-site",
+    "gym",
+)
+"""Kinds of place that the table knows; a row may also stand in "any"."""
+
+
+@dataclass(frozen=True)
+class StateRow:
+    """One way to vibrate: state name, intensity 0..1 [-], a verb for its sound, and what must be touched for it.
+
+    `needs_contact` holds the nouns of which one must touch the object (a pan sizzles on a stove); empty means always.
+    """
+
+    name: str
+    intensity: float
+    verb: str
+    needs_contact: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class ObjectRow:
+    """One everyday object; `min_size_m` and `max_size_m` bound its longest edge, where that matters."""
+
+    noun: str
+    synonyms: tuple[str, ...]
+    places: tuple[str, ...]
+    material: str
+    thickness_m: float
+    min_size_m: float | None
+    max_size_m: float | None
+    role: Role
+    usage: str
+    vibrates: bool
+    states: tuple[StateRow, ...]
+    source: str
+
+
+@cache
+def table() -> tuple[ObjectRow, ...]:
+    """Every row, in the order of the file."""
+    return tuple(_row(fields) for fields in csv.DictReader(_text().splitlines()))
+
+
+@cache
+def version() -> str:
+    """A short digest of the table, so that an answer's provenance changes exactly when a row does."""
+    return hashlib.sha256("\n".join(_text().splitlines()).encode()).hexdigest()[:8]
+
+
+@cache
+def _text() -> str:
+    return files(__package__).joinpath("table.csv").read_text(encoding="utf-8")
+
+
+def _row(fields: dict[str, str]) -> ObjectRow:
+    return ObjectRow(
+        noun=fields["noun"],
+        synonyms=_split(fields["synonyms"], ";"),
+        places=_split(fields["places"], ";"),
+        material=fields["material"],
+        thickness_m=float(fields["thickness_m"]),
+        min_size_m=_optional(fields["min_size_m"]),
+        max_size_m=_optional(fields["max_size_m"]),
+        role=cast("Role", fields["role"]),
+        usage=fields["usage"],
+        vibrates=fields["vibrates"] == "yes",
+        states=tuple(_state(text) for text in _split(fields["states"], ";")),
+        source=fields["source"],
+    )
+
+
+def _state(text: str) -> StateRow:
+    name, intensity, verb, *contact = text.split(":")
+    return StateRow(name, float(intensity), verb, _split(contact[0], "/") if contact else ())
+
+
+def _split(text: str, separator: str) -> tuple[str, ...]:
+    return tuple(part for part in text.split(separator) if part)
+
+
+def _optional(text: str) -> float | None:
+    return float(text) if text else None

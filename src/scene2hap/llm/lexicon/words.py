@@ -1,0 +1,135 @@
+"""Words of authored names that are no objects: what tools, artists and level designers write around the noun."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+
+def _set(text: str) -> frozenset[str]:
+    return frozenset(text.split())
+
+
+TOOL_WORDS = _set("""
+    sm sk st bp prop props mesh mtl geo geom geometry grp group node obj object objects model models prefab prefabs inst
+    instance instanced lod lods col coll collider collision ucx ubx usp static dynamic root body part parts piece main
+    copy clone final test tmp temp default base bake baked poly lowpoly highpoly hd lp hp fbx glb gltf stl dae blend usd
+    usdz ply asset assets pack kit item items variant var version ver rig rigged skinned skeleton armature bone empty
+    null pivot ctrl locator helper dummy xform transform matrix scene level world env environment interior exterior mat
+    material materials texture tex uv primitive prim submesh element component entity actor planforge sketchfab unity
+    unreal untitled noname unnamed
+    cube cylinder sphere icosphere uvsphere circle plane cone torus capsule quad curve line polygon surface shape bezier
+    nurbs text point
+""")
+"""Written by exporters, engines and modelling tools; says nothing about the object."""
+
+MODIFIERS = _set("""
+    left right upper lower top bottom front back rear side middle center centre corner inner outer outside end
+    straight half double single triple twin standing hanging mounted built builtin tall short long wide
+    narrow big small large little medium huge tiny mini xl xs giant high low mid thick thin round rounded square
+    rectangle rectangular oval circular flat curved cross folding foldable foldout stacked vertical horizontal diagonal
+    standalone freestanding portable mobile electric electrical electronic automatic manual digital analog cordless
+    industrial commercial professional
+    dark light bright colored coloured
+    old new vintage antique modern classic retro fancy simple basic plain cheap luxury design designer deluxe rustic
+    scandinavian victorian decorative decorated ornate style stylized stylised realistic clean dirty messy broken
+    damaged rusty worn used empty full filled stuffed open opened closed shut locked on off active idle running ringing
+    boiling cooking cooked uncooked raw mashed chopped sliced slice slices rings pieces chunk cut fresh rotten burnt hot
+    cold warm wet dry relax cozy comfy
+    room house home hotel restaurant apartment balcony indoor outdoor hall hallway corridor entrance lobby
+    dining school hospital shop store public private
+    kids child children baby adult men women his her my
+    order multi patch pile stack heap bunch row pair seater
+""")
+"""Say where, how large, which colour, which state or whose; the object is the noun beside them."""
+
+COLOURS = _set("""
+    red green blue yellow orange white black gray grey brown pink purple beige cream golden gold silver turquoise
+""")
+"""Behind "light" they make it a shade ("light_blue"), not a lamp."""
+
+PLACE_WORDS = {
+    "kitchen": "kitchen",
+    "kitchenette": "kitchen",
+    "bathroom": "bathroom",
+    "restroom": "bathroom",
+    "washroom": "bathroom",
+    "laundry": "laundry",
+    "livingroom": "living-room",
+    "living": "living-room",
+    "lounge": "living-room",
+    "bedroom": "bedroom",
+    "office": "office",
+    "workplace": "office",
+    "workshop": "workshop",
+    "garage": "workshop",
+    "garden": "garden",
+    "yard": "garden",
+    "backyard": "garden",
+    "construction": "building-site",
+    "gym": "gym",
+    "fitness": "gym",
+}
+"""Words that name a place, in objects' and scenes' names."""
+
+TOY_WORDS = frozenset({"toy", "miniature", "replica", "fake"})
+"""Before a noun they say that it is not the real thing; "mini" does not, since a mini fridge is a fridge."""
+
+_MATERIALS = _set("""
+    steel iron aluminum aluminium copper brass bronze glass plastic ceramic porcelain marble granite concrete brick
+    stone oak pine spruce beech birch walnut maple teak mahogany bamboo plywood mdf cork leather fabric cotton rubber
+    silicone vinyl pvc acrylic terracotta slate limestone sandstone wood metal cardboard linoleum
+""")
+
+MATERIAL_WORDS = {
+    **{word: word for word in _MATERIALS},
+    "wooden": "wood",
+    "stainless": "stainless steel",
+    "cast": "cast iron",
+    "metallic": "metal",
+    "chrome": "steel",
+    "tiled": "ceramic",
+    "velvet": "fabric",
+    "linen": "fabric",
+    "wicker": "bamboo",
+    "rattan": "bamboo",
+}
+"""Adjectives of material -> a name in the material table. Colours that are metals (gold, silver) are left out."""
+
+MATERIAL_NOUNS = frozenset({"glass", "paper", "brick", "stone"})
+"""Nouns that after another noun tell its material (tableGlass), not a thing of their own."""
+
+LEFTOVER_NOUNS = frozenset({"mat", "trash", "orange", "cream", "mobile", "house"})
+"""Nouns that after another noun are none: exporters write "Burner_mat_0", designers "ham_trash" and "sofa_orange"."""
+
+PREPOSITIONS = _set("of with on in for at by from under near without beside behind inside over against")
+"""The noun before one of these is the object: a bottle of wine, a table with a vase."""
+
+_IRREGULAR = {
+    "shelves": "shelf",
+    "bookshelves": "bookshelf",
+    "knives": "knife",
+    "leaves": "leaf",
+    "loaves": "loaf",
+    "mice": "mouse",
+    "men": "man",
+    "women": "woman",
+    "feet": "foot",
+    "teeth": "tooth",
+    "scarves": "scarf",
+    "halves": "half",
+    "dice": "die",
+    "geese": "goose",
+}
+
+
+def forms(word: str) -> Iterator[str]:
+    """The word, then what it may be the plural of, most likely first."""
+    yield word
+    if word in _IRREGULAR:
+        yield _IRREGULAR[word]
+    elif len(word) > 2 and word.endswith("s") and not word.endswith(("ss", "us", "is")):
+        if word.endswith("ies"):
+            yield word[:-3] + "y"
+        yield word[:-1]
+        if word.endswith("es"):
+            yield word[:-2]

@@ -1,0 +1,246 @@
+"""What LexiconBackend answers to each component."""
+
+import asyncio
+import json
+from typing import Any, get_args
+
+import pytest
+
+from scene2hap.errors import BadAnswer
+from scene2hap.llm import BACKENDS
+from scene2hap.llm.answers import MaterialAnswer, ObjectAnswer, SceneAnswer, VibrationAnswer
+from scene2hap.llm.lexicon import LexiconBackend
+from scene2hap.llm.lexicon.describing import describe
+from scene2hap.llm.lexicon.table import table
+from scene2hap.llm.protocol import Component, LLMBackend, LLMRequest
+
+SHAPES = {
+    "scene_analyzer": SceneAnswer,
+    "object_analyzer": ObjectAnswer,
+    "material_estimator": MaterialAnswer,
+    "vibration_describer": VibrationAnswer,
+}
+
+
+def ask(component: Component, **facts: Any) -> Any:
+    request = LLMRequest(component, "", "", facts, {}, "1")
+    reply = asyncio.run(LexiconBackend().complete(request))
+    assert reply.finish_reason == "stop"
+    assert reply.usage == {}
+    return SHAPES[component].model_validate_json(reply.text)
+
+
+def analyse(name: str, size_m: tuple[float, float, float] = (0.6, 0.5, 0.02), **facts: Any) -> ObjectAnswer:
+    measured = dict(zip(("length_m", "width_m", "thickness_m"), size_m, strict=True))
+    facts = {"scene_category": "kitchen", "relative_height_m": 0.0, "surface_flags": [], "neighbour_names": []} | facts
+    answer = ask("object_analyzer", object_name=name, **measured, **facts)
+    assert isinstance(answer, ObjectAnswer)
+    return answer
+
+
+def test_it_is_a_backend_and_found_by_its_kind() -> None:
+    assert isinstance(LexiconBackend(), LLMBackend)
+    assert BACKENDS.load("lexicon") is LexiconBackend
+    assert set(SHAPES) == set(get_args(Component))
+
+
+def test_replies_name_the_table_and_repeat_themselves() -> None:
+    request = LLMRequest("material_estimator", "", "", {"material_category": "oak"}, {}, "1")
+    first, second = (asyncio.run(LexiconBackend().complete(request)) for _ in range(2))
+    assert first == second
+    assert first.model.startswith("lexicon/")
+    assert json.loads(first.text)
+
+
+# --- scenes -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("names", "place"),
+    [
+        (["Fridge_A", "stove", "chair", "chair", "pot"], "kitchen"),
+        (["bathtub", "toilet", "towel_rail", "washer"], "bathroom"),
+        (["excavator", "jackhammer", "Scaffolding_03"], "building site"),
+        (["SofaC_01", "CoffeeTable_01", "carpet"], "living room"),
+        (["treadmill", "dumbbells"], "gym"),
+        (["chair", "floor", "wall", "door"], "undefined"),
+        (["Object_1", "Object_2"], "undefined"),
+        (["Object_1", "treadmill"], "undefined"),  # one word may be a misreading
+        (["toilet", "bathtub", "treadmill", "barbell"], "undefined"),  # a tie
+        ([], "undefined"),
+    ],
+)
+def test_place_is_what_most_objects_say(names: list[str], place: str) -> None:
+    assert ask("scene_analyzer", scene_name="Scene01", object_names=names).scene_category == place
+
+
+def test_scene_name_is_a_weak_hint() -> None:
+    def place(scene_name: str, *names: str) -> str:
+        answer = ask("scene_analyzer", scene_name=scene_name, object_names=list(names))
+        assert isinstance(answer, SceneAnswer)
+        return answer.scene_category
+
+    assert place("Garage", "bathtub", "toilet") == "bathroom"
+    assert place("Kitchen", "Object_1") == "undefined"
+    assert place("Gym", "toilet", "bathtub", "treadmill", "barbell") == "gym"
+
+
+# --- objects ----------------------------------------------------------------------------------------------------------
+
+
+def test_refrigerator_hums() -> None:
+    answer = analyse("fridge_A", (1.8, 0.6, 0.5))
+    assert answer.object_category == "refrigerator"
+    assert answer.vibrates
+    assert [(state.name, state.intensity, state.needs_contact) for state in answer.states] == [("on", 0.1, None)]
+    assert "fridge" in answer.category_reason
+    assert answer.confidence > 0.8
+
+
+def test_unknown_says_so_instead_of_guessing() -> None:
+    for name in ("Object_7", "zorgon", ""):
+        answer = analyse(name)
+        assert (answer.object_category, answer.material_category) == ("unknown", "unknown")
+        assert not answer.vibrates
+        assert answer.states == []
+        assert answer.confidence <= 0.2
+
+
+@pytest.mark.parametrize(
+    ("name", "size_m", "category"),
+    [
+        ("Truck_01", (0.3, 0.1, 0.1), "toy truck"),
+        ("Truck_01", (8.0, 2.5, 3.0), "truck"),
+        ("fridge", (0.15, 0.06, 0.05), "miniature refrigerator"),
+        ("fridge", (0.9, 0.3, 0.3), "refrigerator"),  # an asset kit at half scale
+        ("mini_fridge", (0.5, 0.5, 0.5), "refrigerator"),
+        ("toy_car", (4.0, 1.8, 1.4), "toy car"),
+        ("phone", (0.15, 0.07, 0.008), "smartphone"),
+        ("fridge", (0.0, 0.0, 0.0), "refrigerator"),  # no size is no small size
+    ],
+)
+def test_miniatures_are_silent(name: str, size_m: tuple[float, float, float], category: str) -> None:
+    answer = analyse(name, size_m)
+    assert answer.object_category == category
+    assert answer.vibrates == (category in ("truck", "refrigerator", "smartphone"))
+
+
+def test_giants_are_doubted_but_heard() -> None:
+    giant, real = analyse("fridge", (180.0, 60.0, 60.0)), analyse("fridge", (1.8, 0.6, 0.6))
+    assert giant.vibrates
+    assert giant.confidence < real.confidence
+    assert "unit" in giant.size_reason
+
+
+def test_thickness_is_replaced_only_where_the_mesh_has_none() -> None:
+    flat = analyse("FloorB_01", (5.0, 4.0, 0.0))
+    flagged = analyse("floor", (5.0, 4.0, 0.3), surface_flags=["zero-thickness"])
+    solid = analyse("floor", (5.0, 4.0, 0.3), surface_flags=["open-mesh"])
+    assert flat.estimated_thickness_m == flagged.estimated_thickness_m == 0.022
+    assert "assumed" in flat.size_reason
+    assert (solid.estimated_length_m, solid.estimated_width_m, solid.estimated_thickness_m) == (5.0, 4.0, 0.3)
+
+
+@pytest.mark.parametrize("heater", ["stove", "Cooktop_01", "hob", "SpaceHeater", "oven", "hotplate", "gas_stove_LOD0"])
+def test_pan_sizzles_on_what_heats_it(heater: str) -> None:
+    answer = analyse("pan", neighbour_names=["wall_back", heater])
+    assert answer.vibrates
+    (state,) = answer.states
+    # The word that the heater itself is categorised by, since that is what a session compares.
+    assert state.needs_contact == analyse(heater, (0.6, 0.6, 0.6)).object_category
+
+
+@pytest.mark.parametrize("neighbours", [[], ["table"], ["oven_door", "pot"], ["toy_stove"], ["Object_3"]])
+def test_pan_is_still_elsewhere(neighbours: list[str]) -> None:
+    answer = analyse("pan", neighbour_names=neighbours)
+    assert not answer.vibrates
+    assert answer.states == []
+    assert "stove" in answer.vibration_reason
+
+
+def test_what_a_neighbour_shakes_does_not_vibrate() -> None:
+    assert not analyse("mug", neighbour_names=["washing_machine"]).vibrates
+
+
+@pytest.mark.parametrize(
+    ("name", "material"),
+    [
+        ("door", "wood"),
+        ("glass_door", "glass"),
+        ("oven_door", "steel"),
+        ("MetalTable", "metal"),
+        ("wood_chipper", "steel"),  # it chips wood
+        ("toy_truck", "plastic"),
+        ("wooden_toy_truck", "wood"),
+    ],
+)
+def test_material(name: str, material: str) -> None:
+    assert analyse(name).material_category == material
+
+
+# --- materials --------------------------------------------------------------------------------------------------------
+
+
+def test_material_constants_come_from_the_table_in_gigapascal() -> None:
+    steel = ask("material_estimator", material_category="Steel")
+    assert (steel.density_kg_m3, steel.youngs_modulus_gpa, steel.poisson_ratio) == (7850.0, 200.0, 0.3)
+
+
+def test_every_material_of_the_lexicon_fits_the_answer() -> None:
+    for name in {row.material for row in table()}:
+        ask("material_estimator", material_category=name)
+
+
+@pytest.mark.parametrize("word", ["unknown", "unobtainium", ""])
+def test_material_that_nobody_knows_is_no_answer(word: str) -> None:
+    with pytest.raises(BadAnswer, match="table"):
+        ask("material_estimator", material_category=word)
+
+
+# --- descriptions -----------------------------------------------------------------------------------------------------
+
+
+def test_describes_every_state_of_the_table() -> None:
+    for row in table():
+        for state in row.states:
+            answer = describe(row.noun, state.name, "building site")
+            assert answer.sentence.startswith(f"{row.noun} {state.verb} ")
+            assert len(answer.sentence.split()) <= 15
+            assert answer.keywords == f"{row.noun} {state.verb}"
+            assert "vibrat" not in f"{answer.sentence} {answer.keywords}".lower()
+
+
+def test_says_what_and_how() -> None:
+    facts = {"object_category": "smartphone", "usage": "", "state": "ringing", "scene_category": "undefined"}
+    answer = ask("vibration_describer", **facts)
+    assert answer.sentence == "smartphone buzzing firmly and in bursts while ringing"
+    assert answer.keywords == "smartphone buzzing"
+
+
+def test_category_that_the_table_lacks_is_described_by_its_state() -> None:
+    assert describe("hoverboard", "gliding").keywords == "hoverboard gliding"
+    assert describe("vibrating plate", "vibrating").keywords == "plate humming"
+
+
+# --- facts ------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("component", "facts", "named"),
+    [
+        ("scene_analyzer", {"scene_name": "a"}, None),
+        ("scene_analyzer", {"object_names": []}, "scene_name"),
+        ("scene_analyzer", {"scene_name": "a", "object_names": "fridge"}, "object_names"),
+        ("scene_analyzer", {"scene_name": "a", "object_names": [1]}, "object_names"),
+        ("object_analyzer", {"object_name": "a", "length_m": 1.0, "width_m": 1.0}, "thickness_m"),
+        ("object_analyzer", {"object_name": "a", "length_m": -1.0, "width_m": 1.0, "thickness_m": 1.0}, "length_m"),
+        ("material_estimator", {}, "material_category"),
+        ("vibration_describer", {"object_category": "fridge"}, "state"),
+    ],
+)
+def test_missing_facts_are_named(component: Component, facts: dict[str, Any], named: str | None) -> None:
+    if named is None:
+        assert ask(component, **facts).scene_category == "undefined"
+        return
+    with pytest.raises(BadAnswer, match=named):
+        ask(component, **facts)

@@ -1,0 +1,197 @@
+"""Authored names and the noun that a person would read in them."""
+
+import pytest
+
+from scene2hap.llm.lexicon import spelling
+from scene2hap.llm.lexicon.names import places_named, read_name
+from scene2hap.llm.lexicon.spelling import split_words
+
+NAMES = {
+    # serials, prefixes and suffixes of engines, exporters and modelling tools
+    "ChairA_01_003": "chair",
+    "washer(Clone)": "washing machine",
+    "TV_02_001": "television",
+    "SM_Prop_Table_02": "table",
+    "HouseWallB_01_001": "wall",
+    "01_Drawer_01": "drawer",
+    "Cooktop_Burner_mat_0": "hot plate",
+    "Oven_Oven_mat_0": "oven",
+    "bathtub.001": "bathtub",
+    "Coffee Machine (1)": "coffee machine",
+    "SM_Fridge_LOD0": "refrigerator",
+    "kettleroot0": "kettle",
+    "microwave_body0": "microwave",
+    "Sofa_lowpoly_final_v3": "sofa",
+    "prefab-Radio-mesh": "radio",
+    "lamp.glb": "lamp",
+    "pan_006": "pan",
+    "fan_01": "fan",
+    # camel, snake and kebab case, spaces, run-together words
+    "kitchenFridge": "refrigerator",
+    "RoomWindow": "window",
+    "TVCabinet_01_001": "tv cabinet",
+    "TVs": "television",
+    "AirconditionerA_01_001": "air conditioner",
+    "airconditioner": "air conditioner",
+    "air_conditioner": "air conditioner",
+    "coffeetable": "coffee table",
+    "CoffeeTable_01_001": "coffee table",
+    "washingmachine": "washing machine",
+    "coffee-machine": "coffee machine",
+    "extractorhood": "cooker hood",
+    "kitchencounter_straight_A": "counter",
+    "vegetableburger": "burger",
+    "hingecabinet": "cabinet",
+    "iPhone": "smartphone",
+    "X_Box": "game console",
+    "T-shirt": "clothes",
+    "3D_Printer_01": "filament printer",
+    "café_table": "table",
+    # plurals
+    "refrigerators": "refrigerator",
+    "shelves": "shelf",
+    "knives": "knife",
+    "dishes": "plate",
+    "boxes": "box",
+    "wine_glasses": "glass",
+    "stairs": "stairs",
+    "scissors": "scissors",
+    # the head is the last noun
+    "extractor_hood": "cooker hood",
+    "Air_Vent": "cooker hood",
+    "Cupboard_Big_door_upper": "door",
+    "bathroomCabinetDrawer(Clone)": "drawer",
+    "DeskPortraitC_02": "picture",
+    "wall_cabinet_left": "cabinet",
+    "sink_counter": "counter",
+    "stew_bowl": "bowl",
+    "ketchup_bottle": "bottle",
+    "paper_towel": "paper towel",
+    "towel_rail": "towel rail",
+    "ReadingDesk_01_001": "desk",
+    "FitnessEquipment_01_001": "exercise machine",
+    "coffee_machine": "coffee machine",
+    "table_lamp": "lamp",
+    "fridge_A_door_bottom": "door",
+    "fridge_magnet": "magnet",
+    "phone_case": "case",
+    "mixer_bowl": "bowl",
+    "printer_paper": "paper",
+    "car_hood": "bonnet",
+    "washing_machine_detergent": "detergent",
+    "hand_towel": "towel",
+    "chest_of_drawers": "dresser",
+    # adjectives of side, size, colour, state
+    "jar_large": "jar",
+    "mini_fridge": "refrigerator",
+    "stove_multi_decorated": "stove",
+    "curtain_light_blue": "curtain",
+    "sofa_orange": "sofa",
+    "phone_ringing": "smartphone",
+    # the object first
+    "crate_tomatoes": "crate",
+    "crate_cheese": "crate",
+    "dishrack_plates": "dish rack",
+    "pot_A_stew": "pot",
+    "tableCoffeeGlassSquare": "coffee table",
+    "chairDesk": "chair",
+    "stoolBar": "stool",
+    "tableGlass": "table",
+    "bottle_of_wine": "bottle",
+    "table_with_vase": "table",
+    "towel_on_washer": "towel",
+    "shelf_with_radio": "shelf",
+    # slips of the keyboard
+    "refridgerator": "refrigerator",
+    "diswasher": "dishwasher",
+    "Dumbell": "dumbbell",
+    "refrigirator": "refrigerator",
+    # no object, or none that can be told
+    "Object_7": None,
+    "Circle.021_0": None,
+    "Plane": None,
+    "Cube.618": None,
+    "Куб": None,
+    "冷蔵庫": None,
+    "node_12": None,
+    "mesh_0": None,
+    "Prop_A": None,
+    "Box001": None,
+    "planforge-root": None,
+    "Machine_01": None,
+    "Controller": None,
+    "kitchen": None,
+    "zorgon": None,
+    "painter": None,
+    "carpenter": None,
+    "format": None,
+    "": None,
+    "___": None,
+    "42": None,
+}
+
+
+@pytest.mark.parametrize(("name", "noun"), NAMES.items(), ids=repr)
+def test_authored_name_reads_as_a_person_reads_it(name: str, noun: str | None) -> None:
+    reading = read_name(name)
+    assert (reading.row.noun if reading.row else None) == noun
+    assert (reading.confidence <= 0.2) == (noun is None)
+
+
+def test_a_single_letter_is_no_part_of_a_noun() -> None:
+    # Together they would spell tablet, panel, cart and bowl.
+    for name, noun in {"Table_T": "table", "Pan_E_L": "pan", "CarT": "car", "bow_L": None}.items():
+        row = read_name(name).row
+        assert (row.noun if row else None) == noun
+
+
+def test_confidence_tells_how_much_was_read() -> None:
+    plain, before, slip, behind = (
+        read_name(name).confidence for name in ("fridge", "zorgon_fridge", "refridgerator", "fridge_zorgon")
+    )
+    assert plain > before > slip > behind > 0.2
+    assert read_name("fridge_zorgon").unread == ("zorgon",)
+
+
+@pytest.mark.parametrize(
+    ("name", "material"),
+    [("WoodenDoor", "wood"), ("tableGlass", "glass"), ("stainless_steel_sink", "stainless steel"), ("door", None)],
+)
+def test_adjective_names_a_material(name: str, material: str | None) -> None:
+    assert read_name(name).material == material
+
+
+def test_toys_and_parts_are_told_apart_from_the_thing() -> None:
+    assert read_name("toy_truck").toy
+    assert not read_name("mini_fridge").toy
+    whole = read_name("oven_door").whole
+    assert whole is not None
+    assert whole.noun == "oven"
+    assert read_name("glass_door").whole is None
+
+
+def test_splitting_at_capitals_signs_and_digits() -> None:
+    assert split_words("TVCabinet_01-leftDoor2b(Clone)") == ["tv", "cabinet", "left", "door", "b", "clone"]
+
+
+def test_places_in_names() -> None:
+    assert places_named("kitchenFridge") == ("kitchen",)
+    assert places_named("fitness_room_garage") == ("gym", "workshop")
+    assert places_named("Fridge") == ()
+
+
+@pytest.mark.parametrize(
+    ("written", "known", "slip"),
+    [
+        ("refigerator", "refrigerator", True),
+        ("refridgerator", "refrigerator", True),
+        ("refirgerator", "refrigerator", True),
+        ("refrigerater", "refrigerator", True),
+        ("sneaker", "speaker", False),
+        ("rpinter", "printer", False),
+        ("prnitre", "printer", False),
+        ("printersx", "printer", False),
+    ],
+)
+def test_slips(written: str, known: str, slip: bool) -> None:
+    assert spelling._is_slip(written, known) is slip
