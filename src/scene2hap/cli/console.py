@@ -58,7 +58,9 @@ class Console:
             TimeElapsedColumn(),
             TextColumn("{task.fields[what]}"),
         )
-        with Progress(*columns, console=self._error, transient=True, disable=self.is_quiet) as bars:
+        with Progress(
+            *columns, console=self._error, transient=True, disable=not self._error.is_terminal or self.is_quiet
+        ) as bars:
             tasks = {}
 
             def tell(stage: str, what: str, done: int, total: int) -> None:

@@ -1,0 +1,150 @@
+"""The command line as people and machines use it."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import soundfile
+from PIL import Image
+
+from scene2hap.cli import main
+from scene2hap.demo import kitchen_path
+
+SOURCES = {
+    "refrigerator",
+    "cooker_hood",
+    "microwave",
+    "washing_machine",
+    "electric_toothbrush",
+    "smartphone",
+    "handheld_fan",
+}
+
+
+@pytest.fixture(scope="module")
+def demo(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, object]]:
+    """One run of the demo in a process and a folder of its own, and what it printed as JSON."""
+    folder = tmp_path_factory.mktemp("demo")
+    run = subprocess.run(
+        [sys.executable, "-m", "scene2hap", "demo", "--json"], cwd=folder, capture_output=True, text=True, check=True
+    )
+    return folder / "scene2hap-demo", json.loads(run.stdout)
+
+
+def test_demo_writes_bundle_wav_and_picture(demo: tuple[Path, dict[str, object]]) -> None:
+    folder, _ = demo
+    samples, rate = soundfile.read(folder / "tour.wav")
+    assert samples.shape == (15 * rate, 2)
+    assert np.abs(samples).max() <= 1.0
+    with Image.open(folder / "tour.png") as picture:
+        assert np.asarray(picture).std() > 10
+    assert (folder / "bundle" / "bundle.json").is_file()
+
+
+def test_demo_finds_the_seven_sources_and_no_other(demo: tuple[Path, dict[str, object]]) -> None:
+    _, outcome = demo
+    assert {key for key, said in outcome["objects"].items() if said["vibrates"]} == SOURCES  # type: ignore[attr-defined]
+    assert outcome["scene_category"] == "kitchen"
+
+
+def test_demo_feels_what_its_tour_is_about(demo: tuple[Path, dict[str, object]]) -> None:
+    _, outcome = demo
+    felt: list[dict] = outcome["felt"]  # type: ignore[assignment]
+    touched = {row["on"] for row in felt if row["felt_db"].get(row["on"]) == 0.0}
+    assert touched == SOURCES
+    worktop = [row["felt_db"]["microwave"] for row in felt if row["on"] == "worktop"]
+    assert len(worktop) == 4
+    assert worktop == sorted(worktop, reverse=True)
+    table = [row["felt_db"] for row in felt if row["on"] == "dining_table"]
+    assert "smartphone" in table[0]
+    assert "smartphone" not in table[1]
+    assert "electric_toothbrush" in table[-1]
+
+
+def test_demo_twice_gives_the_same_bytes(demo: tuple[Path, dict[str, object]], tmp_path: Path) -> None:
+    folder, _ = demo
+    assert main(["demo", "-o", str(tmp_path / "again"), "--quiet"]) == 0
+    first = {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
+    again = tmp_path / "again"
+    assert {str(p.relative_to(again)): p.read_bytes() for p in sorted(again.rglob("*")) if p.is_file()} == first
+
+
+def test_bake_then_render_then_inspect(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    bundle, wav, touches = tmp_path / "b", tmp_path / "out.wav", tmp_path / "t.csv"
+    touches.write_text("time_s,hand,touch\n0.1,right,microwave\n1.0,,\n")
+    assert main(["bake", str(kitchen_path()), "-o", str(bundle)]) == 0
+    assert "45 objects, 7 sources" in capsys.readouterr().out
+    command = ["render", str(bundle), "--touches", str(touches), "-o", str(wav)]
+    assert main(command) == 0
+    samples, rate = soundfile.read(wav)
+    assert len(samples) == rate
+    assert not samples[:, 0].any()
+    assert np.abs(samples[rate // 2 :, 1]).max() > 0.05
+    assert main([*command, "--propagation", "no_propagation", "--quiet"]) == 0
+    assert main(["inspect", str(bundle), "--json"]) == 0
+    said = json.loads(capsys.readouterr().out.partition("{")[2].join(["{", ""]))
+    assert said["counts"] == {"objects": 45, "sources": 7, "unknown": said["counts"]["unknown"]}
+    assert main(["inspect", str(kitchen_path())]) == 0
+    assert "dining_table" in capsys.readouterr().out
+
+
+def test_your_own_sounds_come_first(tmp_path: Path) -> None:
+    sounds = tmp_path / "sounds"
+    sounds.mkdir()
+    t = np.arange(4 * 48000) / 48000
+    soundfile.write(sounds / "microwave_humming.wav", 0.3 * np.sin(2 * np.pi * 120 * t), 48000)
+    assert main(["bake", str(kitchen_path()), "-o", str(tmp_path / "b"), "--sounds", str(sounds), "-q"]) == 0
+    loops = json.loads((tmp_path / "b" / "loops.json").read_text())
+    assert loops["microwave"]["on"]["frequency_raw_hz"] == pytest.approx(120, abs=0.05)
+    assert loops["microwave"]["on"]["credit"]["author"] == "unknown"
+    assert loops["refrigerator"]["on"]["credit"]["author"] == "scene2hap synthesizer"
+
+
+def test_settings_from_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    settings = tmp_path / "s.toml"
+    settings.write_text('[bake]\ntactile = {kind = "svf_bandpass", center_hz = 120.0}\n[session]\nbands = "loud"\n')
+    assert main(["bake", str(kitchen_path()), "-o", str(tmp_path / "b"), "--settings", str(settings), "-q"]) == 0
+    touches = tmp_path / "t.csv"
+    touches.write_text("time_s,hand,touch\n0.1,right,microwave\n1.0,,\n")
+    command = ["render", str(tmp_path / "b"), "--touches", str(touches), "-o", str(tmp_path / "o.wav")]
+    assert main([*command, "--settings", str(settings)]) == 1
+    assert "session setting bands" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["bake", "nowhere.glb", "-o", "b"], "nowhere.glb"),
+        (["inspect", "nowhere.glb"], "nowhere.glb"),
+        (["inspect", "."], "has no bundle.json"),
+        (["render", ".", "--touches", "t.json", "-o", "o.wav"], "t.json cannot be read as touches"),
+        (["bake", str(kitchen_path()), "-o", "b", "--settings", "none.toml"], "none.toml cannot be read"),
+        (["bake", str(kitchen_path()), "-o", "b", "--unit-m", "-1"], "unit_m is -1 m"),
+        (["bake", str(kitchen_path()), "-o", "b", "--sounds", "none"], "none"),
+    ],
+)
+def test_trouble_is_one_line_that_a_person_can_act_on(
+    arguments: list[str],
+    sentence: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(arguments) == 1
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert said.err.startswith("scene2hap: error: ")
+    assert sentence in said.err
+    assert said.err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_wrong_usage_is_status_2(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main(["bake"])
+    assert caught.value.code == 2
+    assert "usage: scene2hap bake" in capsys.readouterr().err
