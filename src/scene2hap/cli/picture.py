@@ -66,11 +66,15 @@ def _draw_stays(
             stays[-1] = (on, stays[-1][1], played.time_s)
         else:
             stays.append((on, played.time_s, played.time_s))
-    for number, (on, begin, end) in enumerate(stays):
+    label_end = [0.0, 0.0]
+    for on, begin, end in stays:
         left, right = _x(begin, duration_s), _x(end, duration_s)
         draw.rectangle([left, base - height - 4, right, base], fill=_BAND)
-        # Neighbouring names on two levels, so that short stays do not print over each other.
-        draw.text((left + 2, base - height - (40 if number % 2 else 24)), on, fill=_INK, font=font)
+        draw.line([(left, base - height - 4), (left, base)], fill=_GRID, width=2)
+        # The lower line unless the name before is in the way, so that short stays do not print over each other.
+        line = 0 if label_end[0] < left else 1
+        draw.text((left + 2, base - height - 24 - 17 * line), on, fill=_INK, font=font)
+        label_end[line] = left + 8 + draw.textlength(on, font=font)
 
 
 def _x(time_s: float, duration_s: float) -> float:
