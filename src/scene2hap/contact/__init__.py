@@ -1,1 +1,1 @@
-"""."""
+"""Who touches whom, and where; kept up to date as things move."""

@@ -18,6 +18,8 @@ Indices = NDArray[np.intp]
 
 # Pairs that overlap along the sweep axis and are looked at together: some 10 MB.
 _CHUNK = 1 << 17
+# So few that sorting costs more than comparing all with all.
+_FEW = 1 << 12
 
 
 class Boxes(NamedTuple):
@@ -34,18 +36,30 @@ class Boxes(NamedTuple):
         """The boxes that hold these on their whole way along `travel_m` (3,)."""
         return Boxes(self.low + np.minimum(travel_m, 0.0), self.high + np.maximum(travel_m, 0.0))
 
+    def rows(self, rows: Indices) -> Boxes:
+        """Some of the boxes."""
+        return Boxes(self.low[rows], self.high[rows])
+
     def hull(self) -> Boxes:
         """The one box (1, 3) around all of them; at least one there must be."""
         return Boxes(self.low.min(axis=0, keepdims=True), self.high.max(axis=0, keepdims=True))
 
-    def meets(self, one: Boxes) -> NDArray[np.bool_]:
-        """(n,): which of the boxes meet the single box `one`, touching included."""
-        return np.all((self.low <= one.high) & (self.high >= one.low), axis=1)
+    def meeting(self, one: Boxes, among: NDArray[np.bool_] | None = None) -> Indices:
+        """Rows of the boxes that meet the single box `one`, touching included, among those marked (n,) or all."""
+        rows = np.arange(len(self.low)) if among is None else np.flatnonzero(among)
+        for axis in range(3):
+            low, high = self.low[rows, axis], self.high[rows, axis]
+            rows = rows[(low <= one.high[0, axis]) & (high >= one.low[0, axis])]
+        return rows
 
 
 def box_pairs(a: Boxes, b: Boxes) -> Iterator[tuple[Indices, Indices]]:
     """All (i, j) with a[i] and b[j] meeting, touching included, in chunks; each pair once."""
-    if len(a.low) and len(b.low):
+    if len(a.low) * len(b.low) <= _FEW:
+        apart = (a.low[:, None] > b.high) | (a.high[:, None] < b.low)
+        i, j = np.nonzero(~(apart[..., 0] | apart[..., 1] | apart[..., 2]))
+        yield i, j
+    else:
         sweeps = [_Sweep(a, b, axis) for axis in range(3)]
         yield from min(sweeps, key=lambda sweep: sweep.n_pairs).pairs(a, b)
 
@@ -88,5 +102,6 @@ def _expanded(start: Indices, stop: Indices) -> Iterator[tuple[Indices, Indices]
 
 
 def _meeting(a: Boxes, b: Boxes, i: Indices, j: Indices) -> tuple[Indices, Indices]:
-    meets = np.all((a.low[i] <= b.high[j]) & (a.high[i] >= b.low[j]), axis=1)
-    return i[meets], j[meets]
+    meets = (a.low[i] <= b.high[j]) & (a.high[i] >= b.low[j])
+    every = meets[:, 0] & meets[:, 1] & meets[:, 2]
+    return i[every], j[every]

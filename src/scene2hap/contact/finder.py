@@ -6,15 +6,15 @@ alone, so that moving step by step ends exactly where building from nothing does
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
+from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes, Floats, box_pairs
-from scene2hap.contact.narrow import Body, Gap, Meeting, Patch
-from scene2hap.contact.support import TOUCH_M, fall, fall_reach_m, hang_reach_m, hangs, supports, weight
+from scene2hap.contact.narrow import ROUNDING_M, Gap, Meeting, Patch
+from scene2hap.contact.support import TOUCH_M, Support, fall_reach_m, falls, hang_reach_m, hangs, supports, weight
 from scene2hap.scene.snapshot import Contact
 
 Pair = tuple[str, str]
@@ -42,6 +42,7 @@ class ContactFinder:
         self._infers = tolerance_m is None
         self._tolerance_m = TOUCH_M if tolerance_m is None else tolerance_m
         self._bodies: dict[str, Body] = {}
+        self._zones: dict[str, Boxes] = {}
         self._near: dict[str, set[str]] = {}
         self._pairs: dict[Pair, _PairFacts] = {}
         self._held: dict[str, dict[str, _Bond]] = {}
@@ -67,7 +68,7 @@ class ContactFinder:
         """Forget bodies and their neighbourhoods; the pairs that they were in."""
         dirty = set()
         for x in stale & self._bodies.keys():
-            del self._bodies[x]
+            del self._bodies[x], self._zones[x]
             for y in self._near.pop(x):
                 self._near[y].remove(x)
                 self._pairs.pop(pair_of(x, y), None)
@@ -77,23 +78,23 @@ class ContactFinder:
     def _put_in(self, bodies: dict[str, Body]) -> set[Pair]:
         """Find out what is near the bodies; the pairs that they are in."""
         self._near |= {x: set() for x in bodies}
-        ids, everyone = list(self._bodies), list(self._bodies.values())
-        names, movers = list(bodies), list(bodies.values())
+        self._zones |= {x: self._zone(body) for x, body in bodies.items()}
+        boxes = {x: body.box for x, body in self._bodies.items()}
         dirty = set()
-        # Nobody's own box is near enough to fall or hang unless one of the two looks far enough for it.
-        for seekers, ids_a, sought, ids_b in ((movers, names, everyone, ids), (everyone, ids, movers, names)):
-            for i, j in box_pairs(_stack(map(self._zone, seekers)), _stack(body.box for body in sought)):
-                for x, y in zip(i.tolist(), j.tolist(), strict=True):
-                    if ids_a[x] != ids_b[y]:
-                        self._near[ids_a[x]].add(ids_b[y])
-                        self._near[ids_b[y]].add(ids_a[x])
-                        dirty.add(pair_of(ids_a[x], ids_b[y]))
+        for seekers, sought in ((bodies, boxes), (boxes, bodies)):
+            ids_a, ids_b = list(seekers), list(sought)
+            for i, j in box_pairs(_stack(self._zones[x] for x in ids_a), _stack(boxes[x] for x in ids_b)):
+                for x, y in ((ids_a[row], ids_b[column]) for row, column in zip(i.tolist(), j.tolist(), strict=True)):
+                    if x != y:
+                        self._near[x].add(y)
+                        self._near[y].add(x)
+                        dirty.add(pair_of(x, y))
         return dirty
 
     def _zone(self, body: Body) -> Boxes:
         """All that a body may touch, fall onto or hang from."""
         if not self._infers:
-            return body.box.grown(self._tolerance_m)
+            return body.box.grown(max(self._tolerance_m, ROUNDING_M))
         down = np.zeros(3)
         down[self._up_axis] = -fall_reach_m(body.size_m)
         return body.box.grown(max(self._tolerance_m, hang_reach_m(body.size_m))).swept(down)
@@ -109,27 +110,26 @@ class ContactFinder:
         return dirty
 
     def _holders(self, x: str) -> dict[str, _Bond]:
-        size_m = self._bodies[x].size_m
-        falls_m = {y: self._facts(x, y).fall_m(x) for y in sorted(self._near[x])}
-        bonds = {
-            y: self._lying(share, falls_m[y], 1 if x < y else -1)
-            for y, share in supports(falls_m, fall_reach_m(size_m)).items()
-        }
-        supported = weight(min(falls_m.values(), default=math.inf), fall_reach_m(size_m))
+        """What holds a body, by support and, as far as that is wanting, by hanging."""
+        size_m, near = self._bodies[x].size_m, sorted(self._near[x])
+        falls_m = {y: found for y in near if (found := self._facts(x, y).falls(x)) is not None}
+        below = supports(falls_m, fall_reach_m(size_m))
+        bonds = {y: self._lying(support, 1 if x < y else -1) for y, support in below.items()}
+        supported = max((bond.weight for bond in bonds.values()), default=0.0)
         if supported < 1:
-            larger = [y for y in falls_m if self._bodies[y].size_m > size_m]
-            gaps = {y: self._facts(x, y).gap(hang_reach_m(size_m)) for y in larger}
-            found = {y: gap for y, gap in gaps.items() if gap is not None}
-            shares = hangs({y: gap.distance_m for y, gap in found.items()}, hang_reach_m(size_m), supported)
-            hanging = {y: _Bond(share, found[y].way_m, _direction(found[y])) for y, share in shares.items()}
-            bonds |= {y: bond for y, bond in hanging.items() if y not in bonds or bond.weight > bonds[y].weight}
+            reach_m = hang_reach_m(size_m)
+            larger = (y for y in near if self._bodies[y].size_m > size_m)
+            gaps = {y: gap for y in larger if (gap := self._facts(x, y).gap(reach_m)) is not None}
+            for y, share in hangs({y: gap.distance_m for y, gap in gaps.items()}, reach_m).items():
+                bond = _Bond((1 - supported) * share, gaps[y].way_m, _direction(gaps[y]))
+                bonds[y] = max(bonds.get(y, _NO_BOND), bond, key=_strength)
         return bonds
 
-    def _lying(self, share: float, fall_m: float, sign: int) -> _Bond:
-        """The bond of a thing with what it falls onto; sign 1 if the thing is the pair's `a`, -1 if its `b`."""
+    def _lying(self, support: Support, sign: int) -> _Bond:
+        """The bond of a thing with what supports it; sign 1 if the thing is the pair's `a`, -1 if its `b`."""
         down = [0.0, 0.0, 0.0]
-        down[self._up_axis] = -sign
-        return _Bond(share, fall_m * np.array(down), (down[0], down[1], down[2]))
+        down[self._up_axis] = -float(sign)
+        return _Bond(support.weight, support.fall_m * np.array(down), (down[0], down[1], down[2]))
 
     def _contacts(self, pair: Pair) -> tuple[Contact, ...]:
         """The contacts of a pair by its strongest bond: a held by b, b held by a, or mere touch."""
@@ -138,8 +138,7 @@ class ContactFinder:
             return ()
         facts, slack_m = self._facts(a, b), _PATCH_SHARE * self._tolerance_m
         held = (self._held.get(x, {}).get(y) for x, y in (pair, (b, a)))
-        bond = max((one for one in held if one), key=lambda one: one.weight, default=_NO_BOND)
-        patch: Patch | None = None
+        bond = max((one for one in held if one), key=_strength, default=_NO_BOND)
         if bond.weight < 1 and (gap := facts.gap(self._tolerance_m)) is not None:
             touch = _Bond(weight(gap.distance_m, self._tolerance_m), np.zeros(3), _direction(gap))
             if touch.weight > bond.weight:
@@ -153,7 +152,7 @@ class ContactFinder:
     def _facts(self, x: str, y: str) -> _PairFacts:
         pair = pair_of(x, y)
         if pair not in self._pairs:
-            self._pairs[pair] = _PairFacts(self._bodies[pair[0]], self._bodies[pair[1]], self._up_axis)
+            self._pairs[pair] = _PairFacts(self._bodies[pair[0]], self._bodies[pair[1]])
         return self._pairs[pair]
 
 
@@ -168,20 +167,23 @@ class _Bond(NamedTuple):
 _NO_BOND = _Bond(0.0, np.zeros(3), None)
 
 
+def _strength(bond: _Bond) -> tuple[float, bool]:
+    return (bond.weight, bond.normal is not None)
+
+
 class _PairFacts:
     """What is known of two bodies where they are now, each fact found when first asked for."""
 
-    def __init__(self, a: Body, b: Body, up_axis: int) -> None:
+    def __init__(self, a: Body, b: Body) -> None:
         self._meeting = Meeting(a, b)
-        self._up_axis = up_axis
-        self._falls: dict[str, float] = {}
+        self._falls: dict[str, Floats | None] = {}
         self._gaps: dict[float, Gap | None] = {}
         self._patches: dict[tuple[float, ...], Patch] = {}
 
-    def fall_m(self, x: str) -> float:
+    def falls(self, x: str) -> Floats | None:
         if x not in self._falls:
             meeting = self._meeting
-            self._falls[x] = fall(meeting, meeting.a if x == meeting.a.id else meeting.b, self._up_axis)
+            self._falls[x] = falls(meeting, meeting.a if x == meeting.a.id else meeting.b)
         return self._falls[x]
 
     def gap(self, within_m: float) -> Gap | None:
@@ -204,5 +206,5 @@ def _direction(gap: Gap) -> tuple[float, float, float] | None:
 
 
 def _stack(boxes: Iterable[Boxes]) -> Boxes:
-    low, high = zip(*boxes, strict=True) if (boxes := list(boxes)) else ((np.empty((0, 3)),), (np.empty((0, 3)),))
-    return Boxes(np.concatenate(low), np.concatenate(high))
+    rows = [Boxes(np.empty((0, 3)), np.empty((0, 3))), *boxes]
+    return Boxes(np.concatenate([box.low for box in rows]), np.concatenate([box.high for box in rows]))

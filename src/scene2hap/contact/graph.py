@@ -6,7 +6,6 @@ which follows the objects unless one is stated (`contact.support`).
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -14,8 +13,8 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from scene2hap import checks
+from scene2hap.contact.body import Body
 from scene2hap.contact.finder import ContactFinder, Pair
-from scene2hap.contact.narrow import Body
 from scene2hap.errors import SceneError, UnknownObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot, unknown_object
@@ -23,14 +22,12 @@ from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot, unknow
 if TYPE_CHECKING:
     import networkx
 
-_STILL_M = 1e-9  # Points that moved less have not moved.
-
 
 @dataclass(frozen=True)
 class ContactChange:
     """What an update did, as pairs (a, b) of ids with a < b.
 
-    `shifted` pairs are still in contact, with other points or another weight.
+    `shifted` pairs are still in contact, with other points, another normal or another weight.
     """
 
     appeared: frozenset[Pair] = frozenset()
@@ -60,12 +57,13 @@ class ContactGraph:
         if tolerance_m is not None:
             hint = "Leave it out to follow the objects."
             tolerance_m = checks.number("tolerance_m", tolerance_m, "m", at_least=0.0, error=SceneError, hint=hint)
+        self._up_axis = {"y": 1, "z": 2}[scene.up_axis]
         self._poses = {item.id: item.pose for item in scene.objects}
         self._pairs: dict[Pair, tuple[Contact, ...]] = {}
         self._finder: ContactFinder | None = None
         if scene.contacts is None:
-            self._finder = ContactFinder({"y": 1, "z": 2}[scene.up_axis], tolerance_m)
-            self._settle(self._finder.replace(Body.of(item) for item in scene.objects))
+            self._finder = ContactFinder(self._up_axis, tolerance_m)
+            self._settle(self._finder.replace(Body.of(item, self._up_axis) for item in scene.objects))
         else:
             self._settle(_by_pair(scene.contacts))
 
@@ -129,10 +127,10 @@ class ContactGraph:
         if contacts is not None:
             self._finder = None
             return self._settle(dict.fromkeys(self._pairs, ()) | _by_pair(contacts))
-        new = {item.id: Body.of(item) for item in added}
-        stale = {x for x in before if poses.get(x) != before[x]} | set(removed) | new.keys()
+        stale = {x for x in before if poses.get(x) != before[x]} | {*removed, *(item.id for item in added)}
         if self._finder is None:
             return self._settle({pair: () for pair in self._pairs if not stale.isdisjoint(pair)})
+        new = {item.id: Body.of(item, self._up_axis) for item in added}
         placed = {x: new[x] if x in new else self._finder.body(x) for x in stale & poses.keys()}
         bodies = [replace(body, pose=poses[x]) for x, body in sorted(placed.items())]
         return self._settle(self._finder.replace(bodies, stale - poses.keys()))
@@ -147,7 +145,7 @@ class ContactGraph:
         return ContactChange(
             appeared=frozenset(pair for pair in found if found[pair] and not before[pair]),
             vanished=frozenset(pair for pair in found if before[pair] and not found[pair]),
-            shifted=frozenset(pair for pair in stayed if _differ(found[pair], before[pair])),
+            shifted=frozenset(pair for pair in stayed if found[pair] != before[pair]),
         )
 
 
@@ -189,15 +187,6 @@ def _by_pair(contacts: Iterable[Contact]) -> dict[Pair, tuple[Contact, ...]]:
             contact = replace(contact, a=contact.b, b=contact.a, normal=turned)
         pairs.setdefault((contact.a, contact.b), []).append(contact)
     return {pair: tuple(sorted(several, key=lambda one: one.point_m)) for pair, several in pairs.items()}
-
-
-def _differ(new: Sequence[Contact], old: Sequence[Contact]) -> bool:
-    if len(new) != len(old):
-        return True
-    return any(
-        one.weight != other.weight or math.dist(one.point_m, other.point_m) > _STILL_M
-        for one, other in zip(new, old, strict=True)
-    )
 
 
 def _demand(object_id: str, known: Mapping[str, object]) -> None:

@@ -10,80 +10,26 @@ objects rigidly changes nothing but the last bits.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
-from weakref import WeakValueDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.contact.body import Body, boxes_of
 from scene2hap.contact.broad import Boxes, Floats, Indices, box_pairs
 from scene2hap.contact.triangles import Meetings, closest_points, meetings, plane_gap
-from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import SceneObject, TriMesh
+
+Marks = NDArray[np.bool_]
 
 MAX_POINTS = 4
 """Contact points of one pair: the corners of a patch, few enough for a dense solve over a scene (assumed)."""
 
+ROUNDING_M = 1e-9
+"""Below this a gap is rounding."""
+
 _SPREAD_M = 0.005  # Points of a pair nearer than this are one (assumed: the width of a chair's foot).
 _TIE_M = 1e-6  # Lengths this near are equal, so that rounding does not choose between the corners of a square.
-_TOUCHING_M = 1e-9  # Below this a gap is rounding.
 _BATCH = 4096  # Triangle pairs in the kernel at once: some 10 MB.
-
-
-@dataclass(frozen=True, eq=False)
-class Shape:
-    """The triangles (m, 3, 3) [m] of a mesh in its own frame, their boxes, and the corners in use (n, 3)."""
-
-    triangles: Floats
-    boxes: Boxes
-    corners: Floats
-
-    @cached_property
-    def size_m(self) -> float:
-        """Diagonal of the own bounding box, which no motion changes."""
-        return float(np.linalg.norm(self.boxes.high.max(axis=0) - self.boxes.low.min(axis=0)))
-
-
-# Instances share a mesh, and sessions come and go over one scene: a shape lives as long as some body uses it.
-_shapes: WeakValueDictionary[str, Shape] = WeakValueDictionary()
-
-
-def shape_of(mesh: TriMesh) -> Shape:
-    """The shape of a mesh, made once for equal meshes."""
-    shape = _shapes.get(mesh.digest)
-    if shape is None:
-        triangles = mesh.vertices_m[mesh.faces]
-        corners = mesh.vertices_m[np.unique(mesh.faces)]
-        shape = Shape(triangles, _boxes_of(triangles), corners)
-        _shapes[mesh.digest] = shape
-    return shape
-
-
-@dataclass(frozen=True, eq=False)
-class Body:
-    """A shape at a place: what the contact graph keeps of an object."""
-
-    id: str
-    shape: Shape
-    pose: Pose
-
-    @classmethod
-    def of(cls, item: SceneObject) -> Body:
-        """The body of a scene's object."""
-        return cls(item.id, shape_of(item.geometry.mesh), item.pose)
-
-    @cached_property
-    def box(self) -> Boxes:
-        """The bounding box (1, 3) in the world."""
-        points = self.pose.to_world(self.shape.corners)
-        return Boxes(points.min(axis=0, keepdims=True), points.max(axis=0, keepdims=True))
-
-    @property
-    def size_m(self) -> float:
-        """Diagonal of the own bounding box."""
-        return self.shape.size_m
 
 
 class Gap(NamedTuple):
@@ -91,6 +37,15 @@ class Gap(NamedTuple):
 
     distance_m: float
     way_m: Floats
+
+
+class Near(NamedTuple):
+    """Pairs of triangles, one of the guest and one of the host: their rows (n,) and corners (n, 3, 3) [m]."""
+
+    guest_rows: Indices
+    host_rows: Indices
+    guest: Floats
+    host: Floats
 
 
 class Patch(NamedTuple):
@@ -113,10 +68,10 @@ class Meeting:
 
     def gap(self, within_m: float) -> Gap | None:
         """The least distance, if it is at most `within_m`."""
-        best = within_m
+        best = within_m = max(within_m, ROUNDING_M)
         found: tuple[Floats, Floats] | None = None
-        for guest, host in self.near(within_m):
-            for p, q in _nearest_first(guest, host, best):
+        for pairs in self.near(within_m):
+            for p, q in _nearest_first(pairs, best):
                 near = plane_gap(p, q) <= best
                 if not near.any():
                     continue
@@ -124,7 +79,7 @@ class Meeting:
                 k = int(np.argmin(distance))
                 if distance[k] < best or (found is None and distance[k] <= best):
                     best, found = float(distance[k]), (on_guest[k], on_host[k])
-                if best <= _TOUCHING_M:
+                if best <= ROUNDING_M:
                     return Gap(0.0, np.zeros(3))
         if found is None:
             return None
@@ -137,11 +92,12 @@ class Meeting:
         The points are told for the bodies where they are now. They are spread by farthest-point sampling: first the one
         farthest from the middle of all, then ever the one farthest from those taken.
         """
+        within_m = max(within_m, ROUNDING_M)
         way = self.host.pose.rotation.T @ (way_m if self.guest_is_a else -way_m)
         ends = [(np.empty((0, 3)), np.empty((0, 3)))]
-        for guest, host in self.near(within_m, way):
-            for start in range(0, len(guest), _BATCH):
-                p, q = guest[start : start + _BATCH] + way, host[start : start + _BATCH]
+        for pairs in self.near(within_m, way):
+            for start in range(0, len(pairs.guest), _BATCH):
+                p, q = pairs.guest[start : start + _BATCH] + way, pairs.host[start : start + _BATCH]
                 close = plane_gap(p, q) <= within_m
                 every: Meetings = meetings(p[close], q[close])
                 hits = every.distance <= within_m
@@ -158,34 +114,31 @@ class Meeting:
         way: Floats | None = None,
         *,
         sweep: bool = False,
-        guest_rows: Indices | None = None,
-        host_rows: Indices | None = None,
-    ) -> Iterator[tuple[Floats, Floats]]:
-        """Triangles (n, 3, 3) of guest and host, in the host's frame, whose boxes are within reach, in chunks.
+        guest_only: Marks | None = None,
+        host_only: Marks | None = None,
+    ) -> Iterator[Near]:
+        """The pairs of triangles whose boxes are within reach, in the host's frame, in chunks.
 
-        The guest's boxes stand at the end of `way` (3,), in the host's frame, or with `sweep` on all of it. Rows
-        restrict either side to some triangles.
+        The guest's boxes stand at the end of `way` (3,), in the host's frame, or with `sweep` on all of it; the corners
+        are told where they are. Marks (m,) restrict either side to some triangles.
         """
         way = np.zeros(3) if way is None else way
-        host_boxes = _rows(self.host.shape.boxes, host_rows)
-        guest_boxes = _rows(self.guest.shape.boxes, guest_rows)
-        host_triangles = self.host.shape.triangles if host_rows is None else self.host.shape.triangles[host_rows]
-        guest_triangles = self.guest.shape.triangles if guest_rows is None else self.guest.shape.triangles[guest_rows]
-
-        reach = _along(host_boxes.hull().grown(within_m), -way, sweep)
-        kept = np.flatnonzero(guest_boxes.meets(self._in_guest_frame(reach)))
-        if not len(kept):
+        guest, host = self.guest.shape, self.host.shape
+        reach = self._in_guest_frame(_along(host.box.grown(within_m), -way, sweep))
+        guest_rows = guest.boxes.meeting(reach, guest_only)
+        if not len(guest_rows):
             return
-        guest = guest_triangles[kept] @ self._rotation.T + self._position
-        moving = _along(_boxes_of(guest).grown(within_m), way, sweep)
-        host_kept = np.flatnonzero(host_boxes.meets(moving.hull()))
-        if not len(host_kept):
+        corners = guest.triangles[guest_rows] @ self._rotation.T + self._position
+        moving = _along(boxes_of(corners).grown(within_m), way, sweep)
+        host_rows = host.boxes.meeting(moving.hull(), host_only)
+        if not len(host_rows):
             return
-        resting = Boxes(host_boxes.low[host_kept], host_boxes.high[host_kept])
-        again = np.flatnonzero(moving.meets(resting.hull()))
-        for i, j in box_pairs(Boxes(moving.low[again], moving.high[again]), resting):
+        resting = host.boxes.rows(host_rows)
+        again = moving.meeting(resting.hull())
+        for i, j in box_pairs(moving.rows(again), resting):
             if len(i):
-                yield guest[again[i]], host_triangles[host_kept[j]]
+                i, j = again[i], host_rows[j]
+                yield Near(guest_rows[i], j, corners[i], host.triangles[j])
 
     def _in_guest_frame(self, box: Boxes) -> Boxes:
         corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
@@ -197,23 +150,15 @@ def _along(boxes: Boxes, way: Floats, sweep: bool) -> Boxes:
     return boxes.swept(way) if sweep else Boxes(boxes.low + way, boxes.high + way)
 
 
-def _rows(boxes: Boxes, rows: Indices | None) -> Boxes:
-    return boxes if rows is None else Boxes(boxes.low[rows], boxes.high[rows])
-
-
-def _boxes_of(triangles: Floats) -> Boxes:
-    return Boxes(triangles.min(axis=1), triangles.max(axis=1))
-
-
-def _nearest_first(p: Floats, q: Floats, within_m: float) -> Iterator[tuple[Floats, Floats]]:
+def _nearest_first(pairs: Near, within_m: float) -> Iterator[tuple[Floats, Floats]]:
     """The pairs in batches, those with the nearest boxes first, so that later ones are out of reach of the best."""
-    a, b = _boxes_of(p), _boxes_of(q)
+    a, b = boxes_of(pairs.guest), boxes_of(pairs.host)
     apart = np.linalg.norm(np.maximum(np.maximum(a.low - b.high, b.low - a.high), 0.0), axis=1)
     order = np.argsort(apart, kind="stable")
     order = order[: int(np.searchsorted(apart[order], within_m, "right"))]
     for start in range(0, len(order), _BATCH):
         rows = order[start : start + _BATCH]
-        yield p[rows], q[rows]
+        yield pairs.guest[rows], pairs.host[rows]
 
 
 def _spread(points: Floats) -> list[int]:

@@ -1,14 +1,14 @@
 """What holds a thing up, where the scene's author left a gap.
 
-In real scenes things that rest hover 0-45 mm above what they rest on, and things that do not touch are a few
+In real scenes things that rest hover 0-60 mm above what they rest on, and things that do not touch are a few
 millimetres apart, so that no single tolerance tells contact. Surfaces nearer than `TOUCH_M` touch, whatever they are.
 Beyond that a thing must be held:
 
-1. *Support.* Let it fall. What its bottom meets first within `fall_reach_m` supports it, and whatever it would meet
-   less than `TOUCH_M` later: a chair stands on the carpet's edge and on the floor, a cup on the saucer and not on the
-   table below.
-2. *Hanging.* What nothing supports hangs from the nearest larger things within `hang_reach_m`: a picture from the wall,
-   a lamp from the ceiling.
+1. *Support.* Let it fall. What its bottom meets first within `fall_reach_m` supports it, and what other parts of its
+   bottom would meet less than `TOUCH_M` later: a chair stands on the carpet's edge and on the floor, a cup on the
+   saucer and not on the table below, a trash can on the carpet and not on the floor that the carpet hides.
+2. *Hanging.* What nothing supports hangs from the nearest larger things within `hang_reach_m`: a picture from the
+   wall, a lamp from the ceiling.
 
 All weights are smooth in the gaps and know nothing of the past: the poses alone decide.
 """
@@ -17,28 +17,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from scene2hap.contact.narrow import Body, Meeting
-from scene2hap.contact.triangles import Floats, height_range
+from scene2hap.contact.body import Body
+from scene2hap.contact.broad import Floats
+from scene2hap.contact.narrow import Meeting
+from scene2hap.contact.triangles import height_range
 
 TOUCH_M = 0.004
-"""Gap at which any two surfaces cease to touch (tuned: half of what separates cups from the table below a saucer)."""
+"""Gap at which any two surfaces cease to touch (tuned: cups with a saucer between stand 6 mm over the table)."""
 
-# Tuned on gaps of resting things in scenes made by others: a chair of 0.45 m hovers 45 mm and a tablet of 0.23 m 37 mm,
-# and these are to weigh 1, which they do up to 2/3 of the reach.
-_FALL_REACH_M, _FALL_REACH_SIZES = 0.070, 0.25
-# Assumed: lamps and pictures stand 0-20 mm off their walls.
-_HANG_REACH_M, _HANG_REACH_SIZES = 0.030, 0.10
+# Tuned on resting things in scenes made by others: a sofa hovers 57 mm and a chair of 0.45 m 45 mm; a tablet of 0.23 m
+# hovers 37 mm. These are to weigh 1, as gaps do up to 2/3 of the reach. Small things, which hands lift, get less.
+_FALL_REACH_M, _FALL_REACH_SIZES = 0.090, 0.25
+# Tuned likewise: a television of 1.5 m hangs 49 mm off its wall, a shelf board 12 mm.
+_HANG_REACH_M, _HANG_REACH_SIZES = 0.075, 0.05
 
-# A thing can only rest on what reaches lower by at least this: of two boxes side by side neither holds the other.
-_LOWER_M = 1e-5
-# Triangles are tried a little smaller, so that things exactly side by side do not stand on each other's rims.
+_HIDDEN_M = 0.002  # What lies this much below something else is hidden by it (assumed: the thinnest carpet).
+_HOLDING = 0.5  # Least cosine of a slope that holds a thing (assumed): a wall's triangles hold nothing.
+# Triangles are tried this share smaller, by at most so much: equal boxes on each other, whose rims coincide, then lie over
+# each other surely, and boxes exactly side by side surely do not.
 _INSET, _INSET_M = 1e-4, 1e-4
-# A surface that a falling thing already cuts holds it if it is no steeper than 60 degrees; a wall does not.
-_FLAT = 0.5
 
 
 def weight(gap_m: float, tolerance_m: float) -> float:
@@ -48,8 +49,7 @@ def weight(gap_m: float, tolerance_m: float) -> float:
     """
     if tolerance_m == 0.0:
         return 1.0 if gap_m <= 0.0 else 0.0
-    x = min(max(3 * gap_m / tolerance_m - 2, 0.0), 1.0)
-    return 0.5 * (1 + math.cos(math.pi * x)) if x < 1.0 else 0.0
+    return float(_weights(np.array(gap_m), tolerance_m))
 
 
 def fall_reach_m(size_m: float) -> float:
@@ -62,61 +62,79 @@ def hang_reach_m(size_m: float) -> float:
     return min(_HANG_REACH_M, _HANG_REACH_SIZES * size_m)
 
 
-def fall(meeting: Meeting, faller: Body, up_axis: int) -> float:
-    """How far the bottom of `faller`, one of the two that meet, may fall before it meets the other [m].
+def falls(meeting: Meeting, faller: Body) -> Floats | None:
+    """How far each triangle (m,) of `faller`, one of the two that meet, may fall before it meets the other [m].
 
-    Down to -`TOUCH_M` where it is sunk in a little, 0 where it is deeper in a surface that can hold it; inf where there
-    is nothing within its reach, or where the other does not reach lower. The bottom is all within `fall_reach_m` of the
-    lowest point.
+    Only the bottom falls, all within `fall_reach_m` of the lowest point; the rest is inf, as is what meets nothing
+    within that reach. Down to -`TOUCH_M` where a triangle is sunk in a little, 0 where it is sunk in deeper, up to the
+    reach. None where nothing falls onto the other.
     """
     other = meeting.b if faller is meeting.a else meeting.a
-    reach = fall_reach_m(faller.size_m)
-    lowest = faller.box.low[0, up_axis]
-    if lowest <= other.box.low[0, up_axis] + _LOWER_M:
-        return math.inf
-    heights = faller.shape.triangles @ faller.pose.rotation[up_axis] + faller.pose.position_m[up_axis]
-    bottom = np.flatnonzero(heights.min(axis=1) <= lowest + reach)
+    if not _is_over(faller, other):
+        return None
+    reach_m = fall_reach_m(faller.size_m)
+    bottom = faller.lows_m <= faller.lowest_m + reach_m
+    holding = other.slopes >= _HOLDING
 
-    up = meeting.host.pose.rotation[up_axis]
-    is_guest = faller is meeting.guest
-    way = (-reach if is_guest else reach) * up
-    guest_rows, host_rows = (bottom, None) if is_guest else (None, bottom)
-    least = math.inf
-    for guest, host in meeting.near(TOUCH_M, way, sweep=True, guest_rows=guest_rows, host_rows=host_rows):
-        p, q = (guest, host) if is_guest else (host, guest)
+    up, is_guest = meeting.host.up, faller is meeting.guest
+    way = (-reach_m if is_guest else reach_m) * up
+    only = (bottom, holding) if is_guest else (holding, bottom)
+    least = np.full(len(faller.lows_m), np.inf)
+    for near in meeting.near(TOUCH_M, way, sweep=True, guest_only=only[0], host_only=only[1]):
+        p, q, p_rows = (near.guest, near.host, near.guest_rows) if is_guest else (near.host, near.guest, near.host_rows)
         low, high = height_range(_inset(p), q, up)
-        shallow = low >= -TOUCH_M
-        holds = shallow | ((high >= -TOUCH_M) & _flat(q, up))
-        least = min(least, float(np.where(shallow, low, 0.0)[holds].min(initial=math.inf)))
-    return least if least <= reach else math.inf
+        meets = (low >= -reach_m) & (low <= reach_m) & (high >= -TOUCH_M)
+        np.minimum.at(least, p_rows[meets], np.where(low >= -TOUCH_M, low, 0.0)[meets])
+    return least if np.isfinite(least).any() else None
 
 
-def supports(falls_m: Mapping[str, float], reach_m: float) -> dict[str, float]:
-    """Which of the things below hold, and how much of a contact each is (0..1), from how far it is to fall to each."""
-    return _nearest(falls_m, reach_m)
+class Support(NamedTuple):
+    """How much of a contact a support is, 0..1, and how far it is to fall to it [m]."""
+
+    weight: float
+    fall_m: float
 
 
-def hangs(gaps_m: Mapping[str, float], reach_m: float, supported: float) -> dict[str, float]:
-    """Which of the larger things around hold what is `supported` only so much (0..1), from the gap to each."""
-    return {name: (1 - supported) * share for name, share in _nearest(gaps_m, reach_m).items() if supported < 1}
-
-
-def _nearest(gaps_m: Mapping[str, float], reach_m: float) -> dict[str, float]:
-    least = min(gaps_m.values(), default=math.inf)
-    if least > reach_m:
+def supports(falls_m: Mapping[str, Floats], reach_m: float) -> dict[str, Support]:
+    """Which of the things below hold a thing, from how far each of its triangles (m,) is to fall to each of them."""
+    if not falls_m:
         return {}
+    table = np.stack(list(falls_m.values()))
+    table = table[:, np.isfinite(table).any(axis=0)]
+    first = table.min(axis=0)
+    seen = _weights(table, reach_m) * _weights(table - first.min(), TOUCH_M) * _weights(table - first, _HIDDEN_M)
+    return {
+        name: Support(float(share.max()), float(row[share > 0].min()))
+        for name, row, share in zip(falls_m, table, seen, strict=True)
+        if share.max() > 0
+    }
+
+
+def hangs(gaps_m: Mapping[str, float], reach_m: float) -> dict[str, float]:
+    """Which of the larger things around hold what nothing supports, and how much of a contact each is (0..1)."""
+    least = min(gaps_m.values(), default=math.inf)
     shares = {name: weight(gap, reach_m) * weight(gap - least, TOUCH_M) for name, gap in gaps_m.items()}
     return {name: share for name, share in shares.items() if share > 0}
 
 
+def _weights(gaps_m: Floats, tolerance_m: float) -> Floats:
+    x = np.clip(3 * gaps_m / tolerance_m - 2, 0.0, 1.0)
+    return np.where(x < 1.0, 0.5 * (1 + np.cos(np.pi * x)), 0.0)
+
+
+def _is_over(x: Body, y: Body) -> bool:
+    """Whether x may rest on y; never true both ways.
+
+    A thing on another lies over all of it, give or take `TOUCH_M`, or stands in it with a higher bottom. Things side by
+    side on one floor are neither.
+    """
+    if x.lowest_m >= y.highest_m - TOUCH_M or y.lowest_m >= x.highest_m - TOUCH_M:
+        return x.lowest_m + x.highest_m > y.lowest_m + y.highest_m
+    return x.lowest_m > y.lowest_m + TOUCH_M
+
+
 def _inset(triangles: Floats) -> Floats:
     inwards = triangles.mean(axis=1, keepdims=True) - triangles
-    extent = np.abs(inwards).max(axis=(1, 2), keepdims=True)
+    extent = np.abs(inwards).reshape(-1, 9).max(axis=1)[:, None, None]
     inset: Floats = triangles + inwards * np.minimum(_INSET, _INSET_M / np.maximum(extent, _INSET_M))
     return inset
-
-
-def _flat(triangles: Floats, up: Floats) -> NDArray[np.bool_]:
-    normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    flat: NDArray[np.bool_] = np.abs(normal @ up) >= _FLAT * np.linalg.norm(normal, axis=1)
-    return flat

@@ -26,6 +26,7 @@ _NEXT = [1, 2, 0]
 _PARALLEL = 1e-12
 # Points this little outside a triangle (in barycentric units) are inside, so that a corner on a shared edge counts.
 _RIM = 1e-9
+_IN_PLANE_M = 1e-9
 
 
 class Meetings(NamedTuple):
@@ -38,11 +39,13 @@ class Meetings(NamedTuple):
 
 def meetings(p: Floats, q: Floats) -> Meetings:
     """The 21 local meetings of each pair: nine of edges, six of vertices with faces, six of edges through faces."""
-    p_faces, q_faces = _Faces(p), _Faces(q)
-    edges = _edges_with_edges(p, q)
-    p_on_q, q_on_p = q_faces.meet_vertices(p), p_faces.meet_vertices(q)
-    p_through_q, q_through_p = q_faces.meet_edges(p), p_faces.meet_edges(q)
-    parts = (edges, p_on_q, Meetings(q_on_p[0], q_on_p[2], q_on_p[1]), p_through_q, q_through_p)
+    n = len(p)
+    # Both directions at once, p's corners at q's faces and q's at p's: numpy's cost is per call on few triangles.
+    faces, corners = _Faces(np.concatenate([q, p])), np.concatenate([p, q])
+    parts = [_edges_with_edges(p, q)]
+    for both in (faces.meet_vertices(corners), faces.meet_edges(corners)):
+        parts.append(Meetings(both.distance[:n], both.on_p[:n], both.on_q[:n]))
+        parts.append(Meetings(both.distance[n:], both.on_q[n:], both.on_p[n:]))
     return Meetings(*(np.concatenate(arrays, axis=1) for arrays in zip(*parts, strict=True)))
 
 
@@ -59,7 +62,8 @@ def closest_points(p: Floats, q: Floats) -> Meetings:
 
 def plane_gap(p: Floats, q: Floats) -> Floats:
     """A cheap bound from below (n,) [m] on the distance: how far p stays on one side of q's plane, or q of p's."""
-    return np.maximum(_Faces(q).clear_of_plane(p), _Faces(p).clear_of_plane(q))
+    clear = _Faces(np.concatenate([q, p])).clear_of_plane(np.concatenate([p, q]))
+    return np.maximum(clear[: len(p)], clear[len(p) :])
 
 
 def height_range(p: Floats, q: Floats, up: Floats) -> tuple[Floats, Floats]:
@@ -73,7 +77,9 @@ def height_range(p: Floats, q: Floats, up: Floats) -> tuple[Floats, Floats]:
     e1 /= np.linalg.norm(e1)
     frame = np.stack([e1, np.cross(up, e1), up], axis=1)
     p, q = p @ frame, q @ frame
-    heights = np.concatenate([_over(p, q), -_over(q, p), _over_crossings(p, q)], axis=1)
+    n = len(p)
+    over = _over(np.concatenate([p, q]), np.concatenate([q, p]))
+    heights = np.concatenate([over[:n], -over[n:], _over_crossings(p, q)], axis=1)
     low: Floats = np.fmin.reduce(heights, axis=1, initial=np.inf)
     high: Floats = np.fmax.reduce(heights, axis=1, initial=-np.inf)
     return low, high
@@ -118,7 +124,9 @@ class _Faces:
 
     def meet_edges(self, corners: Floats) -> Meetings:
         start, end = self.height(corners), self.height(corners[:, _NEXT])
-        crosses = start * end < 0
+        # An edge within rounding of the plane crosses it anywhere or nowhere; its vertices tell the same surely.
+        in_plane = _IN_PLANE_M / np.sqrt(self.area2)
+        crosses = (start * end < 0) & (np.abs(start) > in_plane) & (np.abs(end) > in_plane)
         s = start / np.where(crosses, start - end, 1.0)
         points = corners + s[..., None] * (corners[:, _NEXT] - corners)
         distance = np.where(crosses & self.inside(points), 0.0, np.inf)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import io
 import re
 import warnings
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -27,10 +28,12 @@ def read_dae(data: bytes, name: str) -> AuthoredScene:
     its up axis is X.
     """
     try:
-        import collada
+        collada: Any = import_module("collada")
     except ImportError as cause:
-        raise MissingExtra(f"{name!r} is COLLADA, and its reader is not installed. Run: pip install pycollada") from cause
-    # A document type could name other files or grow without end; pycollada also unpacks archives. COLLADA needs neither.
+        raise MissingExtra(
+            f"{name!r} is COLLADA, and its reader is not installed. Run: pip install pycollada"
+        ) from cause
+    # A document type could name other files or grow without end, and pycollada unpacks archives; COLLADA needs neither.
     if not data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<") or re.search(rb"<!(DOCTYPE|ENTITY)", data):
         raise SceneFormatError(f"{name!r} is not COLLADA: it must be XML without a document type.")
     tolerated = [collada.common.DaeUnsupportedError, collada.common.DaeBrokenRefError]

@@ -33,12 +33,14 @@ RAYS_PER_SIDE = 32
 # All of these are tuned on real scenes, and none is critical to a factor of two.
 _SAME_DEPTH = 1e-6  # surfaces closer than this part of the object are one
 _OPEN_SHARE = 0.02  # more rays than this that do not come out again make the mesh an open one
-_FLAT_SHARE = 0.5  # a plate is flat if this part of its rays crosses its mid-plane
-_FILLED_SHARE = 0.75  # its rectangle covers this part of what the rays see of it (a disc: 0.95)
+_FLAT_SHARE = 0.5  # a plate is flat if this part of its rays meets it at one height
+_FILLED_CUT = 0.75  # the rectangle of a cut must be this part of what the rays see of that height (a disc's is 0.95)
+_FILLED_OUTLINE = 0.5  # the rectangle of an outline, of all that they see
 _PAIRED_SHARE = 0.5  # and has a thickness if this part of its rays comes out again
 _OWN_FRAME_GAIN = 0.95  # another frame must make the box smaller than this to replace the author's axes
 _SAME_AREA = 0.99  # sides this near in area are equal, and the more upright normal wins
 _SAME_DIRECTION_RAD = np.deg2rad(1.0)
+_SIDES_TRIED = 12
 
 
 def dominant_surface(mesh: TriMesh, *, up: ArrayLike | None = None) -> DominantSurface:
@@ -48,7 +50,8 @@ def dominant_surface(mesh: TriMesh, *, up: ArrayLike | None = None) -> DominantS
         without it, normals point along the axes of the own frame.
     Returns: length_m >= width_m; exact for boxes and for slabs on legs, else to about a ray's spacing. Flags:
         "open-mesh", rays enter and never leave; "zero-thickness", a sheet; "box-fallback", too few rays met the
-        surface twice and its thickness is that of the box around it.
+        surface twice, so that its thickness is that of the box around it, or no rectangle of medians fits it, so that
+        length and width are.
     """
     used, faces = np.unique(mesh.faces, return_inverse=True)
     points, faces = mesh.vertices_m[used].T.copy(), faces.reshape(-1, 3).T.copy()
@@ -56,7 +59,7 @@ def dominant_surface(mesh: TriMesh, *, up: ArrayLike | None = None) -> DominantS
     is_open = False
     best: tuple[float, Floats, Hits] | None = None
     for axis in _by_uprightness(axes, up):
-        own_to_plate = np.stack((np.cross(axes[axis - 1], axes[axis]), axes[axis - 1], axes[axis]))
+        own_to_plate = _facing(axes, axis)
         placed = own_to_plate @ points
         hits = cast_grid(placed[:, faces], RAYS_PER_SIDE)
         area = float(np.prod(np.ptp(placed[:2], axis=1))) * len(hits.starts) / RAYS_PER_SIDE**2
@@ -65,7 +68,7 @@ def dominant_surface(mesh: TriMesh, *, up: ArrayLike | None = None) -> DominantS
             best = (area, own_to_plate, hits)
     flags: tuple[SurfaceFlag, ...] = ("open-mesh",) if is_open else ()
     if best is None:
-        return _box(axes @ points, axes, flags)
+        return _box(points, axes, flags)
     _, own_to_plate, hits = best
     return _plate((own_to_plate @ points)[:, faces], own_to_plate, hits, flags)
 
@@ -82,9 +85,9 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
     if paired.mean() >= _PAIRED_SHARE:
         thickness = float(np.median((solids.top - solids.bottom)[paired]))
         middle = float(np.median((solids.top + solids.bottom)[paired])) / 2
-        across = (solids.top >= middle) & (solids.bottom <= middle)
-        if across.mean() >= _FLAT_SHARE:
-            spans = _spans(cut(triangles, middle), at_least=_FILLED_SHARE * cell * across.sum())
+        level = np.abs(solids.top - np.median(solids.top)) <= thickness / 2
+        if level.mean() >= _FLAT_SHARE:
+            spans = _spans(cut(triangles, middle), at_least=_FILLED_CUT * cell * level.sum())
     else:
         thickness = float(high[2] - low[2])
         middle = float(high[2] + low[2]) / 2
@@ -93,7 +96,7 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
     if thickness <= _SAME_DEPTH * size:
         thickness, middle = 0.0, float(np.median(solids.top))
         flags = (*flags, "zero-thickness")
-    spans = spans or _spans(outline(triangles), at_least=_FILLED_SHARE * cell * len(paired))
+    spans = spans or _spans(outline(triangles), at_least=_FILLED_OUTLINE * cell * len(paired))
     if spans is None:
         # An L, a ring with gaps, a heap: no rectangle of medians covers it, the one around it does.
         spans = (high - low)[:2], (high + low)[:2] / 2
@@ -113,13 +116,14 @@ def _spans(segments: Floats, at_least: float) -> tuple[Floats, Floats] | None:
 
 def _box(points: Floats, axes: Floats, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
     """The box around points (3, n) as a plate, for meshes that no ray meets: needles, triangles without area."""
-    size, middle = np.ptp(points, axis=1), (points.min(axis=1) + points.max(axis=1)) / 2
-    thinnest = int(np.argmin(size))
-    order = [(thinnest + 1) % 3, (thinnest + 2) % 3, thinnest]
+    own_to_plate = _facing(axes, int(np.argmin(np.ptp(axes @ points, axis=1))))
+    placed = own_to_plate @ points
+    size, middle = np.ptp(placed, axis=1), (placed.min(axis=1) + placed.max(axis=1)) / 2
     flags = (*flags, "box-fallback")
-    if size[thinnest] == 0:
+    if size[2] <= _SAME_DEPTH * size.max():
+        size[2] = 0.0
         flags = (*flags, "zero-thickness")
-    return _placed(size[order], middle[order], axes[order], flags)
+    return _placed(size, middle, own_to_plate, flags)
 
 
 def _placed(size: Floats, middle: Floats, own_to_plate: Floats, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
@@ -166,14 +170,16 @@ def _fitted_frames(triangles: Floats) -> Iterator[Floats]:
 
     first = _largest_direction(normals, area)
     across = np.flatnonzero(np.abs(first @ normals) < _SAME_DIRECTION_RAD)
+    level = np.linalg.svd(first[None])[2][1:]
     if len(across):
-        second = _largest_direction(normals[:, across], area[across])
+        seconds = (level @ _largest_direction(normals[:, across], area[across]))[:, None]
     else:
-        level = np.eye(3) - np.outer(first, first)
-        second = np.linalg.eigh(level @ spread @ level)[1][:, -1]
-    second = second - first * (first @ second)
-    second /= np.linalg.norm(second)
-    yield np.stack((first, second, np.cross(first, second)))
+        # A sheet: no face tells which way it lies, but one of its edges may.
+        sides = level @ (np.roll(triangles, -1, axis=1) - triangles).reshape(3, -1)
+        longest = sides[:, np.argsort(-np.hypot(*sides), kind="stable")[:_SIDES_TRIED]]
+        seconds = np.column_stack((np.linalg.eigh(level @ spread @ level.T)[1], longest[:, longest.any(axis=0)]))
+    for second in (seconds / np.hypot(*seconds)).T @ level:
+        yield np.stack((first, second, np.cross(first, second)))
 
 
 def _surface_spread(triangles: Floats, area: Floats) -> Floats:
@@ -198,6 +204,12 @@ def _largest_direction(normals: Floats, area: Floats) -> Floats:
     cosine = (seed / np.linalg.norm(seed)) @ one_way
     direction: Floats = one_way @ (area * np.sign(cosine) * (np.abs(cosine) > np.cos(_SAME_DIRECTION_RAD)))
     return direction / np.linalg.norm(direction)
+
+
+def _facing(axes: Floats, axis: int) -> Floats:
+    """The axes with `axis` as w, in right-handed order u, v, w, one per row."""
+    v, w = axes[axis - 1], axes[axis]
+    return np.stack((np.cross(v, w), v, w))
 
 
 def _pointing(axes: Floats, up: ArrayLike | None) -> Floats:

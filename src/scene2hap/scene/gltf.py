@@ -59,7 +59,9 @@ class _Reader:
             name = name or _name(mesh)
             self._n_triangles += sum(len(piece.faces) for piece in pieces)
             limits.at_most("the number of triangles", self._n_triangles, "MAX_TRIANGLES")
-        children = tuple(self.node(child, depth + 1) for child in _numbers(row.get("children", []), f"{place}.children"))
+        children = tuple(
+            self.node(child, depth + 1) for child in _numbers(row.get("children", []), f"{place}.children")
+        )
         return AuthoredNode(name, _matrix(row, place), pieces, children)
 
     def _mesh(self, number: int, mesh: Json, place: str) -> tuple[Piece, ...]:
@@ -118,7 +120,8 @@ def _triangles(order: NDArray[np.int64], mode: int) -> NDArray[np.int64]:
     faces[1::2] = faces[1::2, [0, 2, 1]]
     # Strips are joined by triangles that use a vertex twice.
     joins = (faces == np.roll(faces, 1, axis=1)).any(axis=1)
-    return faces[~joins]
+    kept: NDArray[np.int64] = faces[~joins]
+    return kept
 
 
 def _matrix(row: Json, place: str) -> Matrix:

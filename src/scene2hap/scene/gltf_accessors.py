@@ -27,8 +27,9 @@ def positions(file: GltfFile, number: object, place: str) -> NDArray[np.float64]
         raise SceneFormatError(f"{place}: positions are {row.get('type')!r}; they must be 'VEC3'.")
     result = values.astype(np.float64)
     if row.get("normalized") is True and values.dtype.kind in "iu":
+        largest = np.iinfo(np.dtype(values.dtype.str)).max
         # A signed type has one value below -1, which counts as -1.
-        result = np.maximum(result / np.iinfo(values.dtype).max, -1.0)
+        result = np.maximum(result / largest, -1.0)
     return result
 
 

@@ -14,10 +14,11 @@ import json
 import struct
 from pathlib import Path
 from typing import Any
-from urllib.parse import unquote, urlsplit
+from urllib.parse import unquote
 
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
+from scene2hap.scene.files import inside, read_bytes
 
 Json = dict[str, Any]
 
@@ -88,42 +89,6 @@ class GltfFile:
         return read_bytes(inside(self._assets_root, self._path.parent, uri, place))
 
 
-def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
-    """The path that a scene file means by `uri`, a relative reference from its own folder.
-
-    Raises: SceneError: it is no plain relative path, or leads outside `assets_root` (also through a link).
-    """
-    refusal = f"{place} wants {uri!r}, which lies outside {assets_root}; only files inside it are read."
-    try:
-        parts = urlsplit(uri)
-        if parts.scheme or parts.netloc:
-            raise SceneError(f"{refusal} Addresses are never fetched: store the file beside the scene.")
-        path = (folder / unquote(uri)).resolve()
-        if not path.is_relative_to(assets_root.resolve()):
-            raise SceneError(f"{refusal} Copy it there, or give assets_root=<a folder that holds both>.")
-    except (ValueError, OSError, RuntimeError) as cause:
-        if isinstance(cause, SceneError):
-            raise
-        raise SceneError(f"{place} wants {uri!r}, which is no usable file name: {cause}.") from cause
-    return path
-
-
-def read_bytes(path: Path) -> bytes:
-    """The content of a regular file.
-
-    Raises: SceneError: it is missing, no regular file, unreadable or above `limits.MAX_FILE_BYTES`.
-    """
-    try:
-        if not path.exists():
-            raise SceneError(f"there is no file {str(path)!r}. Check the path, or export the scene with all its files.")
-        if not path.is_file():
-            raise SceneError(f"{str(path)!r} is not a file; give the path of the scene file itself.")
-        limits.at_most(f"the size of {path.name!r} in bytes", path.stat().st_size, "MAX_FILE_BYTES")
-        return path.read_bytes()
-    except OSError as cause:
-        raise SceneError(f"{str(path)!r} cannot be read: {cause}.") from cause
-
-
 def natural(value: object, place: str, *, at_least: int = 0) -> int:
     """A whole number from a header.
 
@@ -191,4 +156,3 @@ def _header(text: bytes) -> Json:
             "with `gltf-transform copy` or uncompressed from the modelling tool."
         )
     return header
-

@@ -9,8 +9,9 @@ import numpy as np
 
 from scene2hap import checks
 from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene import limits
+from scene2hap.scene.files import read_bytes
 from scene2hap.scene.geometry import dominant_surface
-from scene2hap.scene.gltf_container import read_bytes
 from scene2hap.scene.grouping import Grouping, group_objects, unique_ids
 from scene2hap.scene.meshes import MeshPool
 from scene2hap.scene.snapshot import DominantSurface, SceneObject, SceneSnapshot, UpAxis, with_relative_heights
@@ -64,14 +65,14 @@ def load_scene(
 
 def _read(path: Path, assets_root: Path) -> AuthoredScene:
     suffix = path.suffix.lower()
+    if suffix not in SUFFIXES and path.is_file():
+        raise SceneFormatError(f"{path.name!r} is of no kind that is read: {', '.join(SUFFIXES)}. Export it as GLB.")
     # Readers are imported by need: a game that loads GLB pays for no other.
     if suffix in (".glb", ".gltf"):
         from scene2hap.scene.gltf import read_gltf
 
         return read_gltf(path, assets_root)
     data = read_bytes(path)
-    if suffix in SUFFIXES and not data:
-        raise SceneFormatError(f"{path.name!r} is empty (0 bytes). Export the scene again.")
     if suffix == ".obj":
         from scene2hap.scene.obj import read_obj
 
@@ -80,11 +81,9 @@ def _read(path: Path, assets_root: Path) -> AuthoredScene:
         from scene2hap.scene.dae import read_dae
 
         return read_dae(data, path.name)
-    if suffix in (".stl", ".ply"):
-        from scene2hap.scene.stl_ply import read_stl_ply
+    from scene2hap.scene.stl_ply import read_stl_ply
 
-        return read_stl_ply(data, suffix[1:], path.stem)
-    raise SceneFormatError(f"{path.name!r} is of no kind that is read: {', '.join(SUFFIXES)}. Export it as GLB.")
+    return read_stl_ply(data, suffix[1:], path.stem)
 
 
 def _from_json(path: Path, up_axis: UpAxis | None, unit_m: float | None, group: Grouping) -> SceneSnapshot:
@@ -98,9 +97,12 @@ def _from_json(path: Path, up_axis: UpAxis | None, unit_m: float | None, group: 
 
 
 def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float, group: Grouping) -> SceneSnapshot:
-    groups = group_objects(authored.roots, group)
+    # Broken transforms may overflow on the way down the tree; MeshPool refuses what they lead to.
+    with np.errstate(all="ignore"):
+        groups = group_objects(authored.roots, group)
     if not groups:
         raise SceneError(f"scene {name!r} holds no triangles; nothing in it can be touched. Export it with meshes.")
+    limits.at_most("the number of objects", len(groups), "MAX_NODES")
     pool = MeshPool(unit_m)
     up = np.array({"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}[up_axis])
     surfaces: dict[str, DominantSurface] = {}

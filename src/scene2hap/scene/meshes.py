@@ -1,7 +1,11 @@
-"""Groups of pieces as rigidly posed meshes: scale, shear and mirroring go into the vertices, instances share one mesh."""
+"""Groups of pieces as rigidly posed meshes.
+
+Scale, shear and mirroring go into the vertices; instances share one mesh.
+"""
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -34,7 +38,7 @@ class MeshPool:
     """Bakes groups, and gives groups that bake to the same mesh one and the same TriMesh."""
 
     unit_m: float
-    _by_pieces: dict[tuple[object, ...], list[tuple[NDArray[np.float64], float, Placed]]] = field(default_factory=dict)
+    _copies: dict[tuple[object, ...], _Copies] = field(default_factory=dict)
     _by_digest: dict[str, TriMesh] = field(default_factory=dict)
 
     def place(self, group: Group) -> Placed:
@@ -52,34 +56,61 @@ class MeshPool:
             )
         rigid = rigid_part(frame)
         own = np.linalg.inv(rigid) @ world
-        copies = self._by_pieces.setdefault(tuple(piece.key for _, piece in group.parts), [])
-        for other, tolerance, placed in copies:
-            if np.allclose(own, other, rtol=0.0, atol=tolerance):
-                return Placed(Pose.from_matrix(rigid), placed.mesh, placed.instance_key)
-        placed = self._bake(group, own, Pose.from_matrix(rigid))
-        size = float(np.ptp(placed.mesh.bounds_m, axis=0).max())
-        copies.append((own, _SAME_PLACE * min(size, float(np.abs(own[:, :3, :3]).max())), placed))
-        return placed
+        pieces = [piece for _, piece in group.parts]
+        copies = self._copies.setdefault(tuple(piece.key for piece in pieces), _Copies())
+        # How far each entry moves a vertex, so that all are held against one length.
+        with np.errstate(over="ignore"):
+            moves = own[:, :3] * np.array([[[piece.reach] * 3 + [1.0]] for piece in pieces])
+        _check_reach(group.name, float(np.abs(moves).max()))
+        placed = copies.find(moves)
+        if placed is None:
+            placed = self._bake(group, own)
+            copies.add(moves, placed)
+        mesh, instance_key = placed
+        return Placed(Pose.from_matrix(rigid), mesh, instance_key)
 
-    def _bake(self, group: Group, own: NDArray[np.float64], pose: Pose) -> Placed:
+    def _bake(self, group: Group, own: NDArray[np.float64]) -> tuple[TriMesh, str]:
         pieces = [piece for _, piece in group.parts]
         baked = [_baked(piece, matrix) for piece, matrix in zip(pieces, own, strict=True)]
         starts = np.cumsum([0, *(len(vertices) for vertices, _ in baked)])
         vertices = np.concatenate([vertices for vertices, _ in baked])
         faces = np.concatenate([faces + start for (_, faces), start in zip(baked, starts[:-1], strict=True)])
-        reach = float(np.abs(vertices).max())
-        if not reach <= limits.MAX_COORDINATE_M:
-            raise SceneError(
-                f"object {group.name!r} reaches {reach:g} m from its node; "
-                f"coordinates of up to {limits.MAX_COORDINATE_M:g} m are read. Check its vertices, or give unit_m."
-            )
         if not np.ptp(vertices, axis=0).max() > _MIN_EXTENT_M:
             raise SceneError(
                 f"object {group.name!r} has no size: all its vertices are in one point. Remove it, or check its scale."
             )
         mesh = TriMesh(vertices, faces)
         mesh = self._by_digest.setdefault(mesh.digest, mesh)
-        return Placed(pose, mesh, f"{mesh.digest}-{digest(*(piece.material for piece in pieces))}")
+        return mesh, f"{mesh.digest}-{digest(*(piece.material for piece in pieces))}"
+
+
+@dataclass(eq=False)
+class _Copies:
+    """What the same pieces were baked to, sorted by a number that equal placements share, so that few are compared."""
+
+    marks: list[float] = field(default_factory=list)
+    rows: list[tuple[NDArray[np.float64], tuple[TriMesh, str]]] = field(default_factory=list)
+
+    def find(self, moves: NDArray[np.float64]) -> tuple[TriMesh, str] | None:
+        tolerance = _SAME_PLACE * float(np.abs(moves).max())
+        mark, spread = self._mark(moves), tolerance * moves.size
+        first = bisect_left(self.marks, mark - spread)
+        last = bisect_right(self.marks, mark + spread)
+        for other, placed in self.rows[first:last]:
+            if (np.abs(moves - other) <= tolerance).all():
+                return placed
+        return None
+
+    def add(self, moves: NDArray[np.float64], placed: tuple[TriMesh, str]) -> None:
+        mark = self._mark(moves)
+        at = bisect_left(self.marks, mark)
+        self.marks.insert(at, mark)
+        self.rows.insert(at, (moves, placed))
+
+    @staticmethod
+    def _mark(moves: NDArray[np.float64]) -> float:
+        """A sum of the entries with weights below 1 that no plain ratio of entries cancels."""
+        return float(moves.ravel() @ np.modf(np.arange(1, moves.size + 1) * 0.6180339887498949)[0])
 
 
 def rigid_part(matrix: Matrix) -> Matrix:
@@ -97,9 +128,16 @@ def rigid_part(matrix: Matrix) -> Matrix:
     return rigid
 
 
+def _check_reach(name: str, reach_m: float) -> None:
+    if not reach_m <= limits.MAX_COORDINATE_M:
+        raise SceneError(
+            f"object {name!r} reaches {reach_m:g} m from its node; "
+            f"coordinates of up to {limits.MAX_COORDINATE_M:g} m are read. Check its vertices, or give unit_m."
+        )
+
+
 def _baked(piece: Piece, matrix: Matrix) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Vertices and faces of a piece under a matrix; faces still turn outwards if it mirrors."""
-    with np.errstate(over="ignore", invalid="ignore"):
-        vertices = piece.vertices @ matrix[:3, :3].T + matrix[:3, 3]
-        is_mirror = np.linalg.det(matrix[:3, :3]) < 0
+    vertices = piece.vertices @ matrix[:3, :3].T + matrix[:3, 3]
+    is_mirror = np.linalg.det(matrix[:3, :3]) < 0
     return vertices, piece.faces[:, ::-1] if is_mirror else piece.faces

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
@@ -106,4 +107,4 @@ def _fan(rest: str, n_vertices: int, number: int) -> _Faces:
         raise SceneFormatError(
             f"line {number}: 'f {rest}' must name three or more of the {n_vertices} vertices before it (from 1)."
         )
-    return [(corners[0], b, c) for b, c in zip(corners[1:-1], corners[2:], strict=True)]
+    return [(corners[0], b, c) for b, c in pairwise(corners[1:])]

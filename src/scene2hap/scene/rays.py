@@ -3,8 +3,8 @@
 The mesh is given in a frame whose third axis is the direction of the rays, so that casting becomes drawing: each
 triangle is rasterised onto the grid once, and a sort along every ray replaces a search tree.
 
-Letters: u, v across the rays and w along them [m]; n rays per side [-]. Triangles are held as (3 coordinates, 3 corners,
-m), so that arithmetic runs along the triangles.
+Letters: u, v across the rays and w along them [m]; n rays per side [-]. Triangles are held as arrays (3, 3, m) of
+coordinate, corner and triangle, so that arithmetic runs along the triangles.
 """
 
 from __future__ import annotations
@@ -24,6 +24,8 @@ _MAX_PAIRS = 1_000_000
 # meet both triangles or neither. The fractions are powers of the plastic number, which fill the plane evenly.
 _JITTER = 0.25
 _PLASTIC = (0.7548776662466927, 0.5698402909980532)
+# A mesh whose width is this part of its length is a line to the rays: rounding alone makes it that wide.
+_EDGE_ON = 1e-12
 
 
 @dataclass(frozen=True)
@@ -46,10 +48,11 @@ class Hits:
 
 def cast_grid(triangles: Floats, n: int) -> Hits:
     """Hits of n x n rays that run along w through the bounding rectangle of triangles (3, 3, m) [m]."""
-    flat = triangles[:2].reshape(2, -1)
-    low = flat.min(axis=1)
-    extent = flat.max(axis=1) - low
-    if (extent <= 0).any():
+    corners = triangles.reshape(3, -1)
+    low = corners.min(axis=1)
+    size = corners.max(axis=1) - low
+    low, extent = low[:2], size[:2]
+    if (extent <= _EDGE_ON * size.max()).any():
         return Hits(np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))
     cells = (triangles[:2] - low[:, None, None]) * (n / extent)[:, None, None]
     a, b, c = cells[:, 0], cells[:, 1], cells[:, 2]
@@ -143,7 +146,7 @@ def share_open(hits: Hits) -> float:
 
 
 def cut(triangles: Floats, height: float) -> Floats:
-    """Segments (2 coordinates, 2 ends, n) [m] in which triangles (3, 3, m) cross the plane w = height."""
+    """Segments (2, 2, n) [m], by coordinate and end, where triangles (3, 3, m) cross the plane w = height."""
     above = triangles[2] > height
     n_above = above.sum(axis=0)
     crossing = np.flatnonzero((n_above == 1) | (n_above == 2))
@@ -155,7 +158,7 @@ def cut(triangles: Floats, height: float) -> Floats:
 
 
 def outline(triangles: Floats) -> Floats:
-    """Edges (2 coordinates, 2 ends, 3 m) [m] of triangles (3, 3, m), seen along w."""
+    """Edges (2, 2, 3 m) [m], by coordinate and end, of triangles (3, 3, m), seen along w."""
     flat = triangles[:2]
     return np.stack((flat.reshape(2, -1), np.roll(flat, -1, axis=1).reshape(2, -1)), axis=1)
 

@@ -4,26 +4,28 @@ from __future__ import annotations
 
 import io
 import logging
+import re
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import numpy as np
 
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Piece
 
+_HEADER_BYTES = 1 << 16
+
 
 def read_stl_ply(data: bytes, file_type: str, name: str) -> AuthoredScene:
     """The triangles of a file as one node called `name`; `file_type` is "stl" or "ply".
 
-    Raises: SceneFormatError: trimesh cannot read it.
+    Raises: SceneFormatError: trimesh cannot read it, or it was cut short.
     """
     import trimesh
 
-    log = logging.getLogger("trimesh")
-    was_disabled = log.disabled
-    log.disabled = True
     try:
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
+        with _silent_log("trimesh"), warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
             # No resolver: neither format needs another file, so none is opened.
             scene = trimesh.load_scene(io.BytesIO(data), file_type=file_type, process=False)
@@ -32,7 +34,24 @@ def read_stl_ply(data: bytes, file_type: str, name: str) -> AuthoredScene:
     # Its readers raise whatever the broken bytes lead to.
     except Exception as cause:
         raise SceneFormatError(f"{name!r} cannot be read as {file_type.upper()}: {cause}.") from cause
-    finally:
-        log.disabled = was_disabled
+    # trimesh reads as many lines of a text PLY as there are; its binary formats and STL are held to their counts.
+    promised = re.search(rb"^element face (\d+)", data[:_HEADER_BYTES], re.MULTILINE) if file_type == "ply" else None
+    n_faces = sum(len(faces) for _, faces in tables)
+    if promised is not None and n_faces < int(promised[1]):
+        raise SceneFormatError(f"{name!r} promises {int(promised[1])} faces and holds {n_faces}: cut short?")
     pieces = (Piece.checked(i, points, faces, "", name) for i, (points, faces) in enumerate(tables))
     return AuthoredScene((AuthoredNode(name, np.eye(4), tuple(piece for piece in pieces if len(piece.faces))),))
+
+
+@contextmanager
+def _silent_log(name: str) -> Iterator[None]:
+    """Keep what a package logs to itself; an error of ours says what matters of it."""
+    log, handler = logging.getLogger(name), logging.NullHandler()
+    propagated = log.propagate
+    log.addHandler(handler)
+    log.propagate = False
+    try:
+        yield
+    finally:
+        log.propagate = propagated
+        log.removeHandler(handler)

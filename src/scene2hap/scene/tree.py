@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,6 +31,11 @@ class Piece:
     faces: NDArray[np.int32]
     material: str = ""
 
+    @cached_property
+    def reach(self) -> float:
+        """The largest coordinate [file unit]."""
+        return float(np.abs(self.vertices).max(initial=0.0))
+
     @classmethod
     def checked(cls, key: Hashable, vertices: ArrayLike, faces: ArrayLike, material: str, place: str) -> Piece:
         """A piece without the vertices that no face uses.
@@ -39,8 +45,9 @@ class Piece:
         """
         points = np.asarray(vertices, dtype=np.float64).reshape(-1, 3)
         corners = np.asarray(faces).reshape(-1, 3)
-        if corners.size and not (0 <= int(corners.min()) and int(corners.max()) < len(points)):
-            wrong = int(corners.min()) if corners.min() < 0 else int(corners.max())
+        lowest, highest = (int(corners.min()), int(corners.max())) if corners.size else (0, -1)
+        if lowest < 0 or highest >= len(points):
+            wrong = lowest if lowest < 0 else highest
             raise SceneFormatError(f"{place}: a face uses vertex {wrong}; there are {len(points)} (from 0).")
         is_used = np.zeros(len(points), dtype=bool)
         is_used[corners] = True

@@ -58,10 +58,12 @@ def warn_if_implausible(snapshot: SceneSnapshot, unit_m: float) -> None:
         return
     factor, reason = found
     unit = factor * unit_m
-    word = next((f", {word}" for known, word in _UNITS.items() if np.isclose(unit, known)), "")
+    told, meant = next(
+        ((f"{known:g}", f", {word}") for known, word in _UNITS.items() if np.isclose(unit, known)), (f"{unit:.2g}", "")
+    )
     warnings.warn(
         f"sizes in {snapshot.name!r} are implausible as metres: {reason}. "
-        f"Perhaps unit_m={unit:.3g} (metres per unit of the file{word}); giving any unit_m ends this warning.",
+        f"Perhaps unit_m={told} (metres per unit of the file{meant}); giving any unit_m ends this warning.",
         UnitWarning,
         stacklevel=3,
     )

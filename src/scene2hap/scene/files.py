@@ -1,0 +1,53 @@
+"""Which files a scene may read: itself, and what lies beside it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene import limits
+
+
+def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
+    """The path that a scene file means by `uri`, a relative reference from its own folder.
+
+    Raises: SceneError: it is no plain relative path, or leads outside `assets_root` (also through a link).
+    """
+    refusal = f"{place} wants {uri!r}, which lies outside {assets_root}; only files inside it are read."
+    try:
+        parts = urlsplit(uri)
+        if parts.scheme or parts.netloc:
+            raise SceneError(f"{refusal} Addresses are never fetched: store the file beside the scene.")
+        path = (folder / unquote(uri)).resolve()
+        if not path.is_relative_to(assets_root.resolve()):
+            raise SceneError(f"{refusal} Copy it there, or give assets_root=<a folder that holds both>.")
+    except SceneError:
+        raise
+    # What a broken address, a zero byte and a ring of links raise.
+    except (ValueError, OSError, RuntimeError) as cause:
+        raise SceneError(f"{place} wants {uri!r}, which is no usable file name: {cause}.") from cause
+    return path
+
+
+def read_bytes(path: Path) -> bytes:
+    """The content of a regular file.
+
+    Raises: SceneError: it is missing, no regular file, unreadable or above `limits.MAX_FILE_BYTES`. SceneFormatError:
+    it is empty.
+    """
+    try:
+        if not path.exists():
+            raise SceneError(f"there is no file {str(path)!r}. Check the path, or export the scene with all its files.")
+        if not path.is_file():
+            raise SceneError(f"{str(path)!r} is not a file; give the path of the scene file itself.")
+        limits.at_most(f"the size of {path.name!r} in bytes", path.stat().st_size, "MAX_FILE_BYTES")
+        data = path.read_bytes()
+    except SceneError:
+        raise
+    # ValueError: a name with a zero byte in it.
+    except (OSError, ValueError) as cause:
+        raise SceneError(f"{str(path)!r} cannot be read: {cause}.") from cause
+    if not data:
+        raise SceneFormatError(f"{path.name!r} is empty (0 bytes). Export it again.")
+    return data

@@ -1,0 +1,75 @@
+"""Objects of boxes for the contact tests."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.contact.graph import ContactGraph
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import Box, Contact, DominantSurface, Geometry, SceneObject, SceneSnapshot, TriMesh
+
+Triple = tuple[float, float, float]
+SURFACE = DominantSurface(Pose(), 0.1, 0.1, 0.01)
+
+
+def thing(name: str, geometry: Geometry, pose: Pose) -> SceneObject:
+    return SceneObject(name, name, pose, geometry, SURFACE)
+
+
+def box(name: str, size_m: Triple, at_m: Triple, rotation_xyzw: Sequence[float] = (0, 0, 0, 1)) -> SceneObject:
+    """A cuboid (x, y up, z) with its middle at `at_m`."""
+    x, y, z, w = rotation_xyzw
+    return thing(name, Box(size_m), Pose(at_m, (x, y, z, w)))
+
+
+def on_floor(name: str, size_m: Triple, x: float, z: float, gap_m: float = 0.0) -> SceneObject:
+    """A cuboid whose bottom is `gap_m` over y = 0."""
+    return box(name, size_m, (x, size_m[1] / 2 + gap_m, z))
+
+
+def boxes(name: str, *parts: tuple[Triple, Triple], at_m: Triple = (0.0, 0.0, 0.0)) -> SceneObject:
+    """One object made of cuboids, each (size, middle)."""
+    vertices: list[NDArray[np.float64]] = []
+    faces: list[NDArray[np.int64]] = []
+    for size_m, middle_m in parts:
+        mesh = Box(size_m).mesh
+        faces.append(mesh.faces.astype(np.int64) + 8 * len(vertices))
+        vertices.append(mesh.vertices_m + np.asarray(middle_m))
+    return thing(name, TriMesh(np.concatenate(vertices), np.concatenate(faces)), Pose(at_m))
+
+
+def chair(at_m: Triple) -> SceneObject:
+    """Four legs of 40 mm at x, z = +-0.2 m, and a seat; the feet stand at the height of `at_m`."""
+    legs = [((0.04, 0.45, 0.04), (x, 0.225, z)) for x in (-0.2, 0.2) for z in (-0.2, 0.2)]
+    return boxes("chair", *legs, ((0.44, 0.04, 0.44), (0.0, 0.47, 0.0)), at_m=at_m)
+
+
+def floor() -> SceneObject:
+    """6 m x 6 m, 0.1 m thick, its top at y = 0."""
+    return box("floor", (6.0, 0.1, 6.0), (0.0, -0.05, 0.0))
+
+
+def scene(*objects: SceneObject, contacts: Iterable[Contact] | None = None) -> SceneSnapshot:
+    return SceneSnapshot("test", "y", objects, None if contacts is None else tuple(contacts))
+
+
+def pairs(graph: ContactGraph) -> set[tuple[str, str]]:
+    return {(contact.a, contact.b) for contact in graph.contacts}
+
+
+def found(*objects: SceneObject, tolerance_m: float | None = None) -> set[tuple[str, str]]:
+    """The pairs in contact in a scene of these objects."""
+    return pairs(ContactGraph(scene(*objects), tolerance_m=tolerance_m))
+
+
+def weight(graph: ContactGraph, a: str, b: str) -> float:
+    """The weight of a pair, 0 if it is not in contact."""
+    return max((contact.weight for contact in graph.contacts if (contact.a, contact.b) == (a, b)), default=0.0)
+
+
+def points(graph: ContactGraph, a: str, b: str) -> NDArray[np.float64]:
+    """The pair's points (n, 3) [m]."""
+    return np.array([contact.point_m for contact in graph.contacts if (contact.a, contact.b) == (a, b)]).reshape(-1, 3)

@@ -1,0 +1,136 @@
+"""What must hold for the dominant surface of any shape of a kind, wherever it stands and however it is turned."""
+
+from __future__ import annotations
+
+import numpy as np
+import trimesh
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from scene2hap.scene.geometry import RAYS_PER_SIDE, dominant_surface
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import Box, DominantSurface, TriMesh
+
+common = settings(derandomize=True, deadline=None, max_examples=40)
+edges = st.floats(0.05, 3.0)
+thin = st.floats(0.002, 0.04)
+fractions = st.floats(0.0, 1.0)
+seeds = st.integers(0, 2**32 - 1)
+
+Size = tuple[float, float, float]
+
+
+def turned(mesh: TriMesh, seed: int) -> tuple[TriMesh, Pose]:
+    """The mesh under a pose drawn evenly from all rotations."""
+    rng = np.random.default_rng(seed)
+    x, y, z, w = rng.normal(size=4)
+    pose = Pose(tuple(rng.uniform(-5, 5, size=3)), (x, y, z, w))
+    return TriMesh(pose.to_world(mesh.vertices_m), mesh.faces), pose
+
+
+def boxes(*parts: tuple[Size, Size]) -> TriMesh:
+    meshes = [(Box(size).mesh.vertices_m + middle, Box(size).mesh.faces) for size, middle in parts]
+    faces = np.concatenate([faces + 8 * i for i, (_, faces) in enumerate(meshes)])
+    return TriMesh(np.concatenate([points for points, _ in meshes]), faces)
+
+
+def size(surface: DominantSurface) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    return np.array([surface.length_m, surface.width_m, surface.thickness_m])
+
+
+def middle(surface: DominantSurface) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    centre: np.ndarray[tuple[int], np.dtype[np.float64]] = surface.pose.to_world(
+        [[surface.length_m / 2, surface.width_m / 2, 0.0]]
+    )[0]
+    return centre
+
+
+@given(edges, edges, edges, seeds)
+@common
+def test_a_box_is_its_edges_from_long_to_short(x: float, y: float, z: float, seed: int) -> None:
+    mesh, pose = turned(Box((x, y, z)).mesh, seed)
+    surface = dominant_surface(mesh)
+    # Sides that differ by less than a hundredth in area count as equal; any of them may be the plate.
+    a, b, c = sorted((x, y, z), reverse=True)
+    assume(b / c > 1.02 or b / c < 1 + 1e-9)
+    np.testing.assert_allclose(size(surface), [a, b, c], atol=1e-9)
+    np.testing.assert_allclose(middle(surface), pose.position_m, atol=1e-9)
+    assert surface.flags == ()
+
+
+@given(st.floats(0.5, 3.0), st.floats(0.5, 1.0), thin, st.floats(0.3, 1.0), st.floats(0.02, 0.08), seeds)
+@common
+def test_a_slab_on_legs_is_the_slab(
+    length: float, share: float, thickness: float, height: float, leg: float, seed: int
+) -> None:
+    width = length * share
+    assume(height < width)
+    corners = [(sx * (length - leg) / 2, sy * (width - leg) / 2) for sx in (-1, 1) for sy in (-1, 1)]
+    legs = [((leg, leg, height), (x, y, -height / 2)) for x, y in corners]
+    mesh, pose = turned(boxes(((length, width, thickness), (0.0, 0.0, thickness / 2)), *legs), seed)
+    surface = dominant_surface(mesh, up=pose.rotation[:, 2])
+    np.testing.assert_allclose(size(surface), [length, width, thickness], atol=1e-9)
+    np.testing.assert_allclose(middle(surface), pose.to_world([[0.0, 0.0, thickness / 2]])[0], atol=1e-9)
+    np.testing.assert_allclose(surface.pose.rotation[:, 2], pose.rotation[:, 2], atol=1e-9)
+
+
+@given(st.floats(0.3, 2.0), st.floats(0.3, 2.0), st.floats(0.3, 2.0), st.floats(0.002, 0.02), seeds)
+@common
+def test_a_hollow_box_is_as_thick_as_its_wall(x: float, y: float, z: float, wall: float, seed: int) -> None:
+    a, b, c = sorted((x, y, z), reverse=True)
+    assume(b / c > 1.02)
+    outer, inner = Box((x, y, z)).mesh, Box((x - 2 * wall, y - 2 * wall, z - 2 * wall)).mesh
+    vertices = np.concatenate((outer.vertices_m, inner.vertices_m))
+    mesh, _ = turned(TriMesh(vertices, np.concatenate((outer.faces, inner.faces[:, ::-1] + 8))), seed)
+    np.testing.assert_allclose(size(dominant_surface(mesh)), [a, b, wall], atol=1e-9)
+
+
+@given(st.floats(0.05, 1.0), st.floats(0.02, 0.2), seeds)
+@settings(derandomize=True, deadline=None, max_examples=15)
+def test_a_bowl_is_its_rim_and_wall_within_a_rays_spacing(radius: float, wall_share: float, seed: int) -> None:
+    """Half a sphere with a wall: chords of the rim, and the vertical length of wall at the median of its area."""
+    inner = radius * (1 - wall_share)
+    angle = np.linspace(0, np.pi / 2, 25)
+    profile = np.stack((np.sin(angle), -np.cos(angle)), axis=1)
+    bowl = trimesh.creation.revolve(np.concatenate((radius * profile, inner * profile[::-1])), sections=64)
+    mesh, _ = turned(TriMesh(bowl.vertices, bowl.faces), seed)
+    area = radius**2 * (np.arange(5000) + 0.5) / 5000
+    wall = np.sqrt(radius**2 - area) - np.sqrt(np.maximum(inner**2 - area, 0.0))
+    chord = np.sqrt(3) * radius
+    spacing = 2 * radius / RAYS_PER_SIDE
+    np.testing.assert_allclose(size(dominant_surface(mesh)), [chord, chord, np.median(wall)], atol=spacing)
+
+
+@given(edges, edges, seeds)
+@common
+def test_a_sheet_has_no_thickness(x: float, y: float, seed: int) -> None:
+    sheet = TriMesh([[0, 0, 0], [x, 0, 0], [x, y, 0], [0, y, 0]], [[0, 1, 2], [0, 2, 3]])
+    mesh, _ = turned(sheet, seed)
+    surface = dominant_surface(mesh)
+    np.testing.assert_allclose(size(surface), [max(x, y), min(x, y), 0.0], atol=1e-9)
+    assert surface.flags == ("open-mesh", "zero-thickness")
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(1, 40), st.floats(-8, 5))
+@settings(derandomize=True, deadline=None, max_examples=80)
+def test_any_triangles_have_a_surface_inside_their_box(seed: int, n: int, power: float) -> None:
+    """Nonsense is measured too, without a warning: right-handed, longest first, no larger than the diagonal."""
+    rng = np.random.default_rng(seed)
+    vertices = rng.normal(size=(max(3, n), 3)) * 10.0**power * rng.choice([1.0, 1e-9, 0.0], size=3, p=[0.8, 0.1, 0.1])
+    mesh = TriMesh(vertices, rng.integers(0, len(vertices), size=(n, 3)))
+    surface = dominant_surface(mesh, up=rng.normal(size=3))
+    diagonal = float(np.linalg.norm(np.ptp(mesh.bounds_m, axis=0)))
+    assert diagonal * (1 + 1e-6) >= surface.length_m >= surface.width_m >= 0.0
+    assert 0.0 <= surface.thickness_m <= diagonal * (1 + 1e-6)
+    np.testing.assert_allclose(surface.pose.rotation @ surface.pose.rotation.T, np.eye(3), atol=1e-9)
+
+
+@given(seeds, st.floats(0.01, 100.0))
+@settings(derandomize=True, deadline=None, max_examples=25)
+def test_a_larger_thing_has_a_larger_surface_of_the_same_shape(seed: int, factor: float) -> None:
+    rng = np.random.default_rng(seed)
+    hull = trimesh.Trimesh(rng.normal(size=(30, 3)) * [1.0, 0.7, 0.2]).convex_hull
+    small = dominant_surface(TriMesh(hull.vertices, hull.faces))
+    large = dominant_surface(TriMesh(hull.vertices * factor, hull.faces))
+    np.testing.assert_allclose(size(large), factor * size(small), rtol=1e-6)
+    assert large.flags == small.flags

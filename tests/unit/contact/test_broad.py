@@ -1,0 +1,52 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from scene2hap.contact import broad
+from scene2hap.contact.broad import Boxes, box_pairs
+
+
+def random_boxes(rng: np.random.Generator, n: int) -> Boxes:
+    # Whole numbers: many boxes touch exactly.
+    low = rng.integers(0, 12, size=(n, 3)).astype(float)
+    return Boxes(low, low + rng.integers(0, 4, size=(n, 3)))
+
+
+def all_with_all(a: Boxes, b: Boxes) -> set[tuple[int, int]]:
+    return {
+        (i, j)
+        for i in range(len(a.low))
+        for j in range(len(b.low))
+        if (a.low[i] <= b.high[j]).all() and (b.low[j] <= a.high[i]).all()
+    }
+
+
+@pytest.mark.parametrize("few", [0, 10**6])
+@given(seed=st.integers(0, 10**6), n=st.integers(0, 25), m=st.integers(1, 25), chunk=st.integers(1, 40))
+@settings(derandomize=True, deadline=None, max_examples=60)
+def test_pairs_are_those_of_comparing_all_with_all_each_once(few: int, seed: int, n: int, m: int, chunk: int) -> None:
+    rng = np.random.default_rng(seed)
+    a, b = random_boxes(rng, n), random_boxes(rng, m)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(broad, "_FEW", few)
+        patch.setattr(broad, "_CHUNK", chunk)
+        rows = [(int(x), int(y)) for i, j in box_pairs(a, b) for x, y in zip(i, j, strict=True)]
+    assert len(rows) == len(set(rows))
+    assert set(rows) == all_with_all(a, b)
+
+
+def test_chunks_are_bounded() -> None:
+    rng = np.random.default_rng(3)
+    a = random_boxes(rng, 300)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(broad, "_CHUNK", 1000)
+        sizes = [len(i) for i, _ in box_pairs(a, a)]
+    assert sum(sizes) > 2000
+    assert max(sizes) <= 1000
+
+
+def test_a_swept_box_holds_its_whole_way() -> None:
+    swept = Boxes(np.zeros((1, 3)), np.ones((1, 3))).swept(np.array([2.0, -3.0, 0.0]))
+    assert swept.low.tolist() == [[0.0, -3.0, 0.0]]
+    assert swept.high.tolist() == [[3.0, 1.0, 1.0]]

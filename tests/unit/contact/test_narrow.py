@@ -1,0 +1,126 @@
+"""Gaps and patches of pairs of boxes, told in closed form."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from contact_scenes import Triple, box, boxes
+from scene2hap.contact.body import Body, shape_of
+from scene2hap.contact.narrow import MAX_POINTS, Meeting
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import SceneObject
+
+FAR = 10.0
+SIZES = st.tuples(*[st.sampled_from([0.1, 0.3, 1.0])] * 3)
+OFFSETS = st.tuples(*[st.sampled_from([-0.9, -0.2, -0.1, 0.0, 0.13, 0.3, 1.2])] * 3)
+QUATERNIONS = st.tuples(*[st.integers(-3, 3)] * 4).filter(any)
+
+
+def meeting(a: SceneObject, b: SceneObject) -> Meeting:
+    return Meeting(Body.of(a, 1), Body.of(b, 1))
+
+
+def surface_gap(size_a: Triple, size_b: Triple, offset: Triple) -> float:
+    """The distance of two axis-parallel boxes' surfaces: of the boxes, or inside a box to its nearest side."""
+    half_a, half_b, between = np.array(size_a) / 2, np.array(size_b) / 2, np.abs(offset)
+    outside = np.maximum(between - half_a - half_b, 0.0)
+    if outside.any():
+        return float(np.linalg.norm(outside))
+    for inner, outer in ((half_a, half_b), (half_b, half_a)):
+        if (between + inner <= outer).all():
+            return float((outer - inner - between).min())
+    return 0.0
+
+
+@given(SIZES, SIZES, OFFSETS, QUATERNIONS)
+@settings(derandomize=True, deadline=None, max_examples=80)
+def test_boxes_turned_together_keep_their_closed_form_gap(
+    size_a: Triple, size_b: Triple, offset: Triple, rotation: tuple[float, float, float, float]
+) -> None:
+    frame = Pose((1.0, -2.0, 3.0), rotation)
+    a, b = (Body(x, shape_of(box(x, size, (0, 0, 0)).geometry.mesh), pose, 1) for x, size, pose in (
+        ("a", size_a, frame), ("b", size_b, frame.compose(Pose(offset)))))  # fmt: skip
+    gap = Meeting(a, b).gap(FAR)
+    assert gap is not None
+    expected = surface_gap(size_a, size_b, offset)
+    assert gap.distance_m == pytest.approx(expected, abs=1e-12)
+    assert np.linalg.norm(gap.way_m) == pytest.approx(expected, abs=1e-12)
+
+
+def test_the_way_leads_from_a_to_b_whichever_is_larger() -> None:
+    small, large = box("a", (0.1, 0.1, 0.1), (0, 0, 0)), box("b", (1, 1, 1), (0.75, 0, 0))
+    there, back = meeting(small, large).gap(FAR), meeting(large, small).gap(FAR)
+    assert there is not None
+    assert back is not None
+    assert there.way_m == pytest.approx([0.2, 0, 0])
+    assert back.way_m == pytest.approx([-0.2, 0, 0])
+
+
+def test_a_gap_beyond_reach_is_none() -> None:
+    a, b = box("a", (1, 1, 1), (0, 0, 0)), box("b", (1, 1, 1), (1.5, 0, 0))
+    assert meeting(a, b).gap(0.499) is None
+    assert meeting(a, b).gap(0.501) is not None
+
+
+def test_one_mesh_has_one_shape() -> None:
+    first, second = box("a", (1, 1, 1), (0, 0, 0)), box("b", (1, 1, 1), (5, 0, 0))
+    assert Body.of(first, 1).shape is Body.of(second, 1).shape
+
+
+def patch_of(a: SceneObject, b: SceneObject, within_m: float = 0.001, way: Triple = (0, 0, 0)) -> np.ndarray:
+    """The patch's points on both surfaces, in the world, (2, n, 3)."""
+    patch = meeting(a, b).patch(np.array(way, dtype=float), within_m)
+    return np.array([a.pose.to_world(patch.on_a_m), b.pose.to_world(patch.on_b_m)])
+
+
+def as_set(points: np.ndarray) -> set[tuple[float, ...]]:
+    return {tuple(float(x) + 0.0 for x in row) for row in np.round(points, 9)}
+
+
+def test_a_box_on_a_table_touches_at_the_corners_of_its_bottom() -> None:
+    on_a, on_b = patch_of(box("cup", (0.2, 0.3, 0.1), (0.1, 0.15, 0.2)), box("table", (2, 0.1, 2), (0, -0.05, 0)))
+    assert as_set(on_a) == {(0.0, 0.0, 0.15), (0.2, 0.0, 0.15), (0.0, 0.0, 0.25), (0.2, 0.0, 0.25)}
+    assert as_set(on_b) == as_set(on_a)
+
+
+def test_a_box_over_an_edge_touches_where_both_are() -> None:
+    on_a, _ = patch_of(box("box", (0.4, 0.1, 0.2), (1.0, 0.05, 0.0)), box("table", (2, 0.1, 2), (0, -0.05, 0)))
+    assert as_set(on_a) == {(0.8, 0.0, -0.1), (0.8, 0.0, 0.1), (1.0, 0.0, -0.1), (1.0, 0.0, 0.1)}
+
+
+def test_crossing_bars_touch_at_the_crossing() -> None:
+    on_a, _ = patch_of(box("a", (1, 0.02, 0.02), (0, 0.01, 0)), box("b", (0.02, 0.02, 1), (0, 0.03, 0)))
+    assert as_set(on_a) == {(x, 0.02, z) for x in (-0.01, 0.01) for z in (-0.01, 0.01)}
+
+
+def test_a_tip_touches_at_one_point() -> None:
+    standing_on_corner = box("a", (0.1, 0.1, 0.1), (0.3, 0.05 * 3**0.5, 0.2), (0.8804763, 0.0, -0.3647052, 0.2797846))
+    lowest = standing_on_corner.bounds_m[0, 1]
+    on_a, on_b = patch_of(standing_on_corner, box("b", (1, 0.1, 1), (0, lowest - 0.05, 0)), 1e-4)
+    assert len(on_a) == 1
+    assert on_a[0, 1] == pytest.approx(lowest)
+    assert on_a[0] == pytest.approx(on_b[0], abs=2e-4)
+
+
+def test_a_way_moves_a_to_its_place_and_points_are_told_for_where_it_is() -> None:
+    floating, table = box("a", (0.2, 0.2, 0.2), (0, 0.13, 0)), box("b", (1, 0.1, 1), (0, -0.05, 0))
+    assert patch_of(floating, table).shape == (2, 0, 3)
+    on_a, on_b = patch_of(floating, table, way=(0, -0.03, 0))
+    assert on_a[:, 1] == pytest.approx(0.03)
+    assert on_b[:, 1] == pytest.approx(0.0)
+    assert as_set(on_a[:, [0, 2]]) == as_set(on_b[:, [0, 2]]) == {(x, z) for x in (-0.1, 0.1) for z in (-0.1, 0.1)}
+
+
+def test_surfaces_that_cut_each_other_touch_along_the_cut() -> None:
+    on_a, _ = patch_of(box("post", (0.1, 1.0, 0.1), (0, 0, 0)), box("plate", (1, 0.02, 1), (0, 0, 0)))
+    assert len(on_a) == MAX_POINTS
+    # Corners of the post, at the height of one of the plate's faces.
+    assert np.abs(on_a[:, [0, 2]]) == pytest.approx(0.05)
+    assert np.abs(on_a[:, 1]) == pytest.approx(0.01)
+
+
+def test_points_are_spread_over_all_feet() -> None:
+    legs = [((0.05, 0.5, 0.05), (x, 0.25, z)) for x in (-0.5, 0.5) for z in (-0.3, 0.3)]
+    on_a, _ = patch_of(boxes("table", *legs), box("floor", (9, 0.1, 9), (0, -0.05, 0)))
+    assert as_set(np.sign(on_a[:, [0, 2]])) == {(x, z) for x in (-1, 1) for z in (-1, 1)}

@@ -1,0 +1,193 @@
+"""The dominant surface of shapes whose sizes are known by construction."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+from numpy.typing import NDArray
+
+from scene2hap.scene.geometry import dominant_surface
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import Box, DominantSurface, TriMesh
+
+Size = tuple[float, float, float]
+
+
+def boxes(*parts: tuple[Size, Size]) -> TriMesh:
+    """Cuboids of that size and middle as one mesh."""
+    meshes = [(Box(size).mesh.vertices_m + middle, Box(size).mesh.faces) for size, middle in parts]
+    vertices = np.concatenate([points for points, _ in meshes])
+    return TriMesh(vertices, np.concatenate([faces + 8 * i for i, (_, faces) in enumerate(meshes)]))
+
+
+def turned(mesh: TriMesh, pose: Pose) -> TriMesh:
+    return TriMesh(pose.to_world(mesh.vertices_m), mesh.faces)
+
+
+def size(surface: DominantSurface) -> list[float]:
+    return [surface.length_m, surface.width_m, surface.thickness_m]
+
+
+def middle(surface: DominantSurface) -> NDArray[np.float64]:
+    """The middle of the plate, in the own frame."""
+    centre: NDArray[np.float64] = surface.pose.to_world([[surface.length_m / 2, surface.width_m / 2, 0.0]])[0]
+    return centre
+
+
+LEGS = tuple(((0.05, 0.05, 0.7), (x, y, 0.35)) for x in (-0.7, 0.7) for y in (-0.35, 0.35))
+TABLE = boxes(((1.6, 0.8, 0.04), (0.0, 0.0, 0.72)), *LEGS)
+# Inward faces make a wall of what lies between two cuboids.
+_inner = Box((0.56, 0.46, 1.76)).mesh
+_outer = Box((0.6, 0.5, 1.8)).mesh
+HOLLOW = TriMesh(
+    np.vstack((_outer.vertices_m, _inner.vertices_m)), np.vstack((_outer.faces, _inner.faces[:, ::-1] + 8))
+)
+SHEET = TriMesh([[0, 0, 0], [4, 0, 0], [4, 5, 0], [0, 5, 0]], [[0, 1, 2], [0, 2, 3]])
+TURN = Pose((3.0, -2.0, 1.0), (0.1, 0.3, -0.2, 0.9))
+
+
+@pytest.mark.parametrize(
+    ("mesh", "expected"),
+    [
+        (boxes(((0.6, 1.8, 0.5), (1.0, 2.0, 3.0))), [1.8, 0.6, 0.5]),
+        (TABLE, [1.6, 0.8, 0.04]),
+        (HOLLOW, [1.8, 0.6, 0.02]),
+        (SHEET, [5.0, 4.0, 0.0]),
+        (boxes(((2.0, 0.9, 0.04), (0.0, 0.0, 0.0)), ((0.12, 0.03, 0.06), (0.8, 0.0, 0.05))), [2.0, 0.9, 0.04]),
+        (boxes(((1.0, 0.4, 0.02), (0, 0, 1.5)), ((1.0, 0.4, 0.03), (0, 0, 0.5))), [1.0, 0.4, 0.02]),
+    ],
+    ids=["box", "table", "hollow", "sheet", "door with a knob", "shelf of two boards"],
+)
+@pytest.mark.parametrize("pose", [Pose(), TURN], ids=["straight", "turned"])
+def test_shapes_made_of_planes_are_exact(mesh: TriMesh, expected: list[float], pose: Pose) -> None:
+    assert size(dominant_surface(turned(mesh, pose), up=pose.rotation[:, 2])) == pytest.approx(expected, abs=1e-9)
+
+
+@pytest.mark.parametrize("pose", [Pose(), TURN], ids=["straight", "turned"])
+def test_the_plate_lies_where_the_table_top_is(pose: Pose) -> None:
+    surface = dominant_surface(turned(TABLE, pose), up=pose.rotation[:, 2])
+    np.testing.assert_allclose(middle(surface), pose.to_world([[0.0, 0.0, 0.72]])[0], atol=1e-9)
+    np.testing.assert_allclose(surface.pose.rotation[:, 2], pose.rotation[:, 2], atol=1e-9)
+    assert abs(surface.pose.rotation[:, 0] @ pose.rotation[:, 0]) == pytest.approx(1.0)
+    assert np.linalg.det(surface.pose.rotation) == pytest.approx(1.0)
+
+
+def test_a_point_on_the_plate_has_its_own_coordinates() -> None:
+    surface = dominant_surface(TABLE)
+    x, y, z = surface.pose.to_own([[0.3, 0.1, 0.72]])[0]
+    assert 0 <= x <= surface.length_m
+    assert 0 <= y <= surface.width_m
+    assert z == pytest.approx(0.0, abs=1e-12)
+    assert {round(x, 9), round(1.6 - x, 9)} == {1.1, 0.5}
+
+
+def test_up_decides_which_side_is_the_top() -> None:
+    """A rack of two boards is measured from above, whichever way that is."""
+    rack = boxes(((1.0, 0.4, 0.02), (0, 0, 1.5)), ((1.0, 0.4, 0.05), (0, 0, 0.5)))
+    assert dominant_surface(rack, up=(0, 0, 1)).thickness_m == pytest.approx(0.02)
+    assert dominant_surface(rack, up=(0, 0, -1)).thickness_m == pytest.approx(0.05)
+
+
+def test_among_equal_sides_the_upright_normal_wins() -> None:
+    cube = boxes(((1.0, 1.0, 1.0), (0.0, 0.0, 0.0)))
+    for up in np.eye(3):
+        np.testing.assert_allclose(dominant_surface(cube, up=up).pose.rotation[:, 2], up, atol=1e-12)
+
+
+def test_legs_that_reach_into_the_top_do_not_thicken_it() -> None:
+    stuck = boxes(((1.6, 0.8, 0.04), (0.0, 0.0, 0.72)), ((1.2, 0.7, 0.03), (0.0, 0.0, 0.725)), *LEGS)
+    assert dominant_surface(stuck).thickness_m == pytest.approx(0.04)
+
+
+def test_a_disc_is_its_median_chord() -> None:
+    """Half of all chords of a circle are longer than sqrt(3) R."""
+    disc = trimesh.creation.cylinder(0.5, 0.03, sections=256)
+    surface = dominant_surface(TriMesh(disc.vertices, disc.faces))
+    assert surface.length_m == pytest.approx(np.sqrt(3) * 0.5, abs=1.0 / 32)
+    assert surface.width_m == pytest.approx(np.sqrt(3) * 0.5, abs=1.0 / 32)
+    assert surface.thickness_m == pytest.approx(0.03)
+
+
+def test_a_bowl_is_its_rim_and_its_wall() -> None:
+    """Half a sphere of radius R with a wall of R - r, seen from above: thickness is the median over the disc of the
+    vertical length of wall, computed here from evenly spread points."""
+    big, small = 0.10, 0.09
+    angle = np.linspace(0, np.pi / 2, 40)
+    profile = np.vstack(
+        (
+            np.stack((big * np.sin(angle), -big * np.cos(angle)), axis=1),
+            np.stack((small * np.sin(angle), -small * np.cos(angle)), axis=1)[::-1],
+        )
+    )
+    bowl = trimesh.creation.revolve(profile, sections=96)
+    surface = dominant_surface(TriMesh(bowl.vertices, bowl.faces))
+    radius_2 = big**2 * (np.arange(10_000) + 0.5) / 10_000
+    wall = np.sqrt(big**2 - radius_2) - np.sqrt(np.maximum(small**2 - radius_2, 0.0))
+    assert surface.thickness_m == pytest.approx(np.median(wall), abs=2 * big / 32)
+    assert surface.length_m == pytest.approx(np.sqrt(3) * big, abs=2 * big / 32)
+    assert surface.width_m == pytest.approx(np.sqrt(3) * big, abs=2 * big / 32)
+    assert surface.flags == ()
+
+
+@pytest.mark.parametrize(
+    ("mesh", "flags"),
+    [
+        (TABLE, ()),
+        (SHEET, ("open-mesh", "zero-thickness")),
+        (TriMesh(SHEET.vertices_m, [*SHEET.faces, *SHEET.faces[:, ::-1]]), ("zero-thickness",)),
+        (TriMesh(_outer.vertices_m, _outer.faces[2:]), ("open-mesh",)),
+        (
+            TriMesh([[0, 0, 0], [4, 0, 1], [4, 5, 0], [0, 5, 0]], SHEET.faces),
+            ("open-mesh", "box-fallback"),
+        ),
+        (TriMesh([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]]), ("box-fallback", "zero-thickness")),
+    ],
+    ids=["closed", "one-sided sheet", "two-sided sheet", "box without a side", "bent sheet", "needle"],
+)
+def test_flags_tell_what_wants_a_second_look(mesh: TriMesh, flags: tuple[str, ...]) -> None:
+    assert dominant_surface(mesh).flags == flags
+
+
+def test_a_box_without_a_bottom_is_as_thick_as_it_is_high() -> None:
+    """Five faces of a worktop: no ray from above meets it twice."""
+    outer = Box((3.0, 0.6, 0.04)).mesh
+    faces = [face for face in outer.faces if not np.allclose(outer.vertices_m[face, 2], -0.02)]
+    surface = dominant_surface(TriMesh(outer.vertices_m, faces))
+    assert size(surface) == pytest.approx([3.0, 0.6, 0.04])
+    assert surface.flags == ("open-mesh", "box-fallback")
+
+
+def test_faces_that_all_look_inwards_change_nothing() -> None:
+    inside_out = TriMesh(TABLE.vertices_m, TABLE.faces[:, ::-1])
+    assert size(dominant_surface(inside_out)) == pytest.approx([1.6, 0.8, 0.04])
+
+
+def test_an_l_is_boxed_and_says_so() -> None:
+    sofa = boxes(((2.4, 0.8, 0.4), (0.0, 0.0, 0.2)), ((0.8, 1.6, 0.4), (-0.8, 1.2, 0.2)))
+    surface = dominant_surface(sofa)
+    assert size(surface) == pytest.approx([2.4, 2.4, 0.4])
+    assert surface.flags == ("box-fallback",)
+
+
+def test_a_frame_is_as_large_as_its_outside() -> None:
+    frame = boxes(
+        ((0.6, 0.04, 0.02), (0.0, 0.38, 0.0)),
+        ((0.6, 0.04, 0.02), (0.0, -0.38, 0.0)),
+        ((0.04, 0.8, 0.02), (0.28, 0.0, 0.0)),
+        ((0.04, 0.8, 0.02), (-0.28, 0.0, 0.0)),
+    )
+    assert size(dominant_surface(frame)) == pytest.approx([0.8, 0.6, 0.02])
+
+
+def test_vertices_that_no_face_uses_do_not_count() -> None:
+    stray = TriMesh([*TABLE.vertices_m.tolist(), [9.0, 9.0, 9.0]], TABLE.faces)
+    assert size(dominant_surface(stray)) == pytest.approx([1.6, 0.8, 0.04])
+
+
+@pytest.mark.parametrize("up", [(0, 1, 0), (0, -1, 0), (0, 0, -1)])
+def test_a_needle_has_a_length_and_no_more(up: Size) -> None:
+    needle = TriMesh([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]])
+    surface = dominant_surface(needle, up=up)
+    assert size(surface) == [2.0, 0.0, 0.0]
+    np.testing.assert_allclose(middle(surface), [1.0, 0.0, 0.0], atol=1e-12)

@@ -1,0 +1,316 @@
+"""glTF and GLB: what a file says is what the snapshot holds, bit for bit and node for node."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gltf_builder import CUBE, CUBE_FACES, Gltf, one_cube
+from scene2hap.scene.gltf import read_gltf
+from scene2hap.scene.load import load_scene
+from scene2hap.scene.snapshot import SceneObject, TriMesh
+from scene2hap.scene.tree import AuthoredNode
+
+
+def read(gltf: Gltf, folder: Path, name: str = "scene.glb") -> AuthoredNode:
+    """The only root of the file."""
+    (root,) = read_gltf(gltf.write(folder / name), folder).roots
+    return root
+
+
+def triangles(item: SceneObject) -> set[tuple[tuple[float, ...], ...]]:
+    """World triangles, each from its smallest corner on, so that only their turning is left to compare."""
+    mesh = item.geometry.mesh
+    corners = np.round(item.pose.to_world(mesh.vertices_m), 9)[mesh.faces].tolist()
+    turned = []
+    for corner in corners:
+        start = corner.index(min(corner))
+        turned.append(tuple(tuple(corner[(start + k) % 3]) for k in range(3)))
+    return set(turned)
+
+
+@pytest.mark.parametrize("name", ["cube.glb", "cube.gltf", "CUBE.GLB"])
+def test_a_cube_is_read_bit_for_bit(tmp_path: Path, name: str) -> None:
+    path = tmp_path / name
+    if name.isupper():
+        path.write_bytes(one_cube().glb())
+    else:
+        one_cube().write(path)
+    (root,) = read_gltf(path, tmp_path).roots
+    np.testing.assert_array_equal(root.pieces[0].vertices, CUBE)
+    np.testing.assert_array_equal(root.pieces[0].faces, CUBE_FACES)
+
+
+def test_a_buffer_may_stand_in_the_header(tmp_path: Path) -> None:
+    gltf = one_cube()
+    gltf.header["buffers"][0]["uri"] = gltf.data_uri()
+    path = tmp_path / "cube.gltf"
+    path.write_text("\ufeff" + json.dumps(gltf.header), encoding="utf-8")
+    assert load_scene(path).object("cube").size_m == pytest.approx((1.0, 1.0, 1.0))
+
+
+def test_a_file_name_in_the_header_may_be_quoted(tmp_path: Path) -> None:
+    gltf = one_cube()
+    (tmp_path / "my parts").mkdir()
+    (tmp_path / "my parts" / "a+b.bin").write_bytes(bytes(gltf.buffer))
+    gltf.header["buffers"][0]["uri"] = "my%20parts/a+b.bin"
+    path = tmp_path / "cube.gltf"
+    path.write_text(json.dumps(gltf.header), encoding="utf-8")
+    assert len(load_scene(path).objects) == 1
+
+
+def test_interleaved_vertices_are_told_apart_by_stride(tmp_path: Path) -> None:
+    gltf = Gltf()
+    interleaved = np.hstack((CUBE, np.full((8, 3), 77.0)))
+    view = gltf.view(interleaved, "<f4", byteStride=24)
+    accessor = {"bufferView": view, "componentType": 5126, "type": "VEC3", "count": 8}
+    gltf.header["accessors"].append(accessor)
+    indices = gltf.accessor(CUBE_FACES.reshape(-1), "u1", "SCALAR")
+    gltf.node("cube", mesh=gltf.mesh({"attributes": {"POSITION": 0}, "indices": indices}), root=True)
+    np.testing.assert_array_equal(read(gltf, tmp_path).pieces[0].vertices, CUBE)
+
+
+@pytest.mark.parametrize(("dtype", "largest"), [("i1", 127), ("u1", 255), ("i2", 32767), ("u2", 65535)])
+def test_quantised_positions_are_scaled_to_one(tmp_path: Path, dtype: str, largest: int) -> None:
+    gltf = Gltf()
+    gltf.header["extensionsRequired"] = ["KHR_mesh_quantization"]
+    positions = gltf.accessor(CUBE * largest, dtype, "VEC3", normalized=True)
+    indices = gltf.accessor(CUBE_FACES.reshape(-1), "u2", "SCALAR")
+    gltf.node("cube", mesh=gltf.mesh({"attributes": {"POSITION": positions}, "indices": indices}), root=True)
+    np.testing.assert_array_equal(read(gltf, tmp_path).pieces[0].vertices, CUBE)
+
+
+def test_integer_positions_that_are_not_normalised_stay_as_they_are(tmp_path: Path) -> None:
+    gltf = Gltf()
+    positions = gltf.accessor(CUBE * 100, "u2", "VEC3")
+    indices = gltf.accessor(CUBE_FACES.reshape(-1), "u2", "SCALAR")
+    gltf.node("cube", mesh=gltf.mesh({"attributes": {"POSITION": positions}, "indices": indices}), root=True)
+    np.testing.assert_array_equal(read(gltf, tmp_path).pieces[0].vertices, CUBE * 100)
+
+
+@pytest.mark.parametrize("has_base", [True, False])
+def test_sparse_values_replace_what_stands_below_them(tmp_path: Path, has_base: bool) -> None:
+    gltf = Gltf()
+    if has_base:
+        positions = gltf.accessor(CUBE, "f4", "VEC3")
+        expected = CUBE.copy()
+    else:
+        gltf.header["accessors"].append({"componentType": 5126, "type": "VEC3", "count": 8})
+        positions, expected = 0, np.zeros((8, 3))
+    expected[[1, 6]] = [[5.0, 6.0, 7.0], [8.0, 9.0, 10.0]]
+    gltf.header["accessors"][positions]["sparse"] = {
+        "count": 2,
+        "indices": {"bufferView": gltf.view([1, 6], "<u2"), "componentType": 5123},
+        "values": {"bufferView": gltf.view(expected[[1, 6]], "<f4")},
+    }
+    indices = gltf.accessor(CUBE_FACES.reshape(-1), "u2", "SCALAR")
+    gltf.node("cube", mesh=gltf.mesh({"attributes": {"POSITION": positions}, "indices": indices}), root=True)
+    np.testing.assert_array_equal(read(gltf, tmp_path).pieces[0].vertices, expected)
+
+
+@pytest.mark.parametrize(
+    ("mode", "order", "expected"),
+    [
+        (4, None, [[0, 1, 2], [3, 4, 5]]),
+        (4, [0, 1, 2, 3], [[0, 1, 2]]),
+        (5, [0, 1, 2, 3, 4], [[0, 1, 2], [1, 3, 2], [2, 3, 4]]),
+        (5, [0, 1, 2, 2, 3, 3, 4, 5], [[0, 1, 2], [3, 5, 4]]),
+        (6, [0, 1, 2, 3, 4], [[1, 2, 0], [2, 3, 0], [3, 4, 0]]),
+    ],
+)
+def test_lists_strips_and_fans_of_triangles(
+    tmp_path: Path, mode: int, order: list[int] | None, expected: list[list[int]]
+) -> None:
+    """Section 3.7.2.1: v_i, v_(i + 1 + i % 2), v_(i + 2 - i % 2) in a strip; v_(i + 1), v_(i + 2), v_0 in a fan."""
+    gltf = Gltf()
+    points = np.arange(18.0).reshape(6, 3) ** 1.5
+    primitive = {"attributes": {"POSITION": gltf.accessor(points, "f4", "VEC3")}, "mode": mode}
+    if order is not None:
+        primitive["indices"] = gltf.accessor(order, "u4", "SCALAR")
+    gltf.node("thing", mesh=gltf.mesh(primitive), root=True)
+    piece = read(gltf, tmp_path).pieces[0]
+    np.testing.assert_array_equal(piece.vertices[piece.faces], points.astype(np.float32)[expected])
+
+
+def test_points_and_lines_are_no_surface(tmp_path: Path) -> None:
+    gltf = one_cube()
+    wire = {"attributes": {"POSITION": 0}, "indices": 1, "mode": 1}
+    gltf.node("wire", mesh=gltf.mesh(wire, {**wire, "mode": 0}), root=True)
+    assert [item.id for item in load_scene(gltf.write(tmp_path / "scene.glb")).objects] == ["cube"]
+
+
+def test_a_primitive_without_positions_draws_nothing(tmp_path: Path) -> None:
+    gltf = one_cube()
+    gltf.header["meshes"][0]["primitives"].append({"attributes": {"NORMAL": 0}})
+    assert len(read(gltf, tmp_path).pieces) == 1
+
+
+def test_vertices_that_no_face_uses_are_left_out(tmp_path: Path) -> None:
+    """Exporters give every primitive of a mesh the vertices of all; one NaN among the others' must not matter."""
+    gltf = Gltf()
+    crowded = np.vstack((CUBE, [[np.nan, 900.0, 900.0]]))
+    positions = gltf.accessor(crowded, "f4", "VEC3")
+    indices = gltf.accessor(CUBE_FACES.reshape(-1), "u2", "SCALAR")
+    gltf.node("cube", mesh=gltf.mesh({"attributes": {"POSITION": positions}, "indices": indices}), root=True)
+    item = load_scene(gltf.write(tmp_path / "scene.glb")).object("cube")
+    np.testing.assert_array_equal(item.bounds_m, [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]])
+
+
+def test_transforms_chain_from_the_root_down(tmp_path: Path) -> None:
+    """Half a turn about y, then 2 m along x, then twice the size: worked out by hand for one corner."""
+    gltf = Gltf()
+    leaf = gltf.node("cube", mesh=gltf.cube(), translation=[2.0, 0.0, 0.0], scale=[2.0, 2.0, 2.0])
+    gltf.node("turned", children=[leaf], rotation=[0.0, 1.0, 0.0, 0.0], root=True)
+    item = load_scene(gltf.write(tmp_path / "scene.glb")).objects[0]
+    np.testing.assert_allclose(item.bounds_m, [[-4.0, 0.0, -2.0], [-2.0, 2.0, 0.0]], atol=1e-12)
+
+
+def test_a_matrix_is_told_by_columns(tmp_path: Path) -> None:
+    columns = [0.0, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 5.0, 6.0, 7.0, 1.0]
+    item = load_scene(one_cube(matrix=columns).write(tmp_path / "scene.glb")).objects[0]
+    assert item.pose.position_m == (5.0, 6.0, 7.0)
+    np.testing.assert_allclose(item.pose.to_world([[1.0, 0.0, 0.0]]), [[5.0, 7.0, 7.0]], atol=1e-12)
+
+
+@pytest.mark.parametrize("scale", [(-1.0, 1.0, 1.0), (1.0, -1.0, 1.0), (-1.0, -1.0, -1.0), (-2.0, 3.0, 0.5)])
+def test_a_mirrored_mesh_still_faces_outwards(tmp_path: Path, scale: tuple[float, float, float]) -> None:
+    item = load_scene(one_cube(scale=list(scale)).write(tmp_path / "scene.glb")).objects[0]
+    mesh = item.geometry.mesh
+    a, b, c = (item.pose.to_world(mesh.vertices_m)[mesh.faces[:, k]] for k in range(3))
+    assert np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6 == pytest.approx(abs(np.prod(scale)))
+    low, high = np.sort([np.zeros(3), scale], axis=0)
+    np.testing.assert_allclose(item.bounds_m, [low, high], atol=1e-12)
+
+
+def test_a_mirrored_object_still_stands_upright(tmp_path: Path) -> None:
+    item = load_scene(one_cube(scale=[-1.0, 1.0, 1.0]).write(tmp_path / "scene.glb")).objects[0]
+    np.testing.assert_allclose(item.pose.rotation, np.eye(3), atol=1e-12)
+
+
+def test_shear_is_baked_and_leaves_a_rigid_pose(tmp_path: Path) -> None:
+    gltf = Gltf()
+    leaf = gltf.node("cube", mesh=gltf.cube(), rotation=[0.0, 0.0, np.sin(0.3), np.cos(0.3)])
+    gltf.node("stretched", children=[leaf], scale=[3.0, 1.0, 1.0], root=True)
+    item = load_scene(gltf.write(tmp_path / "scene.glb"), group="leaf").objects[0]
+    turn = np.array([[np.cos(0.6), -np.sin(0.6), 0.0], [np.sin(0.6), np.cos(0.6), 0.0], [0.0, 0.0, 1.0]])
+    expected = CUBE @ (np.diag([3.0, 1.0, 1.0]) @ turn).T
+    np.testing.assert_allclose(item.pose.to_world(item.geometry.mesh.vertices_m), expected, atol=1e-12)
+    np.testing.assert_allclose(item.pose.rotation @ item.pose.rotation.T, np.eye(3), atol=1e-12)
+
+
+def test_instances_share_one_mesh_wherever_they_stand(tmp_path: Path) -> None:
+    gltf = Gltf()
+    cube = gltf.cube()
+    rng = np.random.default_rng(1)
+    for i in range(6):
+        quaternion = rng.normal(size=4)
+        rotation = (quaternion / np.linalg.norm(quaternion)).astype(np.float32).tolist()
+        gltf.node(
+            f"c{i}", mesh=cube, rotation=rotation, translation=[3.0 * i, 0.0, 0.0], scale=[0.3, 0.3, 0.3], root=True
+        )
+    gltf.node("larger", mesh=cube, scale=[0.31, 0.31, 0.31], root=True)
+    *copies, larger = load_scene(gltf.write(tmp_path / "scene.glb")).objects
+    assert len({id(item.geometry) for item in copies}) == 1
+    assert len({item.instance_key for item in copies}) == 1
+    assert larger.instance_key != copies[0].instance_key
+
+
+def test_equal_meshes_that_are_stored_twice_are_one(tmp_path: Path) -> None:
+    gltf = Gltf()
+    for name in ("a", "b"):
+        gltf.node(name, mesh=gltf.cube(), root=True)
+    first, second = load_scene(gltf.write(tmp_path / "scene.glb")).objects
+    assert first.geometry is second.geometry
+    assert first.instance_key == second.instance_key
+
+
+def test_one_mesh_in_two_materials_is_two_kinds_of_thing(tmp_path: Path) -> None:
+    gltf = Gltf()
+    gltf.header["materials"] = [{"name": "oak"}, {"name": "steel"}, {"name": "oak"}]
+    for i in range(3):
+        gltf.node(f"cube{i}", mesh=gltf.cube(material=i), root=True)
+    oak, steel, same = load_scene(gltf.write(tmp_path / "scene.glb")).objects
+    assert oak.geometry is steel.geometry
+    assert oak.instance_key != steel.instance_key
+    assert oak.instance_key == same.instance_key
+
+
+def test_primitives_of_one_mesh_are_one_object(tmp_path: Path) -> None:
+    gltf = Gltf()
+    positions = gltf.accessor(CUBE, "f4", "VEC3")
+    halves = [gltf.accessor(half.reshape(-1), "u2", "SCALAR") for half in (CUBE_FACES[:6], CUBE_FACES[6:])]
+    mesh = gltf.mesh(*({"attributes": {"POSITION": positions}, "indices": half} for half in halves))
+    gltf.node("cube", mesh=mesh, root=True)
+    (item,) = load_scene(gltf.write(tmp_path / "two.glb")).objects
+    (whole,) = load_scene(one_cube().write(tmp_path / "one.glb")).objects
+    assert triangles(item) == triangles(whole)
+    assert item.surface.flags == ()
+
+
+def test_only_the_default_scene_counts(tmp_path: Path) -> None:
+    gltf = one_cube("here")
+    gltf.node("elsewhere", mesh=0)
+    gltf.header["scenes"].append({"nodes": [1]})
+    path = gltf.write(tmp_path / "scene.glb")
+    assert [item.id for item in load_scene(path).objects] == ["here"]
+    gltf.header["scene"] = 1
+    assert [item.id for item in load_scene(gltf.write(path)).objects] == ["elsewhere"]
+
+
+def test_without_scenes_every_root_counts(tmp_path: Path) -> None:
+    gltf = one_cube("a")
+    gltf.node("b", mesh=0)
+    del gltf.header["scenes"], gltf.header["scene"]
+    assert [item.id for item in load_scene(gltf.write(tmp_path / "scene.glb")).objects] == ["a", "b"]
+
+
+def test_cameras_lights_and_bones_are_not_objects(tmp_path: Path) -> None:
+    gltf = one_cube()
+    bone = gltf.node("bone")
+    gltf.node("rig", children=[bone], root=True)
+    gltf.node("camera", camera=0, root=True)
+    gltf.node("lamp", extensions={"KHR_lights_punctual": {"light": 0}}, root=True)
+    assert [item.id for item in load_scene(gltf.write(tmp_path / "scene.glb")).objects] == ["cube"]
+
+
+def test_extensions_that_move_nothing_may_be_required(tmp_path: Path) -> None:
+    gltf = one_cube()
+    gltf.header["extensionsRequired"] = ["KHR_materials_unlit", "EXT_texture_webp", "KHR_texture_transform"]
+    assert len(load_scene(gltf.write(tmp_path / "scene.glb")).objects) == 1
+
+
+def test_images_are_not_read(tmp_path: Path) -> None:
+    gltf = one_cube()
+    gltf.header["images"] = [{"uri": "../textures/none.png"}]
+    assert len(load_scene(gltf.write(tmp_path / "scene.glb")).objects) == 1
+
+
+def test_names_keep_every_letter(tmp_path: Path) -> None:
+    gltf = Gltf()
+    for name in ("Куб", "knob 1", "Circle.021_0", "机"):
+        gltf.node(name, mesh=gltf.cube(), root=True)
+    assert [item.name for item in load_scene(gltf.write(tmp_path / "scene.glb")).objects] == [
+        "Куб",
+        "knob 1",
+        "Circle.021_0",
+        "机",
+    ]
+
+
+def test_a_node_without_a_name_takes_that_of_its_mesh(tmp_path: Path) -> None:
+    gltf = one_cube(None)
+    gltf.header["meshes"][0]["name"] = "kettle"
+    assert load_scene(gltf.write(tmp_path / "scene.glb")).objects[0].id == "kettle"
+
+
+def test_units_scale_everything_but_turn_nothing(tmp_path: Path) -> None:
+    gltf = one_cube(translation=[200.0, 0.0, 0.0], rotation=[0.0, 0.0, 0.6, 0.8], scale=[50.0, 50.0, 50.0])
+    path = gltf.write(tmp_path / "scene.glb")
+    item = load_scene(path, unit_m=0.01).objects[0]
+    assert item.pose.position_m == pytest.approx((2.0, 0.0, 0.0))
+    assert item.size_m == pytest.approx((0.5, 0.5, 0.5))
+    np.testing.assert_allclose(item.pose.rotation_xyzw, [0.0, 0.0, 0.6, 0.8], atol=1e-12)
+    assert isinstance(item.geometry, TriMesh)

@@ -1,0 +1,225 @@
+"""Which nodes are objects: the rule by its clauses, the other groupings, names and ids."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gltf_builder import CUBE, CUBE_FACES
+from scene2hap.errors import SceneError
+from scene2hap.scene.grouping import Group, group_objects, unique_ids
+from scene2hap.scene.tree import AuthoredNode, Piece
+
+
+def mesh(name: str, *children: AuthoredNode, at: float = 0.0) -> AuthoredNode:
+    """A node with a mesh that is marked by its name."""
+    return AuthoredNode(name, _along_x(at), (Piece(name, CUBE, CUBE_FACES.astype(np.int32)),), children)
+
+
+def group(name: str, *children: AuthoredNode, at: float = 0.0) -> AuthoredNode:
+    """A node without one."""
+    return AuthoredNode(name, _along_x(at), (), children)
+
+
+def _along_x(at: float) -> Any:
+    matrix = np.eye(4)
+    matrix[0, 3] = at
+    return matrix
+
+
+def objects(*roots: AuthoredNode, how: Any = "authored") -> dict[str, list[object]]:
+    """Object names, each with the marks of its pieces."""
+    return {item.name: [piece.key for _, piece in item.parts] for item in group_objects(roots, how)}
+
+
+def test_a_mesh_with_leaf_children_is_one_object() -> None:
+    assert objects(mesh("fridge", mesh("door_top"), mesh("door_bottom"))) == {
+        "fridge": ["fridge", "door_top", "door_bottom"]
+    }
+
+
+def test_a_child_with_children_of_its_own_is_an_object() -> None:
+    assert objects(mesh("desk", mesh("drawer", mesh("handle")), mesh("leg"))) == {
+        "desk": ["desk", "leg"],
+        "drawer": ["drawer", "handle"],
+    }
+
+
+def test_a_group_below_a_mesh_is_an_object() -> None:
+    assert objects(mesh("oven", group("knobs", mesh("knobs_mat_0")))) == {"oven": ["oven"], "knobs": ["knobs_mat_0"]}
+
+
+def test_material_pieces_are_one_object() -> None:
+    tree = group(
+        "Cooktop", mesh("Cooktop_mat_0"), mesh("Cooktop_Grid_mat_0"), group("Controller", mesh("Controller_mat_0"))
+    )
+    assert objects(tree) == {
+        "Cooktop": ["Cooktop_mat_0", "Cooktop_Grid_mat_0"],
+        "Controller": ["Controller_mat_0"],
+    }
+
+
+def test_pieces_without_names_are_one_object() -> None:
+    assert list(objects(group("Bed", mesh(""), mesh("")))) == ["Bed"]
+
+
+def test_leaves_with_other_names_are_objects_of_their_own() -> None:
+    assert list(objects(group("Set", mesh("Set_base"), mesh("Vase")))) == ["Set", "Vase"]
+
+
+@pytest.mark.parametrize(
+    "piece", ["Table_mat_0", "Table.001", "Table 2", "Table(Clone)", "Table", "Table1", "TableTop"]
+)
+def test_a_name_is_continued(piece: str) -> None:
+    assert list(objects(group("Table", mesh(piece), mesh("Lamp")))) == ["Table", "Lamp"]
+
+
+def test_a_longer_word_is_another_name() -> None:
+    assert list(objects(group("Table", mesh("Tablet"), mesh("Lamp")))) == ["Tablet", "Lamp"]
+
+
+def test_a_wrapper_names_what_it_wraps() -> None:
+    tree = group("house", group("vanity_sink", group("planforge-root", mesh("bathroomSinkSquare(Clone)"))), mesh("mat"))
+    assert list(objects(tree)) == ["vanity_sink", "mat"]
+
+
+def test_a_wrapper_names_the_thing_and_not_the_things_on_it() -> None:
+    tree = group("washing_machine", mesh("washer(Clone)", mesh("washerDoor", mesh("handle"))))
+    assert list(objects(tree)) == ["washing_machine", "washerDoor"]
+
+
+def test_a_wrapper_places_what_it_wraps() -> None:
+    (item,) = group_objects([group("radio", mesh("radio(Clone)", at=1.0), at=5.0)])
+    assert item.frame[0, 3] == 5.0
+    assert item.parts[0][0][0, 3] == 6.0
+
+
+@pytest.mark.parametrize(
+    "wrapper",
+    [
+        "RootNode",
+        "RootNode (gltf orientation matrix)",
+        "Sketchfab_model",
+        "root",
+        "Scene",
+        "Kitchen.fbx",
+        "pokoj japonski.obj.cleaner",
+        "house",
+        "Living Room",
+        "bedroom_2",
+        "",
+    ],
+)
+def test_names_of_exporters_and_places_are_not_taken(wrapper: str) -> None:
+    assert list(objects(group(wrapper, mesh("chair")))) == ["chair"]
+    assert list(objects(group(wrapper, mesh(f"{wrapper}_chair"), mesh(f"{wrapper}_table")))) == [
+        f"{wrapper}_chair",
+        f"{wrapper}_table",
+    ]
+
+
+def test_an_outer_name_reaches_through_an_exporters_node() -> None:
+    assert list(objects(group("kettle", group("RootNode", mesh("Object_3"))))) == ["kettle"]
+
+
+def test_containers_are_looked_through() -> None:
+    tree = group("", group("things", mesh("cup"), mesh("pan")), group("more", mesh("lid")))
+    assert list(objects(tree)) == ["cup", "pan", "more"]
+
+
+def test_nodes_that_draw_nothing_do_not_count() -> None:
+    tree = group("lamp", group("camera"), mesh("Object_1", group("bone", group("bone_end"))), group("light"))
+    assert objects(tree) == {"lamp": ["Object_1"]}
+
+
+def test_file_order_is_kept() -> None:
+    tree = [mesh("a"), group("x", mesh("b", mesh("c", mesh("d"))), mesh("e")), mesh("f")]
+    assert list(objects(*tree)) == ["a", "b", "c", "e", "f"]
+
+
+def test_leaves() -> None:
+    tree = group("table", mesh("table_top", mesh("table_leg")), mesh("table_cloth"))
+    assert objects(tree, how="leaf") == {
+        "table_top": ["table_top"],
+        "table_leg": ["table_leg"],
+        "table_cloth": ["table_cloth"],
+    }
+
+
+DEEP = group("house", group("room", mesh("table", mesh("cup")), mesh("lamp")), mesh("roof"))
+
+
+@pytest.mark.parametrize(
+    ("depth", "expected"),
+    [
+        (1, {"house": ["table", "cup", "lamp", "roof"]}),
+        (2, {"room": ["table", "cup", "lamp"], "roof": ["roof"]}),
+        (3, {"table": ["table", "cup"], "lamp": ["lamp"], "roof": ["roof"]}),
+        (9, {"table": ["table"], "cup": ["cup"], "lamp": ["lamp"], "roof": ["roof"]}),
+    ],
+)
+def test_a_depth_merges_all_below_it(depth: int, expected: dict[str, list[object]]) -> None:
+    assert objects(DEEP, how=depth) == expected
+
+
+def test_a_mapping_merges_what_it_names_and_leaves_the_rest() -> None:
+    tree = group("set", mesh("table", mesh("cloth")), mesh("chair"), mesh("lamp", at=3.0))
+    assert objects(tree, how={"cloth": "linen", "lamp": "linen"}) == {
+        "linen": ["cloth", "lamp"],
+        "table": ["table"],
+        "chair": ["chair"],
+    }
+
+
+def test_a_mapped_node_brings_all_below_it_but_what_is_mapped_elsewhere() -> None:
+    assert objects(DEEP, how={"room": "inside", "cup": "cup"}) == {
+        "inside": ["table", "lamp"],
+        "cup": ["cup"],
+        "roof": ["roof"],
+    }
+
+
+def test_mapped_pieces_stay_where_they_are() -> None:
+    tree = group("set", mesh("lamp", at=3.0), mesh("shade", at=4.0), at=10.0)
+    (item,) = group_objects([tree], {"lamp": "light", "shade": "light"})
+    assert [matrix[0, 3] for matrix, _ in item.parts] == [13.0, 14.0]
+    assert item.frame[0, 3] == 13.0
+
+
+def test_a_mapping_of_an_unknown_node_names_the_nearest() -> None:
+    with pytest.raises(SceneError, match=r"maps the node 'tabel', .*Did you mean 'table'\?"):
+        group_objects([mesh("table")], {"tabel": "x"})
+
+
+@pytest.mark.parametrize("how", ["", "auto", 0, -1, True, 1.5, None, ["table"]])
+def test_another_grouping_is_refused(how: Any) -> None:
+    with pytest.raises(SceneError, match="must be 'authored', 'leaf', a depth from 1, or a mapping"):
+        group_objects([mesh("table")], how)
+
+
+def test_a_scene_of_nothing_has_no_objects() -> None:
+    assert group_objects([group("a", group("b"))]) == []
+
+
+def test_a_group_without_end_of_leaves_is_fast_enough_to_test() -> None:
+    (item,) = group_objects([mesh("floor", *(mesh(f"tile{i}") for i in range(20_000)))])
+    assert isinstance(item, Group)
+    assert len(item.parts) == 20_001
+
+
+@pytest.mark.parametrize(
+    ("names", "ids"),
+    [
+        (["a", "b"], ["a", "b"]),
+        (["Hemi", "Hemi", "x", "Hemi"], ["Hemi", "Hemi#2", "x", "Hemi#3"]),
+        (["", "  ", "object"], ["object", "object#2", "object#3"]),
+        (["a", "a", "a#2", "a"], ["a", "a#3", "a#2", "a#4"]),
+        (["a#2", "a", "a", "a#2"], ["a#2", "a", "a#3", "a#2#2"]),
+        ([" spaced "], ["spaced"]),
+    ],
+)
+def test_ids_are_the_names_made_unique_in_file_order(names: list[str], ids: list[str]) -> None:
+    assert unique_ids(names) == ids
+    assert len(set(ids)) == len(ids)

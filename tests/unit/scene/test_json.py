@@ -1,0 +1,152 @@
+"""Scenes as JSON: exact both ways, each geometry told once, and an error that names the field."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from scene2hap.errors import SceneError
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import Box, Contact, DominantSurface, SceneObject, SceneSnapshot, TriMesh
+from scenes import box, scene
+
+lengths = st.floats(1e-6, 1e6)
+coordinates = st.floats(-1e6, 1e6)
+points = st.tuples(coordinates, coordinates, coordinates)
+quaternions = st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: sum(x * x for x in q) > 1e-6)
+poses = st.builds(Pose, points, quaternions)
+meshes = st.builds(
+    lambda vertices, order: TriMesh(vertices, [order]),
+    st.lists(points, min_size=3, max_size=6),
+    st.permutations([0, 1, 2]),
+)
+geometries = st.one_of(st.builds(Box, st.tuples(lengths, lengths, lengths)), meshes)
+surfaces = st.builds(
+    DominantSurface,
+    poses,
+    lengths,
+    lengths,
+    st.floats(0, 1e3),
+    st.sets(st.sampled_from(["open-mesh", "zero-thickness"])).map(tuple),
+)
+
+
+@st.composite
+def snapshots(draw: st.DrawFn) -> SceneSnapshot:
+    ids = draw(st.lists(st.text(min_size=1), min_size=2, max_size=4, unique=True))
+    shared = draw(geometries)
+    objects = [
+        SceneObject(
+            id=name,
+            name=draw(st.text()),
+            pose=draw(poses),
+            geometry=draw(st.one_of(st.just(shared), geometries)),
+            surface=draw(surfaces),
+            relative_height_m=draw(coordinates),
+            instance_key=draw(st.text()),
+        )
+        for name in ids
+    ]
+    area = st.one_of(st.none(), st.floats(0, 1))
+    contact = st.builds(
+        Contact, st.just(ids[0]), st.just(ids[1]), points, st.one_of(st.none(), points), area, st.floats(0, 1)
+    )
+    contacts = draw(st.one_of(st.none(), st.lists(contact, max_size=2).map(tuple)))
+    return SceneSnapshot(draw(st.text()), draw(st.sampled_from(["y", "z"])), tuple(objects), contacts)
+
+
+@given(snapshots())
+@settings(derandomize=True, deadline=None, max_examples=60)
+def test_a_round_trip_is_exact(snapshot: SceneSnapshot) -> None:
+    assert SceneSnapshot.from_json(snapshot.to_json()) == snapshot
+
+
+def test_the_round_trip_keeps_every_bit_of_a_mesh() -> None:
+    vertices = np.random.default_rng(7).normal(size=(30, 3)) / 3
+    mesh = TriMesh(vertices, np.arange(30).reshape(10, 3))
+    before = SceneSnapshot("s", "z", (replace(box("a", (1, 1, 1), (0, 0, 0)), geometry=mesh),))
+    after = SceneSnapshot.from_json(before.to_json()).object("a").geometry
+    assert isinstance(after, TriMesh)
+    assert after.vertices_m.tobytes() == mesh.vertices_m.tobytes()
+    assert after.vertices_m.dtype == np.float64
+    assert not after.vertices_m.flags.writeable
+
+
+def test_instances_share_one_row_of_the_table() -> None:
+    document = json.loads(scene(box("a", (1, 1, 1), (0, 0, 0)), box("b", (1, 1, 1), (5, 0, 0))).to_json())
+    assert len(document["geometries"]) == 1
+    assert document["objects"][0]["geometry"] == document["objects"][1]["geometry"]
+    again = SceneSnapshot.from_json(json.dumps(document))
+    assert again.object("a").geometry is again.object("b").geometry
+
+
+def test_an_object_may_bring_its_geometry_along() -> None:
+    document = json.loads(scene(box("a", (1, 2, 3), (0, 0, 0))).to_json())
+    del document["geometries"]
+    document["objects"][0]["geometry"] = {"kind": "box", "size_m": [1, 2, 3]}
+    assert SceneSnapshot.from_json(json.dumps(document)).object("a").geometry == Box((1.0, 2.0, 3.0))
+
+
+def test_what_the_format_leaves_open_has_a_default() -> None:
+    """The least that an engine must write: name, axis, and objects with pose, geometry and surface."""
+    surface = {"pose": {}, "length_m": 1, "width_m": 1, "thickness_m": 0.1}
+    row = {"id": "a", "name": "a", "pose": {}, "geometry": {"kind": "box", "size_m": [1, 1, 1]}, "surface": surface}
+    text = json.dumps({"format": "scene2hap/scene", "version": 1, "name": "s", "up_axis": "y", "objects": [row]})
+    item = SceneSnapshot.from_json(text).object("a")
+    assert item.pose == Pose()
+    assert item.surface.flags == ()
+
+
+def _document() -> dict[str, Any]:
+    document: dict[str, Any] = json.loads(
+        scene(box("a", (1, 1, 1), (0, 0, 0)), box("b", (2, 1, 1), (5, 0, 0))).to_json()
+    )
+    return document
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "sentence"),
+    [
+        (("format",), "other", '"format": "scene2hap/scene"'),
+        (("version",), 2, "version is 2; this scene2hap reads version 1"),
+        (("up_axis",), "x", "scene field up_axis"),
+        (("objects",), [], "no object with a surface"),
+        (("objects", 0, "id"), "b", "id 'b' is used more than once"),
+        (("objects", 0, "pose", "position_m"), [0, "high", 0], r"scene field objects\.0\.pose"),
+        (("objects", 0, "pose", "rotation_xyzw"), [0, 0, 0, 0], "length 0"),
+        (("objects", 0, "surface", "length_m"), -1, "length_m is -1 m"),
+        (("objects", 0, "surface", "flags"), ["odd"], "scene field objects.0.surface.flags.0"),
+        (("objects", 0, "geometry"), "mesh-none", "object 'a' names geometry 'mesh-none'"),
+        (("objects", 0, "geometry"), 5, "scene field objects.0.geometry"),
+        (("geometries",), [], "geometries must be an object"),
+        (("contacts",), [{"a": "a", "b": "c", "point_m": [0, 0, 0]}], "no object 'c'"),
+    ],
+)
+def test_an_error_names_what_is_wrong(path: tuple[str | int, ...], value: object, sentence: str) -> None:
+    document: Any = _document()
+    place = document
+    for step in path[:-1]:
+        place = place[step]
+    place[path[-1]] = value
+    with pytest.raises(SceneError, match=sentence):
+        SceneSnapshot.from_json(json.dumps(document))
+
+
+@pytest.mark.parametrize("field", ["name", "up_axis", "objects"])
+def test_a_missing_field_is_named(field: str) -> None:
+    document = _document()
+    del document[field]
+    with pytest.raises(SceneError, match=f"scene field {field}"):
+        SceneSnapshot.from_json(json.dumps(document))
+
+
+@pytest.mark.parametrize("text", ["", "{", "[" * 100_000, "[]", "7", '"scene"', "null"])
+def test_what_is_no_scene_is_refused(text: str) -> None:
+    with pytest.raises(SceneError, match="not JSON|not a scene"):
+        SceneSnapshot.from_json(text)

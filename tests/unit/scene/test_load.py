@@ -1,0 +1,129 @@
+"""The door for all scene files: which reader, what it refuses, and that every load is the same."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from gltf_builder import Gltf, one_cube
+from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene.load import load_scene
+from scenes import box, scene
+
+
+def test_the_scene_is_named_after_the_file(tmp_path: Path) -> None:
+    assert load_scene(one_cube().write(tmp_path / "my kitchen.glb")).name == "my kitchen"
+
+
+def test_a_path_may_be_text(tmp_path: Path) -> None:
+    assert len(load_scene(str(one_cube().write(tmp_path / "scene.glb"))).objects) == 1
+
+
+def test_json_is_a_scene_file(tmp_path: Path) -> None:
+    before = scene(box("table", (1, 1, 1), (0, 0, 0)))
+    path = tmp_path / "scene.json"
+    path.write_text(before.to_json(), encoding="utf-8")
+    assert load_scene(path) == before
+
+
+@pytest.mark.parametrize("options", [{"up_axis": "z"}, {"unit_m": 0.01}, {"group": "leaf"}])
+def test_json_tells_its_own_axis_unit_and_objects(tmp_path: Path, options: dict[str, object]) -> None:
+    path = tmp_path / "scene.json"
+    path.write_text(scene(box("table", (1, 1, 1), (0, 0, 0))).to_json(), encoding="utf-8")
+    with pytest.raises(SceneError, match="leave up_axis, unit_m and group out"):
+        load_scene(path, **options)  # type: ignore[arg-type]
+
+
+def test_json_that_is_no_text_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "scene.json").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(SceneFormatError, match="is not text"):
+        load_scene(tmp_path / "scene.json")
+
+
+def test_a_file_of_another_kind_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "scene.blend").write_bytes(b"BLENDER")
+    with pytest.raises(SceneFormatError, match=r"'scene\.blend' is of no kind that is read: \.glb, \.gltf"):
+        load_scene(tmp_path / "scene.blend")
+
+
+@pytest.mark.parametrize("name", ["none.glb", "none.obj", "none.blend", "none", "no\0ne.glb"])
+def test_a_missing_file_is_told(tmp_path: Path, name: str) -> None:
+    with pytest.raises(SceneError, match="there is no file|cannot be read"):
+        load_scene(tmp_path / name)
+
+
+@pytest.mark.parametrize("name", ["folder", "folder.glb", "folder.obj"])
+def test_a_folder_is_told(tmp_path: Path, name: str) -> None:
+    (tmp_path / name).mkdir()
+    with pytest.raises(SceneError, match="is not a file; give the path of the scene file itself"):
+        load_scene(tmp_path / name)
+
+
+@pytest.mark.parametrize("suffix", ["glb", "gltf", "obj", "dae", "stl", "ply", "json"])
+def test_an_empty_file_is_told(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"scene.{suffix}"
+    path.write_bytes(b"")
+    with pytest.raises(SceneFormatError, match=r"is empty \(0 bytes\)"):
+        load_scene(path)
+
+
+def test_a_text_without_shapes_is_an_empty_scene(tmp_path: Path) -> None:
+    path = tmp_path / "notes.obj"
+    path.write_text("a shopping list\nmilk\n")
+    with pytest.raises(SceneError, match="'notes' holds no triangles; nothing in it can be touched"):
+        load_scene(path)
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"up_axis": "x"}, "up_axis is 'x'; it must be 'y' or 'z'"),
+        ({"unit_m": 0.0}, "unit_m is 0 m; it must be above 0"),
+        ({"unit_m": float("inf")}, "unit_m is inf m; it must be finite"),
+        ({"unit_m": "cm"}, "unit_m is 'cm'; it must be a number"),
+        ({"group": "auto"}, "group is 'auto'"),
+    ],
+)
+def test_options_that_cannot_be_are_refused(tmp_path: Path, options: dict[str, object], sentence: str) -> None:
+    path = one_cube().write(tmp_path / "scene.glb")
+    with pytest.raises(SceneError, match=sentence):
+        load_scene(path, **options)  # type: ignore[arg-type]
+
+
+def test_the_axis_only_tells_which_way_is_up(tmp_path: Path) -> None:
+    gltf = one_cube("low")
+    gltf.node("high", mesh=0, translation=[0.0, 0.0, 4.0], root=True)
+    path = gltf.write(tmp_path / "scene.glb")
+    by_y, by_z = load_scene(path), load_scene(path, up_axis="z")
+    assert [item.relative_height_m for item in by_y.objects] == [0.0, 0.0]
+    assert [item.relative_height_m for item in by_z.objects] == [0.0, 4.0]
+    assert [item.pose for item in by_y.objects] == [item.pose for item in by_z.objects]
+
+
+def test_two_nodes_of_one_name_keep_it_and_get_ids_of_their_own(tmp_path: Path) -> None:
+    gltf = one_cube("Hemi")
+    gltf.node("Hemi", mesh=0, translation=[3.0, 0.0, 0.0], root=True)
+    gltf.node("", mesh=0, translation=[6.0, 0.0, 0.0], root=True)
+    objects = load_scene(gltf.write(tmp_path / "scene.glb")).objects
+    assert [(item.id, item.name) for item in objects] == [("Hemi", "Hemi"), ("Hemi#2", "Hemi"), ("object", "")]
+
+
+def test_every_load_is_the_same_to_the_bit(tmp_path: Path) -> None:
+    gltf = Gltf()
+    for i in range(5):
+        gltf.node(f"n{i % 2}", mesh=gltf.cube(), rotation=[0.0, 0.6, 0.0, 0.8], scale=[1.0, 2.0, 0.1 + i], root=True)
+    path = gltf.write(tmp_path / "scene.glb")
+    assert len({load_scene(path).to_json() for _ in range(10)}) == 1
+
+
+def test_reading_glb_needs_no_trimesh(tmp_path: Path) -> None:
+    path = one_cube().write(tmp_path / "scene.glb")
+    code = (
+        "import sys; from scene2hap.scene.load import load_scene; load_scene(sys.argv[1]); "
+        "print('trimesh' in sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", code, str(path)], capture_output=True, text=True, check=True)
+    assert (done.stdout.strip(), done.stderr) == ("False", "")

@@ -1,0 +1,118 @@
+"""Baking: rigid poses from any transform, and one mesh for all copies."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.linalg import polar
+from scipy.spatial.transform import Rotation
+
+from gltf_builder import CUBE, CUBE_FACES
+from scene2hap.errors import SceneError
+from scene2hap.scene.grouping import Group
+from scene2hap.scene.meshes import MeshPool, rigid_part
+from scene2hap.scene.tree import Matrix, Piece
+
+PIECE = Piece("cube", CUBE, CUBE_FACES.astype(np.int32), "oak")
+seeds = st.integers(0, 2**32 - 1)
+
+
+def affine(linear: Matrix, at: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Matrix:
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = linear, at
+    return matrix
+
+
+def group(matrix: Matrix, *pieces: Piece, name: str = "thing") -> Group:
+    return Group(name, matrix, tuple((matrix, piece) for piece in pieces or (PIECE,)))
+
+
+@given(seeds)
+@settings(derandomize=True, deadline=None, max_examples=60)
+def test_the_rigid_part_is_the_polar_rotation(seed: int) -> None:
+    linear = np.random.default_rng(seed).normal(size=(3, 3))
+    rotation = rigid_part(affine(linear))[:3, :3]
+    orthogonal, _ = polar(linear)
+    if np.linalg.det(orthogonal) < 0:
+        # A mirror is told as a mirrored x axis: z and y stay where the transform puts them.
+        orthogonal = orthogonal * [-1.0, 1.0, 1.0]
+    np.testing.assert_allclose(rotation, orthogonal, atol=1e-8)
+    assert np.linalg.det(rotation) == pytest.approx(1.0)
+
+
+@given(seeds)
+@settings(derandomize=True, deadline=None, max_examples=60)
+def test_pose_and_mesh_together_are_the_transform(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    matrix = affine(rng.normal(size=(3, 3)), tuple(rng.normal(size=3)))
+    placed = MeshPool(1.0).place(group(matrix))
+    expected = CUBE @ matrix[:3, :3].T + matrix[:3, 3]
+    np.testing.assert_allclose(placed.pose.to_world(placed.mesh.vertices_m), expected, atol=1e-9)
+    turned = placed.mesh.faces[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0 else placed.mesh.faces
+    np.testing.assert_array_equal(turned, CUBE_FACES)
+
+
+def test_a_flattened_node_has_a_pose_all_the_same() -> None:
+    placed = MeshPool(1.0).place(group(affine(np.diag([2.0, 0.0, 3.0]))))
+    np.testing.assert_allclose(np.ptp(placed.mesh.bounds_m, axis=0), [2.0, 0.0, 3.0], atol=1e-12)
+
+
+def test_copies_that_went_through_single_precision_are_one() -> None:
+    pool = MeshPool(1.0)
+    turns = Rotation.random(40, rng=5).as_matrix()
+    exact = [affine(0.37 * turn, (i, 0.0, 0.0)) for i, turn in enumerate(turns)]
+    placed = [pool.place(group(matrix.astype(np.float32).astype(np.float64))) for matrix in exact]
+    assert len({id(item.mesh) for item in placed}) == 1
+    for matrix, item in zip(exact, placed, strict=True):
+        points = item.pose.to_world(item.mesh.vertices_m)
+        np.testing.assert_allclose(points, CUBE @ matrix[:3, :3].T + matrix[:3, 3], atol=5e-6)
+
+
+def test_copies_that_differ_by_a_thousandth_are_not() -> None:
+    pool = MeshPool(1.0)
+    meshes = [pool.place(group(affine(scale * np.eye(3)))).mesh for scale in (1.0, 1.001, 1.0)]
+    assert meshes[0] is meshes[2]
+    assert meshes[0] is not meshes[1]
+
+
+def test_a_mirrored_copy_is_another_mesh() -> None:
+    pool = MeshPool(1.0)
+    plain, mirrored = (pool.place(group(affine(np.diag([sign, 1.0, 1.0])))) for sign in (1.0, -1.0))
+    assert plain.instance_key != mirrored.instance_key
+
+
+def test_the_key_tells_material_apart_but_not_place() -> None:
+    pool = MeshPool(1.0)
+    steel = Piece("other", CUBE, PIECE.faces, "steel")
+    oak = [pool.place(group(affine(np.eye(3), (x, 0.0, 0.0)))).instance_key for x in (0.0, 9.0)]
+    assert oak[0] == oak[1] != pool.place(group(np.eye(4), steel)).instance_key
+
+
+def test_pieces_become_one_mesh_in_their_order() -> None:
+    lifted = affine(np.eye(3), (0.0, 5.0, 0.0))
+    placed = MeshPool(1.0).place(Group("thing", np.eye(4), ((np.eye(4), PIECE), (lifted, PIECE))))
+    np.testing.assert_array_equal(placed.mesh.vertices_m, np.vstack((CUBE, CUBE + np.array([0.0, 5.0, 0.0]))))
+    np.testing.assert_array_equal(placed.mesh.faces, np.vstack((CUBE_FACES, CUBE_FACES + 8)))
+
+
+def test_the_unit_scales_place_and_mesh() -> None:
+    placed = MeshPool(0.01).place(group(affine(np.eye(3), (100.0, 0.0, 0.0))))
+    assert placed.pose.position_m == pytest.approx((1.0, 0.0, 0.0))
+    np.testing.assert_allclose(np.ptp(placed.mesh.bounds_m, axis=0), 0.01)
+
+
+@pytest.mark.parametrize("scale", [0.0, 1e-12])
+def test_an_object_that_is_a_point_is_refused_by_name(scale: float) -> None:
+    with pytest.raises(SceneError, match="object 'thing' has no size"):
+        MeshPool(1.0).place(group(affine(scale * np.eye(3))))
+
+
+def test_a_copy_is_found_among_many_of_other_sizes() -> None:
+    pool = MeshPool(1.0)
+    scales = np.random.default_rng(3).permutation(np.linspace(0.5, 2.0, 300))
+    first = [pool.place(group(affine(scale * np.eye(3)))).mesh for scale in scales]
+    again = [pool.place(group(affine(scale * np.eye(3)))).mesh for scale in scales]
+    assert len({id(mesh) for mesh in first}) == 300
+    assert all(a is b for a, b in zip(first, again, strict=True))

@@ -1,0 +1,99 @@
+"""Poses against rotations worked out by hand and against scipy's."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+from scene2hap.errors import SceneError
+from scene2hap.scene.pose import Pose
+
+coordinates = st.floats(-100, 100)
+directions = st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: math.hypot(*q) > 1e-3)
+poses = st.builds(Pose, st.tuples(coordinates, coordinates, coordinates), directions)
+point_lists = st.lists(st.tuples(coordinates, coordinates, coordinates), min_size=1, max_size=5)
+QUARTER_ABOUT_Z = (0.0, 0.0, 0.5**0.5, 0.5**0.5)
+
+
+def test_a_quarter_turn_about_z_takes_x_to_y() -> None:
+    moved = Pose((1.0, 2.0, 3.0), QUARTER_ABOUT_Z).to_world([[1.0, 0.0, 0.0]])
+    np.testing.assert_allclose(moved, [[1.0, 3.0, 3.0]], atol=1e-15)
+
+
+def test_without_arguments_nothing_moves() -> None:
+    points = np.array([[1.0, -2.0, 3.5]])
+    np.testing.assert_array_equal(Pose().to_world(points), points)
+
+
+@given(poses)
+@settings(derandomize=True, deadline=None, max_examples=50)
+def test_rotation_is_that_of_scipy(pose: Pose) -> None:
+    np.testing.assert_allclose(pose.rotation, Rotation.from_quat(pose.rotation_xyzw).as_matrix(), atol=1e-12)
+
+
+@given(poses, point_lists)
+@settings(derandomize=True, deadline=None, max_examples=50)
+def test_to_own_undoes_to_world(pose: Pose, points: list[tuple[float, float, float]]) -> None:
+    np.testing.assert_allclose(pose.to_own(pose.to_world(points)), points, atol=1e-10)
+
+
+@given(poses, poses, point_lists)
+@settings(derandomize=True, deadline=None, max_examples=50)
+def test_compose_is_one_after_the_other(outer: Pose, inner: Pose, points: list[tuple[float, float, float]]) -> None:
+    together = outer.compose(inner).to_world(points)
+    np.testing.assert_allclose(together, outer.to_world(inner.to_world(points)), atol=1e-9)
+
+
+@given(poses)
+@settings(derandomize=True, deadline=None, max_examples=100)
+def test_from_matrix_finds_the_pose_again(pose: Pose) -> None:
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = pose.rotation, pose.position_m
+    again = Pose.from_matrix(matrix)
+    assert again.position_m == pose.position_m
+    # q and -q are one rotation; neither may be far from a unit quaternion of the other.
+    cosine = abs(np.dot(again.rotation_xyzw, pose.rotation_xyzw))
+    assert cosine == pytest.approx(1.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("axis", ["x", "y", "z"])
+@pytest.mark.parametrize("angle_deg", [0, 90, 179.999, 180, 270])
+def test_from_matrix_holds_at_half_turns(axis: str, angle_deg: float) -> None:
+    matrix = np.eye(4)
+    matrix[:3, :3] = Rotation.from_euler(axis, angle_deg, degrees=True).as_matrix()
+    np.testing.assert_allclose(Pose.from_matrix(matrix).rotation, matrix[:3, :3], atol=1e-12)
+
+
+def test_a_long_quaternion_is_normalised() -> None:
+    assert Pose(rotation_xyzw=(0.0, 0.0, 0.0, 2.0)).rotation_xyzw == (0.0, 0.0, 0.0, 1.0)
+
+
+def test_a_unit_quaternion_keeps_its_last_bit() -> None:
+    quaternion = (0.1, 0.2, 0.3, math.sqrt(1 - 0.14))
+    assert Pose(rotation_xyzw=quaternion).rotation_xyzw == quaternion
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ({"position_m": (0.0, math.nan, 0.0)}, r"position_m\[1\] is nan m; it must be finite \[m\]"),
+        ({"position_m": (0.0, 0.0)}, r"position_m is \(0.0, 0.0\); it must be 3 numbers \[m\]"),
+        ({"position_m": 7}, r"position_m is 7; it must be 3 numbers"),
+        ({"rotation_xyzw": (0.0, 0.0, 0.0, 0.0)}, r"length 0.*Use \(0, 0, 0, 1\)"),
+        ({"rotation_xyzw": ("a", 0.0, 0.0, 1.0)}, r"rotation_xyzw\[0\] is 'a'; it must be a number"),
+    ],
+)
+def test_what_is_no_pose_is_refused(arguments: dict[str, object], sentence: str) -> None:
+    with pytest.raises(SceneError, match=sentence):
+        Pose(**arguments)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("matrix", [2 * np.eye(4), np.diag([-1.0, 1.0, 1.0, 1.0]), np.eye(3)])
+def test_a_matrix_that_is_not_rigid_is_refused(matrix: np.ndarray[tuple[int, int], np.dtype[np.float64]]) -> None:
+    with pytest.raises(SceneError, match="not rigid"):
+        Pose.from_matrix(matrix)

@@ -1,0 +1,150 @@
+"""Typed scenes: what they hold, what they refuse, and what they say."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import FrozenInstanceError, replace
+
+import numpy as np
+import pytest
+
+from scene2hap.errors import SceneError, UnknownObject
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import Box, Contact, DominantSurface, SceneObject, SceneSnapshot, TriMesh
+from scenes import box, scene
+
+TRIANGLE = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+
+
+def test_a_box_has_twelve_triangles_that_enclose_its_volume() -> None:
+    mesh = Box((2.0, 3.0, 4.0)).mesh
+    a, b, c = (mesh.vertices_m[mesh.faces[:, k]] for k in range(3))
+    assert len(mesh.faces) == 12
+    # The divergence theorem: outward faces make the volume positive.
+    assert np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6 == pytest.approx(24.0)
+    np.testing.assert_array_equal(mesh.bounds_m, [[-1.0, -1.5, -2.0], [1.0, 1.5, 2.0]])
+
+
+def test_bounds_leave_out_vertices_that_no_face_uses() -> None:
+    mesh = TriMesh([*TRIANGLE, [9.0, 9.0, 9.0]], [[0, 1, 2]])
+    np.testing.assert_array_equal(mesh.bounds_m, [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0]])
+
+
+def test_meshes_are_equal_by_content() -> None:
+    assert TriMesh(TRIANGLE, [[0, 1, 2]]) == TriMesh(np.array(TRIANGLE, dtype=np.float32), [[0.0, 1.0, 2.0]])
+    assert TriMesh(TRIANGLE, [[0, 1, 2]]) != TriMesh(TRIANGLE, [[0, 2, 1]])
+    assert len({TriMesh(TRIANGLE, [[0, 1, 2]]), TriMesh(TRIANGLE, [[0, 1, 2]])}) == 1
+
+
+def test_a_mesh_is_its_own_copy_and_cannot_be_changed() -> None:
+    vertices = np.array(TRIANGLE)
+    mesh = TriMesh(vertices, [[0, 1, 2]])
+    vertices[0] = 5.0
+    assert mesh.vertices_m[0, 0] == 0.0
+    with pytest.raises(ValueError, match="read-only"):
+        mesh.vertices_m[0] = 1.0
+    with pytest.raises(FrozenInstanceError):
+        mesh.faces = mesh.faces  # type: ignore[misc]
+
+
+@pytest.mark.parametrize(
+    ("make", "sentence"),
+    [
+        (lambda: TriMesh(TRIANGLE, []), "faces is empty"),
+        (lambda: TriMesh([*TRIANGLE[:2], [0.0, np.inf, 0.0]], [[0, 1, 2]]), r"vertices_m\[2\] is \[0.0, inf, 0.0\]"),
+        (lambda: TriMesh(TRIANGLE, [[0, 1, 3]]), "vertex 3; the mesh has 3"),
+        (lambda: TriMesh(TRIANGLE, [[-1, 1, 2]]), "vertex -1; the mesh has 3"),
+        (lambda: TriMesh([[0.0, 1.0]], [[0, 0, 0]]), r"vertices_m has shape \(1, 2\)"),
+        (lambda: TriMesh("mesh", [[0, 1, 2]]), "vertices_m is not a table"),
+        (lambda: TriMesh(TRIANGLE, [[0, 1, 2.0**31]]), "not vertex numbers"),
+        (lambda: Box((1.0, 0.0, 1.0)), r"size_m\[1\] is 0 m; it must be above 0.0 \[m\]"),
+        (lambda: DominantSurface(Pose(), 1.0, -1.0, 0.0), "width_m is -1 m; it must be at least 0.0"),
+        (lambda: Contact("a", "a", (0.0, 0.0, 0.0)), "contact of 'a' with itself"),
+        (lambda: Contact("a", "b", (0.0, 0.0, 0.0), weight=1.5), "weight is 1.5; it must be at most 1.0"),
+        (lambda: Contact("a", "b", (0.0, 0.0, 0.0), area_m2=-1.0), "area_m2 is -1 m2"),
+        (lambda: Contact("a", "b", (0.0, np.nan, 0.0)), r"point_m\[1\] is nan m"),
+        (lambda: replace(box("a", (1, 1, 1), (0, 0, 0)), id=""), "'a' has an empty id"),
+        (lambda: SceneSnapshot("void", "y", ()), "'void' has no object"),
+        (lambda: SceneSnapshot("s", "x", (box("a", (1, 1, 1), (0, 0, 0)),)), "up_axis is 'x'"),  # type: ignore[arg-type]
+        (
+            lambda: scene(box("a", (1, 1, 1), (0, 0, 0)), box("a", (1, 1, 1), (5, 0, 0))),
+            "id 'a' is used more than once",
+        ),
+    ],
+)
+def test_what_makes_no_sense_is_refused(make: Callable[[], object], sentence: str) -> None:
+    with pytest.raises(SceneError, match=sentence):
+        make()
+
+
+def test_a_contact_must_join_objects_of_the_scene() -> None:
+    objects = (box("lamp", (1, 1, 1), (0, 0, 0)), box("table", (1, 1, 1), (5, 0, 0)))
+    with pytest.raises(UnknownObject, match=r"no object 'tabel'. Did you mean 'table'\?"):
+        SceneSnapshot("s", "y", objects, (Contact("lamp", "tabel", (0.0, 0.0, 0.0)),))
+
+
+def test_an_object_is_found_by_id_and_a_miss_names_the_nearest() -> None:
+    snapshot = scene(box("kettle", (1, 1, 1), (0, 0, 0)))
+    assert snapshot.object("kettle").name == "kettle"
+    with pytest.raises(UnknownObject, match="'kettle'"):
+        snapshot.object("ketle")
+    with pytest.raises(LookupError, match="`inspect` lists the 1 objects"):
+        snapshot.object("zzz")
+
+
+def test_heights_are_above_the_lowest_point() -> None:
+    snapshot = scene(box("floor", (4, 0.2, 4), (0, -0.1, 0)), box("cup", (0.1, 0.1, 0.1), (0, 0.8, 0)))
+    assert [item.relative_height_m for item in snapshot.objects] == pytest.approx([0.0, 0.95])
+
+
+def test_heights_follow_the_up_axis() -> None:
+    item = box("a", (1, 1, 1), (0, 0, 0.5))
+    above = replace(item, id="b", pose=Pose((0.0, 0.0, 2.5)))
+    upright = SceneSnapshot("s", "z", (item, above)).with_poses({})
+    assert [thing.relative_height_m for thing in upright.objects] == pytest.approx([0.0, 2.0])
+
+
+def test_with_poses_moves_only_what_is_named_and_drops_given_contacts() -> None:
+    before = SceneSnapshot(
+        "s",
+        "y",
+        (box("a", (1, 1, 1), (0, 0.5, 0)), box("b", (1, 1, 1), (3, 0.5, 0))),
+        (Contact("a", "b", (1.0, 0.0, 0.0)),),
+    )
+    after = before.with_poses({"b": Pose((3.0, 2.5, 0.0))})
+    assert after.object("a").pose == before.object("a").pose
+    assert after.object("b").relative_height_m == pytest.approx(2.0)
+    assert after.contacts is None
+    assert before.contacts is not None
+    with pytest.raises(UnknownObject):
+        before.with_poses({"c": Pose()})
+
+
+def test_world_bounds_turn_with_the_object() -> None:
+    quarter_about_y = (0.0, 0.5**0.5, 0.0, 0.5**0.5)
+    item = replace(box("a", (2.0, 1.0, 4.0), (0, 0, 0)), pose=Pose((10.0, 0.0, 0.0), quarter_about_y))
+    np.testing.assert_allclose(item.bounds_m, [[8.0, -0.5, -1.0], [12.0, 0.5, 1.0]], atol=1e-12)
+
+
+def test_plate_coordinates_run_from_the_corner_and_stop_at_the_edges() -> None:
+    # The plate of `box` has its corner at (-x/2, 0, z/2), length along x and width along -z.
+    table = box("table", (1.6, 0.02, 0.8), (10.0, 0.7, 5.0))
+    inside, above, beside = table.plate_coordinates([[10.3, 0.7, 5.1], [10.3, 2.0, 5.1], [12.0, 0.7, 4.0]])
+    np.testing.assert_allclose(inside, [1.1, 0.3], atol=1e-12)
+    np.testing.assert_allclose(above, inside, atol=1e-12)
+    np.testing.assert_allclose(beside, [1.6, 0.8], atol=1e-12)
+
+
+def test_plate_coordinates_take_a_single_point() -> None:
+    table = box("table", (1.6, 0.02, 0.8), (0.0, 0.0, 0.0))
+    np.testing.assert_allclose(table.plate_coordinates([0.0, 0.0, 0.0]), [[0.8, 0.4]], atol=1e-12)
+
+
+def test_size_is_that_of_the_surface() -> None:
+    assert box("table", (1.6, 0.02, 0.8), (0, 0, 0)).size_m == (1.6, 0.8, 0.02)
+
+
+def test_objects_are_plain_data() -> None:
+    first, second = (box("a", (1, 1, 1), (0, 0, 0)) for _ in range(2))
+    assert isinstance(first, SceneObject)
+    assert first == second

@@ -1,0 +1,107 @@
+"""Warnings about units: silent where sizes are plausible, and a factor that mends what is not."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from pathlib import Path
+
+import pytest
+
+from gltf_builder import Gltf
+from scene2hap.scene.load import UnitWarning, load_scene
+from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.scene.units import warn_if_implausible
+from scenes import box, scene
+
+# (name, width, height) in metres of things that stand on the floor.
+FURNITURE = [("Door_01", 0.9, 2.02), ("ChairA_01_003", 0.45, 0.88), ("kitchen table", 1.4, 0.74), ("Fridge", 0.6, 1.75)]
+
+
+def room(scale: float, things: list[tuple[str, float, float]]) -> SceneSnapshot:
+    floor = box("slab", (4 * scale, 0.1 * scale, 3 * scale), (0.0, -0.05 * scale, 0.0))
+    return scene(
+        floor, *(box(name, (w * scale, h * scale, w * scale), (0.0, h * scale / 2, 0.0)) for name, w, h in things)
+    )
+
+
+def suggestion(snapshot: SceneSnapshot, unit_m: float = 1.0) -> float | None:
+    """The unit that the warning names; None if there is no warning."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        warn_if_implausible(snapshot, unit_m)
+    if not caught:
+        return None
+    assert [item.category for item in caught] == [UnitWarning]
+    found = re.search(r"unit_m=([\d.e+-]+)", str(caught[0].message))
+    assert found is not None
+    return float(found[1].rstrip("."))
+
+
+@pytest.mark.parametrize("scale", [1.0, 0.8, 1.3])
+def test_a_plausible_room_is_silent(scale: float) -> None:
+    assert suggestion(room(scale, FURNITURE)) is None
+
+
+@pytest.mark.parametrize(
+    ("scale", "unit_m"), [(100.0, 0.01), (1000.0, 0.001), (39.37, 0.0254), (10.0, 0.1), (3.281, 0.3048)]
+)
+def test_furniture_gives_the_unit_away(scale: float, unit_m: float) -> None:
+    assert suggestion(room(scale, FURNITURE)) == unit_m
+
+
+@pytest.mark.parametrize("scale", [1.8, 0.5])
+def test_a_toy_scale_is_told_as_a_plain_ratio(scale: float) -> None:
+    assert suggestion(room(scale, FURNITURE)) == pytest.approx(1 / scale, rel=0.15)
+
+
+def test_one_odd_thing_among_many_is_not_enough() -> None:
+    assert suggestion(room(1.0, [*FURNITURE, ("table", 0.3, 0.2)])) is None
+
+
+def test_one_name_alone_must_be_far_off() -> None:
+    assert suggestion(room(1.0, [("table", 1.4, 0.4)])) is None
+    assert suggestion(room(1.0, [("table", 1.4, 7.4)])) == 0.1
+
+
+@pytest.mark.parametrize("name", ["doormat", "Cupboard_Door_R", "Tablet", "chair_leg_cover", "table lamp", "Куб", "7"])
+def test_names_of_other_things_say_nothing(name: str) -> None:
+    assert suggestion(room(1.0, [(name, 0.3, 0.02)])) is None
+
+
+def test_a_scene_far_too_wide_is_doubted_without_any_name() -> None:
+    assert suggestion(scene(box("Object_1", (360.0, 207.0, 60.0), (0, 0, 0)))) == 0.01
+
+
+def test_a_room_far_too_high_is_doubted_without_any_name() -> None:
+    assert suggestion(scene(box("Object_1", (28.0, 27.0, 26.0), (0, 0, 0)))) == 0.1
+
+
+def test_many_things_within_a_hand_are_doubted_and_one_is_not() -> None:
+    def tiny(n: int) -> SceneSnapshot:
+        return scene(*(box(f"o{i}", (0.004, 0.003, 0.004), (0.005 * i, 0.0, 0.0)) for i in range(n)))
+
+    assert suggestion(tiny(1)) is None
+    assert suggestion(tiny(8)) == pytest.approx(100.0)
+
+
+def test_the_suggestion_counts_from_the_unit_in_use() -> None:
+    assert suggestion(room(100.0, FURNITURE), unit_m=0.001) == pytest.approx(1e-5)
+
+
+def metre_cube_in_centimetres(tmp_path: Path) -> Path:
+    gltf = Gltf()
+    for i, name in enumerate(("door", "wall", "floor")):
+        gltf.node(name, mesh=gltf.cube(), scale=[90.0, 200.0, 5.0], translation=[100.0 * i, 0.0, 0.0], root=True)
+    return gltf.write(tmp_path / "room.glb")
+
+
+def test_loading_warns_at_the_callers_line(tmp_path: Path) -> None:
+    with pytest.warns(UnitWarning, match=r"'room' are implausible.*unit_m=0\.01 .*centimetres") as caught:
+        load_scene(metre_cube_in_centimetres(tmp_path))
+    assert caught[0].filename == __file__
+
+
+@pytest.mark.parametrize("unit_m", [0.01, 1.0])
+def test_a_unit_that_is_given_is_believed(tmp_path: Path, unit_m: float) -> None:
+    assert len(load_scene(metre_cube_in_centimetres(tmp_path), unit_m=unit_m).objects) == 3
