@@ -46,8 +46,9 @@ class Boxes(NamedTuple):
 
     def meeting(self, one: Boxes, among: NDArray[np.bool_] | None = None) -> Indices:
         """Rows of the boxes that meet the single box `one`, touching included, among those marked (n,) or all."""
-        rows = np.arange(len(self.low)) if among is None else np.flatnonzero(among)
-        for axis in range(3):
+        near = (self.low[:, 0] <= one.high[0, 0]) & (self.high[:, 0] >= one.low[0, 0])
+        rows = np.flatnonzero(near if among is None else near & among)
+        for axis in (1, 2):
             low, high = self.low[rows, axis], self.high[rows, axis]
             rows = rows[(low <= one.high[0, axis]) & (high >= one.low[0, axis])]
         return rows

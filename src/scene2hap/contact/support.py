@@ -37,8 +37,8 @@ _HANG_REACH_M, _HANG_REACH_SIZES = 0.075, 0.05
 
 _HIDDEN_M = 0.002  # What lies this much below something else is hidden by it (assumed: the thinnest carpet).
 _HOLDING = 0.5  # Least cosine of a slope that holds a thing (assumed): a wall's triangles hold nothing.
-# Triangles are tried this share smaller, by at most so much: equal boxes on each other, whose rims coincide, then lie over
-# each other surely, and boxes exactly side by side surely do not.
+# Triangles are tried this share smaller, by at most so much: equal boxes on each other, whose rims coincide, then
+# surely lie over each other, and boxes exactly side by side surely do not.
 _INSET, _INSET_M = 1e-4, 1e-4
 
 

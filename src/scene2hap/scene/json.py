@@ -36,7 +36,7 @@ def parse(text: str) -> SceneSnapshot:
     """The snapshot in a JSON text; raises SceneError with the field that is wrong."""
     try:
         document = json.loads(text)
-    except (json.JSONDecodeError, RecursionError) as cause:
+    except (ValueError, RecursionError) as cause:  # ValueError: also a number of thousands of digits
         raise SceneError(f'not JSON: {cause}. A scene file starts with {{"format": "{FORMAT}", ...}}.') from cause
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         raise SceneError(f'not a scene: the top level must be an object with "format": "{FORMAT}".')

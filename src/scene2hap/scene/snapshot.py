@@ -27,7 +27,7 @@ UpAxis = Literal["y", "z"]
 
 SurfaceFlag = Literal["open-mesh", "zero-thickness", "box-fallback"]
 """Why the measured dominant surface wants a second look: the mesh has a boundary; it has no thickness (a floor of two
-triangles); no ray met it twice, so that its bounding box was taken."""
+triangles); its shape has no rectangle of medians (an L, a curtain), so that the box around it was taken."""
 
 _JsonArray = (PlainValidator(lambda value: value), PlainSerializer(lambda array: array.tolist()))
 if TYPE_CHECKING:

@@ -50,3 +50,13 @@ def test_a_swept_box_holds_its_whole_way() -> None:
     swept = Boxes(np.zeros((1, 3)), np.ones((1, 3))).swept(np.array([2.0, -3.0, 0.0]))
     assert swept.low.tolist() == [[0.0, -3.0, 0.0]]
     assert swept.high.tolist() == [[3.0, 1.0, 1.0]]
+
+
+def test_meeting_tells_the_rows_among_those_marked() -> None:
+    rng = np.random.default_rng(5)
+    boxes, one = random_boxes(rng, 200), random_boxes(rng, 1)
+    expected = [i for i, _ in sorted(all_with_all(boxes, one))]
+    assert len(expected) > 3
+    assert boxes.meeting(one).tolist() == expected
+    marked = rng.random(200) < 0.5
+    assert boxes.meeting(one, marked).tolist() == [i for i in expected if marked[i]]
