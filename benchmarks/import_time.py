@@ -1,6 +1,6 @@
 """What ``import scene2hap`` costs beyond a bare interpreter: median of fresh processes.
 
-    python benchmarks/import_time.py [--runs 10]
+python benchmarks/import_time.py [--runs 10]
 """
 
 from __future__ import annotations

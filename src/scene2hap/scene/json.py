@@ -48,7 +48,7 @@ def parse(text: str) -> SceneSnapshot:
 
 def to_document(snapshot: SceneSnapshot) -> dict[str, Any]:
     """The snapshot as plain JSON values, each object with its geometry."""
-    hidden: Any = {"_by_id": True, "objects": {"__all__": {"appearance"}}}
+    hidden: Any = {"_by_id": True, "images": True, "objects": {"__all__": {"appearance", "images"}}}
     document: dict[str, Any] = _scene.dump_python(snapshot, mode="json", exclude=hidden)
     return document
 

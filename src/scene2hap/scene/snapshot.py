@@ -20,6 +20,7 @@ from pydantic import InstanceOf, PlainSerializer, PlainValidator
 from scene2hap import checks
 from scene2hap.errors import SceneError, UnknownObject
 from scene2hap.scene.appearance import Appearance
+from scene2hap.scene.images import ImageSet, ObjectImages
 from scene2hap.scene.pose import Pose
 
 UpAxis = Literal["y", "z"]
@@ -180,7 +181,8 @@ class SceneObject:
 
     `id` is unique in the scene and stable over loads; `name` is what the author wrote, which many objects may share.
     `instance_key` is equal for objects of equal mesh and materials. `relative_height_m` is the height of the lowest
-    point above the lowest point of the whole scene. `appearance` is for pictures alone, None where unknown.
+    point above the lowest point of the whole scene. `appearance` is for pictures alone, None where unknown; `images`
+    are those pictures, once `capture_images` was asked for them.
     """
 
     id: str
@@ -191,6 +193,7 @@ class SceneObject:
     relative_height_m: float = 0.0
     instance_key: str = ""
     appearance: InstanceOf[Appearance] | None = field(default=None, compare=False, repr=False)
+    images: InstanceOf[ObjectImages] | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         if not self.id:
@@ -222,7 +225,8 @@ class SceneObject:
 class SceneSnapshot:
     """All that is read out of a scene at one moment.
 
-    `contacts` is None where the source of the scene does not tell them; they are then found from geometry.
+    `contacts` is None where the source of the scene does not tell them; they are then found from geometry. `images` are
+    of the whole scene, None until `capture_images`.
     Raises: SceneError: no object, or two objects with one id, or a contact with an object that is not there.
     """
 
@@ -230,6 +234,7 @@ class SceneSnapshot:
     up_axis: UpAxis
     objects: tuple[SceneObject, ...]
     contacts: tuple[Contact, ...] | None = None
+    images: InstanceOf[ImageSet] | None = field(default=None, compare=False, repr=False)
     _by_id: Mapping[str, SceneObject] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -260,10 +265,10 @@ class SceneSnapshot:
             raise UnknownObject(unknown_object(object_id, self._by_id)) from None
 
     def with_poses(self, moved: Mapping[str, Pose]) -> SceneSnapshot:
-        """The same scene with some objects elsewhere; heights are told anew, given contacts are dropped."""
+        """The same scene with some objects elsewhere; heights are told anew, given contacts and images are dropped."""
         for object_id in moved:
             self.object(object_id)
-        objects = [replace(item, pose=moved.get(item.id, item.pose)) for item in self.objects]
+        objects = [replace(item, pose=moved.get(item.id, item.pose), images=None) for item in self.objects]
         return SceneSnapshot(self.name, self.up_axis, with_relative_heights(objects, self.up_axis))
 
     def to_json(self) -> str:
