@@ -1,0 +1,70 @@
+"""Measured dominant surfaces beside the true ones, as a table in Markdown; docs/surfaces.md holds the latest.
+
+python benchmarks/surfaces.py > docs/surfaces.md
+
+The truth (tests/data/dominant_surfaces.csv) was read from the files by hand: levels of flat faces and extents in a
+viewer, or the numbers in the script that builds the demo kitchen.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from statistics import median
+
+from scene2hap import SceneSnapshot, load_scene
+from scene2hap.demo import kitchen_path
+
+ROOT = Path(__file__).parents[1]
+SCENES = ROOT.parent / "shared" / "scenes"
+EDGES = ("length_m", "width_m", "thickness_m")
+# Files in centimetres.
+UNIT_M = {"sketchfab_kitchen/scene.gltf": 0.01}
+
+DISAGREEMENTS = """\
+Where people and rays disagree: the worktop `Table` of sketchfab_kitchen is an open sheet whose back panel is larger
+than its top, and is flagged; the table of the KayKit kitchen has an apron fused under 64 % of its top, so that top and
+apron count as one slab of 0.288 m; a chair with a solid side gives that side rather than its seat."""
+
+
+@cache
+def scene(name: str) -> SceneSnapshot:
+    return load_scene(kitchen_path() if name == "demo" else SCENES / name, unit_m=UNIT_M.get(name, 1.0))
+
+
+def rows() -> Iterator[tuple[dict[str, str], tuple[float, ...], tuple[float, ...]]]:
+    """Each line of the table of truths with its true and its measured edges; scenes that are absent are left out."""
+    with (ROOT / "tests" / "data" / "dominant_surfaces.csv").open(encoding="utf-8") as file:
+        for line in csv.DictReader(file):
+            if line["scene"] == "demo" or (SCENES / line["scene"]).is_file():
+                true = tuple(float(line[edge]) for edge in EDGES)
+                yield line, true, scene(line["scene"]).object(line["object"]).size_m
+
+
+def relative_errors(true: tuple[float, ...], measured: tuple[float, ...]) -> list[float]:
+    """Of each edge; an edge that is truly 0 must be measured as 0, or the error is infinite."""
+    return [abs(m - t) / t if t else (0.0 if m == 0 else float("inf")) for t, m in zip(true, measured, strict=True)]
+
+
+def main() -> None:
+    print(__doc__.partition("\n")[0].replace(", as a table in Markdown; docs/surfaces.md holds the latest.", "."))
+    print("\n`python benchmarks/surfaces.py > docs/surfaces.md` makes this table. Metres.\n")
+    print("| scene | object | true | measured | largest error | how the truth was read |")
+    print("|---|---|---|---|---|---|")
+    errors: list[float] = []
+    for line, true, measured in rows():
+        own = relative_errors(true, measured)
+        errors += own
+        shown = [" × ".join(f"{edge:.4g}" for edge in edges) for edges in (true, measured)]
+        where = line["scene"].partition("/")[0]
+        print(f"| {where} | {line['object']} | {shown[0]} | {shown[1]} | {100 * max(own):.1f} % | {line['how']} |")
+    print(
+        f"\n{len(errors) // 3} objects: median error {100 * median(errors):.3f} %, largest {100 * max(errors):.1f} %."
+    )
+    print(f"\n{DISAGREEMENTS}")
+
+
+if __name__ == "__main__":
+    main()

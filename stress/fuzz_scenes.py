@@ -1,0 +1,217 @@
+"""Scene files broken in every way we can think of: only our own errors, no hang, bounded memory.
+
+python stress/fuzz_scenes.py [--files 2000] [--seed 0] [--seconds 5] [--megabytes 1024]
+
+Seeds are the demo kitchen as GLB, glTF-like JSON, OBJ, PLY, STL and scene JSON, built in memory. Each file is read in a
+child process with a limit on its data segment and an alarm, so that a hang or a crash names the file that caused it.
+Prints a table of outcomes and exits with 1 if anything but success or a Scene2HapError came out.
+"""
+
+from __future__ import annotations
+
+import argparse
+import collections
+import json
+import multiprocessing
+import platform
+import random
+import re
+import resource
+import signal
+import struct
+import tempfile
+import time
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+
+import trimesh
+
+from scene2hap import load_scene
+from scene2hap.demo import kitchen_path
+from scene2hap.errors import Scene2HapError
+
+Mutation = Callable[[bytes, random.Random], bytes]
+
+
+class Hang(BaseException):
+    """Raised by the alarm; not an Exception, so that nobody catches it by accident."""
+
+
+def seeds() -> dict[str, bytes]:
+    """Small valid files by suffix."""
+    box = trimesh.creation.box((1.0, 0.5, 0.2))
+    kitchen = kitchen_path().read_bytes()
+    return {
+        ".glb": kitchen,
+        ".gltf": _as_gltf(box),
+        ".obj": box.export(file_type="obj").encode(),
+        ".ply": box.export(file_type="ply"),
+        ".stl": box.export(file_type="stl"),
+        ".json": load_scene(kitchen_path()).to_json().encode(),
+    }
+
+
+def _as_gltf(mesh: trimesh.Trimesh) -> bytes:
+    import base64
+
+    files = mesh.export(file_type="gltf")
+    document = json.loads(files["model.gltf"])
+    for buffer in document["buffers"]:
+        data = base64.b64encode(files[buffer["uri"]]).decode()
+        buffer["uri"] = f"data:application/octet-stream;base64,{data}"
+    return json.dumps(document).encode()
+
+
+def flip_bytes(data: bytes, rng: random.Random) -> bytes:
+    changed = bytearray(data)
+    for _ in range(rng.choice([1, 4, 32, 256])):
+        changed[rng.randrange(len(changed))] = rng.randrange(256)
+    return bytes(changed)
+
+
+def truncate(data: bytes, rng: random.Random) -> bytes:
+    return data[: rng.randrange(len(data))]
+
+
+def repeat_a_stretch(data: bytes, rng: random.Random) -> bytes:
+    begin = rng.randrange(len(data))
+    end = min(len(data), begin + rng.randrange(1, 200))
+    return data[:end] + data[begin:end] * rng.choice([1, 10, 1000]) + data[end:]
+
+
+def blow_up_a_number(data: bytes, rng: random.Random) -> bytes:
+    """Put an absurd number where a number stands in text, JSON chunks included; lengths may lie afterwards."""
+    places = list(re.finditer(rb"-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?", data[:200_000]))
+    if not places:
+        return flip_bytes(data, rng)
+    place = rng.choice(places)
+    absurd = rng.choice([b"999999999999", b"-1", b"1e308", b"1e-320", b"NaN", b"Infinity", b"9" * 5000, b"0", b'""'])
+    return data[: place.start()] + absurd + data[place.end() :]
+
+
+def nest_deeply(data: bytes, rng: random.Random) -> bytes:
+    depth = rng.choice([100, 10_000, 200_000])
+    place = data.find(b"[", rng.randrange(len(data)))
+    return data[: place + 1] + b"[" * depth + b"]" * depth + b"," + data[place + 1 :] if place >= 0 else data
+
+
+def lie_about_lengths(data: bytes, rng: random.Random) -> bytes:
+    """A 32-bit word near the front becomes something else, as in the headers of GLB, PLY and STL."""
+    at = rng.randrange(0, min(len(data) - 4, 120))
+    word = rng.choice([0, 1, 0x7FFFFFFF, 0xFFFFFFFF, len(data) * 2, rng.getrandbits(32)])
+    return data[:at] + struct.pack("<I", word) + data[at + 4 :]
+
+
+MUTATIONS: tuple[Mutation, ...] = (
+    flip_bytes,
+    truncate,
+    repeat_a_stretch,
+    blow_up_a_number,
+    nest_deeply,
+    lie_about_lengths,
+)
+
+
+def read_one(path: Path, seconds: float) -> str:
+    """What came of reading one file: "read", the name of our error, or a word that must not come."""
+
+    def ring(*_: object) -> None:
+        raise Hang
+
+    signal.signal(signal.SIGALRM, ring)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            load_scene(path)
+        return "read"
+    except Scene2HapError as error:
+        return type(error).__name__
+    except Hang:
+        return f"HANG over {seconds:g} s"
+    except BaseException as error:
+        return f"FOREIGN {type(error).__name__}: {str(error)[:100]}"
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+
+
+def reader(inbox: multiprocessing.connection.Connection, seconds: float, megabytes: int) -> None:
+    """Child: read the files whose paths come in; send back outcome, time and peak memory."""
+    resource.setrlimit(resource.RLIMIT_DATA, (megabytes << 20, megabytes << 20))
+    while (path := inbox.recv()) is not None:
+        begin = time.perf_counter()
+        outcome = read_one(path, seconds)
+        peak_mb = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+        inbox.send((outcome, time.perf_counter() - begin, peak_mb))
+
+
+class Child:
+    """A reader that is started again when it dies."""
+
+    def __init__(self, seconds: float, megabytes: int) -> None:
+        self._limits = (seconds, megabytes)
+        self._start()
+
+    def _start(self) -> None:
+        context = multiprocessing.get_context("spawn")
+        self._pipe, theirs = context.Pipe()
+        self._process = context.Process(target=reader, args=(theirs, *self._limits), daemon=True)
+        self._process.start()
+        theirs.close()
+
+    def read(self, path: Path) -> tuple[str, float, float]:
+        self._pipe.send(path)
+        try:
+            outcome: tuple[str, float, float] = self._pipe.recv()
+        except EOFError:
+            self._process.join()
+            code = self._process.exitcode
+            self._start()
+            return f"CRASH exit status {code}", 0.0, 0.0
+        return outcome
+
+    def stop(self) -> None:
+        self._pipe.send(None)
+        self._process.join()
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--files", type=int, default=2000)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--seconds", type=float, default=5.0)
+    parser.add_argument("--megabytes", type=int, default=1024)
+    arguments = parser.parse_args()
+
+    print(f"Python {platform.python_version()}, {arguments.files} files, seed {arguments.seed}")
+    outcomes: dict[str, collections.Counter[str]] = collections.defaultdict(collections.Counter)
+    bad: list[str] = []
+    slowest, peak = (0.0, ""), 0.0
+    originals = seeds()
+    child = Child(arguments.seconds, arguments.megabytes)
+    with tempfile.TemporaryDirectory() as folder:
+        for number in range(arguments.files):
+            rng = random.Random(f"{arguments.seed}/{number}")
+            suffix, mutation = rng.choice(list(originals)), rng.choice(MUTATIONS)
+            data = originals[suffix]
+            for _ in range(rng.choice([1, 1, 2])):
+                data = mutation(data, rng) or b"\0"
+            path = Path(folder) / f"case{suffix}"
+            path.write_bytes(data)
+            outcome, seconds, peak_mb = child.read(path)
+            name = f"file {number}: {mutation.__name__}{suffix}"
+            outcomes[suffix][outcome.split(":")[0]] += 1
+            slowest, peak = max(slowest, (seconds, name)), max(peak, peak_mb)
+            if outcome.split()[0] in ("HANG", "FOREIGN", "CRASH"):
+                bad.append(f"{name}: {outcome}")
+    child.stop()
+    for suffix, counts in outcomes.items():
+        print(f"{suffix:6}", ", ".join(f"{count} {outcome}" for outcome, count in counts.most_common()))
+    print(f"slowest {slowest[0]:.2f} s ({slowest[1]}), peak memory {peak:.0f} MB")
+    print(f"{len(bad)} bad outcomes", *bad, sep="\n")
+    return bool(bad)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

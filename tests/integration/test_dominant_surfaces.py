@@ -1,0 +1,35 @@
+"""Dominant surfaces of real objects against dimensions read from the files by hand (tests/data)."""
+
+import importlib.util
+from pathlib import Path
+from statistics import median
+from types import ModuleType
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def surfaces() -> ModuleType:
+    spec = importlib.util.spec_from_file_location("surfaces", ROOT / "benchmarks" / "surfaces.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_the_median_error_is_small_and_no_error_is_large(surfaces: ModuleType) -> None:
+    rows = list(surfaces.rows())
+    if len(rows) < 20:
+        pytest.skip("needs the shared folder beside the checkout (scenes)")
+    errors = {line["object"]: surfaces.relative_errors(true, measured) for line, true, measured in rows}
+    assert max((max(own), name) for name, own in errors.items())[0] <= 0.15
+    assert median(error for own in errors.values() for error in own) <= 0.02
+
+
+def test_the_demo_kitchen_is_measured_as_it_was_built(surfaces: ModuleType) -> None:
+    for line, true, measured in surfaces.rows():
+        if line["scene"] == "demo":
+            assert measured == pytest.approx(true, rel=1e-3), line["object"]
