@@ -10,9 +10,8 @@ import asyncio
 from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic import BeforeValidator, Field
 
-from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.loops import loop_pair
@@ -21,11 +20,12 @@ from scene2hap.audio.select import select_clip
 from scene2hap.audio.sources import SOURCES
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.bundle import HapticBundle
-from scene2hap.errors import AudioError, ConfigError
+from scene2hap.errors import AudioError
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics, SourceState, VibrationDescription
 from scene2hap.llm import BACKENDS
 from scene2hap.llm.chain import infer_scene
 from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.settings import Settings
 
 Progress = Callable[[str, str, int, int], None]
 """Told (stage, what is done, how many are done, of how many)."""
@@ -35,7 +35,7 @@ def _sources(specs: object) -> object:
     return tuple(SOURCES.build(spec) for spec in specs) if isinstance(specs, list | tuple) else (SOURCES.build(specs),)
 
 
-class BakeConfig(BaseModel):
+class BakeConfig(Settings):
     """How a scene is baked. Every part is chosen by a `kind`, or given ready made.
 
     llm : the backend of inference; audio : where sounds come from, tried in order until one has candidates;
@@ -43,7 +43,7 @@ class BakeConfig(BaseModel):
     concurrency : objects inferred at once.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True)
+    of_what = "bake"
 
     llm: Annotated[Any, BeforeValidator(BACKENDS.build)] = Field(default="lexicon", validate_default=True)
     audio: Annotated[Any, BeforeValidator(_sources)] = Field(default="synth", validate_default=True)
@@ -51,20 +51,6 @@ class BakeConfig(BaseModel):
     actuator: ActuatorProfile = Field(default_factory=ActuatorProfile)
     seed: int = 0
     concurrency: int = Field(default=8, ge=1)
-
-    @classmethod
-    def parse(cls, settings: BakeConfig | Mapping[str, Any] | None) -> BakeConfig:
-        """A configuration from settings, or the default.
-
-        Raises: ConfigError: a setting that does not exist or is out of bounds.
-        """
-        if isinstance(settings, cls):
-            return settings
-        try:
-            return cls.model_validate(settings or {})
-        except ValidationError as cause:
-            problem = checks.first_problem(cause)
-            raise ConfigError(f"bake setting {problem.place}: {problem.reason}, got {problem.value!r}.") from cause
 
 
 def bake(

@@ -11,7 +11,7 @@ PACKAGE = Path(__file__).parents[2] / "src" / "scene2hap"
 LAYERS = [
     {"errors"},
     {"checks"},
-    {"plugins"},
+    {"plugins", "settings"},
     {"scene"},
     {"contact", "materials"},
     {"haptics"},
