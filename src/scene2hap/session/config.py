@@ -18,11 +18,16 @@ MAX_GAIN_DB = 120.0
 """Bound on every gain, far beyond any actuator, so that single precision cannot overflow."""
 
 
+def _bands(value: object) -> object:
+    named = {"dominant": Bands.dominant, "third-octaves": Bands.third_octaves}
+    return named[value]() if isinstance(value, str) and value in named else value
+
+
 class SessionConfig(Settings):
     """How a scene is played. Every part with alternatives is chosen by a `kind`, so that a table of TOML will do.
 
     propagation : a kind, a mapping with `kind` and settings, or a model; `scene2hap.propagation.MODELS` lists kinds.
-    bands : bands in which gains are told; `Bands.dominant()` is the paper's.
+    bands : bands in which gains are told: Bands, "dominant" (the paper's) or "third-octaves" (20 from 10 to 1000 Hz).
     gain_limit_db : cap on what one source may gain at a hand by propagation, None for no cap.
     control_period_s : usual time between updates; gain changes are spread over it, and over at least 10 ms.
     """
@@ -30,7 +35,7 @@ class SessionConfig(Settings):
     of_what = "session"
 
     propagation: Annotated[Any, BeforeValidator(MODELS.build)] = Field(default_factory=ExponentialPlate)
-    bands: Bands = Field(default_factory=Bands.dominant)
+    bands: Annotated[Bands, BeforeValidator(_bands)] = Field(default_factory=Bands.dominant)
     gain_limit_db: float | None = Field(default=0.0, le=MAX_GAIN_DB, allow_inf_nan=False)
     sample_rate_hz: int = Field(default=48000, ge=1000, le=192000)
     control_period_s: float = Field(default=0.02, gt=0.0, le=1.0)

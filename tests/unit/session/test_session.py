@@ -167,8 +167,9 @@ def test_the_model_is_one_line_of_configuration(model: object, expected: list[fl
     assert found == expected
 
 
-def test_true_bands() -> None:
-    s = session(bands=Bands.third_octaves(), propagation="exponential_plate")
+@pytest.mark.parametrize("bands", [Bands.third_octaves(), "third-octaves"])
+def test_true_bands(bands: object) -> None:
+    s = session(bands=bands, propagation="exponential_plate")
     frame = s.update(touches=[ON_TABLE])
     assert frame.gains.shape == (2, 2, 20)
     assert (np.diff(frame.gains[0, 0]) < 0).all()
