@@ -1,0 +1,65 @@
+"""Pictures of a scene as the rest of the library sees them: PNG files that are taken when somebody reads them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, Protocol, overload
+
+
+@dataclass(frozen=True)
+class Shot:
+    """One picture to take: of the scene (`subject` is None), or of an object, alone or among others."""
+
+    kind: Literal["scene", "isolated", "context"]
+    subject: str | None
+    azimuth_deg: float
+    elevation_deg: float
+
+    @property
+    def label(self) -> str:
+        """The angle for people: "above 30°"."""
+        side = "above" if self.elevation_deg > 0 else "below"
+        return f"{side} {self.azimuth_deg % 360:g}°"
+
+
+class ImageSource(Protocol):
+    """Takes pictures; safe to call from several threads, and keeps what it took."""
+
+    def image(self, shot: Shot) -> bytes:
+        """The picture as a PNG file."""
+        ...
+
+
+class ImageSet(Sequence[bytes]):
+    """Pictures of one thing from several angles, each taken when it is first read.
+
+    `shots` tells the angles without taking anything.
+    """
+
+    def __init__(self, source: ImageSource, shots: Sequence[Shot]) -> None:
+        self.source = source
+        self.shots = tuple(shots)
+
+    def __len__(self) -> int:
+        return len(self.shots)
+
+    @overload
+    def __getitem__(self, index: int) -> bytes: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[bytes, ...]: ...
+    def __getitem__(self, index: int | slice) -> bytes | tuple[bytes, ...]:
+        if isinstance(index, slice):
+            return tuple(self.source.image(shot) for shot in self.shots[index])
+        return self.source.image(self.shots[index])
+
+    def __repr__(self) -> str:
+        return f"ImageSet({', '.join(shot.label for shot in self.shots)})"
+
+
+@dataclass(frozen=True, eq=False)
+class ObjectImages:
+    """An object alone, and among its surroundings with an outline around it, from the same angles."""
+
+    isolated: ImageSet
+    context: ImageSet
