@@ -126,7 +126,7 @@ def _write(bundle: HapticBundle, folder: Path) -> None:
     for object_id, states in bundle.loops.items():
         loops[object_id] = {}
         for state, loop in states.items():
-            stem = f"sounds/{_file_stem(object_id)}.{_file_stem(state)}"
+            stem = f"sounds/{file_stem(object_id)}.{file_stem(state)}"
             files = {kind: f"{stem}.{kind}.wav" for kind in ("audible", "tactile")}
             for kind, name in files.items():
                 clip: AudioClip = getattr(loop, kind)
@@ -222,7 +222,7 @@ def _inside(folder: Path, name: str) -> Path:
     return path
 
 
-def _file_stem(text: str) -> str:
+def file_stem(text: str) -> str:
     """A file name for any id; a short digest keeps apart what the plain letters would merge."""
     plain = re.sub(r"[^A-Za-z0-9_-]+", "-", text).strip("-")[:60]
     return plain if plain == text else f"{plain or 'x'}-{hashlib.sha256(text.encode()).hexdigest()[:8]}"

@@ -1,4 +1,8 @@
-"""Show what is in a scene file or a bundle."""
+"""Show what is in a scene file or a bundle.
+
+With --pictures a folder is filled with what a multimodal model would see: a contact sheet per object, and a plan of the
+scene with names. This needs the extra `pictures`.
+"""
 
 from __future__ import annotations
 
@@ -6,10 +10,13 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from scene2hap.bundle import HapticBundle
+from scene2hap.bundle import HapticBundle, file_stem
 from scene2hap.cli.bake import add_scene_arguments, read_scene
 from scene2hap.cli.console import Console
 from scene2hap.cli.tables import bundle_outcome, scene_outcome, show_bundle, show_scene
+from scene2hap.errors import SceneError
+from scene2hap.scene.capture import capture_images, contact_sheet, plan_view
+from scene2hap.scene.snapshot import SceneSnapshot
 
 HELP = "tables of a scene or a bundle"
 
@@ -17,6 +24,7 @@ HELP = "tables of a scene or a bundle"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``scene2hap inspect``."""
     parser.add_argument("scene", metavar="SCENE|BUNDLE", help="scene file or bundle folder")
+    parser.add_argument("--pictures", metavar="FOLDER", help="write contact sheets and a plan view as PNG")
     add_scene_arguments(parser)
 
 
@@ -24,9 +32,39 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Show a folder as a bundle, anything else as a scene."""
     if Path(arguments.scene).is_dir():
         bundle = HapticBundle.load(arguments.scene)
-        show_scene(console, bundle.snapshot)
+        scene = bundle.snapshot
+        outcome = {**scene_outcome(scene), **bundle_outcome(bundle)}
+        show_scene(console, scene)
         show_bundle(console, bundle)
-        return {**scene_outcome(bundle.snapshot), **bundle_outcome(bundle)}
-    scene = read_scene(arguments)
-    show_scene(console, scene)
-    return scene_outcome(scene)
+    else:
+        scene = read_scene(arguments)
+        outcome = scene_outcome(scene)
+        show_scene(console, scene)
+    if arguments.pictures:
+        outcome["pictures"] = write_pictures(scene, Path(arguments.pictures), console)
+    return outcome
+
+
+def write_pictures(scene: SceneSnapshot, folder: Path, console: Console) -> list[str]:
+    """A contact sheet per object and the plan of the scene, as PNG files; their paths are returned.
+
+    Raises: MissingExtra: the renderer is not installed; SceneError: the folder cannot be written.
+    """
+    pictured = capture_images(scene)
+    written: list[str] = []
+
+    def put(name: str, png: bytes) -> None:
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            (folder / name).write_bytes(png)
+        except OSError as cause:
+            raise SceneError(f"{folder / name} cannot be written: {cause.strerror}. Choose another folder.") from cause
+        written.append(str(folder / name))
+
+    put("plan.png", plan_view(pictured))
+    with console.progress() as tell:
+        for done, item in enumerate(pictured.objects, start=1):
+            put(f"{file_stem(item.id)}.png", contact_sheet(item))
+            tell("pictures", item.id, done, len(pictured.objects))
+    console.say(f"wrote {len(written)} pictures to {folder}")
+    return written

@@ -9,7 +9,7 @@ Source: Jingu, AliAbbasi et al., Scene2Hap, CHI 2026, section "LLM Workflow and 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
@@ -55,11 +55,13 @@ async def infer_scene(
 ) -> Inference:
     """Run the chain on every object of a scene, up to `concurrency` objects at once.
 
+    A scene with images (`capture_images`) shows them to the backend.
+
     Raises: BackendError and its children, with the object that was asked about.
     """
     chain = _Chain(backend, user_prompt)
     scene_facts = {"scene_name": scene.name, "object_names": [item.name for item in scene.objects]}
-    answer, _ = await chain.ask("scene_analyzer", "", scene_facts, SceneAnswer)
+    answer, _ = await chain.ask("scene_analyzer", "", scene_facts, SceneAnswer, scene.images or ())
     category = answer.scene_category
     neighbours = _neighbour_names(scene)
     turn = asyncio.Semaphore(concurrency)
@@ -104,7 +106,8 @@ class _Chain:
             "surface_flags": list(item.surface.flags),
             "neighbour_names": neighbours,
         }
-        answer, analyst = await self.ask("object_analyzer", item.id, facts, ObjectAnswer)
+        images = item.images.together if item.images is not None else ()
+        answer, analyst = await self.ask("object_analyzer", item.id, facts, ObjectAnswer, images)
         material, estimator = await self.material(answer.material_category)
         described = [await self.describe(item, answer, state, scene_category) for state in answer.states]
         vibrates = answer.vibrates and bool(described)
@@ -160,7 +163,12 @@ class _Chain:
         return SourceState(state.name, state.intensity, words.sentence, words.keywords, state.needs_contact), who
 
     async def ask(
-        self, component: Component, subject: str, facts: Mapping[str, Any], shape: type[AnswerType]
+        self,
+        component: Component,
+        subject: str,
+        facts: Mapping[str, Any],
+        shape: type[AnswerType],
+        images: Sequence[bytes] = (),
     ) -> tuple[AnswerType, str]:
         """A validated answer, and who gave it.
 
@@ -173,6 +181,7 @@ class _Chain:
             facts=facts,
             answer_schema=shape.model_json_schema(),
             prompt_version=prompts.VERSION,
+            images=images,
             temperature=TEMPERATURE,
         )
         reply = await self._backend.complete(request)

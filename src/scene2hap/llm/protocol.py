@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, Protocol, runtime_checkable
 
@@ -16,7 +16,8 @@ class LLMRequest:
 
     `prompt` is the filled template; `facts` are the values it was filled with (JSON values), for backends that do
     not read prose; `answer_schema` is the JSON schema of the answer; `subject` is the object's id, "" for the scene.
-    `images` are PNG files in the order in which the prompt speaks of them.
+    `images` are PNG files in the order in which the prompt speaks of them; they may be rendered when they are read, so
+    that a backend which does not look at them costs nothing.
     """
 
     component: Component
@@ -25,7 +26,7 @@ class LLMRequest:
     facts: Mapping[str, Any]
     answer_schema: Mapping[str, Any]
     prompt_version: str
-    images: tuple[bytes, ...] = ()
+    images: Sequence[bytes] = ()
     temperature: float = 0.2
 
 

@@ -63,3 +63,8 @@ class ObjectImages:
 
     isolated: ImageSet
     context: ImageSet
+
+    @property
+    def together(self) -> ImageSet:
+        """All of them, isolated first, as the prompts speak of them."""
+        return ImageSet(self.isolated.source, (*self.isolated.shots, *self.context.shots))

@@ -3,13 +3,15 @@
 import asyncio
 import json
 from collections import Counter
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
-from scene2hap import LLMReply, LLMRequest, infer_haptics
+from scene2hap import LLMReply, LLMRequest, SceneSnapshot, infer_haptics
 from scene2hap.errors import BackendUnavailable, BadAnswer
 from scene2hap.llm.chain import infer_scene
+from scene2hap.scene.images import ImageSet, ObjectImages, Shot
 from scenes import box, scene
 
 SCENE = scene(
@@ -162,3 +164,41 @@ def test_a_backend_that_is_away() -> None:
 
     with pytest.raises(ConnectionError, match="away"):
         infer_haptics(SCENE, Away())
+
+
+class Camera:
+    """Counts the pictures that are really taken."""
+
+    def __init__(self) -> None:
+        self.taken = 0
+
+    def image(self, shot: Shot) -> bytes:
+        self.taken += 1
+        return f"{shot.kind} of {shot.subject}".encode()
+
+
+def pictured(camera: Camera) -> SceneSnapshot:
+    def shots(kind: str, subject: str | None, n: int) -> ImageSet:
+        return ImageSet(camera, [Shot(kind, subject, 45.0 * i, 45.0) for i in range(n)])  # type: ignore[arg-type]
+
+    objects = [
+        replace(item, images=ObjectImages(shots("isolated", item.id, 8), shots("context", item.id, 8)))
+        for item in SCENE.objects
+    ]
+    return replace(SCENE, objects=tuple(objects), images=shots("scene", None, 4))
+
+
+def test_nothing_is_rendered_for_a_backend_that_does_not_look() -> None:
+    camera = Camera()
+    infer_haptics(pictured(camera), Scripted())
+    assert camera.taken == 0
+
+
+def test_a_backend_that_looks_sees_the_scene_then_the_object_alone_and_among_others() -> None:
+    camera, backend = Camera(), Scripted()
+    infer_haptics(pictured(camera), backend)
+    seen = {(r.component, r.subject): [png.decode() for png in r.images] for r in backend.asked}
+    assert seen["scene_analyzer", ""] == ["scene of None"] * 4
+    assert seen["object_analyzer", "phone"] == ["isolated of phone"] * 8 + ["context of phone"] * 8
+    assert seen["vibration_describer", "phone"] == []
+    assert camera.taken == 4 + 3 * 16

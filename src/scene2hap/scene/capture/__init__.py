@@ -1,0 +1,101 @@
+"""Pictures of a scene, for multimodal models and for people.
+
+    scene = capture_images(load_scene("kitchen.glb"))
+    scene.images[0]                                   # PNG: the scene from above
+    scene.object("kettle").images.context[0]          # PNG: the kettle among other things, outlined in pink
+    render_all(scene, workers=2)                      # all of them now, on two cores
+
+Source: Scene2Hap, sections "Automatic Data Extraction" and "Collecting Multimodal Information".
+Differs: what stands in the way is removed by the rules of `scene2hap.scene.capture.culling`, which keep an object's
+support and neighbours; the outline encloses exactly the visible pixels.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from typing import Any, cast
+
+from scene2hap.errors import ConfigError
+from scene2hap.plugins import PluginGroup
+from scene2hap.scene.capture.batch import capture_stats, render_all
+from scene2hap.scene.capture.config import CaptureConfig
+from scene2hap.scene.capture.protocol import RendererFactory
+from scene2hap.scene.capture.sheets import contact_sheet, plan_view
+from scene2hap.scene.capture.studio import CaptureStats, Studio
+from scene2hap.scene.images import ImageSet, ObjectImages
+from scene2hap.scene.snapshot import SceneObject, SceneSnapshot
+
+__all__ = [
+    "RENDERERS",
+    "CaptureConfig",
+    "CaptureStats",
+    "capture_images",
+    "capture_stats",
+    "contact_sheet",
+    "plan_view",
+    "render_all",
+]
+
+RENDERERS = PluginGroup(
+    "scene2hap.renderers",
+    builtins={
+        "embree": "scene2hap.scene.capture.embree:EmbreeRenderer",
+        "panda3d": "scene2hap.scene.capture.panda3d_renderer:Panda3DRenderer",
+    },
+    extras={"embree": "pictures", "panda3d": "panda3d"},
+)
+"""What can draw a stage: classes or functions that are called with a `Stage` and whether to smooth edges."""
+
+
+def capture_images(
+    scene: SceneSnapshot,
+    object_ids: Iterable[str] | None = None,
+    *,
+    size_px: int | None = None,
+    renderer: str | RendererFactory | None = None,
+    config: CaptureConfig | Mapping[str, Any] | None = None,
+) -> SceneSnapshot:
+    """The same scene with images. Nothing is rendered here: a picture is taken when it is first read.
+
+    Parameters:
+    object_ids : the objects that get images, None for all. The scene gets its own in any case.
+    size_px, renderer : override what `config` says, which is 512 pixels and "embree". A renderer is a kind of
+        `RENDERERS`, or a factory of your own (one that can be pickled, if workers are to use it).
+
+    Returns: a scene with `images`, 4 of the scene from above, and objects with `images.isolated` and `images.context`,
+        8 each, of which the first 4 are from above. A scene captured before has its pictures in memory, or in
+        `config.cache_dir`, by their content.
+    Raises: UnknownObject; ConfigError: a setting out of bounds; UnknownPlugin: no such renderer; MissingExtra: its
+        package is not installed.
+    """
+    kind = renderer if isinstance(renderer, str) else None
+    settings = CaptureConfig.parse(config, size_px=size_px, renderer=kind)
+    factory = _loaded(settings.renderer) if renderer is None or kind is not None else cast("RendererFactory", renderer)
+    name = settings.renderer if renderer is None or kind is not None else _name_of(factory)
+    if isinstance(object_ids, str):
+        raise ConfigError(f"object_ids is the text {object_ids!r}; give a list of ids, [{object_ids!r}].")
+    wanted = {item.id for item in scene.objects} if object_ids is None else {scene.object(key).id for key in object_ids}
+    studio = Studio(scene, settings, factory, name)
+    objects = tuple(
+        replace(item, images=_images(studio, item)) if item.id in wanted else item for item in scene.objects
+    )
+    return replace(scene, objects=objects, images=ImageSet(studio, settings.scene_shots()))
+
+
+def _images(studio: Studio, item: SceneObject) -> ObjectImages:
+    shots = studio.config.object_shots
+    return ObjectImages(ImageSet(studio, shots("isolated", item.id)), ImageSet(studio, shots("context", item.id)))
+
+
+def _loaded(kind: str) -> RendererFactory:
+    factory = RENDERERS.load(kind)
+    if not callable(factory):
+        raise ConfigError(f"{RENDERERS.name} kind {kind!r} is {factory!r}; it must be a class or a function.")
+    return cast("RendererFactory", factory)
+
+
+def _name_of(factory: RendererFactory) -> str:
+    if not callable(factory):
+        raise ConfigError(f"renderer is {factory!r}; it must be a kind ({', '.join(RENDERERS.kinds())}) or a factory.")
+    return f"{getattr(factory, '__module__', '')}.{getattr(factory, '__qualname__', repr(factory))}"

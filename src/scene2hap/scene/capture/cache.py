@@ -1,0 +1,89 @@
+"""Pictures kept by what they show: in memory for this process, and in a folder between runs."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections import OrderedDict
+from pathlib import Path
+from threading import Lock
+
+from scene2hap.errors import ConfigError
+
+MEMORY_BYTES = 256 * 2**20
+"""Pictures that this process keeps, the longest unused going first: some 2000 of 512 pixels (assumed)."""
+
+_PNG_END = b"IEND\xaeB\x60\x82"
+
+
+class MemoryCache:
+    """PNG files by key, up to a number of bytes."""
+
+    def __init__(self, limit_bytes: int = MEMORY_BYTES) -> None:
+        self._limit = limit_bytes
+        self._size = 0
+        self._kept: OrderedDict[str, bytes] = OrderedDict()
+        self._lock = Lock()
+
+    def get(self, key: str) -> bytes | None:
+        """The picture, or None."""
+        with self._lock:
+            if key in self._kept:
+                self._kept.move_to_end(key)
+            return self._kept.get(key)
+
+    def put(self, key: str, png: bytes) -> None:
+        """Keep a picture."""
+        with self._lock:
+            self._size += len(png) - len(self._kept.get(key, b""))
+            self._kept[key] = png
+            self._kept.move_to_end(key)
+            while self._size > self._limit and len(self._kept) > 1:
+                self._size -= len(self._kept.popitem(last=False)[1])
+
+    def clear(self) -> None:
+        """Forget everything."""
+        with self._lock:
+            self._kept.clear()
+            self._size = 0
+
+
+MEMORY = MemoryCache()
+"""What captures of this process share."""
+
+
+class FolderCache:
+    """PNG files in a folder, each written whole or not at all, so that several processes may share it.
+
+    Raises: ConfigError: the folder cannot be made or written to.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+
+    def get(self, key: str) -> bytes | None:
+        """The picture, or None; a file that was cut short does not count."""
+        try:
+            png = self._path(key).read_bytes()
+        except OSError:
+            return None
+        return png if png.endswith(_PNG_END) else None
+
+    def put(self, key: str, png: bytes) -> None:
+        """Keep a picture."""
+        path = self._path(key)
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            handle, unfinished = tempfile.mkstemp(dir=path.parent, suffix=".part")
+            try:
+                with os.fdopen(handle, "wb") as file:
+                    file.write(png)
+                os.replace(unfinished, path)
+            except BaseException:
+                Path(unfinished).unlink(missing_ok=True)
+                raise
+        except OSError as cause:
+            raise ConfigError(f"cache_dir {str(self._folder)!r} cannot be written: {cause}. Name another.") from cause
+
+    def _path(self, key: str) -> Path:
+        return self._folder / key[:2] / f"{key}.png"

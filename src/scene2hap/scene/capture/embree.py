@@ -1,0 +1,266 @@
+"""Pictures by ray casting with Intel Embree: exact ids in the same pass, and no system package.
+
+A tree over the whole stage is built once. What a picture leaves out stays in the tree: rays whose first hit belongs to
+it go on behind it. Only opened shells, which half of a picture's rays would have to pass, are kept out: a second tree
+holds the few large faces that they show in this view. Objects alone have trees of their own.
+
+Embree is single precision; a ray goes on a little behind what it passed, so that it does not meet it again.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from embreex.mesh_construction import TriangleMesh
+from embreex.rtcore_scene import EmbreeScene
+from numpy.typing import NDArray
+
+from scene2hap.scene.capture.faces import planes, separates
+from scene2hap.scene.capture.paint import BACKGROUND_RGB, light
+from scene2hap.scene.capture.protocol import Ids, Pixels, Selection
+from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.views import Camera
+
+Floats = NDArray[np.float32]
+Ints = NDArray[np.int64]
+Flags = NDArray[np.bool_]
+
+# Step behind a passed hit, as a part of its depth and of the scene's size: some ulps of float32 (tuned).
+_STEP_OF_DEPTH, _STEP_OF_SCENE = 1e-6, 1e-6
+# Things passed along one ray at most; beyond it the ray counts as free (assumed: no scene is that deep).
+_MAX_PASSES = 512
+# Pictures of up to this many actors use the actors' own trees.
+_FEW = 2
+# Opened actors of up to this many triangles are kept out of the tree (tuned: 5 ms to build the second tree).
+_LIGHT = 4096
+# Trees over more than one actor that are kept; each takes some 150 bytes a triangle (assumed).
+_LARGE_TREES = 4
+# A pixel is smoothed if a channel differs from the next pixel's by more than this, of 255 (tuned by eye).
+_VISIBLE_STEP = 24
+# Where the added rays of a smoothed pixel pass, off its middle, which counts as well: level, upright and slanted edges
+# all get three steps (assumed).
+_ADDED_RAYS = ((-0.33, 0.17), (0.17, -0.33))
+
+
+@dataclass(frozen=True, eq=False)
+class _Hits:
+    """What rays met: triangle (n,) of the stage, -1 for none; depth (n,) [m]; weights (2, n) of its corners 2 and 3."""
+
+    triangle: Ints
+    depth: Floats
+    weights: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class _Tree:
+    """A search tree over some triangles of the stage; `numbers` tells which, and ends with -1, no triangle."""
+
+    scene: Any
+    numbers: Ints
+
+    def cast(self, origins: Floats, directions: Floats) -> _Hits:
+        """The first hits of rays; depths count from their origins."""
+        run = self.scene.run(origins, directions, output=True)
+        return _Hits(self.numbers.take(run["primID"]), run["tfar"], np.stack((run["u"], run["v"])))
+
+
+class EmbreeRenderer:
+    """Draws a stage by ray casting. See `Renderer`."""
+
+    def __init__(self, stage: Stage, antialias: bool = True) -> None:
+        self._stage = stage
+        self._antialias = antialias
+        counts = [len(actor.triangles_m) for actor in stage.actors]
+        self._first = np.cumsum([0, *counts])
+        # The entry behind the last is for -1, no triangle.
+        self._actor_of = np.append(np.repeat(np.arange(len(counts), dtype=np.int32), counts), np.int32(-1))
+        self._corners = np.concatenate([actor.triangles_m for actor in stage.actors])
+        self._material = np.concatenate([actor.material for actor in stage.actors])
+        uv = np.concatenate([actor.uv for actor in stage.actors]).transpose(2, 1, 0)
+        self._uv = np.stack((uv[:, 0], uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]), axis=1)
+        self._paint = stage.palette.rgb[self._material] * 255
+        self._is_patterned = np.append(stage.palette.is_patterned[self._material], False)
+        self._has_cutouts = bool(stage.palette.is_cutout.any())
+        self._trees: dict[frozenset[int], _Tree] = {}
+        self._light = frozenset(k for k, count in enumerate(counts) if count <= _LIGHT)
+        self._cut: tuple[object, list[_Tree]] = (None, [])
+        self._step = float(np.linalg.norm(np.ptp(stage.box_m, axis=0))) * _STEP_OF_SCENE
+
+    def identify(self, camera: Camera, selection: Selection) -> Ids:
+        """The actor that each pixel's middle shows."""
+        pixels = self._covered(camera, selection)
+        return self._ids(camera, pixels, self._cast(camera, camera.directions(pixels), selection))
+
+    def draw(self, camera: Camera, selection: Selection) -> tuple[Pixels, Ids]:
+        """The picture, and the ids as `identify` tells them."""
+        pixels = self._covered(camera, selection)
+        directions = camera.directions(pixels)
+        hits = self._cast(camera, directions, selection)
+        ids = self._ids(camera, pixels, hits)
+        picture = np.full((camera.size_px**2, 3), BACKGROUND_RGB, np.uint8)
+        picture[pixels] = self._colors(camera, hits)
+        if self._antialias:
+            edges = np.flatnonzero(_edges(picture.reshape(camera.size_px, camera.size_px, 3)))
+            finer = np.concatenate([camera.directions(edges, offset) for offset in _ADDED_RAYS])
+            added = self._colors(camera, self._cast(camera, finer, selection)).reshape(len(_ADDED_RAYS), -1, 3)
+            total = added.sum(axis=0, dtype=np.uint16) + picture[edges]
+            picture[edges] = (total + 2) // (len(_ADDED_RAYS) + 1)
+        return picture.reshape(camera.size_px, camera.size_px, 3), ids
+
+    def _covered(self, camera: Camera, selection: Selection) -> Ints:
+        """Numbers of the pixels that the selection can cover."""
+        few = len(selection.shown) <= _FEW
+        boxes = [self._stage.actors[k].box_m for k in selection.shown] if few else [self._stage.box_m]
+        is_covered = np.zeros((camera.size_px, camera.size_px), bool)
+        for box in boxes:
+            corners = np.stack(np.meshgrid(*box.T), axis=-1).reshape(-1, 3)
+            top, bottom, left, right = camera.window_of(corners)
+            is_covered[top:bottom, left:right] = True
+        return np.flatnonzero(is_covered)
+
+    def _cast(self, camera: Camera, directions: Floats, selection: Selection) -> _Hits:
+        """First hits on what the selection shows."""
+        passed = self._passed(camera, selection)
+        if len(selection.shown) <= _FEW:
+            trees = [self._tree(frozenset({number})) for number in sorted(selection.shown)]
+        else:
+            apart = selection.opened & self._light
+            trees = [self._tree(self._stage.everyone - apart), *self._faces_left(apart, camera, selection, passed)]
+        found = [self._first_hits(tree, camera, directions, passed) for tree in trees]
+        return _nearest(found) if found else _nothing(len(directions))
+
+    def _first_hits(self, tree: _Tree, camera: Camera, directions: Floats, passed: Flags | None) -> _Hits:
+        """First hits that are not passed."""
+        eye = camera.eye_m.astype(np.float32)
+        hits = tree.cast(np.ascontiguousarray(np.broadcast_to(eye, directions.shape)), directions)
+        rays = np.flatnonzero(self._is_passed(hits, passed))
+        for _ in range(_MAX_PASSES):
+            if not len(rays):
+                break
+            start = hits.depth[rays] * np.float32(1 + _STEP_OF_DEPTH) + np.float32(self._step)
+            ahead = directions.take(rays, axis=0)
+            further = tree.cast(eye + ahead * start[:, None], ahead)
+            hits.triangle[rays] = further.triangle
+            hits.depth[rays] = start + further.depth
+            hits.weights[:, rays] = further.weights
+            rays = rays[self._is_passed(further, passed)]
+        hits.triangle[rays] = -1
+        return hits
+
+    def _is_passed(self, hits: _Hits, passed: Flags | None) -> Flags:
+        """Which rays go on: what they met is not shown, or is a hole in a texture."""
+        triangle = hits.triangle
+        is_passed = np.zeros(len(triangle), bool) if passed is None else passed.take(triangle)
+        if self._has_cutouts:
+            palette, material = self._stage.palette, self._material[triangle]
+            holed = np.flatnonzero(palette.is_cutout[material] & (triangle >= 0) & ~is_passed)
+            texel = palette.texel(material[holed], self._uv_at(triangle[holed], hits.weights[:, holed]))
+            is_passed[holed] = palette.texels[texel, 3] < 128
+        return is_passed
+
+    def _passed(self, camera: Camera, selection: Selection) -> Flags | None:
+        """Triangles that the selection does not show, with False at the end for "no triangle"; None if it shows all."""
+        if not selection.opened and selection.shown == self._stage.everyone:
+            return None
+        is_left_out = np.ones(len(self._stage.actors) + 1, bool)
+        is_left_out[[*selection.shown, -1]] = False
+        passed = is_left_out[self._actor_of]
+        for number in selection.opened & selection.shown:
+            own = slice(self._first[number], self._first[number + 1])
+            passed[own] = separates(self._planes[own], camera.eye_m, np.asarray(selection.focus_m))
+        return passed
+
+    def _colors(self, camera: Camera, hits: _Hits) -> NDArray[np.uint8]:
+        """What each ray sees."""
+        # One light per triangle and view, since the light comes straight along the view; the last row is no triangle.
+        paint = np.vstack((self._paint * light(self._normals, camera.axes[2], self._stage.up)[:, None], BACKGROUND_RGB))
+        colors = paint.astype(np.uint8).take(hits.triangle, axis=0)
+        patterned = np.flatnonzero(self._is_patterned.take(hits.triangle))
+        triangle = hits.triangle[patterned]
+        pattern = self._stage.palette.pattern(
+            self._material.take(triangle), self._uv_at(triangle, hits.weights[:, patterned])
+        )
+        colors[patterned] = paint.take(triangle, axis=0) * pattern
+        return colors
+
+    def _uv_at(self, triangle: Ints, weights: Floats) -> Floats:
+        # Column by column: numpy is six times slower along rows of two.
+        u, v = (
+            corner.take(triangle) + weights[0] * to_second.take(triangle) + weights[1] * to_third.take(triangle)
+            for corner, to_second, to_third in self._uv
+        )
+        return np.stack((u, v), axis=1)
+
+    def _ids(self, camera: Camera, pixels: Ints, hits: _Hits) -> Ids:
+        ids = np.full(camera.size_px**2, -1, np.int32)
+        ids[pixels] = self._actor_of.take(hits.triangle)
+        return ids.reshape(camera.size_px, camera.size_px)
+
+    def _tree(self, actors: frozenset[int]) -> _Tree:
+        """The tree over whole actors, built when first needed."""
+        if actors not in self._trees:
+            large = [known for known in self._trees if len(known) > 1]
+            if len(actors) > 1 and len(large) >= _LARGE_TREES:
+                del self._trees[large[0]]
+            self._trees[actors] = self._built(np.flatnonzero(np.isin(self._actor_of, list(actors))))
+        return self._trees[actors]
+
+    def _faces_left(
+        self, actors: frozenset[int], camera: Camera, selection: Selection, passed: Flags | None
+    ) -> list[_Tree]:
+        """A tree over the faces that opened actors show; the last one is kept, as a view asks for it several times."""
+        view = (actors, camera.eye_m.tobytes(), selection)
+        if passed is None or not actors:
+            return []
+        if self._cut[0] != view:
+            left = np.flatnonzero(np.isin(self._actor_of, list(actors)) & ~passed)
+            self._cut = (view, [self._built(left)] if len(left) else [])
+        return self._cut[1]
+
+    def _built(self, numbers: Ints) -> _Tree:
+        scene = EmbreeScene()
+        TriangleMesh(scene, np.ascontiguousarray(self._corners[numbers]))
+        return _Tree(scene, np.append(numbers, -1))
+
+    @cached_property
+    def _planes(self) -> NDArray[np.float64]:
+        return planes(self._corners)
+
+    @cached_property
+    def _normals(self) -> Floats:
+        return self._planes[:, :3].astype(np.float32)
+
+
+def _nothing(n_rays: int) -> _Hits:
+    return _Hits(np.full(n_rays, -1, np.int64), np.full(n_rays, np.inf, np.float32), np.zeros((2, n_rays), np.float32))
+
+
+def _nearest(found: list[_Hits]) -> _Hits:
+    """Of each ray, the hit that comes first."""
+    best = found[0]
+    for other in found[1:]:
+        is_nearer = (other.triangle >= 0) & ((best.triangle < 0) | (other.depth < best.depth))
+        best = _Hits(
+            np.where(is_nearer, other.triangle, best.triangle),
+            np.where(is_nearer, other.depth, best.depth),
+            np.where(is_nearer, other.weights, best.weights),
+        )
+    return best
+
+
+def _edges(picture: Pixels) -> Flags:
+    """Which pixels differ visibly from the one to the right or below, or are differed from."""
+    is_edge = np.zeros(picture.shape[:2], bool)
+    red, green, blue = np.moveaxis(picture.astype(np.int16), 2, 0).copy()
+    across, down = is_edge[:, 1:].copy(), is_edge[1:].copy()
+    for level in (red, green, blue):
+        across |= np.abs(level[:, 1:] - level[:, :-1]) > _VISIBLE_STEP
+        down |= np.abs(level[1:] - level[:-1]) > _VISIBLE_STEP
+    is_edge[:, 1:] |= across
+    is_edge[:, :-1] |= across
+    is_edge[1:] |= down
+    is_edge[:-1] |= down
+    return is_edge

@@ -1,0 +1,26 @@
+"""What single triangles tell."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats32 = NDArray[np.float32]
+Floats = NDArray[np.float64]
+
+
+def planes(triangles_m: Floats32) -> Floats:
+    """Planes (m, 4) of triangles (m, 3, 3): unit normal and offset, x . normal = offset; zero for those of no area."""
+    a, b, c = np.moveaxis(triangles_m.astype(np.float64), 1, 0)
+    normals = np.cross(b - a, c - a)
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    np.divide(normals, lengths, out=normals, where=lengths > 0)
+    return np.column_stack((normals, np.einsum("ij,ij->i", normals, a)))
+
+
+def separates(planes_m: Floats, eye_m: Floats, focus_m: Floats) -> NDArray[np.bool_]:
+    """Whether each plane (m, 4) has eye and focus on different sides; only then can a face on it hide the focus."""
+    of_eye = planes_m[:, :3] @ eye_m - planes_m[:, 3]
+    of_focus = planes_m[:, :3] @ focus_m - planes_m[:, 3]
+    is_between: NDArray[np.bool_] = of_eye * of_focus < 0
+    return is_between

@@ -1,0 +1,139 @@
+"""Colours of surfaces: materials in one table, so that all pixels of a picture are coloured in one go.
+
+Light comes from the eye and a little from above; both sides of a face are lit alike. It works on sRGB values as they
+are: the pictures are to be recognised, not measured.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from colorsys import hsv_to_rgb
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from scene2hap.scene.appearance import FaceMaterial
+
+Floats = NDArray[np.float32]
+Ints = NDArray[np.int32]
+
+BACKGROUND_RGB = (190, 194, 200)
+"""What is behind everything: light enough for black things, dark enough for white ones (assumed)."""
+
+AMBIENT, HEADLIGHT, SKYLIGHT = 0.42, 0.50, 0.10
+"""Parts of a colour that show regardless of angle, facing the eye, and facing up (minus facing down) (tuned by eye)."""
+
+# Textures are shrunk to this edge, which is what a picture of 512 pixels can show, and what memory is spent on.
+_TEXTURE_PX = 512
+# What shows through glass, which is drawn as a pale surface: it must be seen, and what lies behind it seldom matters.
+_BEHIND_GLASS = 0.85
+
+
+@dataclass(eq=False)
+class PaletteBuilder:
+    """Collects materials, each once; `keys` name the content of the rows."""
+
+    keys: list[str] = field(default_factory=list)
+    _rows: list[tuple[tuple[float, float, float], NDArray[np.uint8], bool]] = field(default_factory=list)
+    _index: dict[str, int] = field(default_factory=dict)
+    _known: dict[int, tuple[int, FaceMaterial]] = field(default_factory=dict)
+
+    def add(self, material: FaceMaterial) -> int:
+        """The row of a material."""
+        if id(material) not in self._known:
+            # The material is kept, so that its id stays its own.
+            self._known[id(material)] = (self._row(material), material)
+        return self._known[id(material)][0]
+
+    def _row(self, material: FaceMaterial) -> int:
+        texels = np.full((1, 1, 4), 255, np.uint8) if material.texture is None else _rgba(material.texture)
+        key = hashlib.sha256(repr((material.color_rgba, texels.shape)).encode() + texels.tobytes()).hexdigest()
+        if key not in self._index:
+            *rgb, opacity = material.color_rgba
+            is_cutout = bool(texels[..., 3].min() < 128 <= texels[..., 3].max())
+            if not is_cutout:
+                opacity *= float(texels[..., 3].mean()) / 255
+            red, green, blue = (channel * opacity + _BEHIND_GLASS * (1 - opacity) for channel in rgb)
+            self._index[key] = len(self._rows)
+            self.keys.append(key)
+            self._rows.append(((red, green, blue), _shrunk(texels), is_cutout))
+        return self._index[key]
+
+    def build(self) -> Palette:
+        """The table of all materials added."""
+        sizes = [texels.shape[0] * texels.shape[1] for _, texels, _ in self._rows]
+        return Palette(
+            rgb=np.array([rgb for rgb, _, _ in self._rows], np.float32),
+            texels=np.concatenate([texels.reshape(-1, 4) for _, texels, _ in self._rows]),
+            start=np.cumsum([0, *sizes[:-1]]).astype(np.int32),
+            width=np.array([texels.shape[1] for _, texels, _ in self._rows], np.int32),
+            height=np.array([texels.shape[0] for _, texels, _ in self._rows], np.int32),
+            is_cutout=np.array([cutout for _, _, cutout in self._rows], bool),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Palette:
+    """Materials by row: `rgb` 0..1, and a texture among the `texels` (n, 4) at `start`, `width` x `height`.
+
+    `is_cutout` : the texture has holes, as leaves of plants do.
+    """
+
+    rgb: Floats
+    texels: NDArray[np.uint8]
+    start: Ints
+    width: Ints
+    height: Ints
+    is_cutout: NDArray[np.bool_]
+
+    def texel(self, material: Ints, uv: Floats) -> Ints:
+        """Where in `texels` the nearest texel to uv (n, 2) of materials (n,) stands."""
+        width, height = self.width.take(material), self.height.take(material)
+        # Coordinates that are no numbers occur in broken files; any texel will do for them.
+        u, v = np.nan_to_num(uv - np.floor(uv), copy=False).T
+        column = np.minimum((u * width).astype(np.int32), width - 1)
+        row = np.minimum((v * height).astype(np.int32), height - 1)
+        where: Ints = self.start.take(material) + row * width + column
+        return where
+
+    def pattern(self, material: Ints, uv: Floats) -> Floats:
+        """What the textures multiply colours by (n, 3), 0..1."""
+        return self.texels.take(self.texel(material, uv), axis=0)[:, :3] * np.float32(1 / 255)
+
+    @cached_property
+    def is_patterned(self) -> NDArray[np.bool_]:
+        """Which rows have a texture."""
+        return self.width * self.height > 1
+
+
+def light(normals: Floats, forward: NDArray[np.float64], up: NDArray[np.float64]) -> Floats:
+    """How bright faces with unit normals (n, 3) are, looking along `forward`: 0..1, before rounding below 0."""
+    along = normals @ forward.astype(np.float32)
+    upward = -np.sign(along) * (normals @ up.astype(np.float32))
+    brightness: Floats = np.clip(AMBIENT + HEADLIGHT * np.abs(along) + SKYLIGHT * upward, 0.0, 1.0)
+    return brightness
+
+
+def neutral(key: str) -> FaceMaterial:
+    """The paint of an object of unknown looks: a light grey with a cast that its key decides."""
+    seed = hashlib.sha256(key.encode()).digest()
+    red, green, blue = hsv_to_rgb(seed[0] / 256, 0.10 + 0.12 * seed[1] / 255, 0.68 + 0.22 * seed[2] / 255)
+    return FaceMaterial((red, green, blue, 1.0))
+
+
+def _rgba(texture: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    if texture.shape[2] == 4:
+        return texture
+    return np.dstack((texture, np.full(texture.shape[:2], 255, np.uint8)))
+
+
+def _shrunk(texels: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    height, width = texels.shape[:2]
+    if max(height, width) <= _TEXTURE_PX:
+        return texels
+    scale = _TEXTURE_PX / max(height, width)
+    size = (max(1, round(width * scale)), max(1, round(height * scale)))
+    return np.asarray(Image.fromarray(texels).resize(size, Image.Resampling.BOX))

@@ -1,0 +1,72 @@
+"""From a shot to a PNG file: where the camera stands, what is in the way, the picture, the outline."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from io import BytesIO
+
+import numpy as np
+from PIL import Image
+
+from scene2hap.scene.capture.config import CaptureConfig
+from scene2hap.scene.capture.culling import Culler
+from scene2hap.scene.capture.outline import mark
+from scene2hap.scene.capture.protocol import Pixels, Renderer, Selection
+from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.views import Camera, frame
+from scene2hap.scene.images import Shot
+
+# Part of the frame that a whole scene fills, and a context image at least leaves around its target (assumed).
+_SCENE_FILL = 0.95
+_LEAST_FACTOR = 1.25
+# zlib's Z_RLE.
+_RUN_LENGTHS = 3
+
+
+@dataclass(frozen=True, eq=False)
+class Photographer:
+    """Takes pictures of a stage with a renderer; same input, same bytes."""
+
+    stage: Stage
+    renderer: Renderer
+    config: CaptureConfig
+
+    @cached_property
+    def culler(self) -> Culler:
+        """Decides what is left out."""
+        return Culler.of(self.stage, self.renderer, self.config.near_share, self.config.hidden_share)
+
+    def aim(self, shot: Shot) -> tuple[Camera, Selection]:
+        """The camera, and what it shows."""
+        config = self.config
+        angles = (shot.azimuth_deg, shot.elevation_deg, self.stage.up_axis)
+        if shot.subject is None:
+            points = np.concatenate([actor.points_m for actor in self.stage.actors])
+            camera = frame(points, *angles, _SCENE_FILL, config.size_px)
+            return camera, self.culler.overview(camera)
+        target = self.stage.index[shot.subject]
+        actor = self.stage.actors[target]
+        close = frame(actor.points_m, *angles, config.fill, config.size_px)
+        if shot.kind == "isolated":
+            return close, Selection(frozenset({target}))
+        scene_diagonal_m = float(np.linalg.norm(np.ptp(self.stage.box_m, axis=0)))
+        widest = max(_LEAST_FACTOR, _LEAST_FACTOR * scene_diagonal_m / max(actor.diagonal_m, 1e-9))
+        wide = close.widened(min(config.context_factor, widest))
+        return wide, self.culler.around(target, close, wide)
+
+    def take(self, shot: Shot) -> bytes:
+        """The picture as a PNG file."""
+        camera, selection = self.aim(shot)
+        picture, ids = self.renderer.draw(camera, selection)
+        if shot.kind == "context" and shot.subject is not None:
+            is_target = ids == self.stage.index[shot.subject]
+            mark(picture, is_target, self.config.outline_px, self.config.outline_rgb)
+        return png(picture)
+
+
+def png(picture: Pixels) -> bytes:
+    """Pixels as a PNG file, packed for speed: run lengths do as well on them as level 1, in two thirds of the time."""
+    file = BytesIO()
+    Image.fromarray(picture).save(file, "PNG", compress_level=1, compress_type=_RUN_LENGTHS)
+    return file.getvalue()

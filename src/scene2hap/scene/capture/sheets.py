@@ -1,0 +1,117 @@
+"""Pictures for people: all views of an object on one sheet, and a plan of the scene with names. Drawn with Pillow."""
+
+from __future__ import annotations
+
+from io import BytesIO
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from scene2hap.errors import ConfigError
+from scene2hap.scene.capture.paint import BACKGROUND_RGB
+from scene2hap.scene.capture.photographer import png
+from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.surroundings import shells
+from scene2hap.scene.capture.views import axes_of
+from scene2hap.scene.images import ImageSet
+from scene2hap.scene.snapshot import SceneObject, SceneSnapshot
+
+_INK, _PAPER = "#22313f", "#ffffff"
+_MARGIN, _TITLE, _LABEL = 8, 34, 20
+_THUMB_PX = 256
+_PLAN_PX = 1400
+# A cut through the room at this part of its height leaves out what hangs above it, such as a ceiling (assumed).
+_CUT = 0.9
+
+
+def contact_sheet(item: SceneObject, *, thumb_px: int = _THUMB_PX) -> bytes:
+    """All images of a captured object in a labelled grid, as a PNG file.
+
+    Rows: alone from above, alone from below, among other things from above, from below.
+    Raises: ConfigError: the object has no images.
+    """
+    if item.images is None:
+        raise ConfigError(f"object {item.id!r} has no images; pass a scene through capture_images first.")
+    columns = max(1, len(item.images.isolated) // 2)
+    sheet = Image.new("RGB", (columns * (thumb_px + _MARGIN) + _MARGIN, 4 * (thumb_px + _LABEL) + _TITLE), _PAPER)
+    draw = ImageDraw.Draw(sheet)
+    size = " x ".join(f"{edge:.3g}" for edge in np.ptp(item.bounds_m, axis=0))
+    draw.text((_MARGIN, 8), f"{item.id}   ({item.name}; {size} m)", fill=_INK, font=ImageFont.load_default(17))
+    cells = [(kind, images, k) for kind, images in _rows(item) for k in range(len(images))]
+    for cell, (kind, images, k) in enumerate(cells):
+        left = _MARGIN + cell % columns * (thumb_px + _MARGIN)
+        top = _TITLE + cell // columns * (thumb_px + _LABEL)
+        picture = Image.open(BytesIO(images[k])).resize((thumb_px, thumb_px), Image.Resampling.BOX)
+        sheet.paste(picture, (left, top + _LABEL))
+        draw.text((left, top + 2), f"{kind}, {images.shots[k].label}", fill=_INK, font=ImageFont.load_default(13))
+    return png(np.asarray(sheet))
+
+
+def _rows(item: SceneObject) -> tuple[tuple[str, ImageSet], ...]:
+    assert item.images is not None, "contact_sheet asks for images before it lays out rows"
+    return (("isolated", item.images.isolated), ("context", item.images.context))
+
+
+def plan_view(scene: SceneSnapshot, *, width_px: int = _PLAN_PX) -> bytes:
+    """The scene straight from above with every object's id, as a PNG file; needs no renderer.
+
+    What lies above the cut at nine tenths of the scene's height is left out. Front is at the bottom (`axes_of`).
+    """
+    stage = Stage.of(scene)
+    right, up, front = axes_of(stage.up_axis)
+    low, high = stage.box_m
+    to_plan = np.stack((right, front))
+    corners = np.stack((low, high)) @ to_plan.T
+    origin, extent = corners.min(axis=0), np.maximum(np.ptp(corners, axis=0), 1e-9)
+    scale = (width_px - 2 * _MARGIN) / extent.max()
+    edges = np.ceil(extent * scale).astype(int) + 2 * _MARGIN
+    cut = (low @ up) + _CUT * float((high - low) @ up)
+    plan = Image.new("RGB", (int(edges[0]), int(edges[1]) + _TITLE), BACKGROUND_RGB)
+    draw = ImageDraw.Draw(plan)
+    triangles = np.concatenate([actor.triangles_m for actor in stage.actors]).astype(np.float64)
+    colors = np.concatenate([_flat_colors(stage, number) for number in range(len(stage.actors))])
+    heights = (triangles @ up).max(axis=1)
+    flat = (triangles @ to_plan.T - origin) * scale + (_MARGIN, _MARGIN + _TITLE)
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    lengths = np.maximum(np.linalg.norm(normals, axis=1), 1e-30)
+    light = 0.6 + 0.4 * np.abs(normals @ up) / lengths
+    shown = np.flatnonzero(heights <= cut) if (heights <= cut).any() else np.arange(len(heights))
+    for number in shown[np.argsort(heights[shown], kind="stable")]:
+        color = tuple(int(channel) for channel in colors[number] * light[number])
+        draw.polygon([(float(x), float(y)) for x, y in flat[number]], fill=color)
+    draw.text((_MARGIN, 8), f"{scene.name}, seen from above", fill=_INK, font=ImageFont.load_default(17))
+    _write_names(draw, stage, to_plan, origin, scale, plan.size)
+    return png(np.asarray(plan))
+
+
+def _flat_colors(stage: Stage, number: int) -> NDArray[np.float32]:
+    """One colour (m, 3), 0..255, per face of an actor: its paint in the middle of the face."""
+    actor = stage.actors[number]
+    return stage.palette.rgb[actor.material] * stage.palette.pattern(actor.material, actor.uv.mean(axis=1)) * 255
+
+
+def _write_names(
+    draw: ImageDraw.ImageDraw,
+    stage: Stage,
+    to_plan: NDArray[np.float64],
+    origin: NDArray[np.float64],
+    scale: float,
+    size_px: tuple[int, int],
+) -> None:
+    """Ids over their objects, shifted down until they do not print over each other; walls and floors go without."""
+    font = ImageFont.load_default(12)
+    written: list[tuple[float, float, float, float]] = []
+    for number, actor in enumerate(stage.actors):
+        if number in shells(stage):
+            continue
+        x, y = (actor.box_m.mean(axis=0) @ to_plan.T - origin) * scale + (_MARGIN, _MARGIN + _TITLE)
+        width = draw.textlength(actor.id, font=font)
+        left, top = min(max(x - width / 2, 2), max(size_px[0] - width - 2, 2)), y - 7
+        while any(left < x1 and x0 < left + width and top < y1 and y0 < top + 14 for x0, y0, x1, y1 in written):
+            top += 14
+        written.append((left, top, left + width, top + 14))
+        if top > y:
+            draw.line([(x, y), (left + width / 2, top + 7)], fill=_INK)
+        draw.rectangle([left - 1, top, left + width + 1, top + 14], fill=_PAPER)
+        draw.text((left, top), actor.id, fill=_INK, font=font)

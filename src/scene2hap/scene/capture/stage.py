@@ -1,0 +1,131 @@
+"""A scene made ready for cameras: triangles in one frame, colours in one table, and names for their content."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.errors import SceneError
+from scene2hap.scene.appearance import Appearance
+from scene2hap.scene.capture.paint import Palette, PaletteBuilder, neutral
+from scene2hap.scene.capture.views import axes_of
+from scene2hap.scene.snapshot import SceneObject, SceneSnapshot, UpAxis
+
+Floats = NDArray[np.float32]
+Ints = NDArray[np.int32]
+
+
+@dataclass(frozen=True, eq=False)
+class Actor:
+    """One object: triangles (m, 3, 3) [m] relative to the stage's origin, rows of the palette (m,), uv (m, 3, 2).
+
+    `digest` names its shape as turned, and its looks, but not its place.
+    """
+
+    id: str
+    triangles_m: Floats
+    material: Ints
+    uv: Floats
+    digest: str
+
+    @cached_property
+    def box_m(self) -> NDArray[np.float64]:
+        """Lowest and highest corner (2, 3) [m]."""
+        corners = self.triangles_m.reshape(-1, 3)
+        return np.array([corners.min(axis=0), corners.max(axis=0)], dtype=np.float64)
+
+    @property
+    def points_m(self) -> NDArray[np.float64]:
+        """All corners (3 m, 3) [m]."""
+        return self.triangles_m.reshape(-1, 3).astype(np.float64)
+
+    @property
+    def diagonal_m(self) -> float:
+        """Of its box."""
+        return float(np.linalg.norm(self.box_m[1] - self.box_m[0]))
+
+
+@dataclass(frozen=True, eq=False)
+class Stage:
+    """All objects of a scene, in scene order; plain arrays, so that it travels to worker processes.
+
+    Coordinates are told from the middle of the scene, so that float32, which renderers use, resolves scenes that stand
+    far from the world's origin.
+    """
+
+    actors: tuple[Actor, ...]
+    palette: Palette
+    up_axis: UpAxis
+    origin_m: tuple[float, float, float]
+
+    @classmethod
+    def of(cls, scene: SceneSnapshot) -> Stage:
+        """The stage of a scene."""
+        bounds = np.array([item.bounds_m for item in scene.objects])
+        origin = (bounds[:, 0].min(axis=0) + bounds[:, 1].max(axis=0)) / 2
+        palette = PaletteBuilder()
+        actors = tuple(_actor(item, origin, palette) for item in scene.objects)
+        return cls(actors, palette.build(), scene.up_axis, (float(origin[0]), float(origin[1]), float(origin[2])))
+
+    @cached_property
+    def index(self) -> dict[str, int]:
+        """Number of each actor by its id."""
+        return {actor.id: number for number, actor in enumerate(self.actors)}
+
+    @cached_property
+    def everyone(self) -> frozenset[int]:
+        """All actors' numbers."""
+        return frozenset(range(len(self.actors)))
+
+    @cached_property
+    def box_m(self) -> NDArray[np.float64]:
+        """Lowest and highest corner (2, 3) [m] of all actors."""
+        boxes = np.array([actor.box_m for actor in self.actors])
+        return np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
+
+    @property
+    def up(self) -> NDArray[np.float64]:
+        """The unit vector (3,) that points up."""
+        up: NDArray[np.float64] = axes_of(self.up_axis)[1]
+        return up
+
+    @cached_property
+    def digest(self) -> str:
+        """A name for everything that a picture of the whole stage can show."""
+        parts: list[object] = [self.up_axis]
+        for actor in self.actors:
+            parts += (actor.digest, actor.box_m.tobytes())
+        return _named(parts)
+
+
+def _actor(item: SceneObject, origin: NDArray[np.float64], palette: PaletteBuilder) -> Actor:
+    mesh = item.geometry.mesh
+    corners = (item.pose.to_world(mesh.vertices_m) - origin).astype(np.float32)
+    looks = item.appearance
+    if looks is None:
+        looks = Appearance((neutral(item.instance_key or item.id),), np.zeros(len(mesh.faces), np.int32))
+    if len(looks.face_material) != len(mesh.faces):
+        raise SceneError(
+            f"the appearance of {item.id!r} tells {len(looks.face_material)} faces, its mesh has {len(mesh.faces)}; "
+            "give one material number per face."
+        )
+    rows = np.array([palette.add(material) for material in looks.materials], np.int32)
+    material = rows[looks.face_material]
+    uv = np.zeros((len(mesh.faces), 3, 2), np.float32) if looks.uv is None else np.asarray(looks.uv, np.float32)
+    paints, which = np.unique(material, return_inverse=True)
+    named = [palette.keys[row] for row in paints]
+    digest = _named([mesh.digest, item.pose.rotation_xyzw, named, which.astype(np.int32).tobytes(), uv.tobytes()])
+    return Actor(item.id, corners[mesh.faces], material, uv, digest)
+
+
+def _named(parts: Iterable[object]) -> str:
+    content = hashlib.sha256()
+    for part in parts:
+        content.update(part if isinstance(part, bytes) else repr(part).encode())
+        content.update(b"\0")
+    return content.hexdigest()[:32]

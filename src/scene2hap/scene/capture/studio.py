@@ -1,0 +1,120 @@
+"""Takes the pictures that somebody reads, each once, and remembers them."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from threading import RLock
+
+from scene2hap.scene.capture.cache import MEMORY, FolderCache
+from scene2hap.scene.capture.config import CaptureConfig
+from scene2hap.scene.capture.photographer import Photographer
+from scene2hap.scene.capture.protocol import RendererFactory
+from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.surroundings import Copies, supports
+from scene2hap.scene.images import Shot
+from scene2hap.scene.snapshot import SceneSnapshot
+
+# Part of every key; raised when pictures of the same settings change.
+_FORMAT = 1
+
+
+@dataclass(frozen=True)
+class CaptureStats:
+    """What a capture did: pictures rendered, and pictures found in memory and in `cache_dir` instead."""
+
+    rendered: int = 0
+    from_memory: int = 0
+    from_folder: int = 0
+
+
+class Studio:
+    """The `ImageSource` of one captured scene.
+
+    The stage and the renderer are made when the first picture is read that is not cached.
+    """
+
+    def __init__(self, scene: SceneSnapshot, config: CaptureConfig, factory: RendererFactory, name: str) -> None:
+        self.scene, self.config, self.factory, self.name = scene, config, factory, name
+        self.stats = CaptureStats()
+        self._folder = FolderCache(config.cache_dir) if config.cache_dir else None
+        self._taken: dict[Shot, bytes] = {}
+        self._lock = RLock()
+
+    def __reduce__(self) -> tuple[object, ...]:
+        # A copy in another process has the same pictures to take; those taken here would be much to send.
+        return (Studio, (self.scene, self.config, self.factory, self.name))
+
+    def image(self, shot: Shot) -> bytes:
+        """The picture, which is another object's where copies share."""
+        shot = self.shared(shot)
+        with self._lock:
+            picture = self.find(shot)
+            if picture is None:
+                picture = self._photographer.take(shot)
+                self.keep(shot, picture)
+            return picture
+
+    def shared(self, shot: Shot) -> Shot:
+        """The shot that stands for this one."""
+        if shot.subject is None:
+            return shot
+        with self._lock:
+            first = self.copies.isolated if shot.kind == "isolated" else self.copies.context
+            return replace(shot, subject=first[shot.subject])
+
+    def find(self, shot: Shot) -> bytes | None:
+        """The picture of a shared shot if it was taken before, here or elsewhere."""
+        with self._lock:
+            if shot in self._taken:
+                return self._taken[shot]
+            key = self._key(shot)
+            picture = MEMORY.get(key)
+            if picture is not None:
+                self.stats = replace(self.stats, from_memory=self.stats.from_memory + 1)
+            elif self._folder is not None:
+                picture = self._folder.get(key)
+                if picture is not None:
+                    self.stats = replace(self.stats, from_folder=self.stats.from_folder + 1)
+                    MEMORY.put(key, picture)
+            if picture is not None:
+                self._taken[shot] = picture
+            return picture
+
+    def keep(self, shot: Shot, picture: bytes) -> None:
+        """Remember a picture of a shared shot that was just taken."""
+        key = self._key(shot)
+        with self._lock:
+            self.stats = replace(self.stats, rendered=self.stats.rendered + 1)
+            self._taken[shot] = picture
+            MEMORY.put(key, picture)
+            if self._folder is not None:
+                self._folder.put(key, picture)
+
+    def missing(self, shots: Iterable[Shot]) -> list[Shot]:
+        """Which pictures are to be taken so that all shots can be read, each once, in order."""
+        return [shot for shot in dict.fromkeys(map(self.shared, shots)) if self.find(shot) is None]
+
+    @cached_property
+    def stage(self) -> Stage:
+        """The scene ready for cameras."""
+        return Stage.of(self.scene)
+
+    @cached_property
+    def copies(self) -> Copies:
+        """Who stands for whom."""
+        return Copies(self.scene.objects, supports(self.stage), self.config.share_copies)
+
+    @cached_property
+    def _photographer(self) -> Photographer:
+        return Photographer(self.stage, self.factory(self.stage, self.config.antialias), self.config)
+
+    def _key(self, shot: Shot) -> str:
+        """A name for all that the picture depends on; an isolated image does not depend on the rest of the scene."""
+        number = -1 if shot.subject is None else self.stage.index[shot.subject]
+        seen = self.stage.actors[number].digest if shot.kind == "isolated" else f"{self.stage.digest} {number}"
+        angles = (shot.azimuth_deg, shot.elevation_deg, self.stage.up_axis)
+        content = repr((_FORMAT, self.name, self.config.look, shot.kind, seen, angles))
+        return hashlib.sha256(content.encode()).hexdigest()

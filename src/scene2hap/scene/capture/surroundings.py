@@ -1,0 +1,138 @@
+"""How the objects of a stage lie to each other: what stands on what, what is near, what is a wall or a room.
+
+Boxes decide all but support, so that this costs milliseconds and needs no renderer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.scene.capture.stage import Actor, Stage
+from scene2hap.scene.snapshot import SceneObject
+
+Floats = NDArray[np.float64]
+
+# How much of the scene a shell spans; how thin a piece of wall is for its height; how near the scene's rim it stands,
+# as a part of the scene (assumed).
+_SHELL_SPAN, _THIN, _RIM = 0.6, 0.15, 0.1
+# What holds this part of an object's box is a container, such as a cabinet around plates (assumed).
+_CONTAINED = 0.9
+# Support is looked for under a grid of this many points a side, kept off the rim of the footprint (assumed).
+_FEET, _INSET = 5, 0.1
+# An object may be sunk into its support by this part of its height (assumed; real scenes overlap as often as they gap).
+_SUNK = 0.2
+
+
+def shells(stage: Stage) -> frozenset[int]:
+    """Walls, floors, ceilings and rooms.
+
+    These span `_SHELL_SPAN` of the scene along two axes; or are pieces of wall: as high, thin, and at the scene's rim.
+    """
+    up = {"y": 1, "z": 2}[stage.up_axis]
+    low, high = stage.box_m
+    extent = np.maximum(high - low, 1e-12)
+    found = set()
+    for number, actor in enumerate(stage.actors):
+        size = np.ptp(actor.box_m, axis=0)
+        is_spanning = size >= _SHELL_SPAN * extent
+        is_thin = size <= _THIN * size[up]
+        is_at_rim = (actor.box_m[1] <= low + _RIM * extent) | (actor.box_m[0] >= high - _RIM * extent)
+        is_at_rim[up] = False
+        if is_spanning.sum() >= 2 or (is_spanning[up] and (is_thin & is_at_rim).any()):
+            found.add(number)
+    return frozenset(found)
+
+
+def near(stage: Stage, target: int, share: float) -> frozenset[int]:
+    """Objects whose box touches the target's or lies within `share` of its diagonal."""
+    low, high = stage.actors[target].box_m
+    reach = share * stage.actors[target].diagonal_m
+    boxes = np.array([actor.box_m for actor in stage.actors])
+    gaps = np.maximum(np.maximum(boxes[:, 0] - high, low - boxes[:, 1]), 0.0)
+    return frozenset(np.flatnonzero(np.linalg.norm(gaps, axis=1) <= reach).tolist()) - {target}
+
+
+def containers(stage: Stage, target: int) -> frozenset[int]:
+    """Objects whose box holds nearly all of the target's."""
+    low, high = stage.actors[target].box_m
+    boxes = np.array([actor.box_m for actor in stage.actors])
+    common = np.minimum(boxes[:, 1], high) - np.maximum(boxes[:, 0], low)
+    # Flat targets have an extent of zero, along which being inside is all or nothing.
+    extent = high - low
+    share = np.where(extent > 0, common / np.where(extent > 0, extent, 1.0), common >= 0)
+    return frozenset(np.flatnonzero(np.clip(share, 0.0, 1.0).prod(axis=1) >= _CONTAINED).tolist()) - {target}
+
+
+def supports(stage: Stage) -> tuple[int | None, ...]:
+    """What each object stands on: the object that most of its footprint meets first, looking down; None for nothing."""
+    up = {"y": 1, "z": 2}[stage.up_axis]
+    level = [axis for axis in range(3) if axis != up]
+    return tuple(_support(stage, number, up, level) for number in range(len(stage.actors)))
+
+
+def _support(stage: Stage, number: int, up: int, level: list[int]) -> int | None:
+    low, high = stage.actors[number].box_m
+    part = np.linspace(_INSET, 1 - _INSET, _FEET)
+    size = high - low
+    # One side is a little shorter, so that points do not stand on the diagonals of authored quads.
+    u, v = np.meshgrid(low[level[0]] + 0.993 * part * size[level[0]], low[level[1]] + part * size[level[1]])
+    feet = np.stack((u.ravel(), v.ravel()), axis=1)
+    below = low[up] + _SUNK * size[up]
+    best, met = np.full(len(feet), -np.inf), np.full(len(feet), -1)
+    for other, actor in enumerate(stage.actors):
+        box = actor.box_m
+        is_aside = (box[1, level] < low[level]).any() or (box[0, level] > high[level]).any()
+        if other == number or is_aside or box[0, up] > below:
+            continue
+        heights = _heights_under(actor, feet, below, up, level)
+        met = np.where(heights > best, other, met)
+        best = np.maximum(heights, best)
+    found = met[met >= 0]
+    return int(np.bincount(found).argmax()) if len(found) else None
+
+
+def _heights_under(actor: Actor, feet: Floats, below: float, up: int, level: list[int]) -> Floats:
+    """The highest point of the actor at or under `below` at each foot (n,), -inf where there is none."""
+    triangles = actor.triangles_m
+    flat = triangles[:, :, level]
+    reaches = (flat.max(axis=1) >= feet.min(axis=0)).all(axis=1) & (flat.min(axis=1) <= feet.max(axis=0)).all(axis=1)
+    triangles = triangles[reaches & (triangles[:, :, up].min(axis=1) <= below)].astype(np.float64)
+    a, b, c = np.moveaxis(triangles[:, :, level], 1, 0)
+    height = triangles[:, :, up]
+    area = _cross(b - a, c - a)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        foot = feet[:, None]
+        of_b = _cross(foot - a, c - a) / area
+        of_c = _cross(b - a, foot - a) / area
+        at = height[:, 0] + of_b * (height[:, 1] - height[:, 0]) + of_c * (height[:, 2] - height[:, 0])
+        is_met = (of_b >= 0) & (of_c >= 0) & (of_b + of_c <= 1) & (at <= below)
+    heights: Floats = np.where(is_met, at, -np.inf).max(axis=1, initial=-np.inf)
+    return heights
+
+
+def _cross(a: Floats, b: Floats) -> Floats:
+    product: Floats = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+    return product
+
+
+class Copies:
+    """Who stands for whom in pictures.
+
+    Objects of one `instance_key` share isolated images: those of the first of them in scene order, as it is turned.
+    Objects of one *context class*, which is the `instance_key` and that of the object below (`supports`), share context
+    images: those of the first of the class, among its own surroundings. An object without a key stands for itself.
+    """
+
+    def __init__(self, objects: Sequence[SceneObject], below: Sequence[int | None], share: bool) -> None:
+        keys = [item.instance_key if share and item.instance_key else f"id {item.id}" for item in objects]
+        classes = [(key, None if under is None else keys[under]) for key, under in zip(keys, below, strict=True)]
+        first_of_key: dict[object, str] = {}
+        first_of_class: dict[object, str] = {}
+        for item, key, kind in zip(objects, keys, classes, strict=True):
+            first_of_key.setdefault(key, item.id)
+            first_of_class.setdefault(kind, item.id)
+        self.isolated = {item.id: first_of_key[key] for item, key in zip(objects, keys, strict=True)}
+        self.context = {item.id: first_of_class[kind] for item, kind in zip(objects, classes, strict=True)}
