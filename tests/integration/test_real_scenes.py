@@ -18,7 +18,7 @@ import pytest
 from numpy.typing import NDArray
 
 from scene2hap.errors import Scene2HapError
-from scene2hap.scene.load import UnitWarning, load_scene
+from scene2hap.scene.load import TextureWarning, UnitWarning, load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
 
 SCENES = Path(__file__).parents[3] / "shared" / "scenes"
@@ -93,21 +93,26 @@ def header_and_buffer(path: Path) -> tuple[dict[str, Any], bytes]:
     return header, (path.parent / uri).read_bytes()
 
 
-def drawn_triangles(path: Path) -> Iterator[NDArray[np.float64]]:
-    """World corners (m, 3, 3) of each mesh node, walked from each node up to its root."""
+def values(header: dict[str, Any], buffer: bytes, number: int) -> NDArray[np.float64]:
+    """The rows of an accessor."""
+    row = header["accessors"][number]
+    view = header["bufferViews"][row["bufferView"]]
+    width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}[row["type"]]
+    dtype = np.dtype({5121: "<u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}[row["componentType"]])
+    start = view.get("byteOffset", 0) + row.get("byteOffset", 0)
+    stride = view.get("byteStride", width * dtype.itemsize)
+    rows = [np.frombuffer(buffer, dtype, width, start + i * stride) for i in range(row["count"])]
+    return np.array(rows, dtype=np.float64)
+
+
+def drawn_triangles(path: Path, textured: bool = False) -> Iterator[NDArray[np.float64]]:
+    """World corners (m, 3, 3) of each mesh node, walked from each node up to its root.
+
+    `textured`: only those with a texture, and with its coordinates behind each corner: (m, 3, 5).
+    """
     header, buffer = header_and_buffer(path)
     nodes = header["nodes"]
     parent = {child: i for i, node in enumerate(nodes) for child in node.get("children", [])}
-
-    def values(number: int) -> NDArray[np.float64]:
-        row = header["accessors"][number]
-        view = header["bufferViews"][row["bufferView"]]
-        width = {"SCALAR": 1, "VEC3": 3}[row["type"]]
-        dtype = np.dtype({5121: "<u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}[row["componentType"]])
-        start = view.get("byteOffset", 0) + row.get("byteOffset", 0)
-        stride = view.get("byteStride", width * dtype.itemsize)
-        rows = [np.frombuffer(buffer, dtype, width, start + i * stride) for i in range(row["count"])]
-        return np.array(rows, dtype=np.float64)
 
     def local(node: dict[str, Any]) -> NDArray[np.float64]:
         if "matrix" in node:
@@ -128,10 +133,16 @@ def drawn_triangles(path: Path) -> Iterator[NDArray[np.float64]]:
             at = parent[at]
             matrix = local(nodes[at]) @ matrix
         for primitive in header["meshes"][node["mesh"]]["primitives"]:
-            points = values(primitive["attributes"]["POSITION"])
-            order = values(primitive["indices"])[:, 0].astype(int) if "indices" in primitive else np.arange(len(points))
-            moved = np.c_[points, np.ones(len(points))] @ matrix.T
-            yield moved[order, :3].reshape(-1, 3, 3)
+            points = values(header, buffer, primitive["attributes"]["POSITION"])
+            order = np.arange(len(points))
+            if "indices" in primitive:
+                order = values(header, buffer, primitive["indices"])[:, 0].astype(int)
+            corners = (np.c_[points, np.ones(len(points))] @ matrix.T)[:, :3]
+            if textured:
+                if "baseColorTexture" not in header["materials"][primitive["material"]]["pbrMetallicRoughness"]:
+                    continue
+                corners = np.c_[corners, values(header, buffer, primitive["attributes"]["TEXCOORD_0"])]
+            yield corners[order].reshape(-1, 3, corners.shape[1])
 
 
 def world_triangles(snapshot: SceneSnapshot) -> NDArray[np.float64]:
@@ -151,6 +162,72 @@ def test_every_triangle_is_where_the_file_puts_it(name: str) -> None:
     # Summing with fixed weights orders both sets alike whatever order the corners were read in.
     marks = [np.sort(rows.reshape(-1, 3) @ [1.0, np.pi, np.e]) for rows in (ours, theirs)]
     np.testing.assert_allclose(marks[0], marks[1], atol=1e-5 * size)
+
+
+@pytest.mark.parametrize("name", [KITCHEN, COMPOSED, BATHROOM])
+def test_every_corner_has_the_coordinates_that_the_file_gives_it(name: str) -> None:
+    theirs = np.concatenate(list(drawn_triangles(SCENES / name, textured=True))).reshape(-1, 5)
+    rows = []
+    for item in scene(name).objects:
+        looks, mesh = item.appearance, item.geometry.mesh
+        assert looks is not None
+        if looks.uv is not None:
+            is_textured = np.array([material.has_texture for material in looks.materials])[looks.face_material]
+            corners = item.pose.to_world(mesh.vertices_m)[mesh.faces]
+            rows.append(np.concatenate((corners, looks.uv), axis=2)[is_textured])
+    ours = np.concatenate(rows).reshape(-1, 5)
+    assert len(ours) == len(theirs)
+    size = np.array([float(np.ptp(theirs[:, :3]))] * 3 + [1.0, 1.0])
+    # Distinct weights, so that coordinates that went to another corner change the sums.
+    marks = [np.sort(table / size @ [1.0, np.pi, np.e, 10.1, 31.7]) for table in (ours, theirs)]
+    np.testing.assert_allclose(marks[0], marks[1], atol=1e-4)
+
+
+# Materials that primitives use, and different images that these show, counted in the files.
+LOOKS = {
+    KITCHEN: (16, 16),
+    LIVING: (35, 22),
+    BEDROOM: (27, 22),
+    COMPOSED: (28, 1),
+    BATHROOM: (48, 2),
+    DRACO: (16, 15),
+    MERGED: (6, 0),
+}
+
+
+def images_of(header: dict[str, Any], buffer: bytes, material: dict[str, Any], folder: Path) -> set[bytes]:
+    info = material["pbrMetallicRoughness"].get("baseColorTexture")
+    if info is None:
+        return set()
+    texture = header["textures"][info["index"]]
+    source = texture if "source" in texture else texture["extensions"]["EXT_texture_webp"]
+    image = header["images"][source["source"]]
+    if "uri" in image:
+        return {(folder / image["uri"]).read_bytes()}
+    view = header["bufferViews"][image["bufferView"]]
+    start = view.get("byteOffset", 0)
+    return {buffer[start : start + view["byteLength"]]}
+
+
+@pytest.mark.parametrize("name", COUNTS)
+def test_every_material_and_texture_is_there_once(name: str) -> None:
+    header, buffer = header_and_buffer(SCENES / name)
+    used = {primitive["material"] for mesh in header["meshes"] for primitive in mesh["primitives"]}
+    images = {
+        image for i in used for image in images_of(header, buffer, header["materials"][i], (SCENES / name).parent)
+    }
+    materials = {
+        id(material): material
+        for item in scene(name).objects
+        if item.appearance is not None
+        for material in item.appearance.materials
+    }
+    textures = {id(material.texture): material.texture for material in materials.values() if material.has_texture}
+    assert (len(materials), len(textures)) == LOOKS[name] == (len(used), len(images))
+    for texture in textures.values():
+        assert texture is not None
+        assert max(texture.shape) <= 1024
+        assert np.ptp(texture) > 0
 
 
 @pytest.mark.parametrize("name", [LIVING, BEDROOM])
@@ -256,10 +333,13 @@ def test_sizes_are_those_read_by_hand(place: tuple[str, str], expected: tuple[fl
 
 
 def outcome(path: Path) -> str:
-    try:
-        load_scene(path, unit_m=1.0)
-    except Scene2HapError as error:
-        return type(error).__name__
+    with warnings.catch_warnings():
+        # A byte of an image may be hit as well.
+        warnings.simplefilter("ignore", TextureWarning)
+        try:
+            load_scene(path, unit_m=1.0)
+        except Scene2HapError as error:
+            return type(error).__name__
     return "ok"
 
 

@@ -7,6 +7,7 @@ scene with names. This needs the extra `pictures`.
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from scene2hap.cli.bake import add_scene_arguments, read_scene
 from scene2hap.cli.console import Console
 from scene2hap.cli.tables import bundle_outcome, scene_outcome, show_bundle, show_scene
 from scene2hap.errors import SceneError
-from scene2hap.scene.capture import capture_images, contact_sheet, plan_view
+from scene2hap.scene.capture import capture_images, contact_sheet, plan_view, render_all
 from scene2hap.scene.snapshot import SceneSnapshot
 
 HELP = "tables of a scene or a bundle"
@@ -61,10 +62,10 @@ def write_pictures(scene: SceneSnapshot, folder: Path, console: Console) -> list
             raise SceneError(f"{folder / name} cannot be written: {cause.strerror}. Choose another folder.") from cause
         written.append(str(folder / name))
 
-    put("plan.png", plan_view(pictured))
     with console.progress() as tell:
-        for done, item in enumerate(pictured.objects, start=1):
-            put(f"{file_stem(item.id)}.png", contact_sheet(item))
-            tell("pictures", item.id, done, len(pictured.objects))
+        render_all(pictured, workers=os.cpu_count(), progress=lambda done, total: tell("pictures", "", done, total))
+    put("plan.png", plan_view(pictured))
+    for item in pictured.objects:
+        put(f"{file_stem(item.id)}.png", contact_sheet(item))
     console.say(f"wrote {len(written)} pictures to {folder}")
     return written

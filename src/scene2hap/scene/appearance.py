@@ -5,23 +5,58 @@ Nothing here is part of a scene's JSON or of its equality: a snapshot that lost 
 
 from __future__ import annotations
 
+import hashlib
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import SceneError
+from scene2hap.scene.textures import EncodedTexture
+
+Rgba = tuple[float, float, float, float]
 
 
-@dataclass(frozen=True, eq=False)
 class FaceMaterial:
     """What some faces are painted with.
 
     `color_rgba` : sRGB and opacity, 0..1 [-]; `texture` : (height, width, 3 or 4) uint8 sRGB, or None; both multiply.
+    A texture may be given as its file's content, and is then decoded when it is first read.
     """
 
-    color_rgba: tuple[float, float, float, float] = (0.8, 0.8, 0.8, 1.0)
-    texture: NDArray[np.uint8] | None = None
+    def __init__(
+        self, color_rgba: Rgba = (0.8, 0.8, 0.8, 1.0), texture: NDArray[np.uint8] | EncodedTexture | None = None
+    ) -> None:
+        self.color_rgba = color_rgba
+        self._texture = texture
+
+    @property
+    def texture(self) -> NDArray[np.uint8] | None:
+        """The pixels; None without a texture, or if its file turns out to be broken."""
+        return self._texture.texels if isinstance(self._texture, EncodedTexture) else self._texture
+
+    @property
+    def has_texture(self) -> bool:
+        """Whether a texture was given; nothing is decoded to tell."""
+        return self._texture is not None
+
+    def tinted(self, color_rgba: Rgba) -> FaceMaterial:
+        """The same texture, if any, in the product of both colours."""
+        r, g, b, a = (own * tint for own, tint in zip(self.color_rgba, color_rgba, strict=True))
+        return FaceMaterial((r, g, b, a), self._texture)
+
+    @cached_property
+    def digest(self) -> str:
+        """A name for the content: equal for equal colours and textures."""
+        texture = self._texture
+        if isinstance(texture, np.ndarray):
+            named = hashlib.sha256(repr(texture.shape).encode() + texture.tobytes()).hexdigest()
+        else:
+            named = "" if texture is None else texture.digest
+        color = ", ".join(f"{channel:.4f}" for channel in self.color_rgba)
+        return hashlib.sha256(f"{color} {named}".encode()).hexdigest()[:16]
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,3 +78,43 @@ class Appearance:
             raise SceneError(f"face_material names a material beyond the {len(self.materials)} there are.")
         if self.uv is not None and self.uv.shape != (m, 3, 2):
             raise SceneError(f"uv has shape {self.uv.shape}; it must be ({m}, 3, 2), one pair per corner.")
+
+    @classmethod
+    def plain(cls, material: FaceMaterial, n_faces: int, uv: NDArray[np.float32] | None = None) -> Appearance:
+        """One material on all faces."""
+        return cls((material,), np.zeros(n_faces, np.int32), uv)
+
+    @cached_property
+    def digest(self) -> str:
+        """A name for the content: equal for meshes that are painted alike."""
+        content = hashlib.sha256(" ".join(material.digest for material in self.materials).encode())
+        content.update(self.face_material.tobytes())
+        content.update(b"" if self.uv is None else self.uv.tobytes())
+        return content.hexdigest()[:16]
+
+    @property
+    def turned(self) -> Appearance:
+        """The looks of the same faces with their corners in the opposite order."""
+        return self if self.uv is None else Appearance(self.materials, self.face_material, self.uv[:, ::-1])
+
+
+def joined(looks: Sequence[Appearance | None], n_faces: Sequence[int]) -> Appearance | None:
+    """The looks of meshes that become one, in their order; what has none is grey. None if nothing has any."""
+    if all(look is None for look in looks):
+        return None
+    unknown = FaceMaterial()
+    parts = [look or Appearance.plain(unknown, n) for look, n in zip(looks, n_faces, strict=True)]
+    numbers: dict[FaceMaterial, int] = {}
+    face_material = []
+    for part in parts:
+        own = [numbers.setdefault(material, len(numbers)) for material in part.materials]
+        face_material.append(np.array(own, np.int32)[part.face_material])
+    uv = None
+    if any(part.uv is not None for part in parts):
+        uv = np.concatenate(
+            [
+                np.zeros((n, 3, 2), np.float32) if part.uv is None else part.uv
+                for part, n in zip(parts, n_faces, strict=True)
+            ]
+        )
+    return Appearance(tuple(numbers), np.concatenate(face_material), uv)

@@ -1,6 +1,6 @@
 """COLLADA files as authored trees, through pycollada.
 
-pycollada is asked directly, not through trimesh (5.2), whose reader drops the names of nodes. Images are never opened;
+pycollada is asked directly, not through trimesh (5.2), whose reader drops the names of nodes. It opens no image;
 skinned and animated geometry is left out.
 
 Source: COLLADA 1.4.1 specification (Khronos, 2008), chapter 5: <asset>, <node>, <instance_geometry>.
@@ -11,6 +11,7 @@ from __future__ import annotations
 import io
 import re
 import warnings
+from dataclasses import replace
 from importlib import import_module
 from typing import Any
 
@@ -18,11 +19,13 @@ import numpy as np
 
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.scene import limits
+from scene2hap.scene.dae_materials import DaeMaterials
+from scene2hap.scene.texture_files import TextureFiles
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Piece
 
 
-def read_dae(data: bytes, name: str) -> AuthoredScene:
-    """The file's scene; `up_axis` and `unit_m` are those of its <asset>.
+def read_dae(data: bytes, name: str, textures: TextureFiles) -> AuthoredScene:
+    """The file's scene with its looks; `up_axis` and `unit_m` are those of its <asset>.
 
     Raises: MissingExtra: pycollada is not installed. SceneFormatError: the file is not COLLADA, or broken. SceneError:
     its up axis is X.
@@ -41,7 +44,7 @@ def read_dae(data: bytes, name: str) -> AuthoredScene:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
             document = collada.Collada(io.BytesIO(data), ignore=tolerated)
-            reader = _Reader(collada)
+            reader = _Reader(collada, DaeMaterials(collada, textures))
             roots = [] if document.scene is None else document.scene.nodes
             nodes = tuple(node for root in roots for node in reader.nodes(root, 1))
             up_axis, unit = document.assetInfo.upaxis, document.assetInfo.unitmeter
@@ -53,14 +56,15 @@ def read_dae(data: bytes, name: str) -> AuthoredScene:
     if up_axis == collada.asset.UP_AXIS.X_UP:
         raise SceneError(f"{name!r} has X up; scene2hap knows Y and Z. Export it with Y or Z up.")
     is_z_up = up_axis == collada.asset.UP_AXIS.Z_UP
-    return AuthoredScene(nodes, "z" if is_z_up else "y", None if unit is None else float(unit))
+    unit_m = None if unit is None else float(unit)
+    return AuthoredScene(nodes, "z" if is_z_up else "y", unit_m, textures.left_out)
 
 
 class _Reader:
     """Turns pycollada's nodes into authored ones."""
 
-    def __init__(self, collada: Any) -> None:
-        self._scene, self._collada = collada.scene, collada
+    def __init__(self, collada: Any, materials: DaeMaterials) -> None:
+        self._scene, self._collada, self._materials = collada.scene, collada, materials
         self._n_nodes = 0
         self._n_triangles = 0
 
@@ -84,7 +88,7 @@ class _Reader:
         return (AuthoredNode(name, np.array(actual.matrix, dtype=np.float64), pieces, children),)
 
     def _pieces(self, drawn: Any, place: str) -> list[Piece]:
-        targets = {link.symbol: link.target.id for link in drawn.materials}
+        links = {link.symbol: link for link in drawn.materials}
         pieces = []
         for i, primitive in enumerate(drawn.geometry.primitives):
             if isinstance(primitive, self._collada.polylist.Polylist | self._collada.polygons.Polygons):
@@ -93,7 +97,11 @@ class _Reader:
                 continue  # lines
             self._n_triangles += len(primitive.vertex_index)
             limits.at_most("the number of triangles", self._n_triangles, "MAX_TRIANGLES")
-            material = str(targets.get(primitive.material, primitive.material or ""))
+            link = links.get(primitive.material)
+            material = str((primitive.material or "") if link is None else link.target.id)
             key = (drawn.geometry.id, i)
-            pieces.append(Piece.checked(key, primitive.vertex, primitive.vertex_index, material, place))
+            piece = Piece.checked(key, primitive.vertex, primitive.vertex_index, material, place)
+            if link is not None:
+                piece = replace(piece, appearance=self._materials.appearance(primitive, link))
+            pieces.append(piece)
         return [piece for piece in pieces if len(piece.faces)]

@@ -21,13 +21,20 @@ def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
             raise SceneError(f"{refusal} Addresses are never fetched: store the file beside the scene.")
         path = (folder / unquote(uri)).resolve()
         if not path.is_relative_to(assets_root.resolve()):
-            raise SceneError(f"{refusal} Copy it there, or give assets_root=<a folder that holds both>.")
+            raise SceneError(f"{refusal} Copy it there, or give assets_root={_holding_both(path, assets_root)}.")
     except SceneError:
         raise
     # What a broken address, a zero byte and a ring of links raise.
     except (ValueError, OSError, RuntimeError) as cause:
         raise SceneError(f"{place} wants {uri!r}, which is no usable file name: {cause}.") from cause
     return path
+
+
+def _holding_both(path: Path, assets_root: Path) -> str:
+    """The nearest folder that holds both; a whole disk is never proposed."""
+    roots = set(assets_root.resolve().parents)
+    nearest = next((folder for folder in path.parents if folder in roots and folder != Path(folder.anchor)), None)
+    return "<a folder that holds both>" if nearest is None else repr(str(nearest))
 
 
 def read_bytes(path: Path) -> bytes:

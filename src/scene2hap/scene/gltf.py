@@ -8,7 +8,8 @@ Source: glTF 2.0 specification, sections 3.5 (scenes and nodes) and 3.7 (meshes)
 
 from __future__ import annotations
 
-import json
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,29 +18,41 @@ from numpy.typing import NDArray
 from scene2hap import checks
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.gltf_accessors import DRACO, draco, indices, positions
+from scene2hap.scene.appearance import Appearance, FaceMaterial
+from scene2hap.scene.colors import painted, srgb
+from scene2hap.scene.gltf_accessors import indices, positions, vectors
 from scene2hap.scene.gltf_container import GltfFile, Json, natural
+from scene2hap.scene.gltf_draco import DRACO, draco
+from scene2hap.scene.gltf_materials import GltfMaterials, Paint
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece, digest
+from scene2hap.scene.texture_files import TextureFiles
+from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
+# Vertex colours above this leave a material as it is.
+_NEARLY_WHITE = 0.999
+
+_Attribute = Callable[[str, tuple[str, ...]], NDArray[np.float64]]
+"""Values (n, columns) of an attribute of a primitive, by its name and the types that it may have."""
 
 
 def read_gltf(path: Path, assets_root: Path) -> AuthoredScene:
-    """The file's default scene.
+    """The file's default scene with its looks.
 
     Raises: SceneFormatError, SceneError: the file is broken, refers to what is not there or needs what nobody can read.
     """
     file = GltfFile(path, assets_root)
-    reader = _Reader(file)
-    return AuthoredScene(tuple(reader.node(number, 1) for number in _roots(file)))
+    textures = TextureFiles(path.parent, assets_root)
+    reader = _Reader(file, GltfMaterials(file, textures))
+    roots = tuple(reader.node(number, 1) for number in _roots(file))
+    return AuthoredScene(roots, left_out=textures.left_out)
 
 
 class _Reader:
     """Turns nodes into authored nodes and reads each mesh once."""
 
-    def __init__(self, file: GltfFile) -> None:
-        self._file = file
+    def __init__(self, file: GltfFile, materials: GltfMaterials) -> None:
+        self._file, self._materials = file, materials
         self._seen: set[int] = set()
         self._pieces: dict[int, tuple[Piece, ...]] = {}
         self._n_triangles = 0
@@ -86,17 +99,56 @@ class _Reader:
         extensions = row.get("extensions")
         compressed = extensions.get(DRACO) if isinstance(extensions, dict) else None
         if isinstance(compressed, dict):
-            points, faces = draco(self._file, compressed, place)
+            mesh, numbers = draco(self._file, compressed, place), compressed.get("attributes")
+            points, faces = mesh.points, mesh.faces
+
+            def attribute(name: str, types: tuple[str, ...]) -> NDArray[np.float64]:
+                number = numbers.get(name) if isinstance(numbers, dict) else None
+                return mesh.vectors(number, f"{place}: its {name}")
+
         else:
             points = positions(self._file, attributes["POSITION"], place)
             order = indices(self._file, row["indices"], place) if "indices" in row else np.arange(len(points))
             faces = _triangles(order, mode)
-        return Piece.checked(key, points, faces, self._material(row.get("material"), place), place)
 
-    def _material(self, number: object, place: str) -> str:
-        if number is None:
-            return ""
-        return digest(json.dumps(self._file.row("materials", number, place), sort_keys=True))
+            def attribute(name: str, types: tuple[str, ...]) -> NDArray[np.float64]:
+                return vectors(self._file, attributes.get(name), types, f"{place}: its {name}")
+
+        material = None if row.get("material") is None else self._file.row("materials", row["material"], place)
+        piece = Piece.checked(key, points, faces, "" if material is None else _name(material), place)
+        paint = None if material is None else self._materials.paint(row["material"], material)
+        looks = self._looks(paint, faces, len(points), attribute, "COLOR_0" in attributes)
+        return replace(piece, appearance=looks)
+
+    def _looks(
+        self, paint: Paint | None, faces: NDArray[np.int64], n_points: int, attribute: _Attribute, is_colored: bool
+    ) -> Appearance | None:
+        """The looks of a primitive; None if the file tells nothing of them."""
+
+        def corners(name: str, types: tuple[str, ...], columns: slice) -> NDArray[np.float64] | None:
+            """Values of an attribute at each corner (m, 3, columns); None, and a word about it, if they are broken."""
+            try:
+                values = attribute(name, types)[:, columns]
+                if len(values) != n_points:
+                    raise SceneFormatError(f"{name} has {len(values)} values for {n_points} vertices.")
+            except SceneError as error:
+                self._materials.textures.refuse(str(error), str(error))
+                return None
+            return values[faces]
+
+        material, uv = FaceMaterial((1.0, 1.0, 1.0, 1.0)) if paint is None else paint.material, None
+        if paint is not None and material.has_texture:
+            stored = corners(f"TEXCOORD_{paint.uv_set}", ("VEC2",), slice(2))
+            if stored is None:
+                material = FaceMaterial(material.color_rgba)
+            else:
+                uv = (stored @ paint.transform[:, :2].T + paint.transform[:, 2]).astype(np.float32)
+        colors = corners("COLOR_0", ("VEC3", "VEC4"), slice(4)) if is_colored else None
+        if colors is not None and len(faces) and not colors.min() > _NEARLY_WHITE:
+            means = colors.mean(axis=1)
+            means[:, :3] = srgb(means[:, :3])
+            return painted(means, material, uv)
+        return None if paint is None else Appearance.plain(material, len(faces), uv)
 
 
 def _roots(file: GltfFile) -> list[int]:

@@ -1,9 +1,9 @@
-"""The arrays of a glTF file: accessors, sparse and quantised ones included, and Draco-compressed meshes.
+"""The arrays of a glTF file: accessors, sparse and quantised ones included.
 
-Read here rather than by trimesh (5.2), which ignores sparse values, leaves quantised positions 32767 times too large
-and turns Draco data that it cannot decode into zeros, each without an error.
+Read here rather than by trimesh (5.2), which ignores sparse values and leaves quantised positions 32767 times too
+large, each without an error.
 
-Source: glTF 2.0 specification, section 3.6.2; extensions KHR_mesh_quantization and KHR_draco_mesh_compression.
+Source: glTF 2.0 specification, section 3.6.2; extension KHR_mesh_quantization.
 """
 
 from __future__ import annotations
@@ -11,26 +11,34 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.errors import MissingExtra, SceneFormatError
+from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.gltf_container import GltfFile, Json, natural
 
 _DTYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
-DRACO = "KHR_draco_mesh_compression"
 
 
 def positions(file: GltfFile, number: object, place: str) -> NDArray[np.float64]:
     """Vertex positions (n, 3) float64 of an accessor, in the mesh's own unit."""
-    values, row = _values(file, number, place)
-    if row.get("type") != "VEC3":
-        raise SceneFormatError(f"{place}: positions are {row.get('type')!r}; they must be 'VEC3'.")
+    return vectors(file, number, ("VEC3",), f"{place}: positions")
+
+
+def vectors(file: GltfFile, number: object, types: tuple[str, ...], what: str) -> NDArray[np.float64]:
+    """Values (n, columns) float64 of an accessor of one of these types; `what` is their name in messages."""
+    values, row = _values(file, number, what)
+    if row.get("type") not in types:
+        raise SceneFormatError(f"{what} are {row.get('type')!r}; they must be {' or '.join(map(repr, types))}.")
+    return unpacked(values) if row.get("normalized") is True else values.astype(np.float64)
+
+
+def unpacked(values: NDArray[np.generic]) -> NDArray[np.float64]:
+    """Whole numbers as parts of the largest one of their type; other numbers as they are."""
     result = values.astype(np.float64)
-    if row.get("normalized") is True and values.dtype.kind in "iu":
-        largest = np.iinfo(np.dtype(values.dtype.str)).max
-        # A signed type has one value below -1, which counts as -1.
-        result = np.maximum(result / largest, -1.0)
-    return result
+    if values.dtype.kind not in "iu":
+        return result
+    # A signed type has one value below -1, which counts as -1.
+    return np.maximum(result / np.iinfo(np.dtype(values.dtype.str)).max, -1.0)
 
 
 def indices(file: GltfFile, number: object, place: str) -> NDArray[np.int64]:
@@ -39,29 +47,6 @@ def indices(file: GltfFile, number: object, place: str) -> NDArray[np.int64]:
     if row.get("type") != "SCALAR" or values.dtype.kind != "u":
         raise SceneFormatError(f"{place}: indices must be unsigned scalars.")
     return values[:, 0].astype(np.int64)
-
-
-def draco(file: GltfFile, extension: Json, place: str) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Positions (n, 3) and triangles (m, 3) of a Draco-compressed primitive.
-
-    Raises: MissingExtra: DracoPy is not installed. SceneFormatError: the data is broken.
-    """
-    try:
-        import DracoPy
-    except ImportError as cause:
-        raise MissingExtra(
-            f"{place} is compressed with {DRACO}, and the decoder is not installed. Run: pip install DracoPy"
-        ) from cause
-    data = _view(file, extension.get("bufferView"), place)[0]
-    try:
-        decoded = DracoPy.decode(bytes(data))
-        points = np.asarray(decoded.points, dtype=np.float64).reshape(-1, 3)
-        faces = np.asarray(decoded.faces, dtype=np.int64).reshape(-1, 3)
-    # DracoPy raises its own classes, ValueError and plain Exception for broken data.
-    except Exception as cause:
-        raise SceneFormatError(f"{place}: its Draco data cannot be decoded: {cause}.") from cause
-    limits.at_most(f"the triangles of {place}", len(faces), "MAX_TRIANGLES")
-    return points, faces
 
 
 def _values(file: GltfFile, number: object, place: str) -> tuple[NDArray[np.generic], Json]:
@@ -110,7 +95,7 @@ def _strided(
     file: GltfFile, row: Json, count: int, columns: int, dtype: np.dtype[np.generic], place: str
 ) -> NDArray[np.generic]:
     """Values (count, columns) that `row` (an accessor, or half of a sparse one) places in a buffer view."""
-    data, stride = _view(file, row.get("bufferView"), place)
+    data, stride = view(file, row.get("bufferView"), place)
     item = columns * dtype.itemsize
     stride = stride or item
     offset = natural(row.get("byteOffset", 0), f"{place}.byteOffset")
@@ -120,7 +105,7 @@ def _strided(
     return np.ndarray((count, columns), dtype, data, offset, (stride, dtype.itemsize))
 
 
-def _view(file: GltfFile, number: object, place: str) -> tuple[memoryview, int]:
+def view(file: GltfFile, number: object, place: str) -> tuple[memoryview, int]:
     """The bytes of a buffer view, and its stride (0 for tightly packed)."""
     row = file.row("bufferViews", number, place)
     place = f"bufferViews[{number}]"

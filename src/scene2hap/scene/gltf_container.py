@@ -79,14 +79,22 @@ class GltfFile:
         if not isinstance(uri, str):
             raise SceneFormatError(f"{place}.uri is {uri!r}; it must be a file name or a data: URI.")
         if uri.startswith("data:"):
-            _, is_base64, payload = uri.partition(";base64,")
-            try:
-                if not is_base64:
-                    raise ValueError("only base64 data is understood")
-                return base64.b64decode(unquote(payload), validate=True)
-            except (ValueError, binascii.Error) as cause:
-                raise SceneFormatError(f"{place}: its data: URI cannot be decoded: {cause}.") from cause
+            return data_uri(uri, place)
         return read_bytes(inside(self._assets_root, self._path.parent, uri, place))
+
+
+def data_uri(uri: str, place: str) -> bytes:
+    """The bytes in a data: URI.
+
+    Raises: SceneFormatError: it is not base64.
+    """
+    _, is_base64, payload = uri.partition(";base64,")
+    try:
+        if not is_base64:
+            raise ValueError("only base64 data is understood")
+        return base64.b64decode(unquote(payload), validate=True)
+    except (ValueError, binascii.Error) as cause:
+        raise SceneFormatError(f"{place}: its data: URI cannot be decoded: {cause}.") from cause
 
 
 def natural(value: object, place: str, *, at_least: int = 0) -> int:

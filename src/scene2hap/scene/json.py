@@ -1,24 +1,31 @@
 """SceneSnapshot as JSON, for engines that are not written in Python and for bundles.
 
-Geometry stands once in a table, since instances share it; an object names its row, or brings its geometry along.
+Geometry stands once in a table, since instances share it; an object names its row, or brings its geometry along. What
+an engine cannot tell of an object, its dominant surface and its height, is measured. docs/scene-json.md is for those
+who write such files.
 """
 
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
 from scene2hap import checks
 from scene2hap.errors import SceneError
-from scene2hap.scene.snapshot import Geometry, SceneSnapshot
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import DominantSurface, Geometry, SceneObject, SceneSnapshot, with_relative_heights
 
 FORMAT = "scene2hap/scene"
 VERSION = 1
 
 _scene: TypeAdapter[SceneSnapshot] = TypeAdapter(SceneSnapshot)
 _geometry: TypeAdapter[Geometry] = TypeAdapter(Geometry)
+# Stands in for a surface until it is measured.
+_UNMEASURED = DominantSurface(Pose(), 0.0, 0.0, 0.0)
 
 
 def dump(snapshot: SceneSnapshot) -> str:
@@ -54,7 +61,10 @@ def to_document(snapshot: SceneSnapshot) -> dict[str, Any]:
 
 
 def from_document(document: dict[str, Any]) -> SceneSnapshot:
-    """The snapshot in plain JSON values; objects may name a row of the table `geometries`."""
+    """The snapshot in plain JSON values; objects may name a row of the table `geometries`.
+
+    An object's `surface` and `relative_height_m` are measured where they are absent or null.
+    """
     table = document.get("geometries", {})
     shared: dict[str, Geometry] = {}
     try:
@@ -63,12 +73,15 @@ def from_document(document: dict[str, Any]) -> SceneSnapshot:
         shared = {key: _geometry.validate_python(row) for key, row in table.items()}
         objects = document.get("objects")
         if isinstance(objects, list):
-            objects = [_with_geometry(row, shared) for row in objects]
+            objects = [_with_geometry(_told(row), shared) for row in objects]
         fields = {key: document[key] for key in ("name", "up_axis", "contacts") if key in document}
-        return _scene.validate_python({**fields, "objects": objects})
+        scene = _scene.validate_python({**fields, "objects": objects})
     except ValidationError as cause:
         problem = checks.first_problem(cause)
         raise SceneError(f"scene field {problem.place or '(top)'}: {problem.reason}.") from cause
+    rows = document["objects"]
+    is_whole = all(row.get(key) is not None for row in rows for key in ("surface", "relative_height_m"))
+    return scene if is_whole else _measured(scene, rows)
 
 
 def geometry_key(geometry: Geometry) -> str:
@@ -85,3 +98,31 @@ def _with_geometry(row: Any, shared: dict[str, Geometry]) -> Any:
     if key not in shared:
         raise SceneError(f"object {row.get('id')!r} names geometry {key!r}, which the table geometries lacks.")
     return {**row, "geometry": shared[key]}
+
+
+def _told(row: Any) -> Any:
+    """An object's row without nulls, and with a surface to be measured if it has none."""
+    if not isinstance(row, dict):
+        return row
+    return {"surface": _UNMEASURED, **{key: value for key, value in row.items() if value is not None}}
+
+
+def _measured(scene: SceneSnapshot, rows: Sequence[dict[str, Any]]) -> SceneSnapshot:
+    """The scene with what its rows leave out."""
+    objects = [replace(item, surface=_surface(item, scene)) for item in scene.objects]
+    above = with_relative_heights(objects, scene.up_axis)
+    objects = [
+        measured if row.get("relative_height_m") is None else item
+        for item, measured, row in zip(objects, above, rows, strict=True)
+    ]
+    return replace(scene, objects=tuple(objects))
+
+
+def _surface(item: SceneObject, scene: SceneSnapshot) -> DominantSurface:
+    if item.surface is not _UNMEASURED:
+        return item.surface
+    # Imported by need: what this library wrote is never measured again.
+    from scene2hap.scene.geometry import dominant_surface
+
+    up = item.pose.rotation.T[:, {"y": 1, "z": 2}[scene.up_axis]]
+    return dominant_surface(item.geometry.mesh, up=up)

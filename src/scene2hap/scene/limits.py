@@ -15,6 +15,8 @@ MAX_DEPTH = 200
 """Nodes on the way from the scene down to a leaf."""
 MAX_TRIANGLES = 10_000_000
 """Triangles that a scene draws; an instance counts as often as it is drawn."""
+MAX_TEXTURE_PX = 8192
+"""Width and height of a texture; a larger one is left out, and the scene is read all the same."""
 MAX_COORDINATE_M = 1e6
 """Distance of any point from the origin [m]; also keeps squares and cubes of it exact enough."""
 

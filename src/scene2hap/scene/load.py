@@ -1,8 +1,9 @@
-"""Scene files as snapshots: glTF, GLB, OBJ, COLLADA, STL, PLY, and scene2hap's own JSON."""
+"""Scene files as snapshots: glTF, GLB, OBJ, COLLADA, STL, PLY, MuJoCo's MJCF, and scene2hap's own JSON."""
 
 from __future__ import annotations
 
 import os
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -15,12 +16,16 @@ from scene2hap.scene.geometry import dominant_surface
 from scene2hap.scene.grouping import Grouping, group_objects, unique_ids
 from scene2hap.scene.meshes import MeshPool
 from scene2hap.scene.snapshot import DominantSurface, SceneObject, SceneSnapshot, UpAxis, with_relative_heights
+from scene2hap.scene.texture_files import TextureFiles
+from scene2hap.scene.textures import TextureWarning
 from scene2hap.scene.tree import AuthoredScene
 from scene2hap.scene.units import UnitWarning, warn_if_implausible
 
-__all__ = ["UnitWarning", "load_scene"]
+__all__ = ["TextureWarning", "UnitWarning", "load_scene"]
 
-SUFFIXES = (".glb", ".gltf", ".obj", ".dae", ".stl", ".ply", ".json")
+SUFFIXES = (".glb", ".gltf", ".obj", ".dae", ".stl", ".ply", ".xml", ".json")
+# Textures that a warning tells of one by one (assumed: who reads five knows what is wrong with all).
+_TOLD = 5
 
 
 def load_scene(
@@ -36,17 +41,19 @@ def load_scene(
     Parameters:
     up_axis : "y" or "z"; None means what the file says, else "y". Nothing is turned; it only tells which way is up.
     unit_m : metres per unit of the file; None means what the file says, else 1.
-    group : which nodes are objects; see `scene2hap.scene.grouping`.
-    assets_root : the folder that buffers beside the scene are read from, with those below it; None means the scene's
-        own folder. Nothing outside it is opened. Materials and textures are not read; geometry is all that counts.
+    group : which nodes are objects; see `scene2hap.scene.grouping`. In a MuJoCo model, bodies are.
+    assets_root : the folder that files beside the scene are read from, with those below it; None means the scene's own
+        folder. Nothing outside it is opened. Where textures lie in a folder beside the scene's own, give the folder
+        that holds both.
 
     Returns: the scene named after the file. Each object stands where the node that names it stands, without scale;
-    copies of one mesh share one TriMesh and one instance_key. Ids are the authored names, with `#2`, `#3`, ... behind
-    the second and third of a name in file order, and the same on every load.
+    copies of one mesh share one TriMesh, and one instance_key if they look alike. Ids are the authored names, with
+    `#2`, `#3`, ... behind the second and third of a name in file order, and the same on every load.
     Raises: SceneFormatError: the file is not what its name says, or broken. SceneError: it is missing, too large
     (`scene2hap.scene.limits`), empty, wants a file outside assets_root, or holds geometry that makes no sense.
-    MissingExtra: a decoder is not installed.
-    Warns: UnitWarning: without unit_m, if sizes are implausible as metres.
+    MissingExtra: a decoder, or MuJoCo, is not installed.
+    Warns: UnitWarning: without unit_m, if sizes are implausible as metres. TextureWarning: textures are missing,
+    broken, too large or outside assets_root; the scene is read without them.
     """
     path = Path(path)
     if up_axis not in ("y", "z", None):
@@ -55,9 +62,19 @@ def load_scene(
         unit_m = checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
     if path.suffix.lower() == ".json":
         return _from_json(path, up_axis, unit_m, group)
-    authored = _read(path, path.parent if assets_root is None else Path(assets_root))
-    unit = unit_m or authored.unit_m or 1.0
-    snapshot = _snapshot(path.stem, authored, up_axis or authored.up_axis, unit, group)
+    root = path.parent if assets_root is None else Path(assets_root)
+    if path.suffix.lower() == ".xml":
+        unit = unit_m or 1.0
+        snapshot = _from_mjcf(path, up_axis, unit, group, root)
+    else:
+        authored = _read(path, root)
+        if authored.left_out:
+            n = len(authored.left_out)
+            first = " ".join(authored.left_out[:_TOLD]) + (f" And {n - _TOLD} more." if n > _TOLD else "")
+            message = f"{path.name!r} is read without {n} of its textures, in their plain colours: {first}"
+            warnings.warn(message, TextureWarning, stacklevel=2)
+        unit = unit_m or authored.unit_m or 1.0
+        snapshot = _snapshot(path.stem, authored, up_axis or authored.up_axis, unit, group)
     if unit_m is None:
         warn_if_implausible(snapshot, unit)
     return snapshot
@@ -76,11 +93,11 @@ def _read(path: Path, assets_root: Path) -> AuthoredScene:
     if suffix == ".obj":
         from scene2hap.scene.obj import read_obj
 
-        return read_obj(data.decode("utf-8", errors="replace"), path.stem)
+        return read_obj(data.decode("utf-8", errors="replace"), path.stem, TextureFiles(path.parent, assets_root))
     if suffix == ".dae":
         from scene2hap.scene.dae import read_dae
 
-        return read_dae(data, path.name)
+        return read_dae(data, path.name, TextureFiles(path.parent, assets_root))
     from scene2hap.scene.stl_ply import read_stl_ply
 
     return read_stl_ply(data, suffix[1:], path.stem)
@@ -94,6 +111,14 @@ def _from_json(path: Path, up_axis: UpAxis | None, unit_m: float | None, group: 
     except UnicodeDecodeError as cause:
         raise SceneFormatError(f"{path.name!r} is not text: {cause}.") from cause
     return SceneSnapshot.from_json(text)
+
+
+def _from_mjcf(path: Path, up_axis: UpAxis | None, unit_m: float, group: Grouping, root: Path) -> SceneSnapshot:
+    if group != "authored" or up_axis == "y":
+        raise SceneError("a MuJoCo model has Z up, and its bodies are its objects; leave up_axis and group out.")
+    from scene2hap.scene.engines.mujoco import load_mjcf
+
+    return load_mjcf(path, assets_root=root, unit_m=unit_m)
 
 
 def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float, group: Grouping) -> SceneSnapshot:
@@ -120,6 +145,7 @@ def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float
                 geometry=placed.mesh,
                 surface=surfaces[key],
                 instance_key=placed.instance_key,
+                appearance=placed.appearance,
             )
         )
     return SceneSnapshot(name, up_axis, with_relative_heights(objects, up_axis))

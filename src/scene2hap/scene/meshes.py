@@ -5,6 +5,7 @@ Scale, shear and mirroring go into the vertices; instances share one mesh.
 
 from __future__ import annotations
 
+import hashlib
 from bisect import bisect_left, bisect_right
 from dataclasses import dataclass, field
 
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
+from scene2hap.scene.appearance import Appearance, joined
 from scene2hap.scene.grouping import Group
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import TriMesh
@@ -22,6 +24,10 @@ from scene2hap.scene.tree import Matrix, Piece, digest
 _SAME_PLACE = 1e-6
 # Smaller than this [m], an object is a point: no surface can be measured on it (assumed; a hair is 5e-5 wide).
 _MIN_EXTENT_M = 1e-9
+# Vertices are rounded to this many decimals of a metre: turning to and fro costs doubles no more in a scene of 1e6 m.
+_DECIMALS = 9
+# Copies that are stored twice may be rounded to neighbouring steps [m].
+_SAME_VERTEX_M = 1.5e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,18 +37,20 @@ class Placed:
     pose: Pose
     mesh: TriMesh
     instance_key: str
+    appearance: Appearance | None = None
 
 
 @dataclass(eq=False)
 class MeshPool:
-    """Bakes groups, and gives groups that bake to the same mesh one and the same TriMesh."""
+    """Bakes groups, and gives groups that bake to the same mesh one and the same TriMesh; copies share their looks."""
 
     unit_m: float
     _copies: dict[tuple[object, ...], _Copies] = field(default_factory=dict)
-    _by_digest: dict[str, TriMesh] = field(default_factory=dict)
+    _by_faces: dict[bytes, _Copies] = field(default_factory=dict)
+    _looks: dict[tuple[object, ...], Appearance | None] = field(default_factory=dict)
 
     def place(self, group: Group) -> Placed:
-        """The group's mesh and pose.
+        """The group's mesh, pose and looks.
 
         Raises: SceneError: a coordinate is too large, or all vertices are in one point; the message names the object.
         """
@@ -62,14 +70,14 @@ class MeshPool:
         with np.errstate(over="ignore"):
             moves = own[:, :3] * np.array([[[piece.reach] * 3 + [1.0]] for piece in pieces])
         _check_reach(group.name, float(np.abs(moves).max()))
-        placed = copies.find(moves)
-        if placed is None:
-            placed = self._bake(group, own)
-            copies.add(moves, placed)
-        mesh, instance_key = placed
-        return Placed(Pose.from_matrix(rigid), mesh, instance_key)
+        mesh = copies.find(moves, _SAME_PLACE * float(np.abs(moves).max()))
+        if mesh is None:
+            mesh = self._bake(group, own)
+            copies.add(moves, mesh)
+        instance_key = f"{mesh.digest}-{digest(*(piece.paint for piece in pieces))}"
+        return Placed(Pose.from_matrix(rigid), mesh, instance_key, self._appearance(pieces, own))
 
-    def _bake(self, group: Group, own: NDArray[np.float64]) -> tuple[TriMesh, str]:
+    def _bake(self, group: Group, own: NDArray[np.float64]) -> TriMesh:
         pieces = [piece for _, piece in group.parts]
         baked = [_baked(piece, matrix) for piece, matrix in zip(pieces, own, strict=True)]
         starts = np.cumsum([0, *(len(vertices) for vertices, _ in baked)])
@@ -79,38 +87,55 @@ class MeshPool:
             raise SceneError(
                 f"object {group.name!r} has no size: all its vertices are in one point. Remove it, or check its scale."
             )
-        mesh = TriMesh(vertices, faces)
-        mesh = self._by_digest.setdefault(mesh.digest, mesh)
-        return mesh, f"{mesh.digest}-{digest(*(piece.material for piece in pieces))}"
+        # Adding zero turns -0 into 0, which is written with other bits.
+        vertices = np.round(vertices, _DECIMALS) + 0.0
+        stored = self._by_faces.setdefault(hashlib.sha256(faces.tobytes()).digest(), _Copies())
+        mesh = stored.find(vertices, _SAME_VERTEX_M)
+        if mesh is None:
+            mesh = TriMesh(vertices, faces)
+            stored.add(mesh.vertices_m, mesh)
+        return mesh
+
+    def _appearance(self, pieces: list[Piece], own: NDArray[np.float64]) -> Appearance | None:
+        mirrors = [_mirrors(matrix) for matrix in own]
+        key = tuple((piece.key, piece.paint, is_mirror) for piece, is_mirror in zip(pieces, mirrors, strict=True))
+        if key not in self._looks:
+            looks = [
+                piece.appearance.turned if is_mirror and piece.appearance else piece.appearance
+                for piece, is_mirror in zip(pieces, mirrors, strict=True)
+            ]
+            self._looks[key] = joined(looks, [len(piece.faces) for piece in pieces])
+        return self._looks[key]
 
 
 @dataclass(eq=False)
 class _Copies:
-    """What the same pieces were baked to, sorted by a number that equal placements share, so that few are compared."""
+    """Meshes by tables of numbers, sorted by a number that equal tables share, so that few are compared."""
 
     marks: list[float] = field(default_factory=list)
-    rows: list[tuple[NDArray[np.float64], tuple[TriMesh, str]]] = field(default_factory=list)
+    rows: list[tuple[NDArray[np.float64], TriMesh]] = field(default_factory=list)
 
-    def find(self, moves: NDArray[np.float64]) -> tuple[TriMesh, str] | None:
-        tolerance = _SAME_PLACE * float(np.abs(moves).max())
-        mark, spread = self._mark(moves), tolerance * moves.size
+    def find(self, table: NDArray[np.float64], tolerance: float) -> TriMesh | None:
+        """The mesh of a table of that shape of which no entry differs by more than the tolerance."""
+        mark, spread = self._mark(table), tolerance * table.size
         first = bisect_left(self.marks, mark - spread)
         last = bisect_right(self.marks, mark + spread)
-        for other, placed in self.rows[first:last]:
-            if (np.abs(moves - other) <= tolerance).all():
-                return placed
+        for other, mesh in self.rows[first:last]:
+            if other.shape == table.shape and (np.abs(table - other) <= tolerance).all():
+                return mesh
         return None
 
-    def add(self, moves: NDArray[np.float64], placed: tuple[TriMesh, str]) -> None:
-        mark = self._mark(moves)
+    def add(self, table: NDArray[np.float64], mesh: TriMesh) -> None:
+        """Keep the mesh of a table."""
+        mark = self._mark(table)
         at = bisect_left(self.marks, mark)
         self.marks.insert(at, mark)
-        self.rows.insert(at, (moves, placed))
+        self.rows.insert(at, (table, mesh))
 
     @staticmethod
-    def _mark(moves: NDArray[np.float64]) -> float:
+    def _mark(table: NDArray[np.float64]) -> float:
         """A sum of the entries with weights below 1 that no plain ratio of entries cancels."""
-        return float(moves.ravel() @ np.modf(np.arange(1, moves.size + 1) * 0.6180339887498949)[0])
+        return float(table.ravel() @ np.modf(np.arange(1, table.size + 1) * 0.6180339887498949)[0])
 
 
 def rigid_part(matrix: Matrix) -> Matrix:
@@ -139,5 +164,8 @@ def _check_reach(name: str, reach_m: float) -> None:
 def _baked(piece: Piece, matrix: Matrix) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Vertices and faces of a piece under a matrix; faces still turn outwards if it mirrors."""
     vertices = piece.vertices @ matrix[:3, :3].T + matrix[:3, 3]
-    is_mirror = np.linalg.det(matrix[:3, :3]) < 0
-    return vertices, piece.faces[:, ::-1] if is_mirror else piece.faces
+    return vertices, piece.faces[:, ::-1] if _mirrors(matrix) else piece.faces
+
+
+def _mirrors(matrix: Matrix) -> bool:
+    return bool(np.linalg.det(matrix[:3, :3]) < 0)

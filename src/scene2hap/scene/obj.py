@@ -9,16 +9,22 @@ Source: Wavefront, Advanced Visualizer manual (1990s), appendix B1, "Object file
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits
+from scene2hap.scene.mtl import MtlLibraries
+from scene2hap.scene.texture_files import TextureFiles
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Piece
 
 _Faces = list[tuple[int, int, int]]
+"""Corners, each one number for speed: that of its vertex from 0, shifted, plus that of its coordinates from 1 or 0."""
+_SHIFT = 32
+_Table = NDArray[np.float64]
 
 
 @dataclass
@@ -29,14 +35,16 @@ class _Part:
     faces: dict[str, _Faces] = field(default_factory=dict)
 
 
-def read_obj(text: str, name: str) -> AuthoredScene:
+def read_obj(text: str, name: str, textures: TextureFiles | None = None) -> AuthoredScene:
     """The objects of an OBJ text; `name` is for faces that stand in none.
 
-    Materials are told apart by name; material libraries and textures are not read.
+    Without `textures`, material libraries are not read, and materials are told apart by name alone.
     Raises: SceneFormatError: a vertex or face is not made of numbers, or a face uses a vertex that is not there; the
     message gives the line.
     """
     vertices: list[tuple[float, float, float]] = []
+    coordinates: list[tuple[float, float]] = []
+    libraries = None if textures is None else MtlLibraries(textures)
     objects, groups = [_Part(name)], {name: _Part(name)}
     material, group = "", name
     into_object: _Faces | None = None
@@ -49,11 +57,15 @@ def read_obj(text: str, name: str) -> AuthoredScene:
             if into_object is None or into_group is None:
                 into_object = objects[-1].faces.setdefault(material, [])
                 into_group = groups.setdefault(group, _Part(group)).faces.setdefault(material, [])
-            triangles = _fan(rest, len(vertices), number)
+            triangles = _fan(rest, len(vertices), len(coordinates), number)
             into_object += triangles
             into_group += triangles
             n_triangles += len(triangles)
             limits.at_most("the number of triangles", n_triangles, "MAX_TRIANGLES")
+        elif keyword == "vt":
+            coordinates.append(_coordinates(rest))
+        elif keyword == "mtllib" and libraries is not None:
+            libraries.read(rest)
         elif keyword in ("o", "g", "usemtl"):
             into_object = into_group = None
             if keyword == "o":
@@ -64,13 +76,23 @@ def read_obj(text: str, name: str) -> AuthoredScene:
                 material = rest
     parts = objects if len(objects) > 1 else list(groups.values())
     points = np.array(vertices, dtype=np.float64).reshape(-1, 3)
-    nodes = (_node(i, part, points) for i, part in enumerate(parts) if part.faces)
-    return AuthoredScene(tuple(nodes))
+    # The first row is for corners without coordinates.
+    uv = np.array([(0.0, 0.0), *coordinates], dtype=np.float64)
+    nodes = tuple(_node(i, part, points, uv, libraries) for i, part in enumerate(parts) if part.faces)
+    return AuthoredScene(nodes, left_out=() if textures is None else textures.left_out)
 
 
-def _node(number: int, part: _Part, points: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> AuthoredNode:
-    place = f"object {part.name!r}"
-    pieces = [Piece.checked((number, key), points, faces, key, place) for key, faces in part.faces.items()]
+def _node(number: int, part: _Part, points: _Table, uv: _Table, libraries: MtlLibraries | None) -> AuthoredNode:
+    pieces = []
+    for key, faces in part.faces.items():
+        corners = np.array(faces, dtype=np.int64)
+        piece = Piece.checked((number, key), points, corners >> _SHIFT, key, f"object {part.name!r}")
+        material = None if libraries is None else libraries.materials.get(key)
+        if material is not None:
+            mapped = corners & ((1 << _SHIFT) - 1)
+            looks = material.appearance(len(corners), uv[mapped] if mapped.any() else None)
+            piece = replace(piece, appearance=looks)
+        pieces.append(piece)
     return AuthoredNode(part.name, np.eye(4), tuple(pieces))
 
 
@@ -96,15 +118,38 @@ def _vertex(rest: str, number: int) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _fan(rest: str, n_vertices: int, number: int) -> _Faces:
-    """The triangles of a convex polygon, as vertex numbers from 0."""
+def _coordinates(rest: str) -> tuple[float, float]:
+    """Texture coordinates; those that are no numbers only cost a texture its place."""
     try:
-        corners = [int(word.partition("/")[0]) for word in rest.split()]
+        u, v = map(float, [*rest.split(), "0"][:2])
+    except ValueError:
+        return 0.0, 0.0
+    return u, v
+
+
+def _fan(rest: str, n_vertices: int, n_coordinates: int, number: int) -> _Faces:
+    """The triangles of a convex polygon."""
+    words = rest.split()
+    try:
+        vertices = [int(word.partition("/")[0]) for word in words]
     except ValueError as cause:
         raise SceneFormatError(f"line {number}: 'f {rest}' is no face; it must be vertex numbers.") from cause
-    corners = [corner - 1 if corner > 0 else n_vertices + corner for corner in corners]
-    if len(corners) < 3 or not all(0 <= corner < n_vertices for corner in corners):
+    vertices = [vertex - 1 if vertex > 0 else n_vertices + vertex for vertex in vertices]
+    if len(vertices) < 3 or not all(0 <= vertex < n_vertices for vertex in vertices):
         raise SceneFormatError(
             f"line {number}: 'f {rest}' must name three or more of the {n_vertices} vertices before it (from 1)."
         )
+    corners = [vertex << _SHIFT for vertex in vertices]
+    if n_coordinates:
+        corners = [corner + _mapped(word, n_coordinates) for corner, word in zip(corners, words, strict=True)]
     return [(corners[0], b, c) for b, c in pairwise(corners[1:])]
+
+
+def _mapped(word: str, n_coordinates: int) -> int:
+    """The number of a corner's texture coordinates from 1; 0 if it names none that are there."""
+    try:
+        number = int(word.split("/", 2)[1])
+    except (ValueError, IndexError):
+        return 0
+    number = number if number >= 0 else n_coordinates + number + 1
+    return number if 0 <= number <= n_coordinates else 0

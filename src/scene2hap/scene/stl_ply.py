@@ -8,10 +8,14 @@ import re
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from scene2hap.errors import SceneFormatError
+from scene2hap.scene.appearance import Appearance, FaceMaterial
+from scene2hap.scene.colors import painted
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Piece
 
 _HEADER_BYTES = 1 << 16
@@ -30,17 +34,27 @@ def read_stl_ply(data: bytes, file_type: str, name: str) -> AuthoredScene:
             # No resolver: neither format needs another file, so none is opened.
             scene = trimesh.load_scene(io.BytesIO(data), file_type=file_type, process=False)
             meshes = [mesh for mesh in scene.geometry.values() if isinstance(mesh, trimesh.Trimesh)]
-            tables = [(np.asarray(mesh.vertices), np.asarray(mesh.faces)) for mesh in meshes]
+            tables = [(np.asarray(mesh.vertices), np.asarray(mesh.faces), _appearance(mesh)) for mesh in meshes]
     # Its readers raise whatever the broken bytes lead to.
     except Exception as cause:
         raise SceneFormatError(f"{name!r} cannot be read as {file_type.upper()}: {cause}.") from cause
     # trimesh reads as many lines of a text PLY as there are; its binary formats and STL are held to their counts.
     promised = re.search(rb"^element face (\d+)", data[:_HEADER_BYTES], re.MULTILINE) if file_type == "ply" else None
-    n_faces = sum(len(faces) for _, faces in tables)
+    n_faces = sum(len(faces) for _, faces, _ in tables)
     if promised is not None and n_faces < int(promised[1]):
         raise SceneFormatError(f"{name!r} promises {int(promised[1])} faces and holds {n_faces}: cut short?")
-    pieces = (Piece.checked(i, points, faces, "", name) for i, (points, faces) in enumerate(tables))
+    pieces = (
+        replace(Piece.checked(i, points, faces, "", name), appearance=looks)
+        for i, (points, faces, looks) in enumerate(tables)
+    )
     return AuthoredScene((AuthoredNode(name, np.eye(4), tuple(piece for piece in pieces if len(piece.faces))),))
+
+
+def _appearance(mesh: Any) -> Appearance | None:
+    """Colours of faces, or of vertices by the mean of each face; None if the file tells none."""
+    if mesh.visual.kind not in ("vertex", "face"):
+        return None
+    return painted(np.asarray(mesh.visual.face_colors) / 255.0, FaceMaterial((1.0, 1.0, 1.0, 1.0)))
 
 
 @contextmanager

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene.appearance import Appearance
 from scene2hap.scene.snapshot import UpAxis
 
 Matrix = NDArray[np.float64]
@@ -22,14 +23,20 @@ class Piece:
     """Triangles of one material, in the frame of the node that draws them.
 
     Parameters: key : equal for pieces that were read from the same place in the file, so for instances;
-    vertices : (n, 3) float64 in the file's unit, all of them used and finite; faces : (m, 3) int32; material : equal
-    for equal materials.
+    vertices : (n, 3) float64 in the file's unit, all of them used and finite; faces : (m, 3) int32; material : what the
+    file calls its material; appearance : the looks of its m faces, None where unknown.
     """
 
     key: Hashable
     vertices: NDArray[np.float64]
     faces: NDArray[np.int32]
     material: str = ""
+    appearance: Appearance | None = None
+
+    @property
+    def paint(self) -> str:
+        """Equal for materials of equal name and looks."""
+        return self.material if self.appearance is None else f"{self.material} {self.appearance.digest}"
 
     @cached_property
     def reach(self) -> float:
@@ -87,11 +94,13 @@ class AuthoredScene:
     """The nodes that stand at the top of a scene, with what the file says about axes and units.
 
     `unit_m` is None where the format leaves the unit open, or where files are known to say metres and mean others.
+    `left_out` tells, in a sentence each, which textures could not be used.
     """
 
     roots: tuple[AuthoredNode, ...]
     up_axis: UpAxis = "y"
     unit_m: float | None = None
+    left_out: tuple[str, ...] = ()
 
 
 def digest(*parts: str) -> str:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from looks import BLUE, UPRIGHT, image_file, looks, refused, shown
 from scene2hap.errors import MissingExtra, SceneError
 from scene2hap.scene.load import load_scene
 
@@ -93,3 +94,103 @@ def test_without_pycollada_the_cure_is_told(tmp_path: Path, monkeypatch: pytest.
     monkeypatch.setitem(sys.modules, "collada", None)
     with pytest.raises(MissingExtra, match="'scene.dae' is COLLADA.*pip install pycollada"):
         load_scene(write(tmp_path, dae("")))
+
+
+# -- looks -----------------------------------------------------------------------------------------------------------
+
+
+def textured(folder: Path, diffuse: str, *, more: str = "", image: str = "wood%20floor.png", bound: str = "1") -> Path:
+    """A square drawn with and without a material; of its two sets of coordinates, set 1 lays the image upright."""
+    phong = f"<phong>{diffuse and f'<diffuse>{diffuse}</diffuse>'}{more}</phong>"
+    link = f"""<bind_material><technique_common><instance_material symbol="m" target="#wood">
+        <bind_vertex_input semantic="UV" input_semantic="TEXCOORD" input_set="{bound}"/>
+        </instance_material></technique_common></bind_material>"""
+
+    def source(name: str, values: str, axes: str) -> str:
+        n, width = len(values.split()), len(axes)
+        params = "".join(f'<param name="{axis}" type="float"/>' for axis in axes)
+        return f"""<source id="{name}"><float_array id="{name}a" count="{n}">{values}</float_array><technique_common>
+            <accessor source="#{name}a" count="{n // width}" stride="{width}">{params}</accessor>
+            </technique_common></source>"""
+
+    text = f"""<?xml version="1.0" encoding="utf-8"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><created>2020-01-01T00:00:00</created><modified>2020-01-01T00:00:00</modified><up_axis>Y_UP</up_axis></asset>
+<library_images><image id="i"><init_from>{image}</init_from></image></library_images>
+<library_effects><effect id="e"><profile_COMMON>
+<newparam sid="f"><surface type="2D"><init_from>i</init_from></surface></newparam>
+<newparam sid="s"><sampler2D><source>f</source></sampler2D></newparam>
+<technique sid="t">{phong}</technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="wood"><instance_effect url="#e"/></material></library_materials>
+<library_geometries><geometry id="g"><mesh>
+{source("p", "0 0 0 1 0 0 1 1 0 0 1 0", "XYZ")}
+{source("u", "0.25 0.25", "ST")}{source("w", "0.25 0.25 0.75 0.25 0.75 0.75 0.25 0.75", "ST")}
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<polylist count="1" material="m"><input semantic="VERTEX" source="#v" offset="0"/>
+<input semantic="TEXCOORD" source="#u" offset="1" set="0"/><input semantic="TEXCOORD" source="#w" offset="2" set="1"/>
+<vcount>4</vcount><p>0 0 0 1 0 1 2 0 2 3 0 3</p></polylist></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s">
+<node id="n1" name="painted"><instance_geometry url="#g">{link}</instance_geometry></node>
+<node id="n2" name="bare"><instance_geometry url="#g"/></node>
+</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>"""
+    return write(folder, text)
+
+
+MAP = '<texture texture="s" texcoord="UV"/>'
+
+
+@needs_pycollada
+def test_a_texture_lies_by_the_set_that_is_bound(tmp_path: Path) -> None:
+    (tmp_path / "wood floor.png").write_bytes(image_file())
+    painted, bare = load_scene(textured(tmp_path, MAP), unit_m=1.0).objects
+    assert shown(painted) == UPRIGHT
+    assert looks(painted).materials[0].color_rgba == (1.0, 1.0, 1.0, 1.0)
+    assert bare.appearance is None
+    assert painted.geometry is bare.geometry
+    assert painted.instance_key != bare.instance_key
+
+
+@needs_pycollada
+def test_a_set_that_is_not_there_is_the_first(tmp_path: Path) -> None:
+    (tmp_path / "wood floor.png").write_bytes(image_file())
+    painted, _ = load_scene(textured(tmp_path, MAP, bound="7"), unit_m=1.0).objects
+    assert set(shown(painted).values()) == {BLUE}
+
+
+@needs_pycollada
+@pytest.mark.parametrize(
+    ("more", "opacity"),
+    [
+        ("", 1.0),
+        ("<transparency><float>0.25</float></transparency>", 0.25),
+        ('<transparent opaque="A_ONE"><color>0 0 0 0.5</color></transparent>', 0.5),
+        (
+            '<transparent opaque="RGB_ZERO"><color>0.5 0.5 0.5 1</color></transparent>'
+            "<transparency><float>0.5</float></transparency>",
+            0.75,
+        ),
+        ("<transparency><float>0</float></transparency>", 1.0),
+    ],
+)
+def test_colour_and_opacity(tmp_path: Path, more: str, opacity: float) -> None:
+    painted, _ = load_scene(textured(tmp_path, "<color>0.1 0.2 0.3 1</color>", more=more), unit_m=1.0).objects
+    (material,) = looks(painted).materials
+    assert material.color_rgba == pytest.approx((0.1, 0.2, 0.3, opacity))
+    assert material.texture is None
+
+
+@needs_pycollada
+@pytest.mark.parametrize(
+    ("image", "reason"),
+    [("gone.png", "there is no file"), ("../x.png", "lies outside"), ("file:///C:/x.png", "never fetched")],
+)
+def test_a_texture_that_cannot_be_read_is_told(tmp_path: Path, image: str, reason: str) -> None:
+    scene, message = refused(textured(tmp_path, MAP, image=image))
+    assert reason in message
+    assert looks(scene.objects[0]).materials[0].texture is None
+
+
+@needs_pycollada
+def test_an_effect_without_colours_is_no_obstacle(tmp_path: Path) -> None:
+    painted, _ = load_scene(textured(tmp_path, ""), unit_m=1.0).objects
+    assert len(looks(painted).materials) == 1

@@ -11,6 +11,7 @@ import pytest
 from gltf_builder import Gltf, one_cube
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.load import load_scene
+from scene2hap.scene.snapshot import SceneSnapshot
 from scenes import box, scene
 
 
@@ -127,3 +128,25 @@ def test_reading_glb_needs_no_trimesh(tmp_path: Path) -> None:
     )
     done = subprocess.run([sys.executable, "-c", code, str(path)], capture_output=True, text=True, check=True)
     assert (done.stdout.strip(), done.stderr) == ("False", "")
+
+
+def test_looks_are_no_part_of_json_or_of_equality(tmp_path: Path) -> None:
+    gltf = one_cube()
+    gltf.header["materials"] = [{"pbrMetallicRoughness": {"baseColorFactor": [1.0, 0.0, 0.0, 1.0]}}]
+    gltf.header["meshes"][0]["primitives"][0]["material"] = 0
+    scene = load_scene(gltf.write(tmp_path / "scene.glb"))
+    assert scene.objects[0].appearance is not None
+    again = SceneSnapshot.from_json(scene.to_json())
+    assert again == scene
+    assert again.to_json() == scene.to_json()
+    assert again.objects[0].appearance is None
+
+
+def test_a_turned_and_scaled_scene_goes_through_json_to_the_bit(tmp_path: Path) -> None:
+    gltf = one_cube(rotation=[0.1, 0.7, -0.1, 0.7], scale=[0.3, 0.7, 1.1])
+    gltf.node("inner", mesh=0, rotation=[0.5, 0.5, 0.5, 0.5], root=True)
+    scene = load_scene(gltf.write(tmp_path / "scene.glb"))
+    again = SceneSnapshot.from_json(scene.to_json())
+    for before, after in zip(scene.objects, again.objects, strict=True):
+        assert after.geometry.mesh.digest == before.geometry.mesh.digest
+        assert after.geometry.mesh.vertices_m.tobytes() == before.geometry.mesh.vertices_m.tobytes()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -11,6 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from gltf_builder import CUBE, CUBE_FACES
 from scene2hap.errors import SceneError
+from scene2hap.scene.appearance import Appearance, FaceMaterial
 from scene2hap.scene.grouping import Group
 from scene2hap.scene.meshes import MeshPool, rigid_part
 from scene2hap.scene.tree import Matrix, Piece
@@ -116,3 +119,60 @@ def test_a_copy_is_found_among_many_of_other_sizes() -> None:
     again = [pool.place(group(affine(scale * np.eye(3)))).mesh for scale in scales]
     assert len({id(mesh) for mesh in first}) == 300
     assert all(a is b for a, b in zip(first, again, strict=True))
+
+
+def test_copies_that_are_stored_apart_under_any_turn_are_one() -> None:
+    """Turning to and fro leaves some 1e-14 m, which must not show in the key."""
+    pool = MeshPool(1.0)
+    points = np.random.default_rng(7).normal(size=(4000, 3))
+    faces = np.arange(3999).reshape(-1, 3).astype(np.int32)
+    turns = Rotation.from_euler("y", np.linspace(0.0, 6.0, 20)[:, None]).as_matrix()
+    placed = [
+        pool.place(group(affine(turn, (i, 0.0, 0.0)), Piece(i, points[:3999], faces, "oak")))
+        for i, turn in enumerate(turns)
+    ]
+    assert len({item.instance_key for item in placed}) == 1
+    assert len({id(item.mesh) for item in placed}) == 1
+    np.testing.assert_allclose(placed[0].mesh.vertices_m, points[:3999], atol=0.6e-9)
+
+
+def test_meshes_of_equal_faces_that_differ_by_a_micrometre_are_two() -> None:
+    pool = MeshPool(1.0)
+    keys = [
+        pool.place(group(np.eye(4), Piece(i, CUBE * [1.0, 1.0, 1.0 + 1e-6 * i], PIECE.faces, "oak"))).instance_key
+        for i in range(2)
+    ]
+    assert keys[0] != keys[1]
+
+
+def painted(color: float, key: str = "cube") -> Piece:
+    uv = np.random.default_rng(1).random((12, 3, 2)).astype(np.float32)
+    material = FaceMaterial((color, 0.0, 0.0, 1.0), np.full((1, 1, 3), 7, np.uint8))
+    return replace(PIECE, key=key, appearance=Appearance.plain(material, 12, uv))
+
+
+def test_one_mesh_in_other_colours_is_shared_but_has_another_key() -> None:
+    """The same piece drawn in two materials, as COLLADA and engines do."""
+    pool = MeshPool(1.0)
+    red, dark, again = (pool.place(group(np.eye(4), painted(color))) for color in (1.0, 0.5, 1.0))
+    assert red.mesh is dark.mesh
+    assert red.instance_key == again.instance_key != dark.instance_key
+    assert red.appearance is again.appearance is not dark.appearance
+    assert red.appearance is not None
+    assert red.appearance.materials[0].color_rgba == (1.0, 0.0, 0.0, 1.0)
+
+
+def test_mirrored_parts_turn_their_coordinates_with_their_corners() -> None:
+    piece = painted(1.0)
+    mirror = affine(np.diag([1.0, -1.0, 1.0]), (5.0, 0.0, 0.0))
+    placed = MeshPool(1.0).place(Group("thing", np.eye(4), ((np.eye(4), piece), (mirror, piece), (np.eye(4), PIECE))))
+    assert placed.appearance is not None
+    assert placed.appearance.uv is not None
+    assert piece.appearance is not None
+    assert piece.appearance.uv is not None
+    plain, mirrored, bare = placed.mesh.faces[:12], placed.mesh.faces[12:24] - 8, placed.appearance.uv[24:]
+    np.testing.assert_array_equal(plain, mirrored[:, ::-1])
+    np.testing.assert_array_equal(placed.appearance.uv[:12], piece.appearance.uv)
+    np.testing.assert_array_equal(placed.appearance.uv[12:24], piece.appearance.uv[:, ::-1])
+    assert not bare.any()
+    assert placed.appearance.face_material.tolist() == [0] * 24 + [1] * 12

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from gltf_builder import CUBE, CUBE_FACES
+from looks import looks
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.load import load_scene
 
@@ -104,3 +105,60 @@ def test_trimesh_keeps_silent_and_stays_as_it_was(
     assert caplog.records == []
     assert capsys.readouterr() == ("", "")
     assert (log.propagate, list(log.handlers)) == before
+
+
+def colored_ply(*, of_faces: bool) -> bytes:
+    """Two triangles of a square: one red and one half clear blue, or a vertex each of red, green, blue and black."""
+    rgba = "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n"
+    vertex, face = ("", rgba) if of_faces else (rgba, "")
+    colors = ["255 0 0 255", "0 255 0 255", "0 0 255 255", "0 0 0 255"]
+    corners = ["0 0 0", "1 0 0", "1 1 0", "0 1 0"]
+    lines = corners if of_faces else [f"{at} {color}" for at, color in zip(corners, colors, strict=True)]
+    faces = ["3 0 1 2", "3 0 2 3"]
+    if of_faces:
+        faces = ["3 0 1 2 255 0 0 255", "3 0 2 3 0 0 255 128"]
+    header = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    header += f"{vertex}element face 2\nproperty list uchar int vertex_indices\n{face}end_header\n"
+    return (header + "\n".join(lines + faces) + "\n").encode()
+
+
+@pytest.mark.parametrize(
+    ("of_faces", "expected"),
+    [
+        (True, [[1.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0, 0.5]]),
+        (False, [[1 / 3, 1 / 3, 1 / 3, 1.0], [1 / 3, 0.0, 1 / 3, 1.0]]),
+    ],
+)
+def test_colours_are_told_by_face(tmp_path: Path, of_faces: bool, expected: list[list[float]]) -> None:
+    path = tmp_path / "scan.ply"
+    path.write_bytes(colored_ply(of_faces=of_faces))
+    (item,) = load_scene(path).objects
+    appearance = looks(item)
+    rgba = [appearance.materials[i].color_rgba for i in appearance.face_material]
+    np.testing.assert_allclose(rgba, expected, atol=0.005)
+
+
+@pytest.mark.parametrize(("name", "content"), [("cup.stl", binary_stl()), ("cup.ply", ascii_ply())])
+def test_without_colours_looks_are_unknown(tmp_path: Path, name: str, content: bytes) -> None:
+    path = tmp_path / name
+    path.write_bytes(content)
+    assert load_scene(path).objects[0].appearance is None
+
+
+def test_a_scan_of_many_colours_has_few_materials(tmp_path: Path) -> None:
+    """A fan of 3000 triangles whose corners run through 3000 hues of red and green."""
+    n = 3000
+    angle = np.linspace(0.0, 6.0, n + 1)
+    rows = ["0 0 0 0 0 0"]
+    rows += [f"{np.cos(a):.6f} {np.sin(a):.6f} 0 {i % 256} {i // 16} 0" for i, a in enumerate(angle)]
+    faces = [f"3 0 {i} {i + 1}" for i in range(1, n + 1)]
+    header = f"ply\nformat ascii 1.0\nelement vertex {n + 2}\nproperty float x\nproperty float y\nproperty float z\n"
+    header += "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+    header += f"element face {n}\nproperty list uchar int vertex_indices\nend_header\n"
+    path = tmp_path / "scan.ply"
+    path.write_text(header + "\n".join(rows + faces) + "\n")
+    appearance = looks(load_scene(path).objects[0])
+    assert 16 < len(appearance.materials) <= 256
+    expected = np.array([[(i % 256 + (i + 1) % 256) / 3, (i // 16 + (i + 1) // 16) / 3] for i in range(n)]) / 255
+    rgba = np.array([appearance.materials[k].color_rgba for k in appearance.face_material])
+    np.testing.assert_allclose(rgba[:, :2], expected, atol=0.5 / 15 + 0.01)

@@ -6,8 +6,8 @@ and what they meet on the way is
 
 1. *opened*, if it is a shell (`surroundings.shells`: walls, floor, ceiling, a room in one piece): it loses only the
    faces whose plane separates the eye from the target's middle, and so keeps floor and far walls. All shells are opened
-   where that uncovers more than `_UNCOVERED` of the picture, so that walls seen from outside do not hide the room, nor
-   the floor what is seen from below;
+   where they hide more than `_UNCOVERED` of the other things in the picture, so that walls seen from outside do not
+   hide the room, nor the floor what is seen from below;
 2. *kept*, if it is the target's support or near it (`surroundings.near`), as long as all that is kept hides no more
    than `hidden_share` of the silhouette together; the support comes first, then what hides least;
 3. *opened* like a shell, if it would be kept but hides too much, and holds the target inside it: a cabinet around
@@ -94,14 +94,15 @@ class Culler:
         return Selection(self.stage.everyone - culled, opened, focus)
 
     def _hiding_shells(self, shells: frozenset[int], wide: Camera, focus: Triple) -> frozenset[int]:
-        """The shells, if opening them uncovers much of the picture; else none."""
+        """The shells, if opening them uncovers much of the other things in the picture; else none."""
         if not shells:
             return shells
         coarse, everyone = wide.resized(_GRID_PX), self.stage.everyone
         closed = self.renderer.identify(coarse, Selection(everyone))
         opened = self.renderer.identify(coarse, Selection(everyone, shells, focus))
-        uncovered = np.isin(closed, list(shells)) & (closed != opened)
-        return shells if uncovered.mean() > _UNCOVERED else frozenset()
+        things = ~np.isin(opened, [*shells, -1])
+        uncovered = things & np.isin(closed, list(shells))
+        return shells if uncovered.sum() > _UNCOVERED * things.sum() else frozenset()
 
     def _on_the_way(self, wide: Camera, middle: Floats) -> frozenset[int]:
         """Actors that the ray from the eye to the middle meets before it, unless they are around the middle."""

@@ -23,7 +23,7 @@ Ints = NDArray[np.int32]
 BACKGROUND_RGB = (190, 194, 200)
 """What is behind everything: light enough for black things, dark enough for white ones (assumed)."""
 
-AMBIENT, HEADLIGHT, SKYLIGHT = 0.42, 0.50, 0.10
+AMBIENT, HEADLIGHT, SKYLIGHT = 0.40, 0.50, 0.10
 """Parts of a colour that show regardless of angle, facing the eye, and facing up (minus facing down) (tuned by eye)."""
 
 # Textures are shrunk to this edge, which is what a picture of 512 pixels can show, and what memory is spent on.

@@ -22,7 +22,7 @@ _MARGIN, _TITLE, _LABEL = 8, 34, 20
 _THUMB_PX = 256
 _PLAN_PX = 1400
 # A cut through the room at this part of its height leaves out what hangs above it, such as a ceiling (assumed).
-_CUT = 0.9
+_CUT = 0.8
 
 
 def contact_sheet(item: SceneObject, *, thumb_px: int = _THUMB_PX) -> bytes:
@@ -56,7 +56,7 @@ def _rows(item: SceneObject) -> tuple[tuple[str, ImageSet], ...]:
 def plan_view(scene: SceneSnapshot, *, width_px: int = _PLAN_PX) -> bytes:
     """The scene straight from above with every object's id, as a PNG file; needs no renderer.
 
-    What lies above the cut at nine tenths of the scene's height is left out. Front is at the bottom (`axes_of`).
+    What lies above the cut at four fifths of the scene's height is left out. Front is at the bottom (`axes_of`).
     """
     stage = Stage.of(scene)
     right, up, front = axes_of(stage.up_axis)

@@ -18,6 +18,10 @@ from scene2hap.scene.snapshot import SceneObject, SceneSnapshot, UpAxis
 
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
+Vector = NDArray[np.float64]
+
+# How far faces of objects are drawn in, as a part of the scene's diagonal: 0.2 mm in a room of 10 m, less than a pixel.
+_INSET = 2e-5
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,13 +38,13 @@ class Actor:
     digest: str
 
     @cached_property
-    def box_m(self) -> NDArray[np.float64]:
+    def box_m(self) -> Vector:
         """Lowest and highest corner (2, 3) [m]."""
         corners = self.triangles_m.reshape(-1, 3)
         return np.array([corners.min(axis=0), corners.max(axis=0)], dtype=np.float64)
 
     @property
-    def points_m(self) -> NDArray[np.float64]:
+    def points_m(self) -> Vector:
         """All corners (3 m, 3) [m]."""
         return self.triangles_m.reshape(-1, 3).astype(np.float64)
 
@@ -67,9 +71,11 @@ class Stage:
     def of(cls, scene: SceneSnapshot) -> Stage:
         """The stage of a scene."""
         bounds = np.array([item.bounds_m for item in scene.objects])
-        origin = (bounds[:, 0].min(axis=0) + bounds[:, 1].max(axis=0)) / 2
+        low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
+        origin = (low + high) / 2
         palette = PaletteBuilder()
-        actors = tuple(_actor(item, origin, palette) for item in scene.objects)
+        inset_m = _INSET * float(np.linalg.norm(high - low))
+        actors = tuple(_actor(item, origin, inset_m, palette) for item in scene.objects)
         return cls(actors, palette.build(), scene.up_axis, (float(origin[0]), float(origin[1]), float(origin[2])))
 
     @cached_property
@@ -83,15 +89,15 @@ class Stage:
         return frozenset(range(len(self.actors)))
 
     @cached_property
-    def box_m(self) -> NDArray[np.float64]:
+    def box_m(self) -> Vector:
         """Lowest and highest corner (2, 3) [m] of all actors."""
         boxes = np.array([actor.box_m for actor in self.actors])
         return np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
 
     @property
-    def up(self) -> NDArray[np.float64]:
+    def up(self) -> Vector:
         """The unit vector (3,) that points up."""
-        up: NDArray[np.float64] = axes_of(self.up_axis)[1]
+        up: Vector = axes_of(self.up_axis)[1]
         return up
 
     @cached_property
@@ -103,9 +109,9 @@ class Stage:
         return _named(parts)
 
 
-def _actor(item: SceneObject, origin: NDArray[np.float64], palette: PaletteBuilder) -> Actor:
+def _actor(item: SceneObject, origin: Vector, inset_m: float, palette: PaletteBuilder) -> Actor:
     mesh = item.geometry.mesh
-    corners = (item.pose.to_world(mesh.vertices_m) - origin).astype(np.float32)
+    corners = _drawn_in(item.pose.to_world(mesh.vertices_m) - origin, item.bounds_m - origin, inset_m)
     looks = item.appearance
     if looks is None:
         looks = Appearance((neutral(item.instance_key or item.id),), np.zeros(len(mesh.faces), np.int32))
@@ -121,6 +127,21 @@ def _actor(item: SceneObject, origin: NDArray[np.float64], palette: PaletteBuild
     named = [palette.keys[row] for row in paints]
     digest = _named([mesh.digest, item.pose.rotation_xyzw, named, which.astype(np.int32).tobytes(), uv.tobytes()])
     return Actor(item.id, corners[mesh.faces], material, uv, digest)
+
+
+def _drawn_in(corners_m: Vector, box_m: Vector, inset_m: float) -> Floats:
+    """Corners (n, 3) scaled about their box's middle so that its faces move in by the inset, or a tenth of its size.
+
+    So faces of things that touch do not lie in one plane, where it would be chance which of them a ray meets first. A
+    room in one piece, which has the scene's middle inside, would move towards what it holds, and stays.
+    """
+    low, high = box_m
+    if (low < 0).all() and (high > 0).all():
+        return corners_m.astype(np.float32)
+    middle, size = (low + high) / 2, high - low
+    factor = 1 - 2 * np.minimum(np.divide(inset_m, size, out=np.zeros(3), where=size > 0), 0.1)
+    drawn_in: Floats = (middle + (corners_m - middle) * factor).astype(np.float32)
+    return drawn_in
 
 
 def _named(parts: Iterable[object]) -> str:

@@ -1,0 +1,29 @@
+"""Running Python engines as snapshots, each through an optional extra that is imported when it is first asked for.
+
+`scene2hap.scene.engines.mujoco` reads MuJoCo models and MJCF files, `scene2hap.scene.engines.panda3d` reads Panda3D
+scene graphs. Engines that are not written in Python hand over JSON (docs/scene-json.md).
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+from scene2hap.errors import ConfigError, MissingExtra
+
+
+def engine(module: str) -> Any:
+    """An engine's module, such as "panda3d.core"; the package in front is also the name of our extra.
+
+    Raises: MissingExtra: it is not installed. ConfigError: it is, and does not import.
+    """
+    extra = module.partition(".")[0]
+    try:
+        return import_module(module)
+    except ModuleNotFoundError as cause:
+        raise MissingExtra(f"{extra} is not installed. Run: pip install 'scene2hap[{extra}]'") from cause
+    # Engines load drivers when they are imported, and raise whatever these lead to.
+    except Exception as cause:
+        raise ConfigError(
+            f"{extra} is installed but does not import: {cause}. Try: python -c 'import {extra}'"
+        ) from cause

@@ -1,0 +1,220 @@
+"""Which files an MJCF file makes MuJoCo read, found out and bounded before MuJoCo sees any.
+
+MuJoCo opens whatever an MJCF file names, `../../x` and absolute paths included, and builds as many copies as it asks
+for. So the include graph is read here first. Where a name may mean several files, since MuJoCo's versions differ in
+what included files are relative to, none of them may lie outside.
+
+Source: MuJoCo documentation (Google DeepMind), XML reference, `include`, `compiler`, `asset`, `replicate`.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import prod
+from pathlib import Path
+from typing import NamedTuple
+from xml.parsers import expat
+
+from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene import limits
+from scene2hap.scene.files import read_bytes
+
+MAX_XML_BYTES = 1 << 26
+"""Size of one XML file (assumed: a hundred times a large robot)."""
+MAX_FILES_DEEP = 20
+"""Files within files (assumed)."""
+MAX_COPIES = 10_000
+"""Bodies that one place in the file may be multiplied to (assumed: MuJoCo takes 14 s to compile 10,000)."""
+MAX_CELLS = 1 << 26
+"""Cells of a generated texture or height field (assumed: 8192 x 8192)."""
+
+# Whatever multiplies what it holds, and whatever makes a grid of that many cells.
+_COPIES = {"replicate": "count", "composite": "count", "flexcomp": "count"}
+_GRIDS = {"texture": ("width", "height"), "hfield": ("nrow", "ncol")}
+
+
+def check_files(path: Path, assets_root: Path) -> None:
+    """Make sure that an MJCF file, and all that it names, may be given to MuJoCo.
+
+    Raises: SceneFormatError: it is not well-formed XML, not MJCF, has a document type, or includes a file twice.
+    SceneError: a file is missing, too large or outside `assets_root`; the message tells the root that is needed.
+    """
+    root = assets_root.resolve()
+    path = path.resolve()
+    if not path.is_relative_to(root):
+        raise SceneError(f"{str(path)!r} lies outside assets_root {str(root)!r}; give a folder that holds the scene.")
+    _Model(path, root).check()
+
+
+class _Wanted(NamedTuple):
+    """A file that an element names: where it is named and in which folder, the name, and the element's kind."""
+
+    place: str
+    folder: Path
+    name: str
+    kind: str
+
+
+@dataclass
+class _Model:
+    """An MJCF file with all that it includes; `around` are the models that this one is part of."""
+
+    path: Path
+    root: Path
+    around: tuple[Path, ...] = ()
+    seen: set[Path] = field(default_factory=set)
+    folders: dict[str, str] = field(default_factory=dict)
+    strips_paths: bool = False
+    assets: list[_Wanted] = field(default_factory=list)
+    outside: list[tuple[_Wanted, Path]] = field(default_factory=list)
+
+    def check(self) -> None:
+        _not_too_deep(self.path, len(self.around))
+        self.read(self.path, copies=1, depth=0)
+        # Only now are the folders known: the last <compiler> that names one decides for all.
+        for wanted in self.assets:
+            found = self.find(wanted)
+            if found is None:
+                continue
+            limits.at_most(f"the size of {found.name!r} in bytes", found.stat().st_size, "MAX_FILE_BYTES")
+            if wanted.kind == "model" and found.suffix.lower() == ".xml":
+                _Model(found, self.root, (*self.around, self.path)).check()
+        if self.outside:
+            raise SceneError(self._refusal())
+
+    def read(self, path: Path, copies: int, depth: int) -> None:
+        """Walk through the model's own file or an included one, which stands in an element of so many copies."""
+        _not_too_deep(path, depth)
+        if path in self.seen or path in self.around:
+            raise SceneFormatError(f"{path.name!r} is included twice; MuJoCo takes every file once.")
+        self.seen.add(path)
+        _Reader(self, path, copies, depth).read()
+
+    def find(self, wanted: _Wanted) -> Path | None:
+        """The file that is meant; None, with a note, if it lies outside."""
+        try:
+            candidates = [(base / name).resolve() for base in self._bases(wanted) for name in self._names(wanted)]
+            existing = [path for path in candidates if path.exists()]
+        # What a name that is too long and a ring of links raise.
+        except (ValueError, OSError, RuntimeError) as cause:
+            raise SceneError(f"{wanted.place} wants {wanted.name!r}, which is no usable file name: {cause}.") from cause
+        beyond = [path for path in existing or candidates if not path.is_relative_to(self.root)]
+        if beyond:
+            self.outside.append((wanted, beyond[0]))
+            return None
+        if not existing:
+            raise SceneError(f"{wanted.place} wants {wanted.name!r}; there is no such file. Copy it beside the scene.")
+        return existing[0]
+
+    def _bases(self, wanted: _Wanted) -> list[Path]:
+        own = self.path.parent
+        if wanted.kind == "include":
+            return [own, wanted.folder]
+        inner = self.folders.get("texturedir" if wanted.kind == "texture" else "meshdir", "")
+        return list(dict.fromkeys([own / _plain(inner), own, wanted.folder / _plain(inner), wanted.folder]))
+
+    def _names(self, wanted: _Wanted) -> list[str]:
+        name = _plain(wanted.name)
+        return [Path(name).name] if self.strips_paths and wanted.kind != "include" else [name]
+
+    def _refusal(self) -> str:
+        wanted, _ = self.outside[0]
+        places = [self.path.parent, self.root, *(path.parent for _, path in self.outside)]
+        try:
+            needed = os.path.commonpath(places)
+        except ValueError:  # on different drives
+            needed = "<a folder that holds both>"
+        return (
+            f"{wanted.place} wants {wanted.name!r}, which lies outside {str(self.root)!r}; only files inside it are "
+            f"read. Give assets_root={needed!r} if you trust the file."
+        )
+
+
+@dataclass
+class _Reader:
+    """Walks through one XML file and tells its model what it names; `open_copies` has a row for each open element."""
+
+    model: _Model
+    path: Path
+    copies: int
+    depth: int
+    n_elements: int = 0
+    open_copies: list[int] = field(default_factory=list)
+
+    def read(self) -> None:
+        data = read_bytes(self.path)
+        if len(data) > MAX_XML_BYTES:
+            raise SceneError(f"{self.path.name!r} has {len(data):,} bytes; MJCF of up to {MAX_XML_BYTES:,} is read.")
+        # MuJoCo reads UTF-8 whatever a file declares, so nothing else may be understood here.
+        parser = expat.ParserCreate("utf-8")
+        parser.StartDoctypeDeclHandler = self._refuse_doctype
+        parser.StartElementHandler = lambda tag, attributes: self._start(tag, attributes, parser.CurrentLineNumber)
+        parser.EndElementHandler = lambda tag: self.open_copies.pop()
+        try:
+            parser.Parse(data, True)
+        except expat.ExpatError as cause:
+            raise SceneFormatError(f"{self.path.name!r} is not well-formed XML: {cause}.") from cause
+
+    def _refuse_doctype(self, *declared: object) -> None:
+        raise SceneFormatError(f"{self.path.name!r} has a document type, which MJCF does not need; remove <!DOCTYPE>.")
+
+    def _start(self, tag: str, attributes: Mapping[str, str], line: int) -> None:
+        tag = tag.lower()
+        place = f"{self.path.name}, line {line}, <{tag}>"
+        self.n_elements += 1
+        limits.at_most(f"the number of elements in {self.path.name!r}", self.n_elements, "MAX_NODES")
+        limits.at_most(f"the depth of {self.path.name!r}", len(self.open_copies), "MAX_DEPTH")
+        if not self.open_copies and self.depth == 0 and tag != "mujoco":
+            raise SceneFormatError(f"{self.path.name!r} begins with <{tag}>; an MJCF file begins with <mujoco>.")
+        around = self.open_copies[-1] if self.open_copies else self.copies
+        self.open_copies.append(self._counted(tag, attributes, place, around))
+        if tag == "compiler":
+            self._compiler(attributes)
+        for key, name in attributes.items():
+            # A cube's sides are called fileright, fileleft, ...
+            if key.startswith("file") and name:
+                wanted = _Wanted(place, self.path.parent, name, tag)
+                if tag != "include":
+                    self.model.assets.append(wanted)
+                elif (found := self.model.find(wanted)) is not None:
+                    self.model.read(found, self.open_copies[-1], self.depth + 1)
+
+    def _counted(self, tag: str, attributes: Mapping[str, str], place: str, around: int) -> int:
+        """How many copies are made of what stands in this element."""
+        if tag in _COPIES:
+            around *= _product(attributes.get(_COPIES[tag], ""))
+            if around > MAX_COPIES:
+                raise SceneError(f"{place} makes {around:,} copies; MJCF with up to {MAX_COPIES:,} is read.")
+        if tag in _GRIDS:
+            cells = _product(" ".join(attributes.get(key, "") for key in _GRIDS[tag]))
+            if cells > MAX_CELLS:
+                raise SceneError(f"{place} has {cells:,} cells; up to {MAX_CELLS:,} are read.")
+        return around
+
+    def _compiler(self, attributes: Mapping[str, str]) -> None:
+        folder = attributes.get("assetdir")
+        if folder is not None:
+            self.model.folders.update(meshdir=folder, texturedir=folder)
+        self.model.folders.update({key: attributes[key] for key in ("meshdir", "texturedir") if key in attributes})
+        if "strippath" in attributes:
+            self.model.strips_paths = attributes["strippath"] == "true"
+
+
+def _not_too_deep(path: Path, depth: int) -> None:
+    if depth > MAX_FILES_DEEP:
+        raise SceneError(f"{path.name!r} stands in {depth} files, one in the other; up to {MAX_FILES_DEEP} are read.")
+
+
+def _plain(name: str) -> str:
+    """MuJoCo takes a backslash for a slash on every system."""
+    return name.replace("\\", "/")
+
+
+def _product(numbers: str) -> int:
+    """The product of the numbers in a text, 1 for what MuJoCo will refuse as none."""
+    try:
+        return prod(max(1, int(float(number))) for number in numbers.split())
+    except (ValueError, OverflowError):
+        return 1

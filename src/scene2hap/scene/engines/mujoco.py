@@ -1,0 +1,276 @@
+"""MuJoCo models as snapshots: a running `MjModel` with its `MjData`, or an MJCF file.
+
+1. Every body that draws something is an object, with all its geoms in one mesh. Doors, drawers and knobs are bodies
+   that hang below others, so they are objects of their own. A body without geoms is looked through.
+2. Every geom of the world body (floor, walls) is an object.
+3. If a body has geoms that cannot collide (contype and conaffinity 0) and can be seen, these are its looks; if not, all
+   its geoms are. Of the world's geoms, which are not drawn in pairs, those are left out that collide and are in groups
+   3 to 5, which MuJoCo's viewer hides. `geom_groups` overrides both.
+4. An object's id is the name of the body (or world geom), unique in MuJoCo; one without a name is told by the id of
+   the body that it hangs on and its place there: `cabinet/body2`, `world/geom1`. Its name is that too, unless a
+   wrapper lends it one: a body without geoms that holds nothing else, and does not move against it (`microwave` over
+   `microroot`), by the rule (c) of `scene2hap.scene.grouping`. Without any, the name of a geom or mesh in it serves.
+
+Poses are the bodies' own (xpos, xquat). Infinite planes are cut to twice the model's extent. Deformable bodies and
+skins are left out. Nothing here steps or changes the simulation.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+from weakref import WeakKeyDictionary
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap import checks
+from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene.engines import engine
+from scene2hap.scene.engines.mjcf_files import check_files
+from scene2hap.scene.engines.mujoco_geoms import GeomReader, authored_pose, colours_rgba
+from scene2hap.scene.engines.objects import ObjectMaker
+from scene2hap.scene.grouping import Group, group_objects, unique_ids
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import Contact, SceneSnapshot, with_relative_heights
+from scene2hap.scene.tree import AuthoredNode, Piece
+
+_WORLD = 0
+_LAST_SHOWN_GROUP = 2
+_IN_GAP = 1
+_MESH = 7
+
+
+def snapshot(
+    model: Any,
+    data: Any,
+    *,
+    name: str | None = None,
+    geom_groups: Collection[int] | None = None,
+    contacts: Literal["engine"] | None = None,
+    unit_m: float = 1.0,
+) -> SceneSnapshot:
+    """The scene as it stands in `data`, whose kinematics must be up to date (`mj_forward`, or any step).
+
+    Parameters:
+    model, data : `mujoco.MjModel` and `mujoco.MjData`.
+    name : of the scene; None means the model's.
+    geom_groups : the numbers of the groups that are drawn, instead of rule 3.
+    contacts : None finds contacts from geometry; "engine" takes those in `data.contact`. MuJoCo tells none between
+        bodies that cannot move against each other, such as a kettle welded to its stove.
+    unit_m : metres per unit of the model.
+
+    Raises: MissingExtra: MuJoCo is not installed. SceneError: nothing is drawn, or a number makes no sense.
+    """
+    mujoco = _engine(model, data)
+    unit_m = checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
+    if contacts not in (None, "engine"):
+        raise SceneError(f"contacts is {contacts!r}; it must be 'engine', or None to find them from geometry.")
+    items = _layout(mujoco, model, geom_groups, anew=True)
+    placed = _poses(model, data, items, unit_m)
+    reader, maker = GeomReader(model), ObjectMaker("z", unit_m)
+    objects = []
+    for item in items:
+        group = _group(mujoco, model, item, tuple(map(reader.piece, item.geoms)))
+        label = group.name or _name_of_geoms(mujoco, model, item) or item.id
+        objects.append(maker.make(item.id, label, group, placed[item.id]))
+    if not objects:
+        why = "the model has no geoms" if geom_groups is None else f"no geom is in geom_groups {set(geom_groups)}"
+        raise SceneError(f"{why}; nothing in it can be touched.")
+    told = None if contacts is None else _contacts(model, data, items, unit_m)
+    title = name or model.names[: model.names.index(b"\0")].decode("utf-8", "replace") or "mujoco"
+    return SceneSnapshot(title, "z", with_relative_heights(objects, "z"), told)
+
+
+def poses(model: Any, data: Any, *, geom_groups: Collection[int] | None = None, unit_m: float = 1.0) -> dict[str, Pose]:
+    """Where every object of the last `snapshot` with the same arguments is now, for `HapticSession.update`."""
+    return _poses(model, data, _layout(_engine(model, data), model, geom_groups), unit_m)
+
+
+def load_mjcf(
+    path: str | os.PathLike[str], *, assets_root: str | os.PathLike[str] | None = None, unit_m: float = 1.0
+) -> SceneSnapshot:
+    """The scene in an MJCF file as it is first posed, named after the file; see `open_mjcf`."""
+    model, data = open_mjcf(path, assets_root=assets_root)
+    return snapshot(model, data, name=Path(path).stem, unit_m=unit_m)
+
+
+def open_mjcf(path: str | os.PathLike[str], *, assets_root: str | os.PathLike[str] | None = None) -> tuple[Any, Any]:
+    """`MjModel` and `MjData` of an MJCF file, to be stepped by the caller; bodies are posed, nothing else is computed.
+
+    Parameters: assets_root : the folder that all included files, meshes and textures must be in or below; None means
+    the file's own folder. Nothing outside it is opened.
+    Raises: MissingExtra: MuJoCo is not installed. SceneFormatError: the file is not MJCF, or MuJoCo refuses it.
+    SceneError: it is missing, too large, or wants a file outside assets_root (the message tells the root it needs).
+    """
+    mujoco = engine("mujoco")
+    path = Path(path)
+    check_files(path, path.parent if assets_root is None else Path(assets_root))
+    try:
+        with _silence(mujoco):
+            model = mujoco.MjModel.from_xml_path(str(path.resolve()))
+            data = mujoco.MjData(model)
+            # Enough for poses; contacts of a model that never moved would tell little, and may take minutes to find.
+            mujoco.mj_kinematics(model, data)
+    except (ValueError, MemoryError, mujoco.FatalError, mujoco.UnexpectedError) as cause:
+        told = " ".join(str(cause).split()).removeprefix("Error: ")
+        raise SceneFormatError(f"MuJoCo cannot read {path.name!r}: {told}.") from cause
+    return model, data
+
+
+def _engine(model: Any, data: Any) -> Any:
+    mujoco = engine("mujoco")
+    if not isinstance(model, mujoco.MjModel) or not isinstance(data, mujoco.MjData):
+        raise SceneError(
+            f"model is a {type(model).__name__} and data a {type(data).__name__}; they must be mujoco.MjModel and "
+            "mujoco.MjData. Wrappers keep them inside (dm_control: physics.model.ptr, physics.data.ptr)."
+        )
+    return mujoco
+
+
+# -- which bodies and geoms are objects ------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Item:
+    """An object to be: the geoms that a body draws, or one geom of the world body."""
+
+    id: str
+    body: int
+    geoms: tuple[int, ...]
+
+
+_layouts: WeakKeyDictionary[Any, dict[frozenset[int] | None, list[_Item]]] = WeakKeyDictionary()
+
+
+def _layout(mujoco: Any, model: Any, geom_groups: Collection[int] | None, *, anew: bool = False) -> list[_Item]:
+    """The items of a model; told anew for a snapshot, and as they were then for the frames that follow it."""
+    if geom_groups is not None and (isinstance(geom_groups, str) or not isinstance(geom_groups, Collection)):
+        raise SceneError(f"geom_groups is {geom_groups!r}; it must be a set of group numbers, such as {{1}}.")
+    known = _layouts.setdefault(model, {})
+    groups = None if geom_groups is None else frozenset(geom_groups)
+    if anew or groups not in known:
+        known[groups] = _items(mujoco, model, groups)
+    return known[groups]
+
+
+def _items(mujoco: Any, model: Any, geom_groups: frozenset[int] | None) -> list[_Item]:
+    """The bodies in order, then the world's geoms. Ids do not depend on what is drawn."""
+    kind = mujoco.mjtObj
+    ids, n_children = ["world"], [0] * model.nbody
+    for body in range(1, model.nbody):
+        parent = int(model.body_parentid[body])
+        n_children[parent] += 1
+        name = mujoco.mj_id2name(model, kind.mjOBJ_BODY, body)
+        ids.append(name or f"{ids[parent]}/body{n_children[parent]}")
+    # MuJoCo numbers the geoms of the world first.
+    on_world = range(int(model.body_geomnum[_WORLD]))
+    ids += [mujoco.mj_id2name(model, kind.mjOBJ_GEOM, geom) or f"world/geom{geom + 1}" for geom in on_world]
+    ids = unique_ids(ids[1:])
+    drawn: list[list[int]] = [[] for _ in range(model.nbody)]
+    for geom in np.flatnonzero(_drawn(model, geom_groups)).tolist():
+        drawn[int(model.geom_bodyid[geom])].append(geom)
+    bodies = [_Item(ids[body - 1], body, tuple(drawn[body])) for body in range(1, model.nbody) if drawn[body]]
+    return [*bodies, *(_Item(ids[model.nbody - 1 + geom], _WORLD, (geom,)) for geom in drawn[_WORLD])]
+
+
+def _drawn(model: Any, geom_groups: frozenset[int] | None) -> NDArray[np.bool_]:
+    """Which geoms are seen (n_geoms,), by rule 3."""
+    drawn: NDArray[np.bool_]
+    if geom_groups is not None:
+        drawn = np.isin(model.geom_group, list(geom_groups))
+        return drawn
+    collides = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
+    is_look = ~collides & (colours_rgba(model)[:, 3] > 0)
+    has_looks = np.zeros(model.nbody, dtype=bool)
+    has_looks[model.geom_bodyid[is_look]] = True
+    is_solid_wall = collides & (model.geom_group <= _LAST_SHOWN_GROUP)
+    drawn = is_look | np.where(model.geom_bodyid == _WORLD, is_solid_wall, ~has_looks[model.geom_bodyid])
+    return drawn
+
+
+def _group(mujoco: Any, model: Any, item: _Item, pieces: tuple[Piece, ...]) -> Group:
+    """The item's pieces, named by rule 4; its frame is the body's."""
+
+    def name(body: int) -> str:
+        return mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, body) or ""
+
+    origin = np.eye(4)
+    if item.body == _WORLD:
+        return Group(mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_GEOM, item.geoms[0]) or "", origin, _parts(pieces))
+    body, node = item.body, AuthoredNode(name(item.body), origin, pieces)
+    while (
+        model.body_jntnum[body] == 0
+        and (parent := int(model.body_parentid[body])) != _WORLD
+        and model.body_geomnum[parent] == 0
+        and np.count_nonzero(model.body_parentid[1:] == parent) == 1
+    ):
+        body, node = parent, AuthoredNode(name(parent), origin, children=(node,))
+    return group_objects([node])[0]
+
+
+def _parts(pieces: tuple[Piece, ...]) -> tuple[tuple[NDArray[np.float64], Piece], ...]:
+    return tuple((np.eye(4), piece) for piece in pieces)
+
+
+def _name_of_geoms(mujoco: Any, model: Any, item: _Item) -> str:
+    for geom in item.geoms:
+        if written := mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_GEOM, geom):
+            return str(written)
+    for geom in item.geoms:
+        if model.geom_type[geom] == _MESH:
+            return mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_MESH, int(model.geom_dataid[geom])) or ""
+    return ""
+
+
+# -- where they are, and what they touch -----------------------------------------------------------------------------
+
+
+def _poses(model: Any, data: Any, items: list[_Item], unit_m: float) -> dict[str, Pose]:
+    if model.nbody > 1 and not data.xquat[1:].any():
+        raise SceneError("data holds no poses yet; call mujoco.mj_forward(model, data) first.")
+    positions = (data.xpos * unit_m).tolist()
+    rotations = data.xquat[:, [1, 2, 3, 0]].tolist()
+    found = {}
+    for item in items:
+        if item.body == _WORLD:
+            still = authored_pose(model, item.geoms[0])
+            x, y, z = still.position_m
+            found[item.id] = Pose((x * unit_m, y * unit_m, z * unit_m), still.rotation_xyzw)
+        else:
+            found[item.id] = Pose(positions[item.body], rotations[item.body])
+    return found
+
+
+def _contacts(model: Any, data: Any, items: list[_Item], unit_m: float) -> tuple[Contact, ...]:
+    """The engine's contacts between objects; those with what is not drawn are left out."""
+    of_body = {item.body: item.id for item in items if item.body != _WORLD}
+    of_geom = {item.geoms[0]: item.id for item in items if item.body == _WORLD}
+    found = []
+    for contact in data.contact:
+        if contact.exclude == _IN_GAP:
+            continue
+        geoms = (int(contact.geom1), int(contact.geom2))
+        # A deformable body has no geom, and its contacts say -1.
+        a, b = (of_body.get(int(model.geom_bodyid[geom]), of_geom.get(geom)) if geom >= 0 else None for geom in geoms)
+        if a is None or b is None or a == b:
+            continue
+        x, y, z = (contact.pos * unit_m).tolist()
+        nx, ny, nz = contact.frame[:3].tolist()
+        found.append(Contact(a, b, (x, y, z), (nx, ny, nz)))
+    return tuple(found)
+
+
+@contextmanager
+def _silence(mujoco: Any) -> Iterator[None]:
+    """Keep MuJoCo's warnings off the terminal and out of MUJOCO_LOG.TXT, where it writes them if nobody listens."""
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(lambda text: None)
+    try:
+        yield
+    finally:
+        mujoco.set_mju_user_warning(before)

@@ -1,0 +1,167 @@
+"""MuJoCo geoms as triangles with looks.
+
+Compiled meshes stand in the frame of their principal inertia, and their geoms are placed to fit; both are taken as
+they are, so that the whole is where its author put it.
+
+Source: MuJoCo documentation (Google DeepMind), XML reference, `geom`, `mesh`, `texture`, `material`; mjmodel.h.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.scene.appearance import Appearance, FaceMaterial
+from scene2hap.scene.engines import solids
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.tree import Piece
+
+_SPHERE, _CAPSULE, _ELLIPSOID, _CYLINDER, _BOX = 2, 3, 4, 5, 6
+_PLANE, _TERRAIN = 0, 1
+_TEXTURE_2D, _ROLE_RGB = 0, 1
+# A geom of this colour takes the colour of its material (MuJoCo's default).
+_NO_COLOUR = (0.5, 0.5, 0.5, 1.0)
+# A plane without end is cut to this many times the model's own extent, and to no less than this [model unit] (assumed:
+# whatever moves about stays over it).
+_PLANE_EXTENTS, _MIN_PLANE = 2.0, 5.0
+
+
+@dataclass(eq=False)
+class GeomReader:
+    """Reads the geoms of one `MjModel`; materials and textures are read once."""
+
+    model: Any
+    _colours: NDArray[np.float64] = field(init=False)
+    _materials: dict[tuple[object, ...], FaceMaterial] = field(default_factory=dict)
+    _textures: dict[int, NDArray[np.uint8]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._colours = colours_rgba(self.model)
+
+    def piece(self, geom: int) -> Piece:
+        """The geom in the frame of its body; a geom of the world body in its own frame, as authored.
+
+        Raises: SceneError: its numbers make no sense.
+        """
+        model = self.model
+        kind, mesh = int(model.geom_type[geom]), self._mesh(geom)
+        frame = Pose()
+        if model.geom_bodyid[geom] != 0:
+            frame = pose(model.geom_pos[geom], model.geom_quat[geom])
+        elif mesh is not None:
+            frame = pose(model.mesh_pos[mesh], model.mesh_quat[mesh])
+        size = tuple(model.geom_size[geom].tolist())
+        key = (kind, int(model.geom_dataid[geom]), size, frame.position_m, frame.rotation_xyzw)
+        vertices, faces = self._shape(geom)
+        piece = Piece.checked(key, frame.to_world(vertices), faces, "", f"geom {geom}")
+        return replace(piece, appearance=self._appearance(geom, len(faces)))
+
+    # -- shapes ------------------------------------------------------------------------------------------------------
+
+    def _shape(self, geom: int) -> solids.Triangles:
+        """Triangles in the compiled frame of the geom."""
+        model = self.model
+        kind, size, mesh = int(model.geom_type[geom]), model.geom_size[geom].tolist(), self._mesh(geom)
+        if kind == _PLANE:
+            reach = _PLANE_EXTENTS * model.stat.extent + float(np.linalg.norm(model.stat.center - model.geom_pos[geom]))
+            half = [edge if edge > 0 else max(reach, _MIN_PLANE) for edge in size[:2]]
+            return solids.rectangle(*half)
+        if kind == _TERRAIN:
+            return self._terrain(int(model.geom_dataid[geom]))
+        if kind == _SPHERE:
+            return solids.ellipsoid([size[0]] * 3)
+        if kind == _CAPSULE:
+            return solids.capsule(size[0], size[1])
+        if kind == _ELLIPSOID:
+            return solids.ellipsoid(size)
+        if kind == _CYLINDER:
+            return solids.cylinder(size[0], size[1])
+        if kind == _BOX or mesh is None:
+            return solids.box(size)
+        first, n = model.mesh_vertadr[mesh], model.mesh_vertnum[mesh]
+        return model.mesh_vert[first : first + n].astype(np.float64), self._of_faces(model.mesh_face, mesh)
+
+    def _terrain(self, number: int) -> solids.Triangles:
+        model = self.model
+        half_x, half_y, top, _ = model.hfield_size[number].tolist()
+        n_rows, n_columns = int(model.hfield_nrow[number]), int(model.hfield_ncol[number])
+        first = int(model.hfield_adr[number])
+        heights = model.hfield_data[first : first + n_rows * n_columns].reshape(n_rows, n_columns)
+        return solids.terrain(top * heights.astype(np.float64), half_x, half_y)
+
+    def _mesh(self, geom: int) -> int | None:
+        number = int(self.model.geom_dataid[geom])
+        return number if number >= 0 and self.model.geom_type[geom] > _BOX else None
+
+    def _of_faces(self, table: NDArray[np.int32], mesh: int) -> NDArray[np.int32]:
+        first, n = self.model.mesh_faceadr[mesh], self.model.mesh_facenum[mesh]
+        return table[first : first + n]
+
+    # -- looks -------------------------------------------------------------------------------------------------------
+
+    def _appearance(self, geom: int, n_faces: int) -> Appearance:
+        """Its texture where a mesh says how that lies, else the texture's mean colour."""
+        model, mesh, texture = self.model, self._mesh(geom), self._texture(geom)
+        is_image = texture >= 0 and model.tex_type[texture] == _TEXTURE_2D
+        uv = self._texture_coordinates(mesh) if is_image and mesh is not None else None
+        colour = self._colours[geom]
+        key = (*colour.tolist(), texture, uv is None)
+        if key not in self._materials:
+            image = self._image(texture) if texture >= 0 else None
+            if image is not None and uv is None:
+                colour = colour * [*image[..., :3].reshape(-1, 3).mean(axis=0) / 255.0, 1.0]
+                image = None
+            r, g, b, a = np.clip(colour, 0.0, 1.0).tolist()
+            self._materials[key] = FaceMaterial((r, g, b, a), image)
+        return Appearance.plain(self._materials[key], n_faces, uv)
+
+    def _texture(self, geom: int) -> int:
+        """The number of the colour texture, -1 for none."""
+        material = int(self.model.geom_matid[geom])
+        return int(self.model.mat_texid[material, _ROLE_RGB]) if material >= 0 else -1
+
+    def _texture_coordinates(self, mesh: int) -> NDArray[np.float32] | None:
+        first = int(self.model.mesh_texcoordadr[mesh])
+        if first < 0:
+            return None
+        uv: NDArray[np.float32] = self.model.mesh_texcoord[first + self._of_faces(self.model.mesh_facetexcoord, mesh)]
+        return uv
+
+    def _image(self, texture: int) -> NDArray[np.uint8]:
+        if texture not in self._textures:
+            model = self.model
+            height, width = int(model.tex_height[texture]), int(model.tex_width[texture])
+            n, first = int(model.tex_nchannel[texture]), int(model.tex_adr[texture])
+            image = model.tex_data[first : first + height * width * n].reshape(height, width, n)
+            self._textures[texture] = image.copy() if n >= 3 else np.repeat(image[..., :1], 3, axis=-1)
+        return self._textures[texture]
+
+
+def colours_rgba(model: Any) -> NDArray[np.float64]:
+    """The geoms' own colours (n_geoms, 4) [-]; where they have none, those of their materials."""
+    colours: NDArray[np.float64] = model.geom_rgba.astype(np.float64)
+    borrows = (model.geom_matid >= 0) & (model.geom_rgba == _NO_COLOUR).all(axis=1)
+    colours[borrows] = model.mat_rgba[model.geom_matid[borrows]]
+    return colours
+
+
+def pose(position: NDArray[np.float64], quaternion_wxyz: NDArray[np.float64]) -> Pose:
+    """A pose from MuJoCo's numbers."""
+    x, y, z = position.tolist()
+    qw, qx, qy, qz = quaternion_wxyz.tolist()
+    return Pose((x, y, z), (qx, qy, qz, qw))
+
+
+def authored_pose(model: Any, geom: int) -> Pose:
+    """Where a geom of the world body stands, without the frame that compiling gave to its mesh."""
+    compiled = pose(model.geom_pos[geom], model.geom_quat[geom])
+    mesh = int(model.geom_dataid[geom])
+    if mesh < 0 or model.geom_type[geom] <= _BOX:
+        return compiled
+    inner = pose(model.mesh_pos[mesh], model.mesh_quat[mesh])
+    x, y, z, w = inner.rotation_xyzw
+    back = Pose(tuple((-inner.rotation.T @ inner.position_m).tolist()), (-x, -y, -z, w))
+    return compiled.compose(back)

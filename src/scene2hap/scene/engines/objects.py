@@ -1,0 +1,55 @@
+"""Groups of pieces as scene objects with measured surfaces: what all engines have in common."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from scene2hap.errors import SceneError
+from scene2hap.scene import limits
+from scene2hap.scene.geometry import dominant_surface
+from scene2hap.scene.grouping import Group
+from scene2hap.scene.meshes import MeshPool
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import DominantSurface, SceneObject, UpAxis
+
+_UP = {"y": np.array([0.0, 1.0, 0.0]), "z": np.array([0.0, 0.0, 1.0])}
+
+
+@dataclass(eq=False)
+class ObjectMaker:
+    """Makes the objects of one scene; copies share mesh, looks and measured surface."""
+
+    up_axis: UpAxis
+    unit_m: float = 1.0
+    _pool: MeshPool = field(init=False)
+    _surfaces: dict[str, DominantSurface] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._pool = MeshPool(self.unit_m)
+
+    def make(self, object_id: str, name: str, group: Group, pose: Pose) -> SceneObject:
+        """The object made of a group's parts, at `pose` [m].
+
+        Raises: SceneError: the geometry makes no sense, or the object is too far away; see `MeshPool.place`.
+        """
+        reach_m = max(map(abs, pose.position_m))
+        if reach_m > limits.MAX_COORDINATE_M:
+            raise SceneError(
+                f"object {object_id!r} is {reach_m:g} m from the origin; up to {limits.MAX_COORDINATE_M:g} m are read. "
+                "Has the simulation blown up?"
+            )
+        placed = self._pool.place(group)
+        key = placed.mesh.digest
+        if key not in self._surfaces:
+            self._surfaces[key] = dominant_surface(placed.mesh, up=pose.rotation.T @ _UP[self.up_axis])
+        return SceneObject(
+            id=object_id,
+            name=name,
+            pose=pose,
+            geometry=placed.mesh,
+            surface=self._surfaces[key],
+            instance_key=placed.instance_key,
+            appearance=placed.appearance,
+        )

@@ -1,0 +1,150 @@
+"""Panda3D scene graphs as snapshots.
+
+Objects are found by the rule of the file loaders (`scene2hap.scene.grouping`), since a scene graph is as its artists
+left it. An object stands and moves with the innermost node that holds all its triangles, whichever node names it.
+Instances are objects of their own that share a mesh. Hidden and stashed nodes, lines and points are left out; of levels
+of detail, the finest is read; animated characters stand as they were modelled.
+
+    scene = snapshot(render)
+    moving = nodes(render)                     # once
+    session.update(poses(moving, scene), ...)  # every frame
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from scene2hap.errors import SceneError
+from scene2hap.scene import limits
+from scene2hap.scene.engines import engine
+from scene2hap.scene.engines.objects import ObjectMaker
+from scene2hap.scene.engines.panda3d_geoms import GeomReader
+from scene2hap.scene.grouping import Group, Grouping, group_objects, unique_ids
+from scene2hap.scene.meshes import rigid_part
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import SceneSnapshot, UpAxis, with_relative_heights
+from scene2hap.scene.tree import AuthoredNode, Matrix
+
+
+def snapshot(
+    render: Any, *, name: str | None = None, up_axis: UpAxis = "z", group: Grouping = "authored"
+) -> SceneSnapshot:
+    """The scene below a NodePath, in the coordinates of the graph's top.
+
+    Parameters: render : a `panda3d.core.NodePath`; name : of the scene, None means the NodePath's; up_axis : "z" unless
+    the game set `coordinate-system` to y-up; group : which nodes are objects.
+    Raises: MissingExtra: Panda3D is not installed. SceneError: there are no triangles, or a number makes no sense.
+    """
+    if up_axis not in ("y", "z"):
+        raise SceneError(f"up_axis is {up_axis!r}; it must be 'y' or 'z'.")
+    graph = _Graph.read(render)
+    maker = ObjectMaker(up_axis)
+    objects = []
+    for object_id, (found, path) in graph.objects(group).items():
+        objects.append(maker.make(object_id, found.name, found, _pose(path)))
+    title = name or render.get_name() or "panda3d"
+    if not objects:
+        raise SceneError(f"scene {title!r} draws no triangles; nothing in it can be touched.")
+    return SceneSnapshot(title, up_axis, with_relative_heights(objects, up_axis))
+
+
+def nodes(render: Any, *, group: Grouping = "authored") -> dict[str, Any]:
+    """The NodePath of every object of `snapshot` with the same arguments, by id; for `poses`."""
+    return {object_id: path for object_id, (_, path) in _Graph.read(render).objects(group).items()}
+
+
+def poses(render_or_nodes: Any, snapshot: SceneSnapshot) -> dict[str, Pose]:
+    """Where the objects of a snapshot are now, for `HapticSession.update`.
+
+    Parameters: render_or_nodes : what `nodes` gave, or a NodePath. The latter reads the whole graph again, by the rule
+    "authored"; do that once rather than every frame.
+    Returns: a pose for every object whose node is still there. Scale is as it was in the snapshot.
+    """
+    known = render_or_nodes if isinstance(render_or_nodes, Mapping) else nodes(render_or_nodes)
+    placed = ((item.id, known.get(item.id)) for item in snapshot.objects)
+    return {object_id: _pose(path) for object_id, path in placed if path is not None and not path.is_empty()}
+
+
+@dataclass(eq=False)
+class _Graph:
+    """A scene graph as an authored tree, with the way back from its pieces to NodePaths.
+
+    `trails` has, for every piece, the world transforms and NodePaths from the top down to the node that draws it.
+    """
+
+    core: Any
+    root: AuthoredNode = field(init=False)
+    trails: dict[int, tuple[tuple[Matrix, Any], ...]] = field(default_factory=dict)
+    n_nodes: int = 0
+    n_triangles: int = 0
+
+    @classmethod
+    def read(cls, render: Any) -> _Graph:
+        core = engine("panda3d.core")
+        if not isinstance(render, core.NodePath) or render.is_empty():
+            raise SceneError(f"render is {render!r}; it must be a panda3d.core.NodePath with a node.")
+        graph = cls(core)
+        matrix = _matrix(render.get_net_transform())
+        graph.root = graph._node(render, matrix, (), GeomReader(core))
+        return graph
+
+    def objects(self, group: Grouping) -> dict[str, tuple[Group, Any]]:
+        """The objects by id, each in the frame of the NodePath that it moves with."""
+        groups = group_objects([self.root], group)
+        ids = unique_ids([found.name for found in groups])
+        return {object_id: self._bound(found) for object_id, found in zip(ids, groups, strict=True)}
+
+    def _bound(self, found: Group) -> tuple[Group, Any]:
+        trails = [self.trails[id(piece)] for _, piece in found.parts]
+        shared = [level[0] for level in zip(*trails, strict=False) if all(node is level[0] for node in level)]
+        frame, path = shared[-1]
+        return replace(found, frame=frame), path
+
+    def _node(
+        self, path: Any, matrix: Matrix, above: tuple[tuple[Matrix, Any], ...], reader: GeomReader
+    ) -> AuthoredNode:
+        self.n_nodes += 1
+        limits.at_most("the number of nodes", self.n_nodes, "MAX_NODES")
+        limits.at_most("the depth of the node tree", len(above) + 1, "MAX_DEPTH")
+        trail = (*above, ((above[-1][0] if above else np.eye(4)) @ matrix, path))
+        pieces = tuple(reader.read(path))
+        self.n_triangles += sum(len(piece.faces) for piece in pieces)
+        limits.at_most("the number of triangles", self.n_triangles, "MAX_TRIANGLES")
+        self.trails.update((id(piece), trail) for piece in pieces)
+        children = tuple(
+            self._node(child, _matrix(child.get_transform()), trail, reader) for child in self._drawn_children(path)
+        )
+        return AuthoredNode(self._name(path, bool(above)), matrix, pieces, children)
+
+    def _drawn_children(self, path: Any) -> list[Any]:
+        children = list(path.get_children())
+        if isinstance(path.node(), self.core.LODNode) and children:
+            finest = path.node().get_highest_switch()
+            children = children[finest : finest + 1]
+        return [child for child in children if not child.is_hidden()]
+
+    def _name(self, path: Any, is_below: bool) -> str:
+        """The authored name. A graph's top is never a thing; a loaded model is called by its file: `lamp.egg`."""
+        if not is_below and not path.has_parent():
+            return ""
+        name = str(path.get_name()).strip()
+        return name.partition(".")[0] if isinstance(path.node(), self.core.ModelRoot) else name
+
+
+def _matrix(transform: Any) -> Matrix:
+    # Panda3D multiplies rows from the left.
+    return np.array([tuple(row) for row in transform.get_mat().get_rows()], dtype=np.float64).T
+
+
+def _pose(path: Any) -> Pose:
+    """The node's place in the graph's top, without scale; as `rigid_part` where there is some."""
+    transform = path.get_net_transform()
+    is_similar = transform.has_components() and transform.has_uniform_scale() and not transform.has_nonzero_shear()
+    if is_similar and transform.get_uniform_scale() > 0:
+        w, x, y, z = transform.get_quat()
+        return Pose(tuple(transform.get_pos()), (x, y, z, w))
+    return Pose.from_matrix(rigid_part(_matrix(transform)))

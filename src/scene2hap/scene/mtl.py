@@ -1,0 +1,144 @@
+"""Material libraries of OBJ files: diffuse colour, opacity and colour texture.
+
+Colours are taken as sRGB, as viewers do. File names stand as they are, with blanks and with slashes either way.
+
+Source: Wavefront, MTL material format, Lightwave/Wavefront (1995): Kd, d, Tr, map_Kd with -s and -o.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from urllib.parse import quote
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.errors import SceneError
+from scene2hap.scene.appearance import Appearance, FaceMaterial
+from scene2hap.scene.files import inside, read_bytes
+from scene2hap.scene.texture_files import TextureFiles
+
+# How many words follow an option of a texture, at most; numbers may be left out.
+_OPTIONS = {
+    **dict.fromkeys(("-blendu", "-blendv", "-cc", "-clamp", "-imfchan", "-type", "-bm", "-boost", "-texres"), 1),
+    **dict.fromkeys(("-mm",), 2),
+    **dict.fromkeys(("-o", "-s", "-t"), 3),
+}
+_WORDS_AS_VALUES = ("-blendu", "-blendv", "-cc", "-clamp", "-imfchan", "-type")
+
+
+@dataclass(frozen=True, eq=False)
+class MtlMaterial:
+    """A material, and how its texture lies: image coordinates are `scale` times those of the faces, plus `offset`."""
+
+    paint: FaceMaterial
+    scale: tuple[float, float] = (1.0, 1.0)
+    offset: tuple[float, float] = (0.0, 0.0)
+
+    def appearance(self, n_faces: int, uv: NDArray[np.float64] | None) -> Appearance:
+        """The looks of faces whose corners have coordinates uv (m, 3, 2), v running up; None if they have none."""
+        if uv is None or not self.paint.has_texture:
+            return Appearance.plain(FaceMaterial(self.paint.color_rgba), n_faces)
+        image = uv * self.scale + self.offset
+        image[..., 1] = 1.0 - image[..., 1]
+        return Appearance.plain(self.paint, n_faces, image.astype(np.float32))
+
+
+@dataclass(eq=False)
+class MtlLibraries:
+    """The materials that the libraries of one OBJ file define, by name; later ones win."""
+
+    textures: TextureFiles
+    materials: dict[str, MtlMaterial] = field(default_factory=dict)
+
+    def read(self, names: str) -> None:
+        """Read the libraries that a `mtllib` statement names: one name with blanks, or several.
+
+        One that is missing, broken or outside the assets root is refused in `textures`.
+        """
+        for name in (names,) if names.lower().endswith(".mtl") and not self._are_many(names) else names.split():
+            uri = _uri(name)
+            try:
+                data = read_bytes(inside(self.textures.assets_root, self.textures.folder, uri, "mtllib"))
+            except SceneError as error:
+                self.textures.refuse(name, str(error))
+                continue
+            for material, rows in _blocks(data.decode("utf-8", errors="replace")):
+                self.materials[material] = self._material(rows, material)
+
+    @staticmethod
+    def _are_many(names: str) -> bool:
+        return names.lower().count(".mtl") > 1
+
+    def _material(self, rows: dict[str, str], name: str) -> MtlMaterial:
+        color = _numbers(rows.get("kd", ""), 3) or (0.8, 0.8, 0.8)
+        opacity = 1.0
+        if (told := _numbers(rows.get("d", "").removeprefix("-halo"), 1)) is not None:
+            opacity = told[0]
+        elif (told := _numbers(rows.get("tr", ""), 1)) is not None:
+            opacity = 1.0 - told[0]
+        r, g, b, a = (min(max(channel, 0.0), 1.0) for channel in (*color, opacity))
+        file, lies = _texture(rows.get("map_kd", ""))
+        if not file:
+            return MtlMaterial(FaceMaterial((r, g, b, a)))
+        texture = self.textures.from_file(_uri(file), f"material {name!r}", keeps_alpha="map_d" in rows)
+        # Exporters that leave all colour to the texture write black or nothing, which would hide it.
+        if texture is not None and (r == g == b == 0.0 or "kd" not in rows):
+            r = g = b = 1.0
+        return replace(lies, paint=FaceMaterial((r, g, b, a), texture))
+
+
+def _blocks(text: str) -> Iterator[tuple[str, dict[str, str]]]:
+    """Each material's name and statements by lower-case keyword."""
+    name, rows = None, dict[str, str]()
+    for line in text.splitlines():
+        keyword, _, rest = line.partition("#")[0].strip().replace("\t", " ").partition(" ")
+        if keyword.lower() == "newmtl":
+            if name is not None:
+                yield name, rows
+            name, rows = rest.strip(), {}
+        elif keyword:
+            rows[keyword.lower()] = rest.strip()
+    if name is not None:
+        yield name, rows
+
+
+def _texture(statement: str) -> tuple[str, MtlMaterial]:
+    """The file that a map statement names, and how it lies."""
+    lies = MtlMaterial(FaceMaterial())
+    rest = statement
+    while rest.startswith("-"):
+        option, _, rest = rest.partition(" ")
+        values = []
+        for _ in range(_OPTIONS.get(option.lower(), 0)):
+            word, _, after = rest.lstrip().partition(" ")
+            if option.lower() not in _WORDS_AS_VALUES and _numbers(word, 1) is None:
+                break
+            values.append(word)
+            rest = after
+        rest = rest.lstrip()
+        # Three values are for u, v and depth; v and depth may be left out.
+        if option.lower() == "-s":
+            lies = replace(lies, scale=_pair(values, 1.0))
+        elif option.lower() == "-o":
+            lies = replace(lies, offset=_pair(values, 0.0))
+    return rest.strip().strip('"'), lies
+
+
+def _pair(words: list[str], default: float) -> tuple[float, float]:
+    u, v = [*map(float, words), default, default][:2]
+    return u, v
+
+
+def _numbers(text: str, n: int) -> tuple[float, ...] | None:
+    """The first n numbers of a text; None if it does not begin with as many finite ones."""
+    try:
+        values = tuple(map(float, text.split()[:n]))
+    except ValueError:
+        return None
+    return values if len(values) == n and np.isfinite(values).all() else None
+
+
+def _uri(name: str) -> str:
+    return quote(name.strip().strip('"').replace("\\", "/"))

@@ -1,0 +1,53 @@
+"""The textures of one scene file: read once, from allowed places, shared by content; what is refused is kept to tell.
+
+A scene without its textures is still the same scene to the touch, so nothing here fails it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from scene2hap.errors import SceneError
+from scene2hap.scene.files import inside, read_bytes
+from scene2hap.scene.textures import EncodedTexture
+
+
+@dataclass(eq=False)
+class TextureFiles:
+    """Reads the images of a scene in `folder`, only from inside `assets_root`; `left_out` tells why some are not."""
+
+    folder: Path
+    assets_root: Path
+    _refused: dict[str, str] = field(default_factory=dict)
+    _by_name: dict[str, EncodedTexture] = field(default_factory=dict)
+    _by_content: dict[str, EncodedTexture] = field(default_factory=dict)
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """A sentence for each texture or file of looks that could not be used, in the order in which they were met."""
+        return tuple(self._refused.values())
+
+    def refuse(self, name: str, reason: str) -> None:
+        """Keep the reason why something of that name is not used; the first one counts."""
+        self._refused.setdefault(name, reason)
+
+    def from_file(self, uri: str, place: str, *, keeps_alpha: bool = True) -> EncodedTexture | None:
+        """The image that `place` means by `uri`, percent-encoded and relative to the scene; None if it is refused."""
+        return self.named(uri, lambda: read_bytes(inside(self.assets_root, self.folder, uri, place)), keeps_alpha)
+
+    def named(self, name: str, read: Callable[[], bytes], keeps_alpha: bool) -> EncodedTexture | None:
+        """The image that `read` gives the bytes of, once for each name; None if it raises, or if it is no image."""
+        if name in self._refused:
+            return None
+        if name not in self._by_name:
+            try:
+                self._by_name[name] = EncodedTexture.checked(read(), f"texture {name!r}")
+            except SceneError as error:
+                self.refuse(name, str(error))
+                return None
+        texture = self._by_name[name]
+        if texture.has_alpha and not keeps_alpha:
+            texture = texture.opaque
+        return self._by_content.setdefault(texture.digest, texture)

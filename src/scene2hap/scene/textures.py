@@ -1,0 +1,123 @@
+"""Textures as their files hold them: checked when a scene is read, decoded when a picture first needs them."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import warnings
+from dataclasses import dataclass, replace
+from functools import cached_property
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene import limits
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+DECODED_PX = 1024
+"""Textures are decoded to no more than this many pixels a side: twice what the largest picture can show (assumed)."""
+
+# How a file of each format begins, and the Pillow plugin that reads it; without a match it can only be TGA.
+_FORMATS = (
+    (b"\x89PNG", "PNG", "PngImagePlugin"),
+    (b"\xff\xd8", "JPEG", "JpegImagePlugin"),
+    (b"RIFF", "WEBP", "WebPImagePlugin"),
+    (b"BM", "BMP", "BmpImagePlugin"),
+    (b"GIF8", "GIF", "GifImagePlugin"),
+    (b"II*\0", "TIFF", "TiffImagePlugin"),
+    (b"MM\0*", "TIFF", "TiffImagePlugin"),
+    (b"", "TGA", "TgaImagePlugin"),
+)
+
+
+class TextureWarning(UserWarning):
+    """Textures that a scene names and that are not shown; the colours of their materials are."""
+
+
+@dataclass(frozen=True, eq=False)
+class EncodedTexture:
+    """The bytes of an image file; `name` is for messages, `has_alpha` tells whether its opacity counts."""
+
+    encoded: bytes
+    name: str
+    has_alpha: bool
+
+    @classmethod
+    def checked(cls, encoded: bytes, name: str) -> EncodedTexture:
+        """A texture whose header makes sense; its pixels are not looked at yet.
+
+        Raises: SceneFormatError: it is no image of a format that is read. SceneError: it is too large.
+        """
+        try:
+            # Pillow warns of images that our own limit refuses.
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                with _opened(encoded) as image:
+                    edge, has_alpha = max(image.size), image.has_transparency_data
+        # Its plugins raise whatever the broken bytes lead to.
+        except Exception as cause:
+            known = ", ".join(dict.fromkeys(kind for _, kind, _ in _FORMATS))
+            raise SceneFormatError(f"{name} is no image that is read ({known}): {cause}.") from cause
+        if edge > limits.MAX_TEXTURE_PX:
+            raise SceneError(
+                f"{name} is {edge:,} pixels wide or high; at most {limits.MAX_TEXTURE_PX:,} are read "
+                "(scene2hap.scene.limits.MAX_TEXTURE_PX). Shrink it."
+            )
+        return cls(encoded, name, has_alpha)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        # Another process decodes for itself; pixels would be much to send.
+        return (EncodedTexture, (self.encoded, self.name, self.has_alpha))
+
+    @property
+    def opaque(self) -> EncodedTexture:
+        """The same image, whose opacity does not count."""
+        return replace(self, has_alpha=False)
+
+    @cached_property
+    def digest(self) -> str:
+        """A name for the content."""
+        return hashlib.sha256(self.encoded + bytes([self.has_alpha])).hexdigest()[:16]
+
+    @cached_property
+    def texels(self) -> NDArray[np.uint8] | None:
+        """The pixels (height, width, 3 or 4) uint8 sRGB; None, after a TextureWarning, if they cannot be decoded."""
+        try:
+            with _opened(self.encoded) as image:
+                texels = self._decoded(image)
+        # Pillow raises whatever the broken bytes lead to.
+        except Exception as cause:
+            message = f"{self.name} is left out, its colour stays: its pixels cannot be decoded: {cause}."
+            warnings.warn(message, TextureWarning, stacklevel=2)
+            return None
+        texels.flags.writeable = False
+        return texels
+
+    def _decoded(self, image: Image.Image) -> NDArray[np.uint8]:
+        from PIL import Image
+
+        # JPEG decodes to a half, a quarter or an eighth in a fraction of the time.
+        image.draft(None, (DECODED_PX, DECODED_PX))
+        is_deep, has_alpha = image.mode.startswith("I"), self.has_alpha
+        if is_deep:
+            # Grey of 16 bits, which Pillow would clip rather than scale.
+            image = Image.fromarray((np.asarray(image).astype(np.int64) >> 8).clip(0, 255).astype(np.uint8))
+        elif image.has_transparency_data:
+            image = image.convert("RGBA")
+        image = image.convert("RGBA" if has_alpha else "RGB")
+        image.thumbnail((DECODED_PX, DECODED_PX), Image.Resampling.BOX)
+        return np.array(image)
+
+
+def _opened(encoded: bytes) -> Image.Image:
+    kind, plugin = next((kind, plugin) for start, kind, plugin in _FORMATS if encoded.startswith(start))
+    # Asked for a format that is not there, Pillow would import all of its plugins.
+    import_module(f"PIL.{plugin}")
+    from PIL import Image
+
+    return Image.open(io.BytesIO(encoded), formats=(kind,))

@@ -1,0 +1,34 @@
+"""Outlines against a dilation by distance, computed apart."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.ndimage import distance_transform_edt
+
+from scene2hap.scene.capture.outline import mark, outline_of
+
+
+@pytest.mark.parametrize("width", [1, 2, 4, 7])
+@pytest.mark.parametrize("seed", range(3))
+def test_the_outline_is_what_lies_within_its_width(width: int, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    is_target = rng.random((60, 60)) < 0.01
+    is_target[20:30, 55:] = True
+    distance = distance_transform_edt(~is_target)
+    # Half a pixel of grace, as pixels have a size.
+    np.testing.assert_array_equal(outline_of(is_target, width), (distance > 0) & (distance <= width + 0.5))
+
+
+def test_nothing_seen_nothing_outlined() -> None:
+    assert not outline_of(np.zeros((8, 8), bool), 3).any()
+
+
+def test_the_target_itself_keeps_its_colours() -> None:
+    picture = np.full((9, 9, 3), 50, np.uint8)
+    is_target = np.zeros((9, 9), bool)
+    is_target[4, 4] = True
+    mark(picture, is_target, 1, (255, 0, 190))
+    assert tuple(picture[4, 4]) == (50, 50, 50)
+    assert (picture == (255, 0, 190)).all(axis=2).sum() == 8
+    assert tuple(picture[2, 2]) == (50, 50, 50)

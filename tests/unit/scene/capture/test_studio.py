@@ -1,0 +1,281 @@
+"""Captured scenes with a renderer that only counts: laziness, sharing, caches, errors."""
+
+from __future__ import annotations
+
+import pickle
+import threading
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from scene2hap import SceneSnapshot
+from scene2hap.errors import ConfigError, MissingExtra, SceneError, UnknownObject, UnknownPlugin
+from scene2hap.scene.appearance import Appearance, FaceMaterial
+from scene2hap.scene.capture import RENDERERS, CaptureConfig, capture_images, capture_stats, contact_sheet, render_all
+from scene2hap.scene.capture.cache import MEMORY, FolderCache, MemoryCache
+from scene2hap.scene.capture.protocol import Ids, Pixels, Selection
+from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.views import Camera
+from scene2hap.scene.images import ImageSet
+from scenes import box, scene
+
+
+class CountingRenderer:
+    """Paints a square of the first actor shown; tells how often it was asked."""
+
+    made = 0
+    drawn = 0
+
+    def __init__(self, stage: Stage, antialias: bool) -> None:
+        type(self).made += 1
+
+    def identify(self, camera: Camera, selection: Selection) -> Ids:
+        ids = np.full((camera.size_px, camera.size_px), -1, np.int32)
+        quarter = max(1, camera.size_px // 4)
+        ids[quarter : 3 * quarter, quarter : 3 * quarter] = min(selection.shown)
+        return ids
+
+    def draw(self, camera: Camera, selection: Selection) -> tuple[Pixels, Ids]:
+        type(self).drawn += 1
+        ids = self.identify(camera, selection)
+        return np.repeat((ids[..., None] * 40 + 90).astype(np.uint8), 3, axis=2), ids
+
+
+@pytest.fixture(autouse=True)
+def _fresh() -> Iterator[None]:
+    MEMORY.clear()
+    CountingRenderer.made = CountingRenderer.drawn = 0
+    yield
+    MEMORY.clear()
+
+
+def cups_on_tables() -> SceneSnapshot:
+    """Two tables of one kind on a floor, two cups on tables and one on the floor, all of one kind."""
+    keys = {"floor": "f", "table": "t", "table#2": "t", "cup": "c", "cup#2": "c", "cup#3": "c"}
+    objects = [
+        box("floor", (8, 0.1, 8), (0, -0.05, 0)),
+        box("table", (1, 0.7, 1), (-1, 0.35, 0)),
+        box("table#2", (1, 0.7, 1), (1, 0.35, 0)),
+        box("cup", (0.1, 0.1, 0.1), (-1, 0.75, 0)),
+        box("cup#2", (0.1, 0.1, 0.1), (1, 0.75, 0)),
+        box("cup#3", (0.1, 0.1, 0.1), (3, 0.05, 0)),
+    ]
+    return scene(*(replace(item, instance_key=keys[item.id]) for item in objects))
+
+
+def captured(snapshot: SceneSnapshot | None = None, **settings: object) -> SceneSnapshot:
+    return capture_images(snapshot or cups_on_tables(), size_px=32, renderer=CountingRenderer, config=settings)
+
+
+def images_of(snapshot: SceneSnapshot) -> ImageSet:
+    assert snapshot.images is not None
+    return snapshot.images
+
+
+def test_nothing_is_rendered_until_it_is_read() -> None:
+    shot = captured()
+    cup = shot.object("cup").images
+    assert cup is not None
+    assert (len(images_of(shot)), len(cup.isolated), len(cup.context)) == (4, 8, 8)
+    assert [one.label for one in cup.context.shots][3:6] == ["above 300°", "below 30°", "below 120°"]
+    assert "above 30°" in repr(cup.isolated)
+    assert (CountingRenderer.made, CountingRenderer.drawn) == (0, 0)
+    first = cup.isolated[0]
+    assert first.startswith(b"\x89PNG")
+    assert cup.isolated[0] is first
+    assert cup.isolated[-8] is first
+    assert (CountingRenderer.made, CountingRenderer.drawn) == (1, 1)
+    assert len(cup.isolated[:3]) == 3
+    assert CountingRenderer.drawn == 3
+
+
+def test_copies_share_images_and_the_numbers_say_so() -> None:
+    shot = captured()
+    stats = render_all(shot)
+    # Kinds: floor, table, cup. Classes: floor on nothing, table on floor, cup on table, cup on floor.
+    assert stats.rendered == CountingRenderer.drawn == 4 + 8 * 3 + 8 * 4
+    cups = [shot.object(key).images for key in ("cup", "cup#2", "cup#3")]
+    assert cups[0] is not None and cups[1] is not None and cups[2] is not None  # noqa: PT018
+    assert cups[0].isolated[5] is cups[1].isolated[5] is cups[2].isolated[5]
+    assert cups[0].context[5] is cups[1].context[5] is not cups[2].context[5]
+    assert capture_stats(shot) == stats
+
+
+def test_sharing_can_be_turned_off() -> None:
+    stats = render_all(captured(share_copies=False))
+    assert stats.rendered + stats.from_memory == 4 + 8 * 6 + 8 * 6
+    # The same mesh turned the same way is the same isolated picture even so.
+    assert stats.from_memory == 8 * 3
+
+
+def test_only_what_is_asked_for_gets_images() -> None:
+    shot = capture_images(cups_on_tables(), ["cup#2"], size_px=32, renderer=CountingRenderer)
+    assert [item.id for item in shot.objects if item.images is not None] == ["cup#2"]
+    assert render_all(shot).rendered == 4 + 8 + 8
+    assert render_all(shot).rendered == 20
+
+
+def test_progress_is_told_for_every_picture() -> None:
+    told: list[tuple[int, int]] = []
+    render_all(
+        capture_images(cups_on_tables(), [], size_px=32, renderer=CountingRenderer), progress=lambda *n: told.append(n)
+    )
+    assert told == [(1, 4), (2, 4), (3, 4), (4, 4)]
+
+
+def test_a_second_capture_comes_from_memory() -> None:
+    before = captured()
+    render_all(before)
+    drawn = CountingRenderer.drawn
+    after = captured()
+    assert render_all(after).rendered == 0
+    assert capture_stats(after).from_memory == drawn == CountingRenderer.drawn
+    assert list(images_of(after)) == list(images_of(before))
+
+
+def test_a_moved_object_keeps_its_isolated_images_alone() -> None:
+    render_all(captured())
+    drawn = CountingRenderer.drawn
+    moved = cups_on_tables()
+    far = replace(moved.object("cup#3"), pose=box("x", (1, 1, 1), (3.5, 0.05, 1)).pose)
+    again = render_all(captured(replace(moved, objects=(*moved.objects[:-1], far))))
+    assert again.from_memory == 8 * 3
+    assert CountingRenderer.drawn - drawn == 4 + 8 * 4
+
+
+@pytest.mark.parametrize("change", [{"elevation_deg": 30.0}, {"outline_rgb": (0, 255, 0)}, {"antialias": False}])
+def test_other_settings_are_other_pictures(change: dict[str, object]) -> None:
+    render_all(captured())
+    assert render_all(captured(**change)).from_memory == 0
+
+
+def test_a_folder_keeps_pictures_between_runs(tmp_path: Path) -> None:
+    before = captured(cache_dir=tmp_path)
+    render_all(before)
+    assert not list(tmp_path.rglob("*.part"))
+    MEMORY.clear()
+    after = captured(cache_dir=tmp_path)
+    stats = render_all(after)
+    assert (stats.rendered, stats.from_folder) == (0, CountingRenderer.drawn)
+    assert list(images_of(after)) == list(images_of(before))
+
+
+def test_a_file_that_was_cut_short_is_taken_anew(tmp_path: Path) -> None:
+    render_all(captured(cache_dir=tmp_path))
+    victim = next(tmp_path.rglob("*.png"))
+    whole = victim.read_bytes()
+    victim.write_bytes(whole[:-5])
+    MEMORY.clear()
+    assert render_all(captured(cache_dir=tmp_path)).rendered == 1
+    assert victim.read_bytes() == whole
+
+
+def test_a_folder_that_cannot_be_written_is_named(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("no folder")
+    cache = FolderCache(tmp_path / "file")
+    assert cache.get("ab") is None
+    with pytest.raises(ConfigError, match=r"file' cannot be written.*Name another"):
+        cache.put("ab", b"png")
+
+
+def test_memory_forgets_the_longest_unused() -> None:
+    cache = MemoryCache(limit_bytes=10)
+    cache.put("a", b"1234")
+    cache.put("b", b"1234")
+    assert cache.get("a") == b"1234"
+    cache.put("c", b"1234")
+    assert (cache.get("a"), cache.get("b"), cache.get("c")) == (b"1234", None, b"1234")
+
+
+def test_threads_may_read_at_once() -> None:
+    images = images_of(captured())
+    found: list[list[bytes]] = []
+    threads = [threading.Thread(target=lambda: found.append(list(images))) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(found) == 8
+    assert all(pictures == found[0] for pictures in found)
+    assert CountingRenderer.drawn == 4
+
+
+def test_a_captured_scene_is_the_same_scene() -> None:
+    plain = cups_on_tables()
+    shot = captured(plain)
+    assert shot == plain
+    assert SceneSnapshot.from_json(shot.to_json()) == plain
+    assert SceneSnapshot.from_json(shot.to_json()).images is None
+    moved = shot.with_poses({})
+    assert moved.images is None
+    assert moved.object("cup").images is None
+
+
+def test_a_captured_scene_can_be_sent_to_another_process() -> None:
+    shot = captured()
+    copy = pickle.loads(pickle.dumps(shot))
+    assert list(copy.images) == list(images_of(shot))
+
+
+def test_looks_that_do_not_fit_are_refused_when_a_picture_is_taken() -> None:
+    looks = Appearance((FaceMaterial(),), np.zeros(5, np.int32))
+    shot = captured(scene(replace(box("cup", (1, 1, 1), (0, 0, 0)), appearance=looks)))
+    with pytest.raises(SceneError, match="appearance of 'cup' tells 5 faces, its mesh has 12"):
+        _ = images_of(shot)[0]
+
+
+def test_unknown_objects_are_named() -> None:
+    with pytest.raises(UnknownObject, match="no object 'cupp'. Did you mean 'cup"):
+        capture_images(cups_on_tables(), ["cupp"], renderer=CountingRenderer)
+    with pytest.raises(ConfigError, match=r"give a list of ids, \['cup'\]"):
+        capture_images(cups_on_tables(), "cup", renderer=CountingRenderer)
+
+
+@pytest.mark.parametrize(
+    ("settings", "sentence"),
+    [
+        ({"size_px": 0}, "capture setting size_px: .*greater than or equal to 16, got 0"),
+        ({"config": {"fill": 1.5}}, "capture setting fill: .*got 1.5"),
+        ({"config": {"colour": 1}}, "capture setting colour: .*not permitted"),
+        ({"config": {"elevation_deg": 90.0}}, "capture setting elevation_deg: .*less than 90"),
+        ({"renderer": 5}, "renderer is 5; it must be a kind"),
+    ],
+)
+def test_settings_out_of_bounds_are_refused(settings: dict[str, object], sentence: str) -> None:
+    with pytest.raises(ConfigError, match=sentence):
+        capture_images(cups_on_tables(), **settings)  # type: ignore[arg-type]
+
+
+def test_an_unknown_renderer_is_told_with_the_known_ones() -> None:
+    with pytest.raises(UnknownPlugin, match="no kind 'povray'. Known: embree, panda3d"):
+        capture_images(cups_on_tables(), renderer="povray")
+
+
+def test_a_missing_extra_is_named_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    import sys
+
+    monkeypatch.setitem(sys.modules, "embreex", None)
+    monkeypatch.setitem(sys.modules, "embreex.mesh_construction", None)
+    monkeypatch.delitem(sys.modules, "scene2hap.scene.capture.embree", raising=False)
+    with pytest.raises(MissingExtra, match=r"pip install 'scene2hap\[pictures\]'"):
+        capture_images(cups_on_tables())
+    assert RENDERERS.extras["panda3d"] == "panda3d"
+
+
+def test_scenes_without_images_are_told_what_to_do() -> None:
+    with pytest.raises(ConfigError, match="call capture_images first"):
+        render_all(cups_on_tables())
+    with pytest.raises(ConfigError, match="pass a scene through capture_images first"):
+        contact_sheet(cups_on_tables().object("cup"))
+
+
+def test_settings_may_come_from_a_configuration() -> None:
+    config = CaptureConfig(size_px=48, azimuths=2)
+    shot = capture_images(cups_on_tables(), renderer=CountingRenderer, config=config)
+    assert len(images_of(shot)) == 2
+    images = shot.object("cup").images
+    assert images is not None
+    assert int.from_bytes(images.isolated[0][16:20], "big") == 48

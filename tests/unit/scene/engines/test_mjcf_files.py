@@ -1,0 +1,316 @@
+"""MJCF files: what they may read, what they may cost, and that MuJoCo stays quiet."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from scene2hap import load_scene
+from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene.engines import mjcf_files
+from scene2hap.scene.engines.mjcf_files import check_files
+from scene2hap.scene.engines.mujoco import load_mjcf, open_mjcf, snapshot
+
+pytest.importorskip("mujoco", reason="needs the extra mujoco")
+
+TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+WORLD = '<worldbody><body name="a"><geom type="mesh" mesh="t"/></body></worldbody>'
+BALL = '<worldbody><body name="ball"><geom size="0.1"/></body></worldbody>'
+
+
+def write(path: Path, text: str) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def home(tmp_path: Path) -> Path:
+    """A folder with a scene's own folder, `scene`, and another beside it, `other`, with a mesh in each."""
+    write(tmp_path / "scene" / "meshes" / "t.obj", TETRAHEDRON)
+    write(tmp_path / "other" / "t.obj", TETRAHEDRON)
+    write(tmp_path / "other" / "part.xml", f"<mujocoinclude>{BALL}</mujocoinclude>")
+    return tmp_path / "scene"
+
+
+def mjcf(folder: Path, inside: str, name: str = "main.xml") -> Path:
+    return write(folder / name, f"<mujoco>{inside}</mujoco>")
+
+
+# -- what may be read ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "inside",
+    [
+        '<asset><mesh name="t" file="meshes/t.obj"/></asset>',
+        '<compiler meshdir="meshes"/><asset><mesh name="t" file="t.obj"/></asset>',
+        '<compiler meshdir="./meshes/../meshes/"/><asset><mesh name="t" file="t.obj"/></asset>',
+        '<asset><mesh name="t" file="t.obj"/></asset><compiler assetdir="meshes"/>',
+        '<compiler meshdir="nowhere"/><compiler meshdir="meshes"/><asset><mesh name="t" file="t.obj"/></asset>',
+        '<compiler strippath="true" meshdir="meshes"/><asset><mesh name="t" file="/home/me/t.obj"/></asset>',
+        '<compiler meshdir="../scene/meshes"/><asset><mesh name="t" file="t.obj"/></asset>',
+        r'<asset><mesh name="t" file="meshes\t.obj"/></asset>',
+    ],
+)
+def test_files_in_the_scenes_own_folder_are_read(home: Path, inside: str) -> None:
+    assert [item.id for item in load_mjcf(mjcf(home, inside + WORLD)).objects] == ["a"]
+
+
+def test_includes_are_followed_and_their_folders_count(home: Path) -> None:
+    write(home / "parts" / "mesh.xml", '<mujocoinclude><asset><mesh name="t" file="t.obj"/></asset></mujocoinclude>')
+    write(home / "parts" / "all.xml", '<mujocoinclude><compiler meshdir="meshes"/></mujocoinclude>')
+    includes = '<include file="parts/all.xml"/><include file="parts/mesh.xml"/>'
+    assert len(load_mjcf(mjcf(home, includes + WORLD)).objects) == 1
+
+
+REACHING_OUT = {
+    "mesh": '<asset><mesh name="t" file="../other/t.obj"/></asset>',
+    "meshdir": '<compiler meshdir="../other"/><asset><mesh name="t" file="t.obj"/></asset>',
+    "assetdir": '<compiler assetdir="../other"/><asset><mesh name="t" file="t.obj"/></asset>',
+    "backslash": r'<asset><mesh name="t" file="..\other\t.obj"/></asset>',
+    "capitals": '<COMPILER meshdir="../other"/><asset><mesh name="t" file="t.obj"/></asset>',
+    "include": '<include file="../other/part.xml"/>',
+    "Include": '<Include file="../other/part.xml"/>',
+    "model": '<asset><model name="m" file="../other/part.xml"/></asset>',
+    "hfield": '<asset><hfield name="h" file="../other/t.obj" size="1 1 1 1"/></asset>',
+    "skin": '<asset><skin name="s" file="../other/t.obj"/></asset>',
+    "texture": '<compiler texturedir="../other"/><asset><texture name="x" file="t.obj"/></asset>',
+    "cube": '<asset><texture name="x" type="cube" fileleft="../other/t.obj"/></asset>',
+    "flexcomp": '<worldbody><flexcomp name="f" type="mesh" file="../other/t.obj"/></worldbody>',
+}
+
+
+@pytest.mark.parametrize("how", REACHING_OUT)
+def test_what_lies_outside_is_refused_and_the_root_it_needs_is_told(home: Path, how: str) -> None:
+    with pytest.raises(SceneError, match="lies outside") as caught:
+        load_mjcf(mjcf(home, REACHING_OUT[how]))
+    assert f"Give assets_root={str(home.parent)!r}" in str(caught.value)
+    assert "main.xml, line 1, <" in str(caught.value)
+
+
+@pytest.mark.parametrize("how", ["mesh", "meshdir", "backslash", "include"])
+def test_with_that_root_it_loads(home: Path, how: str) -> None:
+    world = "" if how == "include" else WORLD
+    assert len(load_mjcf(mjcf(home, REACHING_OUT[how] + world), assets_root=home.parent).objects) == 1
+
+
+def test_absolute_paths_are_refused_outside_and_read_inside(home: Path) -> None:
+    inside, outside = home / "meshes" / "t.obj", home.parent / "other" / "t.obj"
+    assert load_mjcf(mjcf(home, f'<asset><mesh name="t" file="{inside}"/></asset>{WORLD}'))
+    with pytest.raises(SceneError, match="lies outside"):
+        load_mjcf(mjcf(home, f'<asset><mesh name="t" file="{outside}"/></asset>{WORLD}'))
+
+
+def test_a_link_does_not_lead_out(home: Path) -> None:
+    os.symlink(home.parent / "other", home / "linked")
+    with pytest.raises(SceneError, match="lies outside"):
+        load_mjcf(mjcf(home, f'<asset><mesh name="t" file="linked/t.obj"/></asset>{WORLD}'))
+
+
+def test_a_part_cannot_reach_further_than_the_whole(home: Path) -> None:
+    write(home / "part.xml", '<mujocoinclude><include file="../other/part.xml"/></mujocoinclude>')
+    write(home / "sub" / "model.xml", '<mujoco><asset><mesh name="t" file="../../other/t.obj"/></asset></mujoco>')
+    with pytest.raises(SceneError, match=r"part\.xml, line 1, <include> wants '\.\./other/part\.xml'"):
+        load_mjcf(mjcf(home, '<include file="part.xml"/>'))
+    with pytest.raises(SceneError, match=r"model\.xml, line 1, <mesh> wants '\.\./\.\./other/t\.obj'"):
+        load_mjcf(mjcf(home, '<asset><model name="m" file="sub/model.xml"/></asset>'))
+
+
+def test_nothing_outside_is_opened(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    opened: list[Path] = []
+    read = mjcf_files.read_bytes
+    monkeypatch.setattr(mjcf_files, "read_bytes", lambda path: (opened.append(path), read(path))[1])
+    with pytest.raises(SceneError, match="lies outside"):
+        check_files(mjcf(home, REACHING_OUT["include"] + REACHING_OUT["model"]), home)
+    assert opened == [home / "main.xml"]
+
+
+def test_a_scene_outside_its_root_is_refused(home: Path) -> None:
+    with pytest.raises(SceneError, match="lies outside assets_root"):
+        load_mjcf(mjcf(home, BALL), assets_root=home / "meshes")
+
+
+def test_a_missing_file_is_named(home: Path) -> None:
+    with pytest.raises(SceneError, match=r"line 1, <mesh> wants 'u\.obj'; there is no such file"):
+        load_mjcf(mjcf(home, f'<asset><mesh name="t" file="u.obj"/></asset>{WORLD}'))
+    with pytest.raises(SceneError, match="there is no file"):
+        load_mjcf(home / "none.xml")
+    with pytest.raises(SceneError, match="is no usable file name"):
+        load_mjcf(mjcf(home, f'<asset><mesh name="t" file="{"x" * 5000}"/></asset>{WORLD}'))
+
+
+# -- what it may cost ------------------------------------------------------------------------------------------------
+
+
+def test_a_document_type_is_refused_before_any_entity_grows(home: Path) -> None:
+    bomb = '<!DOCTYPE m [<!ENTITY a "aaaaaaaaaa">' + "".join(
+        f'<!ENTITY {new} "{f"&{old};" * 10}">' for old, new in zip("abcdefgh", "bcdefghi", strict=True)
+    )
+    for text in (f"{bomb}]><mujoco>&i;</mujoco>", '<!DOCTYPE m SYSTEM "file:///etc/passwd"><mujoco/>'):
+        with pytest.raises(SceneFormatError, match="has a document type"):
+            load_mjcf(write(home / "bomb.xml", text))
+
+
+def test_files_that_include_each_other_are_refused(home: Path) -> None:
+    write(home / "a.xml", '<mujocoinclude><include file="b.xml"/></mujocoinclude>')
+    write(home / "b.xml", '<mujocoinclude><include file="./a.xml"/></mujocoinclude>')
+    with pytest.raises(SceneFormatError, match=r"'a\.xml' is included twice"):
+        load_mjcf(mjcf(home, '<include file="a.xml"/>'))
+    with pytest.raises(SceneFormatError, match=r"'main\.xml' is included twice"):
+        load_mjcf(mjcf(home, '<asset><model name="m" file="main.xml"/></asset>'))
+
+
+def test_a_long_chain_of_files_is_refused(home: Path) -> None:
+    for i in range(30):
+        write(home / f"{i}.xml", f'<mujocoinclude><include file="{i + 1}.xml"/></mujocoinclude>')
+    with pytest.raises(SceneError, match="one in the other; up to 20 are read"):
+        load_mjcf(mjcf(home, '<include file="0.xml"/>'))
+
+
+@pytest.mark.parametrize(
+    ("inside", "sentence"),
+    [
+        (f'<worldbody><replicate count="1000000000">{BALL[11:-12]}</replicate></worldbody>', "1,000,000,000 copies"),
+        ('<worldbody><replicate count="200"><replicate count="200"/></replicate></worldbody>', "40,000 copies"),
+        ('<worldbody><replicate count="1e9"/></worldbody>', "1,000,000,000 copies"),
+        ('<worldbody><flexcomp name="f" count="100 100 100"/></worldbody>', "1,000,000 copies"),
+        ('<asset><texture name="x" builtin="flat" width="1000000" height="1000"/></asset>', "1,000,000,000 cells"),
+        ('<asset><hfield name="x" nrow="100000" ncol="100000" size="1 1 1 1"/></asset>', "10,000,000,000 cells"),
+        ("<worldbody>" + "<body>" * 300 + "</body>" * 300 + "</worldbody>", "MAX_DEPTH"),
+    ],
+)
+def test_what_would_take_minutes_or_all_memory_is_refused(home: Path, inside: str, sentence: str) -> None:
+    with pytest.raises(SceneError, match=sentence):
+        load_mjcf(mjcf(home, inside))
+
+
+def test_copies_count_across_files(home: Path) -> None:
+    write(home / "row.xml", '<mujocoinclude><replicate count="200"><geom size="1"/></replicate></mujocoinclude>')
+    with pytest.raises(SceneError, match=r"row\.xml, line 1, <replicate> makes 40,000 copies"):
+        load_mjcf(mjcf(home, '<worldbody><replicate count="200"><include file="row.xml"/></replicate></worldbody>'))
+
+
+def test_large_files_are_refused(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(mjcf_files, "MAX_XML_BYTES", 10)
+    with pytest.raises(SceneError, match="MJCF of up to 10 is read"):
+        load_mjcf(mjcf(home, BALL))
+
+
+# -- what MuJoCo says ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", "is empty"),
+        ("hello", "is not well-formed XML"),
+        ("<mujoco>", "is not well-formed XML"),
+        ("<mujoco><?xml?></mujoco>", "is not well-formed XML"),
+        ("\ufeff<mujoco>\x00</mujoco>", "is not well-formed XML"),
+        ("<html/>", "begins with <html>; an MJCF file begins with <mujoco>"),
+        ("<robot name='urdf'/>", "begins with <robot>"),
+        ("<mujoco><sofa/></mujoco>", "MuJoCo cannot read 'main.xml': .*unrecognized element"),
+        ("<mujoco><worldbody><geom size='nan'/></worldbody></mujoco>", "MuJoCo cannot read"),
+        ("<mujoco><size memory='100000T'/><worldbody><geom size='1'/></worldbody></mujoco>", "MuJoCo cannot read"),
+        ("<mujoco/>", "the model has no geoms"),
+        ("<mujoco><worldbody><body pos='1e300 0 0'><geom size='1'/></body></worldbody></mujoco>", "is 1e.300 m from"),
+    ],
+)
+def test_broken_files_end_in_our_errors_and_in_silence(
+    home: Path, text: str, sentence: str, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(home)
+    try:
+        with pytest.raises(SceneError, match=sentence):
+            load_mjcf(write(home / "main.xml", text))
+    finally:
+        told = capfd.readouterr()
+    assert told.out + told.err == ""
+    assert {path.name for path in home.iterdir()} == {"main.xml", "meshes"}
+
+
+def test_warnings_of_mujoco_reach_neither_terminal_nor_disk(
+    home: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(home)
+    # MuJoCo warns of every NaN in a file.
+    model, _ = open_mjcf(mjcf(home, f'<option gravity="nan 0 0"/>{BALL}'))
+    assert model.nbody == 2
+    told = capfd.readouterr()
+    assert told.out + told.err == ""
+    assert not (home / "MUJOCO_LOG.TXT").exists()
+
+
+def test_broken_assets_end_in_our_errors(home: Path) -> None:
+    flat = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n"
+    for name, text in {"junk.obj": "junk", "junk.stl": "junk", "flat.obj": flat}.items():
+        write(home / name, text)
+        with pytest.raises(SceneFormatError, match="MuJoCo cannot read"):
+            load_mjcf(mjcf(home, f'<asset><mesh name="t" file="{name}"/></asset>{WORLD}'))
+
+
+# -- through load_scene ----------------------------------------------------------------------------------------------
+
+
+def test_load_scene_reads_xml(home: Path) -> None:
+    path = mjcf(home, BALL)
+    scene = load_scene(path, unit_m=0.5)
+    assert scene.name == "main"
+    assert scene.up_axis == "z"
+    assert scene.object("ball").bounds_m[1, 2] == pytest.approx(0.05)
+    assert load_scene(path, unit_m=1, up_axis="z").object("ball").bounds_m[1, 2] == pytest.approx(0.1)
+    for wrong in ({"up_axis": "y"}, {"group": "leaf"}):
+        with pytest.raises(SceneError, match="leave up_axis and group out"):
+            load_scene(path, **wrong)  # type: ignore[arg-type]
+
+
+# -- real kitchens ---------------------------------------------------------------------------------------------------
+
+SIM = Path(__file__).parents[5] / "shared" / "scenes" / "furniture_sim"
+
+
+def real(name: str) -> Path:
+    if not SIM.is_dir():
+        pytest.skip("the scene furniture_sim is not here")
+    return SIM / name
+
+
+@pytest.mark.parametrize(
+    ("name", "n_objects", "some"),
+    [
+        ("kitchen/kitchen1.xml", 24, {"microroot": "microwave", "wallroot": "backwall", "knob 1": "knob 1"}),
+        ("kitchen/kitchen3.xml", 23, {"microroot": "microwave", "kettleroot2": "kettle", "slidelink": "slidelink"}),
+        ("dishwasher.xml", 3, {"dishwasher": "dishwasher", "top_rack": "top_rack", "door": "door"}),
+    ],
+)
+def test_real_kitchens_load(name: str, n_objects: int, some: dict[str, str]) -> None:
+    """The numbers are counted in the XML: bodies with visual geoms."""
+    scene = load_mjcf(real(name), assets_root=SIM)
+    assert len(scene.objects) == n_objects
+    assert {item.id: item.name for item in scene.objects if item.id in some} == some
+    again = load_mjcf(real(name), assets_root=SIM)
+    assert again == scene
+
+
+@pytest.mark.parametrize("name", ["kitchen/kitchen1.xml", "kitchen/kitchen3.xml"])
+def test_real_kitchens_tell_the_root_that_they_need(name: str) -> None:
+    with pytest.raises(SceneError, match="lies outside") as caught:
+        load_mjcf(real(name))
+    assert f"Give assets_root={str(SIM)!r}" in str(caught.value)
+
+
+def test_a_real_kitchen_is_measured_from_its_visual_geoms() -> None:
+    model, data = open_mjcf(real("kitchen/kitchen1.xml"), assets_root=SIM)
+    scene = snapshot(model, data, unit_m=0.5)
+    # box_counter_body.xml: a top of half size 0.463 x 1.08 x 0.03 at z = 1.57 on a base that stands on the floor.
+    np.testing.assert_allclose(
+        scene.object("box_counter").bounds_m,
+        np.array([[-0.855 - 0.465, -0.508 - 1.08, 0.003], [-0.855 + 0.463, -0.508 + 1.08, 1.60]]) / 2,
+        atol=1e-6,
+    )
+    # Four knobs of one make are copies.
+    assert len({scene.object(f"knob {i}").instance_key for i in range(1, 5)}) == 1

@@ -1,0 +1,325 @@
+"""Panda3D scene graphs as snapshots, held against Panda3D's own bounds and transforms."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from scene2hap import ContactGraph, SceneObject
+from scene2hap.errors import MissingExtra, SceneError
+from scene2hap.scene.engines.panda3d import nodes, poses, snapshot
+
+core = pytest.importorskip("panda3d.core", reason="needs the extra panda3d")
+
+QUADS = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+CORNERS = [(x, y, z) for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]
+
+
+def geom(
+    vertices: Sequence[Sequence[float]] = CORNERS, primitive: Any = None, layout: Any = None, **columns: Any
+) -> Any:
+    """A geom of vertices and other columns (`texcoord=[...]`), a unit cube if nothing else is said."""
+    names = {"texcoord": "v3t2", "color": "v3c4"}
+    layout = layout or getattr(core.GeomVertexFormat, f"get_{names[next(iter(columns))] if columns else 'v3'}")()
+    data = core.GeomVertexData("data", layout, core.Geom.UH_static)
+    data.set_num_rows(len(vertices))
+    for name, rows in {"vertex": vertices, **columns}.items():
+        writer = core.GeomVertexWriter(data, name)
+        for row in rows:
+            getattr(writer, f"set_data{len(row)}")(*row)
+    if primitive is None:
+        primitive = core.GeomTriangles(core.Geom.UH_static)
+        for a, b, c, d in QUADS:
+            primitive.add_vertices(a, b, c)
+            primitive.add_vertices(a, c, d)
+    made = core.Geom(data)
+    made.add_primitive(primitive)
+    return made
+
+
+def attach(parent: Any, name: str, *geoms: Any) -> Any:
+    node = core.GeomNode(name)
+    for one in geoms or (geom(),):
+        node.add_geom(one)
+    return parent.attach_new_node(node)
+
+
+def graph() -> Any:
+    """A table of two pieces in centimetres, its mirror image, and two instances of a cup of uneven scale."""
+    render = core.NodePath("render")
+    table = render.attach_new_node("table")
+    table.set_pos_hpr_scale((1, 2, 0.1), (30, 0, 0), 0.01)
+    attach(table, "table_top").set_scale(120, 80, 4)
+    leg = attach(table, "table_leg")
+    leg.set_pos_hpr_scale((5, 5, -70), (45, 0, 0), (6, 6, 70))
+    mirror = table.copy_to(render)
+    mirror.set_name("table mirrored")
+    mirror.set_pos_hpr_scale((-3, 0, 0), (0, 20, 40), (-0.01, 0.01, 0.01))
+    for child, name in zip(mirror.get_children(), ("table mirrored top", "table mirrored leg"), strict=True):
+        child.set_name(name)
+    cup = attach(render, "cup")
+    cup.set_pos_hpr_scale((5, 0, 0), (10, 20, 30), (0.1, 0.2, 0.3))
+    holder = render.attach_new_node("holder")
+    holder.set_pos(0, 4, 0)
+    cup.instance_to(holder)
+    return render
+
+
+def tight_bounds(path: Any, top: Any) -> NDArray[np.float64]:
+    return np.array([tuple(corner) for corner in path.get_tight_bounds(top)])
+
+
+def volume(item: SceneObject) -> float:
+    mesh = item.geometry.mesh
+    a, b, c = np.moveaxis(mesh.vertices_m[mesh.faces], 1, 0)
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
+
+
+# -- geometry and places ---------------------------------------------------------------------------------------------
+
+
+def test_objects_stand_where_panda_has_them() -> None:
+    render = graph()
+    scene = snapshot(render)
+    assert (scene.name, scene.up_axis, scene.contacts) == ("render", "z", None)
+    ids = {"table": "table", "table mirrored": "table mirrored", "cup": "cup", "holder": "holder"}
+    assert {item.id: item.name for item in scene.objects} == ids
+    for item in scene.objects:
+        expected = tight_bounds(render.find(f"**/{item.id}"), render)
+        np.testing.assert_allclose(item.bounds_m, expected, atol=1e-5)
+
+
+def test_scale_and_mirroring_are_in_the_meshes_which_face_outwards() -> None:
+    scene = snapshot(graph())
+    table = 1.2 * 0.8 * 0.04 + 0.06 * 0.06 * 0.7
+    volumes = {item.id: volume(item) for item in scene.objects}
+    assert volumes == pytest.approx(
+        {"table": table, "table mirrored": table, "cup": 0.1 * 0.2 * 0.3, "holder": 0.1 * 0.2 * 0.3}, rel=1e-5
+    )
+
+
+def test_instances_share_a_mesh() -> None:
+    scene = snapshot(graph())
+    cup, other = scene.object("cup"), scene.object("holder")
+    assert cup.geometry is other.geometry
+    assert cup.instance_key == other.instance_key
+    np.testing.assert_allclose(np.subtract(other.pose.position_m, cup.pose.position_m), (0, 4, 0), atol=1e-6)
+
+
+def test_a_part_of_a_graph_is_read_in_the_coordinates_of_its_top() -> None:
+    render = graph()
+    part = snapshot(render.find("holder"))
+    assert [item.id for item in part.objects] == ["holder"]
+    np.testing.assert_allclose(part.objects[0].bounds_m, snapshot(render).object("holder").bounds_m, atol=1e-6)
+
+
+def test_the_grouping_rule_is_that_of_the_loaders() -> None:
+    render = graph()
+    leaves = {item.id for item in snapshot(render, group="leaf").objects}
+    assert leaves == {"table_top", "table_leg", "table mirrored top", "table mirrored leg", "cup", "cup#2"}
+    by_hand = snapshot(render, group={"table": "furniture", "holder": "cup 2"})
+    assert {item.id for item in by_hand.objects} == {"furniture", "cup 2", "table mirrored", "cup"}
+    with pytest.raises(SceneError, match="group maps the node 'chair'"):
+        snapshot(render, group={"chair": "chair"})
+
+
+def test_things_that_stand_on_each_other_touch() -> None:
+    render = core.NodePath("render")
+    attach(render, "crate")
+    attach(render, "box").set_pos(0.2, 0.2, 1)
+    assert ContactGraph(snapshot(render)).neighbours("box") == ("crate",)
+
+
+def test_every_kind_of_triangles_is_read_and_nothing_else() -> None:
+    render = core.NodePath("render")
+    square = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]
+    strip = core.GeomTristrips(core.Geom.UH_static)
+    strip.add_consecutive_vertices(0, 4)
+    strip.close_primitive()
+    fan = core.GeomTrifans(core.Geom.UH_static)
+    for corner in (0, 1, 3, 2):
+        fan.add_vertex(corner)
+    fan.close_primitive()
+    loose = core.GeomTriangles(core.Geom.UH_static)
+    loose.set_nonindexed_vertices(0, 3)
+    wide = core.GeomTriangles(core.Geom.UH_static)
+    wide.set_index_type(core.Geom.NT_uint32)
+    wide.add_vertices(0, 1, 3)
+    lines = core.GeomLines(core.Geom.UH_static)
+    lines.add_vertices(0, 3)
+    for name, primitive in {"strip": strip, "fan": fan, "loose": loose, "wide": wide, "lines": lines}.items():
+        attach(render, name, geom(square, primitive))
+    scene = snapshot(render)
+    assert {item.id: len(item.geometry.mesh.faces) for item in scene.objects} == {
+        "strip": 2, "fan": 2, "loose": 1, "wide": 1
+    }  # fmt: skip
+    for item in scene.objects:
+        mesh = item.geometry.mesh
+        a, b, c = np.moveaxis(mesh.vertices_m[mesh.faces], 1, 0)
+        np.testing.assert_allclose(np.cross(b - a, c - a), [[0, 0, 1]] * len(mesh.faces))
+
+
+def test_packed_and_wide_vertices_are_read() -> None:
+    array = core.GeomVertexArrayFormat()
+    array.add_column("color", 4, core.Geom.NT_uint8, core.Geom.C_color)
+    array.add_column("vertex", 3, core.Geom.NT_float64, core.Geom.C_point)
+    render = core.NodePath("render")
+    attach(render, "cube", geom(layout=core.GeomVertexFormat.register_format(array)))
+    np.testing.assert_allclose(snapshot(render).object("cube").bounds_m, [[0, 0, 0], [1, 1, 1]])
+
+
+def test_hidden_nodes_and_coarser_levels_are_left_out() -> None:
+    render = core.NodePath("render")
+    attach(render, "seen")
+    attach(render, "hidden").hide()
+    attach(render, "stashed").stash()
+    lod = core.LODNode("lamp")
+    for far, near in ((1000, 100), (10, 0), (100, 10)):
+        lod.add_switch(far, near)
+    levels = render.attach_new_node(lod)
+    for name, size in (("far", 3.0), ("near", 1.0), ("middle", 2.0)):
+        attach(levels, f"lamp_{name}").set_scale(size)
+    scene = snapshot(render)
+    assert {item.id for item in scene.objects} == {"seen", "lamp"}
+    np.testing.assert_allclose(scene.object("lamp").bounds_m[1], (1, 1, 1), atol=1e-6)
+
+
+def test_a_loaded_model_is_called_by_its_file() -> None:
+    render = core.NodePath("render")
+    model = render.attach_new_node(core.ModelRoot("reading lamp.egg.pz"))
+    attach(model, "Cube.001")
+    assert [item.id for item in snapshot(render).objects] == ["reading lamp"]
+
+
+# -- poses -----------------------------------------------------------------------------------------------------------
+
+
+def test_poses_at_rest_are_those_of_the_snapshot() -> None:
+    render = graph()
+    scene = snapshot(render)
+    at_rest = {item.id: item.pose for item in scene.objects}
+    assert poses(nodes(render), scene) == at_rest
+    assert poses(render, scene) == at_rest
+
+
+@pytest.mark.parametrize("moved", ["table", "table mirrored", "holder", "cup"])
+def test_poses_follow_the_nodes(moved: str) -> None:
+    render = graph()
+    scene, moving = snapshot(render), nodes(render)
+    path = render.find(moved)
+    path.set_pos(path.get_pos() + core.LVector3(0.5, -1, 2))
+    path.set_hpr(path.get_hpr() + core.LVector3(70, 10, -20))
+    now = poses(moving, scene)
+    # The node of the cup also hangs below the holder, in its own frame.
+    followers = {"cup": {"cup", "holder"}}.get(moved, {moved})
+    assert {key for key in now if now[key] != scene.object(key).pose} == followers
+    for key in followers:
+        mesh = scene.object(key).geometry.mesh
+        points = now[key].to_world(mesh.vertices_m)
+        expected = tight_bounds(render.find(key), render)
+        np.testing.assert_allclose([points.min(axis=0), points.max(axis=0)], expected, atol=1e-5)
+
+
+def test_a_node_inside_its_wrapper_is_followed() -> None:
+    render = graph()
+    scene, moving = snapshot(render), nodes(render)
+    render.find("holder").get_child(0).set_z(1.0)
+    assert poses(moving, scene)["holder"].position_m[2] == pytest.approx(1.0)
+
+
+def test_what_was_removed_has_no_pose() -> None:
+    render = graph()
+    scene, moving = snapshot(render), nodes(render)
+    moving["table"].remove_node()
+    assert poses(moving, scene).keys() == {"table mirrored", "cup", "holder"}
+
+
+# -- looks -----------------------------------------------------------------------------------------------------------
+
+
+def picture() -> Any:
+    """Red and green above, blue and white below."""
+    image = core.PNMImage(2, 2)
+    for x, y, colour in [(0, 0, (1, 0, 0)), (1, 0, (0, 1, 0)), (0, 1, (0, 0, 1)), (1, 1, (1, 1, 1))]:
+        image.set_xel(x, y, *colour)
+    texture = core.Texture("quarters")
+    texture.load(image)
+    return texture
+
+
+def test_a_texture_lies_as_panda_lays_it() -> None:
+    render = core.NodePath("render")
+    card = core.CardMaker("card")
+    card.set_frame(0, 1, 0, 1)
+    for name, scale in (("card", 1), ("mirror", -1)):
+        path = render.attach_new_node(card.generate())
+        path.set_name(name)
+        path.set_texture(picture())
+        path.set_sx(scale)
+    for item in snapshot(render).objects:
+        look = item.appearance
+        assert look is not None
+        assert look.uv is not None
+        texture = look.materials[0].texture
+        assert texture is not None
+        np.testing.assert_array_equal(texture, [[(255, 0, 0), (0, 255, 0)], [(0, 0, 255), (255, 255, 255)]])
+        # A card shows its picture upright: the upper left corner, at x = 0 and z = 1, has (0, 0).
+        mesh = item.geometry.mesh
+        corners = item.pose.to_world(mesh.vertices_m)[mesh.faces].reshape(-1, 3)
+        expected = np.stack((np.abs(corners[:, 0]), 1 - corners[:, 2]), axis=1)
+        np.testing.assert_allclose(look.uv.reshape(-1, 2), expected, atol=1e-6)
+
+
+def test_colours_come_from_states_materials_and_vertices() -> None:
+    render = core.NodePath("render")
+    half = [(1.0, 0.0, 0.0, 1.0)] * 4 + [(0.0, 0.0, 1.0, 1.0)] * 4
+    attach(render, "vertices", geom(color=half))
+    attach(render, "plain")
+    attach(render, "flat", geom(color=half)).set_color(0, 1, 0, 1)
+    material = core.Material()
+    material.set_diffuse((0.25, 0.5, 0.75, 1))
+    attach(render, "material").set_material(material)
+    attach(render, "dimmed").set_color_scale(0.5, 0.5, 0.5, 1)
+    found = {item.id: item.appearance.materials[0].color_rgba for item in snapshot(render).objects if item.appearance}
+    expected = {
+        "vertices": (0.5, 0, 0.5, 1),
+        "plain": (1, 1, 1, 1),
+        "flat": (0, 1, 0, 1),
+        "material": (0.25, 0.5, 0.75, 1),
+        "dimmed": (0.5, 0.5, 0.5, 1),
+    }
+    assert found.keys() == expected.keys()
+    for key, colour in found.items():
+        np.testing.assert_allclose(colour, expected[key], atol=2 / 255)
+
+
+# -- what cannot be read ---------------------------------------------------------------------------------------------
+
+
+def test_a_missing_engine_names_its_extra(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "panda3d.core", None)
+    with pytest.raises(MissingExtra, match=r"pip install 'scene2hap\[panda3d\]'"):
+        snapshot(None)
+
+
+def test_wrong_arguments_are_told() -> None:
+    with pytest.raises(SceneError, match="it must be a panda3d.core.NodePath"):
+        snapshot("render")
+    with pytest.raises(SceneError, match="it must be a panda3d.core.NodePath with a node"):
+        snapshot(core.NodePath())
+    with pytest.raises(SceneError, match="'render' draws no triangles"):
+        snapshot(core.NodePath("render"))
+    with pytest.raises(SceneError, match="up_axis is 'x'"):
+        snapshot(graph(), up_axis="x")  # type: ignore[arg-type]
+
+
+def test_broken_vertices_are_named() -> None:
+    render = core.NodePath("render")
+    attach(render, "dust", geom([(float("nan"), 0, 0), *CORNERS[1:]]))
+    with pytest.raises(SceneError, match="node 'dust', geom 0: vertex 0 is"):
+        snapshot(render)
