@@ -65,7 +65,8 @@ class _Model:
     root: Path
     around: tuple[Path, ...] = ()
     seen: set[Path] = field(default_factory=set)
-    folders: dict[str, str] = field(default_factory=dict)
+    mesh_folders: list[str] = field(default_factory=lambda: [""])
+    texture_folders: list[str] = field(default_factory=lambda: [""])
     strips_paths: bool = False
     assets: list[_Wanted] = field(default_factory=list)
     outside: list[tuple[_Wanted, Path]] = field(default_factory=list)
@@ -73,13 +74,13 @@ class _Model:
     def check(self) -> None:
         _not_too_deep(self.path, len(self.around))
         self.read(self.path, copies=1, depth=0)
-        # Only now are the folders known: the last <compiler> that names one decides for all.
+        # Only now are the folders known: the last <compiler> that names one decides for all that stand before it too.
         for wanted in self.assets:
             found = self.find(wanted)
             if found is None:
                 continue
             limits.at_most(f"the size of {found.name!r} in bytes", found.stat().st_size, "MAX_FILE_BYTES")
-            if wanted.kind == "model" and found.suffix.lower() == ".xml":
+            if wanted.kind == "model":
                 _Model(found, self.root, (*self.around, self.path)).check()
         if self.outside:
             raise SceneError(self._refusal())
@@ -95,7 +96,7 @@ class _Model:
     def find(self, wanted: _Wanted) -> Path | None:
         """The file that is meant; None, with a note, if it lies outside."""
         try:
-            candidates = [(base / name).resolve() for base in self._bases(wanted) for name in self._names(wanted)]
+            candidates = [(base / self._name(wanted)).resolve() for base in self._bases(wanted)]
             existing = [path for path in candidates if path.exists()]
         # What a name that is too long and a ring of links raise.
         except (ValueError, OSError, RuntimeError) as cause:
@@ -112,12 +113,12 @@ class _Model:
         own = self.path.parent
         if wanted.kind == "include":
             return [own, wanted.folder]
-        inner = self.folders.get("texturedir" if wanted.kind == "texture" else "meshdir", "")
-        return list(dict.fromkeys([own / _plain(inner), own, wanted.folder / _plain(inner), wanted.folder]))
+        named = self.texture_folders if wanted.kind == "texture" else self.mesh_folders
+        return [base / _plain(inner) for base in dict.fromkeys([own, wanted.folder]) for inner in reversed(named)]
 
-    def _names(self, wanted: _Wanted) -> list[str]:
+    def _name(self, wanted: _Wanted) -> str:
         name = _plain(wanted.name)
-        return [Path(name).name] if self.strips_paths and wanted.kind != "include" else [name]
+        return Path(name).name if self.strips_paths and wanted.kind != "include" else name
 
     def _refusal(self) -> str:
         wanted, _ = self.outside[0]
@@ -194,12 +195,11 @@ class _Reader:
         return around
 
     def _compiler(self, attributes: Mapping[str, str]) -> None:
-        folder = attributes.get("assetdir")
-        if folder is not None:
-            self.model.folders.update(meshdir=folder, texturedir=folder)
-        self.model.folders.update({key: attributes[key] for key in ("meshdir", "texturedir") if key in attributes})
+        model = self.model
+        for key, folders in {"meshdir": model.mesh_folders, "texturedir": model.texture_folders}.items():
+            folders += [attributes[name] for name in ("assetdir", key) if name in attributes]
         if "strippath" in attributes:
-            self.model.strips_paths = attributes["strippath"] == "true"
+            model.strips_paths = attributes["strippath"] == "true"
 
 
 def _not_too_deep(path: Path, depth: int) -> None:

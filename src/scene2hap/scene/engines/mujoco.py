@@ -54,7 +54,7 @@ def snapshot(
     contacts: Literal["engine"] | None = None,
     unit_m: float = 1.0,
 ) -> SceneSnapshot:
-    """The scene as it stands in `data`, whose kinematics must be up to date (`mj_forward`, or any step).
+    """The scene as it stands in `data`: after `mj_forward` now, after `mj_step` one time step ago.
 
     Parameters:
     model, data : `mujoco.MjModel` and `mujoco.MjData`.

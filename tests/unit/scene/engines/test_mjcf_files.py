@@ -116,8 +116,10 @@ def test_a_part_cannot_reach_further_than_the_whole(home: Path) -> None:
     write(home / "sub" / "model.xml", '<mujoco><asset><mesh name="t" file="../../other/t.obj"/></asset></mujoco>')
     with pytest.raises(SceneError, match=r"part\.xml, line 1, <include> wants '\.\./other/part\.xml'"):
         load_mjcf(mjcf(home, '<include file="part.xml"/>'))
-    with pytest.raises(SceneError, match=r"model\.xml, line 1, <mesh> wants '\.\./\.\./other/t\.obj'"):
-        load_mjcf(mjcf(home, '<asset><model name="m" file="sub/model.xml"/></asset>'))
+    write(home / "sub" / "model.txt", '<mujoco><asset><mesh name="t" file="../../other/t.obj"/></asset></mujoco>')
+    for name in ("model.xml", "model.txt"):
+        with pytest.raises(SceneError, match=rf"{name}, line 1, <mesh> wants '\.\./\.\./other/t\.obj'"):
+            load_mjcf(mjcf(home, f'<asset><model name="m" content_type="text/xml" file="sub/{name}"/></asset>'))
 
 
 def test_nothing_outside_is_opened(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
