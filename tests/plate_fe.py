@@ -1,0 +1,82 @@
+"""Finite elements for a Kirchhoff plate, a second opinion: Argyris triangles of scikit-fem, converging from above."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from scene2hap import Plate
+
+# What an edge fixes at a vertex: deflection with its tangential derivatives, and for a clamp the slope across and its
+# tangential derivative; n and t are the coordinates across and along the edge.
+HINGED = ("u", "u_{t}", "u_{t}{t}")
+CLAMPED = (*HINGED, "u_{n}", "u_xy")
+
+
+@cache
+def finite_elements(plate: Plate, cells: tuple[int, int]):  # type: ignore[no-untyped-def]
+    """(basis, K, M, free degrees of freedom) for stiffness over D and mass over rho h; skips without scikit-fem."""
+    skfem = pytest.importorskip("skfem", reason="scikit-fem is not installed; run: pip install scikit-fem")
+    from skfem.helpers import dd, ddot, eye, trace
+
+    nu = plate.material.poisson_ratio
+    mesh = skfem.MeshTri.init_tensor(
+        np.linspace(0, plate.length_m, cells[0] + 1), np.linspace(0, plate.width_m, cells[1] + 1)
+    )
+    basis = skfem.Basis(mesh, skfem.ElementTriArgyris(), intorder=10)
+
+    @skfem.BilinearForm
+    def bending(u, v, _):  # type: ignore[no-untyped-def]
+        moment = (1 - nu) * dd(u) + nu * eye(trace(dd(u)), 2)
+        return ddot(moment, dd(v))
+
+    @skfem.BilinearForm
+    def mass(u, v, _):  # type: ignore[no-untyped-def]
+        return u * v
+
+    fixed: set[int] = set()
+    sides = (("x", "y", 0.0), ("x", "y", plate.length_m), ("y", "x", 0.0), ("y", "x", plate.width_m))
+    for edge, (n, t, at) in zip(plate.edges, sides, strict=True):
+        if edge == "F":
+            continue
+        axis = "xy".index(n)
+        facets = mesh.facets_satisfying(lambda x, axis=axis, at=at: np.abs(x[axis] - at) < 1e-9, boundaries_only=True)
+        dofs = basis.get_dofs(facets)
+        names = [name.format(n=n, t=t) for name in (HINGED if edge == "S" else CLAMPED)]
+        fixed |= set(dofs.all(names))
+        if edge == "C":
+            fixed |= set(dofs.all(["u_n"]))
+    free = np.setdiff1d(np.arange(basis.N), sorted(fixed))
+    return basis, bending.assemble(basis).tocsc(), mass.assemble(basis).tocsc(), free
+
+
+def fe_frequencies_hz(plate: Plate, cells: tuple[int, int], n_modes: int) -> NDArray[np.float64]:
+    """The lowest natural frequencies (n_modes,) [Hz]."""
+    from scipy.sparse.linalg import eigsh
+
+    _, K, M, free = finite_elements(plate, cells)
+    K, M = K[free][:, free], M[free][:, free]
+    k4 = eigsh(K, n_modes, M, sigma=-1.0, v0=np.ones(len(free)), return_eigenvectors=False)
+    omega = np.sqrt(np.maximum(np.sort(k4), 0.0)) / plate.wavenumber_per_root_omega**2
+    return omega / (2 * np.pi)
+
+
+def fe_receptance(
+    plate: Plate, cells: tuple[int, int], drive_m: object, points_m: object, frequencies_hz: object, eta: float
+) -> NDArray[np.complex128]:
+    """Deflection at points over a point force (n_points, n_frequencies) [m/N]; a direct solve at each frequency."""
+    from scipy.sparse.linalg import splu
+
+    basis, K, M, free = finite_elements(plate, cells)
+    force = np.asarray(basis.probes(np.atleast_2d(drive_m).T).todense())[0, free]
+    look = basis.probes(np.atleast_2d(points_m).T).tocsc()[:, free]
+    D = plate.bending_stiffness_nm * (1 + 1j * eta)
+    m = plate.material.density_kg_m3 * plate.thickness_m
+    answers = []
+    for f in np.atleast_1d(frequencies_hz):
+        dynamic = (D * K - m * (2 * np.pi * f) ** 2 * M)[free][:, free].tocsc()
+        answers.append(look @ splu(dynamic).solve(force.astype(complex)))
+    return np.array(answers).T
