@@ -1,0 +1,185 @@
+"""Ray-cast pictures: ids, colours, holes, smooth edges, and the same bytes in every process."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from dataclasses import replace
+from io import BytesIO
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from scene2hap import SceneSnapshot
+from scene2hap.scene.appearance import Appearance, FaceMaterial
+from scene2hap.scene.capture import capture_images, contact_sheet, plan_view, render_all
+from scene2hap.scene.capture.cache import MEMORY
+from scene2hap.scene.capture.paint import BACKGROUND_RGB
+from scene2hap.scene.capture.protocol import Selection
+from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.views import frame
+from scenes import box, scene
+
+embree = pytest.importorskip(
+    "scene2hap.scene.capture.embree", reason="needs the extra `pictures`", exc_type=ImportError
+)
+
+
+def painted(color: tuple[float, float, float, float], texture: np.ndarray | None = None) -> Appearance:
+    """Twelve faces of a box in one material; the texture lies once over each triangle's half of a square."""
+    uv = np.tile(np.array([(0, 0), (0, 1), (1, 1)], np.float32), (12, 1, 1))
+    return Appearance((FaceMaterial(color, texture),), np.zeros(12, np.int32), uv)
+
+
+def table_and_cup() -> SceneSnapshot:
+    return scene(
+        replace(box("table", (1.2, 0.7, 0.8), (0, 0.35, 0)), appearance=painted((0.5, 0.3, 0.1, 1.0))),
+        replace(box("cup", (0.1, 0.1, 0.1), (0, 0.75, 0)), appearance=painted((0.0, 0.0, 1.0, 1.0))),
+    )
+
+
+def pixels(png: bytes) -> np.ndarray:
+    return np.asarray(Image.open(BytesIO(png)))
+
+
+def draw(snapshot: SceneSnapshot, shown: set[int] | None = None, **options: Any) -> tuple[np.ndarray, np.ndarray]:
+    stage = Stage.of(snapshot)
+    points = np.concatenate([actor.points_m for actor in stage.actors])
+    camera = frame(points, 30.0, 45.0, "y", 0.8, 160)
+    selection = Selection(frozenset(shown) if shown is not None else stage.everyone)
+    found: tuple[np.ndarray, np.ndarray] = embree.EmbreeRenderer(stage, **options).draw(camera, selection)
+    return found
+
+
+def test_colours_are_those_of_the_materials_under_light() -> None:
+    picture, ids = draw(table_and_cup(), antialias=False)
+    assert (picture[ids == -1] == BACKGROUND_RGB).all()
+    cup, table = picture[ids == 1], picture[ids == 0]
+    assert (cup[:, :2] == 0).all()
+    assert 60 < cup[:, 2].min() < cup[:, 2].max() <= 255
+    np.testing.assert_allclose(table[:, 1] / table[:, 0], 0.6, atol=0.03)
+
+
+def test_textures_lie_where_uv_says() -> None:
+    halves = np.zeros((2, 2, 3), np.uint8)
+    halves[:, 0], halves[:, 1] = (255, 0, 0), (0, 255, 0)
+    cube = replace(box("cube", (1, 1, 1), (0, 0, 0)), appearance=painted((1, 1, 1, 1), halves))
+    picture, ids = draw(scene(cube), antialias=False)
+    red, green = picture[ids == 0][:, 0] > 0, picture[ids == 0][:, 1] > 0
+    assert (red != green).all()
+    # On the triangle (0,0), (0,1), (1,1), three quarters of the area have u < 1/2; perspective moves that a little.
+    assert red.mean() == pytest.approx(0.75, abs=0.04)
+
+
+def test_one_sees_through_holes_in_textures() -> None:
+    holed = np.zeros((2, 2, 4), np.uint8)
+    holed[:, 0] = (0, 200, 0, 255)
+    crate = replace(box("crate", (1, 1, 1), (0, 0, 0)), appearance=painted((1, 1, 1, 1), holed))
+    core = replace(box("core", (0.5, 0.5, 0.5), (0, 0, 0)), appearance=painted((1.0, 0.0, 0.0, 1.0)))
+    _, ids = draw(scene(crate, core), antialias=False)
+    assert (ids == 1).sum() > 50
+    _, closed = draw(scene(replace(crate, appearance=None), core), antialias=False)
+    assert (closed == 1).sum() == 0
+
+
+def test_what_is_not_shown_leaves_what_it_touches_whole() -> None:
+    with_cup, _ = draw(table_and_cup(), {0}, antialias=False)
+    snapshot = table_and_cup()
+    lonely = scene(*snapshot.objects[:1], replace(snapshot.objects[1], pose=box("x", (1, 1, 1), (0, 0.75, 0)).pose))
+    ids = draw(lonely, {0}, antialias=False)[1]
+    other = draw(snapshot, {0, 1}, antialias=False)[1]
+    # Under the cup the table's top is met and not what lies below it.
+    assert set(np.unique(ids)) == {-1, 0}
+    assert ((ids >= 0) >= (other == 0)).all()
+    top = with_cup[ids == 0]
+    assert len(np.unique(top, axis=0)) == 3
+
+
+def test_a_culled_object_in_the_whole_tree_leaves_no_trace() -> None:
+    bare = table_and_cup()
+    crowd = scene(
+        *bare.objects, box("pen", (0.02, 0.02, 0.2), (0.4, 0.71, 0)), box("book", (0.2, 0.05, 0.3), (-0.4, 0.725, 0))
+    )
+    without_cup, ids = draw(crowd, {0, 2, 3}, antialias=False)
+    assert 1 not in ids
+    colours = np.unique(without_cup[ids == 0], axis=0)
+    assert len(colours) == 3, "the table shows its three sides, nothing of what is inside it"
+
+
+def test_smoothing_touches_edges_alone() -> None:
+    rough, ids = draw(table_and_cup(), antialias=False)
+    smooth, same_ids = draw(table_and_cup(), antialias=True)
+    np.testing.assert_array_equal(ids, same_ids)
+    changed = (rough != smooth).any(axis=2)
+    assert 0 < changed.mean() < 0.2
+    between = smooth[changed].astype(int)
+    assert len(np.unique(between, axis=0)) > 5
+
+
+def test_the_outline_is_pure_and_the_target_keeps_its_colours() -> None:
+    shot = capture_images(table_and_cup(), size_px=200)
+    images = shot.object("cup").images
+    assert images is not None
+    for png in images.context:
+        picture = pixels(png)
+        assert (picture == (255, 0, 190)).all(axis=2).sum() > 40
+    assert not (pixels(images.isolated[0]) == (255, 0, 190)).all(axis=2).any()
+
+
+SCRIPT = """
+import hashlib, sys
+sys.path[:0] = {path!r}
+from test_embree import table_and_cup
+from scene2hap.scene.capture import capture_images, render_all
+if __name__ == "__main__":
+    shot = capture_images(table_and_cup(), size_px=64)
+    render_all(shot, workers={workers})
+    sets = [shot.images] + [s for item in shot.objects for s in (item.images.isolated, item.images.context)]
+    print(hashlib.sha256(b"".join(png for images in sets for png in images)).hexdigest())
+"""
+
+
+def test_two_fresh_processes_and_workers_give_the_same_bytes(tmp_path: Any) -> None:
+    here = __file__.rsplit("/", 1)[0]
+    path = [here, here.rsplit("/", 3)[0]]
+    digests = set()
+    for workers in (0, 2):
+        script = tmp_path / f"take_{workers}.py"
+        script.write_text(SCRIPT.format(path=path, workers=workers))
+        run = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, check=True)
+        digests.add(run.stdout.strip())
+    assert len(digests) == 1
+    assert len(digests.pop()) == 64
+
+
+def test_a_contact_sheet_shows_every_view() -> None:
+    shot = capture_images(table_and_cup(), size_px=64)
+    sheet = pixels(contact_sheet(shot.object("cup"), thumb_px=64))
+    stats = render_all(capture_images(table_and_cup(), ["cup"], size_px=64))
+    assert stats.rendered == 4
+    assert sheet.shape[0] > 4 * 64
+    assert sheet.shape[1] > 4 * 64
+    for row in range(4):
+        for column in range(4):
+            top, left = 34 + 20 + row * 84, 8 + column * 72
+            assert sheet[top : top + 64, left : left + 64].std() > 5
+
+
+def test_a_plan_needs_no_renderer_and_names_everything_but_the_floor(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "scene2hap.scene.capture.embree", None)
+    room = scene(
+        *table_and_cup().objects, box("floor", (4, 0.1, 2), (0, -0.05, 0)), box("ceiling", (4, 0.1, 2), (0, 2.5, 0))
+    )
+    plan = pixels(plan_view(room, width_px=1616))
+    assert plan.shape == (34 + 816, 1616, 3)
+    blue = (plan[..., 2] > 200) & (plan[..., 0] < 20)
+    assert 40 * 40 > blue.sum() > 600
+    middle = np.argwhere(blue).mean(axis=0)
+    np.testing.assert_allclose(middle, (34 + 408, 808), atol=8)
+
+
+@pytest.fixture(autouse=True)
+def _no_memory() -> None:
+    MEMORY.clear()
