@@ -25,6 +25,9 @@ _HOME = {
     "scene2hap.propagation.plate": ("Plate", "RigidBody"),
     "scene2hap.propagation.protocol": ("ContactNetwork", "Excitation", "PropagationField", "PropagationModel"),
     "scene2hap.propagation.exponential_plate": ("ExponentialPlate",),
+    "scene2hap.propagation.infinite_plate": ("InfinitePlate",),
+    "scene2hap.propagation.modal_plate": ("ModalPlate",),
+    "scene2hap.propagation.modes": ("plate_modes",),
     "scene2hap.propagation.controls": ("FullPropagation", "NoPropagation"),
     "scene2hap.audio.clip": ("AudioClip", "Credit"),
     "scene2hap.audio.haptic_loop": ("HapticLoop",),
@@ -32,6 +35,11 @@ _HOME = {
     "scene2hap.audio.select": ("select_clip",),
     "scene2hap.llm.protocol": ("LLMBackend", "LLMReply", "LLMRequest"),
     "scene2hap.llm.lexicon": ("LexiconBackend",),
+    "scene2hap.llm.openai": ("OpenAIBackend",),
+    "scene2hap.llm.local": ("LocalBackend",),
+    "scene2hap.llm.function": ("FunctionBackend",),
+    "scene2hap.llm.chat": ("BackendWarning",),
+    "scene2hap.llm.wrappers": ("BudgetBackend", "CacheBackend", "Price", "RepairBackend", "RetryBackend"),
     "scene2hap.llm.replay": ("RecordingBackend", "ReplayBackend"),
     "scene2hap.llm.chain": ("infer_haptics",),
     "scene2hap.bundle": ("HapticBundle",),
@@ -102,16 +110,38 @@ if TYPE_CHECKING:
         VibrationDescription as VibrationDescription,
     )
     from scene2hap.llm.chain import infer_haptics as infer_haptics
+    from scene2hap.llm.chat import BackendWarning as BackendWarning
+    from scene2hap.llm.function import FunctionBackend as FunctionBackend
     from scene2hap.llm.lexicon import LexiconBackend as LexiconBackend
+    from scene2hap.llm.local import LocalBackend as LocalBackend
+    from scene2hap.llm.openai import OpenAIBackend as OpenAIBackend
     from scene2hap.llm.protocol import LLMBackend as LLMBackend
     from scene2hap.llm.protocol import LLMReply as LLMReply
     from scene2hap.llm.protocol import LLMRequest as LLMRequest
     from scene2hap.llm.replay import RecordingBackend as RecordingBackend
     from scene2hap.llm.replay import ReplayBackend as ReplayBackend
+    from scene2hap.llm.wrappers import (
+        BudgetBackend as BudgetBackend,
+    )
+    from scene2hap.llm.wrappers import (
+        CacheBackend as CacheBackend,
+    )
+    from scene2hap.llm.wrappers import (
+        Price as Price,
+    )
+    from scene2hap.llm.wrappers import (
+        RepairBackend as RepairBackend,
+    )
+    from scene2hap.llm.wrappers import (
+        RetryBackend as RetryBackend,
+    )
     from scene2hap.materials import Material as Material
     from scene2hap.propagation.controls import FullPropagation as FullPropagation
     from scene2hap.propagation.controls import NoPropagation as NoPropagation
     from scene2hap.propagation.exponential_plate import ExponentialPlate as ExponentialPlate
+    from scene2hap.propagation.infinite_plate import InfinitePlate as InfinitePlate
+    from scene2hap.propagation.modal_plate import ModalPlate as ModalPlate
+    from scene2hap.propagation.modes import plate_modes as plate_modes
     from scene2hap.propagation.plate import Plate as Plate
     from scene2hap.propagation.plate import RigidBody as RigidBody
     from scene2hap.propagation.protocol import (

@@ -19,8 +19,9 @@ that ``except ValueError`` keeps working for people who do not know the tree::
     │   └── BundleVersionError              written by a newer scene2hap
     ├── SessionError (ValueError)           play-time input that cannot be honoured
     ├── BackendError                        a language-model or sound service
-    │   ├── BackendUnavailable (ConnectionError)
+    │   ├── BackendUnavailable (ConnectionError)  away, or refuses; tells whether trying again can help
     │   ├── BadAnswer (ValueError)          the answer fails its schema; carries the raw text
+    │   ├── BudgetExceeded                  the next call would break a limit that was set
     │   └── ReplayMiss (LookupError)        no recorded answer for this request; carries the key
     └── DeviceError (OSError)               an actuator
         ├── DeviceNotFound
@@ -98,7 +99,15 @@ class BackendError(Scene2HapError):
 
 
 class BackendUnavailable(BackendError, ConnectionError):
-    """The service could not be reached or refused to serve."""
+    """The service could not be reached or refused to serve.
+
+    `retryable` tells whether the same request may succeed later, `retry_after_s` [s] when, if the service said so.
+    """
+
+    def __init__(self, message: str, *, retryable: bool = False, retry_after_s: float | None = None) -> None:
+        super().__init__(message)
+        self.retryable = retryable
+        self.retry_after_s = retry_after_s
 
 
 class BadAnswer(BackendError, ValueError):
@@ -110,6 +119,10 @@ class BadAnswer(BackendError, ValueError):
     def __init__(self, message: str, raw_text: str = "") -> None:
         super().__init__(message)
         self.raw_text = raw_text
+
+
+class BudgetExceeded(BackendError):
+    """A call was not made, since a limit on calls, tokens or cost is reached."""
 
 
 class ReplayMiss(BackendError, LookupError):

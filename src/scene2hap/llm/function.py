@@ -1,0 +1,46 @@
+"""FunctionBackend: a Python function in place of a model, for tests and for guests who want no more than that."""
+
+from __future__ import annotations
+
+import inspect
+import json
+from collections.abc import Awaitable, Callable, Mapping
+from typing import Any
+
+from scene2hap.llm.protocol import LLMReply, LLMRequest
+
+Returned = LLMReply | Mapping[str, Any] | str
+"""A whole reply, an answer as JSON values, or a text."""
+
+
+class FunctionBackend:
+    """Answers by calling `function(request)`, which may be async; what it raises passes through.
+
+    `requests` are all that it was asked, in order; `model` stands in the replies and names it to a cache.
+    """
+
+    def __init__(
+        self, function: Callable[[LLMRequest], Returned | Awaitable[Returned]], *, model: str = "function"
+    ) -> None:
+        self._function = function
+        self.model = model
+        self.requests: list[LLMRequest] = []
+
+    @property
+    def identity(self) -> dict[str, Any]:
+        """What decides the answer besides the request."""
+        return {"model": self.model}
+
+    async def complete(self, request: LLMRequest) -> LLMReply:
+        """What the function returns, as a reply."""
+        self.requests.append(request)
+        returned = self._function(request)
+        if inspect.isawaitable(returned):
+            returned = await returned
+        if isinstance(returned, LLMReply):
+            return returned
+        return LLMReply(returned if isinstance(returned, str) else json.dumps(returned), self.model)
+
+    def report(self) -> dict[str, int]:
+        """How often it was asked."""
+        return {"calls": len(self.requests)}

@@ -1,0 +1,113 @@
+"""OpenAIBackend: answers by OpenAI's chat completions with strict structured output.
+
+Source: the OpenAPI description in openai/openai-openapi; OpenAI's guides "Structured outputs" and "Images and vision".
+"""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING, Any, Literal
+
+from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError
+from scene2hap.llm import chat
+from scene2hap.llm.http_client import Endpoint, Secret
+from scene2hap.llm.http_errors import failure, server_error
+from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.llm.schema import strict_schema
+
+if TYPE_CHECKING:
+    from scene2hap.llm.http_client import Transport
+
+KEY_VARIABLE = "OPENAI_API_KEY"
+BASE_URL = "https://api.openai.com/v1"
+
+_GIVES_WAY = {"temperature": None, "seed": None, "max_tokens": "max_completion_tokens"}
+"""Parameters that some models reject, and under which other name they take them. Models that always reason take no
+temperature."""
+
+
+class OpenAIBackend:
+    """Answers of an OpenAI model.
+
+    model : its name; api_key : else the environment variable OPENAI_API_KEY, read at each call; base_url : another
+    service that speaks the same; detail : of pictures, "low" (cheap) or "high", always sent since what OpenAI does
+    without it differs between models; timeout_s : for one answer; max_tokens : of one answer, reasoning included;
+    seed : best effort, on OpenAI's side too; transport : for tests.
+    Raises: ConfigError: a setting that cannot work.
+    """
+
+    def __init__(
+        self,
+        model: str = "gpt-4o",
+        *,
+        api_key: str | None = None,
+        base_url: str = BASE_URL,
+        detail: Literal["low", "high"] = "low",
+        timeout_s: float = 120.0,
+        max_tokens: int | None = None,
+        seed: int | None = None,
+        transport: Transport | None = None,
+    ) -> None:
+        if detail not in ("low", "high"):
+            raise ConfigError(f"detail is {detail!r}; it must be 'low' or 'high'.")
+        self.model = model
+        self._detail = detail
+        self._secret = Secret(api_key, KEY_VARIABLE)
+        self._endpoint = Endpoint(base_url, self._secret, timeout_s, transport)
+        self._limits = {"max_tokens": max_tokens, "seed": seed}
+        self._given_way: set[str] = set()
+
+    def __repr__(self) -> str:
+        return f"OpenAIBackend({self.model!r}, base_url={self._endpoint.base_url!r})"
+
+    @property
+    def identity(self) -> dict[str, Any]:
+        """What decides the answer besides the request; never the key."""
+        return {"model": self.model, "base_url": self._endpoint.base_url, "detail": self._detail, **self._limits}
+
+    async def complete(self, request: LLMRequest) -> LLMReply:
+        """The model's answer.
+
+        Raises: BackendUnavailable: no answer; tells whether trying again can help. BadAnswer: cut short, filtered,
+        refused or empty.
+        """
+        if not self._secret.reveal():
+            raise BackendUnavailable(f"no API key. Set {KEY_VARIABLE} or give api_key.")
+        said = await self._ask(self._body(request))
+        chat.require_whole(said, chat.about(request))
+        if not said.content:
+            raise BadAnswer(f"{chat.about(request)}: {said.model} answered without content.")
+        return LLMReply(said.content, said.model, said.finish_reason, said.usage)
+
+    def _body(self, request: LLMRequest) -> dict[str, Any]:
+        limits = {name: value for name, value in self._limits.items() if value is not None}
+        return {
+            "model": self.model,
+            "messages": [chat.user_message(request, request.prompt, self._detail)],
+            "response_format": chat.json_schema_format(request, strict_schema(request.answer_schema)),
+            "temperature": request.temperature,
+            **limits,
+        }
+
+    async def _ask(self, body: dict[str, Any]) -> chat.Said:
+        """Post, and once for each parameter that the model turns out not to take, post again without it."""
+        while True:
+            sent = self._adapted(body)
+            reply = await self._endpoint.post("chat/completions", sent)
+            blamed = server_error(reply).param if reply.status == 400 else ""
+            if blamed not in sent or blamed not in _GIVES_WAY:
+                break
+            self._give_way(blamed, failure(reply))
+        return chat.read_chat(reply, self.model)
+
+    def _adapted(self, body: dict[str, Any]) -> dict[str, Any]:
+        renamed = {_GIVES_WAY[name] if name in self._given_way else name: value for name, value in body.items()}
+        return {name: value for name, value in renamed.items() if name is not None}
+
+    def _give_way(self, parameter: str, reason: BackendUnavailable) -> None:
+        if parameter in self._given_way:
+            return  # a call that was under way at the same time has learnt it already
+        self._given_way.add(parameter)
+        instead = _GIVES_WAY[parameter]
+        what = f"it is sent as {instead!r}" if instead else "it is no longer sent, so answers may vary more"
+        warnings.warn(f"{self.model} does not take {parameter!r}; {what}. {reason}", chat.BackendWarning, stacklevel=2)

@@ -1,0 +1,56 @@
+"""Whether a reply is the answer that its component asked for, and what is wrong with it where it is not."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from scene2hap.llm.answers import Answer, MaterialAnswer, ObjectAnswer, SceneAnswer, VibrationAnswer
+from scene2hap.llm.protocol import Component
+
+ANSWERS: Mapping[Component, type[Answer]] = {
+    "scene_analyzer": SceneAnswer,
+    "object_analyzer": ObjectAnswer,
+    "material_estimator": MaterialAnswer,
+    "vibration_describer": VibrationAnswer,
+}
+
+_NUMERIC = ("greater_than", "less_than", "finite_number", "float_", "int_", "bool_")
+_MOST_SHOWN = 5
+_STEEPEST_GPA = 1300.0
+
+
+@dataclass(frozen=True)
+class Fault:
+    """Why a reply is no answer. `needs_images` is false where only numbers are wrong: their words say enough."""
+
+    reason: str
+    needs_images: bool
+
+
+def find_fault(component: Component, text: str) -> Fault | None:
+    """What is wrong with a reply, in words for the model that wrote it; None where nothing is."""
+    try:
+        ANSWERS[component].model_validate_json(text)
+    except ValidationError as error:
+        problems = error.errors(include_url=False)
+        reasons = [_in_words(problem) for problem in problems[:_MOST_SHOWN]]
+        return Fault("; ".join(reasons), not all(problem["type"].startswith(_NUMERIC) for problem in problems))
+    return None
+
+
+def _in_words(problem: ErrorDetails) -> str:
+    place = ".".join(map(str, problem["loc"])) or "(whole answer)"
+    value = problem["input"]
+    shown = f", got {value!r}" if isinstance(value, str | int | float) and problem["loc"] else ""
+    return f"{place}: {problem['msg']}{shown[:80]}{_unit_hint(place, value)}"
+
+
+def _unit_hint(place: str, value: object) -> str:
+    # The commonest slip: tables give moduli in pascal. Never rescaled here, since 1400 may be a typing error as well.
+    if place == "youngs_modulus_gpa" and isinstance(value, float | int) and value > _STEEPEST_GPA:
+        return " (pascal or megapascal? give gigapascal)"
+    return ""

@@ -1,0 +1,131 @@
+"""BudgetBackend: counts calls, tokens and cost, and stops before a limit is passed by a further call."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from scene2hap import checks
+from scene2hap.errors import BackendError, BudgetExceeded, ConfigError
+from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.llm.wrappers.stack import Spec, Wrapper
+
+_SNAPSHOT = re.compile(r"-\d{4}-\d{2}-\d{2}$")
+"""The date by which a service tells versions of one model apart: gpt-4o-2024-08-06."""
+
+
+@dataclass(frozen=True)
+class Price:
+    """What a model costs per million tokens, in whatever currency all prices are given in."""
+
+    input_per_million: float
+    output_per_million: float
+
+    def __post_init__(self) -> None:
+        for name in ("input_per_million", "output_per_million"):
+            checks.number(name, getattr(self, name), "-", at_least=0.0, error=ConfigError)
+
+
+class BudgetBackend(Wrapper):
+    """Passes calls on as long as the limits hold; None is no limit.
+
+    prices : model name -> `Price`, or (input, output) per million tokens. There is no built-in list: prices change.
+    Checked before each call, with what is known then: calls under way at the same time can pass a limit on tokens or
+    cost by what they use, a limit on calls never.
+    Raises: ConfigError: a limit that is negative or a price that is none.
+    """
+
+    def __init__(
+        self,
+        inner: Spec,
+        max_calls: int | None = None,
+        max_tokens: int | None = None,
+        max_cost: float | None = None,
+        prices: Mapping[str, Price | tuple[float, float]] | None = None,
+    ) -> None:
+        super().__init__(inner)
+        self._limits = {"calls": max_calls, "tokens": max_tokens, "cost": max_cost}
+        for name, limit in self._limits.items():
+            if limit is not None:
+                checks.number(f"max_{name}", limit, "-", at_least=0, error=ConfigError)
+        self._prices = {model: _price(model, price) for model, price in (prices or {}).items()}
+        self._calls = self._failed = self._blind = self._input = self._output = 0
+        self._cost = 0.0
+        self._unpriced: set[str] = set()
+
+    @property
+    def cost(self) -> float | None:
+        """What the answers cost so far; None as soon as one came without its usage or from a model without a price."""
+        return None if self._unpriced or self._blind else self._cost
+
+    @property
+    def tokens(self) -> int | None:
+        """Tokens read and written so far; None as soon as an answer came without its usage."""
+        return None if self._blind else self._input + self._output
+
+    async def complete(self, request: LLMRequest) -> LLMReply:
+        """The inner backend's answer. Raises: BudgetExceeded: the call was not made; and as the inner backend."""
+        self._check()
+        self._calls += 1
+        try:
+            reply = await self.inner.complete(request)
+        except BackendError:
+            self._failed += 1
+            raise
+        self._meter(reply)
+        return reply
+
+    def report(self) -> dict[str, Any]:
+        """Calls, tokens and cost (None: unknown), and what the sums lack.
+
+        Failed calls are in no sum though a service bills some of them (answers that were cut short); neither are
+        calls that were answered without their usage.
+        """
+        return {
+            "calls": self._calls,
+            "failed_calls": self._failed,
+            "calls_without_usage": self._blind,
+            "input_tokens": self._input,
+            "output_tokens": self._output,
+            "cost": self.cost,
+            "models_without_price": sorted(self._unpriced),
+        }
+
+    def _check(self) -> None:
+        spent = {"calls": self._calls, "tokens": self.tokens, "cost": self.cost}
+        for name, used in spent.items():
+            limit = self._limits[name]
+            if limit is None:
+                continue
+            if used is None:
+                lacks = "the usage of an answer" if self._blind else f"a price for {', '.join(sorted(self._unpriced))}"
+                raise BudgetExceeded(
+                    f"max_{name} = {limit:g} cannot be kept: what was used is unknown, for want of {lacks}. "
+                    "Add it to prices, or limit calls instead."
+                )
+            if used >= limit:
+                raise BudgetExceeded(f"{used:g} {name} used of max_{name} = {limit:g}. Raise the limit to go on.")
+
+    def _meter(self, reply: LLMReply) -> None:
+        read, written = reply.usage.get("prompt_tokens"), reply.usage.get("completion_tokens")
+        if read is None or written is None:
+            self._blind += 1
+            return
+        self._input += read
+        self._output += written
+        price = self._prices.get(reply.model) or self._prices.get(_SNAPSHOT.sub("", reply.model))
+        if price is None:
+            self._unpriced.add(reply.model)
+        else:
+            self._cost += (read * price.input_per_million + written * price.output_per_million) / 1e6
+
+
+def _price(model: str, price: Price | tuple[float, float]) -> Price:
+    if isinstance(price, Price):
+        return price
+    try:
+        return Price(*price)
+    except TypeError as cause:
+        raise ConfigError(f"the price of {model!r} is {price!r}; it must be (input, output) per million.") from cause

@@ -1,0 +1,166 @@
+"""CacheBackend: answers kept on disk by what they answer to, so that no question is paid for twice.
+
+One file per answer, written whole or not at all. Parallel runs on one folder wait for each other question by question.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import hashlib
+import json
+import os
+import tempfile
+from collections.abc import AsyncIterator, Awaitable, Callable
+from contextlib import asynccontextmanager
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from scene2hap.errors import ConfigError
+from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.llm.replay import request_key
+from scene2hap.llm.validation import find_fault
+from scene2hap.llm.wrappers.file_lock import FileLock
+from scene2hap.llm.wrappers.stack import Spec, Wrapper
+
+
+class _Entry(BaseModel):
+    """One file of the cache. Nothing else is ever written: no header, no key, no picture."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    key: str
+    identity: dict[str, Any]
+    component: str
+    subject: str
+    prompt_version: str
+    text: str
+    model: str
+    finish_reason: str
+    usage: dict[str, int]
+
+
+class CacheBackend(Wrapper):
+    """Answers from `folder` where it can; else asks `inner` and keeps the answer, if it is a valid one.
+
+    The key is that of a recording plus the inner backend's `identity`: model, base address, what else decides the
+    answer. A hit reports no usage, since it costs nothing. Equal questions asked at the same time are asked once, in
+    this process and between processes. A file that cannot be read back counts as absent and is written again.
+    stale_after_s : age at which the lock of another run is taken for abandoned; sleep : for tests.
+    Raises: ConfigError: the folder cannot be written, or `inner` has no identity.
+    """
+
+    def __init__(
+        self,
+        inner: Spec,
+        folder: str | os.PathLike[str],
+        *,
+        stale_after_s: float = 1800.0,
+        sleep: Callable[[float], Awaitable[object]] = asyncio.sleep,
+    ) -> None:
+        super().__init__(inner)
+        self._identity = self.identity
+        self._folder = Path(folder)
+        self._stale_after_s = stale_after_s
+        self._sleep = sleep
+        self._turns: dict[tuple[int, str], tuple[asyncio.Lock, int]] = {}
+        self._calls = self._hits = self._stored = self._rejected = 0
+        self._unreadable: set[str] = set()
+        try:
+            self._folder.mkdir(parents=True, exist_ok=True)
+        except OSError as cause:
+            raise _cannot_write(self._folder, cause) from cause
+
+    async def complete(self, request: LLMRequest) -> LLMReply:
+        """The kept answer, or the inner backend's. Raises: ConfigError: cannot write; and as the inner backend."""
+        self._calls += 1
+        key = self._key(request)
+        path = self._folder / f"{key}.json"
+        async with self._turn(key):
+            reply = self._load(path, key)
+            if reply is not None:
+                return reply
+            async with FileLock(path.with_suffix(".lock"), self._stale_after_s, self._sleep):
+                return self._load(path, key) or await self._ask(request, path, key)
+
+    def report(self) -> dict[str, int]:
+        """Calls, hits, answers kept, answers not kept since they are invalid, files that could not be read back."""
+        return {
+            "calls": self._calls,
+            "hits": self._hits,
+            "stored": self._stored,
+            "rejected": self._rejected,
+            "unreadable": len(self._unreadable),
+        }
+
+    def _key(self, request: LLMRequest) -> str:
+        whole = json.dumps([request_key(request), self._identity], sort_keys=True)
+        return hashlib.sha256(whole.encode()).hexdigest()
+
+    @asynccontextmanager
+    async def _turn(self, key: str) -> AsyncIterator[None]:
+        """One at a time per key and event loop; between loops and processes the file lock decides."""
+        name = (id(asyncio.get_running_loop()), key)
+        lock, users = self._turns.get(name, (asyncio.Lock(), 0))
+        self._turns[name] = (lock, users + 1)
+        try:
+            async with lock:
+                yield
+        finally:
+            lock, users = self._turns.pop(name)
+            if users > 1:
+                self._turns[name] = (lock, users - 1)
+
+    async def _ask(self, request: LLMRequest, path: Path, key: str) -> LLMReply:
+        reply = await self.inner.complete(request)
+        if reply.finish_reason != "stop" or find_fault(request.component, reply.text) is not None:
+            self._rejected += 1
+            return reply
+        entry = _Entry(
+            key=key,
+            identity=self._identity,
+            component=request.component,
+            subject=request.subject,
+            prompt_version=request.prompt_version,
+            text=reply.text,
+            model=reply.model,
+            finish_reason=reply.finish_reason,
+            usage=dict(reply.usage),
+        )
+        try:
+            await asyncio.to_thread(_write_whole, path, entry.model_dump_json(indent=1))
+        except OSError as cause:
+            raise _cannot_write(self._folder, cause) from cause
+        self._stored += 1
+        return reply
+
+    def _load(self, path: Path, key: str) -> LLMReply | None:
+        try:
+            entry = _Entry.model_validate_json(path.read_bytes())
+        except FileNotFoundError:
+            return None
+        except (OSError, ValidationError):
+            entry = None
+        if entry is None or entry.key != key:
+            self._unreadable.add(key)
+            return None
+        self._hits += 1
+        return LLMReply(entry.text, entry.model, entry.finish_reason)
+
+
+def _cannot_write(folder: Path, cause: OSError) -> ConfigError:
+    return ConfigError(f"cannot write the cache {folder}: {cause}. Give a folder that can be written.")
+
+
+def _write_whole(path: Path, text: str) -> None:
+    descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=path.stem, suffix=".tmp")
+    try:
+        with os.fdopen(descriptor, "w", encoding="utf-8") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(name, path)
+    except BaseException:
+        Path(name).unlink(missing_ok=True)
+        raise

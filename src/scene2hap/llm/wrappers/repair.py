@@ -1,0 +1,64 @@
+"""RepairBackend: hands a bad answer back to the model that gave it, with what is wrong."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+
+from scene2hap import checks
+from scene2hap.errors import BadAnswer, ConfigError
+from scene2hap.llm.json_text import first_object
+from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.llm.validation import Fault, find_fault
+from scene2hap.llm.wrappers.stack import Spec, Wrapper
+
+_LONGEST_QUOTED = 4000
+"""Characters of a bad answer that are handed back; assumed, three times the longest good one."""
+
+
+class RepairBackend(Wrapper):
+    """Validates each reply as its component's answer and asks again, up to `repairs` times, where it is none.
+
+    A repair is the original question with the last failure alone, so that its cost does not grow; pictures are left
+    out where only numbers were wrong. Replies cut short, filtered or refused are not repaired. The usage of the reply
+    is that of all attempts.
+    """
+
+    def __init__(self, inner: Spec, repairs: int = 2) -> None:
+        super().__init__(inner)
+        checks.number("repairs", repairs, "-", at_least=0, error=ConfigError)
+        self._repairs = repairs
+        self._calls = self._asked_again = self._given_up = 0
+
+    async def complete(self, request: LLMRequest) -> LLMReply:
+        """An answer that is valid. Raises: BadAnswer: none came, with the last raw text; and as the inner backend."""
+        self._calls += 1
+        about = f"{request.component} about {request.subject or 'the scene'!r}"
+        asked, usage, left = request, Counter[str](), self._repairs
+        while True:
+            reply = await self.inner.complete(asked)
+            usage.update(reply.usage)
+            if reply.finish_reason != "stop":
+                raise BadAnswer(f"{about}: the answer ended by {reply.finish_reason!r}, not by itself.", reply.text)
+            text = first_object(reply.text) or reply.text
+            fault = find_fault(request.component, text)
+            if fault is None:
+                return replace(reply, text=text, usage=dict(usage))
+            if left == 0:
+                self._given_up += 1
+                raise BadAnswer(f"{about}: still wrong after {self._repairs} repairs: {fault.reason}.", reply.text)
+            left -= 1
+            self._asked_again += 1
+            asked = _repair(request, text, fault)
+
+    def report(self) -> dict[str, int]:
+        """Calls asked for, repairs asked for, calls given up after all repairs."""
+        return {"calls": self._calls, "repairs": self._asked_again, "given_up": self._given_up}
+
+
+def _repair(request: LLMRequest, text: str, fault: Fault) -> LLMRequest:
+    prompt = (
+        f"{request.prompt}\n\nYour last answer was:\n{text[:_LONGEST_QUOTED]}\n\n"
+        f"It cannot be used: {fault.reason}.\nAnswer again, as one whole JSON object with these faults mended."
+    )
+    return replace(request, prompt=prompt, images=request.images if fault.needs_images else ())

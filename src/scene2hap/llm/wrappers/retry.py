@@ -1,0 +1,74 @@
+"""RetryBackend: asks again where waiting can help."""
+
+from __future__ import annotations
+
+import asyncio
+import random
+from collections.abc import Awaitable, Callable
+
+from scene2hap import checks
+from scene2hap.errors import BackendUnavailable, ConfigError
+from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.llm.wrappers.stack import Spec, Wrapper
+
+FIRST_WAIT_S = 0.5
+LONGEST_WAIT_S = 8.0
+LEAST_SHARE = 0.75
+"""Waits of min(0.5 * 2^n, 8) s times a share of 0.75 to 1, as OpenAI's own Python client does."""
+
+
+class RetryBackend(Wrapper):
+    """Repeats a call that failed with a retryable `BackendUnavailable`, up to `retries` times.
+
+    Waits as long as the server asks, else longer each time, by a random share less so that many clients spread.
+    Bad answers are not repeated: they are `RepairBackend`'s. `rng` and `sleep` are for tests.
+    """
+
+    def __init__(
+        self,
+        inner: Spec,
+        retries: int = 2,
+        *,
+        rng: random.Random | None = None,
+        sleep: Callable[[float], Awaitable[object]] = asyncio.sleep,
+    ) -> None:
+        super().__init__(inner)
+        checks.number("retries", retries, "-", at_least=0, error=ConfigError)
+        self._retries = retries
+        self._rng = rng or random.Random()
+        self._sleep = sleep
+        self._calls = self._retried = self._given_up = 0
+        self._waited_s = 0.0
+
+    async def complete(self, request: LLMRequest) -> LLMReply:
+        """The inner backend's answer. Raises: as the inner backend, its last error."""
+        self._calls += 1
+        for attempt in range(self._retries):
+            try:
+                return await self.inner.complete(request)
+            except BackendUnavailable as problem:
+                if not problem.retryable:
+                    raise
+                wait_s = self._wait_s(attempt, problem)
+            self._retried += 1
+            self._waited_s += wait_s
+            await self._sleep(wait_s)
+        try:
+            return await self.inner.complete(request)
+        except BackendUnavailable:
+            self._given_up += 1
+            raise
+
+    def report(self) -> dict[str, float]:
+        """Calls asked for, retries made, calls given up after all retries, seconds waited."""
+        return {
+            "calls": self._calls,
+            "retries": self._retried,
+            "given_up": self._given_up,
+            "waited_s": self._waited_s,
+        }
+
+    def _wait_s(self, attempt: int, problem: BackendUnavailable) -> float:
+        if problem.retry_after_s is not None:
+            return problem.retry_after_s
+        return min(FIRST_WAIT_S * 2.0**attempt, LONGEST_WAIT_S) * self._rng.uniform(LEAST_SHARE, 1.0)

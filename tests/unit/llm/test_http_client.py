@@ -1,0 +1,97 @@
+"""The one place that speaks HTTP, without a network: replies and errors come from an injected transport."""
+
+import asyncio
+import json
+from collections.abc import Callable
+from typing import Any
+
+import httpx
+import pytest
+
+from llm_server import GOOD, KEY, request, said
+from scene2hap import OpenAIBackend
+from scene2hap.errors import BackendError, BackendUnavailable
+from scene2hap.llm.http_client import Endpoint, HttpReply, Secret
+
+
+def post(answer: Callable[[httpx.Request], httpx.Response], body: Any = None, key: str | None = KEY) -> HttpReply:
+    endpoint = Endpoint("https://model.example/v1/", Secret(key), 5.0, httpx.MockTransport(answer))
+    return asyncio.run(endpoint.post("chat", body or {}))
+
+
+def subclasses(kind: type[Exception]) -> list[type[Exception]]:
+    return [kind, *(lower for inner in kind.__subclasses__() for lower in subclasses(inner))]
+
+
+HTTPX_ERRORS = sorted(
+    {*subclasses(httpx.HTTPError), *subclasses(httpx.StreamError), httpx.InvalidURL}, key=lambda kind: kind.__name__
+)
+OURS = (httpx.UnsupportedProtocol, httpx.LocalProtocolError, httpx.InvalidURL)
+
+
+def made(kind: type[Exception]) -> Exception:
+    try:
+        return kind("bad luck")
+    except TypeError:
+        return kind("bad luck", request=None, response=None) if kind is httpx.HTTPStatusError else kind()
+
+
+@pytest.mark.parametrize("kind", HTTPX_ERRORS, ids=lambda kind: kind.__name__)
+def test_every_error_of_httpx_is_one_of_ours(kind: type[Exception]) -> None:
+    cause = made(kind)
+
+    def fail(_: httpx.Request) -> httpx.Response:
+        raise cause
+
+    with pytest.raises(BackendUnavailable, match="https://model.example/v1/chat ") as caught:
+        post(fail)
+    assert caught.value.__cause__ is cause
+    assert caught.value.retryable is not issubclass(kind, OURS)
+
+
+def test_body_and_headers_of_a_request() -> None:
+    seen: list[httpx.Request] = []
+
+    def echo(sent: httpx.Request) -> httpx.Response:
+        seen.append(sent)
+        return httpx.Response(418, json={"a": "ü"}, headers={"X-Request-ID": "r", "Set-Cookie": "c"})
+
+    reply = post(echo, {"prompt": "käse"})
+    assert reply == HttpReply("https://model.example/v1/chat", 418, '{"a":"ü"}', {"x-request-id": "r"})
+    assert not reply.ok
+    assert reply.json() == {"a": "ü"}
+    assert json.loads(seen[0].content) == {"prompt": "käse"}
+    assert seen[0].headers["authorization"] == f"Bearer {KEY}"
+
+
+def test_without_a_key_there_is_no_header() -> None:
+    assert post(lambda sent: httpx.Response(200, text=str("authorization" in sent.headers)), key=None).text == "False"
+
+
+@pytest.mark.parametrize("body", [{"temperature": float("nan")}, {"fact": object()}], ids=str)
+def test_what_has_no_json_is_not_sent(body: dict[str, Any]) -> None:
+    def fail(_: httpx.Request) -> httpx.Response:
+        raise AssertionError("sent")
+
+    with pytest.raises(BackendError, match="no JSON for this request"):
+        post(fail, body)
+
+
+def test_a_server_that_trickles_is_a_timeout_too() -> None:
+    """httpx bounds each read; the whole answer is bounded here."""
+
+    async def trickle(_: httpx.Request) -> httpx.Response:
+        for _ in range(100):
+            await asyncio.sleep(0.001)
+        return httpx.Response(200, text="{}")
+
+    endpoint = Endpoint("https://model.example", Secret(), 0.02, httpx.MockTransport(trickle))
+    with pytest.raises(BackendUnavailable, match=r"did not answer within 0\.02 s") as caught:
+        asyncio.run(endpoint.post("chat", {}))
+    assert caught.value.retryable
+
+
+def test_backends_hand_their_transport_on() -> None:
+    transport = httpx.MockTransport(lambda _: httpx.Response(200, json=said().body))
+    reply = asyncio.run(OpenAIBackend(api_key=KEY, transport=transport).complete(request()))
+    assert json.loads(reply.text) == GOOD["scene_analyzer"]

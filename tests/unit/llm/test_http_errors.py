@@ -1,0 +1,87 @@
+"""What servers mean by a status, headers and a body."""
+
+from typing import Any
+
+import pytest
+
+from scene2hap.llm.http_client import HttpReply, Secret
+from scene2hap.llm.http_errors import ServerError, failure, server_error
+
+NOW_S = 1_445_412_480.0
+"""Wed, 21 Oct 2015 07:28:00 GMT, the example date of RFC 9110."""
+
+
+def reply(status: int = 429, text: str = "", **headers: str) -> HttpReply:
+    return HttpReply("http://a/v1", status, text, {name.replace("_", "-"): value for name, value in headers.items()})
+
+
+@pytest.mark.parametrize(
+    ("headers", "wait_s"),
+    [
+        ({"retry_after": "7"}, 7.0),
+        ({"retry_after": "0.5"}, 0.5),
+        ({"retry_after_ms": "1500", "retry_after": "7"}, 1.5),
+        ({"retry_after": "Wed, 21 Oct 2015 07:28:30 GMT"}, 30.0),
+        ({"retry_after": "Wed, 21 Oct 2015 07:27:00 GMT"}, 0.0),
+        ({"retry_after": "soon"}, None),
+        ({"retry_after": "-3"}, None),
+        ({"retry_after": "nan"}, None),
+        ({"retry_after": ""}, None),
+        ({}, None),
+    ],
+    ids=str,
+)
+def test_when_to_come_back(headers: dict[str, str], wait_s: float | None) -> None:
+    error = failure(reply(**headers), now_s=NOW_S)
+    assert error.retry_after_s == wait_s
+    assert error.retryable
+
+
+def test_more_than_two_minutes_is_given_up() -> None:
+    error = failure(reply(retry_after="121"))
+    assert (error.retryable, error.retry_after_s) == (False, 121.0)
+    assert "It asks to wait 121 s" in str(error)
+    assert failure(reply(retry_after="120")).retryable
+
+
+@pytest.mark.parametrize(("told", "retryable"), [("true", True), ("false", False), ("maybe", False)])
+def test_x_should_retry_is_obeyed(told: str, retryable: bool) -> None:
+    assert failure(reply(400, x_should_retry=told)).retryable is retryable
+    assert failure(reply(500, x_should_retry=told)).retryable is (told != "false")
+
+
+@pytest.mark.parametrize(
+    ("text", "error"),
+    [
+        ('{"error": {"message": "m", "type": "t", "param": "p", "code": "c"}}', ServerError("m", "t", "p", "c")),
+        ('{"error": {"message": "m", "param": null, "code": 500}}', ServerError("m", code="500")),
+        ('{"error": "m"}', ServerError("m")),
+        ('{"object": "error", "message": "m", "type": "t", "code": 400}', ServerError("m", "t", code="400")),
+        ("Bad Gateway", ServerError("Bad Gateway")),
+        ("[1]", ServerError("[1]")),
+        ("", ServerError()),
+    ],
+)
+def test_errors_come_in_many_forms(text: str, error: ServerError) -> None:
+    assert server_error(reply(text=text)) == error
+
+
+def test_message_gives_address_status_code_and_next_step() -> None:
+    text = '{"error": {"message": "The model\\n `x` does not exist", "code": "model_not_found"}}'
+    assert str(failure(reply(404, text))) == (
+        "http://a/v1 answered 404 (model_not_found): The model `x` does not exist. "
+        "Check base_url and the name of the model."
+    )
+
+
+def test_a_page_of_html_is_not_shown_whole() -> None:
+    assert len(str(failure(reply(502, "<p>" * 10_000)))) < 600
+
+
+@pytest.mark.parametrize("value", ["sk-0123456789abcdef", None])
+def test_secret_shows_itself_to_nobody(value: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("A_KEY", "sk-0123456789abcdef")
+    secret = Secret(value, "A_KEY")
+    assert f"{secret} {secret!r} {[secret]}" == "Secret(******) Secret(******) [Secret(******)]"
+    assert secret.reveal() == "sk-0123456789abcdef"
+    assert secret.scrub("Bearer sk-0123456789abcdef!") == "Bearer ******!"

@@ -1,0 +1,62 @@
+"""JSON found within what a model writes around it."""
+
+import json
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from scene2hap.llm.json_text import first_object
+
+_JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.text(),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(), inner, max_size=3),
+    max_leaves=8,
+)
+_PROSE = st.text(alphabet="abc \n.,:}[]'`", max_size=30)
+
+
+@settings(derandomize=True, deadline=None, max_examples=80)
+@given(
+    st.dictionaries(st.text(), _JSON, min_size=1, max_size=4),
+    st.dictionaries(st.sampled_from("ab"), st.text(alphabet='{}"\\', max_size=4), max_size=2),
+    _PROSE,
+    _PROSE,
+    st.booleans(),
+)
+def test_answer_is_found_whatever_stands_around_it(
+    answer: dict[str, Any], draft: dict[str, Any], before: str, after: str, fenced: bool
+) -> None:
+    text = json.dumps(answer, indent=1)
+    shown = f"```json\n{text}\n```" if fenced else text
+    assert first_object(f"<think>{json.dumps(draft)}</think>{before}{shown}{after}{{}}") == text
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ('{"a": "}"}', '{"a": "}"}'),
+        (' {"a": "x <think> y </think>"}\n', '{"a": "x <think> y </think>"}'),
+        ('{"a": 1} and {"b": 2}', '{"a": 1}'),
+        ('a set {1, 2} and {x}: {"a": "\\"}"} {', '{"a": "\\"}"}'),
+        ('{"draft",} then {"a": 1}', '{"a": 1}'),
+        ('{"a": 1,}', '{"a": 1,}'),
+        ('<think>{"a": 1}', '{"a": 1}'),
+        ('<THINK>{"a": 1}</THINK>{"a": 2}', '{"a": 2}'),
+        ('a draft {"a": 1}</think> and {"a": 2}', '{"a": 2}'),
+        ("{}", "{}"),
+        ('{"a": {"b": 1}', None),
+        ('[1, "{"]', None),
+        ("no braces", None),
+        ("", None),
+    ],
+)
+def test_cases(text: str, found: str | None) -> None:
+    assert first_object(text) == found
+
+
+def test_a_model_that_runs_away_costs_no_time_and_no_stack() -> None:
+    assert first_object('{"a":' * 50_000) is None
+    assert first_object("{" * 200_000) is None
+    assert first_object('{"a":' * 50_000 + "1" + "}" * 50_000) is not None

@@ -1,0 +1,114 @@
+"""Answer schemas in OpenAI's strict subset and in words."""
+
+import json
+from collections.abc import Iterator
+from typing import Any
+
+import jsonschema
+import pytest
+
+from llm_server import GOOD
+from scene2hap.errors import ConfigError
+from scene2hap.llm.schema import fields_in_words, strict_schema
+from scene2hap.llm.validation import ANSWERS
+
+SCHEMAS = {component: shape.model_json_schema() for component, shape in ANSWERS.items()}
+
+
+def nodes(schema: Any) -> Iterator[dict[str, Any]]:
+    """Every schema within a schema, itself first; a property is a schema, its name is not."""
+    yield schema
+    for key in ("properties", "$defs"):
+        for inner in schema.get(key, {}).values():
+            yield from nodes(inner)
+    for inner in [*schema.get("anyOf", []), *([schema["items"]] if "items" in schema else [])]:
+        yield from nodes(inner)
+
+
+@pytest.mark.parametrize("component", SCHEMAS)
+def test_strict_schemas_keep_to_the_subset(component: str) -> None:
+    for node in nodes(strict_schema(SCHEMAS[component])):  # type: ignore[index]
+        assert not {"title", "default", "minLength", "maxLength", "allOf", "oneOf"} & set(node)
+        assert "$ref" not in node or len(node) == 1
+        if node.get("type") == "object":
+            assert node["additionalProperties"] is False
+            assert node["required"] == list(node["properties"])
+
+
+@pytest.mark.parametrize("component", GOOD)
+def test_strict_schemas_take_good_answers_and_no_others(component: str) -> None:
+    strict = strict_schema(SCHEMAS[component])  # type: ignore[index]
+    validator = jsonschema.Draft202012Validator(strict)
+    assert validator.is_valid(GOOD[component])
+    assert not validator.is_valid({**GOOD[component], "more": 1})
+    assert not validator.is_valid(dict(list(GOOD[component].items())[1:]))
+
+
+def test_bounds_stay_and_are_said_in_the_description() -> None:
+    density = strict_schema(SCHEMAS["material_estimator"])["properties"]["density_kg_m3"]
+    assert density == {
+        "type": "number",
+        "minimum": 1.0,
+        "maximum": 25000.0,
+        "description": "At least 1, at most 25000.",
+    }
+
+
+def test_a_description_keeps_its_words_before_the_bounds() -> None:
+    schema = {"type": "object", "properties": {"a": {"type": "string", "description": "A word.", "maxLength": 5}}}
+    assert strict_schema(schema)["properties"]["a"]["description"] == "A word. Length at most 5."
+
+
+def test_a_property_may_be_named_like_a_keyword() -> None:
+    schema = {"type": "object", "properties": {"title": {"type": "string", "title": "Title", "default": ""}}}
+    assert strict_schema(schema) == {
+        "type": "object",
+        "properties": {"title": {"type": "string"}},
+        "required": ["title"],
+        "additionalProperties": False,
+    }
+
+
+def test_a_reference_stands_alone_and_alternatives_are_any_of() -> None:
+    schema = {
+        "type": "object",
+        "properties": {"a": {"$ref": "#/$defs/A", "description": "one"}, "b": {"oneOf": [{"type": "null"}]}},
+        "$defs": {"A": {"type": "integer", "title": "A"}},
+    }
+    strict = strict_schema(schema)
+    assert strict["properties"]["a"] == {"anyOf": [{"$ref": "#/$defs/A"}], "description": "one."}
+    assert strict["properties"]["b"] == {"anyOf": [{"type": "null"}]}
+    assert strict["$defs"] == {"A": {"type": "integer"}}
+
+
+def test_same_schema_same_bytes_and_the_original_untouched() -> None:
+    schema = SCHEMAS["object_analyzer"]
+    before = json.dumps(schema)
+    assert json.dumps(strict_schema(schema)) == json.dumps(strict_schema(json.loads(before)))
+    assert json.dumps(schema) == before
+
+
+@pytest.mark.parametrize("schema", [{}, {"type": "array"}, {"anyOf": [{"type": "object"}]}])
+def test_root_must_be_an_object(schema: dict[str, Any]) -> None:
+    with pytest.raises(ConfigError, match="needs an object"):
+        strict_schema(schema)
+
+
+def test_keywords_without_a_strict_form_are_named() -> None:
+    with pytest.raises(ConfigError, match="uses allOf, not"):
+        strict_schema({"type": "object", "properties": {"a": {"allOf": [], "not": {}}}})
+
+
+def test_fields_in_words() -> None:
+    words = fields_in_words(SCHEMAS["object_analyzer"]).splitlines()
+    assert words[0] == "Answer with one JSON object and nothing else. It has exactly these fields:"
+    assert "- object_category: text (length at least 1, length at most 60)" in words
+    assert "- vibrates: true or false" in words
+    at = words.index("- states: list of objects")
+    assert words[at + 1 : at + 4] == [
+        "  - name: text (length at least 1, length at most 40)",
+        "  - intensity: number (above 0, at most 1)",
+        "  - needs_contact: text or null",
+    ]
+    named = {line.strip("- ").split(":")[0] for line in words[1:]}
+    assert named >= set(SCHEMAS["object_analyzer"]["properties"])

@@ -1,0 +1,124 @@
+"""BudgetBackend: limits hold before the call, and unknown is not zero."""
+
+import asyncio
+from typing import Any
+
+import pytest
+
+from llm_server import request
+from scene2hap import BudgetBackend, FunctionBackend, LLMReply, LLMRequest, Price
+from scene2hap.errors import BackendUnavailable, BudgetExceeded, ConfigError
+
+USAGE = {"prompt_tokens": 1000, "completion_tokens": 200}
+
+
+def answering(model: str = "gpt-4o-2024-08-06", usage: dict[str, int] = USAGE) -> FunctionBackend:
+    return FunctionBackend(lambda _: LLMReply("{}", model, usage=usage))
+
+
+def spend(backend: BudgetBackend, calls: int) -> None:
+    for _ in range(calls):
+        asyncio.run(backend.complete(request()))
+
+
+@pytest.mark.parametrize(
+    ("limit", "calls"),
+    [
+        ({"max_calls": 3}, 3),
+        ({"max_calls": 0}, 0),
+        ({"max_tokens": 2400}, 2),
+        ({"max_tokens": 2401}, 3),
+        # 1000 tokens in at 2 and 200 out at 5 per million: 0.003 per call
+        ({"max_cost": 0.0029}, 1),
+        ({"max_cost": 0.0031}, 2),
+    ],
+    ids=str,
+)
+def test_limits_are_checked_before_each_call(limit: dict[str, Any], calls: int) -> None:
+    inner = answering()
+    backend = BudgetBackend(inner, **limit, prices={"gpt-4o": (2.0, 5.0)})
+    spend(backend, calls)
+    with pytest.raises(BudgetExceeded, match=f"max_{next(iter(limit)).removeprefix('max_')} = "):
+        spend(backend, 1)
+    assert len(inner.requests) == calls
+
+
+def test_calls_under_way_count() -> None:
+    backend = BudgetBackend(answering(), max_calls=3)
+
+    async def all_at_once() -> list[Any]:
+        return await asyncio.gather(*(backend.complete(request()) for _ in range(8)), return_exceptions=True)
+
+    assert sum(isinstance(result, BudgetExceeded) for result in asyncio.run(all_at_once())) == 5
+
+
+def test_report_of_what_was_spent() -> None:
+    backend = BudgetBackend(answering(), prices={"gpt-4o": Price(2.0, 5.0)})
+    spend(backend, 2)
+    assert backend.report() == {
+        "calls": 2,
+        "failed_calls": 0,
+        "calls_without_usage": 0,
+        "input_tokens": 2000,
+        "output_tokens": 400,
+        "cost": pytest.approx(0.006),
+        "models_without_price": [],
+    }
+
+
+@pytest.mark.parametrize("model", ["gpt-4o-mini-2024-07-18", "gpt-4", "gpt-4o-latest"])
+def test_unknown_price_is_unknown_not_zero(model: str) -> None:
+    backend = BudgetBackend(answering(model), prices={"gpt-4o": (2.0, 5.0)})
+    spend(backend, 1)
+    assert backend.report()["cost"] is None
+    assert backend.report()["models_without_price"] == [model]
+
+
+def test_price_of_a_snapshot_goes_before_that_of_its_model() -> None:
+    backend = BudgetBackend(answering(), prices={"gpt-4o": (9.0, 9.0), "gpt-4o-2024-08-06": (0.0, 1.0)})
+    spend(backend, 1)
+    assert backend.cost == pytest.approx(0.0002)
+
+
+def test_a_cost_limit_cannot_be_kept_without_a_price() -> None:
+    backend = BudgetBackend(answering("llava"), max_cost=1.0)
+    spend(backend, 1)
+    with pytest.raises(BudgetExceeded, match="unknown, for want of a price for llava"):
+        spend(backend, 1)
+
+
+@pytest.mark.parametrize("limit", [{"max_tokens": 10_000}, {"max_cost": 1.0}], ids=str)
+def test_no_limit_can_be_kept_without_usage(limit: dict[str, Any]) -> None:
+    backend = BudgetBackend(answering(usage={}), **limit)
+    spend(backend, 1)
+    assert (backend.tokens, backend.cost) == (None, None)
+    assert backend.report()["calls_without_usage"] == 1
+    with pytest.raises(BudgetExceeded, match="for want of the usage of an answer"):
+        spend(backend, 1)
+
+
+def test_failed_calls_are_counted_and_shown() -> None:
+    def fail(_: LLMRequest) -> LLMReply:
+        raise BackendUnavailable("away")
+
+    backend = BudgetBackend(FunctionBackend(fail), max_calls=1)
+    with pytest.raises(BackendUnavailable):
+        spend(backend, 1)
+    with pytest.raises(BudgetExceeded, match="1 calls used of max_calls = 1"):
+        spend(backend, 1)
+    assert backend.report()["failed_calls"] == 1
+
+
+@pytest.mark.parametrize(
+    ("settings", "named"),
+    [
+        ({"max_calls": -1}, "max_calls is -1"),
+        ({"max_cost": float("nan")}, "max_cost is nan"),
+        ({"prices": {"m": (1.0,)}}, "the price of 'm'"),
+        ({"prices": {"m": 3}}, "the price of 'm'"),
+        ({"prices": {"m": (1.0, -1.0)}}, "output_per_million is -1"),
+    ],
+)
+def test_settings_that_cannot_work(settings: dict[str, Any], named: str) -> None:
+    with pytest.raises(ConfigError, match=named):
+        BudgetBackend("lexicon", **settings)

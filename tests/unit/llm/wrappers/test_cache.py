@@ -1,0 +1,277 @@
+"""CacheBackend: what counts as the same question, and what happens to the files."""
+
+import asyncio
+import json
+import os
+import socket
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from llm_server import GOOD, PNG, request
+from scene2hap import CacheBackend, FunctionBackend, LexiconBackend, LLMReply, LLMRequest, LocalBackend, OpenAIBackend
+from scene2hap.errors import BackendUnavailable, ConfigError
+
+ANSWER = LLMReply(json.dumps(GOOD["scene_analyzer"]), "m", usage={"prompt_tokens": 7})
+
+
+def answering(reply: LLMReply = ANSWER, model: str = "m") -> FunctionBackend:
+    return FunctionBackend(lambda _: reply, model=model)
+
+
+def ask(backend: CacheBackend, asked: LLMRequest | None = None) -> LLMReply:
+    return asyncio.run(backend.complete(asked or request()))
+
+
+def files(folder: Path) -> list[Path]:
+    return sorted(path for path in folder.rglob("*") if path.is_file())
+
+
+def abandon(folder: Path, holder: dict[str, Any] | None = None, age_s: float = 0.0) -> Path:
+    """A lock on the one question that the folder answers, instead of its answer."""
+    (entry,) = files(folder)
+    lock = entry.with_suffix(".lock")
+    entry.rename(lock)
+    lock.write_text(json.dumps(holder or {"host": "elsewhere", "pid": 1, "id": "a"}), encoding="utf-8")
+    os.utime(lock, (lock.stat().st_mtime - age_s,) * 2)
+    return lock
+
+
+# --- hits and misses --------------------------------------------------------------------------------------------------
+
+
+def test_second_question_is_answered_from_disk(tmp_path: Path) -> None:
+    inner = answering()
+    assert ask(CacheBackend(inner, tmp_path)) == ANSWER
+    again = CacheBackend(inner, tmp_path)
+    reply = ask(again)
+    assert (reply.text, reply.model, reply.usage) == (ANSWER.text, "m", {})
+    assert len(inner.requests) == 1
+    assert again.report() == {"calls": 1, "hits": 1, "stored": 0, "rejected": 0, "unreadable": 0}
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"prompt": "other"},
+        {"images": (PNG,)},
+        {"images": (PNG + b"2",)},
+        {"answer_schema": {"type": "object"}},
+        {"temperature": 0.3},
+        {"facts": {}},
+    ],
+    ids=lambda changes: next(iter(changes)),
+)
+def test_no_wrong_hits(tmp_path: Path, changes: dict[str, Any]) -> None:
+    inner = answering()
+    backend = CacheBackend(inner, tmp_path)
+    ask(backend)
+    ask(backend, request(**changes))
+    assert len(inner.requests) == 2
+
+
+def test_models_do_not_answer_for_each_other(tmp_path: Path) -> None:
+    ask(CacheBackend(answering(), tmp_path))
+    other = answering(model="another")
+    ask(CacheBackend(other, tmp_path))
+    assert len(other.requests) == 1
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        OpenAIBackend("gpt-4.1"),
+        OpenAIBackend(base_url="http://127.0.0.1/v1"),
+        OpenAIBackend(detail="high"),
+        OpenAIBackend(seed=1),
+        OpenAIBackend(max_tokens=9),
+        LocalBackend("gpt-4o", base_url="https://api.openai.com/v1"),
+    ],
+    ids=repr,
+)
+def test_identity_is_model_and_address_and_whatever_decides(other: OpenAIBackend | LocalBackend) -> None:
+    assert other.identity != OpenAIBackend().identity
+
+
+def test_identity_has_nothing_that_does_not_decide() -> None:
+    assert OpenAIBackend(api_key="sk-one").identity == OpenAIBackend(api_key="sk-two", timeout_s=5).identity
+
+
+def test_backend_that_does_not_tell_who_it_is(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match="no `identity`"):
+        CacheBackend(LexiconBackend(), tmp_path)
+
+
+@pytest.mark.parametrize(
+    "reply",
+    [LLMReply("{}", "m"), LLMReply("no JSON", "m"), LLMReply(ANSWER.text, "m", "length")],
+    ids=lambda reply: reply.text[:8] + reply.finish_reason,
+)
+def test_bad_answers_are_handed_on_but_never_kept(tmp_path: Path, reply: LLMReply) -> None:
+    backend = CacheBackend(answering(reply), tmp_path)
+    assert ask(backend) == reply
+    assert backend.report()["rejected"] == 1
+    assert files(tmp_path) == []
+
+
+def test_failures_leave_nothing_behind_and_pass_through(tmp_path: Path) -> None:
+    error = BackendUnavailable("away", retryable=True)
+
+    def fail(_: LLMRequest) -> LLMReply:
+        raise error
+
+    with pytest.raises(BackendUnavailable) as caught:
+        ask(CacheBackend(FunctionBackend(fail), tmp_path))
+    assert caught.value is error
+    assert files(tmp_path) == []
+
+
+# --- files ------------------------------------------------------------------------------------------------------------
+
+
+def test_nothing_but_the_listed_fields_is_written(tmp_path: Path) -> None:
+    ask(CacheBackend(answering(), tmp_path), request(images=(PNG,)))
+    (entry,) = files(tmp_path)
+    written = json.loads(entry.read_text(encoding="utf-8"))
+    assert set(written) == {
+        *("key", "identity", "component", "subject", "prompt_version", "text", "model", "finish_reason", "usage")
+    }
+    assert written["key"] == entry.stem
+    assert "PNG" not in json.dumps(written)
+
+
+@pytest.mark.parametrize("damage", [b"", b"{", b"[]", b"\xff", b'{"key": "a"}', "other key"], ids=repr)
+def test_file_that_cannot_be_read_back_is_written_again(tmp_path: Path, damage: Any) -> None:
+    inner = answering()
+    backend = CacheBackend(inner, tmp_path)
+    ask(backend)
+    (entry,) = files(tmp_path)
+    whole = entry.read_bytes()
+    entry.write_bytes(whole.replace(entry.stem.encode(), b"0" * 64) if damage == "other key" else damage)
+    assert ask(backend) == ANSWER
+    assert entry.read_bytes() == whole
+    assert backend.report()["unreadable"] == 1
+
+
+def test_write_that_fails_half_way_leaves_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(ConfigError, match="cannot write the cache .*No space left"):
+        ask(CacheBackend(answering(), tmp_path))
+    assert files(tmp_path) == []
+
+
+def test_folder_that_cannot_be(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(ConfigError, match="cannot write the cache"):
+        CacheBackend(answering(), tmp_path / "file" / "cache")
+
+
+def test_folder_that_has_gone(tmp_path: Path) -> None:
+    backend = CacheBackend(answering(), tmp_path / "cache")
+    (tmp_path / "cache").rmdir()
+    with pytest.raises(ConfigError, match="cannot lock"):
+        ask(backend)
+
+
+# --- locks ------------------------------------------------------------------------------------------------------------
+
+
+def test_equal_questions_at_the_same_time_are_asked_once(tmp_path: Path) -> None:
+    async def slow(_: LLMRequest) -> LLMReply:
+        await asyncio.sleep(0)
+        return ANSWER
+
+    inner = FunctionBackend(slow)
+    backend = CacheBackend(inner, tmp_path)
+
+    async def all_at_once() -> None:
+        await asyncio.gather(*(backend.complete(request(subject=str(i))) for i in range(8)))
+
+    asyncio.run(all_at_once())
+    assert len(inner.requests) == 1
+    assert backend.report()["hits"] == 7
+    assert backend._turns == {}
+    assert len(files(tmp_path)) == 1
+
+
+def test_another_run_is_waited_for(tmp_path: Path) -> None:
+    inner = answering()
+    ask(CacheBackend(inner, tmp_path))
+    answer = files(tmp_path)[0].read_bytes()
+    lock = abandon(tmp_path)
+    waits: list[float] = []
+
+    async def other_run(wait_s: float) -> None:
+        waits.append(wait_s)
+        if len(waits) == 3:
+            lock.with_suffix(".json").write_bytes(answer)
+            lock.unlink()
+
+    assert ask(CacheBackend(inner, tmp_path, sleep=other_run)).text == ANSWER.text
+    assert len(waits) == 3
+    assert len(inner.requests) == 1
+
+
+@pytest.mark.parametrize("age_s", [1900.0, 1e9])
+def test_stale_lock_is_taken_over(tmp_path: Path, age_s: float) -> None:
+    inner = answering()
+    ask(CacheBackend(inner, tmp_path))
+    abandon(tmp_path, age_s=age_s)
+    assert ask(CacheBackend(inner, tmp_path, sleep=never)) == ANSWER
+    assert [path.suffix for path in files(tmp_path)] == [".json"]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a process cannot be asked after without harm elsewhere")
+def test_lock_of_a_dead_process_is_taken_over(tmp_path: Path) -> None:
+    gone = subprocess.Popen([sys.executable, "-c", ""])
+    gone.wait()
+    inner = answering()
+    ask(CacheBackend(inner, tmp_path))
+    abandon(tmp_path, {"host": socket.gethostname(), "pid": gone.pid, "id": "a"})
+    assert ask(CacheBackend(inner, tmp_path, sleep=never)) == ANSWER
+
+
+@pytest.mark.parametrize(
+    "holder",
+    [
+        {"host": socket.gethostname(), "pid": os.getpid(), "id": "a"},
+        {"host": "elsewhere", "pid": 999_999_999, "id": "a"},
+        {"host": socket.gethostname(), "pid": 10**30},
+        {"host": socket.gethostname(), "pid": None},
+        {"pid": 1},
+    ],
+    ids=str,
+)
+def test_lock_that_may_be_held_is_respected(tmp_path: Path, holder: dict[str, Any]) -> None:
+    ask(CacheBackend(answering(), tmp_path))
+    lock = abandon(tmp_path, holder)
+    waits: list[float] = []
+
+    async def release(wait_s: float) -> None:
+        waits.append(wait_s)
+        lock.unlink()
+
+    assert ask(CacheBackend(answering(), tmp_path, sleep=release)) == ANSWER
+    assert len(waits) == 1
+
+
+def test_lock_that_was_taken_over_is_not_released_by_its_old_holder(tmp_path: Path) -> None:
+    theirs = b'{"id": "theirs"}'
+
+    def answer(_: LLMRequest) -> LLMReply:
+        (lock,) = files(tmp_path)
+        lock.write_bytes(theirs)
+        return ANSWER
+
+    ask(CacheBackend(FunctionBackend(answer), tmp_path))
+    assert theirs in [path.read_bytes() for path in files(tmp_path)]
+
+
+async def never(_: float) -> None:
+    raise AssertionError("waited for a lock that nobody holds")

@@ -1,0 +1,123 @@
+"""RepairBackend: what is handed back to the model, how often, and at what cost."""
+
+import asyncio
+import json
+from typing import Any
+
+import pytest
+
+from llm_server import GOOD, PNG, request
+from scene2hap import FunctionBackend, LLMReply, LLMRequest, RepairBackend
+from scene2hap.errors import BadAnswer
+from scene2hap.llm.validation import ANSWERS, find_fault
+
+OAK = GOOD["material_estimator"]
+ASKED = request("material_estimator", images=(PNG,))
+
+
+def scripted(*texts: str | LLMReply) -> FunctionBackend:
+    replies = iter(texts)
+
+    def answer(_: LLMRequest) -> LLMReply:
+        reply = next(replies)
+        return reply if isinstance(reply, LLMReply) else LLMReply(reply, "m", usage={"prompt_tokens": 10})
+
+    return FunctionBackend(answer)
+
+
+def oak(**changes: Any) -> str:
+    return json.dumps({**OAK, **changes})
+
+
+def test_good_answers_pass_untouched() -> None:
+    inner = scripted(oak())
+    backend = RepairBackend(inner)
+    assert asyncio.run(backend.complete(ASKED)) == LLMReply(oak(), "m", usage={"prompt_tokens": 10})
+    assert inner.requests == [ASKED]
+    assert backend.report() == {"calls": 1, "repairs": 0, "given_up": 0}
+
+
+def test_modulus_in_pascal_is_asked_again_never_rescaled() -> None:
+    inner = scripted(oak(youngs_modulus_gpa=1.1e10), oak())
+    reply = asyncio.run(RepairBackend(inner).complete(ASKED))
+    assert json.loads(reply.text)["youngs_modulus_gpa"] == 11.0
+    assert (
+        "youngs_modulus_gpa: Input should be less than or equal to 1300, got 11000000000.0" in inner.requests[1].prompt
+    )
+    assert "pascal or megapascal? give gigapascal" in inner.requests[1].prompt
+
+
+@pytest.mark.parametrize("wrong", ["2700 kg/m^3", "about 700", 0.0, 30000.0, None, float("nan")])
+def test_numbers_that_are_none_are_asked_again_without_images(wrong: Any) -> None:
+    inner = scripted(oak(density_kg_m3=wrong), oak())
+    asyncio.run(RepairBackend(inner).complete(ASKED))
+    assert "density_kg_m3" in inner.requests[1].prompt
+    assert inner.requests[1].images == ()
+
+
+@pytest.mark.parametrize("wrong", ["no JSON", '{"density_kg_m3": 700}', oak(more=1), "[]", oak(more=1, loss_factor=7)])
+def test_other_faults_keep_the_images(wrong: str) -> None:
+    inner = scripted(wrong, oak())
+    asyncio.run(RepairBackend(inner).complete(ASKED))
+    assert inner.requests[1].images == (PNG,)
+
+
+def test_last_failure_only() -> None:
+    inner = scripted(oak(loss_factor=7.0), oak(poisson_ratio=0.9), oak())
+    asyncio.run(RepairBackend(inner).complete(ASKED))
+    first, second = (asked.prompt for asked in inner.requests[1:])
+    assert first.startswith(ASKED.prompt)
+    assert second.startswith(ASKED.prompt)
+    assert "loss_factor: Input" in first
+    assert "poisson_ratio: Input" in second
+    assert "7.0" not in second
+    assert len(second) < len(first) + 50
+
+
+def test_all_attempts_are_in_the_usage() -> None:
+    backend = RepairBackend(scripted("no", "no", oak()))
+    assert asyncio.run(backend.complete(ASKED)).usage == {"prompt_tokens": 30}
+    assert backend.report() == {"calls": 1, "repairs": 2, "given_up": 0}
+
+
+def test_gives_up_with_the_last_raw_text() -> None:
+    inner = scripted("no", "no", "still no")
+    backend = RepairBackend(inner)
+    with pytest.raises(BadAnswer, match=r"material_estimator about 'the scene': still wrong after 2 repairs") as caught:
+        asyncio.run(backend.complete(ASKED))
+    assert caught.value.raw_text == "still no"
+    assert len(inner.requests) == 3
+    assert backend.report() == {"calls": 1, "repairs": 2, "given_up": 1}
+
+
+def test_no_repairs_still_validates() -> None:
+    with pytest.raises(BadAnswer, match="0 repairs"):
+        asyncio.run(RepairBackend(scripted("no"), 0).complete(ASKED))
+
+
+def test_fences_are_taken_off_without_asking() -> None:
+    inner = scripted(f"Here:\n```json\n{oak()}\n```")
+    assert asyncio.run(RepairBackend(inner).complete(ASKED)).text == oak()
+    assert len(inner.requests) == 1
+
+
+@pytest.mark.parametrize("reason", ["length", "content_filter", "tool_calls"])
+def test_answers_that_did_not_end_are_not_repaired(reason: str) -> None:
+    inner = scripted(LLMReply(oak(), "m", reason))
+    with pytest.raises(BadAnswer, match=reason):
+        asyncio.run(RepairBackend(inner).complete(ASKED))
+    assert len(inner.requests) == 1
+
+
+def test_a_long_bad_answer_is_quoted_in_part() -> None:
+    inner = scripted("x" * 1_000_000, oak())
+    asyncio.run(RepairBackend(inner).complete(ASKED))
+    assert len(inner.requests[1].prompt) < 5000
+
+
+@pytest.mark.parametrize("component", ANSWERS)
+def test_every_component_has_an_answer_that_an_empty_object_is_not(component: Any) -> None:
+    fault = find_fault(component, "{}")
+    assert fault is not None
+    assert fault.needs_images
+    assert "Field required" in fault.reason

@@ -1,0 +1,75 @@
+"""RetryBackend, with waiting written down instead of done."""
+
+import asyncio
+import random
+
+import pytest
+
+from llm_server import GOOD, request
+from scene2hap import FunctionBackend, LLMRequest, RetryBackend
+from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError
+
+AWAY = BackendUnavailable("away", retryable=True)
+
+
+class Failing:
+    """Fails with each of these errors, then answers; keeps the waits between."""
+
+    def __init__(self, *errors: Exception) -> None:
+        self.errors = list(errors)
+        self.waits_s: list[float] = []
+        self.backend = FunctionBackend(self.answer)
+
+    def answer(self, asked: LLMRequest) -> dict[str, object]:
+        if self.errors:
+            raise self.errors.pop(0)
+        return GOOD["scene_analyzer"]
+
+    async def sleep(self, wait_s: float) -> None:
+        self.waits_s.append(wait_s)
+
+    def retrying(self, retries: int = 2) -> RetryBackend:
+        return RetryBackend(self.backend, retries, rng=random.Random(0), sleep=self.sleep)
+
+
+def test_waits_grow_from_half_a_second_to_eight_less_up_to_a_quarter() -> None:
+    failing = Failing(*[AWAY] * 7)
+    backend = failing.retrying(7)
+    asyncio.run(backend.complete(request()))
+    full_s = [0.5, 1.0, 2.0, 4.0, 8.0, 8.0, 8.0]
+    shares = [wait_s / full for wait_s, full in zip(failing.waits_s, full_s, strict=True)]
+    assert all(0.75 <= share <= 1.0 for share in shares)
+    assert len(set(shares)) == 7
+    assert backend.report() == {"calls": 1, "retries": 7, "given_up": 0, "waited_s": sum(failing.waits_s)}
+
+
+def test_server_says_when() -> None:
+    failing = Failing(BackendUnavailable("slow", retryable=True, retry_after_s=20.0), AWAY)
+    asyncio.run(failing.retrying().complete(request()))
+    assert failing.waits_s[0] == 20.0
+    assert 0.75 <= failing.waits_s[1] <= 1.0
+
+
+def test_last_error_is_raised_when_retries_are_used_up() -> None:
+    last = BackendUnavailable("third", retryable=True)
+    failing = Failing(AWAY, AWAY, last)
+    backend = failing.retrying()
+    with pytest.raises(BackendUnavailable) as caught:
+        asyncio.run(backend.complete(request()))
+    assert caught.value is last
+    assert len(failing.backend.requests) == 3
+    assert backend.report()["given_up"] == 1
+
+
+@pytest.mark.parametrize("error", [BackendUnavailable("no money"), BadAnswer("refused"), KeyError("bug")], ids=repr)
+def test_what_waiting_cannot_help_is_raised_at_once(error: Exception) -> None:
+    failing = Failing(error)
+    with pytest.raises(type(error)):
+        asyncio.run(failing.retrying().complete(request()))
+    assert len(failing.backend.requests) == 1
+    assert failing.waits_s == []
+
+
+def test_negative_retries() -> None:
+    with pytest.raises(ConfigError, match="retries is -1"):
+        RetryBackend("lexicon", -1)
