@@ -2,9 +2,9 @@
 
     python benchmarks/capture.py SCENE [--unit-m 0.01] [--renderer embree] [--workers 2] [--size 512] [--no-antialias]
 
-Prints machine, versions, pictures, unique objects u and context classes c (pictures = 4 + 8 u + 8 c), pictures per second
-with the start of the workers, the largest memory of this process and of its largest worker, and with --visible how much
-of each target's silhouette its context images show.
+Prints machine, versions, pictures, unique objects u and context classes c (pictures = 4 + 8 u + 8 c), pictures per
+second with the start of the workers, the largest memory of this process and of its largest worker, and with --visible
+how much of each target's silhouette its context images show.
 """
 
 from __future__ import annotations
@@ -55,7 +55,8 @@ def measure(scene: SceneSnapshot, options: argparse.Namespace) -> None:
     begin = time.perf_counter()
     stats = render_all(captured, options.workers)
     seconds = time.perf_counter() - begin
-    assert captured.images is not None and isinstance(captured.images.source, Studio)
+    assert captured.images is not None
+    assert isinstance(captured.images.source, Studio)
     studio = captured.images.source
     unique, classes = set(studio.copies.isolated.values()), set(studio.copies.context.values())
     print(f"n = {stats.rendered} pictures, u = {len(unique)}, c = {len(classes)}, {stats.from_memory} from memory")

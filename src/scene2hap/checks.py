@@ -6,7 +6,8 @@ One door for every "value, unit, bound, what to do" message, so that they read a
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 from numbers import Real
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -14,6 +15,20 @@ from scene2hap.errors import Scene2HapError
 
 if TYPE_CHECKING:
     from pydantic import ValidationError
+
+
+_SECRET_NAME = re.compile(r"(key|token|secret|password)s?$", re.IGNORECASE)
+
+
+def shown(value: object, name: object = "") -> str:
+    """A value as an error may show it: settings whose name speaks of a key, token, secret or password are masked."""
+    if isinstance(name, str) and _SECRET_NAME.search(name):
+        return "'***'"
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{key!r}: {shown(item, key)}" for key, item in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(shown, value)) + "]"
+    return repr(value)
 
 
 class Problem(NamedTuple):

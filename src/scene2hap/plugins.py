@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
 
+from scene2hap.checks import shown
 from scene2hap.errors import ConfigError, MissingExtra, UnknownPlugin
 
 
@@ -61,14 +62,14 @@ class PluginGroup:
         settings = dict(spec)
         kind = settings.pop("kind", None)
         if not isinstance(kind, str):
-            raise ConfigError(f"{self.name}: {dict(spec)!r} names no kind. Known: {', '.join(self.kinds())}.")
+            raise ConfigError(f"{self.name}: {shown(spec)} names no kind. Known: {', '.join(self.kinds())}.")
         factory = self.load(kind)
         if not callable(factory):
             raise ConfigError(f"{self.name} kind {kind!r} is {factory!r}; it must be a class or a function.")
         try:
             return factory(**settings)
         except TypeError as cause:
-            raise ConfigError(f"{self.name} kind {kind!r} does not take {settings!r}: {cause}.") from cause
+            raise ConfigError(f"{self.name} kind {kind!r} does not take {shown(settings)}: {cause}.") from cause
 
     def _guests(self) -> tuple[EntryPoint, ...]:
         return tuple(entry_points(group=self.name))

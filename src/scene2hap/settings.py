@@ -17,7 +17,8 @@ class Settings(BaseModel):
     `of_what` names the part in error messages.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True)
+    # Inputs are hidden in pydantic's own text, which stands in tracebacks, since a setting may be a key.
+    model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True, hide_input_in_errors=True)
 
     of_what: ClassVar[str]
 
@@ -34,5 +35,6 @@ class Settings(BaseModel):
         except ValidationError as cause:
             problem = checks.first_problem(cause)
             raise ConfigError(
-                f"{cls.of_what} setting {problem.place}: {problem.reason}, got {problem.value!r}."
+                f"{cls.of_what} setting {problem.place}: {problem.reason}, "
+                f"got {checks.shown(problem.value, problem.location[-1] if problem.location else '')}."
             ) from cause

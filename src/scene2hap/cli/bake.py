@@ -13,6 +13,7 @@ from scene2hap.baking import BakeConfig, bake
 from scene2hap.cli.console import Console
 from scene2hap.cli.settings import read_settings
 from scene2hap.cli.tables import bundle_outcome, show_bundle
+from scene2hap.scene.capture import capture_images
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -24,6 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", metavar="SCENE", help="glTF, GLB, OBJ, or scene JSON")
     parser.add_argument("-o", "--output", metavar="BUNDLE", required=True, help="folder to write")
     parser.add_argument("--prompt", default="", help="what you want told to the model; it outranks everything else")
+    parser.add_argument("--pictures", action="store_true", help="show the model pictures (extra `pictures`)")
     parser.add_argument("--sounds", metavar="FOLDER", help="your own sounds, tried before the synthesizer")
     parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [bake]")
     add_scene_arguments(parser)
@@ -54,6 +56,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         tell("reading", arguments.scene, 0, 1)
         scene = read_scene(arguments)
         tell("reading", arguments.scene, 1, 1)
+        if arguments.pictures:
+            scene = capture_images(scene)
         bundle = bake(scene, config, user_prompt=arguments.prompt, progress=tell)
     folder = bundle.save(arguments.output)
     show_bundle(console, bundle)

@@ -1,0 +1,28 @@
+"""A key given in a configuration reaches no error and no traceback."""
+
+import traceback
+
+import pytest
+
+from scene2hap import BakeConfig
+from scene2hap.errors import ConfigError
+
+KEY = "sk-0123456789abcdef0123456789abcdef"
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"llm": {"kind": "openai", "api_key": KEY, "modle": "gpt-4o"}},
+        {"llm": {"kind": "openai", "api_key": KEY, "detail": "enormous"}},
+        {"llm": {"api_key": KEY}},
+        {"api_key": KEY},
+        {"llm": {"kind": "retry", "inner": {"kind": "openai", "api_key": KEY, "modle": "gpt-4o"}}},
+        {"concurrency": {"token": KEY}},
+    ],
+)
+def test_no_error_shows_a_key(settings: dict[str, object]) -> None:
+    with pytest.raises(ConfigError) as caught:
+        BakeConfig.parse(settings)
+    assert KEY not in "".join(traceback.format_exception(caught.value))
+    assert KEY not in repr(caught.value.__cause__)
