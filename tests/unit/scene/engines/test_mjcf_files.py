@@ -272,7 +272,7 @@ def test_load_scene_reads_xml(home: Path) -> None:
 
 # -- real kitchens ---------------------------------------------------------------------------------------------------
 
-SIM = Path(__file__).parents[5] / "shared" / "scenes" / "furniture_sim"
+SIM = (Path(__file__).parents[5] / "shared" / "scenes" / "furniture_sim").resolve()
 
 
 def real(name: str) -> Path:
