@@ -22,7 +22,7 @@ HELP = "scene file -> haptic bundle"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``scene2hap bake``."""
-    parser.add_argument("scene", metavar="SCENE", help="glTF, GLB, OBJ, or scene JSON")
+    parser.add_argument("scene", metavar="SCENE", help="glTF, GLB, OBJ, STL, PLY, COLLADA, MJCF, or scene JSON")
     parser.add_argument("-o", "--output", metavar="BUNDLE", required=True, help="folder to write")
     parser.add_argument("--prompt", default="", help="what you want told to the model; it outranks everything else")
     parser.add_argument("--pictures", action="store_true", help="show the model pictures (extra `pictures`)")
@@ -34,6 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
     """How to read a scene file that does not say everything about itself."""
     parser.add_argument("--unit-m", type=float, metavar="METRES", help="length of the file's unit, if it lies")
+    parser.add_argument("--assets-root", metavar="FOLDER", help="what the scene may read, if not its own folder alone")
     parser.add_argument("--up-axis", choices=("y", "z"), help="the file's up axis, if not its format's")
     parser.add_argument(
         "--group", default="authored", metavar="RULE", help="authored (default), leaf, or a depth in the node tree"
@@ -43,7 +44,13 @@ def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
 def read_scene(arguments: argparse.Namespace) -> SceneSnapshot:
     """The scene that the arguments name."""
     group: Any = int(arguments.group) if arguments.group.isdigit() else arguments.group
-    return load_scene(arguments.scene, up_axis=arguments.up_axis, unit_m=arguments.unit_m, group=group)
+    return load_scene(
+        arguments.scene,
+        up_axis=arguments.up_axis,
+        unit_m=arguments.unit_m,
+        group=group,
+        assets_root=arguments.assets_root,
+    )
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
