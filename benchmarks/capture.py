@@ -1,6 +1,6 @@
 """Pictures per second of a whole scene, and what shares and culling leave: all images at once, on worker processes.
 
-    python benchmarks/capture.py SCENE [--unit-m 0.01] [--renderer embree] [--workers 2] [--size 512] [--no-antialias]
+    python benchmarks/capture.py SCENE [--unit-m 0.01] [--renderer embree] [--workers 2] [--size 512] [--antialias]
 
 Prints machine, versions, pictures, unique objects u and context classes c (pictures = 4 + 8 u + 8 c), pictures per
 second with the start of the workers, the largest memory of this process and of its largest worker, and with --visible
@@ -33,7 +33,7 @@ def main() -> None:
     parser.add_argument("--renderer", default="embree")
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--size", type=int, default=512)
-    parser.add_argument("--no-antialias", action="store_true")
+    parser.add_argument("--antialias", action="store_true")
     parser.add_argument("--visible", action="store_true", help="also measure visibility in context images")
     options = parser.parse_args()
 
@@ -49,7 +49,7 @@ def main() -> None:
 
 
 def measure(scene: SceneSnapshot, options: argparse.Namespace) -> None:
-    settings = {"antialias": not options.no_antialias}
+    settings = {"antialias": options.antialias}
     captured = capture_images(scene, size_px=options.size, renderer=options.renderer, config=settings)
     before_s = time.process_time()
     begin = time.perf_counter()

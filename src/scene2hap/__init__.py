@@ -17,6 +17,7 @@ __version__ = "0.1.0"
 
 _HOME = {
     "scene2hap.scene.load": ("load_scene",),
+    "scene2hap.scene.capture": ("capture_images",),
     "scene2hap.scene.pose": ("Pose",),
     "scene2hap.scene.snapshot": ("Box", "Contact", "DominantSurface", "SceneObject", "SceneSnapshot", "TriMesh"),
     "scene2hap.materials": ("Material",),
@@ -156,6 +157,7 @@ if TYPE_CHECKING:
     from scene2hap.propagation.protocol import (
         PropagationModel as PropagationModel,
     )
+    from scene2hap.scene.capture import capture_images as capture_images
     from scene2hap.scene.load import load_scene as load_scene
     from scene2hap.scene.pose import Pose as Pose
     from scene2hap.scene.snapshot import (

@@ -27,6 +27,7 @@ from scene2hap.scene.capture.views import Camera
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
+Levels = NDArray[np.uint8]
 
 # Step behind a passed hit, as a part of its depth and of the scene's size: some ulps of float32 (tuned).
 _STEP_OF_DEPTH, _STEP_OF_SCENE = 1e-6, 1e-6
@@ -87,6 +88,8 @@ class EmbreeRenderer:
         self._trees: dict[frozenset[int], _Tree] = {}
         self._light = frozenset(k for k, count in enumerate(counts) if count <= _LIGHT)
         self._cut: tuple[object, list[_Tree]] = (None, [])
+        # Many casts share an eye, which Embree wants told for every ray.
+        self._origins = np.empty((0, 3), np.float32)
         self._step = float(np.linalg.norm(np.ptp(stage.box_m, axis=0))) * _STEP_OF_SCENE
 
     def identify(self, camera: Camera, selection: Selection) -> Ids:
@@ -100,8 +103,11 @@ class EmbreeRenderer:
         directions = camera.directions(pixels)
         hits = self._cast(camera, directions, selection)
         ids = self._ids(camera, pixels, hits)
-        picture = np.full((camera.size_px**2, 3), BACKGROUND_RGB, np.uint8)
-        picture[pixels] = self._colors(camera, hits)
+        colors = self._colors(camera, hits)
+        picture = colors
+        if len(pixels) < camera.size_px**2:
+            picture = np.full((camera.size_px**2, 3), BACKGROUND_RGB, np.uint8)
+            picture[pixels] = colors
         if self._antialias:
             edges = np.flatnonzero(_edges(picture.reshape(camera.size_px, camera.size_px, 3)))
             finer = np.concatenate([camera.directions(edges, offset) for offset in _ADDED_RAYS])
@@ -127,7 +133,7 @@ class EmbreeRenderer:
         if len(selection.shown) <= _FEW:
             trees = [self._tree(frozenset({number})) for number in sorted(selection.shown)]
         else:
-            apart = selection.opened & self._light
+            apart = selection.opened & selection.shown & self._light
             trees = [self._tree(self._stage.everyone - apart), *self._faces_left(apart, camera, selection, passed)]
         found = [self._first_hits(tree, camera, directions, passed) for tree in trees]
         return _nearest(found) if found else _nothing(len(directions))
@@ -135,7 +141,9 @@ class EmbreeRenderer:
     def _first_hits(self, tree: _Tree, camera: Camera, directions: Floats, passed: Flags | None) -> _Hits:
         """First hits that are not passed."""
         eye = camera.eye_m.astype(np.float32)
-        hits = tree.cast(np.ascontiguousarray(np.broadcast_to(eye, directions.shape)), directions)
+        if len(self._origins) < len(directions) or (self._origins[:1] != eye).any():
+            self._origins = np.tile(eye, (len(directions), 1))
+        hits = tree.cast(self._origins[: len(directions)], directions)
         rays = np.flatnonzero(self._is_passed(hits, passed))
         for _ in range(_MAX_PASSES):
             if not len(rays):
@@ -212,7 +220,7 @@ class EmbreeRenderer:
         self, actors: frozenset[int], camera: Camera, selection: Selection, passed: Flags | None
     ) -> list[_Tree]:
         """A tree over the faces that opened actors show; the last one is kept, as a view asks for it several times."""
-        view = (actors, camera.eye_m.tobytes(), selection)
+        view = (actors, camera.eye_m.tobytes(), selection.focus_m)
         if passed is None or not actors:
             return []
         if self._cut[0] != view:
@@ -254,13 +262,17 @@ def _nearest(found: list[_Hits]) -> _Hits:
 def _edges(picture: Pixels) -> Flags:
     """Which pixels differ visibly from the one to the right or below, or are differed from."""
     is_edge = np.zeros(picture.shape[:2], bool)
-    red, green, blue = np.moveaxis(picture.astype(np.int16), 2, 0).copy()
     across, down = is_edge[:, 1:].copy(), is_edge[1:].copy()
-    for level in (red, green, blue):
-        across |= np.abs(level[:, 1:] - level[:, :-1]) > _VISIBLE_STEP
-        down |= np.abs(level[1:] - level[:-1]) > _VISIBLE_STEP
+    for level in np.moveaxis(picture, 2, 0):
+        level = np.ascontiguousarray(level)
+        across |= _distance(level[:, 1:], level[:, :-1]) > _VISIBLE_STEP
+        down |= _distance(level[1:], level[:-1]) > _VISIBLE_STEP
     is_edge[:, 1:] |= across
     is_edge[:, :-1] |= across
     is_edge[1:] |= down
     is_edge[:-1] |= down
     return is_edge
+
+
+def _distance(one: Levels, other: Levels) -> Levels:
+    return np.maximum(one, other) - np.minimum(one, other)
