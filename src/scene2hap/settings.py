@@ -23,15 +23,21 @@ class Settings(BaseModel):
     of_what: ClassVar[str]
 
     @classmethod
-    def parse(cls, settings: Self | Mapping[str, Any] | None) -> Self:
-        """A configuration from settings, or the default.
+    def parse(cls, settings: Self | Mapping[str, Any] | None, **changes: Any) -> Self:
+        """A configuration from settings, or the default, with `changes` on top; those that are None are left out.
 
         Raises: ConfigError: a setting that does not exist or is out of bounds.
         """
-        if isinstance(settings, cls):
+        wanted = {name: value for name, value in changes.items() if value is not None}
+        if isinstance(settings, cls) and not wanted:
             return settings
+        base: Mapping[str, Any] = (
+            {name: getattr(settings, name) for name in cls.model_fields}
+            if isinstance(settings, Settings)
+            else (settings or {})
+        )
         try:
-            return cls.model_validate(settings or {})
+            return cls.model_validate({**base, **wanted})
         except ValidationError as cause:
             problem = checks.first_problem(cause)
             raise ConfigError(

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field
 
-from scene2hap import checks
-from scene2hap.errors import ConfigError
 from scene2hap.scene.images import Shot
+from scene2hap.settings import Settings
 
 
-class CaptureConfig(BaseModel):
+class CaptureConfig(Settings):
     """How pictures of a scene are taken. Every number here is a choice of ours where the paper names none.
 
     size_px : edge of the square pictures.
@@ -34,7 +32,7 @@ class CaptureConfig(BaseModel):
     cache_dir : a folder that keeps pictures between runs, None for memory alone.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    of_what = "capture"
 
     size_px: int = Field(default=512, ge=16, le=4096)
     renderer: str = "embree"
@@ -51,20 +49,6 @@ class CaptureConfig(BaseModel):
     share_copies: bool = True
     workers: int = Field(default=0, ge=0, le=64)
     cache_dir: Path | None = None
-
-    @classmethod
-    def parse(cls, settings: CaptureConfig | Mapping[str, Any] | None, **changes: Any) -> CaptureConfig:
-        """A configuration from settings with `changes` on top, those that are None left out.
-
-        Raises: ConfigError: a setting that does not exist or is out of bounds.
-        """
-        base = settings.model_dump() if isinstance(settings, cls) else dict(settings or {})
-        base.update({name: value for name, value in changes.items() if value is not None})
-        try:
-            return cls.model_validate(base)
-        except ValidationError as cause:
-            problem = checks.first_problem(cause)
-            raise ConfigError(f"capture setting {problem.place}: {problem.reason}, got {problem.value!r}.") from cause
 
     @property
     def outline_px(self) -> int:
