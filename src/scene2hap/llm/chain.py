@@ -1,7 +1,8 @@
 """Four components in a chain, from scene to haptic properties.
 
 Scene Analyzer -> for each object: Object Analyzer -> Material Property Estimator, and for each state of a vibrating
-object the Vibration Describer. What does not vibrate is not described; a material is estimated once.
+object the Vibration Describer. Copies are analysed once, a material is estimated once, and what does not vibrate is not
+described. All that can be asked at once is.
 
 Source: Jingu, AliAbbasi et al., Scene2Hap, CHI 2026, section "LLM Workflow and Components".
 """
@@ -9,24 +10,23 @@ Source: Jingu, AliAbbasi et al., Scene2Hap, CHI 2026, section "LLM Workflow and 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import Any
 
-from pydantic import ValidationError
-
-from scene2hap import checks
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.errors import BadAnswer
+from scene2hap.errors import BackendUnavailable, BadAnswer, Scene2HapError
 from scene2hap.haptics import ObjectHaptics, SourceState
-from scene2hap.llm import prompts
-from scene2hap.llm.answers import Answer, MaterialAnswer, ObjectAnswer, SceneAnswer, StateAnswer, VibrationAnswer
-from scene2hap.llm.protocol import Component, LLMBackend, LLMRequest
-from scene2hap.materials import Material
+from scene2hap.llm.answers import MaterialAnswer, ObjectAnswer, SceneAnswer, StateAnswer, VibrationAnswer
+from scene2hap.llm.config import InferenceConfig
+from scene2hap.llm.lexicon.judging import Measured, judge
+from scene2hap.llm.prompts import Prompts
+from scene2hap.llm.protocol import LLMBackend
+from scene2hap.llm.questions import Questions
+from scene2hap.llm.report import InferenceReport
+from scene2hap.llm.sharing import copies, reachable
+from scene2hap.llm.trust import Estimate, from_model, from_table, without_answer
 from scene2hap.scene.snapshot import SceneObject, SceneSnapshot
-
-TEMPERATURE = 0.2
-"""As in the paper, section "LLM Workflow"."""
 
 UNKNOWN = frozenset({"", "unknown", "undefined"})
 """Words by which a backend says that it cannot tell."""
@@ -34,15 +34,17 @@ UNKNOWN = frozenset({"", "unknown", "undefined"})
 Progress = Callable[[str, int, int], None]
 """Told (what is done, how many are done, of how many)."""
 
-AnswerType = TypeVar("AnswerType", bound=Answer)
+# What one question may end in without an end to all the others.
+_SPOILED = (BadAnswer, BackendUnavailable)
 
 
 @dataclass(frozen=True)
 class Inference:
-    """What the chain found: the kind of place, and the haptics of each object by id."""
+    """What the chain found: the kind of place, the haptics of each object by id, and the account of the run."""
 
     scene_category: str
     objects: dict[str, ObjectHaptics]
+    report: InferenceReport
 
 
 async def infer_scene(
@@ -50,154 +52,259 @@ async def infer_scene(
     backend: LLMBackend,
     *,
     user_prompt: str = "",
-    concurrency: int = 8,
+    config: InferenceConfig | Mapping[str, Any] | None = None,
     progress: Progress | None = None,
+    only: Collection[str] | None = None,
+    scene_category: str | None = None,
+    wishes: Mapping[str, str] | None = None,
 ) -> Inference:
-    """Run the chain on every object of a scene, up to `concurrency` objects at once.
+    """Run the chain on every object of a scene, or on those whose ids are in `only`.
 
-    A scene with images (`capture_images`) shows them to the backend.
+    A scene with images (`capture_images`) shows them to the backend. `scene_category`, if it is known, is not asked
+    for. `wishes` are user prompts for single objects, by id.
 
-    Raises: BackendError and its children, with the object that was asked about.
+    An object that could not be answered becomes "unknown" and silent, with its error in the report and in its
+    provenance. What would meet every further call is raised, once the calls under way are over.
+    Raises: BackendError and its children, with the object that was asked about: no object could be answered, the
+    backend is away or refuses, a budget is used up, a recording lacks the answer. ConfigError. UnknownObject.
     """
-    chain = _Chain(backend, user_prompt)
-    scene_facts = {"scene_name": scene.name, "object_names": [item.name for item in scene.objects]}
-    answer, _ = await chain.ask("scene_analyzer", "", scene_facts, SceneAnswer, scene.images or ())
-    category = answer.scene_category
-    neighbours = _neighbour_names(scene)
-    turn = asyncio.Semaphore(concurrency)
-    done = 0
-
-    async def infer(item: SceneObject) -> ObjectHaptics:
-        nonlocal done
-        async with turn:
-            haptics = await chain.infer_object(item, category, neighbours[item.id])
-        done += 1
-        if progress is not None:
-            progress(item.id, done, len(scene.objects))
-        return haptics
-
-    found = await asyncio.gather(*(infer(item) for item in scene.objects))
-    return Inference(category, {item.id: haptics for item, haptics in zip(scene.objects, found, strict=True)})
+    settings = InferenceConfig.parse(config)
+    questions = Questions(
+        backend,
+        Prompts.load(settings.prompts),
+        settings.concurrency,
+        user_prompt=user_prompt,
+        temperature=settings.temperature,
+        wishes=wishes,
+    )
+    chain = _Chain(scene, questions, settings)
+    if scene_category is None:
+        scene_category = await chain.scene_category()
+    wanted = [scene.object(object_id) for object_id in only] if only is not None else list(scene.objects)
+    objects = await chain.infer(wanted, scene_category, progress or (lambda what, done, total: None))
+    return Inference(scene_category, objects, questions.report)
 
 
-def infer_haptics(scene: SceneSnapshot, backend: LLMBackend, *, user_prompt: str = "") -> dict[str, ObjectHaptics]:
+def infer_haptics(
+    scene: SceneSnapshot,
+    backend: LLMBackend,
+    *,
+    user_prompt: str = "",
+    config: InferenceConfig | Mapping[str, Any] | None = None,
+) -> dict[str, ObjectHaptics]:
     """The haptics of each object by id; `infer_scene` for callers that run an event loop."""
-    return asyncio.run(infer_scene(scene, backend, user_prompt=user_prompt)).objects
+    return asyncio.run(infer_scene(scene, backend, user_prompt=user_prompt, config=config)).objects
+
+
+@dataclass(frozen=True)
+class _Analysis:
+    """What is known of one object before its material is."""
+
+    answer: ObjectAnswer
+    analyst: str
+    states: tuple[SourceState, ...]
+    describers: tuple[str, ...]
 
 
 class _Chain:
-    """One run over one scene: the backend, the user's wish, and the materials that were asked for already."""
+    """One run over one scene."""
 
-    def __init__(self, backend: LLMBackend, user_prompt: str) -> None:
-        self._backend = backend
-        self._user_prompt = user_prompt
-        self._materials: dict[str, asyncio.Task[tuple[Material | None, str]]] = {}
+    def __init__(self, scene: SceneSnapshot, questions: Questions, settings: InferenceConfig) -> None:
+        self._scene = scene
+        self._questions = questions
+        self._settings = settings
+        self._graph = ContactGraph(scene)
+        self._materials: dict[str, asyncio.Task[Estimate]] = {}
 
-    async def infer_object(self, item: SceneObject, scene_category: str, neighbours: list[str]) -> ObjectHaptics:
-        """Analyse one object, estimate its material and describe each of its states."""
+    @property
+    def _report(self) -> InferenceReport:
+        return self._questions.report
+
+    async def scene_category(self) -> str:
+        """The kind of place; "undefined" if the answer is none."""
+        facts = {"scene_name": self._scene.name, "object_names": [item.name for item in self._scene.objects]}
+        try:
+            answer, _ = await self._questions.ask("scene_analyzer", "", facts, SceneAnswer, self._scene.images or ())
+        except BadAnswer as problem:
+            self._report.errors[""] = str(problem)
+            return "undefined"
+        return answer.scene_category
+
+    async def infer(self, wanted: list[SceneObject], category: str, tell: Progress) -> dict[str, ObjectHaptics]:
+        """The haptics of each wanted object, in order."""
+        standing_for = copies(self._scene, self._graph) if self._settings.share_copies else {}
+        groups: dict[str, list[SceneObject]] = {}
+        for item in wanted:
+            groups.setdefault(standing_for.get(item.id, item.id), []).append(item)
+        firsts = {members[0].id: members for members in groups.values()}
+        self._report.skipped["copies"] += len(wanted) - len(firsts)
+        done = 0
+
+        async def analyse(item: SceneObject) -> _Analysis | Scene2HapError:
+            nonlocal done
+            try:
+                analysis = await self._analyse(item, category)
+            except Scene2HapError as problem:
+                return problem
+            if self._settings.inference == "eager":
+                await self._material(analysis.answer.material_category)
+            done += len(firsts[item.id])
+            tell(item.id, done, len(wanted))
+            return analysis
+
+        # What is likely to vibrate has the longer way to go, so it goes first.
+        order = sorted(firsts, key=lambda object_id: not _seems_to_vibrate(self._scene.object(object_id)))
+        found = await asyncio.gather(*(analyse(self._scene.object(object_id)) for object_id in order))
+        analyses = dict(zip(order, found, strict=True))
+        if self._questions.closed_by is not None:
+            await asyncio.gather(*self._materials.values(), return_exceptions=True)
+            raise self._questions.closed_by
+        failed = [problem for problem in found if isinstance(problem, Scene2HapError)]
+        if failed and len(failed) == len(found):
+            raise failed[0]
+        of_member = {item.id: analyses[first] for first, members in firsts.items() for item in members}
+        estimates = await self._estimates(of_member)
+        return {item.id: self._haptics(item, of_member[item.id], estimates) for item in wanted}
+
+    async def _analyse(self, item: SceneObject, category: str) -> _Analysis:
         length, width, thickness = item.size_m
         facts = {
-            "scene_category": scene_category,
+            "scene_category": category,
             "object_name": item.name,
             "length_m": length,
             "width_m": width,
             "thickness_m": thickness,
             "relative_height_m": item.relative_height_m,
             "surface_flags": list(item.surface.flags),
-            "neighbour_names": neighbours,
+            "neighbour_names": [self._scene.object(other).name for other in self._graph.neighbours(item.id)],
         }
         images = item.images.together if item.images is not None else ()
-        answer, analyst = await self.ask("object_analyzer", item.id, facts, ObjectAnswer, images)
-        material, estimator = await self.material(answer.material_category)
-        described = [await self.describe(item, answer, state, scene_category) for state in answer.states]
-        vibrates = answer.vibrates and bool(described)
-        provenance = {"object_analyzer": analyst, "material_estimator": estimator}
-        if vibrates:
-            provenance["vibration_describer"] = described[0][1]
-        return ObjectHaptics(
-            object_category=answer.object_category,
-            material_category=answer.material_category,
-            material=material,
-            estimated_size_m=(answer.estimated_length_m, answer.estimated_width_m, answer.estimated_thickness_m),
-            usage=answer.usage,
-            vibrates=vibrates,
-            states=tuple(state for state, _ in described) if vibrates else (),
-            confidence=answer.confidence,
-            reasons={
-                "category": answer.category_reason,
-                "size": answer.size_reason,
-                "vibration": answer.vibration_reason,
-            },
-            provenance=provenance,
-        )
+        answer, analyst = await self._questions.ask("object_analyzer", item.id, facts, ObjectAnswer, images)
+        if self._settings.inference == "eager":
+            self._begin_material(answer.material_category)
+        if not answer.vibrates:
+            self._report.skipped["silent"] += 1
+            return _Analysis(answer, analyst, (), ())
+        described = await asyncio.gather(*(self._describe(item, answer, state, category) for state in answer.states))
+        states, describers = zip(*described, strict=True)
+        return _Analysis(answer, analyst, states, describers)
 
-    async def material(self, category: str) -> tuple[Material | None, str]:
-        """The constants of a material, and who gave them; each distinct word is asked once."""
-        word = category.strip().lower()
-        if word not in self._materials:
-            self._materials[word] = asyncio.ensure_future(self._estimate(word))
-        return await self._materials[word]
-
-    async def _estimate(self, word: str) -> tuple[Material | None, str]:
-        if word in UNKNOWN:
-            return None, "not asked: the material is unknown"
-        try:
-            answer, who = await self.ask("material_estimator", word, {"material_category": word}, MaterialAnswer)
-        except BadAnswer as cause:
-            # One material that nobody knows must not cost the whole scene: its objects just carry no vibration.
-            return None, f"no usable answer: {cause}"
-        modulus_pa = answer.youngs_modulus_gpa * 1e9
-        return Material(word, answer.density_kg_m3, modulus_pa, answer.poisson_ratio, answer.loss_factor), who
-
-    async def describe(
-        self, item: SceneObject, analysed: ObjectAnswer, state: StateAnswer, scene_category: str
+    async def _describe(
+        self, item: SceneObject, analysed: ObjectAnswer, state: StateAnswer, category: str
     ) -> tuple[SourceState, str]:
-        """One state in words, and who wrote them."""
         facts = {
-            "scene_category": scene_category,
+            "scene_category": category,
             "object_category": analysed.object_category,
             "usage": analysed.usage,
             "state": state.name,
         }
-        words, who = await self.ask("vibration_describer", item.id, facts, VibrationAnswer)
-        return SourceState(state.name, state.intensity, words.sentence, words.keywords, state.needs_contact), who
-
-    async def ask(
-        self,
-        component: Component,
-        subject: str,
-        facts: Mapping[str, Any],
-        shape: type[AnswerType],
-        images: Sequence[bytes] = (),
-    ) -> tuple[AnswerType, str]:
-        """A validated answer, and who gave it.
-
-        Raises: BadAnswer: the reply was cut short, is not JSON or breaks a bound; it carries the raw text.
-        """
-        request = LLMRequest(
-            component=component,
-            subject=subject,
-            prompt=prompts.fill(component, facts, self._user_prompt),
-            facts=facts,
-            answer_schema=shape.model_json_schema(),
-            prompt_version=prompts.VERSION,
-            images=images,
-            temperature=TEMPERATURE,
-        )
-        reply = await self._backend.complete(request)
-        about = f"{component} about {subject or 'the scene'!r}"
-        if reply.finish_reason != "stop":
-            raise BadAnswer(f"{about}: the answer ended by {reply.finish_reason!r}, not by itself.", reply.text)
         try:
-            return shape.model_validate_json(reply.text), f"{reply.model}, prompt {prompts.VERSION}"
-        except ValidationError as cause:
-            problem = checks.first_problem(cause)
-            place = problem.place or "(whole answer)"
-            raise BadAnswer(f"{about}: {place}: {problem.reason}.", reply.text) from cause
+            words, who = await self._questions.ask("vibration_describer", item.id, facts, VibrationAnswer)
+            sentence, keywords = words.sentence, words.keywords
+        except _SPOILED as problem:
+            self._report.errors[f"{item.id}, state {state.name}"] = str(problem)
+            # The state itself was answered; its name is description enough to find or make a sound.
+            sentence = keywords = f"{analysed.object_category} {state.name}"
+            who = f"error: {problem}"
+        return SourceState(state.name, state.intensity, sentence, keywords, state.needs_contact), who
+
+    def _begin_material(self, category: str) -> asyncio.Task[Estimate]:
+        word = _word(category)
+        if word in self._materials:
+            self._report.skipped["unknown_material" if word in UNKNOWN else "same_material"] += 1
+        else:
+            self._materials[word] = asyncio.ensure_future(self._estimate(word))
+        return self._materials[word]
+
+    async def _material(self, category: str) -> Estimate:
+        return await self._materials[_word(category)]
+
+    async def _estimate(self, word: str) -> Estimate:
+        if word in UNKNOWN:
+            self._report.skipped["unknown_material"] += 1
+            return Estimate(None, "not asked: the material is unknown")
+        if self._settings.materials == "table" and (known := from_table(word)) is not None:
+            self._report.skipped["table_material"] += 1
+            return known
+        try:
+            answer, who = await self._questions.ask(
+                "material_estimator", word, {"material_category": word}, MaterialAnswer
+            )
+            estimate = from_model(word, answer, who)
+        except _SPOILED as problem:
+            self._report.errors[word] = str(problem)
+            estimate = without_answer(word, str(problem))
+        if estimate.flags:
+            self._report.flags[word] = estimate.flags
+        return estimate
+
+    async def _estimates(self, analyses: Mapping[str, _Analysis | Scene2HapError]) -> dict[str, Estimate]:
+        """The estimate of each object's material, by object id; asks for what is still to be asked."""
+        answered = {key: found for key, found in analyses.items() if isinstance(found, _Analysis)}
+        needed = set(answered)
+        if self._settings.inference == "lazy":
+            needed &= reachable((key for key, found in answered.items() if found.states), self._graph)
+        for key, found in answered.items():
+            if key in needed and _word(found.answer.material_category) not in self._materials:
+                self._begin_material(found.answer.material_category)
+        words = {key: _word(found.answer.material_category) for key, found in answered.items()}
+        unreached = {word: _unreached(word) for word in words.values() if word not in self._materials}
+        self._report.skipped["unreached_material"] += len(unreached)
+        estimates = dict(zip(self._materials, await asyncio.gather(*self._materials.values()), strict=True))
+        return {key: {**unreached, **estimates}[word] for key, word in words.items()}
+
+    def _haptics(
+        self, item: SceneObject, found: _Analysis | Scene2HapError, estimates: Mapping[str, Estimate]
+    ) -> ObjectHaptics:
+        if isinstance(found, Scene2HapError):
+            self._report.errors[item.id] = str(found)
+            return _unanswered(item, found)
+        answer, estimate = found.answer, estimates[item.id]
+        analysed = ("object_category", "material_category", "estimated_size_m", "usage", "vibrates")
+        provenance = {**dict.fromkeys(analysed, found.analyst), "material": estimate.provenance}
+        for state, who in zip(found.states, found.describers, strict=True):
+            provenance[f"states.{state.name}"] = who
+        reasons = {
+            "category": answer.category_reason,
+            "size": answer.size_reason,
+            "vibration": answer.vibration_reason,
+        }
+        if estimate.flags:
+            reasons["material"] = "; ".join(estimate.flags)
+        return ObjectHaptics(
+            object_category=answer.object_category,
+            material_category=answer.material_category,
+            material=estimate.material,
+            estimated_size_m=(answer.estimated_length_m, answer.estimated_width_m, answer.estimated_thickness_m),
+            usage=answer.usage,
+            vibrates=bool(found.states),
+            states=found.states,
+            confidence=answer.confidence,
+            reasons=reasons,
+            provenance=provenance,
+        )
 
 
-def _neighbour_names(scene: SceneSnapshot) -> dict[str, list[str]]:
-    graph = ContactGraph(scene)
-    return {
-        item.id: [scene.object(neighbour).name for neighbour in graph.neighbours(item.id)] for item in scene.objects
-    }
+def _word(category: str) -> str:
+    return " ".join(category.lower().split())
+
+
+def _unreached(word: str) -> Estimate:
+    return from_table(word) or Estimate(None, "not asked: no source reaches it")
+
+
+def _unanswered(item: SceneObject, problem: Scene2HapError) -> ObjectHaptics:
+    return ObjectHaptics(
+        object_category="unknown",
+        material_category="unknown",
+        material=None,
+        estimated_size_m=item.size_m,
+        usage="unknown",
+        vibrates=False,
+        confidence=0.0,
+        provenance={"object_category": f"error: {problem}"},
+    )
+
+
+def _seems_to_vibrate(item: SceneObject) -> bool:
+    return judge(Measured(item.name, item.size_m, item.surface.flags)).vibrates

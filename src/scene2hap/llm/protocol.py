@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal, Protocol, runtime_checkable
+from typing import Any, Literal, Protocol, get_args, runtime_checkable
 
 Component = Literal["scene_analyzer", "object_analyzer", "material_estimator", "vibration_describer"]
 """The four chained components of the paper, section "LLM Workflow and Components"."""
+
+COMPONENTS: tuple[Component, ...] = get_args(Component)
 
 
 @dataclass(frozen=True)
@@ -32,12 +34,18 @@ class LLMRequest:
 
 @dataclass(frozen=True)
 class LLMReply:
-    """One answer: `text` is a JSON document; `model` says who wrote it; `usage` counts tokens where known."""
+    """One answer: `text` is a JSON document; `model` says who wrote it; `usage` counts tokens where known.
+
+    `key` is the name under which a cache or recording keeps it, "" where none does; `is_kept` tells that it came from
+    there and cost nothing now.
+    """
 
     text: str
     model: str
     finish_reason: str = "stop"
     usage: Mapping[str, int] = field(default_factory=dict)
+    key: str = ""
+    is_kept: bool = False
 
 
 @runtime_checkable

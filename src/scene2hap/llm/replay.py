@@ -12,6 +12,7 @@ import json
 import os
 import threading
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -62,7 +63,7 @@ class ReplayBackend:
         if entry is None:
             raise ReplayMiss(self._miss(request, key), key)
         self._played.add(key)
-        return LLMReply(entry.text, entry.model, entry.finish_reason, entry.usage)
+        return LLMReply(entry.text, entry.model, entry.finish_reason, entry.usage, key, is_kept=True)
 
     def _miss(self, request: LLMRequest, key: str) -> str:
         asked = f"{request.component} about {request.subject or 'the scene'!r}"
@@ -97,6 +98,14 @@ class RecordingBackend:
             raise _cannot_write(self._path, cause) from cause
         _read(self._path)
 
+    @property
+    def identity(self) -> Mapping[str, Any]:
+        """What decides the answer besides the request: the inner backend's. Raises: ConfigError: it does not tell."""
+        identity = getattr(self._inner, "identity", None)
+        if not isinstance(identity, Mapping):
+            raise ConfigError(f"{self._inner!r} has no `identity` (model, address); no cache can tell it apart.")
+        return identity
+
     async def complete(self, request: LLMRequest) -> LLMReply:
         """The inner backend's answer, recorded."""
         key = request_key(request)  # before the call: what cannot be recorded should not be paid for
@@ -113,7 +122,7 @@ class RecordingBackend:
             usage=dict(reply.usage),
         )
         await asyncio.to_thread(self._append, _canonical(entry.model_dump()).encode() + b"\n")
-        return reply
+        return replace(reply, key=key)
 
     def _append(self, line: bytes) -> None:
         try:

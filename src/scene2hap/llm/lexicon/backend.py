@@ -55,7 +55,7 @@ def _material(facts: _Facts) -> Answer:
         density_kg_m3=material.density_kg_m3,
         youngs_modulus_gpa=material.youngs_modulus_pa / 1e9,
         poisson_ratio=material.poisson_ratio,
-        loss_factor=material.loss_factor,
+        damping_ratio=material.loss_factor / 2,
     )
 
 

@@ -1,29 +1,82 @@
 """The prompt templates, one text file per component, under one version.
 
-Raise `VERSION` whenever a file changes: it is part of what a recorded answer answers to.
+A template names facts as {placeholders}; doubled braces stand for braces. A user may replace any of the files by one of
+the same name in a folder of their own. Raise `VERSION` whenever a built-in file changes: it is part of what a recorded
+answer answers to.
 """
 
 from __future__ import annotations
 
+import hashlib
 import json
+import os
+import string
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
-from scene2hap.llm.protocol import Component
+from scene2hap.errors import ConfigError
+from scene2hap.llm.protocol import COMPONENTS, Component
 
-VERSION = "1"
+VERSION = "2"
+
+
+@dataclass(frozen=True)
+class Prompts:
+    """The templates of all components, and the version that answers are kept under."""
+
+    templates: Mapping[Component, str]
+    version: str
+
+    @classmethod
+    def load(cls, folder: str | os.PathLike[str] | None = None) -> Prompts:
+        """The built-in templates, with those that `folder` has (`object_analyzer.txt`, ...) in their place.
+
+        Raises: ConfigError: the folder is not there, holds no template, or one that names an unknown placeholder.
+        """
+        if folder is None:
+            return _built_in()
+        own = {name: path for name in COMPONENTS if (path := Path(folder) / f"{name}.txt").is_file()}
+        if not own:
+            names = ", ".join(f"{name}.txt" for name in COMPONENTS)
+            raise ConfigError(f"prompts folder {folder} has no template; it must hold at least one of {names}.")
+        replaced = {name: _read(path, name) for name, path in own.items()}
+        mark = hashlib.sha256(json.dumps(replaced, sort_keys=True).encode()).hexdigest()[:8]
+        return cls({**_built_in().templates, **replaced}, f"{VERSION}+{mark}")
+
+    def fill(self, component: Component, facts: Mapping[str, Any], user_prompt: str = "") -> str:
+        """The template with its facts; what the user says outranks the rest."""
+        wish = f"\nAbove all, follow what the scene's author asks: {user_prompt}" if user_prompt else ""
+        shown = {name: fact if isinstance(fact, str) else json.dumps(fact) for name, fact in facts.items()}
+        return self.templates[component].format(**shown, user_prompt=wish).strip()
 
 
 @cache
-def template(component: Component) -> str:
-    """The template of a component, with its facts as {placeholders}."""
-    return files(__package__).joinpath(f"{component}.txt").read_text(encoding="utf-8")
+def _built_in() -> Prompts:
+    texts = {name: files(__package__).joinpath(f"{name}.txt").read_text(encoding="utf-8") for name in COMPONENTS}
+    return Prompts(texts, VERSION)
 
 
-def fill(component: Component, facts: Mapping[str, Any], user_prompt: str = "") -> str:
-    """The template with its facts; what the user says comes last and outranks the rest."""
-    wish = f"\nAbove all, follow what the scene's author asks: {user_prompt}" if user_prompt else ""
-    shown = {name: fact if isinstance(fact, str) else json.dumps(fact) for name, fact in facts.items()}
-    return template(component).format(**shown, user_prompt=wish).strip()
+def _read(path: Path, component: Component) -> str:
+    try:
+        text = path.read_text(encoding="utf-8")
+        named = placeholders(text)
+    except (OSError, ValueError) as cause:
+        raise ConfigError(f"prompt {path} cannot be used: {cause}. Write a brace as {{{{ or }}}}.") from cause
+    known = placeholders(_built_in().templates[component])
+    if named - known:
+        raise ConfigError(
+            f"prompt {path} names {', '.join(sorted(named - known))}; {component} knows {', '.join(sorted(known))}. "
+            "Write a brace that is meant as such twice: {{ or }}."
+        )
+    if "user_prompt" not in named:
+        raise ConfigError(f"prompt {path} lacks {{user_prompt}}, so that a user's wish would be lost; add it.")
+    return text
+
+
+def placeholders(template: str) -> frozenset[str]:
+    """The facts that a template names. Raises: ValueError: its braces do not match."""
+    return frozenset(name for _, name, _, _ in string.Formatter().parse(template) if name is not None)

@@ -55,7 +55,7 @@ def test_numbers_that_are_none_are_asked_again_without_images(wrong: Any) -> Non
     assert inner.requests[1].images == ()
 
 
-@pytest.mark.parametrize("wrong", ["no JSON", '{"density_kg_m3": 700}', oak(more=1), "[]", oak(more=1, loss_factor=7)])
+@pytest.mark.parametrize("wrong", ["no JSON", '{"density_kg_m3": 700}', oak(more=1), "[]", oak(more=1, damping_ratio=7)])
 def test_other_faults_keep_the_images(wrong: str) -> None:
     inner = scripted(wrong, oak())
     asyncio.run(RepairBackend(inner).complete(ASKED))
@@ -63,12 +63,12 @@ def test_other_faults_keep_the_images(wrong: str) -> None:
 
 
 def test_last_failure_only() -> None:
-    inner = scripted(oak(loss_factor=7.0), oak(poisson_ratio=0.9), oak())
+    inner = scripted(oak(damping_ratio=7.0), oak(poisson_ratio=0.9), oak())
     asyncio.run(RepairBackend(inner).complete(ASKED))
     first, second = (asked.prompt for asked in inner.requests[1:])
     assert first.startswith(ASKED.prompt)
     assert second.startswith(ASKED.prompt)
-    assert "loss_factor: Input" in first
+    assert "damping_ratio: Input" in first
     assert "poisson_ratio: Input" in second
     assert "7.0" not in second
     assert len(second) < len(first) + 50

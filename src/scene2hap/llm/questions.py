@@ -1,0 +1,97 @@
+"""One question at a time: a template filled, a lane waited for, an answer validated and accounted for."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Mapping, Sequence
+from typing import Any, TypeVar
+
+from pydantic import ValidationError
+
+from scene2hap import checks
+from scene2hap.errors import BackendUnavailable, BadAnswer, Scene2HapError
+from scene2hap.llm.answers import Answer
+from scene2hap.llm.prompts import Prompts
+from scene2hap.llm.protocol import Component, LLMBackend, LLMRequest
+from scene2hap.llm.report import InferenceReport
+
+AnswerType = TypeVar("AnswerType", bound=Answer)
+
+
+class Questions:
+    """Asks a backend, at most `lanes` questions at once, and keeps the account.
+
+    An error that would meet every further question (a budget that is used up, a key that is refused, a recording that
+    does not fit) closes the lanes: calls under way end, so that their answers are kept, and none is begun.
+    """
+
+    def __init__(
+        self,
+        backend: LLMBackend,
+        prompts: Prompts,
+        lanes: int,
+        *,
+        user_prompt: str = "",
+        temperature: float = 0.2,
+        wishes: Mapping[str, str] | None = None,
+    ) -> None:
+        self.report = InferenceReport()
+        self.closed_by: Scene2HapError | None = None
+        self._backend = backend
+        self._prompts = prompts
+        self._lanes = asyncio.Semaphore(lanes)
+        self._user_prompt = user_prompt
+        self._temperature = temperature
+        self._wishes = wishes or {}
+
+    async def ask(
+        self,
+        component: Component,
+        subject: str,
+        facts: Mapping[str, Any],
+        shape: type[AnswerType],
+        images: Sequence[bytes] = (),
+    ) -> tuple[AnswerType, str]:
+        """A validated answer, and its provenance: model, prompt version, and the name a cache keeps it under.
+
+        Raises: BadAnswer: the reply was cut short, is not JSON or breaks a bound; it carries the raw text. As the
+        backend; and what closed the lanes before it was this question's turn.
+        """
+        request = LLMRequest(
+            component=component,
+            subject=subject,
+            prompt=self._prompts.fill(component, facts, self._wish(subject)),
+            facts=facts,
+            answer_schema=shape.model_json_schema(),
+            prompt_version=self._prompts.version,
+            images=images,
+            temperature=self._temperature,
+        )
+        async with self._lanes:
+            if self.closed_by is not None:
+                raise self.closed_by
+            self.report.calls[component] += 1
+            try:
+                reply = await self._backend.complete(request)
+            except Scene2HapError as problem:
+                if not _is_about_one_question(problem):
+                    self.closed_by = problem
+                raise
+        self.report.take(reply)
+        about = f"{component} about {subject or 'the scene'!r}"
+        if reply.finish_reason != "stop":
+            raise BadAnswer(f"{about}: the answer ended by {reply.finish_reason!r}, not by itself.", reply.text)
+        try:
+            answer = shape.model_validate_json(reply.text)
+        except ValidationError as cause:
+            fault = checks.first_problem(cause)
+            raise BadAnswer(f"{about}: {fault.place or '(whole answer)'}: {fault.reason}.", reply.text) from cause
+        kept_as = f", {reply.key[:19]}" if reply.key else ""
+        return answer, f"{reply.model}, prompt {self._prompts.version}{kept_as}"
+
+    def _wish(self, subject: str) -> str:
+        return " ".join(filter(None, (self._user_prompt, self._wishes.get(subject, ""))))
+
+
+def _is_about_one_question(problem: Scene2HapError) -> bool:
+    return isinstance(problem, BadAnswer) or (isinstance(problem, BackendUnavailable) and problem.retryable)

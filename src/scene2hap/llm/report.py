@@ -1,0 +1,53 @@
+"""What an inference did: what was asked, what was not and why, what it used, what went wrong."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from scene2hap.llm.protocol import Component, LLMReply
+
+
+@dataclass
+class InferenceReport:
+    """The account of one run of the chain.
+
+    calls : asked of the backend, by component; kept : how many of them a cache or recording answered.
+    skipped : what was not asked, by reason: "copies" (objects that another stands for), "silent" (objects without a
+        state to describe), "same_material" (objects whose material word was asked already), "unknown_material",
+        "table_material" (words that were looked up instead), "unreached_material" (words that no source needs).
+    tokens : used by answers that were paid for now, by model and kind of token; unmetered : such answers without usage.
+    errors : what could not be answered, by object id ("" is the scene) or material word.
+    flags : what is doubtful, by material word.
+    """
+
+    calls: Counter[Component] = field(default_factory=Counter)
+    kept: int = 0
+    skipped: Counter[str] = field(default_factory=Counter)
+    tokens: dict[str, Counter[str]] = field(default_factory=dict)
+    unmetered: int = 0
+    errors: dict[str, str] = field(default_factory=dict)
+    flags: dict[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def take(self, reply: LLMReply) -> None:
+        """Take an answer into the account."""
+        if reply.is_kept:
+            self.kept += 1
+        elif reply.usage:
+            self.tokens.setdefault(reply.model, Counter()).update(reply.usage)
+        else:
+            self.unmetered += 1
+
+    def as_json(self) -> Mapping[str, Any]:
+        """The account as JSON values."""
+        return {
+            "calls": dict(self.calls),
+            "kept": self.kept,
+            "skipped": dict(self.skipped),
+            "tokens": {model: dict(used) for model, used in self.tokens.items()},
+            "unmetered": self.unmetered,
+            "errors": self.errors,
+            "flags": {word: list(flags) for word, flags in self.flags.items()},
+        }

@@ -1,0 +1,51 @@
+"""What need not be asked: copies of what was asked already, and what no vibration reaches."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from scene2hap.contact.graph import ContactGraph
+from scene2hap.scene.snapshot import Contact, SceneSnapshot
+
+_BELOW = 0.5
+"""Least cosine between a contact's normal and straight down for what lies there to be a support."""
+
+
+def copies(scene: SceneSnapshot, graph: ContactGraph) -> dict[str, str]:
+    """For each object the one that stands for it: the first, in scene order, of one look and relation to its support.
+
+    Relation to the support is what the object stands on, as the support looks rather than as it is named: six handles
+    on six equal drawers are one, a pan on the stove and a pan on the table are two. An object that stands on nothing is
+    told apart by all that touches it.
+    """
+    looks = {item.id: item.instance_key or f"id {item.id}" for item in scene.objects}
+    supports = _supports(scene, graph.contacts)
+    first: dict[tuple[str, frozenset[str]], str] = {}
+    standing_for = {}
+    for item in scene.objects:
+        on = supports.get(item.id) or graph.neighbours(item.id)
+        standing_for[item.id] = first.setdefault((looks[item.id], frozenset(looks[other] for other in on)), item.id)
+    return standing_for
+
+
+def reachable(sources: Iterable[str], graph: ContactGraph) -> frozenset[str]:
+    """The sources and all that is connected with one of them over any number of contacts."""
+    reached, frontier = set[str](), list(sources)
+    while frontier:
+        object_id = frontier.pop()
+        if object_id not in reached:
+            reached.add(object_id)
+            frontier.extend(graph.neighbours(object_id))
+    return frozenset(reached)
+
+
+def _supports(scene: SceneSnapshot, contacts: Iterable[Contact]) -> Mapping[str, set[str]]:
+    up = {"y": 1, "z": 2}[scene.up_axis]
+    found: dict[str, set[str]] = {}
+    for contact in contacts:
+        rise = contact.normal[up] if contact.normal is not None else 0.0
+        if rise >= _BELOW:  # normals point from a to b
+            found.setdefault(contact.b, set()).add(contact.a)
+        elif rise <= -_BELOW:
+            found.setdefault(contact.a, set()).add(contact.b)
+    return found

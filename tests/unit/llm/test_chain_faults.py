@@ -1,0 +1,123 @@
+"""Answers that cannot be used, and backends that fail."""
+
+import asyncio
+import json
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from scene2hap import LLMReply, LLMRequest, infer_haptics, materials
+from scene2hap.errors import BackendUnavailable, BadAnswer, BudgetExceeded, ReplayMiss
+from scripted_backend import SCENE, Scripted, run
+
+
+def test_a_material_that_nobody_knows_costs_only_itself() -> None:
+    backend = Scripted(
+        object_analyzer=lambda request, answer: {**answer, "material_category": "unobtainium"},
+        material_estimator=lambda request, answer: {**answer, "youngs_modulus_gpa": 70e9},
+    )
+    found = run(backend)
+    assert found.objects["table"].material is None
+    assert "youngs_modulus_gpa" in found.objects["table"].provenance["material"]
+    assert "youngs_modulus_gpa" in found.report.errors["unobtainium"]
+
+
+@pytest.mark.parametrize("zeros", [{"density_kg_m3": 0.0}, {"youngs_modulus_gpa": 0.0}, {"poisson_ratio": 0.5}])
+def test_impossible_constants_give_way_to_the_table_with_a_flag(zeros: dict[str, float]) -> None:
+    found = run(Scripted(material_estimator=lambda request, answer: {**answer, **zeros}))
+    oak = materials.lookup("oak")
+    assert found.objects["table"].material == replace(oak, name="oak")
+    assert found.objects["table"].provenance["material"] == "table of materials"
+    assert next(iter(zeros)) in found.report.flags["oak"][0]
+    assert "table" in found.objects["table"].reasons["material"]
+
+
+def test_a_tenfold_deviation_is_flagged_and_left_as_it_is() -> None:
+    oak = materials.lookup("oak")
+    twelve = 12 * oak.youngs_modulus_pa / 1e9
+    found = run(Scripted(material_estimator=lambda request, answer: {**answer, "youngs_modulus_gpa": twelve}))
+    material = found.objects["table"].material
+    assert material is not None
+    assert material.youngs_modulus_pa == pytest.approx(twelve * 1e9)
+    assert "Young's modulus" in found.report.flags["oak"][0]
+    assert "12 times" in found.report.flags["oak"][0]
+
+
+def test_one_bad_answer_costs_one_object() -> None:
+    def change(request: LLMRequest, answer: dict[str, Any]) -> dict[str, Any]:
+        return {**answer, "confidence": 7.0} if request.subject == "cup" else answer
+
+    found = run(Scripted(object_analyzer=change))
+    assert found.objects["table"].object_category == "table"
+    cup = found.objects["cup"]
+    assert (cup.object_category, cup.vibrates, cup.confidence, cup.material) == ("unknown", False, 0.0, None)
+    assert "confidence" in cup.provenance["object_category"]
+    assert list(found.report.errors) == ["cup"]
+
+
+def test_a_describer_that_fails_leaves_the_state() -> None:
+    found = run(Scripted(vibration_describer=lambda request, answer: {**answer, "keywords": "phone vibrating"}))
+    state = found.objects["phone"].states[0]
+    assert (state.sentence, state.keywords) == ("phone ringing", "phone ringing")
+    assert sorted(found.report.errors) == ["phone, state alarm", "phone, state ringing"]
+
+
+@pytest.mark.parametrize(
+    "refusal",
+    [BudgetExceeded("no money left"), ReplayMiss("no answer"), BackendUnavailable("the key is refused")],
+    ids=lambda error: type(error).__name__,
+)
+def test_what_would_meet_every_call_ends_the_run_after_the_calls_under_way(refusal: Exception) -> None:
+    class Refusing(Scripted):
+        answered = 0
+
+        async def complete(self, request: LLMRequest) -> LLMReply:
+            if request.subject == "table":
+                raise refusal
+            reply = await super().complete(request)
+            await asyncio.sleep(0.01)
+            self.answered += 1
+            return reply
+
+    backend = Refusing()
+    with pytest.raises(type(refusal), match=str(refusal)):
+        run(backend, {"concurrency": 2})
+    assert backend.answered == len(backend.asked)  # nobody was cut off
+    assert not [request for request in backend.asked if request.component == "vibration_describer"]
+
+
+def test_a_lost_connection_costs_what_was_asked() -> None:
+    class Flaky(Scripted):
+        async def complete(self, request: LLMRequest) -> LLMReply:
+            if request.subject == "cup":
+                raise BackendUnavailable("connection reset", retryable=True)
+            return await super().complete(request)
+
+    found = run(Flaky())
+    assert found.report.errors == {"cup": "connection reset"}
+    assert found.objects["phone"].vibrates
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (lambda request, answer: {**answer, "confidence": 7}, r"object_analyzer about '\w+': confidence"),
+        (lambda request, answer: {**answer, "colour": "red"}, "colour"),
+        (lambda request, answer: LLMReply("I think it is a table.", "scripted"), "Invalid JSON"),
+        (lambda request, answer: LLMReply(json.dumps(answer)[:40], "scripted", "length"), "ended by 'length'"),
+    ],
+)
+def test_an_answer_that_does_not_fit_is_named(change: object, sentence: str) -> None:
+    with pytest.raises(BadAnswer, match=sentence) as caught:
+        infer_haptics(SCENE, Scripted(object_analyzer=change))
+    assert caught.value.raw_text
+
+
+def test_a_backend_that_is_away() -> None:
+    class Away:
+        async def complete(self, request: LLMRequest) -> LLMReply:
+            raise BackendUnavailable("the model is away")
+
+    with pytest.raises(ConnectionError, match="away"):
+        infer_haptics(SCENE, Away())

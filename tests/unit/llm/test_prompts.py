@@ -1,0 +1,47 @@
+"""The prompt templates and their replacements."""
+
+from pathlib import Path
+
+import pytest
+
+from scene2hap.errors import ConfigError
+from scene2hap.llm.prompts import VERSION, Prompts, placeholders
+from scene2hap.llm.protocol import COMPONENTS
+
+
+def test_every_component_has_a_template_where_the_user_outranks_the_rest() -> None:
+    prompts = Prompts.load()
+    for component in COMPONENTS:
+        assert "user_prompt" in placeholders(prompts.templates[component])
+    facts = dict.fromkeys(placeholders(prompts.templates["vibration_describer"]) - {"user_prompt"}, "")
+    filled = prompts.fill("vibration_describer", facts, "make it {loud}")
+    assert filled.endswith("Above all, follow what the scene's author asks: make it {loud}")
+
+
+def test_one_template_may_be_replaced(tmp_path: Path) -> None:
+    (tmp_path / "material_estimator.txt").write_text('Constants of {material_category} as {{"x": 1}}. {user_prompt}')
+    prompts = Prompts.load(tmp_path)
+    assert prompts.fill("material_estimator", {"material_category": "oak"}) == 'Constants of oak as {"x": 1}.'
+    assert prompts.templates["scene_analyzer"] == Prompts.load().templates["scene_analyzer"]
+    assert prompts.version.startswith(f"{VERSION}+")
+    (tmp_path / "material_estimator.txt").write_text("{material_category}! {user_prompt}")
+    assert Prompts.load(tmp_path).version != prompts.version
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("{materal_category} {user_prompt}", "names materal_category; material_estimator knows material_category"),
+        ("{material_category} as {", "cannot be used"),
+        ("{material_category}", "lacks {user_prompt}"),
+    ],
+)
+def test_a_template_that_cannot_work_is_refused(tmp_path: Path, text: str, sentence: str) -> None:
+    (tmp_path / "material_estimator.txt").write_text(text)
+    with pytest.raises(ConfigError, match=sentence):
+        Prompts.load(tmp_path)
+
+
+def test_a_folder_without_templates_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match=r"has no template; .*scene_analyzer\.txt"):
+        Prompts.load(tmp_path)
