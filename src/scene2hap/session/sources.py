@@ -48,7 +48,10 @@ class Sources:
 
     def __init__(self, bundle: HapticBundle) -> None:
         self._bundle = bundle
-        self._sources = {object_id: _Source(next(iter(states))) for object_id, states in bundle.loops.items()}
+        self._sources = {
+            object_id: _Source(next(iter(states)), level=Level(10 ** (bundle.gain_db(object_id) / 20)))
+            for object_id, states in bundle.loops.items()
+        }
         self.ids = tuple(self._sources)
         self.user = Level()
         self._rows = [(object_id, state) for object_id, states in bundle.loops.items() for state in states]

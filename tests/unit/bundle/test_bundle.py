@@ -86,7 +86,7 @@ def test_a_failed_save_leaves_the_old_bundle(folder: Path, monkeypatch: pytest.M
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("scene2hap.bundle.write_wav", full)
+    monkeypatch.setattr("scene2hap.bundle.folder.write_wav", full)
     with pytest.raises(BundleError, match="No space left"):
         with_meshes().save(folder)
     monkeypatch.undo()

@@ -1,0 +1,92 @@
+"""A baked scene."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from scene2hap.audio.clip import AudioClip, Credit
+from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.bundle.override import Override
+from scene2hap.haptics import ObjectHaptics
+from scene2hap.materials import Material
+from scene2hap.scene.snapshot import SceneSnapshot
+
+
+@dataclass(frozen=True)
+class HapticBundle:
+    """A baked scene: what is in it, what inference says of each object, the loops of each source by state, and what a
+    person has overridden."""
+
+    snapshot: SceneSnapshot
+    scene_category: str
+    objects: Mapping[str, ObjectHaptics]
+    loops: Mapping[str, Mapping[str, HapticLoop]]
+    overrides: Mapping[str, Override] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for object_id in (*self.objects, *self.loops, *self.overrides):
+            self.snapshot.object(object_id)
+
+    @property
+    def credits(self) -> tuple[Credit, ...]:
+        """Whom the sounds are owed to, each once, in order of source and state."""
+        return tuple(dict.fromkeys(loop.audible.credit for states in self.loops.values() for loop in states.values()))
+
+    def override(
+        self,
+        object_id: str,
+        *,
+        vibrates: bool | None = None,
+        gain_db: float | None = None,
+        material: Material | str | None = None,
+        clip: AudioClip | None = None,
+    ) -> HapticBundle:
+        """The bundle with a correction to one object, on top of earlier ones; None leaves a field as it is.
+
+        Kept in the folder and by `rebake`. Level, material and silence count at once; a new sound, or vibration where
+        none was inferred, counts after `rebake(bundle)`, which makes its loops.
+        Raises: UnknownObject; BundleError: a field out of bounds; UnknownMaterial.
+        """
+        self.snapshot.object(object_id)
+        wish = self.overrides.get(object_id, Override()).changed(
+            {"vibrates": vibrates, "gain_db": gain_db, "material": material, "clip": clip}
+        )
+        return replace(self, overrides={**self.overrides, object_id: wish}).with_overrides()
+
+    def with_overrides(self) -> HapticBundle:
+        """With every correction in force, as far as no new loops are needed for it."""
+        objects = {
+            object_id: self.overrides[object_id].applied(haptics) if object_id in self.overrides else haptics
+            for object_id, haptics in self.objects.items()
+        }
+        silenced = {object_id for object_id, wish in self.overrides.items() if wish.vibrates is False}
+        loops = {object_id: states for object_id, states in self.loops.items() if object_id not in silenced}
+        return replace(self, objects=objects, loops=loops)
+
+    def gain_db(self, object_id: str) -> float:
+        """The level of a source at the hand against the inferred one [dB]."""
+        wish = self.overrides.get(object_id)
+        return wish.gain_db if wish is not None and wish.gain_db is not None else 0.0
+
+    def save(self, folder: str | os.PathLike[str]) -> Path:
+        """Write the folder whole or not at all; a bundle that is there already is replaced.
+
+        Raises: BundleError: the folder holds something else, or cannot be written.
+        """
+        from scene2hap.bundle.folder import write_bundle
+
+        return write_bundle(self, Path(folder))
+
+    @classmethod
+    def load(cls, folder: str | os.PathLike[str]) -> HapticBundle:
+        """Read a folder that `save` wrote, edited or not.
+
+        Raises: BundleIncomplete: a file is missing or cut short; BundleVersionError: written by a newer scene2hap;
+        BundleError: a file says something that cannot be.
+        """
+        from scene2hap.bundle.folder import read_bundle
+
+        return read_bundle(Path(folder))

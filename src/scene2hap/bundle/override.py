@@ -1,0 +1,63 @@
+"""What a person says of an object against inference; kept when the scene is baked again."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from scene2hap import checks
+from scene2hap.audio.clip import AudioClip
+from scene2hap.errors import BundleError
+from scene2hap.haptics import ObjectHaptics
+from scene2hap.materials import Material, lookup
+
+USER = "user"
+"""Provenance of an overridden field."""
+
+_MOST_GAIN_DB = 60.0
+
+
+@dataclass(frozen=True)
+class Override:
+    """A correction; None leaves what was inferred.
+
+    vibrates : whether the object vibrates by itself; gain_db : its level at the hand against the inferred one [dB];
+    material : its material, or a name in the table; clip : the sound that its vibration is made from, in every state.
+    Raises: BundleError: a field of another type or out of bounds. UnknownMaterial.
+    """
+
+    vibrates: bool | None = None
+    gain_db: float | None = None
+    material: Material | None = None
+    clip: AudioClip | None = None
+
+    def __post_init__(self) -> None:
+        if self.vibrates is not None and not isinstance(self.vibrates, bool):
+            raise BundleError(f"vibrates is {self.vibrates!r}; it must be True, False or None.")
+        if self.gain_db is not None:
+            gain = checks.number("gain_db", self.gain_db, "dB", at_most=_MOST_GAIN_DB, error=BundleError)
+            object.__setattr__(self, "gain_db", gain)
+        if isinstance(self.material, str):
+            object.__setattr__(self, "material", lookup(self.material))
+        if self.material is not None and not isinstance(self.material, Material):
+            raise BundleError(f"material is {self.material!r}; it must be a Material or a name in the table.")
+        if self.clip is not None and not isinstance(self.clip, AudioClip):
+            raise BundleError(f"clip is {self.clip!r}; it must be an AudioClip (`scene2hap.audio.files.read_clip`).")
+
+    def changed(self, changes: Mapping[str, Any]) -> Override:
+        """With the fields that are not None in place of what they were."""
+        return replace(self, **{name: value for name, value in changes.items() if value is not None})
+
+    def applied(self, haptics: ObjectHaptics) -> ObjectHaptics:
+        """What is then said of the object. That it vibrates needs a state, which baking it again brings."""
+        provenance = dict(haptics.provenance)
+        if self.material is not None:
+            provenance |= {"material": USER, "material_category": USER}
+            haptics = replace(haptics, material=self.material, material_category=self.material.name)
+        if self.vibrates is False:
+            provenance["vibrates"] = USER
+            haptics = replace(haptics, vibrates=False, states=())
+        elif self.vibrates and haptics.states:
+            provenance["vibrates"] = USER
+        return replace(haptics, provenance=provenance)

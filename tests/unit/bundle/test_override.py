@@ -1,0 +1,110 @@
+"""What a person says against inference."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from scene2hap import AudioClip, Credit, HapticBundle, HapticSession, Material, Touch, materials
+from scene2hap.errors import BundleError, UnknownMaterial, UnknownObject
+from scenes import RATE, table_with_two_phones
+
+
+@pytest.fixture
+def bundle() -> HapticBundle:
+    return table_with_two_phones()[1]
+
+
+def test_silence_counts_at_once(bundle: HapticBundle) -> None:
+    source, other = bundle.loops
+    quiet = bundle.override(source, vibrates=False)
+    assert list(quiet.loops) == [other]
+    assert not quiet.objects[source].vibrates
+    assert quiet.objects[source].provenance["vibrates"] == "user"
+    assert bundle.objects[source].vibrates
+
+
+def test_material_by_name_or_with_constants_of_ones_own(bundle: HapticBundle) -> None:
+    assert bundle.override("table", material="steel").objects["table"].material == materials.lookup("steel")
+    jelly = Material("jelly", 1000.0, 1e5, 0.49, 0.4)
+    changed = bundle.override("table", material=jelly).objects["table"]
+    assert (changed.material, changed.material_category) == (jelly, "jelly")
+    assert changed.provenance["material"] == "user"
+
+
+def test_level_is_played(bundle: HapticBundle) -> None:
+    source = next(iter(bundle.loops))
+    touch = [Touch("left", source, bundle.snapshot.object(source).pose.position_m)]
+
+    def peak(of: HapticBundle) -> float:
+        with HapticSession(of.snapshot, of, hands=("left",)) as session:
+            session.update(touches=touch)
+            return float(np.abs(session.render(24000)).max())
+
+    assert peak(bundle.override(source, gain_db=-6.0)) == pytest.approx(10 ** (-6 / 20) * peak(bundle), rel=1e-3)
+
+
+def test_corrections_add_up(bundle: HapticBundle) -> None:
+    source = next(iter(bundle.loops))
+    twice = bundle.override(source, gain_db=-3.0).override(source, material="brass")
+    assert twice.gain_db(source) == -3.0
+    assert twice.objects[source].material == materials.lookup("brass")
+
+
+def test_corrections_are_kept_in_the_folder(bundle: HapticBundle, tmp_path: Path) -> None:
+    source, other = bundle.loops
+    clip = AudioClip(np.sin(np.arange(800) / 7).astype(np.float32), RATE, Credit("hum", "me", "CC0", origin="user"))
+    changed = bundle.override(source, gain_db=2.0, clip=clip).override(other, vibrates=False, material="oak")
+    loaded = HapticBundle.load(changed.save(tmp_path / "b"))
+    assert loaded.objects == changed.objects
+    assert list(loaded.loops) == [source]
+    assert loaded.overrides[other] == changed.overrides[other]
+    assert loaded.gain_db(source) == 2.0
+    kept = loaded.overrides[source].clip
+    assert kept is not None
+    assert kept.credit == clip.credit
+    np.testing.assert_allclose(kept.samples, clip.samples, atol=2**-15)
+
+
+def test_a_bundle_without_the_file_has_none(bundle: HapticBundle, tmp_path: Path) -> None:
+    folder = bundle.save(tmp_path / "b")
+    (folder / "overrides.json").unlink()
+    manifest = json.loads((folder / "bundle.json").read_text())
+    manifest["files"].remove("overrides.json")
+    (folder / "bundle.json").write_text(json.dumps(manifest))
+    assert HapticBundle.load(folder).overrides == {}
+
+
+@pytest.mark.parametrize(
+    ("wish", "error", "sentence"),
+    [
+        ({"vibrates": "yes"}, BundleError, "vibrates is 'yes'"),
+        ({"gain_db": 300.0}, BundleError, "gain_db"),
+        ({"gain_db": float("nan")}, BundleError, "gain_db"),
+        ({"material": "unobtainium"}, UnknownMaterial, "unobtainium"),
+        ({"material": 7}, BundleError, "material is 7"),
+        ({"clip": "hum.wav"}, BundleError, "read_clip"),
+    ],
+)
+def test_a_correction_that_cannot_be(
+    bundle: HapticBundle, wish: dict[str, object], error: type[Exception], sentence: str
+) -> None:
+    with pytest.raises(error, match=sentence):
+        bundle.override("table", **wish)  # type: ignore[arg-type]
+
+
+def test_of_an_object_that_is_not_there(bundle: HapticBundle) -> None:
+    with pytest.raises(UnknownObject):
+        bundle.override("chair", vibrates=False)
+
+
+@pytest.mark.parametrize(
+    "row",
+    [{"material": {"name": "x"}}, {"loud": True}, {"material": {**vars(Material("x", 1, 1, 0)), "density_kg_m3": -1}}],
+)
+def test_a_file_that_makes_no_sense(bundle: HapticBundle, tmp_path: Path, row: dict[str, object]) -> None:
+    folder = bundle.save(tmp_path / "b")
+    (folder / "overrides.json").write_text(json.dumps({"table": row}))
+    with pytest.raises(BundleError, match=r"overrides\.json"):
+        HapticBundle.load(folder)
