@@ -7,25 +7,24 @@ object, the best candidate chosen, looped and turned into a tactile signal.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field
 
-from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.loops import loop_pair
-from scene2hap.audio.protocol import AudioSource, ConversionContext
+from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.select import select_clip
 from scene2hap.audio.sources import SOURCES
+from scene2hap.audio.sources.chain import ENOUGH, gather
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.bundle import HapticBundle
-from scene2hap.errors import AudioError
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics, SourceState, VibrationDescription
 from scene2hap.llm import BACKENDS
 from scene2hap.llm.chain import infer_scene
+from scene2hap.llm.config import InferenceConfig
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.settings import Settings
 
 Progress = Callable[[str, str, int, int], None]
 """Told (stage, what is done, how many are done, of how many)."""
@@ -35,22 +34,22 @@ def _sources(specs: object) -> object:
     return tuple(SOURCES.build(spec) for spec in specs) if isinstance(specs, list | tuple) else (SOURCES.build(specs),)
 
 
-class BakeConfig(Settings):
+class BakeConfig(InferenceConfig):
     """How a scene is baked. Every part is chosen by a `kind`, or given ready made.
 
-    llm : the backend of inference; audio : where sounds come from, tried in order until one has candidates;
-    tactile : what turns sound into touch; actuator : what it is turned for; seed : of everything that is synthesized;
-    concurrency : objects inferred at once.
+    llm : the backend of inference, whose course the settings of `InferenceConfig` decide;
+    audio : where sounds come from, tried in order until `enough_candidates` remain (1 is the paper's rule);
+    tactile : what turns sound into touch; actuator : what it is turned for; seed : of everything that is synthesized.
     """
 
     of_what = "bake"
 
     llm: Annotated[Any, BeforeValidator(BACKENDS.build)] = Field(default="lexicon", validate_default=True)
     audio: Annotated[Any, BeforeValidator(_sources)] = Field(default="synth", validate_default=True)
+    enough_candidates: int = Field(default=ENOUGH, ge=1, le=5)
     tactile: Annotated[Any, BeforeValidator(CONVERTERS.build)] = Field(default="svf_bandpass", validate_default=True)
     actuator: ActuatorProfile = Field(default_factory=ActuatorProfile)
     seed: int = 0
-    concurrency: int = Field(default=8, ge=1)
 
 
 def bake(
@@ -81,7 +80,7 @@ async def abake(
         scene,
         config.llm,
         user_prompt=user_prompt,
-        concurrency=config.concurrency,
+        config=config,
         progress=lambda what, done, total: tell("inference", what, done, total),
     )
     wanted = [
@@ -106,17 +105,6 @@ def _make_loop(object_id: str, haptics: ObjectHaptics, state: SourceState, confi
         material=haptics.material_category,
         seed=config.seed,
     )
-    clip = select_clip(_candidates(object_id, description, config.audio))
+    clip = select_clip(gather(object_id, description, config.audio, enough=config.enough_candidates))
     context = ConversionContext(actuator=config.actuator, intensity=state.intensity)
     return loop_pair(clip, config.tactile, context)
-
-
-def _candidates(object_id: str, description: VibrationDescription, sources: Sequence[AudioSource]) -> list[AudioClip]:
-    for source in sources:
-        clips = source.find(description)
-        if clips:
-            return clips
-    raise AudioError(
-        f"no sound for {object_id!r} ({description.keywords!r}) in any of {len(sources)} sources. "
-        "Add the synthesizer (kind 'synth') as the last source: it always has one."
-    )

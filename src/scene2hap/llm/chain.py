@@ -77,10 +77,12 @@ async def infer_scene(
         temperature=settings.temperature,
         wishes=wishes,
     )
-    chain = _Chain(scene, questions, settings)
-    if scene_category is None:
-        scene_category = await chain.scene_category()
     wanted = [scene.object(object_id) for object_id in only] if only is not None else list(scene.objects)
+    # Contacts are found while the first answer is on its way.
+    graph = asyncio.create_task(asyncio.to_thread(ContactGraph, scene))
+    if scene_category is None:
+        scene_category = await _scene_category(scene, questions)
+    chain = _Chain(scene, await graph, questions, settings)
     objects = await chain.infer(wanted, scene_category, progress or (lambda what, done, total: None))
     return Inference(scene_category, objects, questions.report)
 
@@ -109,26 +111,18 @@ class _Analysis:
 class _Chain:
     """One run over one scene."""
 
-    def __init__(self, scene: SceneSnapshot, questions: Questions, settings: InferenceConfig) -> None:
+    def __init__(
+        self, scene: SceneSnapshot, graph: ContactGraph, questions: Questions, settings: InferenceConfig
+    ) -> None:
         self._scene = scene
+        self._graph = graph
         self._questions = questions
         self._settings = settings
-        self._graph = ContactGraph(scene)
         self._materials: dict[str, asyncio.Task[Estimate]] = {}
 
     @property
     def _report(self) -> InferenceReport:
         return self._questions.report
-
-    async def scene_category(self) -> str:
-        """The kind of place; "undefined" if the answer is none."""
-        facts = {"scene_name": self._scene.name, "object_names": [item.name for item in self._scene.objects]}
-        try:
-            answer, _ = await self._questions.ask("scene_analyzer", "", facts, SceneAnswer, self._scene.images or ())
-        except BadAnswer as problem:
-            self._report.errors[""] = str(problem)
-            return "undefined"
-        return answer.scene_category
 
     async def infer(self, wanted: list[SceneObject], category: str, tell: Progress) -> dict[str, ObjectHaptics]:
         """The haptics of each wanted object, in order."""
@@ -283,6 +277,17 @@ class _Chain:
             reasons=reasons,
             provenance=provenance,
         )
+
+
+async def _scene_category(scene: SceneSnapshot, questions: Questions) -> str:
+    """The kind of place; "undefined" if the answer is none."""
+    facts = {"scene_name": scene.name, "object_names": [item.name for item in scene.objects]}
+    try:
+        answer, _ = await questions.ask("scene_analyzer", "", facts, SceneAnswer, scene.images or ())
+    except BadAnswer as problem:
+        questions.report.errors[""] = str(problem)
+        return "undefined"
+    return answer.scene_category
 
 
 def _word(category: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Mapping, Sequence
+from functools import cache
 from typing import Any, TypeVar
 
 from pydantic import ValidationError
@@ -62,7 +63,7 @@ class Questions:
             subject=subject,
             prompt=self._prompts.fill(component, facts, self._wish(subject)),
             facts=facts,
-            answer_schema=shape.model_json_schema(),
+            answer_schema=_schema(shape),
             prompt_version=self._prompts.version,
             images=images,
             temperature=self._temperature,
@@ -91,6 +92,11 @@ class Questions:
 
     def _wish(self, subject: str) -> str:
         return " ".join(filter(None, (self._user_prompt, self._wishes.get(subject, ""))))
+
+
+@cache
+def _schema(shape: type[Answer]) -> dict[str, Any]:
+    return shape.model_json_schema()
 
 
 def _is_about_one_question(problem: Scene2HapError) -> bool:
