@@ -1,0 +1,184 @@
+"""What an inference would ask and cost, without asking anybody.
+
+The chain itself runs against a stand-in that counts; the lexicon tells from the authored names what may vibrate and of
+how many materials things are. No picture is taken. Answers that a cache already keeps are counted as if they were not.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from scene2hap.errors import BadAnswer
+from scene2hap.llm.chain import UNKNOWN, infer_scene
+from scene2hap.llm.config import InferenceConfig
+from scene2hap.llm.lexicon import LexiconBackend
+from scene2hap.llm.protocol import COMPONENTS, Component, LLMReply, LLMRequest
+from scene2hap.llm.report import InferenceReport
+from scene2hap.llm.wrappers.prices import Price, price_list
+from scene2hap.scene.snapshot import SceneSnapshot
+
+_CHARACTERS_PER_TOKEN = 4.0
+"""Assumed: usual for English."""
+
+_ANSWER_TOKENS: Mapping[Component, int] = {
+    "scene_analyzer": 15,
+    "object_analyzer": 300,
+    "material_estimator": 50,
+    "vibration_describer": 45,
+}
+"""Assumed: lengths of good answers; models that reason write several times as much."""
+
+_TILES = (
+    ("gpt-4o-mini", 2833, 5667),
+    ("gpt-4o", 85, 170),
+    ("gpt-4.1", 85, 170),
+    ("gpt-5", 70, 140),
+    ("o1", 75, 150),
+    ("o3", 75, 150),
+)
+"""Model, tokens of a picture in low detail, further ones per tile of 512 px in high detail."""
+
+_PATCHES = (
+    ("gpt-4.1-mini", 1536, 1.62),
+    ("gpt-4.1-nano", 1536, 2.46),
+    ("gpt-5-mini", 1536, 1.62),
+    ("gpt-5-nano", 1536, 2.46),
+    ("gpt-5.4-mini", 1536, 1.62),
+    ("gpt-5.4-nano", 1536, 2.46),
+    ("o4-mini", 1536, 1.72),
+    ("gpt-5.2", 1536, 1.0),
+    ("gpt-5.4", 2500, 1.0),
+    ("gpt-5.5", 2500, 1.0),
+)
+"""Model, most patches of 32 px, tokens per patch."""
+
+_PATCH_PX, _TILE_PX, _SHORT_SIDE_PX = 32, 512, 768
+
+
+def image_tokens(model: str, size_px: int, detail: str) -> int | None:
+    """Tokens of one square picture; None where it is not known of the model.
+
+    Source: OpenAI, "Images and vision", section "Calculating costs".
+    """
+    of_patches = _longest_match(model, _PATCHES)
+    of_tiles = _longest_match(model, _TILES)
+    if of_patches is not None and (of_tiles is None or len(of_patches[0]) >= len(of_tiles[0])):
+        _, most, factor = of_patches
+        return math.ceil(min(math.ceil(size_px / _PATCH_PX) ** 2, most) * factor)
+    if of_tiles is None:
+        return None
+    _, base, per_tile = of_tiles
+    tiles = math.ceil(min(size_px, _SHORT_SIDE_PX) / _TILE_PX) ** 2
+    return int(base) if detail == "low" else int(base + per_tile * tiles)
+
+
+@dataclass(frozen=True)
+class DryRun:
+    """What a run would ask.
+
+    calls : by component; images : pictures sent; text_tokens, image_tokens, answer_tokens : estimated, None where not
+    known of the model; cost_usd : at the prices of `price_date`, None where any part of it is unknown.
+    report : the chain's account, with what it would skip.
+    """
+
+    model: str
+    calls: Mapping[Component, int]
+    images: int
+    text_tokens: int
+    image_tokens: int | None
+    answer_tokens: int
+    cost_usd: float | None
+    price_date: str
+    report: InferenceReport
+
+    def rows(self) -> list[tuple[str, str]]:
+        """The figures as (what, value) for people; what is not known says so."""
+        known = "unknown" if self.image_tokens is None else f"{self.image_tokens:,}"
+        cost = "unknown" if self.cost_usd is None else f"{self.cost_usd:.2f} US dollars (prices of {self.price_date})"
+        return [
+            ("model", self.model),
+            *((f"calls of {component.replace('_', ' ')}", str(self.calls[component])) for component in COMPONENTS),
+            ("calls in all", str(sum(self.calls.values()))),
+            ("objects that share an analysis", str(self.report.skipped["copies"])),
+            ("pictures", str(self.images)),
+            ("tokens of text, about", f"{self.text_tokens:,}"),
+            ("tokens of pictures, about", known),
+            ("tokens of answers, about", f"{self.answer_tokens:,}"),
+            ("cost, about", cost),
+        ]
+
+
+async def dry_run(
+    scene: SceneSnapshot,
+    model: str,
+    *,
+    user_prompt: str = "",
+    config: InferenceConfig | Mapping[str, Any] | None = None,
+    size_px: int = 512,
+    detail: str = "low",
+    prices: Mapping[str, Price | tuple[float, float]] | None = None,
+) -> DryRun:
+    """Count what `infer_scene` would ask of `model` for a scene, and what that would cost.
+
+    `size_px` is the edge of its pictures, `detail` what they are sent with; `prices` override the dated list.
+    Raises: ConfigError.
+    """
+    counter = _Counter()
+    inference = await infer_scene(scene, counter, user_prompt=user_prompt, config=config)
+    known_prices = price_list(prices)
+    price, per_image = known_prices.of(model), image_tokens(model, size_px, detail)
+    seen = 0 if not counter.images else None if per_image is None else per_image * counter.images
+    cost = None
+    if price is not None and seen is not None:
+        read = (counter.text_tokens + seen) * price.input_per_million
+        cost = (read + counter.answer_tokens * price.output_per_million) / 1e6
+    return DryRun(
+        model,
+        counter.calls,
+        counter.images,
+        counter.text_tokens,
+        seen,
+        counter.answer_tokens,
+        cost,
+        known_prices.date,
+        inference.report,
+    )
+
+
+@dataclass
+class _Counter:
+    """Stands in for a model: counts, and lets the lexicon answer.
+
+    What the lexicon does not know counts with a material of its own, as most things of a real scene do not.
+    """
+
+    calls: Counter[Component] = field(default_factory=Counter)
+    images: int = 0
+    text_tokens: int = 0
+    answer_tokens: int = 0
+
+    async def complete(self, request: LLMRequest) -> LLMReply:
+        self.calls[request.component] += 1
+        self.images += len(request.images)
+        characters = len(request.prompt) + len(json.dumps(request.answer_schema))
+        self.text_tokens += math.ceil(characters / _CHARACTERS_PER_TOKEN)
+        self.answer_tokens += _ANSWER_TOKENS[request.component]
+        try:
+            reply = await LexiconBackend().complete(request)
+        except BadAnswer:  # a material that no table has
+            constants = {"density_kg_m3": 1.0, "youngs_modulus_gpa": 1.0, "poisson_ratio": 0.0, "damping_ratio": 0.0}
+            return LLMReply(json.dumps(constants), "nobody")
+        answer = json.loads(reply.text)
+        if answer.get("material_category") in UNKNOWN:
+            answer["material_category"] = f"material of {request.subject}"[:60]
+        return LLMReply(json.dumps(answer), reply.model)
+
+
+def _longest_match(model: str, rows: tuple[tuple[str, int, float], ...]) -> tuple[str, int, float] | None:
+    fitting = [row for row in rows if model.startswith(row[0])]
+    return max(fitting, key=lambda row: len(row[0]), default=None)

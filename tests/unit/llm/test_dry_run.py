@@ -1,0 +1,72 @@
+"""What a run would ask and cost, told beforehand."""
+
+import asyncio
+from collections import Counter
+from dataclasses import replace
+
+import pytest
+
+from scene2hap import LexiconBackend, load_scene
+from scene2hap.demo import kitchen_path
+from scene2hap.llm.chain import infer_scene
+from scene2hap.llm.dry_run import dry_run, image_tokens
+from scene2hap.scene.images import ImageSet, ObjectImages, Shot
+from scripted_backend import SCENE
+
+
+@pytest.mark.parametrize(
+    ("model", "size_px", "detail", "tokens"),
+    [
+        ("gpt-4o", 1024, "high", 765),  # OpenAI's own example: 85 + 4 * 170
+        ("gpt-4o", 512, "high", 85 + 170),
+        ("gpt-4o-2024-08-06", 4096, "low", 85),  # its second example
+        ("gpt-4o-mini", 512, "high", 2833 + 5667),
+        ("gpt-4.1-mini", 1024, "high", 1659),  # 1024 patches * 1.62, rounded up
+        ("gpt-4.1-mini", 4096, "high", 2489),  # shrunk to 1536 patches
+        ("gpt-5", 512, "low", 70),
+        ("gpt-5.4", 512, "low", 256),
+        ("olmo-7b", 512, "low", None),
+        ("llava", 512, "low", None),
+    ],
+)
+def test_tokens_of_a_picture(model: str, size_px: int, detail: str, tokens: int | None) -> None:
+    assert image_tokens(model, size_px, detail) == tokens
+
+
+def test_what_the_chain_would_ask() -> None:
+    scene = load_scene(kitchen_path())
+    told = asyncio.run(dry_run(scene, "gpt-4o"))
+    done = asyncio.run(infer_scene(scene, LexiconBackend()))
+    # What the lexicon cannot name has a material of its own for a model that sees.
+    nameless = Counter(material_estimator=done.report.skipped["unknown_material"])
+    assert told.calls == done.report.calls + nameless
+    assert told.images == 0
+    assert told.image_tokens == 0
+
+
+class NoCamera:
+    def image(self, shot: Shot) -> bytes:
+        raise AssertionError("a dry run takes no picture")
+
+
+def test_pictures_are_counted_and_not_taken() -> None:
+    shots = ImageSet(NoCamera(), [Shot("isolated", "x", 45.0 * i, 45.0) for i in range(8)])
+    objects = tuple(replace(item, images=ObjectImages(shots, shots)) for item in SCENE.objects)
+    pictured = replace(SCENE, objects=objects, images=ImageSet(NoCamera(), shots.shots[:4]))
+    told = asyncio.run(dry_run(pictured, "gpt-4o"))
+    assert told.images == 4 + 16 * 3
+    assert told.image_tokens == 85 * told.images
+
+
+def test_cost_is_tokens_times_price() -> None:
+    told = asyncio.run(dry_run(SCENE, "mine", prices={"mine": (3.0, 7.0)}))
+    expected = (3.0 * told.text_tokens + 7.0 * told.answer_tokens) / 1e6
+    assert told.cost_usd == pytest.approx(expected)
+    # Four letters a token, schema included: no prompt of these is below 150 letters.
+    assert told.text_tokens > 150 / 4 * sum(told.calls.values())
+
+
+def test_what_is_unknown_says_so() -> None:
+    told = asyncio.run(dry_run(SCENE, "nobody-knows"))
+    assert told.cost_usd is None
+    assert ("cost, about", "unknown") in told.rows()
