@@ -40,11 +40,18 @@ _HOME = {
     "scene2hap.llm.local": ("LocalBackend",),
     "scene2hap.llm.function": ("FunctionBackend",),
     "scene2hap.llm.chat": ("BackendWarning",),
-    "scene2hap.llm.wrappers": ("BudgetBackend", "CacheBackend", "Price", "RepairBackend", "RetryBackend"),
+    "scene2hap.llm.wrappers": (
+        "BudgetBackend",
+        "CacheBackend",
+        "Price",
+        "RepairBackend",
+        "RetryBackend",
+        "standard_stack",
+    ),
     "scene2hap.llm.replay": ("RecordingBackend", "ReplayBackend"),
     "scene2hap.llm.chain": ("infer_haptics",),
-    "scene2hap.bundle": ("HapticBundle",),
-    "scene2hap.baking": ("BakeConfig", "abake", "bake"),
+    "scene2hap.bundle": ("HapticBundle", "Override"),
+    "scene2hap.baking": ("BakeConfig", "abake", "arebake", "bake", "rebake"),
     "scene2hap.session": ("HapticFrame", "HapticSession", "SessionConfig", "Touch"),
     "scene2hap.touch_track": ("TouchTrack",),
     "scene2hap.track_player": ("play_track",),
@@ -88,8 +95,11 @@ if TYPE_CHECKING:
     from scene2hap.audio.select import select_clip as select_clip
     from scene2hap.baking import BakeConfig as BakeConfig
     from scene2hap.baking import abake as abake
+    from scene2hap.baking import arebake as arebake
     from scene2hap.baking import bake as bake
+    from scene2hap.baking import rebake as rebake
     from scene2hap.bundle import HapticBundle as HapticBundle
+    from scene2hap.bundle import Override as Override
     from scene2hap.contact.graph import ContactChange as ContactChange
     from scene2hap.contact.graph import ContactGraph as ContactGraph
     from scene2hap.devices.memory import MemorySink as MemorySink
@@ -135,6 +145,9 @@ if TYPE_CHECKING:
     )
     from scene2hap.llm.wrappers import (
         RetryBackend as RetryBackend,
+    )
+    from scene2hap.llm.wrappers import (
+        standard_stack as standard_stack,
     )
     from scene2hap.materials import Material as Material
     from scene2hap.propagation.controls import FullPropagation as FullPropagation

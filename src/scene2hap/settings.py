@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any, ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict, ValidationError
@@ -44,3 +46,9 @@ class Settings(BaseModel):
                 f"{cls.of_what} setting {problem.place}: {problem.reason}, "
                 f"got {checks.shown(problem.value, problem.location[-1] if problem.location else '')}."
             ) from cause
+
+
+def cache_folder(part: str) -> Path:
+    """Where a part keeps what it can get again, unless told otherwise: in the user's folder of caches."""
+    root = os.environ.get("XDG_CACHE_HOME") or (os.environ.get("LOCALAPPDATA") if os.name == "nt" else "")
+    return (Path(root) if root else Path.home() / ".cache") / "scene2hap" / part

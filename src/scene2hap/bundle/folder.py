@@ -158,7 +158,7 @@ def read_bundle(folder: Path) -> HapticBundle:
                 object_id: {state: _read_loop(folder, row) for state, row in states.items()}
                 for object_id, states in _json_file(folder, "loops.json").items()
             },
-            _read_overrides(folder),
+            read_overrides(folder),
         )
     except ValidationError as cause:
         problem = checks.first_problem(cause)
@@ -193,9 +193,13 @@ def _override_rows(bundle: HapticBundle, folder: Path, written: list[str]) -> di
     return rows
 
 
-def _read_overrides(folder: Path) -> dict[str, Override]:
+def read_overrides(folder: Path) -> dict[str, Override]:
+    """What a person has overridden in the bundle of a folder, by id; nothing where no bundle is.
+
+    Raises: BundleError and its children: the file cannot be read, so that it would be lost.
+    """
     if not (folder / "overrides.json").is_file():
-        return {}  # written before there were any
+        return {}
     overrides = {}
     for object_id, row in _json_file(folder, "overrides.json").items():
         fields = dict(row)

@@ -1,18 +1,26 @@
 """Tell what each object of a scene is, how it vibrates, and write the bundle.
 
 Without settings it works offline: a lexicon of everyday objects reads the authored names, and a synthesizer makes the
-sounds. A settings file (TOML or JSON) with a table [bake] chooses other parts.
+sounds. `--llm openai:gpt-4o` or `--llm local:qwen2.5vl` asks a model that sees pictures. A settings file (TOML or JSON)
+with a table [bake] chooses all other parts. What a bundle's user has overridden stays when it is baked again.
 """
 
 from __future__ import annotations
 
 import argparse
+import asyncio
+from pathlib import Path
 from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
+from scene2hap.bundle import read_overrides
 from scene2hap.cli.console import Console
 from scene2hap.cli.settings import read_settings
-from scene2hap.cli.tables import bundle_outcome, show_bundle
+from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
+from scene2hap.errors import ConfigError
+from scene2hap.llm.dry_run import dry_run
+from scene2hap.llm.report import InferenceReport
+from scene2hap.llm.wrappers import identity
 from scene2hap.scene.capture import capture_images
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -23,9 +31,18 @@ HELP = "scene file -> haptic bundle"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``scene2hap bake``."""
     parser.add_argument("scene", metavar="SCENE", help="glTF, GLB, OBJ, STL, PLY, COLLADA, MJCF, or scene JSON")
-    parser.add_argument("-o", "--output", metavar="BUNDLE", required=True, help="folder to write")
+    parser.add_argument("-o", "--output", metavar="BUNDLE", help="folder to write (not needed with --dry-run)")
     parser.add_argument("--prompt", default="", help="what you want told to the model; it outranks everything else")
-    parser.add_argument("--pictures", action="store_true", help="show the model pictures (extra `pictures`)")
+    parser.add_argument("--llm", metavar="KIND[:MODEL]", help="lexicon (default), openai:MODEL, local:MODEL, ...")
+    parser.add_argument("--base-url", metavar="URL", help="address of the model's server, if not the usual one")
+    parser.add_argument("--max-cost", type=float, metavar="DOLLARS", help="stop before the answers cost more")
+    parser.add_argument("--cache", metavar="FOLDER", help="where answers are kept, if not in your folder of caches")
+    parser.add_argument(
+        "--pictures",
+        action=argparse.BooleanOptionalAction,
+        help="show the model pictures (extra `pictures`); the default for models behind an address",
+    )
+    parser.add_argument("--dry-run", action="store_true", help="only tell calls, tokens and cost; ask nobody")
     parser.add_argument("--sounds", metavar="FOLDER", help="your own sounds, tried before the synthesizer")
     parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [bake]")
     add_scene_arguments(parser)
@@ -54,19 +71,70 @@ def read_scene(arguments: argparse.Namespace) -> SceneSnapshot:
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Bake, save, and show what was inferred."""
-    settings = read_settings(arguments.settings, "bake")
-    if arguments.sounds:
-        settings["audio"] = [{"kind": "library", "folder": arguments.sounds}, settings.get("audio", "synth")]
-    config = BakeConfig.parse(settings)
+    """Bake, save, and show what was inferred and what it took."""
+    if arguments.output is None and not arguments.dry_run:
+        raise ConfigError("no output folder. Name one with -o BUNDLE, or ask for --dry-run.")
+    config = BakeConfig.parse(_settings(arguments))
+    pictures = _is_remote(config.llm) if arguments.pictures is None else arguments.pictures
+    if arguments.dry_run:
+        return _dry_run(arguments, config, console, pictures=pictures)
+    accounts: list[InferenceReport] = []
     with console.progress() as tell:
         tell("reading", arguments.scene, 0, 1)
         scene = read_scene(arguments)
         tell("reading", arguments.scene, 1, 1)
-        if arguments.pictures:
+        if pictures:
             scene = capture_images(scene)
-        bundle = bake(scene, config, user_prompt=arguments.prompt, progress=tell)
+        bundle = bake(
+            scene,
+            config,
+            user_prompt=arguments.prompt,
+            progress=tell,
+            on_report=accounts.append,
+            overrides=read_overrides(Path(arguments.output)),
+        )
     folder = bundle.save(arguments.output)
     show_bundle(console, bundle)
+    show_report(console, accounts[0], config.prices)
     console.say(f"wrote {folder}")
-    return {"bundle": str(folder), **bundle_outcome(bundle)}
+    return {"bundle": str(folder), **bundle_outcome(bundle), "inference": accounts[0].as_json()}
+
+
+def _settings(arguments: argparse.Namespace) -> dict[str, Any]:
+    settings = read_settings(arguments.settings, "bake")
+    if arguments.sounds:
+        settings["audio"] = [{"kind": "library", "folder": arguments.sounds}, settings.get("audio", "synth")]
+    if arguments.llm:
+        kind, _, model = arguments.llm.partition(":")
+        settings["llm"] = {"kind": kind, "model": model} if model else {"kind": kind}
+    if arguments.base_url:
+        if not isinstance(settings.get("llm"), dict):
+            raise ConfigError("--base-url needs a model to ask there. Name one with --llm KIND:MODEL.")
+        settings["llm"] = {**settings["llm"], "base_url": arguments.base_url}
+    for name, value in (("max_cost_usd", arguments.max_cost), ("cache_dir", arguments.cache)):
+        if value is not None:
+            settings[name] = value
+    return settings
+
+
+def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console, *, pictures: bool) -> dict[str, Any]:
+    scene = read_scene(arguments)
+    if pictures:
+        scene = capture_images(scene)
+    model = identity(config.llm).get("model", "no model behind an address")
+    told = asyncio.run(
+        dry_run(
+            scene,
+            str(model),
+            user_prompt=arguments.prompt,
+            config=config,
+            detail=identity(config.llm).get("detail", "low"),
+            prices=config.prices,
+        )
+    )
+    console.table(f"{scene.name}: what a bake would ask", ("what", ">how much"), told.rows())
+    return told.as_json()
+
+
+def _is_remote(backend: object) -> bool:
+    return "base_url" in identity(backend)

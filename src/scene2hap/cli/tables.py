@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
 from scene2hap.llm.chain import UNKNOWN
+from scene2hap.llm.report import InferenceReport
+from scene2hap.llm.wrappers import price_list
 from scene2hap.scene.snapshot import SceneSnapshot
 
 
@@ -102,3 +105,21 @@ def _bundle_row(bundle: HapticBundle, object_id: str) -> tuple[str, ...]:
         ", ".join(f"{loop.frequency_raw_hz:.0f}" for loop in loops.values()),
         ", ".join(f"{loop.frequency_tactile_hz:.0f}" for loop in loops.values()),
     )
+
+
+def show_report(
+    console: Console, report: InferenceReport, prices: Mapping[str, tuple[float, float]] | None = None
+) -> None:
+    """What an inference took: calls, tokens, cost, what was skipped, and what went wrong."""
+    asked = sum(report.calls.values())
+    tokens = sum(used.get("total_tokens", 0) for used in report.tokens.values())
+    said = [f"{asked} calls, {report.kept} of them answered before"]
+    said += [f"{number} skipped: {reason.replace('_', ' ')}" for reason, number in report.skipped.items() if number]
+    if report.tokens:
+        cost = report.cost_usd(price_list(prices))
+        said.append(f"{tokens:,} tokens, {'cost unknown' if cost is None else f'{cost:.3f} US dollars'}")
+    console.say("inference: " + "; ".join(said))
+    for what, problem in report.errors.items():
+        console.warn(f"{what or 'the scene'}: {problem}")
+    for word, flags in report.flags.items():
+        console.warn(f"material {word!r}: {'; '.join(flags)}")

@@ -17,6 +17,15 @@ class BackendWarning(UserWarning):
     """A model or its server did something else than it was asked to; the answer may be worse for it."""
 
 
+class UnusableAnswer(BadAnswer):
+    """A bad answer that was paid for: `model` wrote it, `usage` counts its tokens where they are known."""
+
+    def __init__(self, message: str, raw_text: str = "", *, model: str = "", usage: Mapping[str, int] | None = None):
+        super().__init__(message, raw_text)
+        self.model = model
+        self.usage = dict(usage or {})
+
+
 @dataclass(frozen=True)
 class Said:
     """What a model said, before anyone judged it. `thoughts` is where some servers put the answer by mistake."""
@@ -80,28 +89,40 @@ def read_chat(reply: HttpReply, model: str) -> Said:
 def require_whole(said: Said, asked: str) -> None:
     """Reject what must not be parsed, whatever the content looks like.
 
-    Raises: BadAnswer: cut short, filtered or refused, with what there is of the answer.
+    Raises: UnusableAnswer: cut short, filtered or refused, with what there is of the answer.
     """
     if said.finish_reason == "length":
-        raise BadAnswer(
+        raise unusable(
+            said,
             f"{asked}: {said.model} was cut off at its token limit. Raise max_tokens (or num_ctx), or switch off "
             "its reasoning.",
             said.content,
         )
     if said.finish_reason == "content_filter":
-        raise BadAnswer(f"{asked}: the answer of {said.model} was withheld by a content filter.", said.content)
+        raise unusable(said, f"{asked}: the answer of {said.model} was withheld by a content filter.", said.content)
     if said.refusal:
-        raise BadAnswer(f"{asked}: {said.model} refused: {said.refusal}", said.refusal)
+        raise unusable(said, f"{asked}: {said.model} refused: {said.refusal}", said.refusal)
+
+
+def unusable(said: Said, message: str, raw_text: str) -> UnusableAnswer:
+    """The error for what a model said, with what it cost."""
+    return UnusableAnswer(message, raw_text, model=said.model, usage=said.usage)
 
 
 def json_object(reply: HttpReply) -> dict[str, Any]:
     """The body of a successful reply.
 
-    Raises: BackendUnavailable: no success, an error sent under status 200, or no JSON object.
+    Raises: BackendUnavailable: no success, an error sent under status 200, or no JSON object. One that breaks off may
+    come whole the next time; a page of HTML will not.
     """
     body = reply.json()
     if not reply.ok:
         raise failure(reply)
+    if body is None and reply.text.lstrip().startswith("{"):
+        raise BackendUnavailable(
+            f"{reply.url} answered {reply.status} with JSON that breaks off after {len(reply.text)} characters.",
+            retryable=True,
+        )
     if not isinstance(body, dict):
         raise BackendUnavailable(f"{reply.url} answered {reply.status} without a JSON object. Check base_url.")
     if body.get("error"):

@@ -112,6 +112,11 @@ class DryRun:
             ("cost, about", cost),
         ]
 
+    def as_json(self) -> dict[str, Any]:
+        """The figures as JSON values."""
+        values = {name: getattr(self, name) for name in self.__dataclass_fields__ if name != "report"}
+        return {**values, "calls": dict(self.calls), "skipped": dict(self.report.skipped)}
+
 
 async def dry_run(
     scene: SceneSnapshot,

@@ -6,17 +6,13 @@ account answers 429 as well, but no waiting fills it.
 
 from __future__ import annotations
 
-import math
 import time
 from dataclasses import dataclass
-from email.utils import parsedate_to_datetime
 from typing import Any
 
 from scene2hap.errors import BackendUnavailable
-from scene2hap.llm.http_client import HttpReply
-
-LONGEST_WAIT_S = 120.0
-"""A server that asks for more is given up, as by OpenAI's client."""
+from scene2hap.llm.http_reply import HttpReply
+from scene2hap.llm.waits import LONGEST_WAIT_S, asked_wait_s, reset_wait_s
 
 _RETRYABLE = frozenset({408, 409, 429})
 _OUT_OF_MONEY = frozenset(
@@ -66,7 +62,9 @@ def server_error(reply: HttpReply) -> ServerError:
 def failure(reply: HttpReply, *, now_s: float | None = None) -> BackendUnavailable:
     """The error to raise for a reply without success; `now_s` [s since 1970] is what a date is counted from."""
     error = server_error(reply)
-    wait_s = _wait_s(reply, time.time() if now_s is None else now_s)
+    wait_s = asked_wait_s(reply.headers, time.time() if now_s is None else now_s)
+    if wait_s is None and reply.status == 429:
+        wait_s = reset_wait_s(reply.headers)
     kind = error.code or error.type
     said = " ".join(error.message.split())[:_LONGEST_SHOWN]
     parts = [f"{reply.url} answered {reply.status}{f' ({kind})' if kind else ''}: {said or 'nothing more'}."]
@@ -92,29 +90,6 @@ def _retryable(reply: HttpReply) -> bool:
     if told in ("true", "false"):
         return told == "true"
     return reply.status in _RETRYABLE or reply.status >= 500
-
-
-def _wait_s(reply: HttpReply, now_s: float) -> float | None:
-    """How long the server asks to wait [s], None where it does not say so in a form that makes sense."""
-    milliseconds = _number(reply.headers.get("retry-after-ms"))
-    if milliseconds is not None:
-        return milliseconds / 1000.0
-    told = reply.headers.get("retry-after")
-    seconds = _number(told)
-    if seconds is not None or told is None:
-        return seconds
-    try:
-        return max(parsedate_to_datetime(told).timestamp() - now_s, 0.0)
-    except (ValueError, OverflowError):
-        return None
-
-
-def _number(text: str | None) -> float | None:
-    try:
-        value = float(text or "")
-    except ValueError:
-        return None
-    return value if math.isfinite(value) and value >= 0.0 else None
 
 
 def _text(value: object) -> str:

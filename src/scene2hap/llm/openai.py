@@ -1,5 +1,6 @@
 """OpenAIBackend: answers by OpenAI's chat completions with strict structured output.
 
+Chat completions rather than responses: the one form that local servers share.
 Source: the OpenAPI description in openai/openai-openapi; OpenAI's guides "Structured outputs" and "Images and vision".
 """
 
@@ -8,12 +9,15 @@ from __future__ import annotations
 import warnings
 from typing import TYPE_CHECKING, Any, Literal
 
-from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError
+from scene2hap import checks
+from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm import chat
-from scene2hap.llm.http_client import Endpoint, Secret
+from scene2hap.llm.http_client import Endpoint
 from scene2hap.llm.http_errors import failure, server_error
+from scene2hap.llm.image_tokens import ImagesAsText
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.schema import strict_schema
+from scene2hap.llm.secret import Secret
 
 if TYPE_CHECKING:
     from scene2hap.llm.http_client import Transport
@@ -21,9 +25,9 @@ if TYPE_CHECKING:
 KEY_VARIABLE = "OPENAI_API_KEY"
 BASE_URL = "https://api.openai.com/v1"
 
-_GIVES_WAY = {"temperature": None, "seed": None, "max_tokens": "max_completion_tokens"}
-"""Parameters that some models reject, and under which other name they take them. Models that always reason take no
-temperature."""
+_GIVES_WAY = {"temperature": None, "top_p": None, "seed": None, "max_tokens": "max_completion_tokens"}
+"""Parameters that some models reject, and under which other name they take them. Models that always reason take
+neither temperature nor top_p."""
 
 
 class OpenAIBackend:
@@ -32,7 +36,8 @@ class OpenAIBackend:
     model : its name; api_key : else the environment variable OPENAI_API_KEY, read at each call; base_url : another
     service that speaks the same; detail : of pictures, "low" (cheap) or "high", always sent since what OpenAI does
     without it differs between models; timeout_s : for one answer; max_tokens : of one answer, reasoning included;
-    seed : best effort, on OpenAI's side too; transport : for tests.
+    top_p : share of the likeliest words, 0..1; seed : best effort, on OpenAI's side too; reasoning_effort : "none" to
+    "xhigh", as the model has it; transport : for tests.
     Raises: ConfigError: a setting that cannot work.
     """
 
@@ -45,17 +50,29 @@ class OpenAIBackend:
         detail: Literal["low", "high"] = "low",
         timeout_s: float = 120.0,
         max_tokens: int | None = None,
+        top_p: float | None = None,
         seed: int | None = None,
+        reasoning_effort: str | None = None,
         transport: Transport | None = None,
     ) -> None:
         if detail not in ("low", "high"):
             raise ConfigError(f"detail is {detail!r}; it must be 'low' or 'high'.")
+        if max_tokens is not None:
+            checks.number("max_tokens", max_tokens, "tokens", at_least=1, error=ConfigError)
+        if top_p is not None:
+            checks.number("top_p", top_p, "-", above=0.0, at_most=1.0, error=ConfigError)
         self.model = model
         self._detail = detail
         self._secret = Secret(api_key, KEY_VARIABLE)
         self._endpoint = Endpoint(base_url, self._secret, timeout_s, transport)
-        self._limits = {"max_tokens": max_tokens, "seed": seed}
+        self._decoding = {
+            "max_tokens": max_tokens,
+            "top_p": top_p,
+            "seed": seed,
+            "reasoning_effort": reasoning_effort,
+        }
         self._given_way: set[str] = set()
+        self._images_as_text = ImagesAsText(detail)
 
     def __repr__(self) -> str:
         return f"OpenAIBackend({self.model!r}, base_url={self._endpoint.base_url!r})"
@@ -63,7 +80,7 @@ class OpenAIBackend:
     @property
     def identity(self) -> dict[str, Any]:
         """What decides the answer besides the request; never the key."""
-        return {"model": self.model, "base_url": self._endpoint.base_url, "detail": self._detail, **self._limits}
+        return {"model": self.model, "base_url": self._endpoint.base_url, "detail": self._detail, **self._decoding}
 
     async def complete(self, request: LLMRequest) -> LLMReply:
         """The model's answer.
@@ -74,19 +91,19 @@ class OpenAIBackend:
         if not self._secret.reveal():
             raise BackendUnavailable(f"no API key. Set {KEY_VARIABLE} or give api_key.")
         said = await self._ask(self._body(request))
+        self._images_as_text.look(request, said)
         chat.require_whole(said, chat.about(request))
         if not said.content:
-            raise BadAnswer(f"{chat.about(request)}: {said.model} answered without content.")
+            raise chat.unusable(said, f"{chat.about(request)}: {said.model} answered without content.", "")
         return LLMReply(said.content, said.model, said.finish_reason, said.usage)
 
     def _body(self, request: LLMRequest) -> dict[str, Any]:
-        limits = {name: value for name, value in self._limits.items() if value is not None}
         return {
             "model": self.model,
             "messages": [chat.user_message(request, request.prompt, self._detail)],
             "response_format": chat.json_schema_format(request, strict_schema(request.answer_schema)),
             "temperature": request.temperature,
-            **limits,
+            **{name: value for name, value in self._decoding.items() if value is not None},
         }
 
     async def _ask(self, body: dict[str, Any]) -> chat.Said:

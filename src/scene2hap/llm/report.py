@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from scene2hap.llm.protocol import Component, LLMReply
+from scene2hap.llm.wrappers.prices import PriceList
 
 
 @dataclass
@@ -39,6 +40,20 @@ class InferenceReport:
             self.tokens.setdefault(reply.model, Counter()).update(reply.usage)
         else:
             self.unmetered += 1
+
+    def cost_usd(self, prices: PriceList) -> float | None:
+        """What the answers cost; None where a model has no price or an answer came without its usage."""
+        priced = [(prices.of(model), used) for model, used in self.tokens.items()]
+        if self.unmetered or any(price is None for price, _ in priced):
+            return None
+        return (
+            sum(
+                price.input_per_million * used["prompt_tokens"] + price.output_per_million * used["completion_tokens"]
+                for price, used in priced
+                if price is not None
+            )
+            / 1e6
+        )
 
     def as_json(self) -> Mapping[str, Any]:
         """The account as JSON values."""

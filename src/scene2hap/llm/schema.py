@@ -1,7 +1,10 @@
-"""Answer schemas in the two forms that models take: OpenAI's strict subset of JSON schema, and words in a prompt."""
+"""Answer schemas in the forms that models take: OpenAI's strict subset of JSON schema, the same without references for
+local servers, and words in a prompt."""
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -21,6 +24,13 @@ _BOUNDS = {
     "minItems": "at least {} items",
     "maxItems": "at most {} items",
 }
+_LOOKAROUND = re.compile(r"\(\?<?[=!]")
+_MOST_PROPERTIES = 5000
+_MOST_LEVELS = 10
+_MOST_CHOICES = 1000
+_MOST_CHARACTERS = 120_000
+"""Of names, choices and constants together. Source: OpenAI, Structured outputs, "Limitations"."""
+
 _TYPES = {
     "string": "text",
     "number": "number",
@@ -34,14 +44,28 @@ _TYPES = {
 def strict_schema(schema: Schema) -> dict[str, Any]:
     """The schema as OpenAI's strict mode wants it; the same for the same input.
 
-    Objects are closed and all their properties required; titles, defaults and lengths go. Bounds are said in the
-    description as well, since what a decoder does not enforce the model can still read.
-    Raises: ConfigError: the root is not an object, or a keyword has no strict form.
+    Objects are closed and all their properties required; titles, defaults, lengths and patterns that look around go.
+    Bounds are said in the description as well, since what a decoder does not enforce the model can still read.
+    Raises: ConfigError: the root is not an object, a keyword has no strict form, or the schema is too large.
     Source: OpenAI, Structured outputs, "Supported schemas".
     """
     if schema.get("type") != "object":
         raise ConfigError(f"the root of an answer schema is {schema.get('type')!r}; strict output needs an object.")
-    return _strict(schema)
+    strict = _strict(schema)
+    _require_small(strict)
+    return strict
+
+
+def local_schema(schema: Schema) -> dict[str, Any]:
+    """The strict schema with its references written out and without patterns that are not anchored on both sides.
+
+    The grammars of llama.cpp get nested references wrong and reject other patterns.
+    Raises: ConfigError: as `strict_schema`, or the schema refers to itself.
+    """
+    strict = strict_schema(schema)
+    definitions = strict.pop("$defs", {})
+    written: dict[str, Any] = _written_out(strict, definitions, _MOST_LEVELS)
+    return written
 
 
 def fields_in_words(schema: Schema) -> str:
@@ -55,6 +79,8 @@ def _strict(node: Schema) -> dict[str, Any]:
     if unfit:
         raise ConfigError(f"an answer schema uses {', '.join(unfit)}; strict output has no such keyword.")
     strict = {key: _strict_part(key, value) for key, value in node.items() if key not in _DROPPED}
+    if _LOOKAROUND.search(str(node.get("pattern", ""))):
+        del strict["pattern"]
     alternatives = [*node.get("anyOf", ()), *node.get("oneOf", ())]
     if alternatives:
         strict["anyOf"] = [_strict(alternative) for alternative in alternatives]
@@ -74,6 +100,53 @@ def _strict_part(key: str, value: Any) -> Any:
     if key in ("properties", "$defs"):
         return {name: _strict(part) for name, part in value.items()}
     return _strict(value) if key == "items" else value
+
+
+def _require_small(strict: Schema) -> None:
+    objects = [node for node in _nodes(strict) if "properties" in node]
+    names = [name for node in objects for name in node["properties"]]
+    choices = [choice for node in _nodes(strict) for choice in node.get("enum", ())]
+    characters = sum(map(len, names)) + sum(len(json.dumps(choice)) for choice in choices)
+    for what, size, most in (
+        ("properties", len(names), _MOST_PROPERTIES),
+        ("choices", len(choices), _MOST_CHOICES),
+        ("characters in names and choices", characters, _MOST_CHARACTERS),
+        ("levels", _levels(strict), _MOST_LEVELS),
+    ):
+        if size > most:
+            raise ConfigError(f"an answer schema has {size} {what}; strict output allows {most}.")
+
+
+def _nodes(node: Schema) -> Iterator[Schema]:
+    yield node
+    for inner in _inner(node):
+        yield from _nodes(inner)
+
+
+def _inner(node: Schema) -> list[Schema]:
+    named = [part for key in ("properties", "$defs") for part in node.get(key, {}).values()]
+    return [*named, *node.get("anyOf", ()), *([node["items"]] if "items" in node else ())]
+
+
+def _levels(node: Schema) -> int:
+    own = 1 if node.get("type") in ("object", "array") else 0
+    return own + max((_levels(inner) for inner in _inner(node)), default=0)
+
+
+def _written_out(node: Any, definitions: Schema, levels_left: int) -> Any:
+    if isinstance(node, list):
+        return [_written_out(item, definitions, levels_left) for item in node]
+    if not isinstance(node, dict):
+        return node
+    if set(node) == {"$ref"}:
+        if levels_left == 0:
+            raise ConfigError(f"an answer schema refers to itself ({node['$ref']}); local servers need it written out.")
+        return _written_out(_resolved(node, definitions), definitions, levels_left - 1)
+    return {
+        key: _written_out(value, definitions, levels_left)
+        for key, value in node.items()
+        if key != "pattern" or not isinstance(value, str) or (value.startswith("^") and value.endswith("$"))
+    }
 
 
 def _bounds(node: Schema) -> str:

@@ -9,9 +9,8 @@ from typing import Any
 from scene2hap import checks
 from scene2hap.errors import BadAnswer, UnknownMaterial
 from scene2hap.llm.answers import Answer, MaterialAnswer, SceneAnswer, VibrationAnswer
-from scene2hap.llm.lexicon import describing, judging, places, table
+from scene2hap.llm.lexicon import describing, judging, places, stand_ins, table
 from scene2hap.llm.protocol import Component, LLMReply, LLMRequest
-from scene2hap.materials import lookup
 
 _Facts = Mapping[str, Any]
 
@@ -40,7 +39,13 @@ def _object(facts: _Facts) -> Answer:
         for name in ("length_m", "width_m", "thickness_m")
     )
     return judging.judge(
-        judging.Measured(_text(facts, "object_name"), (length, width, thickness), _texts(facts, "surface_flags")),
+        judging.Measured(
+            _text(facts, "object_name"),
+            (length, width, thickness),
+            _texts(facts, "surface_flags"),
+            scene_category=_text(facts, "scene_category", default=""),
+            material_names=_texts(facts, "material_names"),
+        ),
         _texts(facts, "neighbour_names"),
     )
 
@@ -48,7 +53,7 @@ def _object(facts: _Facts) -> Answer:
 def _material(facts: _Facts) -> Answer:
     word = _text(facts, "material_category")
     try:
-        material = lookup(word)
+        material = stand_ins.constants(word)
     except UnknownMaterial as cause:
         raise BadAnswer(f"the lexicon cannot estimate a material: {cause}") from cause
     return MaterialAnswer(

@@ -1,4 +1,4 @@
-"""What an object is, how large, of what, and whether it vibrates, from its name, its size and its neighbours' names."""
+"""What an object is, how large, and whether it vibrates, from its name, its size and its neighbours' names."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from scene2hap.llm.answers import ObjectAnswer, StateAnswer
+from scene2hap.llm.lexicon.making import make, painted_with
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.table import ObjectRow, StateRow, table
 
@@ -25,11 +26,16 @@ _MINIATURE_THICKNESS_M = 2e-3  # assumed
 
 @dataclass(frozen=True)
 class Measured:
-    """An object as the scene has it: authored name, size of its dominant surface and the doubts about it."""
+    """An object as the scene has it: authored name, size of its dominant surface and the doubts about it.
+
+    `scene_category` and `material_names`, the authored names of what it is painted with, are empty where unknown.
+    """
 
     name: str
     size_m: tuple[float, float, float]
     flags: Sequence[str] = ()
+    scene_category: str = ""
+    material_names: Sequence[str] = ()
 
 
 def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
@@ -48,7 +54,7 @@ def _unknown(item: Measured, reading: NameReading) -> ObjectAnswer:
     return ObjectAnswer(
         object_category=UNKNOWN,
         category_reason=f"the name {item.name!r} holds {words}; the table of {len(table())} objects cannot tell.",
-        material_category=UNKNOWN,
+        material_category=painted_with(item.material_names) or UNKNOWN,
         estimated_length_m=item.size_m[0],
         estimated_width_m=item.size_m[1],
         estimated_thickness_m=item.size_m[2],
@@ -62,7 +68,7 @@ def _unknown(item: Measured, reading: NameReading) -> ObjectAnswer:
 
 
 def _as_real(item: Measured, reading: NameReading, row: ObjectRow, neighbour_names: Sequence[str]) -> ObjectAnswer:
-    material, thickness_m = _make(reading, row)
+    material, thickness_m = make(reading, row, item.scene_category, item.material_names)
     thickness, size_reason = _thickness(item, thickness_m, row.noun)
     confidence = reading.confidence
     if row.max_size_m is not None and max(item.size_m) > _GIANT * row.max_size_m:
@@ -119,20 +125,6 @@ def _category_reason(name: str, reading: NameReading, row: ObjectRow) -> str:
     if reading.unread:
         reason += f" Not understood: {', '.join(map(repr, reading.unread))}."
     return reason
-
-
-def _make(reading: NameReading, row: ObjectRow) -> tuple[str, float]:
-    """Material and plate thickness [m]: the table's, the whole's for a part, or the material that the name gives.
-
-    A machine keeps its own: beside a machine an adjective tells what it works on (wood chipper, metal saw).
-    """
-    whole = reading.whole
-    material, thickness_m = row.material, row.thickness_m
-    if whole is not None and (whole.vibrates or whole.role in ("vessel", "vehicle")):
-        material, thickness_m = whole.material, whole.thickness_m
-    if reading.material is not None and not row.vibrates and row.role != "content":
-        material = reading.material
-    return material, thickness_m
 
 
 def _thickness(item: Measured, plausible_m: float, category: str) -> tuple[float, str]:

@@ -6,7 +6,8 @@
 3. The last noun is the object, as in English compounds, and the longest match wins: a sink counter is a counter, a
    coffee machine is no coffee. Words of tools, sides, colours and rooms never are the object.
 4. Asset kits also write the object first. A two-word noun of the table is found in that order too (tableCoffee), a
-   container goes before its content (crate_tomatoes), a material after its noun (tableGlass).
+   container goes before its content (crate_tomatoes), a material after its noun (tableGlass), a wall before the
+   opening in it (wall_doorway).
 5. What no rule reads stays unknown. Guessing stops at plurals and at one slip of the keyboard in a long word.
 """
 
@@ -38,12 +39,13 @@ _PRIMITIVE = re.compile(r"box\d+", re.IGNORECASE)
 class NameReading:
     """What an authored name says.
 
-    `words` are its words in lower case; `row` is the table's row or None; `confidence` is 0..1 and at most 0.2 where
+    `name` is what was read; `words` are its words in lower case; `row` is the table's row or None; `confidence` is 0..1 and at most 0.2 where
     `row` is None. `head` is the recognised part, `unread` the words that nothing knows, `material` a material that an
     adjective names, `toy` whether the name itself denies that it is the real thing, `whole` the thing that a part
     belongs to (the oven of an oven door).
     """
 
+    name: str
     words: tuple[str, ...]
     row: ObjectRow | None
     confidence: float
@@ -70,7 +72,7 @@ def read_name(name: str) -> NameReading:
     tokens, trust = spelling.read_words(name)
     trust *= _ALL_READ
     unread = tuple(word for word in tokens if not spelling.is_known(word))
-    unknown = NameReading(tuple(tokens), None, _UNKNOWN, unread=unread)
+    unknown = NameReading(name, tuple(tokens), None, _UNKNOWN, unread=unread)
     if _PRIMITIVE.fullmatch(name.strip()):
         return unknown
     nouns = _nouns(tokens)
@@ -89,6 +91,7 @@ def read_name(name: str) -> NameReading:
     trust *= (_UNREAD_BEFORE if before else 1.0) * (_UNREAD_AFTER if behind else 1.0)
     rest = [*tokens[: head.start], *tokens[head.end : clause]]
     return NameReading(
+        name,
         tuple(tokens),
         head.row,
         round(trust, 3),
@@ -143,7 +146,7 @@ def _before_preposition(tokens: Sequence[str], nouns: Sequence[_Noun]) -> int:
 
 
 def _head(tokens: Sequence[str], nouns: Sequence[_Noun]) -> _Noun:
-    """The noun that is the object: the last, but for leftovers, materials and content."""
+    """The noun that is the object: the last, but for leftovers, materials, content and openings in a wall."""
     left = list(nouns)
     while len(left) > 1:
         last, previous = left[-1], left[-2]
@@ -152,7 +155,8 @@ def _head(tokens: Sequence[str], nouns: Sequence[_Noun]) -> _Noun:
         held = last.row.role in _HOLDS.get(previous.row.role, ())
         # A vessel in a container shows by its plural: "crate_bottles", but "box_plate".
         is_content = held and (last.plural or last.row.role == "content")
-        if word not in words.LEFTOVER_NOUNS and not is_material and not is_content:
+        is_opening = previous.row.noun in words.SHELLS and last.row.noun in words.OPENINGS
+        if word not in words.LEFTOVER_NOUNS and not (is_material or is_content or is_opening):
             break
         left.pop()
     return left[-1]

@@ -7,10 +7,11 @@ import unicodedata
 from collections.abc import Iterator, Sequence
 from functools import cache, lru_cache
 
-from scene2hap.llm.lexicon import words
+from scene2hap.llm.lexicon import translations, words
 from scene2hap.llm.lexicon.table import ObjectRow, table
 
-# How far a word can be trusted that had to be cut or mended. Assumed.
+# How far a word can be trusted that had to be translated, cut or mended. Assumed.
+_TRANSLATED = 0.9
 _RUN_TOGETHER = 0.9
 _SLIP = 0.6
 
@@ -21,7 +22,7 @@ _SHORTEST_SLIP = 7  # letters; in shorter words one letter is another word too o
 
 
 def read_words(name: str) -> tuple[list[str], float]:
-    """The words of a name, run-together ones cut and slips mended, and how far that can be trusted [0..1]."""
+    """The words of a name, foreign ones translated, run-together ones cut, slips mended; and the trust in that [0..1]."""
     trust = 1.0
     tokens: list[str] = []
     for word in _without_shades(split_words(name)):
@@ -70,6 +71,9 @@ def _known_pieces(word: str) -> tuple[tuple[str, ...], float]:
     """A word as the known words it is made of, and how far that can be trusted; itself where that fails."""
     if is_known(word) or len(word) > _LONGEST_RUN:
         return (word,), 1.0
+    meaning = translations.english().get(word)
+    if meaning:
+        return meaning, _TRANSLATED
     pieces = _cut(word)
     if pieces:
         return pieces, _RUN_TOGETHER

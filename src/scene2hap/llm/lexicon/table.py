@@ -31,6 +31,9 @@ PLACES = (
     "garden",
     "building-site",
     "gym",
+    "hospital",
+    "street",
+    "warehouse",
 )
 """Kinds of place that the table knows; a row may also stand in "any"."""
 

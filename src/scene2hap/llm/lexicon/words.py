@@ -66,6 +66,13 @@ PLACE_WORDS = {
     "yard": "garden",
     "backyard": "garden",
     "construction": "building-site",
+    "hospital": "hospital",
+    "clinic": "hospital",
+    "ward": "hospital",
+    "surgery": "hospital",
+    "warehouse": "warehouse",
+    "street": "street",
+    "city": "street",
     "gym": "gym",
     "fitness": "gym",
 }
@@ -95,11 +102,42 @@ MATERIAL_WORDS = {
 }
 """Adjectives of material -> a name in the material table. Colours that are metals (gold, silver) are left out."""
 
+PAINT_WORDS = {
+    **MATERIAL_WORDS,
+    "timber": "wood",
+    "laminate": "laminate",
+    "tile": "ceramic",
+    "tiles": "ceramic",
+    "china": "porcelain",
+    "mirror": "glass",
+    "alu": "aluminum",
+    "inox": "stainless steel",
+    "plaster": "plaster",
+    "stucco": "plaster",
+    "cement": "concrete",
+    "asphalt": "asphalt",
+    "cloth": "fabric",
+    "textile": "fabric",
+    "wool": "fabric",
+    "denim": "fabric",
+    "carpet": "carpet",
+    "foam": "foam",
+    "paper": "paper",
+    "plexiglass": "plexiglass",
+    "nylon": "nylon",
+}
+"""What the names of surface materials say; as names of objects some of these words would be things."""
+
 MATERIAL_NOUNS = frozenset({"glass", "paper", "brick", "stone"})
 """Nouns that after another noun tell its material (tableGlass), not a thing of their own."""
 
-LEFTOVER_NOUNS = frozenset({"mat", "trash", "orange", "cream", "mobile", "house"})
-"""Nouns that after another noun are none: exporters write "Burner_mat_0", designers "ham_trash" and "sofa_orange"."""
+LEFTOVER_NOUNS = frozenset({"mat", "trash", "orange", "cream", "mobile", "house", "backsplash", "splashback"})
+"""Nouns that after another noun are none: exporters write "Burner_mat_0", designers "ham_trash", "sofa_orange" and
+"counter_backsplash", which is a counter that has one."""
+
+SHELLS = frozenset({"wall", "brick wall", "concrete wall", "dungeon wall"})
+OPENINGS = frozenset({"window", "door", "doorway", "arch", "gate", "window frame"})
+"""Building kits name a piece of wall by the opening in it: "wall_window_closed" is a wall."""
 
 PREPOSITIONS = _set("of with on in for at by from under near without beside behind inside over against")
 """The noun before one of these is the object: a bottle of wine, a table with a vase."""

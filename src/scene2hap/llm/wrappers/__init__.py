@@ -1,13 +1,28 @@
 """Backends around backends: each adds one behaviour to whatever it is given as `inner`.
 
 Outermost first, a good order is cache, repair, budget, retry, model: a cache then keeps repaired answers only, every
-repair is paid for within the budget, and a call that never came about is not. In a configuration `inner` is again a
-kind or a mapping with one, so that the whole stack is data.
+repair is paid for within the budget, and a call that never came about is not. `standard_stack` builds just that. In a
+configuration `inner` is again a kind or a mapping with one, so that the whole stack is data.
 """
 
-from scene2hap.llm.wrappers.budget import BudgetBackend, Price
+from scene2hap.llm.wrappers.budget import BudgetBackend
 from scene2hap.llm.wrappers.cache import CacheBackend
+from scene2hap.llm.wrappers.prices import Price, PriceList, price_list
 from scene2hap.llm.wrappers.repair import RepairBackend
 from scene2hap.llm.wrappers.retry import RetryBackend
+from scene2hap.llm.wrappers.stack import identity, reports
+from scene2hap.llm.wrappers.standard import build_backend, standard_stack
 
-__all__ = ["BudgetBackend", "CacheBackend", "Price", "RepairBackend", "RetryBackend"]
+__all__ = [
+    "BudgetBackend",
+    "CacheBackend",
+    "Price",
+    "PriceList",
+    "RepairBackend",
+    "RetryBackend",
+    "build_backend",
+    "identity",
+    "price_list",
+    "reports",
+    "standard_stack",
+]

@@ -2,36 +2,22 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 from scene2hap import checks
 from scene2hap.errors import BackendError, BudgetExceeded, ConfigError
+from scene2hap.llm.chat import UnusableAnswer
 from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.llm.wrappers.prices import Price, PriceList, price_list
 from scene2hap.llm.wrappers.stack import Spec, Wrapper
-
-_SNAPSHOT = re.compile(r"-\d{4}-\d{2}-\d{2}$")
-"""The date by which a service tells versions of one model apart: gpt-4o-2024-08-06."""
-
-
-@dataclass(frozen=True)
-class Price:
-    """What a model costs per million tokens, in whatever currency all prices are given in."""
-
-    input_per_million: float
-    output_per_million: float
-
-    def __post_init__(self) -> None:
-        for name in ("input_per_million", "output_per_million"):
-            checks.number(name, getattr(self, name), "-", at_least=0.0, error=ConfigError)
 
 
 class BudgetBackend(Wrapper):
     """Passes calls on as long as the limits hold; None is no limit.
 
-    prices : model name -> `Price`, or (input, output) per million tokens. There is no built-in list: prices change.
+    prices : model name -> `Price`, or (input, output) [US dollars per million tokens], beside or instead of those of
+    the dated list (`price_list()`); a model in neither has an unknown price, never none.
     Checked before each call, with what is known then: calls under way at the same time can pass a limit on tokens or
     cost by what they use, a limit on calls never.
     Raises: ConfigError: a limit that is negative or a price that is none.
@@ -50,7 +36,7 @@ class BudgetBackend(Wrapper):
         for name, limit in self._limits.items():
             if limit is not None:
                 checks.number(f"max_{name}", limit, "-", at_least=0, error=ConfigError)
-        self._prices = {model: _price(model, price) for model, price in (prices or {}).items()}
+        self._prices: PriceList = price_list(prices)
         self._calls = self._failed = self._blind = self._input = self._output = 0
         self._cost = 0.0
         self._unpriced: set[str] = set()
@@ -71,17 +57,23 @@ class BudgetBackend(Wrapper):
         self._calls += 1
         try:
             reply = await self.inner.complete(request)
-        except BackendError:
+        except BackendError as problem:
             self._failed += 1
+            if isinstance(problem, UnusableAnswer):
+                self._meter(problem)
             raise
-        self._meter(reply)
+        if reply.is_kept:
+            self._calls -= 1  # a cache further in had it
+        else:
+            self._meter(reply)
         return reply
 
     def report(self) -> dict[str, Any]:
-        """Calls, tokens and cost (None: unknown), and what the sums lack.
+        """Calls, tokens and cost [US dollars] (None: unknown), the date of the prices, and what the sums lack.
 
-        Failed calls are in no sum though a service bills some of them (answers that were cut short); neither are
-        calls that were answered without their usage.
+        Answers that were cut short, refused or empty are among the failed calls and are paid for. Calls that failed
+        without any answer are in no sum, though a service may bill some; neither are answers without their usage.
+        Tokens that a service has in its cache count in full, so that the cost is an upper bound.
         """
         return {
             "calls": self._calls,
@@ -90,6 +82,7 @@ class BudgetBackend(Wrapper):
             "input_tokens": self._input,
             "output_tokens": self._output,
             "cost": self.cost,
+            "prices_of": self._prices.date,
             "models_without_price": sorted(self._unpriced),
         }
 
@@ -108,24 +101,15 @@ class BudgetBackend(Wrapper):
             if used >= limit:
                 raise BudgetExceeded(f"{used:g} {name} used of max_{name} = {limit:g}. Raise the limit to go on.")
 
-    def _meter(self, reply: LLMReply) -> None:
+    def _meter(self, reply: LLMReply | UnusableAnswer) -> None:
         read, written = reply.usage.get("prompt_tokens"), reply.usage.get("completion_tokens")
         if read is None or written is None:
             self._blind += 1
             return
         self._input += read
         self._output += written
-        price = self._prices.get(reply.model) or self._prices.get(_SNAPSHOT.sub("", reply.model))
+        price = self._prices.of(reply.model)
         if price is None:
             self._unpriced.add(reply.model)
         else:
             self._cost += (read * price.input_per_million + written * price.output_per_million) / 1e6
-
-
-def _price(model: str, price: Price | tuple[float, float]) -> Price:
-    if isinstance(price, Price):
-        return price
-    try:
-        return Price(*price)
-    except TypeError as cause:
-        raise ConfigError(f"the price of {model!r} is {price!r}; it must be (input, output) per million.") from cause

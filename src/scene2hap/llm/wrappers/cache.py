@@ -12,6 +12,7 @@ import os
 import tempfile
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -60,7 +61,7 @@ class CacheBackend(Wrapper):
         sleep: Callable[[float], Awaitable[object]] = asyncio.sleep,
     ) -> None:
         super().__init__(inner)
-        self._identity = self.identity
+        _ = self.identity  # whoever has none is better told now than after a scene was rendered
         self._folder = Path(folder)
         self._stale_after_s = stale_after_s
         self._sleep = sleep
@@ -75,14 +76,16 @@ class CacheBackend(Wrapper):
     async def complete(self, request: LLMRequest) -> LLMReply:
         """The kept answer, or the inner backend's. Raises: ConfigError: cannot write; and as the inner backend."""
         self._calls += 1
-        key = self._key(request)
+        await self.ready()
+        identity = self.identity
+        key = _key(request, identity)
         path = self._folder / f"{key}.json"
         async with self._turn(key):
             reply = self._load(path, key)
             if reply is not None:
                 return reply
             async with FileLock(path.with_suffix(".lock"), self._stale_after_s, self._sleep):
-                return self._load(path, key) or await self._ask(request, path, key)
+                return self._load(path, key) or await self._ask(request, path, key, identity)
 
     def report(self) -> dict[str, int]:
         """Calls, hits, answers kept, answers not kept since they are invalid, files that could not be read back."""
@@ -93,10 +96,6 @@ class CacheBackend(Wrapper):
             "rejected": self._rejected,
             "unreadable": len(self._unreadable),
         }
-
-    def _key(self, request: LLMRequest) -> str:
-        whole = json.dumps([request_key(request), self._identity], sort_keys=True)
-        return hashlib.sha256(whole.encode()).hexdigest()
 
     @asynccontextmanager
     async def _turn(self, key: str) -> AsyncIterator[None]:
@@ -112,14 +111,14 @@ class CacheBackend(Wrapper):
             if users > 1:
                 self._turns[name] = (lock, users - 1)
 
-    async def _ask(self, request: LLMRequest, path: Path, key: str) -> LLMReply:
+    async def _ask(self, request: LLMRequest, path: Path, key: str, identity: dict[str, Any]) -> LLMReply:
         reply = await self.inner.complete(request)
         if reply.finish_reason != "stop" or find_fault(request.component, reply.text) is not None:
             self._rejected += 1
             return reply
         entry = _Entry(
             key=key,
-            identity=self._identity,
+            identity=identity,
             component=request.component,
             subject=request.subject,
             prompt_version=request.prompt_version,
@@ -133,7 +132,7 @@ class CacheBackend(Wrapper):
         except OSError as cause:
             raise _cannot_write(self._folder, cause) from cause
         self._stored += 1
-        return reply
+        return replace(reply, key=key)
 
     def _load(self, path: Path, key: str) -> LLMReply | None:
         try:
@@ -146,7 +145,12 @@ class CacheBackend(Wrapper):
             self._unreadable.add(key)
             return None
         self._hits += 1
-        return LLMReply(entry.text, entry.model, entry.finish_reason)
+        return LLMReply(entry.text, entry.model, entry.finish_reason, key=key, is_kept=True)
+
+
+def _key(request: LLMRequest, identity: dict[str, Any]) -> str:
+    whole = json.dumps([request_key(request), identity], sort_keys=True)
+    return hashlib.sha256(whole.encode()).hexdigest()
 
 
 def _cannot_write(folder: Path, cause: OSError) -> ConfigError:

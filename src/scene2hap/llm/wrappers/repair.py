@@ -6,7 +6,8 @@ from collections import Counter
 from dataclasses import replace
 
 from scene2hap import checks
-from scene2hap.errors import BadAnswer, ConfigError
+from scene2hap.errors import ConfigError
+from scene2hap.llm.chat import UnusableAnswer
 from scene2hap.llm.json_text import first_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.validation import Fault, find_fault
@@ -20,8 +21,8 @@ class RepairBackend(Wrapper):
     """Validates each reply as its component's answer and asks again, up to `repairs` times, where it is none.
 
     A repair is the original question with the last failure alone, so that its cost does not grow; pictures are left
-    out where only numbers were wrong. Replies cut short, filtered or refused are not repaired. The usage of the reply
-    is that of all attempts.
+    out where only numbers were wrong. Replies cut short, filtered or refused are not repaired. The usage of the reply,
+    or of the error in its place, is that of all attempts.
     """
 
     def __init__(self, inner: Spec, repairs: int = 2) -> None:
@@ -36,17 +37,24 @@ class RepairBackend(Wrapper):
         about = f"{request.component} about {request.subject or 'the scene'!r}"
         asked, usage, left = request, Counter[str](), self._repairs
         while True:
-            reply = await self.inner.complete(asked)
+            try:
+                reply = await self.inner.complete(asked)
+            except UnusableAnswer as problem:
+                usage.update(problem.usage)
+                problem.usage = dict(usage)
+                raise
             usage.update(reply.usage)
             if reply.finish_reason != "stop":
-                raise BadAnswer(f"{about}: the answer ended by {reply.finish_reason!r}, not by itself.", reply.text)
+                message = f"{about}: the answer ended by {reply.finish_reason!r}, not by itself."
+                raise UnusableAnswer(message, reply.text, model=reply.model, usage=usage)
             text = first_object(reply.text) or reply.text
             fault = find_fault(request.component, text)
             if fault is None:
                 return replace(reply, text=text, usage=dict(usage))
             if left == 0:
                 self._given_up += 1
-                raise BadAnswer(f"{about}: still wrong after {self._repairs} repairs: {fault.reason}.", reply.text)
+                message = f"{about}: still wrong after {self._repairs} repairs: {fault.reason}."
+                raise UnusableAnswer(message, reply.text, model=reply.model, usage=usage)
             left -= 1
             self._asked_again += 1
             asked = _repair(request, text, fault)

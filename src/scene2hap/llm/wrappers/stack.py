@@ -13,6 +13,26 @@ Spec = LLMBackend | Mapping[str, Any] | str
 """A backend, or what `BACKENDS` builds one from."""
 
 
+def identity(backend: object) -> Mapping[str, Any]:
+    """What a backend says decides its answers: model, address, ...; empty where it does not say."""
+    try:
+        told = getattr(backend, "identity", None)
+    except ConfigError:  # a wrapper around one that does not say
+        told = None
+    return told if isinstance(told, Mapping) else {}
+
+
+def reports(backend: object) -> dict[str, Mapping[str, Any]]:
+    """What each layer of a stack has to report, by its class, outermost first."""
+    found: dict[str, Mapping[str, Any]] = {}
+    while backend is not None:
+        report = getattr(backend, "report", None)
+        if callable(report):
+            found[type(backend).__name__] = report()
+        backend = getattr(backend, "inner", None)
+    return found
+
+
 class Wrapper:
     """Base of the wrappers: holds `inner`."""
 
@@ -24,6 +44,12 @@ class Wrapper:
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.inner!r})"
+
+    async def ready(self) -> None:
+        """Let the innermost backend find out what it needs before its `identity` is whole. Raises: as that does."""
+        ready = getattr(self.inner, "ready", None)
+        if ready is not None:
+            await ready()
 
     @property
     def identity(self) -> dict[str, Any]:

@@ -1,0 +1,62 @@
+"""Sources tried in order, until enough candidates remain.
+
+The paper's rule (Implementation, "Audio Retrieval/Generation"): up to five retrieved sounds; five generated ones if
+nothing was found. With one as enough, and retrieval before generation in the list, that is what happens here. What
+"remains" is what the selection will not drop for being too short.
+"""
+
+from __future__ import annotations
+
+import logging
+import warnings
+from collections.abc import Sequence
+
+from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.protocol import AudioSource
+from scene2hap.audio.sources.store import is_long_enough
+from scene2hap.errors import AudioError, Scene2HapError
+from scene2hap.haptics import VibrationDescription
+
+ENOUGH = 1
+"""Candidates after which no further source is asked; the paper's rule."""
+
+_LOG = logging.getLogger(__name__)
+
+
+class SourceWarning(UserWarning):
+    """A sound source failed, and the next one was asked."""
+
+
+def gather(
+    subject: str, description: VibrationDescription, sources: Sequence[AudioSource], *, enough: int = ENOUGH
+) -> list[AudioClip]:
+    """The candidates of the first sources that together have `enough` of sufficient length, best first.
+
+    `subject` is what errors call the object. A source that fails is passed over with a `SourceWarning`, which is
+    logged too.
+    Raises: AudioError: no source has a single candidate; tells what became of each.
+    """
+    found: list[AudioClip] = []
+    fates: list[str] = []
+    for source in sources:
+        name = type(source).__name__
+        try:
+            clips = source.find(description)
+        except Exception as cause:
+            # Guests raise what they like; a broken source must not end a bake that another one can finish.
+            told = str(cause) if isinstance(cause, Scene2HapError) else f"{type(cause).__name__}: {cause}"
+            fates.append(f"{name} failed: {told}")
+            _LOG.warning("%s: no sound from %s: %s", subject, name, told)
+            warnings.warn(f"{subject}: no sound from {name}: {told}", SourceWarning, stacklevel=2)
+            continue
+        fates.append(f"{name} has none")
+        found += clips
+        if sum(map(is_long_enough, found)) >= enough:
+            return found
+    if found:
+        return found
+    raise AudioError(
+        f"no sound for {subject!r} ({description.keywords!r}) in any of {len(sources)} sources"
+        f"{': ' + '; '.join(fates) if fates else ''}. "
+        "Add the synthesizer (kind 'synth') as the last source: it always has one."
+    )

@@ -1,0 +1,133 @@
+"""The two languages of local servers: chat completions as OpenAI has them, and Ollama's own chat.
+
+Ollama is spoken to in its own: its /v1 makes a message of each picture, drops the first of them where they do not fit,
+and cannot be told how large the context is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal, Protocol
+
+from scene2hap.errors import BadAnswer
+from scene2hap.llm import chat
+from scene2hap.llm.http_reply import HttpReply
+from scene2hap.llm.protocol import LLMRequest
+from scene2hap.llm.schema import local_schema
+
+Rung = Literal["json_schema", "json_object", "prompt"]
+LADDER: tuple[Rung, ...] = ("json_schema", "json_object", "prompt")
+"""How strictly the form of the answer is asked for, strictest first; the prompt alone at last."""
+
+
+@dataclass(frozen=True)
+class Decoding:
+    """How a local server shall write: what decides its answers besides the request. None is not sent.
+
+    `extra` is sent as it is: fields of the body, or of `options` for Ollama.
+    """
+
+    max_tokens: int
+    seed: int
+    num_ctx: int
+    top_p: float | None = None
+    reasoning_effort: str | None = None
+    chat_template_kwargs: Mapping[str, Any] | None = None
+    extra: Mapping[str, Any] = field(default_factory=dict)
+
+
+class Dialect(Protocol):
+    """How a question is put to a server, and its answer read."""
+
+    path: str
+
+    def body(self, request: LLMRequest, model: str, text: str, rung: Rung) -> dict[str, Any]:
+        """What is posted: `text` is the prompt with the fields of the answer."""
+        ...
+
+    def read(self, reply: HttpReply, model: str) -> chat.Said:
+        """What came back. Raises: BackendUnavailable, BadAnswer."""
+        ...
+
+
+@dataclass(frozen=True)
+class ChatCompletions:
+    """vLLM, llama.cpp, LM Studio: the nested `json_schema` is the only form that all of them read."""
+
+    decoding: Decoding
+    path = "chat/completions"
+
+    def body(self, request: LLMRequest, model: str, text: str, rung: Rung) -> dict[str, Any]:
+        """A chat completion."""
+        optional = {
+            "top_p": self.decoding.top_p,
+            "reasoning_effort": self.decoding.reasoning_effort,
+            "chat_template_kwargs": self.decoding.chat_template_kwargs,
+        }
+        body: dict[str, Any] = {
+            "model": model,
+            "messages": [chat.user_message(request, text)],
+            "temperature": request.temperature,
+            "seed": self.decoding.seed,
+            "max_tokens": self.decoding.max_tokens,
+            **{name: value for name, value in optional.items() if value is not None},
+            **self.decoding.extra,
+        }
+        if rung == "json_schema":
+            body["response_format"] = chat.json_schema_format(request, local_schema(request.answer_schema))
+        elif rung == "json_object":
+            body["response_format"] = {"type": "json_object"}
+        return body
+
+    def read(self, reply: HttpReply, model: str) -> chat.Said:
+        """As `chat.read_chat`."""
+        return chat.read_chat(reply, model)
+
+
+@dataclass(frozen=True)
+class OllamaChat:
+    """Ollama: pictures beside the text of one message, no silent truncation, thinking off unless it is wanted."""
+
+    decoding: Decoding
+    path = "api/chat"
+
+    def body(self, request: LLMRequest, model: str, text: str, rung: Rung) -> dict[str, Any]:
+        """A chat of Ollama's own."""
+        options = {
+            "num_ctx": self.decoding.num_ctx,
+            "num_predict": self.decoding.max_tokens,
+            "temperature": request.temperature,
+            "seed": self.decoding.seed,
+            **({} if self.decoding.top_p is None else {"top_p": self.decoding.top_p}),
+            **self.decoding.extra,
+        }
+        effort = self.decoding.reasoning_effort
+        body: dict[str, Any] = {
+            "model": model,
+            "messages": [{"role": "user", "content": text, "images": [chat.as_base64(png) for png in request.images]}],
+            "stream": False,
+            "think": False if effort in (None, "none") else effort,
+            "truncate": False,
+            "options": options,
+        }
+        if rung == "json_schema":
+            body["format"] = local_schema(request.answer_schema)
+        elif rung == "json_object":
+            body["format"] = "json"
+        return body
+
+    def read(self, reply: HttpReply, model: str) -> chat.Said:
+        """What Ollama says, in the words of a chat completion."""
+        body = chat.json_object(reply)
+        message = body.get("message")
+        if not isinstance(message, dict):
+            raise BadAnswer(f"{reply.url} sent no chat message. Check base_url and the dialect.", reply.text)
+        renamed = {"prompt_tokens": body.get("prompt_eval_count"), "completion_tokens": body.get("eval_count")}
+        return chat.Said(
+            content=chat.text_of(message.get("content")),
+            model=chat.text_of(body.get("model")) or model,
+            finish_reason=chat.text_of(body.get("done_reason")) or "stop",
+            usage=chat.counts(renamed),
+            thoughts=chat.text_of(message.get("thinking")),
+        )

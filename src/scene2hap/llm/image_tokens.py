@@ -1,0 +1,67 @@
+"""Whether a model saw the pictures it was sent, told from the tokens that its server says it read."""
+
+from __future__ import annotations
+
+import warnings
+
+from scene2hap.llm import chat
+from scene2hap.llm.protocol import LLMRequest
+
+_CHARACTERS_PER_TOKEN = 4.0
+"""Assumed: usual for English."""
+_LEAST_PER_IMAGE = 256
+"""Tokens; assumed: what Gemma 3 makes of one picture, most models make more."""
+_FAR_BELOW = 0.5
+_FAR_ABOVE = 2.0
+
+MOST_PER_IMAGE = {"low": 6_200, "high": 48_200}
+"""Most tokens that any OpenAI model makes of one picture: 2,500 patches times 2.46 (nano); 2,833 + 8 * 5,667 for the
+eight tiles of 768 x 2,048 px (gpt-4o-mini). Source: OpenAI, "Images and vision", section "Calculating costs"."""
+
+
+class LostImages:
+    """Warns once where far fewer tokens were read than the prompt and its pictures make.
+
+    Ollama drops what does not fit its context and says so in its debug log alone.
+    """
+
+    def __init__(self) -> None:
+        self._warned = False
+
+    def look(self, request: LLMRequest, said: chat.Said) -> None:
+        """Compare one request with what came of it."""
+        expected = len(request.prompt) / _CHARACTERS_PER_TOKEN + _LEAST_PER_IMAGE * len(request.images)
+        read = said.usage.get("prompt_tokens")
+        if self._warned or not request.images or read is None or read >= _FAR_BELOW * expected:
+            return
+        self._warned = True
+        warnings.warn(
+            f"{chat.about(request)}: {said.model} read {read} tokens where about {expected:.0f} were sent with "
+            f"{len(request.images)} pictures. It may not have seen them: raise the server's context (num_ctx), and "
+            "check that the model sees.",
+            chat.BackendWarning,
+            stacklevel=2,
+        )
+
+
+class ImagesAsText:
+    """Warns once where far more tokens were billed than pictures can make, as when their base64 is read as text."""
+
+    def __init__(self, detail: str) -> None:
+        self._most_per_image = MOST_PER_IMAGE[detail]
+        self._warned = False
+
+    def look(self, request: LLMRequest, said: chat.Said) -> None:
+        """Compare one request with what came of it."""
+        text = (len(request.prompt) + len(str(request.answer_schema))) / _CHARACTERS_PER_TOKEN
+        most = _FAR_ABOVE * text + self._most_per_image * len(request.images)
+        read = said.usage.get("prompt_tokens", 0)
+        if self._warned or not request.images or read <= most:
+            return
+        self._warned = True
+        warnings.warn(
+            f"{chat.about(request)}: {said.model} billed {read} tokens where its {len(request.images)} pictures make "
+            f"{most:.0f} at most. It seems to read them as text: choose another model or send no pictures.",
+            chat.BackendWarning,
+            stacklevel=2,
+        )

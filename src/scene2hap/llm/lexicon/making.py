@@ -1,0 +1,43 @@
+"""What an object is made of and how thick its plate is: from its name, its paint, its place, and the table."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from scene2hap.llm.lexicon import spelling, words
+from scene2hap.llm.lexicon.names import NameReading, places_named
+from scene2hap.llm.lexicon.table import ObjectRow
+
+_TILED = frozenset({"kitchen", "bathroom", "laundry"})
+_TILE, _TILE_THICKNESS_M = "ceramic", 0.008  # floor tiles of 8 mm; assumed
+
+
+def painted_with(material_names: Sequence[str]) -> str | None:
+    """The material that the names of an object's surface materials agree on ("M_Wood_Oak": oak); None otherwise.
+
+    A chair painted with "wood" and "fabric" is left to the table, which knows what one sits on.
+    """
+    told = set()
+    for name in material_names:
+        tokens, _ = spelling.read_words(name)
+        found = [words.PAINT_WORDS[word] for word in tokens if word in words.PAINT_WORDS]
+        told.update(found[-1:])
+    return told.pop() if len(told) == 1 else None
+
+
+def make(
+    reading: NameReading, row: ObjectRow, scene_category: str, material_names: Sequence[str]
+) -> tuple[str, float]:
+    """Material and plate thickness [m]: the table's, the whole's for a part, or what name, paint or place tell.
+
+    A machine keeps its own: beside a machine an adjective tells what it works on (wood chipper, metal saw).
+    """
+    whole = reading.whole
+    material, thickness_m = row.material, row.thickness_m
+    if whole is not None and (whole.vibrates or whole.role in ("container", "vessel", "vehicle")):
+        material, thickness_m = whole.material, whole.thickness_m
+    elif row.noun == "floor" and _TILED & {*places_named(reading.name), *places_named(scene_category)}:
+        material, thickness_m = _TILE, _TILE_THICKNESS_M
+    if not row.vibrates and row.role != "content":
+        material = reading.material or painted_with(material_names) or material
+    return material, thickness_m

@@ -1,0 +1,23 @@
+"""Materials of everyday objects that the material table lacks, and whose constants stand in for theirs.
+
+The lexicon names them as what they are ("firm food"), since a carrot is no rubber, and answers the estimator with the
+constants of the nearest thing that the table has. All stand-ins are assumed; what decides is stiffness, then density.
+"""
+
+from __future__ import annotations
+
+from scene2hap.materials import Material, lookup
+
+STAND_INS = {
+    "soft food": "soft tissue",  # meat, tomato: 10 to 100 kPa
+    "firm food": "rubber",  # raw carrot, potato, apple: 1 to 10 MPa
+    "baked food": "foam",  # bread crumb: below 100 kPa, mostly air
+    "plant": "rubber",  # leaves and fresh stems: 1 to 100 MPa, about as heavy as water
+    "wax": "ldpe",  # paraffin: 0.1 to 0.3 GPa, 900 kg/m3
+    "water": "soft tissue",  # as heavy, and next to nothing in shear
+}
+
+
+def constants(word: str) -> Material:
+    """The constants of a material of the table, or of its stand-in. Raises: UnknownMaterial."""
+    return lookup(STAND_INS.get(" ".join(word.lower().split()), word))

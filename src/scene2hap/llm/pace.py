@@ -1,0 +1,36 @@
+"""Pace: one pause for all calls that go to one server.
+
+A rate limit counts requests of all lanes together. When one of them is told to wait, the others would only use up
+what comes back; so they wait with it, before they send.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import time
+
+from scene2hap.llm.http_errors import failure
+from scene2hap.llm.http_reply import HttpReply
+from scene2hap.llm.waits import LONGEST_WAIT_S, reset_wait_s
+
+
+class Pace:
+    """When the next request may go, by what the server last said."""
+
+    def __init__(self) -> None:
+        self._open_at_s = 0.0
+
+    async def wait(self) -> None:
+        """Return when the server takes requests again."""
+        while (left_s := self._open_at_s - time.monotonic()) > 0.0:
+            await asyncio.sleep(left_s)
+
+    def heed(self, reply: HttpReply) -> None:
+        """Pause where a reply asks for it; what asks for too long, or cannot be helped by waiting, pauses nobody."""
+        if reply.ok:
+            wait_s = reset_wait_s(reply.headers)
+        else:
+            problem = failure(reply)
+            wait_s = problem.retry_after_s if problem.retryable else None
+        if wait_s is not None and wait_s <= LONGEST_WAIT_S:
+            self._open_at_s = max(self._open_at_s, time.monotonic() + wait_s)

@@ -1,0 +1,91 @@
+"""What a local server has to offer: the models it serves, and whether they see.
+
+Servers tell what they like: whatever is not told counts as unknown, never as absent.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from scene2hap.errors import BackendUnavailable, ConfigError
+from scene2hap.llm.http_client import Endpoint
+
+PROBE_TIMEOUT_S = 5.0
+"""Assumed: a list of models is no work."""
+
+
+@dataclass(frozen=True)
+class Served:
+    """One model of a server. `sees` is None where the server does not tell; `owner` is "library" on Ollama."""
+
+    name: str
+    sees: bool | None = None
+    owner: str = ""
+
+
+async def openai_models(endpoint: Endpoint) -> tuple[Served, ...]:
+    """The models at /v1/models: of llama.cpp with their modalities, of vLLM and LM Studio by name.
+
+    Raises: BackendUnavailable: the server does not answer.
+    """
+    reply = await endpoint.get("models", PROBE_TIMEOUT_S)
+    listed = _dicts(reply.json() if reply.ok else None, "data")
+    return tuple(Served(_text(item, "id"), _sees(item), _text(item, "owned_by")) for item in listed if item.get("id"))
+
+
+async def ollama_models(endpoint: Endpoint) -> tuple[Served, ...]:
+    """The models that Ollama has, newer versions with what they can.
+
+    Raises: BackendUnavailable: the server does not answer.
+    """
+    reply = await endpoint.get("api/tags", PROBE_TIMEOUT_S)
+    listed = _dicts(reply.json() if reply.ok else None, "models")
+    return tuple(Served(_text(item, "model") or _text(item, "name"), _has_vision(item)) for item in listed)
+
+
+async def ollama_sees(endpoint: Endpoint, model: str) -> bool | None:
+    """Whether Ollama counts "vision" among a model's capabilities; None where it does not tell.
+
+    Raises: BackendUnavailable: the server does not answer.
+    """
+    named = [listed for listed in await ollama_models(endpoint) if listed.name in (model, f"{model}:latest")]
+    if not named or named[0].sees is not None:
+        return named[0].sees if named else None
+    reply = await endpoint.post("api/show", {"model": model})
+    body = reply.json() if reply.ok else None
+    return _has_vision(body) if isinstance(body, dict) else None
+
+
+def only_one(models: tuple[Served, ...], address: str) -> str:
+    """The model to ask where none was named.
+
+    Raises: BackendUnavailable: the server names none; ConfigError: it serves several.
+    """
+    names = [model.name for model in models if model.name]
+    if not names:
+        raise BackendUnavailable(f"{address} names no model. Give `model`, or load one.")
+    if len(names) > 1:
+        raise ConfigError(f"{address} serves {len(names)} models ({', '.join(names[:8])}); give `model`.")
+    return names[0]
+
+
+def _sees(item: dict[str, Any]) -> bool | None:
+    architecture = item.get("architecture")
+    modalities = architecture.get("input_modalities") if isinstance(architecture, dict) else None
+    return "image" in modalities if isinstance(modalities, list) else None
+
+
+def _has_vision(item: dict[str, Any]) -> bool | None:
+    capabilities = item.get("capabilities")
+    return "vision" in capabilities if isinstance(capabilities, list) else None
+
+
+def _dicts(body: object, name: str) -> list[dict[str, Any]]:
+    items = body.get(name) if isinstance(body, dict) else None
+    return [item for item in items if isinstance(item, dict)] if isinstance(items, list) else []
+
+
+def _text(item: dict[str, Any], name: str) -> str:
+    value = item.get(name)
+    return value if isinstance(value, str) else ""

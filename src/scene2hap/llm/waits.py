@@ -1,0 +1,69 @@
+"""How long a server asks to wait, read from the headers of its reply.
+
+Source: OpenAI, "Rate limits" (x-ratelimit-*) and its Python client (retry-after-ms before retry-after); RFC 9110,
+section 10.2.3 (Retry-After).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from email.utils import parsedate_to_datetime
+
+LONGEST_WAIT_S = 120.0
+"""A server that asks for more is given up, as by OpenAI's client."""
+
+HEADERS = (
+    "retry-after-ms",
+    "retry-after",
+    *(f"x-ratelimit-{what}-{unit}" for what in ("remaining", "reset") for unit in ("requests", "tokens")),
+)
+
+_PART = re.compile(r"(\d+(?:\.\d+)?)(ms|h|m|s)")
+_SECONDS = {"ms": 1e-3, "s": 1.0, "m": 60.0, "h": 3600.0}
+
+
+def asked_wait_s(headers: Mapping[str, str], now_s: float) -> float | None:
+    """What Retry-After says [s], a date counted from `now_s` [s since 1970]; None where it says nothing sensible."""
+    milliseconds = _number(headers.get("retry-after-ms"))
+    if milliseconds is not None:
+        return milliseconds / 1000.0
+    told = headers.get("retry-after")
+    seconds = _number(told)
+    if seconds is not None or told is None:
+        return seconds
+    try:
+        return max(parsedate_to_datetime(told).timestamp() - now_s, 0.0)
+    except (ValueError, OverflowError):
+        return None
+
+
+def reset_wait_s(headers: Mapping[str, str]) -> float | None:
+    """Until the limits that are used up are full again [s]; None where none is.
+
+    A limit refills evenly and is full after `reset`: whoever waits that long loses nothing against one who asks at
+    once for each bit that has come back.
+    """
+    waits = [
+        _duration_s(headers.get(f"x-ratelimit-reset-{unit}"))
+        for unit in ("requests", "tokens")
+        if _number(headers.get(f"x-ratelimit-remaining-{unit}")) == 0.0
+    ]
+    return max((wait for wait in waits if wait is not None), default=None)
+
+
+def _duration_s(text: str | None) -> float | None:
+    """Seconds of "1s", "6m0s", "20ms" or a bare number; None for anything else."""
+    parts = _PART.findall(text or "")
+    if text and "".join(number + unit for number, unit in parts) == text:
+        return sum(float(number) * _SECONDS[unit] for number, unit in parts)
+    return _number(text)
+
+
+def _number(text: str | None) -> float | None:
+    try:
+        value = float(text or "")
+    except ValueError:
+        return None
+    return value if math.isfinite(value) and value >= 0.0 else None

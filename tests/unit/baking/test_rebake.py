@@ -1,0 +1,97 @@
+"""Baking again: what a person said stays, what was not asked for stays as it was."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from scene2hap import AudioClip, Credit, FunctionBackend, HapticBundle, LLMRequest, Override, bake, materials, rebake
+from scene2hap.errors import UnknownObject
+from scripted_backend import SCENE, Scripted
+
+
+def answering() -> FunctionBackend:
+    """The scripted answers, kept by request."""
+    scripted = Scripted()
+
+    def answer(request: LLMRequest) -> str:
+        return json.dumps(getattr(scripted, request.component)(request))
+
+    return FunctionBackend(answer)
+
+
+def subjects(backend: FunctionBackend, component: str = "object_analyzer") -> list[str]:
+    return sorted(request.subject for request in backend.requests if request.component == component)
+
+
+@pytest.fixture
+def bundle() -> HapticBundle:
+    return bake(SCENE, {"llm": answering()})
+
+
+def test_only_what_is_named_is_asked_again(bundle: HapticBundle) -> None:
+    backend = answering()
+    again = rebake(bundle, {"llm": backend}, objects=["cup"], user_prompt="the cup is of silver")
+    assert subjects(backend) == ["cup"]
+    assert not subjects(backend, "scene_analyzer")
+    assert all("of silver" in request.prompt for request in backend.requests)
+    assert again.objects["phone"] == bundle.objects["phone"]
+    assert again.loops["phone"] is bundle.loops["phone"]
+    assert list(again.objects) == list(bundle.objects)
+
+
+def test_vibration_that_nobody_inferred(bundle: HapticBundle) -> None:
+    wished = bundle.override("cup", vibrates=True)
+    assert "cup" not in wished.loops
+    backend = answering()
+    again = rebake(wished, {"llm": backend})
+    assert subjects(backend) == ["cup"]
+    assert "vibrates by itself" in backend.requests[0].prompt
+    assert list(again.loops["cup"]) == ["on"]
+    assert again.objects["cup"].vibrates
+    assert again.objects["cup"].provenance["vibrates"] == "user"
+
+
+def test_a_sound_of_ones_own(bundle: HapticBundle) -> None:
+    rate = 8000
+    tone = np.sin(2 * np.pi * 120 * np.arange(3 * rate) / rate).astype(np.float32)
+    clip = AudioClip(0.5 * tone, rate, Credit("my tone", "me", "CC0"))
+    backend = answering()
+    again = rebake(bundle.override("phone", clip=clip), {"llm": backend})
+    assert not backend.requests
+    for loop in again.loops["phone"].values():
+        assert loop.audible.credit.title == "my tone"
+        assert loop.frequency_raw_hz == pytest.approx(120, abs=0.5)
+
+
+def test_corrections_outlive_a_new_bake(tmp_path: Path) -> None:
+    def baked(**more: Any) -> HapticBundle:
+        return bake(SCENE, {"llm": answering()}, **more)
+
+    first = baked().override("phone", gain_db=-6.0).override("table", material="steel")
+    kept = HapticBundle.load(first.save(tmp_path / "b")).overrides
+    second = baked(overrides=kept)
+    assert second.gain_db("phone") == -6.0
+    assert second.objects["table"].material == materials.lookup("steel")
+    silent = baked(overrides={"phone": Override(vibrates=False)})
+    assert not silent.loops
+
+
+def test_a_correction_of_what_is_gone_is_dropped_aloud() -> None:
+    with pytest.warns(UserWarning, match="'chair' is dropped"):
+        again = bake(SCENE, {"llm": answering()}, overrides={"chair": Override(gain_db=1.0)})
+    assert not again.overrides
+
+
+def test_an_object_that_is_not_there(bundle: HapticBundle) -> None:
+    with pytest.raises(UnknownObject):
+        rebake(bundle, {"llm": answering()}, objects=["chair"])
+
+
+def test_the_account_is_handed_over() -> None:
+    accounts: list[Any] = []
+    bake(SCENE, {"llm": answering()}, on_report=accounts.append)
+    (account,) = accounts
+    assert account.calls["object_analyzer"] == 3
