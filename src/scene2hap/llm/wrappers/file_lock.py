@@ -15,6 +15,8 @@ from scene2hap.errors import ConfigError
 
 POLL_S = 0.1
 """Assumed: far below the seconds that an answer takes."""
+UNWRITTEN_S = 5.0
+"""How long a lock may be empty before its process is taken to have died between making and writing it; assumed."""
 
 
 class FileLock:
@@ -65,7 +67,7 @@ class FileLock:
             content = self._path.read_bytes()
         except FileNotFoundError:
             return False
-        return age_s > self._stale_after_s or _is_dead(content)
+        return age_s > self._stale_after_s or _is_dead(content) or (not content and age_s > UNWRITTEN_S)
 
 
 def _is_dead(content: bytes) -> bool:
