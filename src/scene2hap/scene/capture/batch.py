@@ -65,7 +65,7 @@ def _studio(scene: SceneSnapshot) -> Studio:
 def _by_workers(studio: Studio, wanted: list[Shot], workers: int) -> Iterator[tuple[Shot, bytes]]:
     # Spawned processes are the same on every system, and inherit no thread that holds a lock.
     context = multiprocessing.get_context("spawn")
-    setting = (studio.stage, studio.config, studio.factory)
+    setting = (studio.stage, studio.config, studio.factory, studio.below)
     # An object's pictures go together: its search tree is built in one process.
     portions = [list(group) for _, group in groupby(wanted, key=lambda shot: (shot.kind, shot.subject))]
     try:
@@ -82,9 +82,9 @@ def _by_workers(studio: Studio, wanted: list[Shot], workers: int) -> Iterator[tu
 _photographer: Photographer | None = None
 
 
-def _set_up(stage: Stage, config: CaptureConfig, factory: RendererFactory) -> None:
+def _set_up(stage: Stage, config: CaptureConfig, factory: RendererFactory, below: tuple[int | None, ...]) -> None:
     global _photographer
-    _photographer = Photographer(stage, factory(stage, config.antialias), config)
+    _photographer = Photographer(stage, factory(stage, config.antialias), config, below)
 
 
 def _take(shots: list[Shot]) -> list[tuple[Shot, bytes]]:

@@ -56,9 +56,17 @@ class Culler:
     hidden_share: float
 
     @classmethod
-    def of(cls, stage: Stage, renderer: Renderer, near_share: float, hidden_share: float) -> Culler:
-        """A culler that knows what stands on what."""
-        return cls(stage, renderer, supports(stage), shells(stage), near_share, hidden_share)
+    def of(
+        cls,
+        stage: Stage,
+        renderer: Renderer,
+        near_share: float,
+        hidden_share: float,
+        below: tuple[int | None, ...] | None = None,
+    ) -> Culler:
+        """A culler that knows what stands on what, `below` as `supports` tells it, if it was told before."""
+        below = supports(stage) if below is None else below
+        return cls(stage, renderer, below, shells(stage), near_share, hidden_share)
 
     def around(self, target: int, close: Camera, wide: Camera) -> Selection:
         """What the context picture `wide` shows, where `close` is the same eye framing the target alone."""
@@ -68,13 +76,9 @@ class Culler:
         beside = near(self.stage, target, self.near_share) | {self.below[target]}
         holders = containers(self.stage, target)
         kept, hidden = self.stage.everyone - blockers, np.zeros_like(aim.is_target)
-        for number in sorted(blockers, key=lambda k: (k != self.below[target], aim.hidden_by(k, False).sum(), k)):
-            if number in self.shells:
-                ways = [True]
-            elif number in beside:
-                ways = [False, True] if number in holders else [False]
-            else:
-                ways = []
+        candidates = blockers & (self.shells | beside)
+        for number in sorted(candidates, key=lambda k: (k != self.below[target], aim.hidden_by(k, False).sum(), k)):
+            ways = [True] if number in self.shells else [False, True] if number in holders else [False]
             spared = self.hidden_share * aim.is_target.sum()
             limit = spared if number in beside else hidden.sum() + _REMAINDER * aim.is_target.sum()
             for is_opened in ways:

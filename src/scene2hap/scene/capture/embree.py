@@ -71,7 +71,7 @@ class _Tree:
 class EmbreeRenderer:
     """Draws a stage by ray casting. See `Renderer`."""
 
-    def __init__(self, stage: Stage, antialias: bool = True) -> None:
+    def __init__(self, stage: Stage, antialias: bool = False) -> None:
         self._stage = stage
         self._antialias = antialias
         counts = [len(actor.triangles_m) for actor in stage.actors]

@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.scene.capture.views import Camera
+
 Floats32 = NDArray[np.float32]
 Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+# How far coordinates in single precision may be off [px]; a triangle that is left out wrongly for it is a sliver
+# (assumed).
+_BLUR_PX = np.float32(0.05)
+_LEAST_DEPTH_M = np.float32(1e-9)
 
 
 def planes(triangles_m: Floats32) -> Floats:
@@ -24,3 +34,53 @@ def separates(planes_m: Floats, eye_m: Floats, focus_m: Floats) -> NDArray[np.bo
     of_focus = planes_m[:, :3] @ focus_m - planes_m[:, 3]
     is_between: NDArray[np.bool_] = of_eye * of_focus < 0
     return is_between
+
+
+@dataclass(frozen=True, eq=False)
+class Extents:
+    """Where triangles lie from an eye: `low`, `high` (2, n) right and down at depth 1 [-], of those that `is_ahead`.
+
+    `is_cut` : those that reach behind the eye's plane, which have no such place.
+    """
+
+    low: Floats32
+    high: Floats32
+    is_ahead: Flags
+    is_cut: Flags
+
+
+def extents(by_axis_m: Floats32, camera: Camera) -> Extents:
+    """Of triangles (3 axes, 3 corners, n), for all cameras that share eye and axes with this one."""
+    x, y, z = by_axis_m
+    right, up, forward = camera.axes
+    axes = np.stack((right, -up, forward))
+    offsets = (axes @ camera.eye_m).astype(np.float32)
+    across, down, depth = (
+        x * a + y * b + z * c - offset for (a, b, c), offset in zip(axes.astype(np.float32), offsets, strict=True)
+    )
+    nearest = depth.min(axis=0)
+    is_ahead = nearest > 0
+    is_cut = ~is_ahead & (depth.max(axis=0) > 0)
+    np.maximum(depth, _LEAST_DEPTH_M, out=depth)
+    across /= depth
+    down /= depth
+    low, high = (np.stack((pick(across, axis=0), pick(down, axis=0))) for pick in (np.min, np.max))
+    return Extents(low, high, is_ahead, is_cut)
+
+
+def in_view(seen: Extents, camera: Camera) -> Flags:
+    """Which triangles (n,) can colour a pixel where corners are rounded down to whole pixels, as p3tinydisplay does.
+
+    Those are left out that lie behind the eye or beside the picture, or whose corners all fall into one row or column
+    of it, as most of a finely meshed scene's do.
+    """
+    # The picture's last half pixel is never reached: so the rasteriser scales.
+    edge = np.float32(camera.size_px - 0.5)
+    scale = edge / np.float32(2 * camera.half)
+    visible = seen.is_ahead
+    centre_right, centre_up = camera.centre.astype(np.float32)
+    for low, high, centre in zip(seen.low, seen.high, (centre_right, -centre_up), strict=True):
+        first = np.floor(np.clip((low - centre) * scale + (edge / 2 - _BLUR_PX), -1, camera.size_px))
+        last = np.floor(np.clip((high - centre) * scale + (edge / 2 + _BLUR_PX), -1, camera.size_px))
+        visible = visible & (first < last)
+    return visible | seen.is_cut

@@ -12,29 +12,37 @@ Mask = NDArray[np.bool_]
 
 def outline_of(is_target: Mask, width_px: int) -> Mask:
     """Pixels not of the target within `width_px` of it: its dilation by a disc, less itself."""
-    rows, columns = np.flatnonzero(is_target.any(axis=1)), np.flatnonzero(is_target.any(axis=0))
     is_outline = np.zeros_like(is_target)
+    near = _neighbourhood(is_target, width_px)
+    is_outline[near] = _rim(is_target[near], width_px)
+    return is_outline
+
+
+def mark(picture: Pixels, is_target: Mask, width_px: int, rgb: tuple[int, int, int]) -> None:
+    """Draw the target's outline into the picture, in place."""
+    near = _neighbourhood(is_target, width_px)
+    picture[near][_rim(is_target[near], width_px)] = rgb
+
+
+def _neighbourhood(is_target: Mask, width_px: int) -> tuple[slice, slice]:
+    """Rows and columns where the outline may be: a small part of most pictures."""
+    rows, columns = np.flatnonzero(is_target.any(axis=1)), np.flatnonzero(is_target.any(axis=0))
     if not len(rows):
-        return is_outline
-    # Only the neighbourhood of the target is looked at, which is a small part of most pictures.
-    near = (
+        return (slice(0), slice(0))
+    return (
         slice(max(rows[0] - width_px, 0), rows[-1] + width_px + 1),
         slice(max(columns[0] - width_px, 0), columns[-1] + width_px + 1),
     )
-    part = is_target[near]
-    height, width = part.shape
-    padded = np.pad(part, width_px)
-    grown = np.zeros_like(part)
+
+
+def _rim(is_target: Mask, width_px: int) -> Mask:
+    height, width = is_target.shape
+    padded = np.pad(is_target, width_px)
+    grown = np.zeros_like(is_target)
     for down in range(-width_px, width_px + 1):
         # Row by row of the disc; half a pixel is added to its radius, as its rim would else be single pixels.
         reach = int(np.sqrt((width_px + 0.5) ** 2 - down**2))
         band = padded[width_px + down : width_px + down + height]
         for across in range(-reach, reach + 1):
             grown |= band[:, width_px + across : width_px + across + width]
-    is_outline[near] = grown & ~part
-    return is_outline
-
-
-def mark(picture: Pixels, is_target: Mask, width_px: int, rgb: tuple[int, int, int]) -> None:
-    """Draw the target's outline into the picture, in place."""
-    picture[outline_of(is_target, width_px)] = rgb
+    return grown & ~is_target

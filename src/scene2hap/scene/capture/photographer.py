@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from io import BytesIO
 
 import numpy as np
-from PIL import Image
 
 from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.culling import Culler
 from scene2hap.scene.capture.outline import mark
-from scene2hap.scene.capture.protocol import Pixels, Renderer, Selection
+from scene2hap.scene.capture.png import png
+from scene2hap.scene.capture.protocol import Renderer, Selection
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import Camera, frame
 from scene2hap.scene.images import Shot
@@ -20,22 +19,21 @@ from scene2hap.scene.images import Shot
 # Part of the frame that a whole scene fills, and a context image at least leaves around its target (assumed).
 _SCENE_FILL = 0.95
 _LEAST_FACTOR = 1.25
-# zlib's Z_RLE.
-_RUN_LENGTHS = 3
 
 
 @dataclass(frozen=True, eq=False)
 class Photographer:
-    """Takes pictures of a stage with a renderer; same input, same bytes."""
+    """Takes pictures of a stage with a renderer; same input, same bytes. `below` : its `supports`, if known."""
 
     stage: Stage
     renderer: Renderer
     config: CaptureConfig
+    below: tuple[int | None, ...] | None = None
 
     @cached_property
     def culler(self) -> Culler:
         """Decides what is left out."""
-        return Culler.of(self.stage, self.renderer, self.config.near_share, self.config.hidden_share)
+        return Culler.of(self.stage, self.renderer, self.config.near_share, self.config.hidden_share, self.below)
 
     def aim(self, shot: Shot) -> tuple[Camera, Selection]:
         """The camera, and what it shows."""
@@ -63,10 +61,3 @@ class Photographer:
             is_target = ids == self.stage.index[shot.subject]
             mark(picture, is_target, self.config.outline_px, self.config.outline_rgb)
         return png(picture)
-
-
-def png(picture: Pixels) -> bytes:
-    """Pixels as a PNG file, packed for speed: run lengths do as well on them as level 1, in two thirds of the time."""
-    file = BytesIO()
-    Image.fromarray(picture).save(file, "PNG", compress_level=1, compress_type=_RUN_LENGTHS)
-    return file.getvalue()

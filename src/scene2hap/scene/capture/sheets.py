@@ -10,7 +10,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from scene2hap.errors import ConfigError
 from scene2hap.scene.capture.paint import BACKGROUND_RGB
-from scene2hap.scene.capture.photographer import png
+from scene2hap.scene.capture.png import png
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.surroundings import shells
 from scene2hap.scene.capture.views import axes_of

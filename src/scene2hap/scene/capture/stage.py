@@ -44,10 +44,10 @@ class Actor:
         corners = self.triangles_m.reshape(-1, 3)
         return np.array([corners.min(axis=0), corners.max(axis=0)], dtype=np.float64)
 
-    @property
+    @cached_property
     def points_m(self) -> Vector:
-        """All corners (3 m, 3) [m]."""
-        return self.triangles_m.reshape(-1, 3).astype(np.float64)
+        """All corners (n, 3) [m], each once."""
+        return np.unique(self.triangles_m.reshape(-1, 3), axis=0).astype(np.float64)
 
     @property
     def diagonal_m(self) -> float:

@@ -18,7 +18,7 @@ from scene2hap.scene.images import Shot
 from scene2hap.scene.snapshot import SceneSnapshot
 
 # Part of every key; raised when pictures of the same settings change.
-_FORMAT = 1
+_FORMAT = 2
 
 
 @dataclass(frozen=True)
@@ -105,11 +105,17 @@ class Studio:
     @cached_property
     def copies(self) -> Copies:
         """Who stands for whom."""
-        return Copies(self.scene.objects, supports(self.stage), self.config.share_copies)
+        return Copies(self.scene.objects, self.below, self.config.share_copies)
+
+    @cached_property
+    def below(self) -> tuple[int | None, ...]:
+        """What each object stands on."""
+        return supports(self.stage)
 
     @cached_property
     def _photographer(self) -> Photographer:
-        return Photographer(self.stage, self.factory(self.stage, self.config.antialias), self.config)
+        renderer = self.factory(self.stage, self.config.antialias)
+        return Photographer(self.stage, renderer, self.config, self.below)
 
     def _key(self, shot: Shot) -> str:
         """A name for all that the picture depends on; an isolated image does not depend on the rest of the scene."""

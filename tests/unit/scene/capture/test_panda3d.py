@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
+from scipy.ndimage import maximum_filter, minimum_filter
 
 from scene2hap import SceneSnapshot
 from scene2hap.scene.appearance import Appearance, FaceMaterial
 from scene2hap.scene.capture import capture_images
+from scene2hap.scene.capture.paint import BACKGROUND_RGB
 from scene2hap.scene.capture.protocol import Selection
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import frame
@@ -60,3 +63,85 @@ def test_it_is_chosen_by_name() -> None:
     images = capture_images(room(), size_px=64, renderer="panda3d").images
     assert images is not None
     assert images[0].startswith(b"\x89PNG")
+
+
+def leaves(holed: bool) -> SceneSnapshot:
+    """A crate whose texture has holes, with a core inside and a floor below."""
+    texels = np.full((8, 8, 4), (30, 160, 40, 255), np.uint8)
+    if holed:
+        texels[:, :4, 3] = 0
+    uv = np.tile(np.array([(0.1, 0.1), (0.1, 0.9), (0.9, 0.9)], np.float32), (12, 1, 1))
+    looks = Appearance((FaceMaterial((1, 1, 1, 1), texels),), np.zeros(12, np.int32), uv)
+    return scene(
+        replace(box("crate", (1, 1, 1), (0, 0.5, 0)), appearance=looks),
+        box("core", (0.5, 0.5, 0.5), (0, 0.5, 0)),
+        box("floor", (3, 0.1, 3), (0, -0.05, 0)),
+    )
+
+
+def seen_by(renderer: Any, stage: Stage, size_px: int = 200) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Picture, its ids, and the ids of an id pass."""
+    points = np.concatenate([actor.points_m for actor in stage.actors])
+    camera = frame(points, 30.0, 40.0, "y", 0.8, size_px)
+    drawn: tuple[np.ndarray, np.ndarray] = renderer.draw(camera, Selection(stage.everyone))
+    return (*drawn, renderer.identify(camera, Selection(stage.everyone)))
+
+
+@pytest.mark.parametrize("holed", [False, True])
+def test_holes_in_textures_show_what_is_behind(holed: bool) -> None:
+    stage = Stage.of(leaves(holed))
+    picture, ids, identified = seen_by(panda.Panda3DRenderer(stage), stage)
+    _, expected, _ = seen_by(embree.EmbreeRenderer(stage), stage)
+    np.testing.assert_array_equal(ids, identified)
+    assert (ids == 1).any() == holed
+    assert (ids != expected).mean() < 0.03
+    assert (picture[ids == 0][:, 1] > picture[ids == 0][:, 0]).all()
+
+
+@pytest.mark.parametrize("n_objects", [250, 251])
+@pytest.mark.parametrize("is_textured", [False, True])
+def test_every_object_of_a_crowd_is_told(n_objects: int, is_textured: bool) -> None:
+    looks = room().object("crate").appearance
+    side = int(np.ceil(np.sqrt(n_objects)))
+    crowd = scene(
+        *(
+            replace(
+                box(f"tile{k}", (0.9, 0.1, 0.9), (k % side, 0, k // side)), appearance=looks if is_textured else None
+            )
+            for k in range(n_objects)
+        )
+    )
+    stage = Stage.of(crowd)
+    _, ids, identified = seen_by(panda.Panda3DRenderer(stage), stage, 400)
+    _, expected, _ = seen_by(embree.EmbreeRenderer(stage), stage, 400)
+    np.testing.assert_array_equal(ids, identified)
+    assert set(np.unique(ids)) == {-1, *range(n_objects)}
+    # Corners are rounded to whole pixels, so that rims of these small tiles differ.
+    inner = minimum_filter(expected, 5) == maximum_filter(expected, 5)
+    np.testing.assert_array_equal(ids[inner], expected[inner])
+
+
+def test_an_empty_selection_shows_the_background() -> None:
+    stage = Stage.of(room())
+    camera = frame(stage.actors[0].points_m, 30.0, 45.0, "y", 0.8, 64)
+    picture, ids = panda.Panda3DRenderer(stage).draw(camera, Selection(frozenset()))
+    assert (ids == -1).all()
+    assert (picture == BACKGROUND_RGB).all()
+
+
+def test_what_was_drawn_before_leaves_no_trace() -> None:
+    stage = Stage.of(room())
+    camera = frame(stage.actors[2].points_m, 30.0, 45.0, "y", 0.4, 128)
+    selections = [
+        Selection(stage.everyone),
+        Selection(stage.everyone, frozenset({0, 1}), (0.0, -0.5, 0.0)),
+        Selection(frozenset({2})),
+    ]
+    first = [panda.Panda3DRenderer(stage).draw(camera, selection) for selection in selections]
+    used = panda.Panda3DRenderer(stage)
+    other = camera.widened(3.0).resized(48)
+    for selection, (picture, ids) in [*zip(selections, first, strict=True), *zip(selections, first, strict=True)]:
+        used.identify(other, selection)
+        again, again_ids = used.draw(camera, selection)
+        np.testing.assert_array_equal(again, picture)
+        np.testing.assert_array_equal(again_ids, ids)
