@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import socket
+import struct
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
@@ -18,12 +20,27 @@ PNG = b"\x89PNG\r\n\x1a\n0"
 
 GOOD: dict[str, dict[str, Any]] = {
     "scene_analyzer": {"scene_category": "kitchen"},
+    "object_analyzer": {
+        "object_category": "fridge",
+        "category_reason": "Its name says so.",
+        "material_category": "steel",
+        "estimated_length_m": 0.7,
+        "estimated_width_m": 0.7,
+        "estimated_thickness_m": 1.8,
+        "size_reason": "As measured.",
+        "usage": "keeps food cold",
+        "vibrates": True,
+        "vibration_reason": "Its compressor runs.",
+        "states": [{"name": "cooling", "intensity": 0.4, "needs_contact": None}],
+        "confidence": 0.9,
+    },
     "material_estimator": {
         "density_kg_m3": 700.0,
         "youngs_modulus_gpa": 11.0,
         "poisson_ratio": 0.3,
-        "loss_factor": 0.01,
+        "damping_ratio": 0.005,
     },
+    "vibration_describer": {"sentence": "A fridge compressor hums evenly.", "keywords": "fridge hum"},
 }
 
 
@@ -40,13 +57,21 @@ def request(component: Component = "scene_analyzer", **changes: Any) -> LLMReque
 
 @dataclass
 class Scripted:
-    """One reply: JSON or raw bytes; or silence until the test is over; or a connection that is dropped."""
+    """One reply: JSON or raw bytes, at once or dripping for `drip_s`; or silence until the test is over; or a
+    connection that is dropped, or reset. `claims` names the schema of OpenAI's that the body fits."""
 
     body: Any = None
     status: int = 200
-    headers: dict[str, str] = field(default_factory=dict)
+    headers: Mapping[str, str] = field(default_factory=dict)
     hang: bool = False
     drop: bool = False
+    reset: bool = False
+    drip_s: float = 0.0
+    claims: str = ""
+
+    @property
+    def raw(self) -> bytes:
+        return self.body if isinstance(self.body, bytes) else json.dumps(self.body).encode()
 
 
 @dataclass
@@ -55,13 +80,26 @@ class Asked:
     headers: dict[str, str]
     body: dict[str, Any]
 
+    @property
+    def prompt(self) -> str:
+        content = self.body["messages"][0]["content"]
+        return str(content if isinstance(content, str) else content[0]["text"])
+
 
 class Server:
-    """Plays `script` in order, then its last line again; or asks it, where it is a function of what was asked."""
+    """Plays `script` in order, then its last line again; or asks it, where it is a function of what was asked.
 
-    def __init__(self, script: list[Scripted] | Callable[[Asked], Scripted]) -> None:
+    `pages` are what can be got, by path.
+    """
+
+    def __init__(
+        self, script: list[Scripted] | Callable[[Asked], Scripted], pages: Mapping[str, Scripted] | None = None
+    ) -> None:
         self.script = script
+        self.pages: Mapping[str, Scripted] = pages or {}
         self.asked: list[Asked] = []
+        self.answered: list[Scripted] = []
+        self.got: list[str] = []
         self.over = threading.Event()
         self.base_url = ""
 
@@ -71,36 +109,24 @@ class Server:
 
     def answer(self, asked: Asked) -> Scripted:
         self.asked.append(asked)
-        if callable(self.script):
-            return self.script(asked)
-        return self.script[min(len(self.asked), len(self.script)) - 1]
+        scripted = self.script
+        reply = scripted(asked) if callable(scripted) else scripted[min(len(self.asked), len(scripted)) - 1]
+        self.answered.append(reply)
+        return reply
 
 
 @contextmanager
-def serving(*script: Scripted, by: Callable[[Asked], Scripted] | None = None) -> Iterator[Server]:
-    server = Server(by or list(script))
+def serving(
+    *script: Scripted,
+    by: Callable[[Asked], Scripted] | None = None,
+    pages: Mapping[str, Scripted] | None = None,
+) -> Iterator[Server]:
+    server = Server(by or list(script), pages)
 
-    class Handler(BaseHTTPRequestHandler):
-        def do_POST(self) -> None:
-            content = self.rfile.read(int(self.headers["content-length"]))
-            headers = {name.lower(): value for name, value in self.headers.items()}
-            reply = server.answer(Asked(self.path, headers, json.loads(content)))
-            if reply.hang:
-                server.over.wait(10)
-            if reply.hang or reply.drop:
-                self.close_connection = True
-                return
-            raw = reply.body if isinstance(reply.body, bytes) else json.dumps(reply.body).encode()
-            self.send_response(reply.status)
-            for name, value in {"content-length": str(len(raw)), **reply.headers}.items():
-                self.send_header(name, value)
-            self.end_headers()
-            self.wfile.write(raw)
+    class Handler(_Handler):
+        playing = server
 
-        def log_message(self, format: str, *args: Any) -> None:
-            pass
-
-    with ThreadingHTTPServer(("127.0.0.1", 0), Handler) as http:
+    with _HTTPServer(("127.0.0.1", 0), Handler) as http:
         thread = threading.Thread(target=http.serve_forever, kwargs={"poll_interval": 0.01})
         thread.start()
         server.base_url = f"http://127.0.0.1:{http.server_address[1]}"
@@ -112,29 +138,75 @@ def serving(*script: Scripted, by: Callable[[Asked], Scripted] | None = None) ->
             thread.join()
 
 
+class _HTTPServer(ThreadingHTTPServer):
+    request_queue_size = 64
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        pass  # a client that hung up is part of the play
+
+
+class _Handler(BaseHTTPRequestHandler):
+    playing: Server
+
+    def do_POST(self) -> None:
+        content = self.rfile.read(int(self.headers["content-length"]))
+        headers = {name.lower(): value for name, value in self.headers.items()}
+        self._play(self.playing.answer(Asked(self.path, headers, json.loads(content))))
+
+    def do_GET(self) -> None:
+        self.playing.got.append(self.path)
+        self._play(self.playing.pages.get(self.path, Scripted({"error": "no such page"}, 404)))
+
+    def _play(self, reply: Scripted) -> None:
+        if reply.hang:
+            self.playing.over.wait(10)
+        if reply.reset:  # a socket closed with linger 0 sends RST
+            self.connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+            self.connection.close()
+        if reply.hang or reply.drop or reply.reset:
+            self.close_connection = True
+            return
+        self.send_response(reply.status)
+        for name, value in {"content-length": str(len(reply.raw)), **reply.headers}.items():
+            self.send_header(name, value)
+        self.end_headers()
+        for piece in _pieces(reply):
+            self.wfile.write(piece)
+            if reply.drip_s and self.playing.over.wait(reply.drip_s / len(reply.raw)):
+                return
+
+    def log_message(self, format: str, *args: Any) -> None:
+        pass
+
+
+def _pieces(reply: Scripted) -> list[bytes]:
+    return [bytes([byte]) for byte in reply.raw] if reply.drip_s else [reply.raw]
+
+
 def said(content: Any = GOOD["scene_analyzer"], finish_reason: str | None = "stop", **message: Any) -> Scripted:
     """A chat completion."""
     text = content if content is None or isinstance(content, str) else json.dumps(content)
-    return Scripted(
-        {
-            "id": "chatcmpl-1",
-            "object": "chat.completion",
-            "model": "gpt-4o-2024-08-06",
-            "choices": [
-                {
-                    "index": 0,
-                    "finish_reason": finish_reason,
-                    "message": {"role": "assistant", "content": text, **message},
-                }
-            ],
-            "usage": {
-                "prompt_tokens": 1000,
-                "completion_tokens": 20,
-                "total_tokens": 1020,
-                "prompt_tokens_details": {"cached_tokens": 0},
-            },
-        }
-    )
+    choice = {
+        "index": 0,
+        "finish_reason": finish_reason,
+        "logprobs": None,
+        "message": {"role": "assistant", "content": text, "refusal": None, **message},
+    }
+    usage = {
+        "prompt_tokens": 1000,
+        "completion_tokens": 20,
+        "total_tokens": 1020,
+        "prompt_tokens_details": {"cached_tokens": 0},
+    }
+    body = {
+        "id": "chatcmpl-1",
+        "object": "chat.completion",
+        "created": 1_795_000_000,
+        "model": "gpt-4o-2024-08-06",
+        "choices": [choice],
+        "usage": usage,
+    }
+    return Scripted(body, claims="CreateChatCompletionResponse")
 
 
 def ollama_said(content: Any = GOOD["scene_analyzer"], **changes: Any) -> Scripted:
@@ -152,5 +224,9 @@ def ollama_said(content: Any = GOOD["scene_analyzer"], **changes: Any) -> Script
 
 
 def refused(status: int, error: Any = "no", **headers: str) -> Scripted:
-    """An error as servers send them; underscores in header names stand for hyphens."""
-    return Scripted({"error": error}, status, {name.replace("_", "-"): value for name, value in headers.items()})
+    """An error as OpenAI sends it, or with a bare text as others do; underscores in header names stand for hyphens."""
+    named = {name.replace("_", "-"): value for name, value in headers.items()}
+    if not isinstance(error, dict):
+        return Scripted({"error": error}, status, named)
+    whole = {"message": "no", "type": "invalid_request_error", "param": None, "code": None, **error}
+    return Scripted({"error": whole}, status, named, claims="ErrorResponse")

@@ -13,6 +13,7 @@ BACKENDS = PluginGroup(
         "repair": "scene2hap.llm.wrappers:RepairBackend",
         "cache": "scene2hap.llm.wrappers:CacheBackend",
         "budget": "scene2hap.llm.wrappers:BudgetBackend",
+        "standard": "scene2hap.llm.wrappers:standard_stack",
     },
     extras={},
 )

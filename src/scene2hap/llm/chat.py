@@ -20,7 +20,9 @@ class BackendWarning(UserWarning):
 class UnusableAnswer(BadAnswer):
     """A bad answer that was paid for: `model` wrote it, `usage` counts its tokens where they are known."""
 
-    def __init__(self, message: str, raw_text: str = "", *, model: str = "", usage: Mapping[str, int] | None = None):
+    def __init__(
+        self, message: str, raw_text: str = "", *, model: str = "", usage: Mapping[str, int] | None = None
+    ) -> None:
         super().__init__(message, raw_text)
         self.model = model
         self.usage = dict(usage or {})

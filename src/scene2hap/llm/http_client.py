@@ -21,6 +21,7 @@ from scene2hap.errors import BackendError, BackendUnavailable, ConfigError
 from scene2hap.llm import waits
 from scene2hap.llm.http_reply import HttpReply as HttpReply
 from scene2hap.llm.pace import Pace
+from scene2hap.llm.quiet_logs import scrubbed
 from scene2hap.llm.secret import Secret as Secret
 
 if TYPE_CHECKING:
@@ -73,10 +74,10 @@ class Endpoint:
         url = f"{self.base_url}/{path}"
         headers = {"content-type": "application/json"} if content is not None else {}
         limits = httpx.Timeout(timeout_s, connect=min(CONNECT_TIMEOUT_S, timeout_s))
+        client = _client(self.transport, limits)
         try:
-            async with asyncio.timeout(timeout_s):
-                # One client per request: a pool would outlive the event loop of asyncio.run and leak its sockets.
-                async with httpx.AsyncClient(transport=self.transport, timeout=limits, verify=_ssl_context()) as client:
+            with scrubbed(self.secret):
+                async with asyncio.timeout(timeout_s), client:
                     response = await client.request(method, url, content=content, headers=headers, auth=self._authorise)
         except (TimeoutError, httpx.TimeoutException) as cause:
             raise BackendUnavailable(
@@ -103,6 +104,20 @@ class Endpoint:
         if self.secret.reveal():
             request.headers["authorization"] = f"Bearer {self.secret.reveal()}"
         return request
+
+
+def _client(transport: Transport | None, limits: httpx.Timeout) -> httpx.AsyncClient:
+    """One per request: a pool would outlive the event loop of asyncio.run and leak its sockets."""
+    import httpx
+
+    try:
+        return httpx.AsyncClient(transport=transport, timeout=limits, verify=_ssl_context())
+    except (ImportError, ValueError):
+        # The address of a proxy may hold a password: neither it nor the cause is shown.
+        raise ConfigError(
+            "the proxy that the environment names cannot be used. Check ALL_PROXY, HTTPS_PROXY and HTTP_PROXY (SOCKS "
+            "needs the package socksio), or unset them."
+        ) from None
 
 
 @cache

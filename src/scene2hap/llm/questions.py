@@ -12,8 +12,9 @@ from pydantic import ValidationError
 from scene2hap import checks
 from scene2hap.errors import BackendUnavailable, BadAnswer, Scene2HapError
 from scene2hap.llm.answers import Answer
+from scene2hap.llm.chat import UnusableAnswer
 from scene2hap.llm.prompts import Prompts
-from scene2hap.llm.protocol import Component, LLMBackend, LLMRequest
+from scene2hap.llm.protocol import Component, LLMBackend, LLMReply, LLMRequest
 from scene2hap.llm.report import InferenceReport
 
 AnswerType = TypeVar("AnswerType", bound=Answer)
@@ -75,6 +76,8 @@ class Questions:
             try:
                 reply = await self._backend.complete(request)
             except Scene2HapError as problem:
+                if isinstance(problem, UnusableAnswer):  # it was paid for all the same
+                    self.report.take(LLMReply("", problem.model, usage=problem.usage))
                 if not _is_about_one_question(problem):
                     self.closed_by = problem
                 raise

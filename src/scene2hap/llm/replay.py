@@ -89,7 +89,7 @@ class RecordingBackend:
     """
 
     def __init__(self, inner: LLMBackend, path: str | os.PathLike[str]) -> None:
-        self._inner = inner
+        self.inner = inner
         self._path = Path(path)
         self._turn = threading.Lock()
         try:
@@ -101,15 +101,21 @@ class RecordingBackend:
     @property
     def identity(self) -> Mapping[str, Any]:
         """What decides the answer besides the request: the inner backend's. Raises: ConfigError: it does not tell."""
-        identity = getattr(self._inner, "identity", None)
+        identity = getattr(self.inner, "identity", None)
         if not isinstance(identity, Mapping):
-            raise ConfigError(f"{self._inner!r} has no `identity` (model, address); no cache can tell it apart.")
+            raise ConfigError(f"{self.inner!r} has no `identity` (model, address); no cache can tell it apart.")
         return identity
+
+    async def ready(self) -> None:
+        """Let the inner backend find out what it needs before its `identity` is whole. Raises: as that does."""
+        ready = getattr(self.inner, "ready", None)
+        if ready is not None:
+            await ready()
 
     async def complete(self, request: LLMRequest) -> LLMReply:
         """The inner backend's answer, recorded."""
         key = request_key(request)  # before the call: what cannot be recorded should not be paid for
-        reply = await self._inner.complete(request)
+        reply = await self.inner.complete(request)
         entry = _Entry(
             key=key,
             component=request.component,

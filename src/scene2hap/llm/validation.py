@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
@@ -18,6 +20,7 @@ ANSWERS: Mapping[Component, type[Answer]] = {
     "vibration_describer": VibrationAnswer,
 }
 
+_ARTICLE = re.compile(r"^(a|an|the)\s+")
 _NUMERIC = ("greater_than", "less_than", "finite_number", "float_", "int_", "bool_")
 _MOST_SHOWN = 5
 _STEEPEST_GPA = 1300.0
@@ -25,21 +28,37 @@ _STEEPEST_GPA = 1300.0
 
 @dataclass(frozen=True)
 class Fault:
-    """Why a reply is no answer. `needs_images` is false where only numbers are wrong: their words say enough."""
+    """Why a reply is no answer. `needs_images` is false where only numbers are wrong: their words say enough.
+
+    A minor fault is worth another question, but not the loss of the answer.
+    """
 
     reason: str
     needs_images: bool
+    is_minor: bool = False
 
 
-def find_fault(component: Component, text: str) -> Fault | None:
-    """What is wrong with a reply, in words for the model that wrote it; None where nothing is."""
+def find_fault(component: Component, text: str, facts: Mapping[str, Any] | None = None) -> Fault | None:
+    """What is wrong with a reply, in words for the model that wrote it; None where nothing is.
+
+    With the `facts` that were asked about, a sentence must begin with the object's category.
+    """
     try:
-        ANSWERS[component].model_validate_json(text)
+        answer = ANSWERS[component].model_validate_json(text)
     except ValidationError as error:
         problems = error.errors(include_url=False)
         reasons = [_in_words(problem) for problem in problems[:_MOST_SHOWN]]
         return Fault("; ".join(reasons), not all(problem["type"].startswith(_NUMERIC) for problem in problems))
+    if isinstance(answer, VibrationAnswer) and facts is not None:
+        return _misses_category(answer.sentence, str(facts.get("object_category", "")))
     return None
+
+
+def _misses_category(sentence: str, category: str) -> Fault | None:
+    said = _ARTICLE.sub("", sentence.strip().lower())
+    if said.startswith(category.lower()):
+        return None
+    return Fault(f"sentence: it must begin with {category!r}, got {sentence[:80]!r}", needs_images=False, is_minor=True)
 
 
 def _in_words(problem: ErrorDetails) -> str:

@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import traceback
 from collections.abc import Callable
 from typing import Any
 
@@ -10,8 +11,10 @@ import pytest
 
 from llm_server import GOOD, KEY, request, said
 from scene2hap import OpenAIBackend
-from scene2hap.errors import BackendError, BackendUnavailable
-from scene2hap.llm.http_client import Endpoint, HttpReply, Secret
+from scene2hap.errors import BackendError, BackendUnavailable, ConfigError
+from scene2hap.llm.http_client import Endpoint
+from scene2hap.llm.http_reply import HttpReply
+from scene2hap.llm.secret import Secret
 
 
 def post(answer: Callable[[httpx.Request], httpx.Response], body: Any = None, key: str | None = KEY) -> HttpReply:
@@ -95,3 +98,43 @@ def test_backends_hand_their_transport_on() -> None:
     transport = httpx.MockTransport(lambda _: httpx.Response(200, json=said().body))
     reply = asyncio.run(OpenAIBackend(api_key=KEY, transport=transport).complete(request()))
     assert json.loads(reply.text) == GOOD["scene_analyzer"]
+
+
+def test_no_traceback_holds_the_header_in_a_local_variable() -> None:
+    """Reporters of errors show the variables of each frame; those of the HTTP library hold the key."""
+
+    def fail(sent: httpx.Request) -> httpx.Response:
+        header = sent.headers["authorization"]
+        raise httpx.ReadError(f"after {len(header)} characters")
+
+    with pytest.raises(BackendUnavailable) as caught:
+        post(fail)
+    frames = caught.value.__traceback__.tb_next.tb_next  # type: ignore[union-attr]
+    shown = traceback.TracebackException(BackendUnavailable, caught.value, frames, capture_locals=True)
+    text = "".join(shown.format())
+    assert "after 35 characters" in text
+    assert "httpx.ReadError" in text
+    assert KEY not in text
+    cause: BaseException | None = caught.value.__cause__
+    while cause is not None:
+        assert cause.__traceback__ is None
+        cause = cause.__cause__ or cause.__context__
+
+
+def test_a_page_is_got_with_the_key_and_in_its_own_time() -> None:
+    async def slow(sent: httpx.Request) -> httpx.Response:
+        assert (sent.method, sent.headers["authorization"]) == ("GET", f"Bearer {KEY}")
+        await asyncio.sleep(0 if sent.url.path == "/v1/models" else 5)
+        return httpx.Response(200, text="{}")
+
+    endpoint = Endpoint("https://model.example/v1", Secret(KEY), 60.0, httpx.MockTransport(slow))
+    assert asyncio.run(endpoint.get("models", 5.0)).json() == {}
+    with pytest.raises(BackendUnavailable, match=r"within 0\.02 s"):
+        asyncio.run(endpoint.get("slow", 0.02))
+
+
+def test_a_proxy_that_cannot_be_is_named_without_its_password(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ALL_PROXY", "nonsense://me:hunter2@127.0.0.1")
+    with pytest.raises(ConfigError, match="Check ALL_PROXY") as caught:
+        asyncio.run(Endpoint("https://model.example", Secret(), 1.0).post("chat", {}))
+    assert "hunter2" not in "".join(traceback.format_exception(caught.value))

@@ -1,11 +1,9 @@
 """What servers mean by a status, headers and a body."""
 
-from typing import Any
-
 import pytest
 
-from scene2hap.llm.http_client import HttpReply, Secret
 from scene2hap.llm.http_errors import ServerError, failure, server_error
+from scene2hap.llm.http_reply import HttpReply
 
 NOW_S = 1_445_412_480.0
 """Wed, 21 Oct 2015 07:28:00 GMT, the example date of RFC 9110."""
@@ -78,10 +76,32 @@ def test_a_page_of_html_is_not_shown_whole() -> None:
     assert len(str(failure(reply(502, "<p>" * 10_000)))) < 600
 
 
-@pytest.mark.parametrize("value", ["sk-0123456789abcdef", None])
-def test_secret_shows_itself_to_nobody(value: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("A_KEY", "sk-0123456789abcdef")
-    secret = Secret(value, "A_KEY")
-    assert f"{secret} {secret!r} {[secret]}" == "Secret(******) Secret(******) [Secret(******)]"
-    assert secret.reveal() == "sk-0123456789abcdef"
-    assert secret.scrub("Bearer sk-0123456789abcdef!") == "Bearer ******!"
+@pytest.mark.parametrize(
+    ("status", "headers", "wait_s"),
+    [
+        (429, {"x_ratelimit_remaining_requests": "0", "x_ratelimit_reset_requests": "1s"}, 1.0),
+        (429, {"x_ratelimit_remaining_tokens": "0", "x_ratelimit_reset_tokens": "1m30s"}, 90.0),
+        (429, {"x_ratelimit_remaining_tokens": "0", "x_ratelimit_reset_tokens": "20ms"}, 0.02),
+        (429, {"x_ratelimit_remaining_tokens": "0", "x_ratelimit_reset_tokens": "59.56"}, 59.56),
+        (429, {"x_ratelimit_remaining_tokens": "12", "x_ratelimit_reset_tokens": "20s"}, None),
+        (429, {"x_ratelimit_remaining_tokens": "0", "x_ratelimit_reset_tokens": "soon"}, None),
+        (429, {"x_ratelimit_remaining_tokens": "0"}, None),
+        (429, {"x_ratelimit_remaining_tokens": "0", "x_ratelimit_reset_tokens": "9s", "retry_after": "2"}, 2.0),
+        (500, {"x_ratelimit_remaining_tokens": "0", "x_ratelimit_reset_tokens": "9s"}, None),
+    ],
+    ids=str,
+)
+def test_limits_that_are_used_up_tell_when_they_are_full_again(
+    status: int, headers: dict[str, str], wait_s: float | None
+) -> None:
+    assert failure(reply(status, **headers)).retry_after_s == wait_s
+
+
+def test_of_two_limits_the_later_counts() -> None:
+    both = {
+        "x_ratelimit_remaining_requests": "0",
+        "x_ratelimit_reset_requests": "3s",
+        "x_ratelimit_remaining_tokens": "0",
+        "x_ratelimit_reset_tokens": "2s",
+    }
+    assert failure(reply(**both)).retry_after_s == 3.0

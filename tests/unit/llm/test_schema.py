@@ -9,7 +9,7 @@ import pytest
 
 from llm_server import GOOD
 from scene2hap.errors import ConfigError
-from scene2hap.llm.schema import fields_in_words, strict_schema
+from scene2hap.llm.schema import fields_in_words, local_schema, strict_schema
 from scene2hap.llm.validation import ANSWERS
 
 SCHEMAS = {component: shape.model_json_schema() for component, shape in ANSWERS.items()}
@@ -112,3 +112,67 @@ def test_fields_in_words() -> None:
     ]
     named = {line.strip("- ").split(":")[0] for line in words[1:]}
     assert named >= set(SCHEMAS["object_analyzer"]["properties"])
+
+
+@pytest.mark.parametrize("pattern", ["(?=a)b", "a(?!b)", "(?<=a)b", "(?<!a)b"])
+def test_patterns_that_look_around_go(pattern: str) -> None:
+    schema = {"type": "object", "properties": {"a": {"type": "string", "pattern": pattern}}}
+    assert "pattern" not in strict_schema(schema)["properties"]["a"]
+    plain = {"type": "object", "properties": {"a": {"type": "string", "pattern": "(?:a|b)+"}}}
+    assert strict_schema(plain)["properties"]["a"]["pattern"] == "(?:a|b)+"
+
+
+def nested(levels: int) -> dict[str, Any]:
+    inner = {"type": "object", "properties": {"a": {"type": "string"}}}
+    return inner if levels == 1 else {"type": "object", "properties": {"a": nested(levels - 1)}}
+
+
+def wide(properties: int, length: int = 1) -> dict[str, Any]:
+    return {"type": "object", "properties": {f"{i:0{length}d}": {"type": "string"} for i in range(properties)}}
+
+
+def choosing(choices: int) -> dict[str, Any]:
+    return {"type": "object", "properties": {"a": {"enum": list(range(choices))}}}
+
+
+@pytest.mark.parametrize(
+    ("fits", "breaks", "named"),
+    [
+        (nested(10), nested(11), "11 levels"),
+        (wide(5000), wide(5001), "5001 properties"),
+        (choosing(1000), choosing(1001), "1001 choices"),
+        (wide(1200, 100), wide(1201, 100), "120100 characters"),
+    ],
+    ids=["levels", "properties", "choices", "characters"],
+)
+def test_limits_of_strict_output(fits: dict[str, Any], breaks: dict[str, Any], named: str) -> None:
+    strict_schema(fits)
+    with pytest.raises(ConfigError, match=f"an answer schema has {named}.*; strict output allows"):
+        strict_schema(breaks)
+
+
+@pytest.mark.parametrize("component", GOOD)
+def test_schemas_for_local_servers_say_the_same_without_references(component: str) -> None:
+    local = local_schema(SCHEMAS[component])  # type: ignore[index]
+    assert "$ref" not in json.dumps(local)
+    assert "$defs" not in local
+    validator = jsonschema.Draft202012Validator(local)
+    assert validator.is_valid(GOOD[component])
+    assert not validator.is_valid({**GOOD[component], "more": 1})
+
+
+@pytest.mark.parametrize(("pattern", "stays"), [("^a+$", True), ("a+", False), ("^a+", False)])
+def test_grammars_of_llama_cpp_want_anchored_patterns(pattern: str, stays: bool) -> None:
+    schema = {"type": "object", "properties": {"a": {"type": "string", "pattern": pattern}}}
+    assert ("pattern" in local_schema(schema)["properties"]["a"]) is stays
+
+
+def test_a_property_called_pattern_stays() -> None:
+    schema = {"type": "object", "properties": {"pattern": {"type": "string"}}}
+    assert list(local_schema(schema)["properties"]) == ["pattern"]
+
+
+def test_a_schema_that_refers_to_itself_cannot_be_written_out() -> None:
+    tree = {"type": "object", "properties": {"child": {"$ref": "#/$defs/Tree"}}}
+    with pytest.raises(ConfigError, match="refers to itself"):
+        local_schema({**tree, "$defs": {"Tree": tree}})

@@ -19,7 +19,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from scene2hap.errors import ConfigError
-from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.llm.protocol import Component, LLMReply, LLMRequest
 from scene2hap.llm.replay import request_key
 from scene2hap.llm.validation import find_fault
 from scene2hap.llm.wrappers.file_lock import FileLock
@@ -33,7 +33,7 @@ class _Entry(BaseModel):
 
     key: str
     identity: dict[str, Any]
-    component: str
+    component: Component
     subject: str
     prompt_version: str
     text: str
@@ -47,7 +47,8 @@ class CacheBackend(Wrapper):
 
     The key is that of a recording plus the inner backend's `identity`: model, base address, what else decides the
     answer. A hit reports no usage, since it costs nothing. Equal questions asked at the same time are asked once, in
-    this process and between processes. A file that cannot be read back counts as absent and is written again.
+    this process and between processes. A file that cannot be read back, or whose answer the rules of today no
+    longer allow, counts as absent and is written again.
     stale_after_s : age at which the lock of another run is taken for abandoned; sleep : for tests.
     Raises: ConfigError: the folder cannot be written, or `inner` has no identity.
     """
@@ -77,18 +78,17 @@ class CacheBackend(Wrapper):
         """The kept answer, or the inner backend's. Raises: ConfigError: cannot write; and as the inner backend."""
         self._calls += 1
         await self.ready()
-        identity = self.identity
-        key = _key(request, identity)
-        path = self._folder / f"{key}.json"
+        key = _key(request, self.identity)
+        path = self._path(key)
         async with self._turn(key):
             reply = self._load(path, key)
             if reply is not None:
                 return reply
             async with FileLock(path.with_suffix(".lock"), self._stale_after_s, self._sleep):
-                return self._load(path, key) or await self._ask(request, path, key, identity)
+                return self._load(path, key) or await self._ask(request)
 
     def report(self) -> dict[str, int]:
-        """Calls, hits, answers kept, answers not kept since they are invalid, files that could not be read back."""
+        """Calls, hits, answers kept, answers not kept since they are invalid, files that could not be used."""
         return {
             "calls": self._calls,
             "hits": self._hits,
@@ -111,11 +111,17 @@ class CacheBackend(Wrapper):
             if users > 1:
                 self._turns[name] = (lock, users - 1)
 
-    async def _ask(self, request: LLMRequest, path: Path, key: str, identity: dict[str, Any]) -> LLMReply:
+    def _path(self, key: str) -> Path:
+        return self._folder / f"{key}.json"
+
+    async def _ask(self, request: LLMRequest) -> LLMReply:
         reply = await self.inner.complete(request)
         if reply.finish_reason != "stop" or find_fault(request.component, reply.text) is not None:
             self._rejected += 1
             return reply
+        # Asked for anew: a backend in a wrapper that does not hand `ready` on learns its model while it answers.
+        identity = self.identity
+        key = _key(request, identity)
         entry = _Entry(
             key=key,
             identity=identity,
@@ -128,7 +134,7 @@ class CacheBackend(Wrapper):
             usage=dict(reply.usage),
         )
         try:
-            await asyncio.to_thread(_write_whole, path, entry.model_dump_json(indent=1))
+            await asyncio.to_thread(_write_whole, self._path(key), entry.model_dump_json(indent=1))
         except OSError as cause:
             raise _cannot_write(self._folder, cause) from cause
         self._stored += 1
@@ -141,7 +147,7 @@ class CacheBackend(Wrapper):
             return None
         except (OSError, ValidationError):
             entry = None
-        if entry is None or entry.key != key:
+        if entry is None or entry.key != key or find_fault(entry.component, entry.text) is not None:
             self._unreadable.add(key)
             return None
         self._hits += 1

@@ -36,6 +36,7 @@ class RepairBackend(Wrapper):
         self._calls += 1
         about = f"{request.component} about {request.subject or 'the scene'!r}"
         asked, usage, left = request, Counter[str](), self._repairs
+        usable: LLMReply | None = None  # with a minor fault, which one further question may mend
         while True:
             try:
                 reply = await self.inner.complete(asked)
@@ -48,10 +49,14 @@ class RepairBackend(Wrapper):
                 message = f"{about}: the answer ended by {reply.finish_reason!r}, not by itself."
                 raise UnusableAnswer(message, reply.text, model=reply.model, usage=usage)
             text = first_object(reply.text) or reply.text
-            fault = find_fault(request.component, text)
-            if fault is None:
+            fault = find_fault(request.component, text, request.facts)
+            if fault is None or (fault.is_minor and left == 0):
                 return replace(reply, text=text, usage=dict(usage))
-            if left == 0:
+            if usable is not None:
+                return replace(usable, usage=dict(usage))
+            if fault.is_minor:
+                usable = replace(reply, text=text)
+            elif left == 0:
                 self._given_up += 1
                 message = f"{about}: still wrong after {self._repairs} repairs: {fault.reason}."
                 raise UnusableAnswer(message, reply.text, model=reply.model, usage=usage)

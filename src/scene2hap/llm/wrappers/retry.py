@@ -21,6 +21,8 @@ class RetryBackend(Wrapper):
     """Repeats a call that failed with a retryable `BackendUnavailable`, up to `retries` times.
 
     Waits as long as the server asks, else longer each time, by a random share less so that many clients spread.
+    told_retries : most repetitions after waits that the server asked for, beside `retries`; None counts them all
+    together. Where many lanes share a narrow limit, each is sent away many times before its turn comes.
     Bad answers are not repeated: they are `RepairBackend`'s. `rng` and `sleep` are for tests.
     """
 
@@ -29,12 +31,16 @@ class RetryBackend(Wrapper):
         inner: Spec,
         retries: int = 2,
         *,
+        told_retries: int | None = None,
         rng: random.Random | None = None,
         sleep: Callable[[float], Awaitable[object]] = asyncio.sleep,
     ) -> None:
         super().__init__(inner)
         checks.number("retries", retries, "-", at_least=0, error=ConfigError)
+        if told_retries is not None:
+            checks.number("told_retries", told_retries, "-", at_least=0, error=ConfigError)
         self._retries = retries
+        self._told_retries = told_retries
         self._rng = rng or random.Random()
         self._sleep = sleep
         self._calls = self._retried = self._given_up = 0
@@ -43,21 +49,24 @@ class RetryBackend(Wrapper):
     async def complete(self, request: LLMRequest) -> LLMReply:
         """The inner backend's answer. Raises: as the inner backend, its last error."""
         self._calls += 1
-        for attempt in range(self._retries):
+        untold = told = 0
+        while True:
             try:
                 return await self.inner.complete(request)
             except BackendUnavailable as problem:
                 if not problem.retryable:
                     raise
-                wait_s = self._wait_s(attempt, problem)
+                if problem.retry_after_s is not None and self._told_retries is not None:
+                    told += 1
+                else:
+                    untold += 1
+                if untold > self._retries or told > (self._told_retries or 0):
+                    self._given_up += 1
+                    raise
+                wait_s = self._wait_s(untold - 1, problem)
             self._retried += 1
             self._waited_s += wait_s
             await self._sleep(wait_s)
-        try:
-            return await self.inner.complete(request)
-        except BackendUnavailable:
-            self._given_up += 1
-            raise
 
     def report(self) -> dict[str, float]:
         """Calls asked for, retries made, calls given up after all retries, seconds waited."""

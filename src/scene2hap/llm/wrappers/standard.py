@@ -16,7 +16,9 @@ from scene2hap.llm.wrappers.retry import RetryBackend
 from scene2hap.llm.wrappers.stack import Spec, Wrapper
 
 RETRIES = 6
-"""Assumed: waits of 0.5, 1, 2, 4, 8 and 8 s outlast a rate limit's minute of crowding and a model that still loads."""
+"""Assumed: waits of 0.5, 1, 2, 4, 8 and 8 s outlast a model that still loads."""
+TOLD_RETRIES = 30
+"""Assumed: ten minutes at the 20 s that a limit of three requests a minute asks for."""
 
 
 def standard_stack(
@@ -25,6 +27,7 @@ def standard_stack(
     *,
     repairs: int = 2,
     retries: int = RETRIES,
+    told_retries: int = TOLD_RETRIES,
     max_calls: int | None = None,
     max_tokens: int | None = None,
     max_cost: float | None = None,
@@ -33,13 +36,14 @@ def standard_stack(
 ) -> LLMBackend:
     """Cache, repair, budget, retry, and then the model: `inner`, a backend or what builds one.
 
-    cache_folder : where answers are kept, None for nowhere; repairs, retries : most of each, per call; max_calls,
-    max_tokens, max_cost [US dollars] : limits, None for none; prices : beside the dated list; sleep : for tests.
+    cache_folder : where answers are kept, None for nowhere; repairs, retries, told_retries (after waits that the
+    server asked for) : most of each, per call; max_calls, max_tokens, max_cost [US dollars] : limits, None for none;
+    prices : beside the dated list; sleep : for tests.
     A cache keeps repaired answers only, each repair is paid for within the budget, and a call that never came about
     is not. What happened is in `reports`.
     Raises: ConfigError: a setting that cannot work.
     """
-    asked = RetryBackend(inner, retries, sleep=sleep)
+    asked = RetryBackend(inner, retries, told_retries=told_retries, sleep=sleep)
     paid = BudgetBackend(asked, max_calls, max_tokens, max_cost, prices)
     valid = RepairBackend(paid, repairs)
     return valid if cache_folder is None else CacheBackend(valid, cache_folder)

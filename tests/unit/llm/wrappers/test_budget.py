@@ -1,13 +1,16 @@
 """BudgetBackend: limits hold before the call, and unknown is not zero."""
 
 import asyncio
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from llm_server import request
-from scene2hap import BudgetBackend, FunctionBackend, LLMReply, LLMRequest, Price
-from scene2hap.errors import BackendUnavailable, BudgetExceeded, ConfigError
+from scene2hap import BudgetBackend, CacheBackend, FunctionBackend, LLMReply, LLMRequest, Price, RepairBackend
+from scene2hap.errors import BackendUnavailable, BadAnswer, BudgetExceeded, ConfigError
+from scene2hap.llm.chat import UnusableAnswer
+from scene2hap.llm.wrappers import price_list
 
 USAGE = {"prompt_tokens": 1000, "completion_tokens": 200}
 
@@ -62,11 +65,12 @@ def test_report_of_what_was_spent() -> None:
         "input_tokens": 2000,
         "output_tokens": 400,
         "cost": pytest.approx(0.006),
+        "prices_of": price_list().date,
         "models_without_price": [],
     }
 
 
-@pytest.mark.parametrize("model", ["gpt-4o-mini-2024-07-18", "gpt-4", "gpt-4o-latest"])
+@pytest.mark.parametrize("model", ["llava", "gpt-4o-latest", "gpt-4o-mini-2024", ""])
 def test_unknown_price_is_unknown_not_zero(model: str) -> None:
     backend = BudgetBackend(answering(model), prices={"gpt-4o": (2.0, 5.0)})
     spend(backend, 1)
@@ -107,6 +111,57 @@ def test_failed_calls_are_counted_and_shown() -> None:
     with pytest.raises(BudgetExceeded, match="1 calls used of max_calls = 1"):
         spend(backend, 1)
     assert backend.report()["failed_calls"] == 1
+
+
+def test_own_prices_go_before_the_list() -> None:
+    listed, own = BudgetBackend(answering("gpt-4.1")), BudgetBackend(answering("gpt-4.1"), prices={"gpt-4.1": (0, 1)})
+    for backend in (listed, own):
+        spend(backend, 1)
+    # Listed at 2 and 8 US dollars per million: 1000 tokens in and 200 out.
+    assert listed.cost == pytest.approx(0.0036)
+    assert own.cost == pytest.approx(0.0002)
+
+
+def test_bad_answers_are_paid_for() -> None:
+    """Cut short, refused or empty: the service bills them."""
+
+    def cut(_: LLMRequest) -> LLMReply:
+        raise UnusableAnswer("cut", "{", model="gpt-4o", usage=USAGE)
+
+    backend = BudgetBackend(FunctionBackend(cut), max_tokens=1200, prices={"gpt-4o": (2.0, 5.0)})
+    with pytest.raises(UnusableAnswer):
+        spend(backend, 1)
+    assert (backend.tokens, backend.cost) == (1200, pytest.approx(0.003))
+    assert backend.report()["failed_calls"] == 1
+    with pytest.raises(BudgetExceeded, match="1200 tokens used of max_tokens = 1200"):
+        spend(backend, 1)
+
+
+def test_a_bad_answer_without_usage_leaves_the_sum_unknown() -> None:
+    def empty(_: LLMRequest) -> LLMReply:
+        raise UnusableAnswer("empty")
+
+    backend = BudgetBackend(FunctionBackend(empty))
+    with pytest.raises(BadAnswer):
+        spend(backend, 1)
+    assert (backend.tokens, backend.cost) == (None, None)
+
+
+def test_a_budget_around_repairs_counts_all_attempts() -> None:
+    backend = BudgetBackend(RepairBackend(answering("gpt-4o")), prices={"gpt-4o": (2.0, 5.0)})
+    with pytest.raises(BadAnswer, match="still wrong after 2 repairs"):
+        spend(backend, 1)
+    assert backend.tokens == 3 * 1200
+
+
+def test_answers_from_a_cache_further_in_are_free(tmp_path: Path) -> None:
+    kitchen = FunctionBackend(lambda _: LLMReply('{"scene_category": "kitchen"}', "gpt-4o", usage=USAGE))
+    backend = BudgetBackend(CacheBackend(kitchen, tmp_path), max_calls=1)
+    spend(backend, 1)
+    assert backend.tokens == 1200
+    again = BudgetBackend(CacheBackend(kitchen, tmp_path), max_calls=1)
+    spend(again, 3)
+    assert (again.tokens, again.report()["calls"]) == (0, 0)
 
 
 @pytest.mark.parametrize(

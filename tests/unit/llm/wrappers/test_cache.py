@@ -1,6 +1,7 @@
 """CacheBackend: what counts as the same question, and what happens to the files."""
 
 import asyncio
+import dataclasses
 import json
 import os
 import socket
@@ -12,10 +13,24 @@ from typing import Any
 import pytest
 
 from llm_server import GOOD, PNG, request
-from scene2hap import CacheBackend, FunctionBackend, LexiconBackend, LLMReply, LLMRequest, LocalBackend, OpenAIBackend
+from scene2hap import (
+    CacheBackend,
+    FunctionBackend,
+    LexiconBackend,
+    LLMReply,
+    LLMRequest,
+    LocalBackend,
+    OpenAIBackend,
+    RetryBackend,
+)
 from scene2hap.errors import BackendUnavailable, ConfigError
 
 ANSWER = LLMReply(json.dumps(GOOD["scene_analyzer"]), "m", usage={"prompt_tokens": 7})
+
+
+def plain(reply: LLMReply) -> LLMReply:
+    """The reply without the name under which it is kept."""
+    return dataclasses.replace(reply, key="")
 
 
 def answering(reply: LLMReply = ANSWER, model: str = "m") -> FunctionBackend:
@@ -45,10 +60,12 @@ def abandon(folder: Path, holder: dict[str, Any] | None = None, age_s: float = 0
 
 def test_second_question_is_answered_from_disk(tmp_path: Path) -> None:
     inner = answering()
-    assert ask(CacheBackend(inner, tmp_path)) == ANSWER
+    assert plain(ask(CacheBackend(inner, tmp_path))) == ANSWER
     again = CacheBackend(inner, tmp_path)
     reply = ask(again)
     assert (reply.text, reply.model, reply.usage) == (ANSWER.text, "m", {})
+    assert reply.is_kept
+    assert reply.key == files(tmp_path)[0].stem
     assert len(inner.requests) == 1
     assert again.report() == {"calls": 1, "hits": 1, "stored": 0, "rejected": 0, "unreadable": 0}
 
@@ -88,6 +105,8 @@ def test_models_do_not_answer_for_each_other(tmp_path: Path) -> None:
         OpenAIBackend(detail="high"),
         OpenAIBackend(seed=1),
         OpenAIBackend(max_tokens=9),
+        OpenAIBackend(top_p=0.5),
+        OpenAIBackend(reasoning_effort="none"),
         LocalBackend("gpt-4o", base_url="https://api.openai.com/v1"),
     ],
     ids=repr,
@@ -96,8 +115,67 @@ def test_identity_is_model_and_address_and_whatever_decides(other: OpenAIBackend
     assert other.identity != OpenAIBackend().identity
 
 
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"num_ctx": 8192},
+        {"max_tokens": 9},
+        {"top_p": 0.5},
+        {"seed": 1},
+        {"reasoning_effort": "none"},
+        {"chat_template_kwargs": {"enable_thinking": False}},
+        {"extra": {"top_k": 1}},
+    ],
+    ids=str,
+)
+def test_identity_of_a_local_backend_is_all_that_decides(settings: dict[str, Any]) -> None:
+    one, other = LocalBackend("m", base_url="http://a"), LocalBackend("m", base_url="http://a", **settings)
+    assert one.identity != other.identity
+    json.dumps(other.identity)  # a cache writes it
+
+
 def test_identity_has_nothing_that_does_not_decide() -> None:
     assert OpenAIBackend(api_key="sk-one").identity == OpenAIBackend(api_key="sk-two", timeout_s=5).identity
+
+
+def test_key_of_a_reply_names_its_file_from_the_first(tmp_path: Path) -> None:
+    reply = ask(CacheBackend(answering(), tmp_path))
+    assert not reply.is_kept
+    assert [reply.key] == [path.stem for path in files(tmp_path)]
+
+
+def test_identity_is_asked_for_when_it_is_known(tmp_path: Path) -> None:
+    """A local backend learns its model from the server, which may serve another one tomorrow."""
+
+    class Learning(FunctionBackend):
+        name = "first"
+
+        async def ready(self) -> None:
+            self.model = self.name
+
+    inner = Learning(lambda _: ANSWER, model="unknown")
+    backend = CacheBackend(RetryBackend(inner), tmp_path)
+    ask(backend)
+    inner.name = "second"
+    ask(backend)
+    assert len(inner.requests) == 2
+    assert [json.loads(path.read_text())["identity"]["model"] for path in files(tmp_path)] != ["unknown"] * 2
+
+
+def test_what_is_learnt_while_answering_is_in_the_key(tmp_path: Path) -> None:
+    """A guest's wrapper may hand `identity` on but not `ready`."""
+
+    def answer(_: LLMRequest) -> LLMReply:
+        inner.model = "learnt"
+        return ANSWER
+
+    inner = FunctionBackend(answer, model="unknown")
+    ask(CacheBackend(inner, tmp_path))
+    assert [json.loads(path.read_text())["identity"] for path in files(tmp_path)] == [{"model": "learnt"}]
+    assert ask(CacheBackend(answering(model="learnt"), tmp_path)).is_kept
+    inner.model = "unknown"
+    ask(CacheBackend(inner, tmp_path))
+    assert len(inner.requests) == 2
 
 
 def test_backend_that_does_not_tell_who_it_is(tmp_path: Path) -> None:
@@ -151,9 +229,21 @@ def test_file_that_cannot_be_read_back_is_written_again(tmp_path: Path, damage: 
     (entry,) = files(tmp_path)
     whole = entry.read_bytes()
     entry.write_bytes(whole.replace(entry.stem.encode(), b"0" * 64) if damage == "other key" else damage)
-    assert ask(backend) == ANSWER
+    assert plain(ask(backend)) == ANSWER
     assert entry.read_bytes() == whole
     assert backend.report()["unreadable"] == 1
+
+
+def test_an_answer_that_a_stricter_rule_forbids_is_asked_for_again(tmp_path: Path) -> None:
+    """Rules that are not in the schema, as for words, may change without changing the key."""
+    inner = answering()
+    backend = CacheBackend(inner, tmp_path)
+    ask(backend)
+    (entry,) = files(tmp_path)
+    kept = json.loads(entry.read_text(encoding="utf-8"))
+    entry.write_text(json.dumps({**kept, "text": '{"scene_category": ""}'}), encoding="utf-8")
+    assert ask(backend).text == ANSWER.text
+    assert len(inner.requests) == 2
 
 
 def test_write_that_fails_half_way_leaves_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -223,7 +313,7 @@ def test_stale_lock_is_taken_over(tmp_path: Path, age_s: float) -> None:
     inner = answering()
     ask(CacheBackend(inner, tmp_path))
     abandon(tmp_path, age_s=age_s)
-    assert ask(CacheBackend(inner, tmp_path, sleep=never)) == ANSWER
+    assert plain(ask(CacheBackend(inner, tmp_path, sleep=never))) == ANSWER
     assert [path.suffix for path in files(tmp_path)] == [".json"]
 
 
@@ -234,7 +324,7 @@ def test_lock_of_a_dead_process_is_taken_over(tmp_path: Path) -> None:
     inner = answering()
     ask(CacheBackend(inner, tmp_path))
     abandon(tmp_path, {"host": socket.gethostname(), "pid": gone.pid, "id": "a"})
-    assert ask(CacheBackend(inner, tmp_path, sleep=never)) == ANSWER
+    assert plain(ask(CacheBackend(inner, tmp_path, sleep=never))) == ANSWER
 
 
 @pytest.mark.parametrize(
@@ -257,7 +347,7 @@ def test_lock_that_may_be_held_is_respected(tmp_path: Path, holder: dict[str, An
         waits.append(wait_s)
         lock.unlink()
 
-    assert ask(CacheBackend(answering(), tmp_path, sleep=release)) == ANSWER
+    assert plain(ask(CacheBackend(answering(), tmp_path, sleep=release))) == ANSWER
     assert len(waits) == 1
 
 

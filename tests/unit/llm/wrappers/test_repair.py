@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -9,6 +10,7 @@ import pytest
 from llm_server import GOOD, PNG, request
 from scene2hap import FunctionBackend, LLMReply, LLMRequest, RepairBackend
 from scene2hap.errors import BadAnswer
+from scene2hap.llm.chat import UnusableAnswer
 from scene2hap.llm.validation import ANSWERS, find_fault
 
 OAK = GOOD["material_estimator"]
@@ -55,7 +57,9 @@ def test_numbers_that_are_none_are_asked_again_without_images(wrong: Any) -> Non
     assert inner.requests[1].images == ()
 
 
-@pytest.mark.parametrize("wrong", ["no JSON", '{"density_kg_m3": 700}', oak(more=1), "[]", oak(more=1, damping_ratio=7)])
+@pytest.mark.parametrize(
+    "wrong", ["no JSON", '{"density_kg_m3": 700}', oak(more=1), "[]", oak(more=1, damping_ratio=7)]
+)
 def test_other_faults_keep_the_images(wrong: str) -> None:
     inner = scripted(wrong, oak())
     asyncio.run(RepairBackend(inner).complete(ASKED))
@@ -90,6 +94,23 @@ def test_gives_up_with_the_last_raw_text() -> None:
     assert backend.report() == {"calls": 1, "repairs": 2, "given_up": 1}
 
 
+def test_the_error_carries_what_all_attempts_cost() -> None:
+    with pytest.raises(UnusableAnswer) as caught:
+        asyncio.run(RepairBackend(scripted("no", "no", "still no")).complete(ASKED))
+    assert (caught.value.model, caught.value.usage) == ("m", {"prompt_tokens": 30})
+
+
+def test_an_attempt_that_is_cut_short_carries_the_cost_of_those_before() -> None:
+    def answer(asked: LLMRequest) -> LLMReply:
+        if "Your last answer was" in asked.prompt:
+            raise UnusableAnswer("cut", model="m", usage={"prompt_tokens": 5})
+        return LLMReply("no", "m", usage={"prompt_tokens": 10})
+
+    with pytest.raises(UnusableAnswer, match="cut") as caught:
+        asyncio.run(RepairBackend(FunctionBackend(answer)).complete(ASKED))
+    assert caught.value.usage == {"prompt_tokens": 15}
+
+
 def test_no_repairs_still_validates() -> None:
     with pytest.raises(BadAnswer, match="0 repairs"):
         asyncio.run(RepairBackend(scripted("no"), 0).complete(ASKED))
@@ -121,3 +142,28 @@ def test_every_component_has_an_answer_that_an_empty_object_is_not(component: An
     assert fault is not None
     assert fault.needs_images
     assert "Field required" in fault.reason
+
+
+def described(sentence: str) -> str:
+    return json.dumps({"sentence": sentence, "keywords": "phone buzzing"})
+
+
+@pytest.mark.parametrize(
+    ("said", "heard", "calls"),
+    [
+        (["Phone buzzes on the table."], "Phone buzzes on the table.", 1),
+        (["A phone buzzes."], "A phone buzzes.", 1),
+        (["It buzzes.", "Phone buzzes."], "Phone buzzes.", 2),
+        (["It buzzes.", "It still buzzes."], "It buzzes.", 2),
+        (["It buzzes.", "word " * 30], "It buzzes.", 2),
+        (["word " * 30, "word " * 30, "It buzzes."], "It buzzes.", 3),
+    ],
+)
+def test_a_sentence_that_begins_otherwise_is_asked_again_once_and_never_lost(
+    said: list[str], heard: str, calls: int
+) -> None:
+    inner = scripted(*map(described, said))
+    asked = replace(ASKED, component="vibration_describer", facts={"object_category": "phone"})
+    reply = asyncio.run(RepairBackend(inner).complete(asked))
+    assert json.loads(reply.text)["sentence"] == heard
+    assert len(inner.requests) == calls

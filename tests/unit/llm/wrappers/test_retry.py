@@ -70,6 +70,31 @@ def test_what_waiting_cannot_help_is_raised_at_once(error: Exception) -> None:
     assert failing.waits_s == []
 
 
-def test_negative_retries() -> None:
+TOLD = BackendUnavailable("slow", retryable=True, retry_after_s=20.0)
+
+
+def test_waits_that_were_asked_for_count_apart_where_that_is_wanted() -> None:
+    failing = Failing(TOLD, AWAY, TOLD, AWAY, TOLD)
+    backend = RetryBackend(failing.backend, 2, told_retries=3, rng=random.Random(0), sleep=failing.sleep)
+    asyncio.run(backend.complete(request()))
+    assert [wait_s for wait_s in failing.waits_s if wait_s != 20.0] == pytest.approx([0.5, 1.0], rel=0.25)
+    assert failing.waits_s.count(20.0) == 3
+
+
+@pytest.mark.parametrize(
+    ("told_retries", "errors", "calls"),
+    [(3, [TOLD] * 9, 4), (3, [AWAY] * 9, 3), (0, [TOLD] * 9, 1), (None, [TOLD] * 9, 3), (None, [TOLD, AWAY] * 5, 3)],
+)
+def test_no_count_is_passed(told_retries: int | None, errors: list[Exception], calls: int) -> None:
+    failing = Failing(*errors)
+    backend = RetryBackend(failing.backend, 2, told_retries=told_retries, sleep=failing.sleep)
+    with pytest.raises(BackendUnavailable):
+        asyncio.run(backend.complete(request()))
+    assert len(failing.backend.requests) == calls
+    assert backend.report()["given_up"] == 1
+
+
+@pytest.mark.parametrize("settings", [{"retries": -1}, {"told_retries": -1}], ids=str)
+def test_negative_retries(settings: dict[str, int]) -> None:
     with pytest.raises(ConfigError, match="retries is -1"):
-        RetryBackend("lexicon", -1)
+        RetryBackend("lexicon", **settings)

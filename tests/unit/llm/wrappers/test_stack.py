@@ -1,7 +1,9 @@
 """Wrappers around wrappers, by hand and from a configuration."""
 
 import asyncio
+import itertools
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -19,8 +21,10 @@ from scene2hap import (
     RetryBackend,
     infer_haptics,
 )
-from scene2hap.errors import BackendUnavailable, BudgetExceeded, ConfigError
+from scene2hap.errors import BackendUnavailable, BadAnswer, BudgetExceeded, ConfigError
 from scene2hap.llm import BACKENDS
+from scene2hap.llm.protocol import LLMBackend
+from scene2hap.llm.wrappers import build_backend, reports, standard_stack
 from scenes import box, scene
 
 
@@ -71,7 +75,79 @@ def test_what_a_stack_recorded_can_be_replayed(tmp_path: Path) -> None:
 
     stack = RecordingBackend(RepairBackend(RetryBackend(FunctionBackend(answer), sleep=no_wait)), tape)
     recorded = asyncio.run(stack.complete(request()))
-    assert asyncio.run(ReplayBackend(tape).complete(request())) == recorded
+    assert asyncio.run(ReplayBackend(tape).complete(request())) == replace(recorded, is_kept=True)
+
+
+ORDERS = [
+    order
+    for order in itertools.permutations(["cache", "recording", "repair", "budget", "retry"])
+    if order.index("retry") > max(order.index("repair"), order.index("budget"))
+]
+
+
+@pytest.mark.parametrize("order", ORDERS, ids="-".join)
+def test_wrappers_compose_in_every_sensible_order(order: tuple[str, ...], tmp_path: Path) -> None:
+    """Retries next to the model, all else anywhere: a valid answer comes out, is kept and recorded, and asked once."""
+    answers = iter([json.dumps(GOOD["scene_analyzer"])])
+    inner = FunctionBackend(lambda _: next(answers))
+    wrap = {
+        "cache": lambda backend: CacheBackend(backend, tmp_path / "cache"),
+        "recording": lambda backend: RecordingBackend(backend, tmp_path / "tape.jsonl"),
+        "repair": RepairBackend,
+        "budget": lambda backend: BudgetBackend(backend, max_calls=2),
+        "retry": RetryBackend,
+    }
+    stack: LLMBackend = inner
+    for name in reversed(order):
+        stack = wrap[name](stack)
+    first, second = (asyncio.run(stack.complete(request())) for _ in range(2))
+    assert first.text == second.text == json.dumps(GOOD["scene_analyzer"])
+    assert len(inner.requests) == 1
+    assert asyncio.run(ReplayBackend(tmp_path / "tape.jsonl").complete(request())).text == first.text
+    assert stack.identity == {"model": "function"}  # type: ignore[attr-defined]
+
+
+def test_an_order_that_the_cache_cannot_live_with_is_named(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match="no `identity`"):
+        CacheBackend(RepairBackend("lexicon"), tmp_path)
+
+
+def test_standard_stack(tmp_path: Path) -> None:
+    stack = standard_stack({"kind": "openai", "model": "gpt-4.1"}, tmp_path, max_cost=5.0)
+    model = "OpenAIBackend('gpt-4.1', base_url='https://api.openai.com/v1')"
+    assert repr(stack) == f"CacheBackend(RepairBackend(BudgetBackend(RetryBackend({model}))))"
+    assert repr(standard_stack("openai")).startswith("RepairBackend(BudgetBackend(")
+    assert list(reports(stack)) == ["CacheBackend", "RepairBackend", "BudgetBackend", "RetryBackend"]
+
+
+def test_limits_of_the_standard_stack_hold(tmp_path: Path) -> None:
+    stack = standard_stack(FunctionBackend(lambda _: "no"), tmp_path, repairs=1, max_calls=3)
+    with pytest.raises(BadAnswer, match="after 1 repairs"):
+        asyncio.run(stack.complete(request()))
+    with pytest.raises(BudgetExceeded):
+        asyncio.run(stack.complete(request()))
+    assert reports(stack)["BudgetBackend"]["calls"] == 3
+
+
+@pytest.mark.parametrize(
+    ("spec", "built"),
+    [
+        ("openai", "RepairBackend"),
+        ({"kind": "local", "model": "m", "base_url": "http://127.0.0.1/v1"}, "RepairBackend"),
+        ("lexicon", "LexiconBackend"),
+        ({"kind": "retry", "inner": "openai"}, "RetryBackend"),
+        (OpenAIBackend(), "OpenAIBackend"),
+        (FunctionBackend(lambda _: ""), "FunctionBackend"),
+        (3, "int"),
+    ],
+    ids=str,
+)
+def test_a_configuration_gets_the_standard_stack_where_it_needs_one(spec: object, built: str) -> None:
+    assert type(build_backend(spec)).__name__ == built
+
+
+def test_a_configuration_gets_the_cache_it_names(tmp_path: Path) -> None:
+    assert isinstance(build_backend("openai", tmp_path), CacheBackend)
 
 
 def test_a_chain_through_all_of_them_is_paid_for_once(tmp_path: Path) -> None:
@@ -86,6 +162,8 @@ def test_a_chain_through_all_of_them_is_paid_for_once(tmp_path: Path) -> None:
         infer_haptics(kitchen, CacheBackend(RepairBackend(RetryBackend(inner)), tmp_path / "cache")) for _ in range(2)
     ]
     assert found[0] == found[1]
-    assert found[0] == infer_haptics(kitchen, inner)
+    bare = infer_haptics(kitchen, inner)
+    # Provenance names the cache's file where there is one; all else is the same.
+    assert {name: replace(haptics, provenance=bare[name].provenance) for name, haptics in found[0].items()} == bare
     # The second run with a cache asked nothing, the one without asked all of it again.
     assert len(inner.requests) == 2 * len({asked.prompt for asked in inner.requests})

@@ -1,0 +1,56 @@
+"""What OpenAI says that must not be parsed, in the order in which it is looked at."""
+
+from typing import Any
+
+import pytest
+
+from llm_asking import ask, failed, openai
+from llm_server import Scripted, refused, said
+from openai_schema import openai_serving
+from scene2hap import (
+    RepairBackend,
+)
+from scene2hap.errors import BadAnswer
+
+
+def test_length_comes_before_everything_else() -> None:
+    script = said('{"scene_category": "kit', "length", refusal="no")
+    with openai_serving(script) as server, pytest.raises(BadAnswer, match="cut off at its token limit") as caught:
+        ask(openai(server))
+    assert caught.value.raw_text == '{"scene_category": "kit'
+
+
+def test_content_filter_comes_before_refusal() -> None:
+    script = said(None, "content_filter", refusal="no")
+    with openai_serving(script) as server, pytest.raises(BadAnswer, match="content filter"):
+        ask(openai(server))
+
+
+def test_refusal_is_told_and_not_repaired() -> None:
+    script = said(None, refusal="I cannot help with that.")
+    with openai_serving(script) as server, pytest.raises(BadAnswer, match="refused: I cannot help with that") as caught:
+        ask(RepairBackend(openai(server)))
+    assert caught.value.raw_text == "I cannot help with that."
+    assert len(server.asked) == 1
+
+
+def test_null_content_is_a_bad_answer() -> None:
+    with openai_serving(said(None)) as server, pytest.raises(BadAnswer, match="without content"):
+        ask(openai(server))
+
+
+@pytest.mark.parametrize("body", [{}, {"choices": []}, {"choices": [{}]}, {"choices": ["a"]}, {"choices": {"a": 1}}])
+def test_success_without_a_chat_completion(body: dict[str, Any]) -> None:
+    with openai_serving(Scripted(body)) as server, pytest.raises(BadAnswer, match="no chat completion"):
+        ask(openai(server))
+
+
+@pytest.mark.parametrize("body", [b"<html>hello</html>", b"[1]", b"\xff\xfe", b"[" * 100_000, b""])
+def test_success_without_json_is_no_model_server(body: bytes) -> None:
+    error = failed(Scripted(body))
+    assert "without a JSON object. Check base_url" in str(error)
+    assert not error.retryable
+
+
+def test_an_error_under_status_200_is_an_error() -> None:
+    assert "provider is away" in str(failed(refused(200, {"message": "provider is away"})))

@@ -1,0 +1,35 @@
+"""Settings of backends that cannot work."""
+
+from typing import Any
+
+import pytest
+
+from scene2hap import (
+    LocalBackend,
+    OpenAIBackend,
+)
+from scene2hap.errors import ConfigError
+
+
+@pytest.mark.parametrize(
+    ("make", "named"),
+    [
+        (lambda: OpenAIBackend(detail="original"), "detail is 'original'"),
+        (lambda: OpenAIBackend(base_url="api.openai.com"), "base_url is 'api.openai.com'"),
+        (lambda: OpenAIBackend(timeout_s=0), "timeout_s is 0 s"),
+        (lambda: OpenAIBackend(api_key=b"secret"), "an API key is a bytes"),
+        (lambda: OpenAIBackend(top_p=0), "top_p is 0"),
+        (lambda: OpenAIBackend(max_tokens=0), "max_tokens is 0 tokens"),
+        (lambda: LocalBackend("m", base_url="http://a", top_p=1.5), "top_p is 1.5"),
+        (lambda: LocalBackend("m", base_url="http://a", extra={"messages": []}), "extra sets messages"),
+        (
+            lambda: LocalBackend("m", base_url="http://a", dialect="ollama", chat_template_kwargs={}),
+            "Ollama has no chat_template_kwargs",
+        ),
+        (lambda: LocalBackend("m", base_url="http://a", dialect="tgi"), "dialect is 'tgi'"),
+        (lambda: LocalBackend("m", base_url="http://a", num_ctx=0), "num_ctx is 0 tokens"),
+    ],
+)
+def test_settings_that_cannot_work(make: Any, named: str) -> None:
+    with pytest.raises(ConfigError, match=named):
+        make()

@@ -1,0 +1,65 @@
+"""What OpenAI's published description says of a chat completion, held against requests and scripted answers."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+from referencing import Registry, Resource
+from referencing.jsonschema import DRAFT202012
+
+from llm_server import Scripted, Server, serving
+
+SCHEMA = Path(__file__).parents[2] / "shared" / "formats" / "openai" / "chat_completions.schema.json"
+
+
+def require_schema() -> None:
+    if not SCHEMA.exists():
+        pytest.skip("needs ../shared/formats/openai, which is not beside this repository")
+
+
+@cache
+def _spec() -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(SCHEMA.read_text(encoding="utf-8"))
+    return found
+
+
+@cache
+def _validator(name: str) -> jsonschema.Draft202012Validator:
+    registry = Registry().with_resource("urn:openai", Resource(_spec(), DRAFT202012))
+    return jsonschema.Draft202012Validator({"$ref": f"urn:openai#/components/schemas/{name}"}, registry=registry)
+
+
+def assert_openai_takes(body: dict[str, Any]) -> None:
+    """The schema lets unknown keys pass; OpenAI does not."""
+    _validator("CreateChatCompletionRequest").validate(body)
+    assert set(body) <= _known_keys({"$ref": "#/components/schemas/CreateChatCompletionRequest"})
+
+
+def assert_openai_says(reply: Scripted) -> None:
+    if reply.claims:
+        _validator(reply.claims).validate(reply.body)
+
+
+@contextmanager
+def openai_serving(*script: Scripted, **how: Any) -> Iterator[Server]:
+    """`serving`, and afterwards a check of each request, and of each answer that claims to be OpenAI's."""
+    with serving(*script, **how) as server:
+        yield server
+    if SCHEMA.exists():
+        for body in server.bodies:
+            assert_openai_takes(body)
+        for reply in server.answered:
+            assert_openai_says(reply)
+
+
+def _known_keys(node: dict[str, Any]) -> set[str]:
+    if "$ref" in node:
+        return _known_keys(_spec()["components"]["schemas"][node["$ref"].rsplit("/", 1)[1]])
+    return set(node.get("properties", {})).union(*(_known_keys(part) for part in node.get("allOf", ())))

@@ -1,0 +1,71 @@
+"""Whether the wrap of a loop stands out among ordinary places of the sound that it was cut from.
+
+Three statistics around a position p of a sound x (n,), each compared with its own values at random positions:
+level [dB] of the 100 ms around p; the largest of the four steps between the five samples around p; and the mean
+distance [dB] between the third-octave levels of the 100 ms before p and of those after it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.fft
+from numpy.typing import NDArray
+
+WINDOW_S = 0.1
+N_POSITIONS = 200
+LEVEL_SLACK_DB = 0.5
+STEP_RATIO = 1.1
+DISTANCE_SLACK_DB = 0.5
+FLOOR_DB = 60.0
+"""Bands this far below the loudest count as that far below: what is deeper is masked, and between the partials of a
+synthetic tone there is nothing but the side lobes of the window."""
+
+Signal = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """How far the wrap lies outside of what the sound does anyway; nothing at or below 0 stands out."""
+
+    level_db: float
+    step_ratio: float
+    distance_db: float
+
+    @property
+    def passes(self) -> bool:
+        return self.level_db <= LEVEL_SLACK_DB and self.step_ratio <= STEP_RATIO and self.distance_db <= DISTANCE_SLACK_DB
+
+
+def judge(loop: Signal, clip: Signal, rate: int, rng: np.random.Generator) -> Verdict:
+    """The wrap of `loop` (n,) against `N_POSITIONS` random positions inside `clip` (m,)."""
+    width = round(WINDOW_S * rate)
+    around = np.concatenate([loop[-width:], loop[:width]])
+    places = rng.integers(width, len(clip) - width, N_POSITIONS)
+    level, step, distance = _statistics(np.vstack([around, clip[places[:, None] + np.arange(-width, width)]]), rate)
+    return Verdict(
+        level_db=max(level[0] - level[1:].max(), level[1:].min() - level[0]),
+        step_ratio=step[0] / step[1:].max(),
+        distance_db=distance[0] - distance[1:].max(),
+    )
+
+
+def _statistics(stretches: Signal, rate: int) -> tuple[Signal, Signal, Signal]:
+    """Level, step and distance in the middle of each stretch (n_stretches, 2 width)."""
+    width = stretches.shape[1] // 2
+    middle = stretches[:, width - width // 2 : width + width // 2]
+    level_db = 10 * np.log10(np.mean(middle**2, axis=1) + 1e-20)
+    step = np.abs(np.diff(stretches[:, width - 2 : width + 3], axis=1)).max(axis=1)
+    before, after = _third_octaves_db(stretches[:, :width], rate), _third_octaves_db(stretches[:, width:], rate)
+    floor = np.maximum(before.max(axis=1), after.max(axis=1))[:, None] - FLOOR_DB
+    return level_db, step, np.abs(np.maximum(before, floor) - np.maximum(after, floor)).mean(axis=1)
+
+
+def _third_octaves_db(x: Signal, rate: int) -> Signal:
+    """Levels of the base-ten third octaves from 20 Hz up (n, n_bands), of stretches (n, width) under a Hann window."""
+    power = np.abs(scipy.fft.rfft(x * np.hanning(x.shape[1]), axis=1)) ** 2
+    frequencies = np.arange(power.shape[1]) * rate / x.shape[1]
+    edges = 10 ** np.arange(1.25, np.log10(frequencies[-1]), 0.1)
+    starts = np.unique(np.searchsorted(frequencies, edges))
+    return 10 * np.log10(np.add.reduceat(power, starts[:-1], axis=1) + 1e-20)

@@ -1,0 +1,39 @@
+"""The dated list of prices."""
+
+from datetime import date
+
+import pytest
+
+from scene2hap import Price
+from scene2hap.llm.wrappers import price_list
+
+
+def test_the_list_says_of_when_and_from_where_it_is() -> None:
+    listed = price_list()
+    assert date.fromisoformat(listed.date) >= date(2026, 1, 1)
+    assert "genai-prices" in listed.source
+
+
+@pytest.mark.parametrize(
+    ("model", "price"),
+    [
+        ("gpt-4o", Price(2.5, 10.0)),
+        ("gpt-4o-2024-08-06", Price(2.5, 10.0)),
+        ("gpt-4o-2024-05-13", Price(5.0, 15.0)),  # the one snapshot that is dearer than its model
+        ("gpt-4o-mini-2024-07-18", Price(0.15, 0.6)),
+        ("gpt-4", None),
+        ("llava", None),
+        ("gpt-4o-2024-08", None),
+        ("", None),
+    ],
+)
+def test_models_their_snapshots_and_strangers(model: str, price: Price | None) -> None:
+    assert price_list().of(model) == price
+
+
+def test_own_prices_are_beside_or_instead_of_the_listed() -> None:
+    own = price_list({"llava": (0.0, 0.0), "gpt-4o": Price(1.0, 2.0)})
+    assert own.of("llava") == Price(0.0, 0.0)
+    assert own.of("gpt-4o-2024-11-20") == Price(1.0, 2.0)
+    assert own.of("gpt-4.1") == price_list().of("gpt-4.1")
+    assert price_list().of("gpt-4o") == Price(2.5, 10.0)
