@@ -42,7 +42,8 @@ def test_any_name_is_read_and_unknown_ones_are_unsure(name: str) -> None:
 def test_any_object_gets_a_valid_answer(name: str, length: float, width: float, height: float, near: list[str]) -> None:
     facts = {"object_name": name, "length_m": length, "width_m": width, "thickness_m": height, "neighbour_names": near}
     found = answer("object_analyzer", ObjectAnswer, facts)
-    assert (found.estimated_length_m, found.estimated_width_m) == (length, width)
+    # The answer is bounded; what is larger than 100 km is a scene in a wrong unit.
+    assert (found.estimated_length_m, found.estimated_width_m) == (min(length, 1e5), min(width, 1e5))
     assert found.vibrates == bool(found.states)
     assert found.object_category != "unknown" or not found.vibrates
     assert found == answer("object_analyzer", ObjectAnswer, facts)

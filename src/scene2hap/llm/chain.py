@@ -10,6 +10,7 @@ Source: Jingu, AliAbbasi et al., Scene2Hap, CHI 2026, section "LLM Workflow and 
 from __future__ import annotations
 
 import asyncio
+from collections import Counter
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -170,6 +171,7 @@ class _Chain:
             "thickness_m": thickness,
             "relative_height_m": item.relative_height_m,
             "surface_flags": list(item.surface.flags),
+            "material_names": _material_names(item),
             "neighbour_names": [self._scene.object(other).name for other in self._graph.neighbours(item.id)],
         }
         images = item.images.together if item.images is not None else ()
@@ -288,6 +290,15 @@ async def _scene_category(scene: SceneSnapshot, questions: Questions) -> str:
         questions.report.errors[""] = str(problem)
         return "undefined"
     return answer.scene_category
+
+
+def _material_names(item: SceneObject) -> list[str]:
+    """What the author called the materials of an object, those of most faces first."""
+    looks = item.appearance
+    if looks is None:
+        return []
+    by_faces = Counter(looks.face_material.tolist())
+    return list(dict.fromkeys(name for index, _ in by_faces.most_common() if (name := looks.materials[index].name)))
 
 
 def _word(category: str) -> str:

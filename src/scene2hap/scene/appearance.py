@@ -23,13 +23,18 @@ class FaceMaterial:
     """What some faces are painted with.
 
     `color_rgba` : sRGB and opacity, 0..1 [-]; `texture` : (height, width, 3 or 4) uint8 sRGB, or None; both multiply.
-    A texture may be given as its file's content, and is then decoded when it is first read.
+    A texture may be given as its file's content, and is then decoded when it is first read. `name` is what its author
+    called it, "" where that is not known; it does not count among the looks.
     """
 
     def __init__(
-        self, color_rgba: Rgba = (0.8, 0.8, 0.8, 1.0), texture: NDArray[np.uint8] | EncodedTexture | None = None
+        self,
+        color_rgba: Rgba = (0.8, 0.8, 0.8, 1.0),
+        texture: NDArray[np.uint8] | EncodedTexture | None = None,
+        name: str = "",
     ) -> None:
         self.color_rgba = color_rgba
+        self.name = name
         self._texture = texture
 
     @property
@@ -42,10 +47,14 @@ class FaceMaterial:
         """Whether a texture was given; nothing is decoded to tell."""
         return self._texture is not None
 
+    def untextured(self) -> FaceMaterial:
+        """Its colour alone."""
+        return FaceMaterial(self.color_rgba, name=self.name)
+
     def tinted(self, color_rgba: Rgba) -> FaceMaterial:
         """The same texture, if any, in the product of both colours."""
         r, g, b, a = (own * tint for own, tint in zip(self.color_rgba, color_rgba, strict=True))
-        return FaceMaterial((r, g, b, a), self._texture)
+        return FaceMaterial((r, g, b, a), self._texture, self.name)
 
     @cached_property
     def digest(self) -> str:

@@ -140,7 +140,7 @@ class _Reader:
         if paint is not None and material.has_texture:
             stored = corners(f"TEXCOORD_{paint.uv_set}", ("VEC2",), slice(2))
             if stored is None:
-                material = FaceMaterial(material.color_rgba)
+                material = material.untextured()
             else:
                 uv = (stored @ paint.transform[:, :2].T + paint.transform[:, 2]).astype(np.float32)
         colors = corners("COLOR_0", ("VEC3", "VEC4"), slice(4)) if is_colored else None

@@ -66,17 +66,18 @@ class GltfMaterials:
         keeps_alpha = row.get("alphaMode") in ("MASK", "BLEND")
         r, g, b = srgb((r, g, b)).tolist()
         rgba = (r, g, b, min(max(a, 0.0), 1.0) if keeps_alpha else 1.0)
+        name = str(row.get("name", ""))
         if not isinstance(info, dict):
-            return Paint(FaceMaterial(rgba))
+            return Paint(FaceMaterial(rgba, name=name))
         place = f"{place}, its texture"
         try:
             texture = self._texture(info.get("index"), place, keeps_alpha)
             transform = _object(_object(info.get("extensions")).get("KHR_texture_transform"))
             uv_set = natural(transform.get("texCoord", info.get("texCoord", 0)), f"{place}.texCoord")
-            return Paint(FaceMaterial(rgba, texture), uv_set, _affine(transform, place))
+            return Paint(FaceMaterial(rgba, texture, name), uv_set, _affine(transform, place))
         except SceneError as error:
             self.textures.refuse(place, str(error))
-            return Paint(FaceMaterial(rgba))
+            return Paint(FaceMaterial(rgba, name=name))
 
     def _texture(self, number: object, place: str, keeps_alpha: bool) -> EncodedTexture | None:
         row = self._row("textures", number, place)

@@ -39,7 +39,7 @@ class MtlMaterial:
     def appearance(self, n_faces: int, uv: NDArray[np.float64] | None) -> Appearance:
         """The looks of faces whose corners have coordinates uv (m, 3, 2), v running up; None if they have none."""
         if uv is None or not self.paint.has_texture:
-            return Appearance.plain(FaceMaterial(self.paint.color_rgba), n_faces)
+            return Appearance.plain(self.paint.untextured(), n_faces)
         image = uv * self.scale + self.offset
         image[..., 1] = 1.0 - image[..., 1]
         return Appearance.plain(self.paint, n_faces, image.astype(np.float32))
@@ -81,12 +81,12 @@ class MtlLibraries:
         r, g, b, a = (min(max(channel, 0.0), 1.0) for channel in (*color, opacity))
         file, lies = _texture(rows.get("map_kd", ""))
         if not file:
-            return MtlMaterial(FaceMaterial((r, g, b, a)))
+            return MtlMaterial(FaceMaterial((r, g, b, a), name=name))
         texture = self.textures.from_file(_uri(file), f"material {name!r}", keeps_alpha="map_d" in rows)
         # Exporters that leave all colour to the texture write black or nothing, which would hide it.
         if texture is not None and (r == g == b == 0.0 or "kd" not in rows):
             r = g = b = 1.0
-        return replace(lies, paint=FaceMaterial((r, g, b, a), texture))
+        return replace(lies, paint=FaceMaterial((r, g, b, a), texture, name))
 
 
 def _blocks(text: str) -> Iterator[tuple[str, dict[str, str]]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from scene2hap.llm.answers import ObjectAnswer, StateAnswer
 from scene2hap.llm.lexicon.making import make, painted_with
@@ -19,6 +19,7 @@ _GIANT = 3.0
 _MINIATURE_TRUST = 0.8
 _GIANT_TRUST = 0.5
 
+_LARGEST_M = 1e5  # the bound of ObjectAnswer; only a scene in a wrong unit has larger things
 _THINNEST_M = 1e-3  # a plate measured below this is taken as modelled without thickness
 _MINIATURE_MATERIAL = "plastic"  # assumed for all of them
 _MINIATURE_THICKNESS_M = 2e-3  # assumed
@@ -40,6 +41,8 @@ class Measured:
 
 def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
     """The Object Analyzer's answer; category "unknown", silent and unsure where the name says nothing."""
+    length, width, thickness = (min(edge, _LARGEST_M) for edge in item.size_m)
+    item = replace(item, size_m=(length, width, thickness))
     reading = read_name(item.name)
     if reading.row is None:
         return _unknown(item, reading)
@@ -137,7 +140,11 @@ def _thickness(item: Measured, plausible_m: float, category: str) -> tuple[float
 
 
 def _states(row: ObjectRow, neighbour_names: Sequence[str]) -> tuple[list[StateAnswer], str]:
-    """The states that hold here, and why; a pan's only where it touches something that heats it."""
+    """The states that hold here, and why; a pan's only where it touches something that heats it.
+
+    A pan that touches nothing (held in the air, or looked at by itself) is not known to stand elsewhere: its states are
+    told with the heater that they wait for. On a table it is still, as in the paper, section "Study 1".
+    """
     own = [state for state in row.states if not state.needs_contact]
     if own:
         doing = ", ".join(f"{state.verb} when {state.name}" for state in own)
@@ -151,6 +158,9 @@ def _states(row: ObjectRow, neighbour_names: Sequence[str]) -> tuple[list[StateA
     ]
     if heated:
         return [_state(state, noun) for state, noun in heated], f"it touches the {heated[0][1]}, which can heat it."
+    if row.states and not neighbour_names:
+        waiting = [_state(state, state.needs_contact[0]) for state in row.states]
+        return waiting, f"it touches nothing here; on a {row.states[0].needs_contact[0]} its content is heated."
     if row.states:
         heaters = ", ".join(row.states[0].needs_contact)
         return [], f"a {row.noun} is still by itself; it would be heard only on one of: {heaters}; it touches none."

@@ -25,9 +25,7 @@ def painted_with(material_names: Sequence[str]) -> str | None:
     return told.pop() if len(told) == 1 else None
 
 
-def make(
-    reading: NameReading, row: ObjectRow, scene_category: str, material_names: Sequence[str]
-) -> tuple[str, float]:
+def make(reading: NameReading, row: ObjectRow, scene_category: str, material_names: Sequence[str]) -> tuple[str, float]:
     """Material and plate thickness [m]: the table's, the whole's for a part, or what name, paint or place tell.
 
     A machine keeps its own: beside a machine an adjective tells what it works on (wood chipper, metal saw).

@@ -39,10 +39,10 @@ _PRIMITIVE = re.compile(r"box\d+", re.IGNORECASE)
 class NameReading:
     """What an authored name says.
 
-    `name` is what was read; `words` are its words in lower case; `row` is the table's row or None; `confidence` is 0..1 and at most 0.2 where
-    `row` is None. `head` is the recognised part, `unread` the words that nothing knows, `material` a material that an
-    adjective names, `toy` whether the name itself denies that it is the real thing, `whole` the thing that a part
-    belongs to (the oven of an oven door).
+    `name` is what was read; `words` are its words in lower case; `row` is the table's row or None; `confidence` is 0..1
+    and at most 0.2 where `row` is None. `head` is the recognised part, `unread` the words that nothing knows,
+    `material` a material that an adjective names, `toy` whether the name itself denies that it is the real thing,
+    `whole` the thing that a part belongs to (the oven of an oven door).
     """
 
     name: str

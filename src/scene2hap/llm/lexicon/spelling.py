@@ -18,11 +18,11 @@ _SLIP = 0.6
 _SHORTEST_PIECE = 3  # letters; shorter pieces cut up any word
 _SHORT_PIECES = frozenset({"tv", "pc"})
 _LONGEST_RUN = 40  # letters; nobody writes longer words
-_SHORTEST_SLIP = 7  # letters; in shorter words one letter is another word too often
+_SHORTEST_SLIP = 8  # letters; in shorter words one letter is another word too often (certain, curtain)
 
 
 def read_words(name: str) -> tuple[list[str], float]:
-    """The words of a name, foreign ones translated, run-together ones cut, slips mended; and the trust in that [0..1]."""
+    """The words of a name, foreign ones translated, run-together ones cut, slips mended; and the trust in it [0..1]."""
     trust = 1.0
     tokens: list[str] = []
     for word in _without_shades(split_words(name)):
@@ -95,12 +95,19 @@ def _cut(word: str) -> tuple[str, ...]:
     return best[-1] or ()
 
 
+@lru_cache(maxsize=4096)
 def _is_piece(text: str) -> bool:
+    """Whether a word can stand in a run-together one: a noun of its own or a word beside nouns, no fragment."""
     if text in _SHORT_PIECES:
         return True
     if len(text) < _SHORTEST_PIECE or text in words.PREPOSITIONS:
         return False
-    return any(form in _vocabulary() or form in side_words() for form in words.forms(text))
+    return any(form in _whole_words() and _is_long_enough(form) for form in words.forms(text))
+
+
+def _is_long_enough(form: str) -> bool:
+    # Three letters of an exporter ("con", "env", "ver") are found in any word.
+    return len(form) > _SHORTEST_PIECE or (len(form) == _SHORTEST_PIECE and form not in words.TOOL_WORDS)
 
 
 def _meant(word: str) -> str | None:
@@ -138,6 +145,11 @@ def _vocabulary() -> frozenset[str]:
     """Every word that can be part of a noun or tells its place or material."""
     parts = {part for _, spelled in nouns().values() for part in spelled}
     return frozenset({*nouns(), *parts, *words.PLACE_WORDS, *words.MATERIAL_WORDS})
+
+
+@cache
+def _whole_words() -> frozenset[str]:
+    return frozenset({*nouns(), *words.MATERIAL_WORDS}) | side_words()
 
 
 @cache

@@ -135,7 +135,7 @@ LEFTOVER_NOUNS = frozenset({"mat", "trash", "orange", "cream", "mobile", "house"
 """Nouns that after another noun are none: exporters write "Burner_mat_0", designers "ham_trash", "sofa_orange" and
 "counter_backsplash", which is a counter that has one."""
 
-SHELLS = frozenset({"wall", "brick wall", "concrete wall", "dungeon wall"})
+SHELLS = frozenset({"wall", "brick wall", "concrete wall", "dungeon wall", "tile"})
 OPENINGS = frozenset({"window", "door", "doorway", "arch", "gate", "window frame"})
 """Building kits name a piece of wall by the opening in it: "wall_window_closed" is a wall."""
 

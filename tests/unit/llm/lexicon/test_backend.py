@@ -52,9 +52,6 @@ def test_replies_name_the_table_and_repeat_themselves() -> None:
     assert json.loads(first.text)
 
 
-# --- scenes -----------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("names", "place"),
     [
@@ -83,9 +80,6 @@ def test_scene_name_is_a_weak_hint() -> None:
     assert place("Garage", "bathtub", "toilet") == "bathroom"
     assert place("Kitchen", "Object_1") == "undefined"
     assert place("Gym", "toilet", "bathtub", "treadmill", "barbell") == "gym"
-
-
-# --- objects ----------------------------------------------------------------------------------------------------------
 
 
 def test_refrigerator_hums() -> None:
@@ -133,8 +127,8 @@ def test_giants_are_doubted_but_heard() -> None:
 
 
 def test_thickness_is_replaced_only_where_the_mesh_has_none() -> None:
-    flat = analyse("FloorB_01", (5.0, 4.0, 0.0))
-    flagged = analyse("floor", (5.0, 4.0, 0.3), surface_flags=["zero-thickness"])
+    flat = analyse("FloorB_01", (5.0, 4.0, 0.0), scene_category="bedroom")
+    flagged = analyse("floor", (5.0, 4.0, 0.3), surface_flags=["zero-thickness"], scene_category="bedroom")
     solid = analyse("floor", (5.0, 4.0, 0.3), surface_flags=["open-mesh"])
     assert flat.estimated_thickness_m == flagged.estimated_thickness_m == 0.022
     assert "assumed" in flat.size_reason
@@ -150,12 +144,17 @@ def test_pan_sizzles_on_what_heats_it(heater: str) -> None:
     assert state.needs_contact == analyse(heater, (0.6, 0.6, 0.6)).object_category
 
 
-@pytest.mark.parametrize("neighbours", [[], ["table"], ["oven_door", "pot"], ["toy_stove"], ["Object_3"]])
+@pytest.mark.parametrize("neighbours", [["table"], ["oven_door", "pot"], ["toy_stove"], ["Object_3"]])
 def test_pan_is_still_elsewhere(neighbours: list[str]) -> None:
     answer = analyse("pan", neighbour_names=neighbours)
     assert not answer.vibrates
     assert answer.states == []
     assert "stove" in answer.vibration_reason
+
+
+def test_pan_that_touches_nothing_waits_for_a_stove() -> None:
+    (state,) = analyse("pan").states
+    assert state.needs_contact == analyse("stove").object_category
 
 
 def test_what_a_neighbour_shakes_does_not_vibrate() -> None:
@@ -168,7 +167,9 @@ def test_what_a_neighbour_shakes_does_not_vibrate() -> None:
         ("door", "wood"),
         ("glass_door", "glass"),
         ("oven_door", "steel"),
-        ("MetalTable", "metal"),
+        ("MetalBench", "metal"),
+        ("crate_lid", "wood"),
+        ("pot_lid", "stainless steel"),
         ("wood_chipper", "steel"),  # it chips wood
         ("toy_truck", "plastic"),
         ("wooden_toy_truck", "wood"),
@@ -178,7 +179,33 @@ def test_material(name: str, material: str) -> None:
     assert analyse(name).material_category == material
 
 
-# --- materials --------------------------------------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("name", "place", "material"),
+    [
+        ("floor", "bathroom", "ceramic"),
+        ("floor_kitchen", "undefined", "ceramic"),
+        ("wooden_floor", "bathroom", "wood"),
+        ("floor", "living room", "wood"),
+    ],
+)
+def test_floors_of_wet_rooms_are_tiled(name: str, place: str, material: str) -> None:
+    assert analyse(name, scene_category=place).material_category == material
+
+
+@pytest.mark.parametrize(
+    ("name", "painted", "material"),
+    [
+        ("chair", ["M_Metal_Brushed"], "metal"),
+        ("chair", ["wood_oak", "Oak.001"], "oak"),
+        ("chair", ["wood_oak", "fabric_red"], "wood"),  # two materials: the table decides
+        ("glass_table", ["wood"], "glass"),  # the object's own name goes first
+        ("fridge", ["wood"], "steel"),  # a machine keeps its own
+        ("Object_7", ["Marble_White"], "marble"),
+        ("Object_7", ["Material.001", "lambert1"], "unknown"),
+    ],
+)
+def test_names_of_surface_materials_tell_where_they_agree(name: str, painted: list[str], material: str) -> None:
+    assert analyse(name, material_names=painted).material_category == material
 
 
 def test_material_constants_come_from_the_table_in_gigapascal() -> None:
@@ -195,9 +222,6 @@ def test_every_material_of_the_lexicon_fits_the_answer() -> None:
 def test_material_that_nobody_knows_is_no_answer(word: str) -> None:
     with pytest.raises(BadAnswer, match="table"):
         ask("material_estimator", material_category=word)
-
-
-# --- descriptions -----------------------------------------------------------------------------------------------------
 
 
 def test_describes_every_state_of_the_table() -> None:
@@ -222,9 +246,6 @@ def test_category_that_the_table_lacks_is_described_by_its_state() -> None:
     assert describe("vibrating plate", "vibrating").keywords == "plate humming"
 
 
-# --- facts ------------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("component", "facts", "named"),
     [
@@ -233,6 +254,11 @@ def test_category_that_the_table_lacks_is_described_by_its_state() -> None:
         ("scene_analyzer", {"scene_name": "a", "object_names": "fridge"}, "object_names"),
         ("scene_analyzer", {"scene_name": "a", "object_names": [1]}, "object_names"),
         ("object_analyzer", {"object_name": "a", "length_m": 1.0, "width_m": 1.0}, "thickness_m"),
+        (
+            "object_analyzer",
+            {"object_name": "a", "length_m": 1.0, "width_m": 1.0, "thickness_m": 1.0, "material_names": "oak"},
+            "material_names",
+        ),
         ("object_analyzer", {"object_name": "a", "length_m": -1.0, "width_m": 1.0, "thickness_m": 1.0}, "length_m"),
         ("material_estimator", {}, "material_category"),
         ("vibration_describer", {"object_category": "fridge"}, "state"),

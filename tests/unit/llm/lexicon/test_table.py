@@ -1,12 +1,14 @@
 """The table of objects: whole, unambiguous, and speaking of materials that exist."""
 
 import csv
+from collections import Counter
 from importlib.resources import files
 
 import pytest
 
 from scene2hap import materials
-from scene2hap.llm.lexicon import words
+from scene2hap.errors import UnknownMaterial
+from scene2hap.llm.lexicon import stand_ins, words
 from scene2hap.llm.lexicon.names import read_name
 from scene2hap.llm.lexicon.table import PLACES, ObjectRow, table
 
@@ -16,7 +18,7 @@ VIBRATING = """
     tablet laptop computer printer copier shredder projector television radio speaker subwoofer stereo heater
     boiler clock
     drill jigsaw chainsaw sander compressor generator lathe engine car truck excavator jackhammer crane pump fountain
-    treadmill server
+    treadmill server stove cooktop burner toaster iron ambulance waterfall barbecue
 """
 VIBRATING_WORDS = [
     *VIBRATING.split(),
@@ -51,8 +53,8 @@ VIBRATING_WORDS = [
 ]
 SILENT = """
     plate chair wall towel table bowl mirror lamp chandelier portrait board carpet rug mat vase sofa curtain wardrobe
-    desk ball dumbbell window toilet bathtub sink tap crate bottle jar stool plant tomato router radiator toaster piano
-    stove floor ceiling door stairs worktop counter shelf cabinet drawer handle knob bed
+    desk ball dumbbell window bathtub sink crate bottle jar stool plant tomato router radiator piano guitar
+    floor ceiling door stairs worktop counter shelf cabinet drawer handle knob bed monitor hammer wheelbarrow sword
 """
 SILENT_WORDS = [
     *SILENT.split(),
@@ -61,12 +63,11 @@ SILENT_WORDS = [
         "trash bin",
         "shoe rack",
         "night stand",
-        "shower cabin",
         "cutting board",
         "paper towel",
         "dish rack",
     ),
-    *("toilet roll", "security camera", "controller"),
+    *("toilet roll", "security camera", "controller", "tap", "faucet", "shower", "toilet"),
 ]
 
 
@@ -75,7 +76,7 @@ def names_of(row: ObjectRow) -> list[str]:
 
 
 def test_size_and_places() -> None:
-    assert len(table()) >= 320
+    assert len(table()) >= 1500
     for place in PLACES:
         assert sum(place in row.places for row in table()) >= 10, place
     assert {place for row in table() for place in row.places} == {*PLACES, "any"}
@@ -84,7 +85,7 @@ def test_size_and_places() -> None:
 def test_no_name_belongs_to_two_rows() -> None:
     # Written together, since "dish washer" and "dishwasher" are read alike.
     joined = [name.replace(" ", "").replace("-", "") for row in table() for name in names_of(row)]
-    assert sorted({name for name in joined if joined.count(name) > 1}) == []
+    assert [name for name, count in Counter(joined).items() if count > 1] == []
     assert all(name == name.lower().strip() and name for row in table() for name in names_of(row))
 
 
@@ -94,24 +95,37 @@ def test_every_name_of_the_table_reads_as_its_own_row() -> None:
 
 
 def test_categories_are_short() -> None:
-    assert max(len(row.noun.split()) for row in table()) <= 2
+    assert max(len(row.noun.split()) for row in table()) <= 3
     assert all(row.usage.endswith(".") and len(row.usage) < 80 for row in table())
 
 
-@pytest.mark.parametrize("row", table(), ids=lambda row: row.noun)
-def test_row_is_plausible(row: ObjectRow) -> None:
-    materials.lookup(row.material)
-    assert 5e-5 <= row.thickness_m <= 0.3
-    assert row.source
-    assert row.vibrates == any(not state.needs_contact for state in row.states)
-    assert len({state.name for state in row.states}) == len(row.states)
-    for state in row.states:
-        assert 0.0 < state.intensity <= 1.0
-        assert state.verb.endswith("ing")
-        assert "vibrat" not in f"{row.noun} {state.name} {state.verb}"
-        assert all(read_name(noun).row is not None for noun in state.needs_contact)
-    if row.min_size_m and row.max_size_m:
-        assert row.thickness_m < row.min_size_m < row.max_size_m
+def faults(row: ObjectRow) -> list[str]:
+    size_fits = not (row.min_size_m and row.max_size_m) or row.thickness_m < row.min_size_m < row.max_size_m
+    held = {
+        "thickness": 5e-5 <= row.thickness_m <= 0.3,
+        "source": bool(row.source),
+        "vibrates": row.vibrates == any(not state.needs_contact for state in row.states),
+        "states repeat": len({state.name for state in row.states}) == len(row.states),
+        "intensity": all(0.0 < state.intensity <= 1.0 for state in row.states),
+        "verb": all(state.verb.endswith("ing") for state in row.states),
+        "vibrate": not any("vibrat" in f"{row.noun} {state.name} {state.verb}" for state in row.states),
+        "contact": all(read_name(noun).row is not None for state in row.states for noun in state.needs_contact),
+        "size": size_fits,
+    }
+    return [what for what, holds in held.items() if not holds]
+
+
+def test_every_row_is_plausible() -> None:
+    assert {row.noun: faults(row) for row in table() if faults(row)} == {}
+
+
+def test_every_material_has_constants() -> None:
+    for name in {row.material for row in table()} | set(words.PAINT_WORDS.values()):
+        assert stand_ins.constants(name).density_kg_m3 > 0.0
+    for name, stand_in in stand_ins.STAND_INS.items():
+        with pytest.raises(UnknownMaterial):
+            materials.lookup(name)
+        assert stand_ins.constants(name) == materials.lookup(stand_in)
 
 
 def test_needed_contacts_are_nouns_of_the_table() -> None:

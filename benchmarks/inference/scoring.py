@@ -1,0 +1,140 @@
+"""What an answer is worth beside a label: rules in docs/inference-evaluation.md, counts added up scene by scene."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, fields
+from functools import cache
+
+from inference.labels import Label, read_rows
+from scene2hap import ObjectHaptics
+
+UNKNOWN = frozenset({"", "unknown", "undefined", "object", "thing", "unidentified"})
+_NOTHING = frozenset({"", "unknown", "undefined", "none"})
+_STUFF_ENDS = re.compile(r"\b(?:with|and|or|on|over|in|for)\b|[,/;(]")
+
+
+def is_unknown(category: str) -> bool:
+    """Whether the backend says that it cannot tell."""
+    return _plain(category) in UNKNOWN
+
+
+def same_category(answer: str, accepted: Iterable[str]) -> bool:
+    """Whether the answer is an accepted word, or a kind of it: "oak kitchen table" is a "table"."""
+    words = _plain(answer).split()
+    for text in accepted:
+        wanted = _plain(text).split()
+        if wanted and words[-len(wanted) :] == wanted:
+            return True
+    return "".join(words) in {_plain(text).replace(" ", "") for text in accepted}
+
+
+def family(material: str) -> str | None:
+    """The family of a material word, by the last word that the list knows before "with", "and" and the like."""
+    for part in _STUFF_ENDS.split(material.lower()):
+        words = re.findall(r"[a-z]+", part)
+        for end in range(len(words), 0, -1):
+            for begin in range(end):
+                found = _families().get(" ".join(words[begin:end]))
+                if found is not None:
+                    return found
+    return None
+
+
+@cache
+def _families() -> dict[str, str]:
+    return {word: row["family"] for row in read_rows("material_families.csv") for word in row["words"].split(";")}
+
+
+def _plain(text: str) -> str:
+    """Lower case, without punctuation, nouns in the singular as far as one letter tells."""
+    words = re.findall(r"[a-z0-9]+", text.lower())
+    return " ".join(
+        word[:-1] if len(word) > 3 and word.endswith("s") and word[-2] not in "su" else word for word in words
+    )
+
+
+@dataclass(frozen=True)
+class Counts:
+    """How many objects, of each kind of agreement; two add up."""
+
+    objects: int = 0
+    unknown: int = 0
+    category_right: int = 0
+    claimed_material: int = 0
+    family_right: int = 0
+    true_positive: int = 0
+    false_positive: int = 0
+    false_negative: int = 0
+    true_negative: int = 0
+    clear_objects: int = 0
+    clear_right: int = 0
+
+    def __add__(self, other: Counts) -> Counts:
+        return Counts(*(getattr(self, item.name) + getattr(other, item.name) for item in fields(self)))
+
+    @property
+    def figures(self) -> dict[str, float | None]:
+        """The shares; None where there is nothing to divide by."""
+        known = self.objects - self.unknown
+        agreed = self.true_positive + self.true_negative
+        return {
+            "vibrates_accuracy": _share(agreed, self.objects),
+            "vibrates_precision": _share(self.true_positive, self.true_positive + self.false_positive),
+            "vibrates_recall": _share(self.true_positive, self.true_positive + self.false_negative),
+            "vibrates_accuracy_clear": _share(self.clear_right, self.clear_objects),
+            "category_accuracy_known": _share(self.category_right, known),
+            "family_accuracy_claimed": _share(self.family_right, self.claimed_material),
+            "unknown_share": _share(self.unknown, self.objects),
+        }
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """One object's answer beside its label."""
+
+    label: Label
+    category: str
+    material: str
+    vibrates: bool
+
+    @property
+    def counts(self) -> Counts:
+        """The object as counts of one."""
+        truth, says = self.label.vibrates, self.vibrates
+        known, claimed = not is_unknown(self.category), _plain(self.material) not in _NOTHING
+        return Counts(
+            objects=1,
+            unknown=not known,
+            category_right=known and same_category(self.category, self.label.categories),
+            claimed_material=claimed,
+            family_right=claimed and family(self.material) in self.label.families,
+            true_positive=truth and says,
+            false_positive=says and not truth,
+            false_negative=truth and not says,
+            true_negative=not truth and not says,
+            clear_objects=not self.label.hard,
+            clear_right=not self.label.hard and truth == says,
+        )
+
+    @property
+    def misses(self) -> tuple[str, ...]:
+        """What disagrees with the label."""
+        one = self.counts
+        wrong = {
+            "unknown": one.unknown,
+            "category": not one.unknown and not one.category_right,
+            "material": one.claimed_material and not one.family_right,
+            "vibrates": self.label.vibrates != self.vibrates,
+        }
+        return tuple(what for what, holds in wrong.items() if holds)
+
+
+def judge(label: Label, haptics: ObjectHaptics) -> Judgement:
+    """An object's answer beside its label."""
+    return Judgement(label, haptics.object_category, haptics.material_category, haptics.vibrates)
+
+
+def _share(part: int, whole: int) -> float | None:
+    return part / whole if whole else None
