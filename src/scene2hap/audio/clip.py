@@ -15,13 +15,17 @@ Samples = NDArray[np.float32]
 
 @dataclass(frozen=True)
 class Credit:
-    """Whom a sound is owed to; written next to the haptics."""
+    """Whom a sound is owed to; written next to the haptics.
+
+    `query` is what was asked for, `origin` the kind of source that answered ("freesound", "library", ...).
+    """
 
     title: str
     author: str
     licence: str
     address: str = ""
     query: str = ""
+    origin: str = ""
 
 
 @dataclass(frozen=True, eq=False)

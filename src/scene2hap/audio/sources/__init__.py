@@ -8,6 +8,8 @@ SOURCES = PluginGroup(
     "scene2hap.audio",
     builtins={
         "library": "scene2hap.audio.sources.library:FolderLibrary",
+        "freesound": "scene2hap.audio.sources.freesound:Freesound",
+        "text_to_audio": "scene2hap.audio.sources.text_to_audio:TextToAudio",
         "synth": "scene2hap.audio.sources.synth:Synthesizer",
     },
     extras={},

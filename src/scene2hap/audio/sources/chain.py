@@ -32,8 +32,8 @@ def gather(
 ) -> list[AudioClip]:
     """The candidates of the first sources that together have `enough` of sufficient length, best first.
 
-    `subject` is what errors call the object. A source that fails is passed over with a `SourceWarning`, which is
-    logged too.
+    `subject` is what errors call the object. A source that fails is passed over with a `SourceWarning`, and a
+    log entry.
     Raises: AudioError: no source has a single candidate; tells what became of each.
     """
     found: list[AudioClip] = []
@@ -46,7 +46,7 @@ def gather(
             # Guests raise what they like; a broken source must not end a bake that another one can finish.
             told = str(cause) if isinstance(cause, Scene2HapError) else f"{type(cause).__name__}: {cause}"
             fates.append(f"{name} failed: {told}")
-            _LOG.warning("%s: no sound from %s: %s", subject, name, told)
+            _LOG.info("%s: no sound from %s: %s", subject, name, told)
             warnings.warn(f"{subject}: no sound from {name}: {told}", SourceWarning, stacklevel=2)
             continue
         fates.append(f"{name} has none")

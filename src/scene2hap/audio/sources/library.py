@@ -10,13 +10,12 @@ from pathlib import Path
 
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import read_clip
+from scene2hap.audio.sources.candidates import MAX_CANDIDATES
 from scene2hap.audio.sources.words import noun_phrase, stems
 from scene2hap.errors import AudioError, ConfigError
 from scene2hap.haptics import VibrationDescription
 
 INDEX_NAME = "sounds.csv"
-MAX_CANDIDATES = 5
-"""As many as the paper retrieves."""
 
 _SUFFIXES = frozenset({".wav", ".flac", ".ogg", ".mp3"})
 
@@ -56,7 +55,7 @@ class FolderLibrary:
             if len(found) == MAX_CANDIDATES:
                 break
             try:
-                found.append(read_clip(path, replace(credit, query=description.keywords)))
+                found.append(read_clip(path, replace(credit, query=description.keywords, origin="library")))
             except AudioError as cause:
                 warnings.warn(f"skipped: {cause}", UnreadableSound, stacklevel=2)
         return found

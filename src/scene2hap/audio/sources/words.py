@@ -69,6 +69,16 @@ def noun_phrase(category: str) -> tuple[str, ...]:
     return next((phrase for phrase in phrases if phrase), ())
 
 
+def spelled_phrase(category: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The words of what a category names, as spelt, and those of its head: ("washing", "machine"), not "machine"."""
+    phrases = (tuple(re.findall(r"[^\W\d_]+", part)) for part in _AFTER_THE_HEAD.split(category.lower()))
+    words = next((phrase for phrase in phrases if phrase), ())
+    for n in range(min(_LONGEST_NAME, len(words)), 1, -1):
+        if tuple(map(_stem, words[-n:])) in _names():
+            return words, words[-n:]
+    return words, words[-1:]
+
+
 @cache
 def _names() -> dict[tuple[str, ...], str]:
     return {tuple(map(_stem, spelling.split())): _stem(name) for spelling, name in _SAME_THING.items()}

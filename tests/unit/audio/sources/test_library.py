@@ -59,8 +59,8 @@ def test_an_index_says_what_sounds_are_and_whose(tmp_path: Path) -> None:
     )
     found = FolderLibrary(tmp_path).find(describe("pump", "pump bubbling"))
     assert [clip.credit for clip in found] == [
-        Credit("Aquarium", "Ann", "CC0-1.0", "https://example.org/1", "pump bubbling"),
-        Credit("b", "unknown", "unknown", "", "pump bubbling"),
+        Credit("Aquarium", "Ann", "CC0-1.0", "https://example.org/1", "pump bubbling", "library"),
+        Credit("b", "unknown", "unknown", "", "pump bubbling", "library"),
     ]
 
 

@@ -16,8 +16,10 @@ from scene2hap.audio.protocol import AudioSource
 from scene2hap.audio.select import select_clip
 from scene2hap.audio.sources import SOURCES
 from scene2hap.audio.sources.synth import Synthesizer
+from scene2hap.audio.sources.synth.patch import Patch
 from scene2hap.audio.sources.synth.signals import SAMPLE_RATE_HZ, Signal, Take
-from scene2hap.audio.sources.synth.vocabulary import MOTOR, Patch, patch_for, patches
+from scene2hap.audio.sources.synth.table import MOTOR
+from scene2hap.audio.sources.synth.vocabulary import patch_for, patches
 from scene2hap.errors import AudioError, ConfigError
 from scene2hap.haptics import VibrationDescription
 
@@ -57,7 +59,7 @@ def strongest_hz(y: Signal, above_hz: float = 10.0) -> float:
 
 @cache
 def played(patch: Patch) -> Signal:
-    return patch.voice(Take(np.random.default_rng(11), 0.6))
+    return patch.voice(Take(np.random.default_rng(11), 0.5))
 
 
 def name_of(patch: Patch) -> str:
@@ -68,7 +70,7 @@ def name_of(patch: Patch) -> str:
 every_patch = pytest.mark.parametrize("patch", patches(), ids=name_of)
 
 
-# every voice ---------------------------------------------------------------------------------------------------------
+# every voice
 
 
 @every_patch
@@ -90,7 +92,7 @@ def test_steady_voices_pass_the_selection_and_only_they_say_so(patch: Patch) -> 
     assert (dynamic_range_db(played(patch), SAMPLE_RATE_HZ) <= 5.0) == patch.is_steady
 
 
-# the source ----------------------------------------------------------------------------------------------------------
+# the source
 
 
 @pytest.mark.parametrize(("words", "bounds_hz"), EVERYDAY.items(), ids=lambda value: str(value[0]))
@@ -189,7 +191,7 @@ def test_is_known_by_its_kind() -> None:
     assert isinstance(Synthesizer(), AudioSource)
 
 
-# which voice ---------------------------------------------------------------------------------------------------------
+# which voice
 
 
 def voice_of(category: str, *phrases: str) -> str:

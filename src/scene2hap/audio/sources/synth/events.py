@@ -80,4 +80,4 @@ def music(take: Take, *, beats_per_minute: float = 120.0) -> Signal:
     bass = partials(2.0 * np.pi * line * since_s, [1.0, 0.4, 0.15])
     drum = np.where(beat % 2 == 0, np.sin(2.0 * np.pi * 55.0 * since_s) * np.exp(-since_s / 0.08), 0.0)
     release = np.minimum(1.0, (beat_s - since_s) / 0.02)
-    return (bass * note + (0.5 + 0.5 * take.drive) * drum) * release
+    return (bass * note + (0.6 + 0.8 * take.drive) * drum) * release

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from scene2hap.audio.sources.synth.rotating import MAINS_HZ, fan
+from scene2hap.audio.sources.synth.rotating import fan
 from scene2hap.audio.sources.synth.signals import (
     DURATION_S,
     Signal,
@@ -25,9 +25,9 @@ from scene2hap.audio.sources.synth.signals import (
 
 def mains_hum(take: Take) -> Signal:
     """Magnets and cores on the mains: iron is pulled by the square of the field, hence twice its frequency."""
-    phi = phase(2.0 * MAINS_HZ)
+    phi = phase(2.0 * take.mains_hz)
     hum = partials(phi, take.roll_off(8), take.rng)
-    leak = np.cos(2.0 * np.pi * MAINS_HZ * times())
+    leak = np.cos(2.0 * np.pi * take.mains_hz * times())
     return (
         unit_rms(hum) * (1.0 + 0.03 * wander(take.rng, 0.5))
         + 0.1 * unit_rms(leak)
@@ -44,10 +44,32 @@ def microwave(take: Take) -> Signal:
 
 def vibration_motor(take: Take, *, motor_hz: float = 182.0) -> Signal:
     """An eccentric mass on a small motor: nearly a sine, whose speed wavers as the hand or table under it gives."""
-    phi = phase(take.shaft_hz(motor_hz) * (1.0 + 0.004 * wander(take.rng, 4.0)))
+    phi = phase(take.speed_hz(motor_hz) * (1.0 + 0.004 * wander(take.rng, 4.0)))
     return partials(phi, [1.0, 0.1 + 0.15 * take.drive, 0.06], take.rng) * (
         1.0 + 0.06 * wander(take.rng, 5.0)
     ) + 0.03 * noise(take.rng, 100.0, 2000.0, -3.0)
+
+
+def ringing_motor(
+    take: Take,
+    *,
+    motor_hz: float = 182.0,
+    on_s: float = 1.0,
+    off_s: float = 0.5,
+    spin_up_s: float = 0.05,
+    spin_down_s: float = 0.08,
+) -> Signal:
+    """A vibration motor that is switched on and off: it gathers speed and loses it, and its force with it.
+
+    A small DC motor follows its voltage as w(t) = 1 - exp(-t / spin_up_s), in parts of its full speed, and coasts down
+    as exp(-t / spin_down_s); an eccentric mass pulls with m r omega^2. Time constants are those of coin motors, pattern
+    assumed.
+    """
+    since_s = times() % (on_s + off_s)
+    reached = 1.0 - np.exp(-on_s / spin_up_s)
+    w = np.where(since_s < on_s, 1.0 - np.exp(-since_s / spin_up_s), reached * np.exp(-(since_s - on_s) / spin_down_s))
+    phi = phase(take.speed_hz(motor_hz) * w)
+    return np.asarray(partials(phi, [1.0, 0.1 + 0.15 * take.drive, 0.06], take.rng) * w**2)
 
 
 def reciprocating(take: Take, *, stroke_hz: float, rattle: float = 0.1) -> Signal:
@@ -64,13 +86,14 @@ def combustion(take: Take, *, firing_hz: float, loud_order: int = 2) -> Signal:
     `loud_order` is the multiple of the firing rate that body and exhaust carry best; for a four-stroke engine of one
     cylinder, order 2 is its crankshaft.
     """
-    rate_hz = take.shaft_hz(firing_hz)
+    rate_hz = take.speed_hz(firing_hz)
     n = round(rate_hz * DURATION_S)
     # A whole number of firings; the jitter of one per cent of a cycle is what keeps an idle from sounding like a tone.
     at = (np.arange(n) + 0.01 * take.rng.standard_normal(n)) / n * DURATION_S
     strength = 1.0 + 0.1 * np.clip(take.rng.standard_normal(n), -2.0, 2.0)
     resonance_hz = loud_order * n / DURATION_S
-    exhaust = ringing(at, strength, resonance_hz, 2.5 / resonance_hz)
-    crank = partials(phase(resonance_hz), [1.0, 0.3], take.rng)
+    # Driven hard, the blast is over sooner: more of its harmonics are heard.
+    exhaust = ringing(at, strength, resonance_hz, (2.0 - 1.6 * take.drive) / resonance_hz)
+    crank = partials(phase(resonance_hz), take.roll_off(6), take.rng)
     intake = noise(take.rng, 60.0, 1500.0, -3.0)
-    return unit_rms(exhaust) + 0.4 * unit_rms(crank) + (0.1 + 0.15 * take.drive) * intake
+    return unit_rms(exhaust) + 0.4 * unit_rms(crank) + (0.15 + 0.3 * take.drive) * intake

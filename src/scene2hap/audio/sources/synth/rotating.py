@@ -10,14 +10,12 @@ import numpy as np
 
 from scene2hap.audio.sources.synth.signals import Signal, Take, noise, partials, phase, times, unit_rms, wander
 
-MAINS_HZ = 50.0
-
 
 def motor(take: Take, *, shaft_hz: float = 48.0) -> Signal:
     """Some electric motor: shaft, harmonics and a little of the mains' magnetic pull at twice its frequency."""
-    phi = phase(take.shaft_hz(shaft_hz) * (1.0 + 0.003 * wander(take.rng)))
+    phi = phase(take.mains_speed_hz(shaft_hz) * (1.0 + 0.003 * wander(take.rng)))
     shaft = partials(phi, take.roll_off(8), take.rng)
-    pull = np.cos(2.0 * np.pi * 2.0 * MAINS_HZ * times())
+    pull = np.cos(2.0 * np.pi * 2.0 * take.mains_hz * times())
     return (
         unit_rms(shaft) * (1.0 + 0.05 * wander(take.rng, 3.0))
         + 0.25 * unit_rms(pull)
@@ -30,10 +28,10 @@ def compressor(take: Take, *, slip: float = 0.018) -> Signal:
 
     Its second order beats slowly against the magnetic pull at twice the mains frequency.
     """
-    shaft_hz = MAINS_HZ * (1.0 - take.about(slip, 0.3))
+    shaft_hz = take.mains_hz * (1.0 - take.about(slip, 0.3))
     phi = phase(shaft_hz * (1.0 + 0.0005 * wander(take.rng, 0.3)))
     strokes = partials(phi, take.roll_off(10), take.rng)
-    pull = np.cos(2.0 * np.pi * 2.0 * MAINS_HZ * times())
+    pull = np.cos(2.0 * np.pi * 2.0 * take.mains_hz * times())
     flow = noise(take.rng, 100.0, 2500.0, -4.0)
     return unit_rms(strokes) + 0.2 * unit_rms(pull) + (0.05 + 0.1 * take.drive) * flow
 
@@ -42,7 +40,7 @@ def fan(
     take: Take, *, shaft_hz: float, blades: int, rotor: float = 1.0, blade: float = 0.5, flow: float = 0.5
 ) -> Signal:
     """A fan: rotor imbalance once per turn, blades passing, and the broadband noise of the flow, louder when driven."""
-    phi = phase(take.shaft_hz(shaft_hz) * (1.0 + 0.003 * wander(take.rng)))
+    phi = phase(take.speed_hz(shaft_hz) * (1.0 + 0.003 * wander(take.rng)))
     turns = partials(phi, [1.0, 0.25, 0.11, 0.06], take.rng)
     passing = partials(blades * phi, take.roll_off(4), take.rng)
     breeze = noise(take.rng, 40.0, 3000.0, -4.5) * (1.0 + 0.05 * wander(take.rng, 2.0))
@@ -67,7 +65,7 @@ def spinner(take: Take, *, drum_hz: float = 18.5, belt_ratio: float = 11.5) -> S
 
 def pump(take: Take, *, shaft_hz: float = 48.0, vanes: int = 6) -> Signal:
     """A centrifugal pump: pressure pulses as its vanes pass the outlet, shaft imbalance, and rushing water."""
-    phi = phase(take.shaft_hz(shaft_hz) * (1.0 + 0.002 * wander(take.rng)))
+    phi = phase(take.mains_speed_hz(shaft_hz) * (1.0 + 0.002 * wander(take.rng)))
     pulses = partials(vanes * phi, take.roll_off(4), take.rng)
     shaft = partials(phi, [1.0, 0.35, 0.2], take.rng)
     return unit_rms(pulses) + 0.5 * unit_rms(shaft) + (0.2 + 0.2 * take.drive) * noise(take.rng, 60.0, 1200.0, -3.0)
@@ -81,7 +79,7 @@ def power_tool(
     What the spindle cuts loads the motor twice per turn. `spindle` is its level; above 1 it dominates, as the disc of a
     grinder does.
     """
-    motor_speed = take.shaft_hz(motor_hz) * (1.0 + 0.004 * wander(take.rng, 2.0))
+    motor_speed = take.speed_hz(motor_hz) * (1.0 + 0.004 * wander(take.rng, 2.0))
     turn = phase(motor_speed)
     cut = turn * (spindle_hz / motor_hz)
     armature = partials(turn, take.roll_off(4), take.rng)

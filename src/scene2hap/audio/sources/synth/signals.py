@@ -16,19 +16,22 @@ Signal = NDArray[np.float64]
 SAMPLE_RATE_HZ = 48_000
 DURATION_S = 5.0
 N_SAMPLES = round(DURATION_S * SAMPLE_RATE_HZ)
+REFERENCE_MAINS_HZ = 50.0
 
 
 @dataclass(frozen=True)
 class Take:
     """What a voice is told apart from its own constants.
 
-    `rng` is the only source of chance. `drive` 0..1 is how hard the thing works: harder is brighter. `size_factor`
-    multiplies the frequencies that depend on the machine's size.
+    `rng` is the only source of chance. `drive` 0..1 is how hard the thing works: harder is brighter and, where nothing
+    holds the speed, faster. `size_factor` multiplies the frequencies that depend on the machine's size. `mains_hz` is
+    what it is plugged into.
     """
 
     rng: np.random.Generator
     drive: float = 0.5
     size_factor: float = 1.0
+    mains_hz: float = REFERENCE_MAINS_HZ
 
     def about(self, value: float, spread: float = 0.03) -> float:
         """`value`, a few per cent beside it: no two machines are alike. Spread assumed."""
@@ -37,6 +40,14 @@ class Take:
     def shaft_hz(self, nominal_hz: float) -> float:
         """A speed for this machine: slower if it is large."""
         return self.about(nominal_hz * self.size_factor)
+
+    def speed_hz(self, nominal_hz: float) -> float:
+        """A speed that nothing holds: 15 % below nominal when idling, 15 % above at full drive; assumed."""
+        return self.shaft_hz(nominal_hz * (0.85 + 0.3 * self.drive))
+
+    def mains_speed_hz(self, nominal_hz: float) -> float:
+        """The speed of an induction motor that has this one on a mains of 50 Hz."""
+        return self.shaft_hz(nominal_hz * self.mains_hz / REFERENCE_MAINS_HZ)
 
     def roll_off(self, n_partials: int, steeper_by: float = 0.0) -> Signal:
         """Amplitudes k^-slope (n_partials,), the slope being 2.2 when idling and 1.2 at full drive; assumed."""

@@ -10,12 +10,13 @@ import numpy as np
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Credit
-from scene2hap.audio.sources.synth.signals import SAMPLE_RATE_HZ, Take, unit_peak
-from scene2hap.audio.sources.synth.vocabulary import Patch, patch_for
+from scene2hap.audio.sources.candidates import how_many
+from scene2hap.audio.sources.synth.patch import Patch
+from scene2hap.audio.sources.synth.signals import REFERENCE_MAINS_HZ, SAMPLE_RATE_HZ, Take, unit_peak
+from scene2hap.audio.sources.synth.vocabulary import patch_for
 from scene2hap.errors import AudioError, ConfigError
 from scene2hap.haptics import VibrationDescription
 
-MAX_TAKES = 5
 PEAK = 0.9
 
 
@@ -23,18 +24,19 @@ PEAK = 0.9
 class Synthesizer:
     """Makes up a sound for anything: five seconds, mono, 48 kHz, most of it where touch can feel it.
 
-    The description's category and verb choose a voice, its size shapes frequencies, its intensity the brightness. Equal
-    descriptions give equal samples, on every run. `takes` 1..5 is how many variants `find` returns.
-    Raises: ConfigError: `takes` is not a whole number within 1..5.
+    The description's category and verb choose a voice, its size shapes frequencies, its intensity brightness and speed.
+    Equal descriptions give equal samples, on every run. `takes` 1..5 is how many variants `find` returns; `mains_hz` is
+    the frequency of the scene's mains, 50 in most of the world, 60 in North America.
+    Raises: ConfigError: `takes` is not a whole number within 1..5, or `mains_hz` not within 40..70.
     """
 
     takes: int = 1
+    mains_hz: float = REFERENCE_MAINS_HZ
 
     def __post_init__(self) -> None:
-        takes = checks.number("takes", self.takes, "-", at_least=1, at_most=MAX_TAKES, error=ConfigError)
-        if takes != int(takes):
-            raise ConfigError(f"takes is {takes:g}; it must be a whole number.")
-        object.__setattr__(self, "takes", int(takes))
+        object.__setattr__(self, "takes", how_many("takes", self.takes))
+        mains = checks.number("mains_hz", self.mains_hz, "Hz", at_least=40.0, at_most=70.0, error=ConfigError)
+        object.__setattr__(self, "mains_hz", mains)
 
     def find(self, description: VibrationDescription) -> list[AudioClip]:
         """`takes` variants, equally good. Raises: AudioError: intensity outside 0..1, or a negative size."""
@@ -43,16 +45,18 @@ class Synthesizer:
         patch = patch_for(description.object_category, description.keywords, description.state)
         factor = patch.size_factor(max(size))
         return [
-            _performed(patch, Take(_chance(description, index), drive, factor), description, index)
+            _performed(patch, Take(_chance(description, index), drive, factor, self.mains_hz), description, index)
             for index in range(self.takes)
         ]
 
 
 def _performed(patch: Patch, take: Take, description: VibrationDescription, index: int) -> AudioClip:
     y = patch.voice(take)
+    # Strokes push more one way than the other; an offset is neither heard nor felt, and takes room from what is.
+    y = y - y.mean()
     voice = patch.voice.func if isinstance(patch.voice, partial) else patch.voice
     title = f"{description.object_category} ({voice.__name__.replace('_', ' ')}), take {index + 1}"
-    credit = Credit(title, "scene2hap synthesizer", "CC0-1.0", query=description.keywords)
+    credit = Credit(title, "scene2hap synthesizer", "CC0-1.0", query=description.keywords, origin="synth")
     return AudioClip((PEAK * unit_peak(y)).astype(np.float32), SAMPLE_RATE_HZ, credit)
 
 

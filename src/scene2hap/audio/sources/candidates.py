@@ -1,0 +1,17 @@
+"""How many candidates a source returns, as a setting."""
+
+from __future__ import annotations
+
+from scene2hap import checks
+from scene2hap.errors import ConfigError
+
+MAX_CANDIDATES = 5
+"""As many as the paper retrieves, and as many as it generates."""
+
+
+def how_many(name: str, value: object) -> int:
+    """A whole number within 1..5. Raises: ConfigError: it is none."""
+    number = checks.number(name, value, "-", at_least=1, at_most=MAX_CANDIDATES, error=ConfigError)
+    if number != int(number):
+        raise ConfigError(f"{name} is {number:g}; it must be a whole number.")
+    return int(number)

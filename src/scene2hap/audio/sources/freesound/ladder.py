@@ -1,0 +1,34 @@
+"""What to ask for, from the fullest wording to the barest.
+
+Freesound wants every word to match, so fewer words find more. The last rung is the thing's name alone, unless that
+says nothing ("machine").
+"""
+
+from __future__ import annotations
+
+import re
+
+from scene2hap.audio.sources.words import spelled_phrase
+from scene2hap.haptics import VibrationDescription
+
+LONGEST_QUERY = 80
+
+_SAYS_NOTHING = frozenset(
+    {"appliance", "device", "equipment", "gadget", "instrument", "item", "machine", "object", "player", "system"}
+    | {"thing", "tool", "unit"}
+)
+
+
+def ladder(description: VibrationDescription) -> tuple[str, ...]:
+    """Queries in the order to try: all key words; the category; head noun with verb; head noun. Empty if wordless."""
+    keywords = _words(description.keywords)
+    name, head = spelled_phrase(description.object_category)
+    spoken = tuple(word for word in keywords if word not in name)
+    rungs = [keywords, name, (*head, *spoken), head]
+    kept = [rung for rung in rungs if rung and not (len(rung) == 1 and rung[0] in _SAYS_NOTHING)]
+    return tuple(dict.fromkeys(" ".join(rung)[:LONGEST_QUERY].strip() for rung in kept))
+
+
+def _words(text: str) -> tuple[str, ...]:
+    """Words alone: a minus would exclude the next word, a quotation mark would bind several."""
+    return tuple(re.findall(r"[^\W_]+", text.lower()))

@@ -1,0 +1,175 @@
+"""Freesound's API as two questions: which sounds are there, and how does one sound.
+
+Source: Freesound API documentation, "Search", "Authentication", "Throttling" (freesound.org/docs/api).
+"""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from scene2hap.audio.sources import web
+from scene2hap.audio.sources.freesound.rate import MINUTE_S, RateLimit
+from scene2hap.audio.sources.freesound.sounds import FIELDS, Sound, read_sounds
+from scene2hap.audio.sources.store import plain_line
+from scene2hap.audio.sources.token import Token
+from scene2hap.errors import BackendError, BackendUnavailable, BadAnswer
+
+if TYPE_CHECKING:
+    from scene2hap.audio.sources.web import Transport
+
+RESULTS_ASKED = 15
+"""Three times what is wanted, since some previews turn out to be too short or broken; the API's own default."""
+MAX_ANSWER_BYTES = 2_000_000
+MAX_PREVIEW_BYTES = 20_000_000
+
+_RETRIES = 2
+_FIRST_WAIT_S = 0.5
+_REST_S = 120.0
+"""How long a service that failed is left alone; assumed."""
+_LONGEST_WAIT_S = 120.0
+_HINTS = {
+    401: "Check the token in {variable}; freesound.org/apiv2/apply gives one.",
+    403: "Check what the token in {variable} is allowed to do.",
+    404: "Check base_url.",
+}
+
+
+class _NotUnderstood(BackendUnavailable):
+    """One query was refused; the next one may be served."""
+
+
+@dataclass
+class Service:
+    """Asks, waits as the rate limit wants, tries again where that can help, and leaves a failed service alone.
+
+    The token goes into the header of requests below `base_url` and nowhere else: a redirect of the API is an error, and
+    previews, which may lie on another host, are fetched without it.
+    """
+
+    base_url: str
+    token: Token
+    timeout_s: float
+    transport: Transport | None = None
+    clock: Callable[[], float] = time.monotonic
+    sleep: Callable[[float], object] = time.sleep
+    _failure: tuple[float, BackendError] | None = field(default=None, init=False)
+
+    def __post_init__(self) -> None:
+        self._rate = RateLimit(self.clock, self.sleep)
+
+    def search(self, query: str, filter_: str, sort: str) -> list[Sound]:
+        """Results in the service's order; empty where nothing matches.
+
+        Raises: BackendUnavailable: no answer, tells whether trying again can help; BadAnswer: it is not what the
+        documentation promises.
+        """
+        if not self.token.reveal():
+            raise BackendUnavailable(
+                f"no Freesound token. Set {self.token.variable}; freesound.org/apiv2/apply gives one."
+            )
+        if self._failure is not None and self.clock() < self._failure[0]:
+            raise self._failure[1]
+        self._failure = None
+        params = {
+            "query": query,
+            "filter": filter_,
+            "sort": sort,
+            "fields": FIELDS,
+            "page_size": str(RESULTS_ASKED),
+        }
+        try:
+            return self._read(self._ask(params))
+        except BackendError as failure:
+            self._remember(failure)
+            raise
+
+    def preview(self, sound: Sound) -> bytes:
+        """The encoded preview. Raises: BackendUnavailable: it cannot be had."""
+        reply = web.get(sound.preview, web.Limits(self.timeout_s, MAX_PREVIEW_BYTES), transport=self.transport)
+        if reply.status != 200:
+            raise BackendUnavailable(
+                f"the preview of sound {sound.id} is not there (status {reply.status}).", retryable=reply.status >= 500
+            )
+        return reply.content
+
+    def _ask(self, params: dict[str, str]) -> web.WebReply:
+        """One search, and up to two more where the service stumbles."""
+        for attempt in range(_RETRIES + 1):
+            try:
+                return self._ask_once(params)
+            except BackendUnavailable as failure:
+                if attempt == _RETRIES or not failure.retryable:
+                    raise
+                if failure.retry_after_s is None:
+                    self.sleep(_FIRST_WAIT_S * 2**attempt)
+                else:
+                    self._rate.block(failure.retry_after_s)
+        raise AssertionError("unreachable")
+
+    def _ask_once(self, params: dict[str, str]) -> web.WebReply:
+        self._rate.take()
+        reply = web.get(
+            f"{self.base_url}/search/",
+            web.Limits(self.timeout_s, MAX_ANSWER_BYTES),
+            params=params,
+            authorization=lambda: f"Token {self.token.reveal()}",
+            transport=self.transport,
+        )
+        if reply.status != 200:
+            raise self._error(reply)
+        return reply
+
+    def _read(self, reply: web.WebReply) -> list[Sound]:
+        document = _json(reply.content)
+        sounds = read_sounds(document.get("results")) if isinstance(document, dict) else None
+        if sounds is None or (not sounds and document["results"]):
+            raise BadAnswer(
+                f"{reply.url} answered without the list of sounds that it promises. Check base_url.",
+                raw_text=self._shown(reply.content),
+            )
+        return sounds
+
+    def _error(self, reply: web.WebReply) -> BackendUnavailable:
+        document = _json(reply.content)
+        detail = document.get("detail") if isinstance(document, dict) else None
+        said = plain_line(self.token.scrub(detail)) if isinstance(detail, str) else "nothing more"
+        text = f"{reply.url} answered {reply.status}: {said.rstrip('.')}."
+        if reply.status == 429 and "day" in said:
+            return BackendUnavailable(f"{text} Bake again tomorrow; what was found is kept.", retryable=False)
+        if reply.status == 429:
+            wait_s = _seconds(reply.retry_after, MINUTE_S)
+            return BackendUnavailable(text, retryable=wait_s <= _LONGEST_WAIT_S, retry_after_s=wait_s)
+        if reply.status == 400:
+            return _NotUnderstood(text, retryable=False)
+        if 300 <= reply.status < 400:
+            return BackendUnavailable(f"{text} The token is not sent elsewhere; check base_url.", retryable=False)
+        hint = _HINTS.get(reply.status, "").format(variable=self.token.variable)
+        return BackendUnavailable(f"{text} {hint}".strip(), retryable=reply.status >= 500)
+
+    def _remember(self, failure: BackendError) -> None:
+        """Leave the service alone for a while, or for good where only a person can help."""
+        if isinstance(failure, _NotUnderstood):
+            return
+        rest_s = _REST_S
+        if isinstance(failure, BackendUnavailable):
+            for_now = failure.retryable or failure.retry_after_s is not None
+            rest_s = max(rest_s, failure.retry_after_s or 0.0) if for_now else float("inf")
+        self._failure = (self.clock() + rest_s, failure)
+
+    def _shown(self, content: bytes) -> str:
+        return self.token.scrub(content[:2000].decode("utf-8", "replace"))
+
+
+def _json(content: bytes) -> Any:
+    try:
+        return json.loads(content)
+    except (ValueError, RecursionError):
+        return None
+
+
+def _seconds(text: str, otherwise: float) -> float:
+    return float(text) if text.isascii() and text.isdigit() else otherwise

@@ -1,0 +1,69 @@
+"""What a search returns, read as a stranger's data."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from scene2hap.audio.clip import Credit
+from scene2hap.audio.sources.freesound.licences import read_deed
+from scene2hap.audio.sources.store import plain_line
+from scene2hap.audio.sources.web import is_safe
+
+FIELDS = "id,name,username,license,url,duration,previews"
+
+_PREVIEWS = ("preview-hq-ogg", "preview-hq-mp3", "preview-lq-ogg", "preview-lq-mp3")
+"""Best first: Ogg begins and ends where the sound does, MP3 adds a gap."""
+
+
+class Sound(BaseModel):
+    """One result of a search."""
+
+    model_config = ConfigDict(extra="ignore", frozen=True)
+
+    id: int = Field(ge=0)
+    name: str
+    username: str
+    license: str
+    url: str = ""
+    duration: float = Field(ge=0.0, allow_inf_nan=False)
+    previews: Mapping[str, str]
+
+    @property
+    def licence(self) -> str:
+        """The option that lets it through ("by"), "" where its licence is not known."""
+        deed = read_deed(self.license)
+        return deed[0] if deed else ""
+
+    @property
+    def preview(self) -> str:
+        """The address of its best preview, "" where none is safe to follow."""
+        return next((self.previews[name] for name in _PREVIEWS if is_safe(self.previews.get(name, ""))), "")
+
+    def credit(self, query: str) -> Credit:
+        """Whom it is owed to."""
+        deed = read_deed(self.license)
+        return Credit(
+            plain_line(self.name) or f"sound {self.id}",
+            plain_line(self.username) or "unknown",
+            deed[1] if deed else plain_line(self.license),
+            plain_line(self.url) if is_safe(self.url) else f"https://freesound.org/s/{self.id}/",
+            query,
+            "freesound",
+        )
+
+
+def read_sounds(results: object) -> list[Sound] | None:
+    """The results that make sense; None where it is not a list at all."""
+    if not isinstance(results, list):
+        return None
+    return [sound for sound in map(_read, results) if sound is not None]
+
+
+def _read(result: Any) -> Sound | None:
+    try:
+        return Sound.model_validate(result)
+    except ValidationError:
+        return None

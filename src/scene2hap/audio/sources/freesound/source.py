@@ -1,0 +1,153 @@
+"""The source itself: a ladder of queries, a licence filter, previews, and a cache before all of it."""
+
+from __future__ import annotations
+
+import os
+import time
+import warnings
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+from scene2hap import checks
+from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.select import MIN_DURATION_S
+from scene2hap.audio.sources.candidates import MAX_CANDIDATES, how_many
+from scene2hap.audio.sources.freesound import licences as cc
+from scene2hap.audio.sources.freesound.ladder import ladder
+from scene2hap.audio.sources.freesound.service import Service
+from scene2hap.audio.sources.freesound.sounds import Sound, read_sounds
+from scene2hap.audio.sources.store import MAX_CLIP_S, Store, digest, is_long_enough
+from scene2hap.audio.sources.token import Token
+from scene2hap.audio.sources.web import checked_base
+from scene2hap.errors import AudioError, BackendUnavailable, ConfigError
+from scene2hap.haptics import VibrationDescription
+from scene2hap.settings import cache_folder
+
+if TYPE_CHECKING:
+    from scene2hap.audio.sources.web import Transport
+
+SORTS = tuple(
+    f"{what}{way}"
+    for what, ways in {
+        "score": ("",),
+        "duration": ("_desc", "_asc"),
+        "created": ("_desc", "_asc"),
+        "downloads": ("_desc", "_asc"),
+        "rating": ("_desc", "_asc"),
+    }.items()
+    for way in ways
+)
+
+_PATIENCE = 2
+"""Previews in a row that may not be had before their host is taken to be away."""
+
+
+class UnusableSound(UserWarning):
+    """A sound that was found cannot be used, and the next one was taken."""
+
+
+class Freesound:
+    """Up to five sounds of freesound.org that match the key words, or, failing that, ever fewer of them.
+
+    token : else the environment variable `token_env`, read at each search; licences : of "cc0", "by", "by-nc" and
+    "sampling+", those that may be used; candidates : 1..5; max_duration_s : longest sound asked for [s]; sort : the
+    service's order, "score" being relevance; cache : folder that keeps searches, those without hits too, and previews;
+    timeout_s : for one answer; base_url, transport, clock, sleep : for tests.
+    Freesound's API is free for non-commercial use; see its terms.
+    Raises: ConfigError: a setting that cannot work.
+    """
+
+    def __init__(
+        self,
+        *,
+        token: str | None = None,
+        token_env: str = "FREESOUND_TOKEN",
+        licences: Sequence[str] = ("cc0", "by"),
+        candidates: int = MAX_CANDIDATES,
+        max_duration_s: float = 30.0,
+        sort: str = "score",
+        cache: str | os.PathLike[str] | None = None,
+        timeout_s: float = 30.0,
+        base_url: str = "https://freesound.org/apiv2",
+        transport: Transport | None = None,
+        clock: Callable[[], float] = time.monotonic,
+        sleep: Callable[[float], object] = time.sleep,
+    ) -> None:
+        number = checks.number
+        number("max_duration_s", max_duration_s, "s", above=MIN_DURATION_S, at_most=MAX_CLIP_S, error=ConfigError)
+        number("timeout_s", timeout_s, "s", above=0.0, error=ConfigError)
+        if sort not in SORTS:
+            raise ConfigError(f"sort is {sort!r}; it must be one of {', '.join(SORTS)}.")
+        self._licences = cc.checked(licences)
+        self._candidates = how_many("candidates", candidates)
+        self._filter = f"duration:[{MIN_DURATION_S:g} TO {max_duration_s:g}] {cc.as_filter(self._licences)}"
+        self._max_duration_s = float(max_duration_s)
+        self._sort = sort
+        self._service = Service(
+            checked_base(base_url), Token(token, token_env), timeout_s, transport, clock=clock, sleep=sleep
+        )
+        self._store = Store(cache if cache is not None else cache_folder("freesound"))
+
+    def __repr__(self) -> str:
+        return f"Freesound(licences={self._licences!r}, base_url={self._service.base_url!r})"
+
+    def find(self, description: VibrationDescription) -> list[AudioClip]:
+        """Candidates in the service's order; empty where even the head noun finds nothing.
+
+        A sound that cannot be used is passed over with an `UnusableSound` warning.
+        Raises: BackendUnavailable: no answer, or no token; BadAnswer: an answer without sounds; ConfigError: the cache
+        cannot be written.
+        """
+        for query in ladder(description):
+            clips = self._clips(query)
+            if clips:
+                return clips
+        return []
+
+    def _clips(self, query: str) -> list[AudioClip]:
+        clips: list[AudioClip] = []
+        away: BackendUnavailable | None = None
+        n_away = 0
+        for sound in self._search(query):
+            if len(clips) == self._candidates or n_away == _PATIENCE:
+                break
+            try:
+                clip = self._clip(sound, query)
+            except (AudioError, BackendUnavailable) as cause:
+                warnings.warn(f"skipped sound {sound.id}: {cause}", UnusableSound, stacklevel=3)
+                if isinstance(cause, BackendUnavailable) and cause.retryable:
+                    away, n_away = cause, n_away + 1
+                continue
+            n_away = 0
+            if is_long_enough(clip):
+                clips.append(clip)
+        if not clips and away is not None:
+            raise away
+        return clips
+
+    def _search(self, query: str) -> list[Sound]:
+        """Kept results, or the service's, kept before they are used; only those that may be used."""
+        asked = {"base_url": self._service.base_url, "query": query, "filter": self._filter, "sort": self._sort}
+        name = f"searches/{digest(asked)}.json"
+        kept = self._store.document(name)
+        sounds = read_sounds(kept.get("results")) if isinstance(kept, dict) and kept.get("asked") == asked else None
+        if sounds is None:
+            sounds = self._service.search(query, self._filter, self._sort)
+            results = [sound.model_dump(mode="json") for sound in sounds]
+            self._store.keep_document(name, {"asked": asked, "results": results})
+        return [sound for sound in sounds if self._may_use(sound)]
+
+    def _may_use(self, sound: Sound) -> bool:
+        """Whether a result is what was asked for: filters are the service's, their breach would be ours."""
+        return (
+            bool(sound.preview)
+            and sound.licence in self._licences
+            and MIN_DURATION_S <= sound.duration <= self._max_duration_s
+        )
+
+    def _clip(self, sound: Sound, query: str) -> AudioClip:
+        """The preview, from disk if it has been fetched before, and on disk before it is used."""
+        name = f"previews/{sound.id}-{digest(sound.preview)[:12]}{'.ogg' if 'ogg' in sound.preview else '.mp3'}"
+        credit = sound.credit(query)
+        kept = self._store.clip(name, credit)
+        return kept if kept is not None else self._store.keep_clip(name, self._service.preview(sound), credit)

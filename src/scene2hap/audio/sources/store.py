@@ -1,0 +1,127 @@
+"""A folder that keeps what services gave, so that nothing is asked or paid for twice.
+
+Every file is written whole or not at all, and read back as carefully as if a stranger had written it: what does not
+hold counts as absent.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import soundfile
+
+from scene2hap.audio.analysis import trim_silence
+from scene2hap.audio.clip import AudioClip, Credit
+from scene2hap.audio.files import read_clip
+from scene2hap.audio.select import MIN_DURATION_S
+from scene2hap.errors import AudioError, ConfigError
+
+MAX_CLIP_S = 60.0
+"""Longest sound that a service may hand over [s]; assumed: a loop takes ten."""
+MAX_CHANNELS = 8
+SAMPLE_RATES_HZ = (4_000, 192_000)
+
+_MAX_JSON_BYTES = 4_000_000
+
+
+def digest(document: Any) -> str:
+    """A name for what a result depends on: equal JSON, equal name."""
+    text = json.dumps(document, sort_keys=True, separators=(",", ":"), ensure_ascii=True, allow_nan=False)
+    return hashlib.sha256(text.encode()).hexdigest()[:40]
+
+
+def plain_line(text: object, longest: int = 200) -> str:
+    """A stranger's text as one line that a credits file can hold: no line breaks, no control characters."""
+    kept = "".join(c if c.isprintable() else " " for c in str(text))
+    return re.sub(r"\s+", " ", kept).strip()[:longest]
+
+
+def is_long_enough(clip: AudioClip) -> bool:
+    """Whether a clip outlasts the selection's lower bound once its silent ends are cut."""
+    return len(trim_silence(clip.samples, clip.sample_rate_hz)) > MIN_DURATION_S * clip.sample_rate_hz
+
+
+def read_checked(path: Path, credit: Credit) -> AudioClip:
+    """A stranger's sound file, refused by its header if decoding it could fill the memory. Raises: AudioError."""
+    try:
+        told = soundfile.info(path)
+    except (soundfile.SoundFileError, TypeError, OSError) as cause:
+        raise AudioError(f"{credit.title!r} is not a readable sound ({cause}).") from cause
+    low, high = SAMPLE_RATES_HZ
+    if not (low <= told.samplerate <= high and told.channels <= MAX_CHANNELS):
+        raise AudioError(
+            f"{credit.title!r} has {told.channels} channels at {told.samplerate} Hz; it must have at most "
+            f"{MAX_CHANNELS}, at {low} to {high} Hz."
+        )
+    if told.frames > MAX_CLIP_S * told.samplerate:
+        raise AudioError(
+            f"{credit.title!r} lasts {told.frames / told.samplerate:.0f} s; it must be at most {MAX_CLIP_S:.0f} s."
+        )
+    return read_clip(path, credit)
+
+
+class Store:
+    """Documents and sounds by name, below one folder, which is made when something is first kept."""
+
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
+        self.folder = Path(folder)
+
+    def document(self, name: str) -> Any | None:
+        """The JSON document of that name, None where there is none that can be read."""
+        path = self.folder / name
+        try:
+            return json.loads(path.read_bytes()) if path.stat().st_size <= _MAX_JSON_BYTES else None
+        except (OSError, ValueError, RecursionError):
+            return None
+
+    def keep_document(self, name: str, document: Any) -> None:
+        """Write a JSON document. Raises: ConfigError: the folder cannot be written."""
+        with self._draft(name) as draft:
+            draft.write_text(json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False), encoding="utf-8")
+
+    def clip(self, name: str, credit: Credit) -> AudioClip | None:
+        """The sound of that name, None where there is none that can be used."""
+        path = self.folder / name
+        try:
+            return read_checked(path, credit) if path.is_file() else None
+        except AudioError:
+            return None
+
+    def keep_clip(self, name: str, content: bytes, credit: Credit) -> AudioClip:
+        """Write a sound file, once it has proven to be one.
+
+        Raises: AudioError: it has not, and is not kept; ConfigError: the folder cannot be written.
+        """
+        with self._draft(name) as draft:
+            draft.write_bytes(content)
+            return read_checked(draft, credit)
+
+    @contextmanager
+    def _draft(self, name: str) -> Iterator[Path]:
+        """A file beside the target that takes its place, unless the block raises."""
+        target = self.folder / name
+        draft: Path | None = None
+        try:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            descriptor, text = tempfile.mkstemp(dir=target.parent, prefix=".", suffix=f".part{target.suffix}")
+            os.close(descriptor)
+            draft = Path(text)
+            yield draft
+            with draft.open("rb+") as file:
+                os.fsync(file.fileno())
+            os.replace(draft, target)
+        except OSError as cause:
+            raise ConfigError(
+                f"cannot write the cache {self.folder}: {cause.strerror or cause}. Set `cache` to a folder of yours."
+            ) from cause
+        finally:
+            if draft is not None:
+                draft.unlink(missing_ok=True)

@@ -1,0 +1,38 @@
+"""Patch: a voice with the numbers of a real machine, and how they follow from its size.
+
+Size law: the speed of a machine is that of a reference machine times (reference / size)^(1/2), size being the longest
+side, within 3/4 and 4/3. Machines of equal tip speed would give the power 1, but larger ones of a kind are not scaled
+copies. Power and bounds are assumed. Whatever runs on the mains' own frequency does not change with size.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from scene2hap.audio.sources.synth.signals import Signal, Take
+
+SIZE_POWER = 0.5
+SIZE_FACTOR_BOUNDS = (0.75, 4.0 / 3.0)
+
+
+@dataclass(frozen=True)
+class Patch:
+    """A voice with its numbers.
+
+    `dominant_hz` bounds the strongest frequency at reference size; `reference_m` is the longest side of the machine
+    meant by the numbers, None where size does not matter; `is_steady` says that it loops without ado.
+    """
+
+    voice: Callable[[Take], Signal]
+    dominant_hz: tuple[float, float]
+    reference_m: float | None = None
+    is_steady: bool = True
+
+    def size_factor(self, longest_m: float) -> float:
+        """What multiplies frequencies for a machine of that size [m]; 1 where the size is unknown (0)."""
+        if self.reference_m is None or longest_m <= 0.0:
+            return 1.0
+        return float(np.clip((self.reference_m / longest_m) ** SIZE_POWER, *SIZE_FACTOR_BOUNDS))

@@ -1,0 +1,237 @@
+"""Names, verbs and patches: the numbers of real machines.
+
+Speeds of induction motors are those on a mains of 50 Hz.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+from scene2hap.audio.sources.synth.events import blows, bubbles, buzzer, music
+from scene2hap.audio.sources.synth.oscillating import (
+    combustion,
+    mains_hum,
+    microwave,
+    reciprocating,
+    ringing_motor,
+    vibration_motor,
+)
+from scene2hap.audio.sources.synth.patch import Patch
+from scene2hap.audio.sources.synth.rotating import compressor, fan, motor, power_tool, pump, spinner
+from scene2hap.audio.sources.synth.working import geared, jet, rolling, rotor_slap, stepper
+
+
+def _fan(
+    shaft_hz: float, blades: int, size_m: float, *, rotor: float = 1.0, blade: float = 0.5, flow: float = 0.5
+) -> Patch:
+    """A fan whose rotor dominates, or its blades where their level is higher."""
+    order = blades if blade > rotor else 1
+    voice = partial(fan, shaft_hz=shaft_hz, blades=blades, rotor=rotor, blade=blade, flow=flow)
+    return Patch(voice, (0.96 * order * shaft_hz, 1.04 * order * shaft_hz), size_m)
+
+
+def _engine(firing_hz: float, loud_order: int, size_m: float) -> Patch:
+    loud_hz = loud_order * firing_hz
+    voice = partial(combustion, firing_hz=firing_hz, loud_order=loud_order)
+    return Patch(voice, (0.95 * loud_hz, 1.05 * loud_hz), size_m)
+
+
+def _to_and_fro(stroke_hz: float, *, rattle: float = 0.1) -> Patch:
+    return Patch(partial(reciprocating, stroke_hz=stroke_hz, rattle=rattle), (0.96 * stroke_hz, 1.04 * stroke_hz))
+
+
+def _shaker(motor_hz: float, size_m: float | None = None) -> Patch:
+    return Patch(partial(vibration_motor, motor_hz=motor_hz), (0.95 * motor_hz, 1.05 * motor_hz), size_m)
+
+
+def _geared(
+    motor_hz: float, output_hz: float, size_m: float, *, load: float = 0.2, rumble: float = 0.2, thump_hz: float = 0.0
+) -> Patch:
+    voice = partial(geared, motor_hz=motor_hz, output_hz=output_hz, load=load, rumble=rumble, thump_hz=thump_hz)
+    return Patch(voice, (0.96 * motor_hz, 1.04 * motor_hz), size_m)
+
+
+def _strokes(per_second: float, body_hz: float, decay_s: float, *, click: float = 0.2) -> Patch:
+    """Blows that follow each other too fast to be told apart, or not: then they do not loop without ado."""
+    voice = partial(blows, per_second=per_second, body_hz=body_hz, decay_s=decay_s, click=click)
+    # The strongest line of a quick train is the multiple of its rate nearest to the body's pitch.
+    spread = max(0.06 * body_hz, 0.6 * per_second)
+    return Patch(voice, (body_hz - spread, body_hz + spread), is_steady=per_second > 10.0)
+
+
+def _tool(
+    motor_hz: float, spindle_hz: float, size_m: float, *, spindle: float = 0.4, loud_hz: float | None = None
+) -> Patch:
+    voice = partial(power_tool, motor_hz=motor_hz, spindle_hz=spindle_hz, spindle=spindle)
+    loud_hz = loud_hz or motor_hz
+    return Patch(voice, (0.96 * loud_hz, 1.04 * loud_hz), size_m)
+
+
+MOTOR = Patch(motor, (46.0, 50.0), 0.4)
+_HUM = Patch(mains_hum, (99.8, 100.2))
+_COMPRESSOR = Patch(compressor, (48.5, 49.5))
+_PISTONS = _to_and_fro(47.5, rattle=0.3)
+_BOILING = Patch(partial(bubbles, largest_hz=90.0, smallest_hz=380.0), (80.0, 420.0))
+_SIZZLING = Patch(partial(bubbles, largest_hz=150.0, smallest_hz=500.0, per_second=1200.0), (130.0, 550.0))
+_CRACKLING = Patch(
+    partial(bubbles, largest_hz=100.0, smallest_hz=400.0, per_second=40.0), (80.0, 440.0), is_steady=False
+)
+_RINGING_PHONE = Patch(ringing_motor, (175.0, 190.0), is_steady=False)
+_VIBRATION = Patch(vibration_motor, (175.0, 190.0))
+_TICK = Patch(partial(blows, per_second=1.0, body_hz=210.0, decay_s=0.03), (180.0, 240.0), 0.3, is_steady=False)
+_ALARM = Patch(partial(buzzer, pitch_hz=240.0, on_s=0.25, off_s=0.25), (235.0, 245.0), is_steady=False)
+_HORN = Patch(partial(buzzer, pitch_hz=220.0), (215.0, 225.0))
+_BUZZER = Patch(partial(buzzer, pitch_hz=100.0), (98.0, 102.0))
+_CHIME = _strokes(1.0, 260.0, 0.35, click=0.1)
+_JACKHAMMER = Patch(partial(blows, per_second=25.0, body_hz=125.0, decay_s=0.03), (95.0, 155.0))
+_CLATTER = _strokes(30.0, 120.0, 0.015)
+_CAR = _engine(28.0, 2, 4.5)
+_DIESEL = _engine(35.0, 2, 7.0)
+_SMALL_ENGINE = _engine(25.0, 2, 1.0)
+_SHAKER = _shaker(60.0, 0.2)
+_TWO_STROKE = _engine(117.0, 1, 0.8)
+_DRILL = _tool(250.0, 18.0, 0.25)
+_MIXER = _tool(250.0, 18.0, 0.4)
+_GRINDER = _tool(420.0, 183.0, 0.3, spindle=1.5, loud_hz=183.0)
+_CUTTER = _tool(300.0, 300.0, 0.3, spindle=0.0)
+_PUMP = Patch(pump, (276.0, 300.0), 0.3)
+_MUSIC = Patch(music, (60.0, 135.0), is_steady=False)
+_BREEZE = _fan(22.0, 5, 0.4, rotor=0.5, blade=1.0, flow=1.0)
+_BLOWER = _fan(220.0, 9, 0.22, blade=0.2, flow=0.7)
+_COMPUTER = _fan(26.0, 7, 0.12, rotor=0.4, blade=1.0, flow=1.8)
+_CENTRIFUGE = _fan(66.0, 4, 0.4, blade=0.1, flow=0.2)
+_KNEADER = _geared(48.0, 3.5, 0.35, load=0.25)
+_CONVEYOR = _geared(48.0, 9.0, 3.0, rumble=0.4)
+_WINCH = _geared(48.0, 6.0, 1.5)
+_ELECTRIC_DRIVE = _geared(90.0, 8.0, 1.5)
+_TUMBLER = _geared(48.0, 0.85, 0.6, load=0.1, thump_hz=70.0)
+_STEPPER = Patch(stepper, (85.0, 265.0))
+_ROLLING = Patch(rolling, (40.0, 60.0))
+_HISS = Patch(jet, (45.0, 300.0))
+_WATER = Patch(partial(jet, low_hz=60.0, tilt_db=-4.5), (55.0, 350.0))
+_ROAR = Patch(partial(jet, low_hz=40.0, tilt_db=-5.5), (38.0, 200.0))
+_STEAM = Patch(partial(jet, pump=1.5), (49.5, 50.5))
+
+# Names (any of them), verbs (any of them; "" for all), patch.
+TABLE: tuple[tuple[str, str, Patch], ...] = (
+    # the kitchen
+    ("refrigerator, freezer, minibar, wine cooler, water cooler, dehumidifier", "", _COMPRESSOR),
+    ("water dispenser, vending machine, heat pump, ice machine, ice maker", "", _COMPRESSOR),
+    ("microwave", "", Patch(microwave, (99.8, 100.2))),
+    ("hood", "", _fan(42.0, 7, 0.6, flow=0.7)),
+    ("oven, stove, cooktop, cooker, hob, hotplate, toaster", "", _HUM),
+    ("cooker, steamer", "boil, bubble, simmer", _BOILING),
+    ("stove, burner", "hiss, roar", _ROAR),
+    ("stove, fireplace", "crackle", _CRACKLING),
+    ("air fryer", "", _fan(46.0, 7, 0.35, blade=0.3, flow=0.7)),
+    ("pan, pot, kettle, wok, cauldron, fryer, soup, rice cooker, slow cooker", "", _BOILING),
+    ("pan, wok, fryer, iron", "sizzle, fry, sear", _SIZZLING),
+    ("grill, barbecue", "", _SIZZLING),
+    ("dishwasher", "", Patch(pump, (276.0, 300.0), 0.6)),
+    ("coffeemaker", "", _to_and_fro(50.0, rattle=0.2)),
+    ("blender, mixer, food processor, juicer, coffee grinder", "", _MIXER),
+    ("bread maker", "", _KNEADER),
+    ("knife", "", _to_and_fro(50.0, rattle=0.3)),
+    # bathroom and laundry
+    ("washer", "", Patch(spinner, (204.0, 221.0), 0.6)),
+    ("dryer", "", _TUMBLER),
+    ("toothbrush", "", _to_and_fro(260.0)),
+    ("shaver, razor, trimmer, clipper, epilator", "", _to_and_fro(110.0, rattle=0.15)),
+    ("hairdryer, hand dryer, heat gun", "", _BLOWER),
+    ("massager, massage gun, vibrator", "", _SHAKER),
+    ("massage chair", "", _geared(48.0, 0.7, 1.1, load=0.2)),
+    ("flosser", "", _strokes(23.3, 140.0, 0.015, click=0.05)),
+    # moving air, cooling, cleaning
+    ("fan, ventilator, purifier, humidifier, fan heater, aircon, vent", "", _BREEZE),
+    ("handheld fan, hand fan, mini fan, usb fan", "", _fan(80.0, 3, 0.12)),
+    ("computer, laptop, server, console, projector, computer fan", "", _COMPUTER),
+    ("workstation, gpu, network rack, mining rig, supercomputer", "", _COMPUTER),
+    ("hard drive, hard disk", "", _fan(120.0, 3, 0.15, blade=0.05, flow=0.1)),
+    ("vacuum sealer", "", _PISTONS),
+    ("vacuum", "", _fan(330.0, 7, 0.4, blade=0.1, flow=0.6)),
+    ("steam cleaner, steamer, iron, paint sprayer, sprayer", "", _STEAM),
+    ("sprinkler, hose, car wash", "", _HISS),
+    ("pressure washer", "", Patch(partial(pump, vanes=3), (138.0, 150.0), 0.6)),
+    # small things
+    ("phone, smartwatch, pager, tablet", "", _RINGING_PHONE),
+    ("gamepad, controller, joystick", "", _shaker(48.0)),
+    ("clock, watch, metronome, timer", "", _TICK),
+    ("alarm clock, alarm, siren, smoke detector", "", _ALARM),
+    ("clock, watch, timer, alarm clock", "ring, beep, buzz", _ALARM),
+    ("clock, alarm clock", "tick", _TICK),
+    ("buzzer, doorbell, bell, intercom", "", _BUZZER),
+    ("doorbell, bell, chime", "chime, ring, toll, tinkle", _CHIME),
+    ("speaker, loudspeaker, radio, stereo, subwoofer, jukebox, turntable, boombox, piano, guitar", "", _MUSIC),
+    ("tv, monitor", "play", _MUSIC),
+    ("monitor, scanner, defibrillator", "beep", _ALARM),
+    ("transformer, lamp, light, charger, adapter, amplifier, tv, monitor, router, heater, radiator", "", _HUM),
+    ("welding machine, welder, elevator", "", _HUM),
+    ("printer, copier, scanner, fax, plotter, cnc machine", "", _STEPPER),
+    ("pump, fountain, aquarium, boiler", "", _PUMP),
+    ("toilet, tap, faucet, shower, pipe, bathtub, river, waterfall, stream", "", _WATER),
+    ("drone, quadcopter", "", _fan(90.0, 2, 0.3, rotor=0.4, blade=1.0)),
+    ("robot", "", _geared(95.0, 3.0, 0.5)),
+    ("sewing machine", "", _CLATTER),
+    # workshop and machines
+    ("drill, screwdriver", "", _DRILL),
+    ("grinder, sander, polisher, circular saw, saw", "", _GRINDER),
+    ("wood router, rotary tool, planer", "", _CUTTER),
+    ("jigsaw, reciprocating saw", "", _to_and_fro(46.0, rattle=0.3)),
+    ("jackhammer, rammer, compactor, breaker, hammer drill, demolition hammer", "", _JACKHAMMER),
+    ("impact driver, impact wrench", "", _strokes(58.0, 174.0, 0.01)),
+    ("nail gun, stapler", "", _strokes(1.5, 150.0, 0.04)),
+    ("lathe, milling machine", "", _geared(48.0, 12.0, 1.5)),
+    ("compressor, air pump", "", _PISTONS),
+    ("motor", "", MOTOR),
+    ("conveyor, conveyor belt, escalator, travelator, stair climber", "", _CONVEYOR),
+    ("treadmill", "", _geared(60.0, 2.6, 1.8, rumble=0.3, thump_hz=75.0)),
+    ("hoist, winch, lift, crane", "hum, whir", _WINCH),
+    # garden and building site
+    ("chainsaw", "", _engine(150.0, 1, 0.8)),
+    ("leafblower, string trimmer, brush cutter", "", _TWO_STROKE),
+    ("lawnmower, generator, tiller, scarifier, snow blower, cultivator", "", _SMALL_ENGINE),
+    ("robot mower", "", _fan(50.0, 3, 0.6)),
+    ("concrete mixer, cement mixer", "", _geared(48.0, 0.5, 1.2, load=0.1, rumble=0.4, thump_hz=60.0)),
+    ("concrete poker", "", _shaker(200.0)),
+    ("power plate, vibration plate, road roller", "", _shaker(45.0)),
+    ("pile driver", "", _strokes(0.8, 55.0, 0.15)),
+    # road, rail, air
+    ("car, van, taxi, engine, ambulance, camper, buggy, kart, atv, quad bike, jet ski, snowmobile", "", _CAR),
+    ("truck, bus, tractor, excavator, bulldozer, forklift, boat, crane, cement truck", "", _DIESEL),
+    ("loader, grader, digger, locomotive, ship, yacht, motorboat, speedboat, harvester, snow plow", "", _DIESEL),
+    ("motorcycle, scooter, moped", "", _engine(24.0, 2, 2.0)),
+    ("scooter, forklift, car, bike, skateboard, hoverboard, segway, wheelchair", "hum", _ELECTRIC_DRIVE),
+    ("electric car, bumper car, golf cart", "", _ELECTRIC_DRIVE),
+    ("train, tram, subway, metro", "", _ROLLING),
+    # The first shaft of a turbofan at cruise; its blades pass far above touch.
+    ("airplane, aeroplane, plane, jet", "", _fan(75.0, 24, 30.0, blade=0.05, flow=0.8)),
+    ("helicopter", "", Patch(rotor_slap, (45.0, 85.0))),
+    # by what they do, where the thing itself is unknown
+    ("", "boil, bubble, simmer", _BOILING),
+    ("", "sizzle, fry", _SIZZLING),
+    ("", "tick", _TICK),
+    ("", "ring, beep, alarm", _ALARM),
+    ("", "chime, toll, tinkle", _CHIME),
+    ("", "buzz", _BUZZER),
+    ("", "hum", _HUM),
+    ("", "vibrate", _VIBRATION),
+    ("", "blow, whir, ventilate", _BREEZE),
+    ("", "drill", _DRILL),
+    ("", "grind, sand, saw", _GRINDER),
+    ("", "hammer, pound", _JACKHAMMER),
+    ("", "clatter, rattle", _CLATTER),
+    ("", "knead, tumble, churn, stir", _KNEADER),
+    ("", "hiss, spray, steam", _HISS),
+    ("", "roar", _ROAR),
+    ("", "crackle, pop", _CRACKLING),
+    ("", "spin", _CENTRIFUGE),
+    ("", "blare, honk, wail", _HORN),
+    ("", "pulse, throb, thump", _SHAKER),
+    ("", "rumble, roll", _ROLLING),
+    ("", "print, scan", _STEPPER),
+    ("", "pump", _PUMP),
+    ("", "flow, gurgle, drain, trickle, swish", _WATER),
+    ("", "idle, rev", _CAR),
+    ("", "play, boom", _MUSIC),
+    ("", "cool, chill", _COMPRESSOR),
+)

@@ -1,0 +1,7 @@
+"""Sounds generated from a sentence, by a program of one's choice in a process of its own."""
+
+from __future__ import annotations
+
+from scene2hap.audio.sources.text_to_audio.source import TextToAudio, UnusableTake
+
+__all__ = ["TextToAudio", "UnusableTake"]

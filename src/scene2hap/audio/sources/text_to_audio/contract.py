@@ -1,0 +1,110 @@
+"""What is said between scene2hap and a generator: a request file in, a reply file and sound files out.
+
+request.json   {"contract", "version", "prompt", "count", "duration_s", "seed"}
+reply.json     {"contract", "version", "model", "licence", "address", "files": ["0.wav", ...]}   or   {..., "error"}
+
+Both are described in docs/sound-sources.md. The reply lies in the folder of the sounds and is written last.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import stat
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from scene2hap import checks
+from scene2hap.errors import BackendUnavailable, BadAnswer
+
+CONTRACT = "scene2hap/text-to-audio"
+VERSION = 1
+REPLY_NAME = "reply.json"
+
+_MAX_REPLY_BYTES = 1_000_000
+
+
+@dataclass(frozen=True)
+class Request:
+    """`count` takes of `duration_s` [s] each, of what `prompt` says; `seed` makes them repeatable."""
+
+    prompt: str
+    count: int
+    duration_s: float
+    seed: int
+
+    def to_document(self) -> dict[str, object]:
+        """As it stands in the file."""
+        return {"contract": CONTRACT, "version": VERSION, **asdict(self)}
+
+
+class Reply(BaseModel):
+    """Which model made the sounds, under which licence, and where they lie: names in the reply's own folder."""
+
+    model_config = ConfigDict(extra="ignore", frozen=True)
+
+    contract: str
+    version: int
+    error: str = ""
+    model: str = ""
+    licence: str = "unknown"
+    address: str = ""
+    files: tuple[Annotated[str, Field(min_length=1, max_length=200)], ...] = ()
+
+
+def read_reply(folder: Path, scrub: Callable[[str], str] = str) -> Reply:
+    """What the generator says it did; `scrub` takes out of its text what nobody shall see.
+
+    Raises: BackendUnavailable: it says that it failed; BadAnswer: it says nothing, or not in the words of the contract.
+    """
+    try:
+        raw = _content(folder / REPLY_NAME, _MAX_REPLY_BYTES)
+    except OSError as cause:
+        raise BadAnswer(f"the generator left no {REPLY_NAME} ({cause}). See docs/sound-sources.md.", "") from cause
+    text = scrub(raw.decode("utf-8", "replace"))
+    try:
+        reply = Reply.model_validate(json.loads(text))
+    except (ValueError, RecursionError) as cause:
+        told = checks.first_problem(cause) if isinstance(cause, ValidationError) else None
+        reason = f"{told.place}: {told.reason}" if told else str(cause)
+        raise BadAnswer(f"{REPLY_NAME} of the generator: {reason}. See docs/sound-sources.md.", text[:2000]) from cause
+    if (reply.contract, reply.version) != (CONTRACT, VERSION):
+        raise BadAnswer(
+            f"the generator speaks {reply.contract!r} version {reply.version}; it must be {CONTRACT!r} version "
+            f"{VERSION}.",
+            text[:2000],
+        )
+    if reply.error:
+        raise BackendUnavailable(f"the generator says: {' '.join(reply.error.split())[:400]}", retryable=False)
+    if not reply.files:
+        raise BadAnswer("the generator names no files. See docs/sound-sources.md.", text[:2000])
+    return reply
+
+
+def read_file(folder: Path, name: str, max_bytes: int) -> bytes:
+    """The content of a file that a reply names.
+
+    Raises: BadAnswer: the name leads out of the folder, or there is no plain file of at most `max_bytes`.
+    """
+    if Path(name).name != name or name in (".", "..") or "\\" in name:
+        raise BadAnswer(f"the generator names the file {name!r}; it must be a plain name in the reply's folder.", name)
+    try:
+        return _content(folder / name, max_bytes)
+    except OSError as cause:
+        raise BadAnswer(f"the generator's file {name!r} cannot be read: {cause}.", name) from cause
+
+
+def _content(path: Path, max_bytes: int) -> bytes:
+    """A plain file: neither a link, which may lead anywhere, nor a pipe, which would block. Raises: OSError."""
+    told = path.lstat()
+    if not stat.S_ISREG(told.st_mode):
+        raise OSError(f"{path.name} is not a plain file")
+    if told.st_size > max_bytes:
+        raise OSError(f"{path.name} has {told.st_size} bytes; at most {max_bytes} are read")
+    descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0))
+    with os.fdopen(descriptor, "rb") as file:
+        return file.read(max_bytes)

@@ -1,0 +1,45 @@
+from __future__ import annotations
+
+import pytest
+
+from scene2hap.audio.sources.freesound.ladder import LONGEST_QUERY, ladder
+from scene2hap.haptics import VibrationDescription
+
+
+def rungs(category: str, keywords: str) -> tuple[str, ...]:
+    return ladder(VibrationDescription(category, "on", "", keywords, 0.5, (0.0, 0.0, 0.0)))
+
+
+@pytest.mark.parametrize(
+    ("category", "keywords", "expected"),
+    [
+        ("fan", "fan whirring", ("fan whirring", "fan")),
+        (
+            "electric toothbrush",
+            "electric toothbrush buzzing",
+            ("electric toothbrush buzzing", "electric toothbrush", "toothbrush buzzing", "toothbrush"),
+        ),
+        # A washing machine without its washing is nothing in particular.
+        ("washing machine", "washing machine spinning", ("washing machine spinning", "washing machine")),
+        (
+            "old Coffee Maker on a counter",
+            "coffee maker brewing",
+            ("coffee maker brewing", "old coffee maker", "coffee maker"),
+        ),
+        (
+            "sewing machine",
+            "sewing machine clattering",
+            ("sewing machine clattering", "sewing machine", "machine clattering"),
+        ),
+        ("thing", "thing", ()),
+        ("", "", ()),
+        ("12 / 3", "!", ()),
+        ("", "boiling water", ("boiling water",)),
+    ],
+)
+def test_fewer_words_from_rung_to_rung(category: str, keywords: str, expected: tuple[str, ...]) -> None:
+    assert rungs(category, keywords) == expected
+
+
+def test_rungs_stay_within_their_length() -> None:
+    assert all(0 < len(rung) <= LONGEST_QUERY for rung in rungs("pneumatic " * 30 + "drill", "drill " * 50))

@@ -1,0 +1,268 @@
+"""What the voices promise about machines, read back from their samples by spectrum and envelope.
+
+Expectations come from the mechanics (orders of shaft speed, blade passing, mains, time constants); nothing here looks
+at how a voice is made.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+import pytest
+from scipy.signal import hilbert
+
+from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.sources.synth import Synthesizer
+from scene2hap.audio.sources.synth.events import blows, bubbles, music
+from scene2hap.audio.sources.synth.oscillating import combustion, ringing_motor, vibration_motor
+from scene2hap.audio.sources.synth.rotating import compressor, fan, power_tool, pump, spinner
+from scene2hap.audio.sources.synth.signals import SAMPLE_RATE_HZ, Signal, Take
+from scene2hap.audio.sources.synth.working import geared, rolling, rotor_slap, stepper
+from scene2hap.errors import ConfigError
+from scene2hap.haptics import VibrationDescription
+from scene2hap.llm.lexicon.describing import describe
+from scene2hap.llm.lexicon.table import table
+
+STATES = [(row.noun, state.name, state.intensity) for row in table() for state in row.states]
+
+
+def take(drive: float = 0.5, size_factor: float = 1.0, mains_hz: float = 50.0, seed: int = 3) -> Take:
+    return Take(np.random.default_rng(seed), drive, size_factor, mains_hz)
+
+
+def spectrum(y: Signal) -> tuple[Signal, Signal]:
+    """Frequencies and magnitudes, a Hann window, bins of 0.1 Hz."""
+    n = 2 * len(y)
+    return np.fft.rfftfreq(n, 1 / SAMPLE_RATE_HZ), np.abs(np.fft.rfft((y - y.mean()) * np.hanning(len(y)), n))
+
+
+def line_hz(y: Signal, low_hz: float, high_hz: float) -> float:
+    """The strongest line between two frequencies."""
+    f, magnitude = spectrum(y)
+    return float(f[np.argmax(np.where((f >= low_hz) & (f <= high_hz), magnitude, 0.0))])
+
+
+def prominence_db(y: Signal, at_hz: float, half_width_hz: float = 1.0) -> float:
+    """How far the line at a frequency stands above the median of its neighbourhood, +-10 Hz."""
+    f, magnitude = spectrum(y)
+    near = magnitude[np.abs(f - at_hz) <= half_width_hz].max()
+    around = np.median(magnitude[(np.abs(f - at_hz) <= 10.0) & (np.abs(f - at_hz) > 2.0)])
+    return float(20 * np.log10(near / around))
+
+
+# machines that turn
+
+
+@pytest.mark.parametrize(("shaft_hz", "blades"), [(22.0, 5), (26.0, 7), (80.0, 3), (42.0, 7)])
+def test_blades_pass_at_blades_times_shaft_speed(shaft_hz: float, blades: int) -> None:
+    y = fan(take(), shaft_hz=shaft_hz, blades=blades)
+    turns = line_hz(y, 0.95 * shaft_hz, 1.05 * shaft_hz)
+    passing = line_hz(y, 0.95 * blades * shaft_hz, 1.05 * blades * shaft_hz)
+    assert passing / turns == pytest.approx(blades, rel=4e-3)
+    assert prominence_db(y, turns) > 15.0
+    assert prominence_db(y, passing) > 15.0
+
+
+def test_an_induction_compressor_slips_behind_its_mains() -> None:
+    for mains_hz in (50.0, 60.0):
+        y = compressor(take(mains_hz=mains_hz))
+        shaft = line_hz(y, 0.9 * mains_hz, 1.1 * mains_hz)
+        assert 0.95 * mains_hz < shaft < 0.995 * mains_hz, "slip of half to five per cent"
+        # The second order and the magnetic pull are two lines, twice the slip apart.
+        assert line_hz(y, 1.99 * mains_hz, 2.01 * mains_hz) == pytest.approx(2 * mains_hz, abs=0.15)
+        assert prominence_db(y, 2 * shaft, 0.3) > 15.0
+
+
+@pytest.mark.parametrize("mains_hz", [50.0, 60.0])
+@pytest.mark.parametrize("thing", ["transformer", "microwave"])
+def test_iron_hums_at_twice_the_mains_and_its_multiples(thing: str, mains_hz: float) -> None:
+    (clip,) = Synthesizer(mains_hz=mains_hz).find(asked(thing, "hum", 0.5))
+    y = clip.samples.astype(float)
+    assert line_hz(y, 20.0, 1000.0) == pytest.approx(2 * mains_hz, abs=0.1)
+    for order in (2, 3):
+        assert prominence_db(y, 2 * mains_hz * order) > 12.0
+
+
+def test_a_drum_loads_its_motor_once_per_turn() -> None:
+    """Load modulation shows as sidebands of the motor's line, one drum speed away."""
+    y = spinner(take(), drum_hz=18.0, belt_ratio=11.5)
+    motor = line_hz(y, 190.0, 225.0)
+    drum = line_hz(y, 16.0, 20.0)
+    assert motor / drum == pytest.approx(11.5, rel=4e-3)
+    for sideband in (motor - drum, motor + drum):
+        assert prominence_db(y, sideband) > 12.0
+
+
+def test_a_gear_loads_its_motor_once_per_turn_of_the_output() -> None:
+    y = geared(take(), motor_hz=48.0, output_hz=6.0, load=0.3, rumble=0.0)
+    motor = line_hz(y, 45.0, 51.0)
+    output = motor - line_hz(y, motor - 8.0, motor - 4.0)
+    assert motor / output == pytest.approx(8.0, rel=0.02)
+    envelope = np.abs(hilbert(y))[SAMPLE_RATE_HZ // 2 : -SAMPLE_RATE_HZ // 2]
+    assert line_hz(envelope, 3.0, 12.0) == pytest.approx(output, abs=0.25)
+
+
+def test_a_power_tool_whines_at_teeth_times_motor_speed() -> None:
+    y = power_tool(take(drive=1.0), motor_hz=250.0, spindle_hz=18.0, teeth=7)
+    motor = line_hz(y, 0.9 * 287.5, 1.1 * 287.5)  # 15 % above nominal at full drive
+    assert line_hz(y, 6.9 * motor, 7.1 * motor) / motor == pytest.approx(7.0, rel=5e-3)
+    assert line_hz(y, 15.0, 25.0) / motor == pytest.approx(18.0 / 250.0, rel=5e-3)
+
+
+def test_vanes_pass_at_vanes_times_shaft_speed() -> None:
+    y = pump(take(), shaft_hz=48.0, vanes=6)
+    assert line_hz(y, 270.0, 305.0) / line_hz(y, 45.0, 51.0) == pytest.approx(6.0, rel=4e-3)
+
+
+def test_a_helicopter_slaps_at_blades_times_rotor_speed() -> None:
+    y = rotor_slap(take(), rotor_hz=6.4, blades=4)
+    envelope = np.abs(hilbert(y))
+    passing = line_hz(envelope, 15.0, 40.0)
+    assert passing == pytest.approx(25.6, rel=0.04)
+    # One blade out of track marks every turn.
+    assert line_hz(envelope, 4.0, 10.0) == pytest.approx(passing / 4, rel=0.02)
+
+
+def test_an_engine_fires_at_its_rate_and_its_loud_order_is_loudest() -> None:
+    y = combustion(take(), firing_hz=28.0, loud_order=2)
+    loud = line_hz(y, 20.0, 400.0)
+    assert loud == pytest.approx(56.0, rel=0.04)
+    assert prominence_db(y, loud / 2) > 10.0
+
+
+def test_wheels_pass_sleepers_at_speed_over_spacing() -> None:
+    assert line_hz(rolling(take(), passing_hz=30.0 / 0.6), 40.0, 60.0) == pytest.approx(50.0, rel=0.05)
+
+
+# things that start, strike and play
+
+
+@pytest.mark.parametrize(("spin_up_s", "spin_down_s"), [(0.05, 0.08), (0.12, 0.2)])
+def test_a_phone_s_motor_gathers_speed_and_its_force_with_the_square_of_it(
+    spin_up_s: float, spin_down_s: float
+) -> None:
+    y = ringing_motor(take(), spin_up_s=spin_up_s, spin_down_s=spin_down_s)[: round(1.5 * SAMPLE_RATE_HZ)]
+    # Two cycles at the speed of half force: any other width would let the envelope flutter there.
+    width = round(2 * SAMPLE_RATE_HZ / (182.0 / 2**0.5))
+    envelope = np.sqrt(np.convolve(y**2, np.ones(width) / width, mode="same"))
+    t = np.arange(len(y)) / SAMPLE_RATE_HZ
+    full = np.median(envelope[(t > 0.7) & (t < 0.9)])
+    rise = t[np.argmax(envelope > full / 2)]
+    # w = 1 - exp(-t / tau) and force ~ w^2: half of it where w = 1 / sqrt(2).
+    assert rise == pytest.approx(-spin_up_s * np.log(1 - 2**-0.5), abs=0.006)
+    fall = t[(t > 1.0) & (envelope < full / 2)][0] - 1.0
+    assert fall == pytest.approx(spin_down_s * np.log(2.0) / 2, abs=0.006)
+
+
+def test_a_phone_s_motor_rises_in_pitch() -> None:
+    y = ringing_motor(take())
+    t = np.arange(len(y)) / SAMPLE_RATE_HZ
+    crossings = t[1:][(y[:-1] < 0) & (y[1:] >= 0)]
+    pitch = 1 / np.diff(crossings)
+    early = pitch[(crossings[1:] > 0.03) & (crossings[1:] < 0.07)].mean()
+    late = np.median(pitch[(crossings[1:] > 0.5) & (crossings[1:] < 0.9)])
+    # Between 1 - exp(-0.6) and 1 - exp(-1.4) of full speed, near 1 - 1/e.
+    assert early / late == pytest.approx(1 - np.exp(-1), abs=0.06)
+    assert late == pytest.approx(182.0, rel=0.04)
+
+
+def test_bubbles_ring_where_their_radii_say() -> None:
+    """Minnaert: f R = 3.26 m/s in water, so that 8.15 mm to 36 mm are 400 to 90 Hz."""
+    y = bubbles(take(), largest_hz=3.26 / 0.0362, smallest_hz=3.26 / 0.00815)
+    f, magnitude = spectrum(y)
+    power = magnitude**2
+    assert power[(f > 80.0) & (f < 440.0)].sum() > 0.9 * power.sum()
+
+
+def test_blows_come_at_their_rate() -> None:
+    envelope = np.abs(hilbert(blows(take(), per_second=25.0, body_hz=125.0, decay_s=0.01)))
+    assert line_hz(envelope, 10.0, 40.0) == pytest.approx(25.0, abs=0.1)
+
+
+def test_music_has_its_beat() -> None:
+    envelope = np.abs(hilbert(music(take(), beats_per_minute=120.0)))
+    assert line_hz(envelope, 0.5, 3.0) in (pytest.approx(2.0, abs=0.1), pytest.approx(1.0, abs=0.1))
+
+
+def test_a_stepper_s_pitch_stays_within_its_speeds() -> None:
+    y = stepper(take(), slowest_hz=90.0, fastest_hz=260.0)
+    segments = y[: 24 * 10_000].reshape(24, 10_000)
+    pitches = [line_hz(segment, 40.0, 300.0) for segment in segments]
+    assert 85.0 < min(pitches) < 0.8 * max(pitches) < max(pitches) < 265.0
+
+
+# what shapes them
+
+
+@pytest.mark.parametrize(
+    "voice",
+    [
+        partial(fan, shaft_hz=80.0, blades=3),
+        partial(power_tool, motor_hz=250.0, spindle_hz=18.0),
+        partial(combustion, firing_hz=75.0, loud_order=1),
+        partial(vibration_motor, motor_hz=150.0),
+    ],
+    ids=lambda voice: voice.func.__name__,
+)
+def test_what_nothing_holds_runs_faster_when_driven_and_slower_when_large(voice: partial[Signal]) -> None:
+    slow, middle, fast = (line_hz(voice(take(drive)), 40.0, 400.0) for drive in (0.0, 0.5, 1.0))
+    assert (slow / middle, fast / middle) == (pytest.approx(0.85, rel=0.01), pytest.approx(1.15, rel=0.01))
+    large = line_hz(voice(take(size_factor=0.75)), 30.0, 400.0)
+    assert large / middle == pytest.approx(0.75, rel=0.01)
+
+
+@pytest.mark.parametrize("voice", [compressor, pump])
+def test_what_the_mains_holds_keeps_its_speed(voice: object) -> None:
+    idle, driven, american = (
+        line_hz(voice(take(drive, mains_hz=mains)), 30.0, 400.0)  # type: ignore[operator]
+        for drive, mains in ((0.0, 50.0), (1.0, 50.0), (0.5, 60.0))
+    )
+    assert idle == pytest.approx(driven, rel=1e-3)
+    assert american / idle == pytest.approx(1.2, rel=3e-3)
+
+
+def test_mains_are_those_of_this_planet() -> None:
+    for mains_hz in (16.7, 400.0, float("nan")):
+        with pytest.raises(ConfigError, match="mains_hz is"):
+            Synthesizer(mains_hz=mains_hz)
+
+
+# every state of the lexicon
+
+
+def asked(category: str, verb: str, intensity: float, seed: int = 0) -> VibrationDescription:
+    return VibrationDescription(
+        category, "on", f"{category} {verb}", f"{category} {verb}", intensity, (0.3, 0.3, 0.1), seed=seed
+    )
+
+
+def made(noun: str, state: str, intensity: float) -> AudioClip:
+    answer = describe(noun, state)
+    (clip,) = Synthesizer().find(
+        VibrationDescription(noun, state, answer.sentence, answer.keywords, intensity, (0.3, 0.3, 0.1))
+    )
+    return clip
+
+
+def test_every_state_has_a_voice_of_its_own() -> None:
+    from scene2hap.audio.sources.synth.table import MOTOR
+    from scene2hap.audio.sources.synth.vocabulary import patch_for
+
+    some_motor = [
+        (noun, state) for noun, state, _ in STATES if patch_for(noun, describe(noun, state).keywords, state) is MOTOR
+    ]
+    assert [pair for pair in some_motor if pair[0].split()[-1] != "motor"] == []
+
+
+@pytest.mark.parametrize("number", range(0, len(STATES), 24))
+def test_states_sound_whole(number: int) -> None:
+    """Every twenty-fourth; voices themselves are each tested in test_synth."""
+    clip = made(*STATES[number])
+    y = clip.samples.astype(float)
+    assert np.isfinite(y).all()
+    assert 0.85 < np.abs(y).max() <= 0.901
+    is_top = np.abs(y) > (1 - 1e-7) * np.abs(y).max()
+    assert not (is_top[2:] & is_top[1:-1] & is_top[:-2]).any(), "clipped"
+    assert abs(y.mean()) < 1e-6
+    np.testing.assert_array_equal(made(*STATES[number]).samples, clip.samples)
