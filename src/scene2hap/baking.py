@@ -8,20 +8,21 @@ from __future__ import annotations
 
 import asyncio
 import warnings
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field, ValidationInfo, field_validator
 
+from scene2hap.audio.actuators import actuator_profile
 from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.haptic_loop import HapticLoop
-from scene2hap.audio.loops import loop_pair
-from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.select import select_clip
 from scene2hap.audio.sources import SOURCES
 from scene2hap.audio.sources.chain import ENOUGH, gather
+from scene2hap.audio.spreading import SpreadLimits
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.bundle import HapticBundle, Override
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics, SourceState, VibrationDescription
@@ -56,7 +57,9 @@ class BakeConfig(InferenceConfig):
     max_cost_usd : what the answers may cost, checked before each call, None for no limit;
     prices : of models, in US dollars per million tokens read and written, beside the dated list;
     audio : where sounds come from, tried in order until `enough_candidates` remain (1 is the paper's rule);
-    tactile : what turns sound into touch; actuator : what it is turned for; seed : of everything that is synthesized.
+    tactile : what turns sound into touch; actuator : what it is turned for, by name, CSV file or fields;
+    spread : how far a source may be moved in frequency and level to be told from the others;
+    seed : of everything that is synthesized.
     """
 
     of_what = "bake"
@@ -67,8 +70,9 @@ class BakeConfig(InferenceConfig):
     llm: Any = Field(default="lexicon", validate_default=True)
     audio: Annotated[Any, BeforeValidator(_sources)] = Field(default="synth", validate_default=True)
     enough_candidates: int = Field(default=ENOUGH, ge=1, le=5)
-    tactile: Annotated[Any, BeforeValidator(CONVERTERS.build)] = Field(default="svf_bandpass", validate_default=True)
-    actuator: ActuatorProfile = Field(default_factory=ActuatorProfile)
+    tactile: Annotated[Any, BeforeValidator(CONVERTERS.build)] = Field(default="adaptive", validate_default=True)
+    actuator: Annotated[ActuatorProfile, BeforeValidator(actuator_profile)] = Field(default_factory=ActuatorProfile)
+    spread: SpreadLimits = Field(default_factory=SpreadLimits)
     seed: int = 0
 
     @field_validator("llm", mode="before")
@@ -160,8 +164,9 @@ async def arebake(
     said = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in inferred.items()}
     other_sound = {key for key, wish in wishes.items() if wish.clip is not None}
     sounding = {key: haptics for key, haptics in said.items() if key in {*again, *other_sound}}
-    made = await _make_loops(sounding, wishes, config, progress)
     kept = {key: loops for key, loops in bundle.loops.items() if key not in sounding}
+    standing = [(loop, inferred[key].object_category) for key, states in kept.items() for loop in states.values()]
+    made = await _make_loops(sounding, wishes, config, progress, standing)
     loops = {key: {**kept, **made}[key] for key in said if key in kept or key in made}
     return replace(bundle, objects=said, loops=loops)
 
@@ -215,24 +220,29 @@ async def _make_loops(
     wishes: Mapping[str, Override],
     config: BakeConfig,
     progress: Progress | None,
+    standing: Sequence[tuple[HapticLoop, str]] = (),
 ) -> dict[str, dict[str, HapticLoop]]:
+    """The loops of all objects by state; `standing` are those of the scene's other objects, and their categories.
+
+    All sounds are chosen before any is converted, since each source is moved clear of the others.
+    """
     tell = progress or _say_nothing
     wanted = [(key, haptics, state) for key, haptics in objects.items() for state in haptics.states]
-    loops: dict[str, dict[str, HapticLoop]] = {}
+    sources = []
     for done, (object_id, haptics, state) in enumerate(wanted, start=1):
-        given = wishes[object_id].clip if object_id in wishes else None
-        loop = await asyncio.to_thread(_make_loop, object_id, haptics, state, config, given)
-        loops.setdefault(object_id, {})[state.name] = loop
+        clip = wishes[object_id].clip if object_id in wishes else None
+        if clip is None:
+            clip = await asyncio.to_thread(_choose, object_id, haptics, state, config)
+        sources.append(SourceClip(clip, state.intensity, haptics.object_category))
         tell("sound", object_id, done, len(wanted))
+    plans = await asyncio.to_thread(plan_scene, sources, config.tactile, config.actuator, config.spread, standing)
+    loops: dict[str, dict[str, HapticLoop]] = {}
+    for done, ((object_id, _, state), source, plan) in enumerate(zip(wanted, sources, plans, strict=True), start=1):
+        loops.setdefault(object_id, {})[state.name] = await asyncio.to_thread(
+            felt_loop, source.clip, config.tactile, plan
+        )
+        tell("touch", object_id, done, len(wanted))
     return loops
-
-
-def _make_loop(
-    object_id: str, haptics: ObjectHaptics, state: SourceState, config: BakeConfig, given: AudioClip | None
-) -> HapticLoop:
-    clip = given or _choose(object_id, haptics, state, config)
-    context = ConversionContext(actuator=config.actuator, intensity=state.intensity)
-    return loop_pair(clip, config.tactile, context)
 
 
 def _choose(object_id: str, haptics: ObjectHaptics, state: SourceState, config: BakeConfig) -> AudioClip:

@@ -90,16 +90,37 @@ class VibrationDescription:
 
 @dataclass(frozen=True)
 class ActuatorProfile:
-    """What an actuator can render: its name, usable band and resonance [Hz]."""
+    """What an actuator can render: its name, usable band and resonance [Hz], and how strongly it answers.
+
+    `q` is the quality factor of the resonance [-]; None, or no resonance, means a flat response. `response_db` is a
+    measured response as points (frequency [Hz], level [dB]) of rising frequency, which then stands instead of the
+    resonance. `audio.actuators` turns either into a curve and its inverse.
+    Raises: ConfigError: a bound that is not above the other, or points that are not.
+    """
 
     name: str = "flat"
     min_frequency_hz: float = 10.0
     max_frequency_hz: float = 1000.0
     resonance_hz: float | None = None
+    q: float | None = None
+    response_db: tuple[tuple[float, float], ...] = ()
 
     def __post_init__(self) -> None:
         low = checks.number("min_frequency_hz", self.min_frequency_hz, "Hz", above=0.0, error=ConfigError)
         checks.number("max_frequency_hz", self.max_frequency_hz, "Hz", above=low, error=ConfigError)
+        for name, unit in (("resonance_hz", "Hz"), ("q", "-")):
+            if getattr(self, name) is not None:
+                checks.number(name, getattr(self, name), unit, above=0.0, error=ConfigError)
+        points = tuple(self._point(i, point) for i, point in enumerate(self.response_db))
+        if len(points) == 1 or any(one[0] >= other[0] for one, other in pairwise(points)):
+            raise ConfigError(f"response_db has frequencies {[f for f, _ in points]}; it must be at least two, rising.")
+        object.__setattr__(self, "response_db", points)
+
+    @staticmethod
+    def _point(index: int, point: Sequence[float]) -> tuple[float, float]:
+        frequency, level = checks.vector(f"response_db[{index}]", point, "-", size=2, error=ConfigError)
+        checks.number(f"response_db[{index}][0]", frequency, "Hz", above=0.0, error=ConfigError)
+        return frequency, level
 
 
 @dataclass(frozen=True)

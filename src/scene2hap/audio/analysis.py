@@ -1,10 +1,13 @@
 """What a sound is like: where it is silent, how steady, how tonal, at which frequency.
 
-Pure functions of samples (n,) in any scale and their rate. All of them look at the samples without their mean, since
-an offset is neither heard nor felt and would count as a loud, perfectly steady tone.
+Pure functions of samples (n,) in any scale and their rate. All of them look at the samples without their offset, which
+is neither heard nor felt and would count as a loud, perfectly steady tone: spectra without the mean; levels without the
+median, since a few strokes in digital silence have a mean, and without that the silence would be a steady level.
 """
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 import scipy.fft
@@ -36,42 +39,52 @@ FLATNESS_FLOOR_DB = -60.0
 """Bins are lifted to this far below the mean of their frame [dB]: what lies deeper is masked, and is where codecs
 write zeros."""
 
-TACTILE_RANGE_HZ = (20.0, 1000.0)
+TACTILE_RANGE_HZ = (10.0, 1000.0)
+"""What touch perceives as vibration, and what the bands cover."""
 
 
 def trim_silence(samples: ArrayLike, sample_rate_hz: float) -> Samples:
-    """The samples without their silent ends, cut on a grid of 10 ms; empty where everything is silent.
+    """The samples without their silent ends (see `sounding_span`); empty where everything is silent."""
+    original = np.asarray(samples, dtype=np.float32)
+    first, end = sounding_span(original, sample_rate_hz)
+    return original[first:end].copy()
+
+
+def sounding_span(samples: ArrayLike, sample_rate_hz: float) -> tuple[int, int]:
+    """First sample that is not silence, and the one behind the last, on a grid of 10 ms; (0, 0) where all is silent.
 
     Silent are frames whose RMS lies `TRIM_DB` below that of the loudest frame.
     """
-    original = np.asarray(samples, dtype=np.float32)
-    x, rate = _checked(original, sample_rate_hz)
+    x, rate = _checked(samples, sample_rate_hz)
+    x = x - np.median(x)
     frame = max(1, round(TRIM_FRAME_S * rate))
     starts = np.arange(0, len(x), frame)
     power = np.add.reduceat(x**2, starts) / np.diff(np.append(starts, len(x)))
     loudest = float(power.max())
     if loudest <= 10 ** (SILENCE_DBFS / 10):
-        return np.zeros(0, dtype=np.float32)
+        return 0, 0
     audible = np.flatnonzero(power > loudest * 10 ** (-TRIM_DB / 10))
-    return original[starts[audible[0]] : starts[audible[-1]] + frame].copy()
+    return int(starts[audible[0]]), min(len(x), int(starts[audible[-1]]) + frame)
 
 
 def dynamic_range_db(samples: ArrayLike, sample_rate_hz: float) -> float:
     """How much the level of a sound varies: 95th minus 10th percentile of its short-time RMS level [dB].
 
-    Frames of 50 ms (100 ms below `SLOW_HZ`), overlapping by half. Frames more than 60 dB below the loudest count as
-    60 dB below it: dropping them would call clicks with silence between them steady.
+    Frames of 50 ms (100 ms below `SLOW_HZ`), overlapping by half. Frames more than 60 dB below the loudest are gated:
+    they count as 60 dB below it in the low percentile, since dropping them would call clicks with silence between them
+    steady, and not at all in the high one, since where nearly all is silence it would lie in the silence too.
     Measured on 5 s: sine 0, white noise 0.3, a 20 dB decay 17, clicks above 25. (Loudness range after EBU R 128 takes
     3 s blocks and cannot see clicks; the crest factor gives 13 dB to steady noise.)
     Raises: AudioError: the samples are empty or all equal.
     """
     x, rate = _sounding(samples, sample_rate_hz)
+    x = x - np.median(x)
     is_slow = dominant_frequency_hz(x, rate) < SLOW_HZ
     frames = _frames(x, round((SLOW_LEVEL_FRAME_S if is_slow else LEVEL_FRAME_S) * rate))
     power = np.mean(frames**2, axis=1)
     level_db = 10 * np.log10(np.maximum(power / power.max(), 10 ** (LEVEL_FLOOR_DB / 10)))
-    high, low = np.percentile(level_db, [95, 10])
-    return float(high - low)
+    high = np.percentile(level_db[level_db > LEVEL_FLOOR_DB], 95)
+    return float(high - np.percentile(level_db, 10))
 
 
 def spectral_flatness(
@@ -122,21 +135,32 @@ def dominant_frequency_hz(
     checks.number("range_hz[0]", low, "Hz", above=0.0, below=min(high, rate / 2), error=AudioError)
     n = scipy.fft.next_fast_len(2 * len(x), real=True)
     magnitude = np.abs(scipy.fft.rfft(x * np.hanning(len(x) + 2)[1:-1], n))
-    first = max(1, int(np.ceil(low * n / rate)))
-    last = min(len(magnitude) - 2, int(np.floor(high * n / rate)))
-    bins = np.arange(first, last + 1)
-    if bins.size == 0:
+    found = peak_frequency_hz(magnitude, rate / n, range_hz)
+    if found is None:
         raise AudioError(
             f"a sound of {len(x) / rate:g} s does not resolve {low:g} to {high:g} Hz. "
             "Use a longer sound or a wider range."
         )
-    left, centre, right = magnitude[bins - 1], magnitude[bins], magnitude[bins + 1]
+    return found
+
+
+def peak_frequency_hz(magnitude: ArrayLike, bin_hz: float, range_hz: tuple[float, float]) -> float | None:
+    """The frequency of the highest peak of a magnitude spectrum (n_bins,), bins `bin_hz` apart from 0 Hz on [Hz].
+
+    A parabola through the logarithms of the three bins around the peak; None where the range holds no bin.
+    """
+    m = np.asarray(magnitude, dtype=np.float64)
+    low, high = range_hz
+    bins = np.arange(max(1, math.ceil(low / bin_hz)), min(len(m) - 2, math.floor(high / bin_hz)) + 1)
+    if bins.size == 0:
+        return None
+    left, centre, right = m[bins - 1], m[bins], m[bins + 1]
     is_peak = (centre >= left) & (centre >= right)
     k = int(bins[np.argmax(np.where(is_peak, centre, 0.0) if is_peak.any() else centre)])
-    a, b, c = np.log(np.maximum(magnitude[k - 1 : k + 2], np.finfo(float).tiny))
+    a, b, c = np.log(np.maximum(m[k - 1 : k + 2], np.finfo(float).tiny))
     curvature = a - 2 * b + c
     offset = float(np.clip(0.5 * (a - c) / curvature, -0.5, 0.5)) if curvature < 0 else 0.0
-    return float((k + offset) * rate / n)
+    return float((k + offset) * bin_hz)
 
 
 def _checked(samples: ArrayLike, sample_rate_hz: float) -> tuple[Signal, float]:

@@ -30,16 +30,23 @@ def split_bands(loop_samples: ArrayLike, sample_rate_hz: float, bands: Bands) ->
     if x.ndim != 1 or x.size == 0 or not np.isfinite(x).all():
         raise AudioError(f"loop_samples has shape {x.shape}; it must be one channel of finite samples, (n_samples,).")
     if bands.n_bands == 1:
-        return x.astype(np.float32)[None, :]
+        return np.array(x, dtype=np.float32)[None, :]
     spectrum = np.fft.rfft(x)
     frequencies = np.fft.rfftfreq(len(x), 1 / rate).astype(np.float64)
-    masks = _masks(frequencies, np.asarray(bands.edges_hz))
-    return np.stack([np.fft.irfft(spectrum * mask, len(x)).astype(np.float32) for mask in masks])
+    weights = band_weights(frequencies, bands)
+    return np.stack([np.fft.irfft(spectrum * weight, len(x)).astype(np.float32) for weight in weights])
 
 
-def _masks(f: NDArray[np.float64], edges: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Weights (n_bands, n_frequencies) in 0..1 that add up to 1 at each frequency."""
-    log_edges = np.log(edges)
+def band_weights(frequencies_hz: ArrayLike, bands: Bands) -> NDArray[np.float64]:
+    """The share of each band in each frequency, (n_bands, n_frequencies), 0..1 [-]; each column adds up to 1.
+
+    Real weights are a filter without phase. A loop whose bands play at gains g_j sounds like the loop through the one
+    filter sum_j g_j weights[j].
+    """
+    f = np.atleast_1d(np.asarray(frequencies_hz, dtype=np.float64))
+    if bands.n_bands == 1:
+        return np.ones((1, len(f)))
+    log_edges = np.log(np.asarray(bands.edges_hz))
     half_widths = [0.5 * min(below, above) for below, above in pairwise(np.diff(log_edges))]
     log_f = np.log(np.maximum(f, np.finfo(float).tiny))
     steps = [np.ones_like(f)]

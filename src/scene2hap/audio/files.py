@@ -5,6 +5,8 @@ from __future__ import annotations
 import io
 import os
 import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Literal
 
@@ -33,29 +35,63 @@ def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
     `MAX_FILE_S`.
     """
     path = Path(path)
-    if not path.is_file():
-        raise AudioError(f"{path} is not a file. Give the path of an existing sound file.")
-    if _is_cut_short(path):
-        raise AudioError(f"{path} is cut short: fewer bytes than its header says. Copy it again.")
-    try:
-        with soundfile.SoundFile(path) as file:
-            rate = int(file.samplerate)
-            if file.frames > MAX_FILE_S * rate:
-                raise AudioError(
-                    f"{path} lasts {file.frames / rate:.0f} s; it must be at most {MAX_FILE_S:.0f} s. "
-                    "Cut out the part you want."
-                )
-            channels = file.read(dtype="float32", always_2d=True)
-    except (soundfile.SoundFileError, TypeError) as cause:  # TypeError: a headerless file, whose rate it asks for
-        raise AudioError(f"{path}: not a readable sound ({cause}). Use a WAV, FLAC, Ogg or MP3 file.") from cause
+    with opened_sound(path) as file:
+        rate = int(file.samplerate)
+        if file.frames > MAX_FILE_S * rate:
+            raise AudioError(
+                f"{path} lasts {file.frames / rate:.0f} s; it must be at most {MAX_FILE_S:.0f} s. "
+                "Cut out the part you want."
+            )
+        channels = file.read(dtype="float32", always_2d=True)
     if channels.shape[0] == 0:
         raise AudioError(f"{path} has no samples. Use a sound that is longer than 0 s.")
-    finite = np.isfinite(channels).all(axis=1)
-    if not finite.all():
-        first = int(np.argmin(finite))
-        raise AudioError(f"{path}: sample {first} is {channels[first]}; every sample must be finite. Export it again.")
+    require_finite(path, channels)
     mono = channels.mean(axis=1, dtype=np.float64)
     return AudioClip(mono.astype(np.float32), rate, credit or Credit(path.stem, "unknown", "unknown"))
+
+
+@contextmanager
+def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
+    """A sound file to read from. Raises: AudioError: it is absent, no sound, or cut short, now or while it is read."""
+    if not path.is_file():
+        raise AudioError(f"{path} is not a file. Give the path of an existing sound file.")
+    try:
+        if _is_cut_short(path):
+            raise AudioError(f"{path} is cut short: fewer bytes than its header says. Copy it again.")
+        with soundfile.SoundFile(path) as file:
+            yield file
+    except OSError as cause:
+        raise AudioError(f"{path} cannot be read ({cause.strerror}). Choose a file that is yours.") from cause
+    except (soundfile.SoundFileError, TypeError) as cause:  # TypeError: a headerless file, whose rate it asks for
+        raise AudioError(f"{path}: not a readable sound ({cause}). Use a WAV, FLAC, Ogg or MP3 file.") from cause
+
+
+def require_finite(path: Path, channels: np.ndarray[tuple[int, ...], np.dtype[np.float32]], start: int = 0) -> None:
+    """Raises: AudioError: one of the samples (n, channels), which begin at `start` in the file, is not finite."""
+    finite = np.isfinite(channels).all(axis=1)
+    if not finite.all():
+        at = int(np.argmin(finite))
+        raise AudioError(
+            f"{path}: sample {start + at} is {channels[at]}; every sample must be finite. Export it again."
+        )
+
+
+@contextmanager
+def written_whole(path: Path) -> Iterator[Path]:
+    """A path beside `path` to write to; it takes that place when the block ends well, and is removed when it does not.
+
+    Raises: AudioError: the file cannot be written.
+    """
+    beside = path.with_name(f".{path.name}.{uuid.uuid4().hex}.part")
+    try:
+        yield beside
+        os.replace(beside, path)
+    except OSError as cause:
+        raise AudioError(
+            f"{path}: cannot be written ({cause.strerror}). Choose a folder that exists and is yours."
+        ) from cause
+    finally:
+        beside.unlink(missing_ok=True)
 
 
 def _is_cut_short(path: Path) -> bool:
@@ -83,18 +119,10 @@ def write_wav(path: str | Path, samples: ArrayLike, sample_rate_hz: int, subtype
         raise AudioError(f"subtype is {subtype!r}; it must be one of {', '.join(_BITS)}.")
     encoded = io.BytesIO()
     soundfile.write(encoded, _quantised(path, samples, _BITS[subtype]), rate, subtype=subtype, format="WAV")
-    beside = path.with_name(f".{path.name}.{uuid.uuid4().hex}.part")
-    try:
-        with beside.open("wb") as file:
-            file.write(encoded.getbuffer())
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(beside, path)
-    except OSError as cause:
-        beside.unlink(missing_ok=True)
-        raise AudioError(
-            f"{path}: cannot be written ({cause.strerror}). Choose a folder that exists and is yours."
-        ) from cause
+    with written_whole(path) as beside, beside.open("wb") as file:
+        file.write(encoded.getbuffer())
+        file.flush()
+        os.fsync(file.fileno())
 
 
 def _quantised(path: Path, samples: ArrayLike, bits: int) -> np.ndarray[tuple[int, ...], np.dtype[np.int32]]:

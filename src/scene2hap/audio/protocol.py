@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
+from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Samples
+from scene2hap.errors import AudioError
 from scene2hap.haptics import ActuatorProfile, VibrationDescription
 
 
@@ -20,19 +22,33 @@ class AudioSource(Protocol):
 
 @dataclass(frozen=True)
 class ConversionContext:
-    """What a converter is told: the actuator, the source's intensity 0..1, and the scene's other sources' dominant
-    frequencies [Hz]."""
+    """What a converter is told of the scene.
+
+    actuator : what it converts for; intensity : of the source, 0..1; neighbours_hz : dominant frequencies of the
+    scene's other sources [Hz].
+    own_hz : the source's own dominant frequency where somebody has looked at the whole sound, None to find out while
+    it plays; target_hz : where that frequency is to be felt, None to leave that to the converter.
+    """
 
     actuator: ActuatorProfile = field(default_factory=ActuatorProfile)
     intensity: float = 1.0
     neighbours_hz: tuple[float, ...] = ()
+    own_hz: float | None = None
+    target_hz: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("own_hz", "target_hz"):
+            if getattr(self, name) is not None:
+                checks.number(name, getattr(self, name), "Hz", above=0.0, error=AudioError)
+        for i, neighbour in enumerate(self.neighbours_hz):
+            checks.number(f"neighbours_hz[{i}]", neighbour, "Hz", above=0.0, error=AudioError)
 
 
 class TactileStream(Protocol):
     """A conversion under way; carries state from block to block, so that block size never matters."""
 
     def process(self, block: Samples) -> Samples:
-        """The next samples (n,) float32."""
+        """The next samples (n,) float32 in [-1, 1]. Raises: AudioError: a sample is not finite, or not one channel."""
         ...
 
     def finish(self) -> Samples:
@@ -42,7 +58,7 @@ class TactileStream(Protocol):
 
 @runtime_checkable
 class TactileConverter(Protocol):
-    """Turns sound into a vibrotactile signal."""
+    """Turns sound into a vibrotactile signal. One that moves a source to `target_hz` says `follows_target = True`."""
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> TactileStream:
         """A fresh conversion at that rate."""

@@ -13,11 +13,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from scene2hap.audio import analysis
-from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.errors import AudioError
 
 MIN_DURATION_S = 2.5
 DYNAMIC_RANGE_STEP_DB = 5.0
+FADE_S = 0.005
+"""Length of the fade at an end that was cut off [s], which may lie in the middle of a noise 40 dB down."""
+HEARD_RANGE_HZ = (10.0, 20_000.0)
 
 _NYQUIST_MARGIN = 0.45
 """Flatness is compared below this share of the lowest rate among the candidates, clear of resamplers' slopes."""
@@ -25,21 +28,66 @@ _NYQUIST_MARGIN = 0.45
 
 @dataclass(frozen=True)
 class Candidate:
-    """How one candidate fared: its length without silent ends, and, where that was enough, what was measured."""
+    """How one candidate fared.
+
+    `origin` is where it came from, `duration_s` its length without silent ends; the figures are None where it was too
+    short to be measured. Dominant frequencies are the highest peak of all that is heard, and of what touch can feel.
+    `is_chosen` and `verdict` tell what came of it, and why.
+    """
 
     title: str
+    origin: str
     duration_s: float
     dynamic_range_db: float | None
     flatness: float | None
+    frequency_raw_hz: float | None
+    frequency_tactile_hz: float | None
+    is_chosen: bool
     verdict: str
 
+    def cells(self) -> tuple[str, ...]:
+        """The row as text, in the order of `COLUMNS`."""
+        return (
+            "->" if self.is_chosen else "",
+            self.title,
+            self.origin,
+            f"{self.duration_s:.2f}",
+            _shown(self.dynamic_range_db, ".1f"),
+            _shown(self.flatness, ".2g"),
+            _shown(self.frequency_raw_hz, ".1f"),
+            _shown(self.frequency_tactile_hz, ".1f"),
+            self.verdict,
+        )
 
-@dataclass(frozen=True)
+
+COLUMNS = ("", "sound", "origin", ">s", ">range dB", ">flatness", ">peak Hz", ">felt Hz", "verdict")
+"""Headings of `Candidate.cells`; a leading ">" sets a column to the right."""
+
+
+@dataclass(frozen=True, eq=False)
 class Choice:
-    """The winner, without silent ends and with a peak of 1, and a row for every candidate in the order given."""
+    """The winner, ready for use, and a row for every candidate in the order given; as text, a table of them.
+
+    The winner has no silent ends, is faded over 5 ms where something was cut off, and has a peak of 1.
+    `dynamic_range_limit_db` is what the limit had to be raised to, `flatness_band_hz` where flatness was compared.
+    """
 
     winner: AudioClip
     rows: tuple[Candidate, ...]
+    dynamic_range_limit_db: float
+    flatness_band_hz: tuple[float, float]
+
+    def __str__(self) -> str:
+        lines = [tuple(heading.removeprefix(">") for heading in COLUMNS), *(row.cells() for row in self.rows)]
+        widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+        to_the_right = [heading.startswith(">") for heading in COLUMNS]
+        return "\n".join(
+            "  ".join(
+                cell.rjust(width) if right else cell.ljust(width)
+                for cell, width, right in zip(line, widths, to_the_right, strict=True)
+            ).rstrip()
+            for line in lines
+        )
 
 
 def select_clip(clips: Sequence[AudioClip]) -> AudioClip:
@@ -52,8 +100,8 @@ def explain_choice(clips: Sequence[AudioClip]) -> Choice:
 
     Raises: AudioError: there are no candidates, or none is longer than `MIN_DURATION_S` without its silent ends.
     """
-    trimmed = [analysis.trim_silence(clip.samples, clip.sample_rate_hz) for clip in clips]
-    durations = [len(samples) / clip.sample_rate_hz for samples, clip in zip(trimmed, clips, strict=True)]
+    spans = [analysis.sounding_span(clip.samples, clip.sample_rate_hz) for clip in clips]
+    durations = [(end - first) / clip.sample_rate_hz for (first, end), clip in zip(spans, clips, strict=True)]
     eligible = [i for i, duration in enumerate(durations) if duration > MIN_DURATION_S]
     if not eligible:
         raise AudioError(_nothing_long_enough(clips, durations))
@@ -61,28 +109,74 @@ def explain_choice(clips: Sequence[AudioClip]) -> Choice:
         analysis.FLATNESS_BAND_HZ[0],
         min(analysis.FLATNESS_BAND_HZ[1], _NYQUIST_MARGIN * min(clips[i].sample_rate_hz for i in eligible)),
     )
-    ranges = {i: analysis.dynamic_range_db(trimmed[i], clips[i].sample_rate_hz) for i in eligible}
-    flatness = {i: analysis.spectral_flatness(trimmed[i], clips[i].sample_rate_hz, band_hz=band) for i in eligible}
+    scores = {i: _Scores.of(clips[i].samples[slice(*spans[i])], clips[i].sample_rate_hz, band) for i in eligible}
     limit_db = DYNAMIC_RANGE_STEP_DB
-    while min(ranges.values()) > limit_db:
+    while min(score.dynamic_range_db for score in scores.values()) > limit_db:
         limit_db += DYNAMIC_RANGE_STEP_DB
-    best = min((i for i in eligible if ranges[i] <= limit_db), key=lambda i: (flatness[i], ranges[i], i))
+    steady = [i for i in eligible if scores[i].dynamic_range_db <= limit_db]
+    best = min(steady, key=lambda i: (scores[i].flatness, scores[i].dynamic_range_db, i))
 
-    def verdict(i: int) -> str:
-        if durations[i] == 0.0:
-            return "silent"
-        if i not in ranges:
-            return f"too short: not longer than {MIN_DURATION_S:g} s"
-        if ranges[i] > limit_db:
-            return f"not steady: dynamic range above {limit_db:g} dB"
-        return "chosen" if i == best else "noisier than the chosen one"
+    def row(i: int) -> Candidate:
+        credit, score = clips[i].credit, scores.get(i)
+        return Candidate(
+            title=credit.title,
+            origin=credit.origin or credit.address or credit.author,
+            duration_s=durations[i],
+            dynamic_range_db=score.dynamic_range_db if score else None,
+            flatness=score.flatness if score else None,
+            frequency_raw_hz=score.frequency_raw_hz if score else None,
+            frequency_tactile_hz=score.frequency_tactile_hz if score else None,
+            is_chosen=i == best,
+            verdict=_verdict(durations[i], score, limit_db, scores[best], is_best=i == best),
+        )
 
-    rows = tuple(
-        Candidate(clip.credit.title, durations[i], ranges.get(i), flatness.get(i), verdict(i))
-        for i, clip in enumerate(clips)
-    )
-    peak = np.abs(trimmed[best]).max()
-    return Choice(replace(clips[best], samples=trimmed[best] / peak), rows)
+    winner = _ready(clips[best], *spans[best])
+    return Choice(winner, tuple(map(row, range(len(clips)))), limit_db, band)
+
+
+@dataclass(frozen=True)
+class _Scores:
+    dynamic_range_db: float
+    flatness: float
+    frequency_raw_hz: float
+    frequency_tactile_hz: float
+
+    @classmethod
+    def of(cls, samples: Samples, rate: int, band_hz: tuple[float, float]) -> _Scores:
+        return cls(
+            analysis.dynamic_range_db(samples, rate),
+            analysis.spectral_flatness(samples, rate, band_hz=band_hz),
+            analysis.dominant_frequency_hz(samples, rate, range_hz=HEARD_RANGE_HZ),
+            analysis.dominant_frequency_hz(samples, rate),
+        )
+
+
+def _verdict(duration_s: float, score: _Scores | None, limit_db: float, best: _Scores, *, is_best: bool) -> str:
+    if duration_s == 0.0:
+        return "silent"
+    if score is None:
+        return f"too short: not longer than {MIN_DURATION_S:g} s"
+    if score.dynamic_range_db > limit_db:
+        return f"not steady: dynamic range above {limit_db:g} dB"
+    if is_best:
+        return "chosen"
+    return "noisier than the chosen one" if score.flatness > best.flatness else "as tonal as the chosen one"
+
+
+def _ready(clip: AudioClip, first: int, end: int) -> AudioClip:
+    """The stretch from `first` to `end`, faded where it was cut, with a peak of 1."""
+    samples = clip.samples[first:end].copy()
+    n_fade = min(round(FADE_S * clip.sample_rate_hz), len(samples) // 2)
+    rising = (0.5 - 0.5 * np.cos(np.pi * np.arange(n_fade) / max(1, n_fade))).astype(np.float32)
+    if first > 0:
+        samples[:n_fade] *= rising
+    if end < len(clip.samples):
+        samples[len(samples) - n_fade :] *= rising[::-1]
+    return replace(clip, samples=samples / np.abs(samples).max())
+
+
+def _shown(value: float | None, form: str) -> str:
+    return "-" if value is None else format(value, form)
 
 
 def _nothing_long_enough(clips: Sequence[AudioClip], durations: Sequence[float]) -> str:

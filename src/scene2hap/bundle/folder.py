@@ -18,7 +18,7 @@ import os
 import re
 import shutil
 import tempfile
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -117,11 +117,13 @@ def _write(bundle: HapticBundle, folder: Path) -> None:
     put("objects.json", _objects.dump_python(dict(bundle.objects), mode="json"))
     put("loops.json", loops)
     put("overrides.json", _override_rows(bundle, folder, written))
+    owed = dict.fromkeys(replace(who, query="") for who in bundle.credits)  # found by two queries, owed once
     lines = [
         f"{who.title}, by {who.author}, {who.licence}{', ' + who.address if who.address else ''}"
-        for who in bundle.credits
+        for who in owed
     ]
-    (folder / "credits.txt").write_text("\n".join(["Sounds in this bundle", *lines]) + "\n", encoding="utf-8")
+    text = "\n".join(["Sounds in this bundle, cut into loops and turned into vibration", *lines]) + "\n"
+    (folder / "credits.txt").write_text(text, encoding="utf-8")
     put(
         MANIFEST,
         {

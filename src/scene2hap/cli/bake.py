@@ -103,7 +103,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 def _settings(arguments: argparse.Namespace) -> dict[str, Any]:
     settings = read_settings(arguments.settings, "bake")
     if arguments.sounds:
-        settings["audio"] = [{"kind": "library", "folder": arguments.sounds}, settings.get("audio", "synth")]
+        given = settings.get("audio", "synth")
+        others = given if isinstance(given, list) else [given]
+        settings["audio"] = [{"kind": "library", "folder": arguments.sounds}, *others]
     if arguments.llm:
         kind, _, model = arguments.llm.partition(":")
         settings["llm"] = {"kind": kind, "model": model} if model else {"kind": kind}

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from scene2hap import audio
-from scene2hap.audio.bands import split_bands
+from scene2hap.audio.bands import band_weights, split_bands
 from scene2hap.errors import AudioError
 from scene2hap.haptics import Bands
 
@@ -72,6 +72,33 @@ def test_there_is_no_delay_and_the_seam_stays_closed() -> None:
     bands = Bands.third_octaves()
     shifted = split_bands(np.roll(x, 1234), RATE, bands)
     np.testing.assert_allclose(shifted, np.roll(split_bands(x, RATE, bands), 1234, axis=1), atol=1e-6)
+
+
+@pytest.mark.parametrize("n", [8000, 12_345])
+def test_bands_at_gains_are_one_filter_even_across_the_wrap(n: int) -> None:
+    """Independently: the filter's impulse response, convolved around the loop in the time domain."""
+    rng = np.random.default_rng(n)
+    bands = Bands.third_octaves()
+    gains = 10 ** (rng.uniform(-20, 20, bands.n_bands) / 20)
+    x = rng.standard_normal(n)
+    mixed = gains @ split_bands(x, RATE, bands).astype(float)
+    impulse = np.zeros(n)
+    impulse[0] = 1.0
+    response = gains @ split_bands(impulse, RATE, bands).astype(float)
+    for i in (0, 1, n - 1, *rng.integers(0, n, 20)):
+        at_once = response @ x[(i - np.arange(n)) % n]
+        # -80 dB of the whole, at every sample, those beside the wrap included.
+        assert abs(mixed[i] - at_once) < 1e-4 * np.sqrt(np.mean(mixed**2))
+
+
+def test_weights_are_shares_and_the_filter_has_no_phase() -> None:
+    f = np.geomspace(1.0, 4000.0, 999)
+    weights = band_weights(f, Bands.third_octaves())
+    np.testing.assert_allclose(weights.sum(axis=0), 1.0, rtol=1e-12)
+    assert weights.min() >= 0.0
+    assert (weights[0, f < 10] == 1.0).all()
+    assert (weights[-1, f > 1000] == 1.0).all()
+    assert band_weights(f, Bands.dominant()).shape == (1, 999)
 
 
 def test_the_dominant_band_is_the_loop_itself() -> None:

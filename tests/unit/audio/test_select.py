@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -81,6 +82,71 @@ def test_the_winner_is_trimmed_and_peaks_at_exactly_one() -> None:
 
 def test_of_equal_candidates_the_first_wins() -> None:
     assert select_clip([clip("one", HUM), clip("two", HUM), clip("three", HUM)]).credit.title == "one"
+
+
+def test_two_strokes_in_silence_are_not_steady() -> None:
+    """Nearly all frames hold nothing, so that both percentiles would lie in the silence."""
+    since = np.maximum(0.0, np.minimum(T - 0.05, 4.0))
+    pings = np.sin(2 * np.pi * 440 * since) * np.exp(-since / 0.01)
+    pings += np.roll(pings, round(3.7 * RATE))
+    pings[np.abs(pings) < 1e-4] = 0.0
+    choice = explain_choice([clip("pings", pings), clip("hum", HUM + 0.5 * WHITE)])
+    assert choice.winner.credit.title == "hum"
+    assert choice.rows[0].verdict == "not steady: dynamic range above 5 dB"
+
+
+def test_if_all_are_silent_none_is_chosen() -> None:
+    dither = np.round(np.random.default_rng(8).uniform(-1, 1, len(T))) / 32768
+    silent = [AudioClip(np.zeros(len(T)), RATE), AudioClip(dither, RATE), AudioClip(np.full(len(T), 0.3), RATE)]
+    with pytest.raises(AudioError, match="none of 3 candidates is long enough"):
+        explain_choice(silent)
+
+
+def test_the_choice_tells_where_each_came_from_and_how_it_scored() -> None:
+    found = replace(clip("hum", HUM), credit=Credit("hum", "someone", "CC0-1.0", "https://sounds.test/1"))
+    stored = replace(clip("hiss", WHITE), credit=Credit("hiss", "someone", "CC0-1.0", origin="library"))
+    short = clip("short", HUM[:RATE])
+    choice = explain_choice([found, stored, short])
+    assert [row.origin for row in choice.rows] == ["https://sounds.test/1", "library", "test"]
+    assert [row.is_chosen for row in choice.rows] == [True, False, False]
+    assert choice.rows[0].frequency_raw_hz == pytest.approx(100.0, abs=0.01)
+    assert choice.rows[0].frequency_tactile_hz == pytest.approx(100.0, abs=0.01)
+    assert choice.rows[2].frequency_raw_hz is None
+    assert choice.dynamic_range_limit_db == 5.0
+    assert choice.flatness_band_hz == (20.0, 7000.0)
+
+
+def test_the_choice_reads_as_a_table() -> None:
+    lines = str(explain_choice([clip("hiss", WHITE), clip("hum", HUM), clip("short", HUM[:RATE])])).splitlines()
+    assert lines[0].split() == [
+        "sound",
+        "origin",
+        "s",
+        "range",
+        "dB",
+        "flatness",
+        "peak",
+        "Hz",
+        "felt",
+        "Hz",
+        "verdict",
+    ]
+    assert [line.startswith("->") for line in lines] == [False, False, True, False]
+    assert lines[2].endswith("chosen")
+    assert lines[1].endswith("noisier than the chosen one")
+    assert " ".join(lines[3].split()) == "short test 1.00 - - - - too short: not longer than 2.5 s"
+    verdicts = {line.index(text) for line, text in zip(lines[1:], ("noisier", "chosen", "too short"), strict=True)}
+    assert len(verdicts) == 1
+
+
+def test_an_end_that_was_cut_is_faded_and_one_that_was_not_is_left_alone() -> None:
+    whole = select_clip([clip("whole", HUM)]).samples
+    assert whole[0] == pytest.approx(HUM[0] / np.abs(HUM).max(), abs=1e-6)
+    cut = select_clip([clip("cut", np.concatenate([np.zeros(RATE), HUM + 1e-3]))]).samples
+    assert cut[0] == 0.0
+    n = round(0.005 * RATE)
+    np.testing.assert_allclose(cut[n:] / cut[n], (HUM + 1e-3)[n:] / (HUM + 1e-3)[n], rtol=1e-3, atol=1e-3)
+    assert cut[-1] != 0.0
 
 
 def test_without_a_long_enough_candidate_the_error_names_the_longest() -> None:

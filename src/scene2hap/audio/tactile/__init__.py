@@ -1,11 +1,20 @@
-"""Converters from sound to touch."""
+"""Converters from sound to touch; docs/conversion.md says which is for what."""
 
 from __future__ import annotations
 
 from scene2hap.plugins import PluginGroup
 
+_HERE = "scene2hap.audio.tactile"
+
 CONVERTERS = PluginGroup(
     "scene2hap.tactile",
-    builtins={"svf_bandpass": "scene2hap.audio.tactile.svf_bandpass:SvfBandpass"},
+    builtins={
+        "adaptive": f"{_HERE}.adaptive:Adaptive",
+        "envelope": f"{_HERE}.envelope:EnvelopeCarrier",
+        "frequency_shift": f"{_HERE}.frequency_shift:FrequencyShift",
+        "lowpass": f"{_HERE}.lowpass:Lowpass",
+        "perception_level": f"{_HERE}.perception_level:PerceptionLevel",
+        "svf_bandpass": f"{_HERE}.svf_bandpass:SvfBandpass",
+    },
     extras={},
 )

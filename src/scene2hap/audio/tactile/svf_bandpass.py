@@ -6,7 +6,13 @@ Pacinian corpuscles detect best near 250 Hz; what lies far from it is dropped.
     H(z) = g k (1 - z^-2) / (1 + g k + g^2 + 2 (g^2 - 1) z^-1 + (1 - g k + g^2) z^-2)
 
 That is the trapezoidal (TPT) state-variable filter with its band-pass output times k, which puts 0 dB at f_c, written
-as one biquad: while centre and Q stand still both are the same filter, and a biquad runs in compiled code.
+as one biquad, since a biquad runs in compiled code. While centre and Q stand still both are the same filter. When they
+change, the biquad's memory (z1, z2) is carried over by way of the state (s1, s2) of the integrators, which is what
+makes the trapezoidal form stable however fast it is modulated. Both memories follow from each other through the next
+two samples of the filter's ringing:
+
+    y0 = z1 = k (a1 s1 - a2 s2)        y1 = z2 - A1 y0        a1 = 1 / (1 + g (g + k)),  a2 = g a1,  a3 = g a2
+
 Source: A. Simper, "Linear trapezoidal state variable filter" (Cytomic, 2013); R. Bristow-Johnson, "Audio EQ cookbook",
 band-pass with constant 0 dB peak gain. Differs: the paper used Max/MSP's svf~ (Chamberlin's form, which turns unstable
 near a sixth of the sample rate) at a resonance that it does not state.
@@ -19,11 +25,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import sosfilt
 
 from scene2hap import checks
-from scene2hap.audio.clip import Samples
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.tactile.stages import SosStage, StageStream
 from scene2hap.errors import ConfigError
 
 _HIGHEST_CENTER = 0.49
@@ -36,7 +41,7 @@ class SvfBandpass:
 
     Parameters: center_hz > 0; q 0.1..100 [-], the bandwidth at -3 dB is center_hz / q. The default of 0.707 passes 129
     to 483 Hz; assumed, since the paper does not tell its resonance.
-    Raises: ConfigError: outside these bounds, or, once the rate is known, a centre of 0.49 sample rates or more.
+    Raises: ConfigError: outside these bounds, or, once the rate is known, a centre above 0.49 sample rates.
     """
 
     center_hz: float = 250.0
@@ -50,7 +55,7 @@ class SvfBandpass:
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> SvfStream:
         """A fresh filter at that rate; this conversion is the same for every context."""
-        return SvfStream(self.section(sample_rate_hz))
+        return SvfStream(self, sample_rate_hz)
 
     def section(self, sample_rate_hz: float) -> NDArray[np.float64]:
         """The filter as one second-order section (1, 6): b0 b1 b2 a0 a1 a2."""
@@ -59,7 +64,7 @@ class SvfBandpass:
             "center_hz",
             self.center_hz,
             "Hz",
-            below=_HIGHEST_CENTER * rate,
+            at_most=_HIGHEST_CENTER * rate,
             error=ConfigError,
             hint=f"At {rate:g} Hz choose a lower centre, or bring the sound to a higher rate.",
         )
@@ -69,20 +74,40 @@ class SvfBandpass:
         return np.array([[g * k, 0.0, -g * k, a0, 2.0 * (g * g - 1.0), 1.0 - g * k + g * g]]) / a0
 
 
-class SvfStream:
+class SvfStage(SosStage):
+    """One filter in float64 whose centre and Q may change between calls."""
+
+    def __init__(self, design: SvfBandpass, sample_rate_hz: float) -> None:
+        super().__init__(design.section(sample_rate_hz))
+        self._rate_hz = sample_rate_hz
+        self._design = design
+
+    def retune(self, design: SvfBandpass) -> None:
+        """Go on with another centre and Q, as the state-variable filter would."""
+        sections = design.section(self._rate_hz)
+        integrators = np.linalg.solve(self._memory(self._design, self.sections), self.state[0])
+        self.state[0] = self._memory(design, sections) @ integrators
+        self.sections, self._design = sections, design
+
+    def _memory(self, design: SvfBandpass, sections: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(2, 2): the biquad's memory from that of the integrators."""
+        g = math.tan(math.pi * design.center_hz / self._rate_hz)
+        k = 1.0 / design.q
+        a1 = 1.0 / (1.0 + g * (g + k))
+        a2 = g * a1
+        a3 = g * a2
+        ringing = k * np.array([a1, -a2])
+        step = np.array([[2.0 * a1 - 1.0, -2.0 * a2], [2.0 * a2, 1.0 - 2.0 * a3]])
+        return np.stack([ringing, ringing @ step + sections[0, 4] * ringing])
+
+
+class SvfStream(StageStream):
     """One run of the filter over a sound, in blocks of any size."""
 
-    def __init__(self, sections: NDArray[np.float64]) -> None:
-        self._sections = sections
-        self._state = np.zeros((1, 2))
+    def __init__(self, design: SvfBandpass, sample_rate_hz: float) -> None:
+        self._filter = SvfStage(design, sample_rate_hz)
+        super().__init__(self._filter)
 
-    def process(self, block: Samples) -> Samples:
-        """The filtered block, equally long; computed in float64."""
-        if block.size == 0:
-            return np.zeros(0, dtype=np.float32)
-        filtered, self._state = sosfilt(self._sections, block.astype(np.float64), zi=self._state)
-        return np.asarray(filtered, dtype=np.float32)
-
-    def finish(self) -> Samples:
-        """Nothing: this filter holds nothing back."""
-        return np.zeros(0, dtype=np.float32)
+    def retune(self, *, center_hz: float, q: float) -> None:
+        """Another centre [Hz] and Q from the next block on. Raises: ConfigError: see `SvfBandpass`."""
+        self._filter.retune(SvfBandpass(center_hz, q))

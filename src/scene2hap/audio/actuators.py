@@ -1,0 +1,139 @@
+"""What an actuator makes of a signal, and the inverse that makes up for it.
+
+A resonant actuator answers as a resonator of one degree of freedom, 0 dB at its resonance:
+
+    |R(f)| = 1 / sqrt(1 + Q^2 (f / f_0 - f_0 / f)^2)
+
+A measured response (points, or a CSV file) is interpolated over the logarithm of frequency and scaled to 0 dB at its
+best. The inverse is bounded: what an actuator hardly renders would eat the head-room of all that it renders well.
+Symbols: f_0 [Hz] resonance, Q [-] quality factor.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from scene2hap import checks
+from scene2hap.audio.clip import Samples
+from scene2hap.errors import ConfigError
+from scene2hap.haptics import ActuatorProfile
+
+MAX_BOOST_DB = 12.0
+"""How far a weak answer is lifted [dB]; assumed: a factor of four in amplitude."""
+
+ACTUATORS: Mapping[str, ActuatorProfile] = {
+    profile.name: profile
+    for profile in (
+        ActuatorProfile(),
+        # Nominal 160 Hz in two independent open builds; no data sheet was to be had, so that Q and band are assumed.
+        ActuatorProfile("drake_hf", 40.0, 800.0, 160.0, 3.0),
+        # A moving coil on a soft suspension; assumed typical.
+        ActuatorProfile("voice_coil", 30.0, 1000.0, 70.0, 0.8),
+        # A coin-sized linear resonant actuator; resonance and Q typical of data sheets, assumed.
+        ActuatorProfile("lra", 130.0, 230.0, 175.0, 12.0),
+    )
+}
+"""The profiles known by name."""
+
+
+def actuator_profile(spec: object) -> ActuatorProfile:
+    """A profile from configuration: a name, the path of a CSV file, a mapping of its fields, or one ready made.
+
+    Raises: ConfigError: no such name or file, or fields that are out of bounds.
+    """
+    if isinstance(spec, ActuatorProfile):
+        return spec
+    if isinstance(spec, Mapping):
+        return _from_fields(spec)
+    if isinstance(spec, str | Path):
+        if str(spec) in ACTUATORS:
+            return ACTUATORS[str(spec)]
+        if str(spec).lower().endswith(".csv"):
+            return read_response_csv(spec)
+    raise ConfigError(f"actuator is {spec!r}; it must be one of {', '.join(ACTUATORS)}, or a CSV file of Hz and dB.")
+
+
+def read_response_csv(path: str | Path) -> ActuatorProfile:
+    """The profile of a measured actuator: rows of frequency [Hz] and level [dB]; a first row of words is skipped.
+
+    Raises: ConfigError: the file cannot be read, or a row is not two finite numbers with rising frequencies.
+    """
+    path = Path(path)
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            rows = [row for row in csv.reader(file) if row and not row[0].lstrip().startswith("#")]
+    except (OSError, UnicodeDecodeError, csv.Error) as cause:
+        raise ConfigError(f"{path} cannot be read: {cause}. Give a CSV file with columns Hz and dB.") from cause
+    if rows and not _is_number(rows[0][0]):
+        rows = rows[1:]
+    try:
+        points = tuple((float(row[0]), float(row[1])) for row in rows)
+    except (ValueError, IndexError) as cause:
+        raise ConfigError(f"{path}: {cause}; every row must be a frequency [Hz] and a level [dB].") from cause
+    if len(points) < 2:
+        raise ConfigError(f"{path} has {len(points)} rows of numbers; a response needs at least two.")
+    return ActuatorProfile(path.stem, points[0][0], points[-1][0], response_db=points)
+
+
+def response_db(profile: ActuatorProfile, frequencies_hz: ArrayLike) -> NDArray[np.float64]:
+    """How strongly the actuator answers, of the shape of `frequencies_hz` [dB], 0 where it does best."""
+    f = np.maximum(np.asarray(frequencies_hz, dtype=np.float64), np.finfo(float).tiny)
+    if profile.response_db:
+        points = np.array(profile.response_db)
+        return np.asarray(np.interp(np.log(f), np.log(points[:, 0]), points[:, 1]) - points[:, 1].max())
+    if profile.resonance_hz is None or profile.q is None:
+        return np.zeros_like(f)
+    # Below the range of touch the answer would fall for ever; a floor keeps its logarithm finite.
+    r = np.maximum(f / profile.resonance_hz, 1e-3)
+    return np.asarray(-10.0 * np.log10(1.0 + (profile.q * (r - 1.0 / r)) ** 2))
+
+
+def inverse_db(
+    profile: ActuatorProfile, frequencies_hz: ArrayLike, max_boost_db: float = MAX_BOOST_DB
+) -> NDArray[np.float64]:
+    """What makes up for the response, 0..`max_boost_db` [dB]; 0 outside the actuator's band, which it cannot render."""
+    limit = checks.number("max_boost_db", max_boost_db, "dB", at_least=0.0, error=ConfigError)
+    f = np.asarray(frequencies_hz, dtype=np.float64)
+    usable = (f >= profile.min_frequency_hz) & (f <= profile.max_frequency_hz)
+    return np.where(usable, np.minimum(-response_db(profile, f), limit), 0.0)
+
+
+def equalize_loop(
+    loop_samples: Samples, sample_rate_hz: float, profile: ActuatorProfile, max_boost_db: float = MAX_BOOST_DB
+) -> Samples:
+    """A loop (n_samples,) through the inverse of the actuator, equally long and not scaled; without delay or start-up.
+
+    A loop is periodic, so that weighting its Fourier coefficients is exact.
+    """
+    if not profile.response_db and (profile.resonance_hz is None or profile.q is None):
+        return loop_samples
+    spectrum = np.fft.rfft(loop_samples.astype(np.float64))
+    f = np.fft.rfftfreq(len(loop_samples), 1.0 / sample_rate_hz)
+    gain = 10 ** (inverse_db(profile, f, max_boost_db) / 20)
+    return np.fft.irfft(spectrum * gain, len(loop_samples)).astype(np.float32)
+
+
+def _from_fields(fields: Mapping[str, Any]) -> ActuatorProfile:
+    known = dict(fields)
+    base = known.pop("kind", None)
+    try:
+        if base is None:
+            return ActuatorProfile(**known)
+        profile = actuator_profile(base)
+        return ActuatorProfile(**{**vars(profile), **known})
+    except TypeError as cause:
+        raise ConfigError(f"actuator does not take {checks.shown(fields)}: {cause}.") from cause
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

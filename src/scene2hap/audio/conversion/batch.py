@@ -1,0 +1,143 @@
+"""Many sound files through a converter, by several processes; what fails does not stop the others."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from scene2hap.audio.conversion.stream import FORMATS, Conversion, convert, settled
+from scene2hap.errors import AudioError, Scene2HapError
+
+Progress = Callable[[str, int, int], None]
+"""Told (file, how many are done, of how many)."""
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A file that was not converted, and why."""
+
+    source: Path
+    reason: str
+
+
+@dataclass(frozen=True)
+class _Job:
+    source: Path
+    output: Path
+
+
+def convert_files(
+    sources: Sequence[str | Path],
+    output: str | Path,
+    *,
+    suffix: str = ".wav",
+    pictures: bool = False,
+    workers: int | None = None,
+    progress: Progress | None = None,
+    converter: object = "svf_bandpass",
+    actuator: object = "flat",
+    intensity: float = 1.0,
+    **settings: Any,
+) -> list[Conversion | Failure]:
+    """Convert files, and folders with all that is in them, in the order given.
+
+    Parameters:
+    output : a file, where there is one source that is no folder and this ends in a suffix of `FORMATS`; otherwise a
+        folder, in which files keep their name, and their place below the folder that was given, with `suffix`.
+    pictures : draw a PNG beside each; workers : processes, as many as there are processors where None; a script that
+        uses several needs ``if __name__ == "__main__":``; the rest : as for `convert`.
+    Raises: ConfigError: settings that cannot work. AudioError: there is nothing to convert, or the output is one file
+    for many. What concerns one file is a `Failure`.
+    """
+    settled(converter, actuator, intensity)
+    settings |= {"converter": converter, "actuator": actuator, "intensity": intensity}
+    jobs, failures = _planned([Path(source) for source in sources], Path(output), suffix)
+    if not jobs and not failures:
+        raise AudioError(
+            f"no sound file among {len(sources)} sources. Give WAV, FLAC, Ogg or MP3, or a folder of them."
+        )
+    outcomes: dict[int, Conversion | Failure] = dict(failures)
+    tell = progress or (lambda name, done, total: None)
+    for index, outcome in _outcomes(jobs, workers, pictures, settings):
+        outcomes[index] = outcome
+        tell(outcome.source.name, len(outcomes), len(jobs) + len(failures))
+    return [outcomes[index] for index in sorted(outcomes)]
+
+
+def _outcomes(
+    jobs: dict[int, _Job], workers: int | None, pictures: bool, settings: dict[str, Any]
+) -> Iterator[tuple[int, Conversion | Failure]]:
+    n_workers = min(workers or os.cpu_count() or 1, len(jobs))
+    if n_workers <= 1:
+        for index, job in jobs.items():
+            yield index, _convert(job, pictures, settings)
+        return
+    # A fresh interpreter each: forking a process that has threads (a progress bar) can lock up.
+    pool = ProcessPoolExecutor(n_workers, mp_context=multiprocessing.get_context("spawn"))
+    try:
+        running = {pool.submit(_convert, job, pictures, settings): index for index, job in jobs.items()}
+        for future in as_completed(running):
+            index = running[future]
+            yield index, _result(future, jobs[index])
+    finally:
+        pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _result(future: Future[Conversion | Failure], job: _Job) -> Conversion | Failure:
+    try:
+        return future.result()
+    except BrokenProcessPool:
+        for litter in job.output.parent.glob(f".{job.output.name}.*.part"):
+            litter.unlink(missing_ok=True)
+        return Failure(job.source, f"{job.source}: a process died while files were converted. Try with --workers 1.")
+
+
+def _convert(job: _Job, pictures: bool, settings: dict[str, Any]) -> Conversion | Failure:
+    try:
+        job.output.parent.mkdir(parents=True, exist_ok=True)
+        picture = job.output.with_suffix(".png") if pictures else None
+        return convert(job.source, job.output, picture=picture, **settings)
+    except Scene2HapError as error:
+        return Failure(job.source, str(error))
+    except OSError as error:
+        return Failure(job.source, f"{job.output}: cannot be written ({error.strerror}). Choose another folder.")
+
+
+def _planned(sources: Sequence[Path], output: Path, suffix: str) -> tuple[dict[int, _Job], dict[int, Failure]]:
+    """What becomes of each file, and which cannot become anything."""
+    if suffix not in FORMATS:
+        raise AudioError(f"suffix is {suffix!r}; it must be one of {', '.join(FORMATS)}.")
+    names_a_file = output.suffix.lower() in FORMATS and not output.is_dir()
+    if names_a_file and len(sources) == 1 and not sources[0].is_dir():
+        return {0: _Job(sources[0], output)}, {}
+    if names_a_file or output.is_file():
+        raise AudioError(f"{output} is one file, and there is more than one to make. Give a folder.")
+    jobs: dict[int, _Job] = {}
+    failures: dict[int, Failure] = {}
+    taken: dict[Path, Path] = {}
+    for index, (path, below) in enumerate(_found(sources, output)):
+        target = (output / below).with_suffix(suffix)
+        if target in taken:
+            failures[index] = Failure(path, f"{path} would become {target}, as {taken[target]} does. Rename one.")
+        else:
+            taken[target] = path
+            jobs[index] = _Job(path, target)
+    return jobs, failures
+
+
+def _found(sources: Sequence[Path], output: Path) -> Iterator[tuple[Path, Path]]:
+    """Every file with its place in the output folder; what lies in the output folder itself was made before."""
+    for source in sources:
+        if not source.is_dir():
+            yield source, Path(source.name)
+            continue
+        for path in sorted(source.rglob("*")):
+            is_output = path.resolve().is_relative_to(output.resolve()) and output.resolve() != source.resolve()
+            if path.suffix.lower() in FORMATS and path.is_file() and not is_output:
+                yield path, path.relative_to(source)

@@ -1,0 +1,96 @@
+"""What passes by, summed up in constant memory: peak, envelope, and dominant frequency."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.fft
+from numpy.typing import NDArray
+
+from scene2hap.audio import analysis
+
+Block = NDArray[np.float32]
+"""Samples (n, channels)."""
+
+HEARD_RANGE_HZ = (10.0, 20_000.0)
+SEGMENT_S = 2.5
+"""Length of the pieces whose power spectra are averaged; peaks are found to 0.02 Hz in as much."""
+MOST_SEGMENTS = 4
+"""Of a longer sound this many pieces are looked at, spread evenly from its beginning to its end."""
+
+
+class Meter:
+    """Listens to blocks of any size.
+
+    Parameters: n_frames : how many are expected; n_columns : points of the envelope over as many, 0 for none.
+    """
+
+    def __init__(self, sample_rate_hz: int, channels: int, *, n_frames: int = 0, n_columns: int = 0) -> None:
+        self.peak = 0.0
+        self.n_frames = 0
+        self.n_expected = max(1, n_frames)
+        self.envelope = np.zeros(n_columns, dtype=np.float32)
+        self._rate = sample_rate_hz
+        size = scipy.fft.next_fast_len(round(SEGMENT_S * sample_rate_hz) or 2, real=True)
+        n_segments = int(np.clip(self.n_expected // size, 1, MOST_SEGMENTS))
+        self._starts = np.linspace(0, max(0, self.n_expected - size), n_segments).astype(int).tolist()
+        self._segment = np.zeros((channels, size), dtype=np.float32)
+        self._window = np.hanning(size + 2)[1:-1].astype(np.float32)
+        self._filled = 0
+        self._power = np.zeros(size // 2 + 1)
+        self._is_measured = False
+
+    def hear(self, block: Block) -> None:
+        """Take in the next frames; one that is not finite makes the peak so."""
+        if len(block) == 0:
+            return
+        # Not max(): Python's ignores what is not a number.
+        self.peak = float(np.max([self.peak, block.max(), -block.min()]))
+        if len(self.envelope):
+            self._trace(block)
+        at = self._skip(0, len(block))
+        while at < len(block):
+            n = min(len(block) - at, self._segment.shape[1] - self._filled)
+            self._segment[:, self._filled : self._filled + n] = block[at : at + n].T
+            self._filled += n
+            at += n
+            if self._filled == self._segment.shape[1]:
+                self._add(self._segment * self._window)
+                self._filled = 0
+                self._starts.pop(0)
+                at = self._skip(at, len(block))
+        self.n_frames += len(block)
+
+    def dominant_frequency_hz(self) -> float | None:
+        """The highest peak of the mean power spectrum of all channels [Hz]; None for silence.
+
+        A sound shorter than one segment counts as it is.
+        """
+        if not self._is_measured and self._filled > 1:
+            rest = self._segment[:, : self._filled]
+            window = np.hanning(self._filled + 2)[1:-1].astype(np.float32)
+            rest = (rest - rest.mean(axis=1, keepdims=True)) * window
+            self._add(np.pad(rest, ((0, 0), (0, self._segment.shape[1] - self._filled))))
+        if not self._power[1:].any():
+            return None
+        high = min(HEARD_RANGE_HZ[1], 0.5 * self._rate)
+        bin_hz = self._rate / self._segment.shape[1]
+        return analysis.peak_frequency_hz(np.sqrt(self._power), bin_hz, (HEARD_RANGE_HZ[0], high))
+
+    def _skip(self, at: int, end: int) -> int:
+        """Where in the block the next segment begins or goes on; `end` where it does not."""
+        if not self._starts:
+            return end
+        return at if self._filled else min(end, max(at, self._starts[0] - self.n_frames))
+
+    def _add(self, segment: NDArray[np.floating]) -> None:
+        spectrum = scipy.fft.rfft(segment, axis=1)
+        self._power += (spectrum.real**2 + spectrum.imag**2).sum(axis=0)
+        self._is_measured = True
+
+    def _trace(self, block: Block) -> None:
+        """Put the largest absolute sample of each column's frames into the envelope."""
+        places = (self.n_frames + np.arange(len(block))) * len(self.envelope) // self.n_expected
+        places = np.minimum(places, len(self.envelope) - 1)
+        first = np.flatnonzero(np.diff(places, prepend=-1))
+        largest = np.maximum.reduceat(np.abs(block).max(axis=1), first)
+        np.maximum.at(self.envelope, places[first], largest)

@@ -1,0 +1,109 @@
+"""What a conversion did, as a picture: spectrograms before and after on one scale, and the envelope of each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import chain
+from pathlib import Path
+
+import numpy as np
+import soundfile
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from scene2hap.audio.conversion.meter import Meter
+from scene2hap.audio.files import opened_sound
+
+Font = ImageFont.FreeTypeFont | ImageFont.ImageFont
+
+WIDTH, LANE, ENVELOPE, MARGIN, TOP = 900, 240, 110, 80, 44
+LOWEST_HZ, HIGHEST_HZ = 10.0, 20_000.0
+DEPTH_DB = 80.0
+WINDOW_S = 0.1
+BLOCK_FRAMES = 65_536
+_INK, _GRID = "#22313f", "#d5dbe1"
+_STOPS = np.array([[10, 12, 40], [70, 20, 110], [180, 45, 95], [245, 130, 50], [252, 250, 190]], dtype=np.float64)
+"""Colours from quiet to loud, even steps of lightness apart."""
+
+
+def draw_conversion(title: str, source: Path, felt: Path, meters: tuple[Meter, Meter], path: Path) -> None:
+    """Draw sound and touch of a file one above the other, and save it as PNG.
+
+    `felt` is the converted file; `meters` heard both and hold their envelopes (n_columns,). Each of `WIDTH` columns of
+    a spectrogram is one window at its place in the file, so that memory does not grow with length.
+    """
+    height = TOP + 2 * (LANE + ENVELOPE + 46) + 30
+    image = Image.new("RGB", (MARGIN + WIDTH + 20, height), "white")
+    draw = ImageDraw.Draw(image)
+    font = ImageFont.load_default(14)
+    draw.text((MARGIN, 12), title, fill=_INK, font=ImageFont.load_default(18))
+    top = TOP
+    for name, sound, meter in (("before", source, meters[0]), ("after", felt, meters[1])):
+        powers, rate = _spectrogram(sound, meter.n_frames)
+        draw.text((MARGIN, top), f"{name}: loudest to {DEPTH_DB:g} dB below it", fill=_INK, font=font)
+        image.paste(_coloured(powers), (MARGIN, top + 18))
+        _frequency_axis(draw, top + 18, min(HIGHEST_HZ, 0.5 * rate), font)
+        _draw_envelope(draw, meter, top + 18 + LANE + 6, font)
+        top += LANE + ENVELOPE + 46
+    duration_s = meters[0].n_frames / rate
+    for share in (0.0, 0.25, 0.5, 0.75, 1.0):
+        label = f"{share * duration_s:.3g} s"
+        draw.text(
+            (MARGIN + share * WIDTH - draw.textlength(label, font=font) / 2, top - 8), label, fill=_INK, font=font
+        )
+    image.save(path, format="PNG")
+
+
+def _spectrogram(path: Path, n_frames: int) -> tuple[NDArray[np.float64], int]:
+    """Power of the channels' mean (LANE, WIDTH) on a logarithmic axis, lowest row last, and the rate."""
+    with opened_sound(path) as file:
+        rate = int(file.samplerate)
+        size = max(2, round(WINDOW_S * rate))
+        window = np.hanning(size + 2)[1:-1]
+        f = np.geomspace(min(HIGHEST_HZ, 0.5 * rate), LOWEST_HZ, LANE)
+        bins = np.clip(np.round(f * size / rate).astype(int), 0, size // 2)
+        powers = np.zeros((LANE, WIDTH))
+        for column, samples in enumerate(_windows(file, n_frames, size)):
+            powers[:, column] = np.abs(np.fft.rfft(samples * window))[bins] ** 2
+    return powers, rate
+
+
+def _windows(file: soundfile.SoundFile, n_frames: int, size: int) -> Iterator[NDArray[np.float32]]:
+    """`WIDTH` windows (size,) spread evenly, silent beyond both ends; in order, since compressed files seek badly."""
+    starts = (np.linspace(0, n_frames - 1, WIDTH).astype(int) - size // 2).tolist()
+    kept, origin = np.zeros(size, dtype=np.float32), -size
+    blocks = (block.mean(axis=1) for block in file.blocks(BLOCK_FRAMES, dtype="float32", always_2d=True))
+    for block in chain(blocks, [np.zeros(size, dtype=np.float32)]):
+        kept = np.concatenate([kept, block])
+        while starts and starts[0] + size <= origin + len(kept):
+            at = starts.pop(0) - origin
+            yield kept[at : at + size]
+        unused = min(len(kept), (starts[0] if starts else origin) - origin)
+        kept, origin = kept[unused:], origin + unused
+
+
+def _coloured(powers: NDArray[np.float64]) -> Image.Image:
+    loudest = powers.max()
+    level_db = 10 * np.log10(np.maximum(powers / loudest if loudest > 0 else powers, 10 ** (-DEPTH_DB / 10)))
+    place = (level_db / DEPTH_DB + 1.0) * (len(_STOPS) - 1)
+    rgb = np.stack([np.interp(place, np.arange(len(_STOPS)), channel) for channel in _STOPS.T], axis=-1)
+    return Image.fromarray(rgb.astype(np.uint8))
+
+
+def _frequency_axis(draw: ImageDraw.ImageDraw, top: int, highest_hz: float, font: Font) -> None:
+    for hz in (10, 30, 100, 300, 1000, 3000, 10_000):
+        if hz <= highest_hz:
+            y = top + (LANE - 1) * np.log(highest_hz / hz) / np.log(highest_hz / LOWEST_HZ)
+            draw.line([(MARGIN - 6, y), (MARGIN - 1, y)], fill=_INK)
+            draw.text((8, y - 9), f"{hz} Hz", fill=_INK, font=font)
+
+
+def _draw_envelope(draw: ImageDraw.ImageDraw, meter: Meter, top: int, font: Font) -> None:
+    middle, half = top + ENVELOPE / 2, ENVELOPE / 2 - 4
+    full = max(1.0, meter.peak)
+    for level in (-1.0, 0.0, 1.0):
+        draw.line([(MARGIN, middle - half * level), (MARGIN + WIDTH, middle - half * level)], fill=_GRID)
+    draw.text((8, middle - half - 4), f"{full:.2g}", fill=_INK, font=font)
+    for column, level in enumerate(meter.envelope * (half / full)):
+        x = MARGIN + column * WIDTH / len(meter.envelope)
+        draw.line([(x, middle - level), (x, middle + level)], fill="#1f77b4")

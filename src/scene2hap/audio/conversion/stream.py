@@ -1,0 +1,217 @@
+"""One sound file through a converter, block by block: memory does not grow with its length."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import soundfile
+from numpy.typing import NDArray
+
+from scene2hap import checks
+from scene2hap.audio.actuators import actuator_profile
+from scene2hap.audio.conversion.meter import Meter
+from scene2hap.audio.files import opened_sound, require_finite, written_whole
+from scene2hap.audio.protocol import ConversionContext, TactileConverter, TactileStream
+from scene2hap.audio.tactile import CONVERTERS
+from scene2hap.errors import AudioError, ConfigError
+
+Block = NDArray[np.float32]
+"""Samples (n, channels)."""
+
+FORMATS = {
+    ".wav": ("WAV", "PCM_24"),
+    ".flac": ("FLAC", "PCM_24"),
+    ".ogg": ("OGG", "VORBIS"),
+    ".mp3": ("MP3", "MPEG_LAYER_III"),
+}
+"""Format and coding of what is written, by suffix; any of them is read."""
+
+BLOCK_FRAMES = 65_536
+_FULL_SCALE = 2.0**23
+_NEARLY_FULL = 1.0 - 1.0 / _FULL_SCALE
+_PICTURE_COLUMNS = 900
+_LARGEST_WAV_BYTES = 0xFFFF_0000
+"""Lengths in a WAV header have 32 bits; what may not fit becomes RF64 (EBU Tech 3306), which most programs read."""
+
+
+@dataclass(frozen=True)
+class Conversion:
+    """What was made of a file. Peaks are absolute samples [re full scale], before clipping.
+
+    `n_clipped` samples were beyond full scale and were written as full scale. A dominant frequency is that of the mean
+    power spectrum of all channels, 10 Hz to 20 kHz; None for silence. `picture` is None where none was drawn.
+    """
+
+    source: Path
+    output: Path
+    duration_s: float
+    sample_rate_hz: int
+    channels: int
+    peak_in: float
+    peak_out: float
+    n_clipped: int
+    frequency_in_hz: float | None
+    frequency_out_hz: float | None
+    elapsed_s: float
+    picture: Path | None = None
+
+
+def convert(
+    source: str | Path,
+    output: str | Path,
+    *,
+    converter: object = "svf_bandpass",
+    actuator: object = "flat",
+    intensity: float = 1.0,
+    mono: bool = False,
+    overwrite: bool = False,
+    picture: str | Path | None = None,
+) -> Conversion:
+    """Turn a sound file into a tactile one, equally long, at the same rate and not scaled; written whole or not at all.
+
+    Parameters:
+    source : WAV, FLAC, Ogg or MP3 of any length; output : its suffix (`FORMATS`) chooses the format.
+    converter : a kind, a mapping with a `kind` and its settings, or one ready made; each channel gets its own stream.
+    actuator : a profile, its name, or a CSV file of its response; intensity : of the source, 0..1 [-].
+    mono : mix the channels by their mean first; overwrite : replace files that exist.
+    picture : a PNG to draw: spectrograms before and after, and both envelopes.
+    Raises: ConfigError: settings that cannot work. AudioError: `source` cannot be read or holds a sample that is not
+    finite, `output` exists or cannot be written, or the converter changes the length.
+    """
+    begin = time.perf_counter()
+    source, output = Path(source), Path(output)
+    built, context = settled(converter, actuator, intensity)
+    drawn = Path(picture) if picture is not None else None
+    _check_target(source, output, overwrite=overwrite)
+    if drawn is not None:
+        _check_target(source, drawn, overwrite=overwrite)
+    with opened_sound(source) as file, written_whole(output) as beside:
+        felt = _Felt(built, context, file, mono=mono, n_columns=_PICTURE_COLUMNS if drawn else 0)
+        with _opened_for_writing(output, beside, felt) as target:
+            for block in felt.blocks(source, file):
+                target.write(_steps(block, is_beyond=felt.after.peak >= _NEARLY_FULL))
+        if drawn is not None:
+            from scene2hap.audio.conversion.picture import draw_conversion
+
+            with written_whole(drawn) as picture_beside:
+                title = f"{source.name} through {type(built).__name__}"
+                draw_conversion(title, source, beside, (felt.before, felt.after), picture_beside)
+    return Conversion(
+        source,
+        output,
+        felt.before.n_frames / felt.rate,
+        felt.rate,
+        felt.channels,
+        felt.before.peak,
+        felt.after.peak,
+        felt.n_clipped,
+        felt.before.dominant_frequency_hz(),
+        felt.after.dominant_frequency_hz(),
+        time.perf_counter() - begin,
+        drawn,
+    )
+
+
+def settled(converter: object, actuator: object, intensity: float) -> tuple[TactileConverter, ConversionContext]:
+    """The converter and what it is told. Raises: ConfigError: settings that cannot work."""
+    built = CONVERTERS.build(converter)
+    if not isinstance(built, TactileConverter):
+        raise ConfigError(f"converter is {built!r}; it has no stream. Name a kind: {', '.join(CONVERTERS.kinds())}.")
+    checks.number("intensity", intensity, "-", above=0.0, at_most=1.0, error=ConfigError)
+    return built, ConversionContext(actuator_profile(actuator), intensity)
+
+
+class _Felt:
+    """A conversion under way: a stream per channel, and a meter on either side."""
+
+    def __init__(
+        self,
+        converter: TactileConverter,
+        context: ConversionContext,
+        file: soundfile.SoundFile,
+        *,
+        mono: bool,
+        n_columns: int,
+    ) -> None:
+        self.rate = int(file.samplerate)
+        self.channels = 1 if mono else int(file.channels)
+        self.n_clipped = 0
+        self.before, self.after = (
+            Meter(self.rate, self.channels, n_frames=int(file.frames), n_columns=n_columns) for _ in range(2)
+        )
+        self._name = type(converter).__name__
+        self._mono = mono
+        self._streams: list[TactileStream] = [converter.stream(self.rate, context) for _ in range(self.channels)]
+
+    def blocks(self, source: Path, file: soundfile.SoundFile) -> Iterator[Block]:
+        """The converted file (n, channels), within full scale."""
+        stated = int(file.frames)
+        n_read = 0
+        while len(block := file.read(BLOCK_FRAMES, dtype="float32", always_2d=True)):
+            if self._mono and block.shape[1] > 1:
+                block = block.mean(axis=1, keepdims=True, dtype=np.float32)
+            self.before.hear(block)
+            if not math.isfinite(self.before.peak):
+                require_finite(source, block, n_read)
+            n_read += len(block)
+            yield self._felt([stream.process(block[:, i]) for i, stream in enumerate(self._streams)])
+        if n_read == 0:
+            raise AudioError(f"{source} has no samples. Use a sound that is longer than 0 s.")
+        if n_read < stated and file.format != "MP3":  # the length of an MP3 is an estimate
+            raise AudioError(f"{source} is cut short: {n_read} of {stated} frames. Copy it again.")
+        yield self._felt([stream.finish() for stream in self._streams])
+        if self.after.n_frames != n_read:
+            raise AudioError(
+                f"{self._name} made {self.after.n_frames} samples of {n_read}; touch must stay in step with sound. "
+                "Its stream must return as many samples as it was given, counting finish()."
+            )
+
+    def _felt(self, channels: list[NDArray[np.float32]]) -> Block:
+        if len({len(channel) for channel in channels}) > 1:
+            raise AudioError(f"{self._name} made {[len(channel) for channel in channels]} samples of equal channels.")
+        block = np.stack(channels, axis=1).astype(np.float32, copy=False)
+        self.after.hear(block)
+        if self.after.peak > 1.0:
+            self.n_clipped += int(np.count_nonzero(np.abs(block) > 1.0))
+        return block
+
+
+def _steps(block: Block, *, is_beyond: bool) -> NDArray[np.int32]:
+    """24-bit integers in the upper bits of int32, beyond full scale full scale; half the time that libsndfile takes."""
+    scaled = block * np.float32(_FULL_SCALE)
+    np.rint(scaled, out=scaled)
+    if is_beyond:
+        np.clip(scaled, -_FULL_SCALE, _FULL_SCALE - 1.0, out=scaled)
+    steps = scaled.astype(np.int32)
+    return np.left_shift(steps, 8, out=steps)
+
+
+def _opened_for_writing(output: Path, beside: Path, felt: _Felt) -> soundfile.SoundFile:
+    container, subtype = FORMATS[output.suffix.lower()]
+    n_bytes = 3 * felt.channels * felt.before.n_expected
+    if container == "WAV" and n_bytes > _LARGEST_WAV_BYTES:
+        container = "RF64"
+    try:
+        return soundfile.SoundFile(beside, "w", felt.rate, felt.channels, subtype=subtype, format=container)
+    except (soundfile.SoundFileError, ValueError) as cause:
+        raise AudioError(
+            f"{output}: cannot be written as {container} of {felt.channels} channels at {felt.rate} Hz ({cause}). "
+            "Choose a folder that exists and is yours, or WAV."
+        ) from cause
+
+
+def _check_target(source: Path, output: Path, *, overwrite: bool) -> None:
+    known = {*FORMATS, ".png"}
+    if output.suffix.lower() not in known:
+        raise AudioError(f"{output} has no suffix of a known format; it must end in one of {', '.join(FORMATS)}.")
+    if output.exists() and source.exists() and output.samefile(source):
+        raise AudioError(f"{output} is the sound itself. Choose another name for what is made of it.")
+    if output.is_dir():
+        raise AudioError(f"{output} is a folder. Choose another name.")
+    if output.exists() and not overwrite:
+        raise AudioError(f"{output} exists. Choose another name, or allow overwriting (--force).")

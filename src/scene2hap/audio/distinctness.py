@@ -1,0 +1,123 @@
+"""How far apart two sources are felt, in just noticeable differences (JND).
+
+    by frequency   |ln(f_1 / f_2)| / ln(1 + W)      W = 0.22 [-]
+    by envelope    the same for the rates at which both rise and fall, if both do
+    by level       |L_1 - L_2| / 2.5 dB             L [dB] sensation levels
+
+Published Weber fractions of frequency are 0.18 to 0.25, of which the middle is taken, and level JNDs 2.2 to 2.5 dB, of
+which the larger (Israr, Tan and Reed 2006). For the rate of an envelope the same fraction is assumed. Levels fall with
+distance, frequency and rate do not, hence the two ways to be distinct.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from scene2hap import checks
+from scene2hap.audio.levels import felt_level_db, felt_spectrum
+from scene2hap.errors import AudioError
+from scene2hap.haptics import ActuatorProfile
+
+FREQUENCY_WEBER = 0.22
+WIDEST_WEBER = 0.25
+"""The largest published fraction: two sources that far apart are told apart by everybody."""
+LEVEL_JND_DB = 2.5
+FAR_DB = 12.0
+"""The attenuation at which sources shall still differ [dB]."""
+
+_RATE_HZ = (0.5, 60.0)
+_LEAST_DEPTH = 0.2
+"""Modulation index below which an envelope counts as steady [-]: 3.5 dB from trough to crest, assumed."""
+
+
+@dataclass(frozen=True)
+class Feel:
+    """What a source feels like: dominant frequency [Hz], rate of its envelope [Hz] or None, sensation level [dB]."""
+
+    frequency_hz: float
+    envelope_hz: float | None
+    level_db: float
+
+
+@dataclass(frozen=True)
+class Difference:
+    """Two sources, and by how many JNDs they differ."""
+
+    first: str
+    second: str
+    by_frequency: float
+    by_envelope: float
+    by_level: float
+    fainter_db: float
+
+    @property
+    def without_level(self) -> float:
+        """The larger of the differences that distance leaves alone."""
+        return max(self.by_frequency, self.by_envelope)
+
+    @property
+    def is_distinct(self) -> bool:
+        """2 JND in frequency or envelope rate, or 1 there and 2 in level."""
+        return self.without_level >= 2.0 or (self.without_level >= 1.0 and self.by_level >= 2.0)
+
+    @property
+    def far_away(self) -> float:
+        """What is left without level after 12 dB of attenuation; nothing, if one of the two is not felt any more."""
+        return self.without_level if self.fainter_db > FAR_DB else 0.0
+
+
+def feel_of(loop_samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorProfile | None = None) -> Feel:
+    """What a tactile loop (n_samples,) feels like on an actuator.
+
+    The dominant frequency is that of the component furthest above its own threshold.
+    Raises: AudioError: nothing lies between 10 and 1000 Hz.
+    """
+    x = np.asarray(loop_samples, dtype=np.float64)
+    f, felt = felt_spectrum(x, sample_rate_hz, actuator)
+    if not felt.any():
+        raise AudioError("the loop is silent between 10 and 1000 Hz; there is nothing to tell apart.")
+    level_db = felt_level_db(x, sample_rate_hz, actuator)
+    return Feel(float(f[np.argmax(felt)]), _envelope_rate_hz(x, sample_rate_hz), level_db)
+
+
+def difference(first: str, one: Feel, second: str, other: Feel) -> Difference:
+    """By how much two sources differ."""
+    by_envelope = 0.0
+    if one.envelope_hz is not None and other.envelope_hz is not None:
+        by_envelope = frequency_jnds(one.envelope_hz, other.envelope_hz)
+    by_level = abs(one.level_db - other.level_db) / LEVEL_JND_DB
+    by_frequency = frequency_jnds(one.frequency_hz, other.frequency_hz)
+    return Difference(first, second, by_frequency, by_envelope, by_level, min(one.level_db, other.level_db))
+
+
+def distinctness(feels: Mapping[str, Feel]) -> tuple[Difference, ...]:
+    """Every pair of sources by name, least distinct first."""
+    pairs = [difference(a, feels[a], b, feels[b]) for a, b in combinations(feels, 2)]
+    return tuple(sorted(pairs, key=lambda pair: (pair.is_distinct, pair.without_level)))
+
+
+def frequency_jnds(one_hz: float, other_hz: float) -> float:
+    """How many JNDs lie between two frequencies [-]."""
+    a = checks.number("one_hz", one_hz, "Hz", above=0.0, error=AudioError)
+    b = checks.number("other_hz", other_hz, "Hz", above=0.0, error=AudioError)
+    return abs(math.log(a / b)) / math.log1p(FREQUENCY_WEBER)
+
+
+def _envelope_rate_hz(x: np.ndarray, sample_rate_hz: float) -> float | None:
+    """The strongest rate in the Hilbert envelope of a loop; None where that hardly moves."""
+    spectrum = np.fft.fft(x)
+    spectrum[0] = 0.0
+    spectrum[(len(x) + 1) // 2 :] = 0.0
+    envelope = np.abs(np.fft.ifft(spectrum))
+    rates = np.fft.rfftfreq(len(x), 1.0 / sample_rate_hz)
+    inside = (rates >= _RATE_HZ[0]) & (rates <= _RATE_HZ[1])
+    depth = 2.0 * np.abs(np.fft.rfft(envelope)) / len(x) / envelope.mean()
+    depth[~inside] = 0.0
+    k = int(np.argmax(depth))
+    return float(rates[k]) if depth[k] >= _LEAST_DEPTH else None

@@ -1,0 +1,107 @@
+"""The tactile loops of a whole scene: what each source is told of the others, and how strongly each is felt."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from scene2hap.audio.actuators import MAX_BOOST_DB, equalize_loop
+from scene2hap.audio.analysis import dominant_frequency_hz
+from scene2hap.audio.anchor import anchor_of
+from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.audio.levels import at_level, felt_level_db, sensation_level_db
+from scene2hap.audio.loops import TACTILE_HEADROOM_DB, loop_pair
+from scene2hap.audio.protocol import ConversionContext, TactileConverter
+from scene2hap.audio.spreading import Placement, SpreadLimits, Voice, spread
+from scene2hap.haptics import ActuatorProfile
+
+_PEAK = 10 ** (-TACTILE_HEADROOM_DB / 20)
+
+
+@dataclass(frozen=True, eq=False)
+class SourceClip:
+    """The chosen sound of one state of one source, its intensity 0..1, and the group within which nobody needs to tell
+    sources apart: objects of one kind, and so the states of one object."""
+
+    clip: AudioClip
+    intensity: float
+    group: str = ""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How one source is converted, and at which sensation level it is to be felt [dB]."""
+
+    context: ConversionContext
+    level_db: float
+
+
+def plan_scene(
+    sources: Sequence[SourceClip],
+    converter: TactileConverter,
+    actuator: ActuatorProfile,
+    limits: SpreadLimits | None = None,
+    standing: Sequence[tuple[HapticLoop, str]] = (),
+) -> tuple[Plan, ...]:
+    """A plan for each source. Sources are moved apart within the limits if the converter follows targets.
+
+    Parameters: standing : loops that stay as they are, and their groups; the sources keep clear of them too.
+    Raises: AudioError: an intensity outside 0..1.
+    """
+    levels = [sensation_level_db(source.intensity) for source in sources]
+    anchors = [
+        anchor_of(source.clip.samples, source.clip.sample_rate_hz, level, actuator)
+        for source, level in zip(sources, levels, strict=True)
+    ]
+    known = [i for i, anchor in enumerate(anchors) if anchor is not None]
+    voices = [
+        Voice(anchor.frequency_hz, level, source.group, anchor.crest_db)
+        for source, level, anchor in zip(sources, levels, anchors, strict=True)
+        if anchor is not None
+    ]
+    fixed = [_standing_voice(loop, group, actuator) for loop, group in standing]
+    if getattr(converter, "follows_target", False):
+        placed = dict(zip(known, spread([*voices, *fixed], actuator, limits), strict=False))
+    else:
+        placed = {i: Placement(voice.own_hz, voice.level_db) for i, voice in zip(known, voices, strict=True)}
+    others = [(place.target_hz, sources[i].group) for i, place in placed.items()]
+    others += [(voice.own_hz, voice.group) for voice in fixed]
+    return tuple(
+        Plan(
+            ConversionContext(
+                actuator,
+                source.intensity,
+                tuple(frequency for frequency, group in others if group != source.group),
+                anchor.frequency_hz if anchor is not None else None,
+                placed[i].target_hz if i in placed else None,
+            ),
+            placed[i].level_db if i in placed else levels[i],
+        )
+        for i, (source, anchor) in enumerate(zip(sources, anchors, strict=True))
+    )
+
+
+def _standing_voice(loop: HapticLoop, group: str, actuator: ActuatorProfile) -> Voice:
+    clip = loop.tactile
+    level_db = felt_level_db(clip.samples, clip.sample_rate_hz, actuator)
+    return Voice(loop.frequency_tactile_hz, level_db, group, is_placed=True)
+
+
+def felt_loop(
+    clip: AudioClip, converter: TactileConverter, plan: Plan, max_boost_db: float = MAX_BOOST_DB
+) -> HapticLoop:
+    """The pair of loops of a source, the tactile one equalized for the actuator and at its planned level.
+
+    The level is a bound from above only: no peak exceeds full scale less `TACTILE_HEADROOM_DB`.
+    Raises: AudioError: the clip is too short or silent, or its conversion is.
+    """
+    pair = loop_pair(clip, converter, plan.context)
+    actuator, rate = plan.context.actuator, pair.tactile.sample_rate_hz
+    samples = equalize_loop(pair.tactile.samples, rate, actuator, max_boost_db)
+    samples = at_level(samples, rate, plan.level_db, actuator, _PEAK)
+    return replace(
+        pair,
+        tactile=replace(pair.tactile, samples=samples),
+        frequency_tactile_hz=dominant_frequency_hz(samples, rate),
+    )

@@ -1,0 +1,95 @@
+"""How strongly a vibration is felt: decibels over the threshold of touch, and what an intensity asks for.
+
+T(f) = A / lg(b)^2 * lg(f / 550 + b)^2 - e      [dB re full scale], b = 6/11, A = 50, e = 45, at most 0
+
+is the least drive that is felt. A vibration of several components is felt by the energy of all of them, each over its
+own threshold (Pacinian corpuscles integrate; there are no critical bands to speak of):
+
+L = 10 lg sum_k (a_k / 10^(T(f_k) / 20))^2      a_k [-] amplitude of the component at f_k, re full scale
+
+Source: the psychohaptic model of the MPEG haptics reference software (ISO/IEC 23090-31). That full scale lies 45 dB
+over the threshold at 250 Hz is its convention, and is what any level here rests on.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from scene2hap import checks
+from scene2hap.audio.actuators import response_db
+from scene2hap.audio.clip import Samples
+from scene2hap.errors import AudioError
+from scene2hap.haptics import ActuatorProfile
+
+FULL_LEVEL_DB = 31.0
+"""Sensation level of a source of intensity 1. Assumed: what fits below full scale, with head-room, from 140 Hz on."""
+LEVEL_PER_DECADE_DB = 17.0
+"""How much a tenth of the intensity is felt weaker [dB]. Felt strength grows with amplitude to the power 0.89
+(Verrillo 1970), which would ask for 22; touch has 45 dB where hearing has 100, so that some compression is usual (2:1
+after Merchel and Altinsoy). 17 leaves the scale's faintest example, a refrigerator's hum of 0.1, at 14 dB, which is
+still felt 12 dB further away; and leaves two level JNDs between a ringing phone (0.5) and a washing machine (1)."""
+TACTILE_RANGE_HZ = (10.0, 1000.0)
+
+_NOTHING_DB = -120.0
+"""Below this there are only errors of rounding."""
+
+_A, _B, _E = 50.0, 6.0 / 11.0, 45.0
+
+
+def threshold_db(frequencies_hz: ArrayLike) -> NDArray[np.float64]:
+    """T(f): the least drive that is felt, of the shape of `frequencies_hz` [dB re full scale]; least at 250 Hz."""
+    f = np.asarray(frequencies_hz, dtype=np.float64)
+    return np.minimum(0.0, _A / math.log10(_B) ** 2 * np.log10(f / 550.0 + _B) ** 2 - _E)
+
+
+def sensation_level_db(intensity: float) -> float:
+    """How far above the threshold a source of that intensity is to be felt, by whoever touches it [dB].
+
+    Raises: AudioError: the intensity is not within 0..1, or is 0, which has no level.
+    """
+    checked = checks.number("intensity", intensity, "-", above=0.0, at_most=1.0, error=AudioError)
+    return FULL_LEVEL_DB + LEVEL_PER_DECADE_DB * math.log10(checked)
+
+
+def drive_db(frequencies_hz: ArrayLike, level_db: float, actuator: ActuatorProfile) -> NDArray[np.float64]:
+    """Amplitude that a sine needs on that actuator to be felt at a sensation level [dB re full scale]."""
+    return threshold_db(frequencies_hz) + level_db - response_db(actuator, frequencies_hz)
+
+
+def felt_spectrum(
+    samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorProfile | None = None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Frequencies (n_bins,) [Hz] and, at each, (a_k / threshold)^2 (n_bins,) [-] of a loop (n_samples,).
+
+    Without a window, since a loop is periodic; 10 to 1000 Hz.
+    """
+    x = np.asarray(samples, dtype=np.float64)
+    f = np.fft.rfftfreq(len(x), 1.0 / sample_rate_hz).astype(np.float64)
+    amplitude = 2.0 * np.abs(np.fft.rfft(x)) / len(x)
+    inside = (f >= TACTILE_RANGE_HZ[0]) & (f <= min(TACTILE_RANGE_HZ[1], 0.5 * sample_rate_hz))
+    f = f[inside]
+    weight_db = (response_db(actuator, f) if actuator else 0.0) - threshold_db(f)
+    return f, amplitude[inside] ** 2 * 10 ** (weight_db / 10)
+
+
+def felt_level_db(samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorProfile | None = None) -> float:
+    """Sensation level of a loop (n_samples,) [dB]; minus infinity where there is nothing to feel."""
+    total = float(felt_spectrum(samples, sample_rate_hz, actuator)[1].sum())
+    return 10.0 * math.log10(total) if total > 0.0 else -math.inf
+
+
+def at_level(
+    samples: Samples, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile, peak: float
+) -> Samples:
+    """A loop (n_samples,) scaled to a sensation level, or as far towards it as its peak may grow.
+
+    Raises: AudioError: there is nothing to feel in it.
+    """
+    now_db = felt_level_db(samples, sample_rate_hz, actuator)
+    if now_db < _NOTHING_DB:
+        raise AudioError("the tactile signal is silent between 10 and 1000 Hz. Choose another sound or converter.")
+    gain = min(10 ** ((level_db - now_db) / 20), peak / float(np.abs(samples).max()))
+    return np.asarray(samples * gain, dtype=np.float32)

@@ -1,0 +1,59 @@
+"""A clip as a loop to hear and a loop to feel, cut by one seam."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from scene2hap import checks
+from scene2hap.audio import analysis
+from scene2hap.audio.clip import AudioClip, Samples
+from scene2hap.audio.conversion import convert_clip
+from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.audio.loops.seam import apply_seam
+from scene2hap.audio.loops.search import find_seam
+from scene2hap.audio.protocol import ConversionContext, TactileConverter
+from scene2hap.errors import AudioError
+
+TACTILE_HEADROOM_DB = 6.0
+"""Peak of the tactile loop of a source of full intensity, below full scale [dB]: two such sources add up to full scale
+(within 0.02 dB)."""
+AUDIBLE_PEAK_DBFS = -1.0
+"""Peak of every audible loop [dB re 1]; the usual margin for players that resample."""
+
+AUDIBLE_RANGE_HZ = (20.0, 20_000.0)
+
+
+def make_loop(clip: AudioClip) -> AudioClip:
+    """A clip as an endless loop, at its own level. Raises: AudioError: shorter than `MIN_CLIP_S`."""
+    return replace(clip, samples=apply_seam(clip.samples, find_seam(clip.samples, clip.sample_rate_hz)))
+
+
+def loop_pair(clip: AudioClip, converter: TactileConverter, context: ConversionContext) -> HapticLoop:
+    """The audible and the tactile loop of a clip, cut at the same place.
+
+    The whole clip is converted before it is cut, so that a converter's start-up lies outside the loop. The seam suits
+    both signals; each is faded by the law that suits it. The audible loop peaks at `AUDIBLE_PEAK_DBFS`, the tactile one
+    at `context.intensity` times full scale less `TACTILE_HEADROOM_DB`.
+    Raises: AudioError: the clip is shorter than `MIN_CLIP_S` or silent, or its conversion is.
+    """
+    intensity = checks.number("intensity", context.intensity, "-", above=0.0, at_most=1.0, error=AudioError)
+    rate = clip.sample_rate_hz
+    converted = convert_clip(clip, converter, context)
+    seam = find_seam(clip.samples, rate, converted.samples)
+    audible = apply_seam(clip.samples, seam)
+    tactile = apply_seam(converted.samples, seam.fitted(converted.samples))
+    for name, loop in (("sound", audible), ("tactile signal", tactile)):
+        if not loop.any():
+            raise AudioError(f"{clip.credit.title!r}: the {name} is silent. Choose another sound or converter.")
+    return HapticLoop(
+        replace(clip, samples=_with_peak(audible, 10 ** (AUDIBLE_PEAK_DBFS / 20))),
+        replace(clip, samples=_with_peak(tactile, intensity * 10 ** (-TACTILE_HEADROOM_DB / 20))),
+        analysis.dominant_frequency_hz(audible, rate, range_hz=AUDIBLE_RANGE_HZ),
+        analysis.dominant_frequency_hz(tactile, rate),
+    )
+
+
+def _with_peak(samples: Samples, peak: float) -> Samples:
+    return np.asarray(samples * (peak / np.abs(samples).max().astype(np.float64)), dtype=np.float32)

@@ -1,0 +1,178 @@
+"""Looking for the place where a sound goes on as it once began.
+
+Likeness of two stretches with spectra A and B is 2 Re sum(W A* B) / (sum(W |A|^2) + sum(W |B|^2)): 1 where they are
+equal, less where shape *or level* differ, averaged over all the signals that share the seam. W is the sound's own mean
+power spectrum: a hum under hiss is heard and felt as a hum, and unless it counts more than its hiss, chance likeness of
+the hiss decides and the hum wraps out of phase. The search takes two steps:
+
+1. coarsely, at 8 kHz, for twelve starts and every length from half to all of what is left behind them;
+2. at the full rate, around those lengths where the coarse curve, a cosine through each of its peaks, promises most at
+   a whole number of samples.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import scipy.fft
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import ArrayLike, NDArray
+
+from scene2hap import checks
+from scene2hap.audio.loops.seam import Seam
+from scene2hap.errors import AudioError
+
+Signal = NDArray[np.float64]
+
+MIN_CLIP_S = 0.1
+MAX_LOOP_S = 10.0
+"""Longer sounds give a loop from their middle; assumed: nobody notices the return after ten seconds."""
+CROSSFADE_S = 0.2
+"""Length of the fade and of the stretches that are compared; at most an eighth of the clip. Assumed: four cycles at
+20 Hz."""
+
+_SHORTEST_SHARE = 0.5
+_EDGE_S = 0.02
+_EDGE_SHARE = 0.02
+"""What is left out at either end, of the sound at most this share: there filters settle and recordings are faded."""
+_N_STARTS = 12
+_FEWEST_SAMPLES = 16
+_COARSE_HZ = 8000.0
+_N_REFINED = 96
+"""Of a tone of 1 kHz at 16 kHz one length in twenty wraps within half a degree; there must be some among these."""
+_AS_GOOD = 3e-5
+"""Seams whose likeness is this close to the best are as good, and the longest of them wins: a tone out of phase by 0.44
+degrees differs by as much."""
+_SILENT = 1e-9
+"""Of the whole energy; below, likeness would be a ratio of rounding errors."""
+
+
+def find_seam(samples: ArrayLike, sample_rate_hz: float, *others: ArrayLike) -> Seam:
+    """The best place to close a sound (n,) into a loop; `others` are signals of the same length that shall share it.
+
+    The law of the fade follows from the first signal; `Seam.fitted` gives that of the others. Work is bounded by
+    `MAX_LOOP_S`, however long the sound.
+    Raises: AudioError: the sound is shorter than `MIN_CLIP_S`, or the others are not as long as it is.
+    """
+    rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=AudioError)
+    signals = [_centred(signal) for signal in (samples, *others)]
+    n = len(signals[0])
+    shortest_s = max(MIN_CLIP_S, _FEWEST_SAMPLES / rate)
+    checks.number("duration", n / rate, "s", at_least=shortest_s, error=AudioError, hint="Use a longer sound.")
+    if any(len(signal) != n for signal in signals):
+        raise AudioError(
+            f"the signals have {[len(x) for x in signals]} samples; a shared seam wants them equally long."
+        )
+    fade = max(1, min(round(CROSSFADE_S * rate), n // 8))
+    edge = round(min(_EDGE_S * rate, _EDGE_SHARE * n))
+    usable = min(n - 2 * edge, round(MAX_LOOP_S * rate) + fade)
+    offset = (n - usable) // 2
+    cut = [signal[offset : offset + usable] for signal in signals]
+    weights = [_mean_power(x, fade) for x in cut]
+    found = _refined(cut, weights, fade, _promising(cut, weights, fade, min(1.0, _COARSE_HZ / rate)))
+    best = max(likeness for likeness, _, _ in found)
+    _, length, start = max((seam for seam in found if seam[0] >= best - _AS_GOOD), key=lambda seam: (seam[1], -seam[2]))
+    return Seam(offset + start, length, fade, "linear").fitted(signals[0])
+
+
+def _mean_power(x: Signal, width: int) -> Signal:
+    """Mean power spectrum of stretches of `width` samples, (width // 2 + 1,), without the offset; largest value 1."""
+    frames = sliding_window_view(x, width)[:: max(1, width // 2)]
+    power = np.mean(np.abs(scipy.fft.rfft(frames * np.hanning(width + 2)[1:-1], axis=1)) ** 2, axis=0)
+    power[0] = 0.0
+    return np.asarray(power / power.max() if power.any() else np.ones_like(power))
+
+
+def _promising(signals: Sequence[Signal], weights: Sequence[Signal], fade: int, ratio: float) -> NDArray[np.int64]:
+    """Starts and lengths (n, 2) worth a closer look [samples], best first."""
+    size = scipy.fft.next_fast_len(len(signals[0]), real=True)
+    coarse_size = scipy.fft.next_fast_len(max(_FEWEST_SAMPLES, round(ratio * size)), real=True)
+    scale = size / coarse_size
+    n = int(len(signals[0]) / scale)
+    width = max(1, round(fade / scale))
+    starts = np.array([k * n // (4 * _N_STARTS) for k in range(_N_STARTS)])
+    likeness = np.zeros((_N_STARTS, n - width + 1))
+    for x, weight in zip(signals, weights, strict=True):
+        spectrum = scipy.fft.rfft(x, size)
+        # A filter without phase, the root of the weights, stands for them; it blurs the ends, which `_refined` mends.
+        root = np.interp(np.linspace(0, 1, len(spectrum)), np.linspace(0, 1, len(weight)), np.sqrt(weight))
+        plain, strong = (scipy.fft.irfft(part, coarse_size)[:n] for part in (spectrum, spectrum * root))
+        likeness = likeness + _likeness(strong, plain, width, starts) / len(signals)
+    found = []
+    for row, start in zip(likeness, starts, strict=True):
+        shortest = max(width, round(_SHORTEST_SHARE * (n - start - width)))
+        curve = row[start + shortest :]
+        peaks = _peaks(curve)
+        heights, lengths = _at_whole_samples(curve, peaks, shortest, scale)
+        found.append(np.stack([heights, np.full(len(peaks), round(start * scale)), lengths], axis=1))
+    rows = np.concatenate(found)
+    # Of equal promise the longer first: what returns later is noticed later.
+    order = np.lexsort((-rows[:, 2], -np.round(rows[:, 0] / _AS_GOOD)))
+    return rows[order[:_N_REFINED], 1:].astype(np.int64)
+
+
+def _likeness(x: Signal, plain: Signal, width: int, starts: NDArray[np.int64]) -> Signal:
+    """How alike the stretches of x (n,) at `starts` are to all others, (n_starts, n - width + 1); 0 where `plain` is
+    silent in both."""
+    size = scipy.fft.next_fast_len(len(x) + width, real=True)
+    stretches = scipy.fft.rfft(x[starts[:, None] + np.arange(width)], size, axis=1)
+    products = scipy.fft.irfft(stretches.conj() * scipy.fft.rfft(x, size), size, axis=1)[:, : len(x) - width + 1]
+    energies, heard = _moving_energy(x, width), _moving_energy(plain, width)
+    has_sound = heard[starts][:, None] + heard > _SILENT * (plain @ plain)
+    total = energies[starts][:, None] + energies
+    return np.asarray(np.where(has_sound, 2.0 * products / np.where(has_sound, total, 1.0), 0.0))
+
+
+def _moving_energy(x: Signal, width: int) -> Signal:
+    """Energy of every stretch of `width` samples, (n - width + 1,)."""
+    squares = np.cumsum(np.concatenate([[0.0], x**2]))
+    return np.asarray(squares[width:] - squares[:-width])
+
+
+def _peaks(curve: Signal) -> NDArray[np.int64]:
+    """Indices of the local maxima of a curve, ends included."""
+    padded = np.concatenate([[-np.inf], curve, [-np.inf]])
+    return np.flatnonzero((padded[1:-1] >= padded[:-2]) & (padded[1:-1] > padded[2:]))
+
+
+def _at_whole_samples(curve: Signal, peaks: NDArray[np.int64], first: int, scale: float) -> tuple[Signal, Signal]:
+    """For each peak the best whole number of samples at the full rate, and what a cosine promises there."""
+    inner = np.clip(peaks, 1, max(1, len(curve) - 2))
+    left, centre, right = (curve[np.clip(inner + step, 0, len(curve) - 1)] for step in (-1, 0, 1))
+    centre = np.maximum(centre, 1e-9)
+    turn = np.arccos(np.clip(0.5 * (left + right) / centre, 0.0, 1.0 - 1e-12))
+    shift = np.clip(np.arctan2(0.5 * (right - left), centre * np.sin(turn)) / turn, -1.0, 1.0)
+    place = first + inner + shift
+    length = np.round(place * scale)
+    return centre / np.cos(turn * shift) * np.cos(turn * (length / scale - place)), length
+
+
+def _refined(
+    signals: Sequence[Signal], weights: Sequence[Signal], fade: int, candidates: NDArray[np.int64]
+) -> list[tuple[float, int, int]]:
+    """Likeness, length and start of each candidate."""
+    starts, lengths = np.unique(candidates, axis=0).T
+    lengths = np.clip(lengths, fade, len(signals[0]) - fade - starts)
+    likeness = np.mean([_exactly(x, w, fade, starts, lengths) for x, w in zip(signals, weights, strict=True)], axis=0)
+    return [(float(r), int(length), int(start)) for r, length, start in zip(likeness, lengths, starts, strict=True)]
+
+
+def _exactly(x: Signal, weights: Signal, width: int, starts: NDArray[np.int64], lengths: NDArray[np.int64]) -> Signal:
+    """Likeness of the stretches at `starts` and of those `lengths` behind them, (n,)."""
+    stretches = sliding_window_view(x, width)
+    places, of_start = np.unique(starts, return_inverse=True)
+    ahead = scipy.fft.rfft(stretches[places], axis=1)[of_start]
+    behind = scipy.fft.rfft(stretches[starts + lengths], axis=1)
+    total = (np.abs(ahead) ** 2 + np.abs(behind) ** 2) @ weights
+    is_silent = total <= _SILENT * width * (x @ x) * np.mean(weights)
+    products = (ahead.real * behind.real + ahead.imag * behind.imag) @ weights
+    return np.where(is_silent, 0.0, 2.0 * products / np.where(is_silent, 1.0, total))
+
+
+def _centred(samples: ArrayLike) -> Signal:
+    """Without its mean: an offset correlates with itself everywhere and would drown the search."""
+    x = np.asarray(samples, dtype=np.float64)
+    if x.ndim != 1 or x.size == 0:
+        raise AudioError(f"samples has shape {x.shape}; a loop is cut from one channel, (n,).")
+    return np.asarray(x - x.mean())

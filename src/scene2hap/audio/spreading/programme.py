@@ -1,0 +1,91 @@
+"""Moving few sources apart, each as little as possible: a mixed-integer linear programme.
+
+For voice i, x_i [oct] is the logarithm of its frequency and l_i [dB] its level; for every pair two binaries say which
+lies higher (o) and whether level helps (m), and a slack s [oct] what is missing:
+
+    minimise  sum_i |x_i - x_i0| / X + |l_i - l_i0| / Y + W sum_ij s_ij
+    x_j - x_i >= d (2 - m) - s - M (1 - o)       d [oct] one JND of frequency: two of them, or one and two of level
+    x_i - x_j >= d (2 - m) - s - M o
+    l_i - l_j >= 2 J - M' (1 - m)                i the stronger of the two; J [dB] one JND of level
+    l_i >= l_j + least gap                       the order of intensities
+
+W is so large that no room is left unused while a pair is short of it. Exact, and slow beyond some thirty pairs: the
+binaries double the work with each.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.optimize import Bounds, LinearConstraint, milp
+from scipy.sparse import csr_array
+
+from scene2hap.audio.spreading.room import LEVEL_STEP_DB, Array, Outcome, Room
+
+_SLACK_WEIGHT = 1000.0
+_NODES = 1000
+"""Branches of the search; a limit that, unlike time, gives every machine the same answer."""
+
+
+class Programme:
+    """The variables in a row: x, its move, l, its move (n each), then s, o, m (one of each per pair)."""
+
+    def __init__(self, room: Room) -> None:
+        self._room = room
+        self._n = len(room.x0)
+        self._pairs = room.pairs
+        self._rows: list[dict[int, float]] = []
+        self._least: list[float] = []
+
+    def solve(self) -> Outcome:
+        """The best placement found."""
+        room, n, p = self._room, self._n, len(self._pairs)
+        for i in range(n):
+            for value, move, at in ((i, n + i, room.x0[i]), (2 * n + i, 3 * n + i, room.l0[i])):
+                self._row({move: 1.0, value: -1.0}, -at)
+                self._row({move: 1.0, value: 1.0}, at)
+        for number, pair in enumerate(self._pairs):
+            self._keep_apart(number, *pair)
+        for strong, weak, gap in room.order:
+            self._row({2 * n + strong: 1.0, 2 * n + weak: -1.0}, gap)
+        move_x, move_l, slack = 1.0 / room.octaves, 1.0 / room.level_db, _SLACK_WEIGHT
+        never = np.full(n, np.inf)
+        cost = _joined(n * [0.0], n * [move_x], n * [0.0], n * [move_l], p * [slack], 2 * p * [0.0])
+        low = _joined(room.x_low, n * [0.0], room.l_low, n * [0.0], 3 * p * [0.0])
+        high = _joined(room.x_high, never, room.l_high, never, np.full(p, np.inf), 2 * p * [1.0])
+        answer = milp(
+            cost,
+            integrality=np.repeat([0, 1], [4 * n + p, 2 * p]),
+            bounds=Bounds(low, high),
+            constraints=LinearConstraint(self._matrix(len(cost)), np.array(self._least), np.inf),
+            options={"node_limit": _NODES},
+        )
+        if answer.x is None:  # the search was cut off before it had any answer
+            return Outcome(room, room.x0, room.l0)
+        return Outcome(room, answer.x[:n], answer.x[2 * n : 3 * n])
+
+    def _keep_apart(self, number: int, i: int, j: int) -> None:
+        room, n, p = self._room, self._n, len(self._pairs)
+        jnd = room.jnd_oct
+        slack, order, mode = (4 * n + k * p + number for k in range(3))
+        # No pair can be further out of order than its ranges allow.
+        most = 2.0 * jnd + max(room.x_high[i] - room.x_low[j], room.x_high[j] - room.x_low[i])
+        self._row({j: 1.0, i: -1.0, mode: jnd, slack: 1.0, order: -most}, 2.0 * jnd - most)
+        self._row({i: 1.0, j: -1.0, mode: jnd, slack: 1.0, order: most}, 2.0 * jnd)
+        strong, weak = (i, j) if room.l0[i] >= room.l0[j] else (j, i)
+        reach = 2.0 * LEVEL_STEP_DB + float(room.l_high[weak] - room.l_low[strong])
+        self._row({2 * n + strong: 1.0, 2 * n + weak: -1.0, mode: -reach}, 2.0 * LEVEL_STEP_DB - reach)
+
+    def _row(self, coefficients: dict[int, float], least: float) -> None:
+        self._rows.append(coefficients)
+        self._least.append(least)
+
+    def _matrix(self, width: int) -> csr_array:
+        values = [value for row in self._rows for value in row.values()]
+        columns = [column for row in self._rows for column in row]
+        numbers = [number for number, row in enumerate(self._rows) for _ in row]
+        return csr_array((values, (numbers, columns)), shape=(len(self._rows), width))
+
+
+def _joined(*parts: ArrayLike) -> Array:
+    return np.concatenate([np.asarray(part, dtype=np.float64) for part in parts])

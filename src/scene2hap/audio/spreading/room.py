@@ -1,0 +1,138 @@
+"""What a scene's sources may do: where each of them is, how far it may go, and which pairs could meet."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from scene2hap.audio.anchor import Anchor, reachable_hz
+from scene2hap.audio.distinctness import LEVEL_JND_DB
+from scene2hap.haptics import ActuatorProfile
+from scene2hap.settings import Settings
+
+Array = NDArray[np.float64]
+
+_MARGIN = 1.01
+"""Aims a hundredth further than asked, and stops as far short of the limits: what is measured afterwards is a loop of
+few cycles."""
+LEVEL_STEP_DB = LEVEL_JND_DB * _MARGIN
+_ORDER_GAP_DB = 0.5
+
+
+class SpreadLimits(Settings):
+    """How far a source may be moved to be told from the others: `octaves` in frequency, `level_db` in level; 0 and 0
+    leave everything where it is."""
+
+    of_what = "spread"
+
+    octaves: float = Field(default=1.0 / 3.0, ge=0.0, le=1.0)
+    level_db: float = Field(default=3.0, ge=0.0, le=12.0)
+
+
+@dataclass(frozen=True)
+class Voice:
+    """A source before it is moved: its own frequency [Hz], the sensation level that its intensity asks for [dB], and a
+    group; voices of one group need not differ (the states of an object, objects of one kind). `crest_db` is what its
+    peaks exceed a sine's by. One that `is_placed` already stays where it is."""
+
+    own_hz: float
+    level_db: float
+    group: str = ""
+    crest_db: float = 0.0
+    is_placed: bool = False
+
+
+@dataclass(frozen=True)
+class Room:
+    """Bounds of frequency x (n,) [oct, re 1 Hz] and level l (n,) [dB] around where the voices are, x0 and l0.
+
+    `jnd_oct` is one JND of frequency [oct]; `octaves` and `level_db` are the limits, which also weigh the two kinds of
+    moves against each other.
+    """
+
+    voices: tuple[Voice, ...]
+    x0: Array
+    x_low: Array
+    x_high: Array
+    l0: Array
+    l_low: Array
+    l_high: Array
+    jnd_oct: float
+    octaves: float
+    level_db: float
+
+    @classmethod
+    def of(cls, voices: Sequence[Voice], actuator: ActuatorProfile, limits: SpreadLimits, weber: float) -> Room:
+        """The room that actuator, levels and limits leave, and a Weber fraction of frequency to measure it by."""
+        octaves = limits.octaves / _MARGIN
+        reach = [reachable_hz(Anchor(v.own_hz, v.crest_db), v.level_db, actuator, octaves) for v in voices]
+        low, high, louder = np.array(reach, dtype=np.float64).T
+        x0, l0 = np.log2([voice.own_hz for voice in voices]), np.array([voice.level_db for voice in voices])
+        free = np.array([0.0 if voice.is_placed else 1.0 for voice in voices])
+        return cls(
+            tuple(voices),
+            x0,
+            x0 + free * (np.log2(low) - x0),
+            x0 + free * (np.log2(high) - x0),
+            l0,
+            l0 - free * limits.level_db / _MARGIN,
+            l0 + free * np.minimum(louder, limits.level_db / _MARGIN),
+            float(np.log2(1.0 + weber)) * _MARGIN,
+            max(limits.octaves, 1e-9),
+            max(limits.level_db, 1e-9),
+        )
+
+    @cached_property
+    def pairs(self) -> list[tuple[int, int]]:
+        """Pairs that shall differ and that moves could bring within two JNDs of each other."""
+        return [pair for pair in combinations(range(len(self.voices)), 2) if self._may_meet(*pair)]
+
+    @cached_property
+    def order(self) -> list[tuple[int, int, float]]:
+        """(stronger, weaker, least gap [dB]) of every pair that may be moved and is not of one level."""
+        pairs = combinations([i for i, voice in enumerate(self.voices) if not voice.is_placed], 2)
+        ranked = [(i, j) if self.l0[i] >= self.l0[j] else (j, i) for i, j in pairs]
+        gaps = [(i, j, min(float(self.l0[i] - self.l0[j]), _ORDER_GAP_DB)) for i, j in ranked]
+        return [row for row in gaps if row[2] > 0.0]
+
+    def _may_meet(self, i: int, j: int) -> bool:
+        one, other = self.voices[i], self.voices[j]
+        if (one.group and one.group == other.group) or (one.is_placed and other.is_placed):
+            return False
+        gap = max(self.x_low[j] - self.x_high[i], self.x_low[i] - self.x_high[j])
+        return bool(gap < 2.0 * self.jnd_oct)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Where voices were placed: frequency x (n,) [oct, re 1 Hz] and level (n,) [dB]."""
+
+    room: Room
+    x: Array
+    level_db: Array
+
+    @property
+    def shortage_oct(self) -> float:
+        """What all pairs together lack [oct]."""
+        one, other = np.array(self.room.pairs, dtype=np.int64).reshape(-1, 2).T
+        octaves, levels = np.abs(self.x[one] - self.x[other]), np.abs(self.level_db[one] - self.level_db[other])
+        return float(shortage_oct(octaves, levels, self.room.jnd_oct).sum())
+
+    @property
+    def moves(self) -> float:
+        """All moves together, each as a share of its limit [-]."""
+        by_x = np.abs(self.x - self.room.x0) / self.room.octaves
+        return float((by_x + np.abs(self.level_db - self.room.l0) / self.room.level_db).sum())
+
+
+def shortage_oct(octaves: Array, level_db: Array, jnd_oct: float) -> Array:
+    """What pairs lack to be two JNDs apart in frequency, or one there and two in level [oct]."""
+    by_frequency = np.maximum(0.0, 2.0 * jnd_oct - octaves)
+    missing_level = np.maximum(0.0, 2.0 - level_db / LEVEL_STEP_DB) * jnd_oct
+    return np.minimum(by_frequency, np.maximum(np.maximum(0.0, jnd_oct - octaves), missing_level))

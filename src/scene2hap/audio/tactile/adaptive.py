@@ -1,0 +1,174 @@
+"""A band that follows the source: around its own frequency, moved clear of the scene's other sources.
+
+A fixed band-pass gives every source the same few hundred hertz, and what was different sounds feels alike. Here:
+
+1. find the source's own frequency: the strongest component that this actuator can make felt at the source's level
+   (`anchor`). Told in the context where the whole sound was looked at; else tracked while it plays, over and over;
+2. keep a band around it: two trapezoidal state-variable band-passes in series (12 dB per octave), narrow enough for the
+   own frequency to dominate, wide enough (f / Q at -6 dB) for the beats and unevenness that make a machine itself;
+3. move that band as a whole to the target, told by whoever placed the scene's sources (`spreading`), else found here:
+   the nearest place within a third of an octave that is clear of the neighbours.
+
+A band that has moved is faded over, so that a source whose pitch changes does not click.
+Source: the band-pass is the paper's; that it should follow the sound is its own outlook (signals "felt too similar").
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from scene2hap import checks
+from scene2hap.audio.anchor import BAND_Q, Anchor, own_frequency_hz, reachable_hz
+from scene2hap.audio.distinctness import FREQUENCY_WEBER
+from scene2hap.audio.levels import sensation_level_db
+from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.tactile.stages import ShiftStage, Signal, SosStage, Stage, StageStream
+from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
+from scene2hap.errors import ConfigError
+
+_LOOK_S = 0.5
+_RESTS_S = (0.5, 1.0, 2.0, 4.0)
+"""A sound whose frequency nobody has told is looked at for half a second, which resolves 2 Hz, then left for half a
+second, and for longer the longer it has not changed."""
+_LOOK_RATE_HZ = 8000
+_FADE_S = 0.05
+_MOVED = 0.25 * FREQUENCY_WEBER
+"""A quarter of a JND: smaller changes of the own frequency are followed by the band's width alone."""
+_HIGHEST = 0.45
+_SILENCE = 1e-4
+"""A stretch whose amplitude stays below -80 dB re full scale says nothing about its source."""
+_SHIFT_BAND = (0.25, 1.75)
+"""What is shifted, as shares of the own frequency; its mirror image lies twice the own frequency away."""
+
+
+@dataclass(frozen=True)
+class Adaptive:
+    """Band-pass around the source's own frequency, shifted to its target.
+
+    Parameters: q 0.5..20 [-] of each of the two filters; shift_octaves 0..1, how far the band may be moved where no
+    target is told.
+    Raises: ConfigError: outside these bounds, or a sample rate below 1 kHz.
+    """
+
+    q: float = BAND_Q
+    shift_octaves: float = 1.0 / 3.0
+
+    follows_target = True
+
+    def __post_init__(self) -> None:
+        checks.number("q", self.q, "-", at_least=0.5, at_most=20.0, error=ConfigError)
+        checks.number("shift_octaves", self.shift_octaves, "-", at_least=0.0, at_most=1.0, error=ConfigError)
+
+    def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
+        """A fresh conversion at that rate."""
+        checks.number("sample_rate_hz", sample_rate_hz, "Hz", at_least=1000.0, error=ConfigError)
+        if context.own_hz is not None:
+            return StageStream(*self.band(sample_rate_hz, context, context.own_hz))
+        return StageStream(_Tracking(self, sample_rate_hz, context))
+
+    def band(self, sample_rate_hz: float, context: ConversionContext, own_hz: float) -> list[Stage]:
+        """The filters for a source of that frequency, and its shift, if any."""
+        own_hz = min(own_hz, _HIGHEST * sample_rate_hz)
+        section = SvfBandpass(own_hz, self.q).section(sample_rate_hz)
+        stages: list[Stage] = [SosStage(np.concatenate([section, section]))]
+        shift_hz = min(self._target_hz(context, own_hz), _HIGHEST * sample_rate_hz) - own_hz
+        if shift_hz != 0.0:
+            low, high = (share * own_hz for share in _SHIFT_BAND)
+            stages.append(ShiftStage(low, high, shift_hz, sample_rate_hz))
+        return stages
+
+    def _target_hz(self, context: ConversionContext, own_hz: float) -> float:
+        if context.target_hz is not None:
+            return context.target_hz
+        if not context.neighbours_hz or self.shift_octaves == 0.0:
+            return own_hz
+        level_db = sensation_level_db(context.intensity)
+        low, high, _ = reachable_hz(Anchor(own_hz), level_db, context.actuator, self.shift_octaves)
+        return clear_of(own_hz, context.neighbours_hz, low, high)
+
+
+def clear_of(own_hz: float, neighbours_hz: tuple[float, ...], low_hz: float, high_hz: float) -> float:
+    """The place nearest to `own_hz` within bounds that is two JNDs from all neighbours; else the one furthest off."""
+    x = np.sort(np.append(np.linspace(np.log(low_hz), np.log(high_hz), 129), np.log(own_hz)))
+    gaps = np.abs(x[:, None] - np.log(neighbours_hz)).min(axis=1) / np.log1p(FREQUENCY_WEBER)
+    moves = np.abs(x - np.log(own_hz))
+    clear = gaps >= 2.0
+    best = np.argmin(np.where(clear, moves, np.inf)) if clear.any() else np.argmax(gaps - 1e-9 * moves)
+    return own_hz if moves[best] == 0.0 else float(np.exp(x[best]))
+
+
+class _Tracking:
+    """Looks at the sound in stretches of fixed length, whatever the blocks, and follows it with the band.
+
+    Until the first stretch is over the band is the paper's, around 250 Hz.
+    """
+
+    def __init__(self, design: Adaptive, sample_rate_hz: float, context: ConversionContext) -> None:
+        self._design, self._rate_hz, self._context = design, sample_rate_hz, context
+        self._level_db = sensation_level_db(context.intensity)
+        self._step = max(1, int(sample_rate_hz // _LOOK_RATE_HZ))
+        self._seen = np.empty(round(_LOOK_S * sample_rate_hz) // self._step * self._step)
+        self._n_unchanged = 0
+        self._n_seen = 0  # negative while the sound is left alone
+        self._fade = max(1, round(_FADE_S * sample_rate_hz))
+        self._own_hz = min(250.0, 0.4 * sample_rate_hz)
+        self._band: list[Stage] = [SosStage(SvfBandpass(self._own_hz).section(sample_rate_hz))]
+        self._retiring: list[Stage] = []
+        self._n_faded = 0
+
+    def run(self, x: Signal) -> Signal:
+        parts = []
+        while x.size:
+            n = min(len(x), len(self._seen) - self._n_seen)
+            if self._retiring:
+                n = min(n, self._fade - self._n_faded)
+            if self._n_seen < 0:
+                n = min(n, -self._n_seen)
+            taken, x = x[:n], x[n:]
+            if self._n_seen >= 0:
+                self._seen[self._n_seen : self._n_seen + n] = taken
+            self._n_seen += n
+            parts.append(self._filtered(taken))
+            if self._n_seen == len(self._seen):
+                self._look()
+        if len(parts) == 1:
+            return parts[0]
+        return np.concatenate(parts) if parts else x
+
+    def rest(self) -> Signal:
+        return np.empty(0)
+
+    def _filtered(self, x: Signal) -> Signal:
+        y = _through(self._band, x)
+        if not self._retiring:
+            return y
+        rising = np.arange(self._n_faded + 1, self._n_faded + len(x) + 1) / self._fade
+        y = rising * y + (1.0 - rising) * _through(self._retiring, x)
+        self._n_faded += len(x)
+        if self._n_faded == self._fade:
+            self._retiring = []
+        return y
+
+    def _look(self) -> None:
+        rest_s = _RESTS_S[min(self._n_unchanged, len(_RESTS_S) - 1)]
+        self._n_seen = -round(rest_s * self._rate_hz)
+        self._n_unchanged += 1
+        rate = self._rate_hz / self._step
+        thinned = sum(self._seen[k :: self._step] for k in range(1, self._step)) + self._seen[:: self._step]
+        thinned = thinned / self._step
+        if np.abs(thinned).max() < _SILENCE:
+            return
+        own_hz = own_frequency_hz(thinned, rate, self._level_db, self._context.actuator)
+        if own_hz is None or abs(np.log(own_hz / self._own_hz)) < np.log1p(_MOVED):
+            return
+        self._own_hz, self._n_unchanged = own_hz, 0
+        self._retiring, self._n_faded = self._band, 0
+        self._band = self._design.band(self._rate_hz, self._context, own_hz)
+
+
+def _through(stages: list[Stage], x: Signal) -> Signal:
+    for stage in stages:
+        x = stage.run(x)
+    return x

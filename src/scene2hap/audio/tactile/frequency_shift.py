@@ -1,0 +1,55 @@
+"""A band of sound moved down to where the skin feels it.
+
+For what lives above touch: beeps, whines, glass. The band is shifted by a fixed number of hertz (`ShiftStage`), so that
+its envelope and its beats arrive unchanged.
+Source: Okazaki, Kajimoto and Hayward 2012/2015 move audio into the tactile range so; Merchel and Altinsoy recommend it
+with compression. Differs: they divide frequencies by powers of two, which keeps harmonic ratios and needs a pitch; a
+shift by hertz needs none and works on noise as well.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from scene2hap import checks
+from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.tactile.stages import ShiftStage, StageStream
+from scene2hap.errors import ConfigError
+
+LOWEST_FELT_HZ = 10.0
+
+
+@dataclass(frozen=True)
+class FrequencyShift:
+    """Moves `low_hz`..`high_hz` by `shift_hz` (negative is down); what lies outside is dropped.
+
+    The default moves 300..1250 Hz to 50..1000 Hz. Where a source's own and target frequency are told, it is moved by
+    their difference instead.
+    Raises: ConfigError: bounds that are not rising, or a band that would leave 10 Hz below itself; once the rate is
+    known, a band that does not begin below 0.45 sample rates.
+    """
+
+    shift_hz: float = -250.0
+    low_hz: float = 300.0
+    high_hz: float = 1250.0
+
+    def __post_init__(self) -> None:
+        low = checks.number("low_hz", self.low_hz, "Hz", above=0.0, error=ConfigError)
+        checks.number("high_hz", self.high_hz, "Hz", above=low, error=ConfigError)
+        checks.number(
+            "shift_hz",
+            self.shift_hz,
+            "Hz",
+            at_least=LOWEST_FELT_HZ - low,
+            error=ConfigError,
+            hint="Raise low_hz, or shift by less: below 10 Hz nothing is felt and the band would fold over.",
+        )
+
+    def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
+        """A fresh conversion at that rate."""
+        highest = 0.45 * sample_rate_hz
+        checks.number("low_hz", self.low_hz, "Hz", below=highest, error=ConfigError, hint="Use a higher sample rate.")
+        shift = self.shift_hz
+        if context.own_hz is not None and context.target_hz is not None:
+            shift = max(context.target_hz - context.own_hz, LOWEST_FELT_HZ - self.low_hz)
+        return StageStream(ShiftStage(self.low_hz, min(self.high_hz, highest), shift, sample_rate_hz))

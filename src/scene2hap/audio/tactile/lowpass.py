@@ -1,0 +1,38 @@
+"""Everything up to a frequency, as it is: the plainest conversion.
+
+Butterworth, order 4: -3 dB at the cut-off, 24 dB per octave above it. What the skin feels of a sound is left to the
+skin, low frequencies included; an actuator must be able to render those.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from scipy.signal import butter
+
+from scene2hap import checks
+from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.tactile.stages import SosStage, StageStream
+from scene2hap.errors import ConfigError
+
+_HIGHEST_CUTOFF = 0.49
+_ORDER = 4
+
+
+@dataclass(frozen=True)
+class Lowpass:
+    """Low-pass at `cutoff_hz` [Hz].
+
+    Raises: ConfigError: not above 0, or, once the rate is known, above 0.49 sample rates.
+    """
+
+    cutoff_hz: float = 250.0
+
+    def __post_init__(self) -> None:
+        cutoff = checks.number("cutoff_hz", self.cutoff_hz, "Hz", above=0.0, error=ConfigError)
+        object.__setattr__(self, "cutoff_hz", cutoff)
+
+    def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
+        """A fresh filter at that rate; this conversion is the same for every context."""
+        checks.number("cutoff_hz", self.cutoff_hz, "Hz", at_most=_HIGHEST_CUTOFF * sample_rate_hz, error=ConfigError)
+        return StageStream(SosStage(butter(_ORDER, self.cutoff_hz, fs=sample_rate_hz, output="sos")))

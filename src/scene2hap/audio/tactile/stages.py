@@ -1,0 +1,164 @@
+"""What converters are built of: stages that run in float64, and the stream that feeds them blocks.
+
+A stage's output depends on the samples alone and never on how they were cut, bit for bit: recursive filters carry
+their state, oscillators are looked up by the number of the sample in tables of a fixed size, and sums are made in one
+order.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import butter, sosfilt
+
+from scene2hap.audio.clip import Samples
+from scene2hap.errors import AudioError
+
+Signal = NDArray[np.float64]
+
+_CACHED = 65_536
+"""Samples per pass: what stays in the processor's cache runs twice as fast as a long sound in one piece."""
+_VANISHED = 1e-200
+"""A filter's memory below this cannot reach a float32 any more, but would slow the processor down as it decays."""
+
+
+class Stage(Protocol):
+    """One step of a conversion."""
+
+    def run(self, x: Signal) -> Signal:
+        """The next samples (n,); may hold some back."""
+        ...
+
+    def rest(self) -> Signal:
+        """What was held back."""
+        ...
+
+
+class StageStream:
+    """A `TactileStream` over stages in series: checks what comes in, bounds what goes out."""
+
+    def __init__(self, *stages: Stage) -> None:
+        self._stages = stages
+
+    def process(self, block: Samples) -> Samples:
+        """The next samples; computed in float64. Raises: AudioError: a sample is not finite, or not one channel."""
+        x = np.asarray(block)
+        if x.ndim != 1:
+            raise AudioError(f"block has shape {x.shape}; a stream converts one channel, (n,). Use a stream for each.")
+        # A sum of squares is finite only where all are: one pass without a temporary.
+        if not math.isfinite(float(x @ x)) and not np.isfinite(x).all():
+            first = int(np.argmin(np.isfinite(x)))
+            raise AudioError(f"sample {first} of the block is {x[first]}; every sample must be finite. Mend the sound.")
+        return _joined([self._through(x[at : at + _CACHED].astype(np.float64), 0) for at in range(0, len(x), _CACHED)])
+
+    def finish(self) -> Samples:
+        """What is still held back."""
+        return _joined([self._through(stage.rest(), i + 1) for i, stage in enumerate(self._stages)])
+
+    def _through(self, x: Signal, first: int) -> Samples:
+        for stage in self._stages[first:]:
+            x = stage.run(x)
+        return np.clip(x, -1.0, 1.0).astype(np.float32)
+
+
+def _joined(parts: list[Samples]) -> Samples:
+    if not parts:
+        return np.empty(0, dtype=np.float32)
+    return parts[0] if len(parts) == 1 else np.concatenate(parts)
+
+
+class SosStage:
+    """A filter of second-order sections (n_sections, 6) with carried state."""
+
+    def __init__(self, sections: Signal) -> None:
+        self.sections = sections
+        self.state = np.zeros((len(sections), 2))
+
+    def run(self, x: Signal) -> Signal:
+        """Equally many samples."""
+        if x.size == 0:
+            return x
+        y, self.state = sosfilt(self.sections, x, zi=self.state)
+        self.state[np.abs(self.state) < _VANISHED] = 0.0
+        return np.asarray(y)
+
+    def rest(self) -> Signal:
+        """Nothing."""
+        return np.empty(0)
+
+
+class Oscillator:
+    """cos and sin of 2 pi f n / f_s for any range of sample numbers n; phase does not drift over 10^9 samples."""
+
+    _SIZE = 4096
+
+    def __init__(self, frequency_hz: float, sample_rate_hz: float) -> None:
+        self._cycles = frequency_hz / sample_rate_hz
+        angle = 2.0 * np.pi * self._cycles * np.arange(self._SIZE)
+        self._cos, self._sin = np.cos(angle), np.sin(angle)
+        self._table = -1
+        self._values = np.empty((2, self._SIZE))
+
+    def values(self, start: int, n: int) -> Signal:
+        """(2, n): cosine and sine from sample `start` on."""
+        out = np.empty((2, n))
+        done = 0
+        while done < n:
+            table, offset = divmod(start + done, self._SIZE)
+            self._turn_to(table)
+            size = min(n - done, self._SIZE - offset)
+            out[:, done : done + size] = self._values[:, offset : offset + size]
+            done += size
+        return out
+
+    def _turn_to(self, table: int) -> None:
+        if table == self._table:
+            return
+        angle = 2.0 * math.pi * math.fmod(self._cycles * (table * self._SIZE), 1.0)
+        c, s = math.cos(angle), math.sin(angle)
+        self._values[0] = c * self._cos - s * self._sin
+        self._values[1] = s * self._cos + c * self._sin
+        self._table = table
+
+
+class ShiftStage:
+    """Moves a band by a number of hertz and keeps its envelope: single side-band modulation.
+
+    With c the middle of the band, w half its width and h a low-pass of w:
+
+        z = h * (x exp(-i 2 pi c t))        y = 2 Re(z exp(i 2 pi (c + shift) t))
+
+    What mirrors itself lies 2 c further off and is stopped by h. Distances between components stay, so that beats and
+    envelopes are kept and harmonics are not.
+    Source: D. K. Weaver, "A third method of generation and detection of single-sideband signals", Proc. IRE 44, 1956.
+    """
+
+    _ORDER = 6
+
+    def __init__(self, low_hz: float, high_hz: float, shift_hz: float, sample_rate_hz: float) -> None:
+        middle_hz = 0.5 * (low_hz + high_hz)
+        self._down = Oscillator(middle_hz, sample_rate_hz)
+        self._up = Oscillator(middle_hz + shift_hz, sample_rate_hz)
+        width = min(0.5 * (high_hz - low_hz), 0.49 * sample_rate_hz)
+        self._sections = butter(self._ORDER, width, fs=sample_rate_hz, output="sos")
+        self._state = np.zeros((len(self._sections), 2, 2))
+        self._position = 0
+
+    def run(self, x: Signal) -> Signal:
+        """Equally many samples."""
+        if x.size == 0:
+            return x
+        mixed = self._down.values(self._position, len(x)) * x
+        z, self._state = sosfilt(self._sections, mixed, zi=self._state)
+        self._state[np.abs(self._state) < _VANISHED] = 0.0
+        # The lower oscillator turns backwards, exp(-i...), hence the plus in the product's real part.
+        y = z * self._up.values(self._position, len(x))
+        self._position += len(x)
+        return np.asarray(2.0 * (y[0] + y[1]))
+
+    def rest(self) -> Signal:
+        """Nothing."""
+        return np.empty(0)

@@ -1,0 +1,83 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import soundfile
+
+from scene2hap import audio
+from scene2hap.audio.conversion import Conversion, Failure
+from scene2hap.errors import AudioError, ConfigError
+
+RATE = 8000
+TONE = 0.4 * np.sin(2 * np.pi * 100 * np.arange(RATE) / RATE)
+
+
+def write(path: Path) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    soundfile.write(path, TONE, RATE)
+    return path
+
+
+def test_folders_keep_their_shape_and_what_fails_does_not_stop_the_rest(tmp_path: Path) -> None:
+    write(tmp_path / "in" / "a.wav")
+    write(tmp_path / "in" / "deep" / "b.flac")
+    (tmp_path / "in" / "notes.txt").write_text("not a sound, and not asked for")
+    (tmp_path / "in" / "broken.wav").write_text("not a sound")
+    single = write(tmp_path / "c.ogg")
+    told: list[tuple[int, int]] = []
+    outcomes = audio.convert_files(
+        [tmp_path / "in", single, tmp_path / "absent.wav"],
+        tmp_path / "out",
+        workers=1,
+        progress=lambda name, done, total: told.append((done, total)),
+    )
+    assert [type(outcome) for outcome in outcomes] == [Conversion, Failure, Conversion, Conversion, Failure]
+    written = sorted(str(path.relative_to(tmp_path / "out")) for path in (tmp_path / "out").rglob("*.*"))
+    assert written == ["a.wav", "c.wav", "deep/b.wav"]
+    reasons = [outcome.reason for outcome in outcomes if isinstance(outcome, Failure)]
+    assert "broken.wav: not a readable sound" in reasons[0]
+    assert "absent.wav is not a file" in reasons[1]
+    assert told == [(i, 5) for i in range(1, 6)]
+
+
+def test_several_processes_make_the_same_as_one(tmp_path: Path) -> None:
+    sources = [write(tmp_path / name) for name in ("a.wav", "b.wav", "c.wav")]
+    sources[1].write_text("not a sound")
+    for workers in (1, 2):
+        outcomes = audio.convert_files(sources, tmp_path / str(workers), workers=workers)
+        assert [type(outcome) for outcome in outcomes] == [Conversion, Failure, Conversion]
+    for name in ("a.wav", "c.wav"):
+        assert (tmp_path / "1" / name).read_bytes() == (tmp_path / "2" / name).read_bytes()
+
+
+def test_a_second_run_does_not_convert_what_the_first_one_made(tmp_path: Path) -> None:
+    write(tmp_path / "a.wav")
+    for _ in range(2):
+        outcomes = audio.convert_files([tmp_path], tmp_path / "felt", workers=1, overwrite=True)
+        assert [outcome.source.name for outcome in outcomes] == ["a.wav"]
+
+
+def test_two_sounds_of_one_name_do_not_overwrite_each_other(tmp_path: Path) -> None:
+    one, other = write(tmp_path / "1" / "a.wav"), write(tmp_path / "2" / "a.flac")
+    first, second = audio.convert_files([one, other], tmp_path / "out", workers=1)
+    assert isinstance(first, Conversion)
+    assert isinstance(second, Failure)
+    assert "Rename one" in second.reason
+
+
+def test_outputs_that_cannot_be_are_refused_before_anything_is_done(tmp_path: Path) -> None:
+    source = write(tmp_path / "a.wav")
+    with pytest.raises(AudioError, match="one file, and there is more than one to make"):
+        audio.convert_files([source, source], tmp_path / "out.wav")
+    with pytest.raises(AudioError, match="one file, and there is more than one to make"):
+        audio.convert_files([tmp_path], source)
+    with pytest.raises(AudioError, match="no sound file among 1 sources"):
+        (tmp_path / "empty").mkdir()
+        audio.convert_files([tmp_path / "empty"], tmp_path / "out")
+    with pytest.raises(AudioError, match=r"suffix is '\.aac'"):
+        audio.convert_files([source], tmp_path / "out", suffix=".aac")
+    with pytest.raises(ConfigError, match="no kind 'nope'"):
+        audio.convert_files([source], tmp_path / "out", converter="nope")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.wav", "empty"]

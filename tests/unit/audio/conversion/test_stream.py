@@ -1,0 +1,228 @@
+from __future__ import annotations
+
+import os
+import tracemalloc
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import pytest
+import soundfile
+from PIL import Image
+
+from scene2hap import audio
+from scene2hap.audio.clip import Samples
+from scene2hap.audio.conversion import stream as stream_module
+from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
+from scene2hap.errors import AudioError, ConfigError
+
+RATE = 8000
+
+
+def sound(seconds: float = 2.0, channels: int = 2, frequency_hz: float = 93.7) -> np.ndarray:
+    t = np.arange(round(seconds * RATE)) / RATE
+    hiss = np.random.default_rng(1).standard_normal((len(t), channels))
+    return 0.4 * np.sin(2 * np.pi * frequency_hz * t)[:, None] + 0.02 * hiss
+
+
+def write(path: Path, samples: np.ndarray, **options: str) -> Path:
+    soundfile.write(path, samples, RATE, **options)
+    return path
+
+
+@dataclass
+class Held:
+    """A converter that returns `gain` times what it was given, `held` samples late, and loses `lost` of them."""
+
+    held: int = 0
+    lost: int = 0
+    gain: float = 1.0
+    kept: Samples = field(default_factory=lambda: np.zeros(0, np.float32))
+
+    def stream(self, sample_rate_hz: int, context: ConversionContext) -> Held:
+        return Held(self.held, self.lost, self.gain)
+
+    def process(self, block: Samples) -> Samples:
+        everything = np.concatenate([self.kept, np.float32(self.gain) * block])
+        out = max(0, len(everything) - self.held)
+        self.kept = everything[out:]
+        return everything[:out]
+
+    def finish(self) -> Samples:
+        return self.kept[self.lost :]
+
+
+def test_each_channel_goes_through_the_converter_whatever_the_blocks(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source = write(tmp_path / "a.wav", sound(), subtype="FLOAT")
+    heard, _ = soundfile.read(source, dtype="float32")
+    whole = [SvfBandpass().stream(RATE, ConversionContext()).process(heard[:, i].copy()) for i in range(2)]
+    for block in (65_536, 999):
+        monkeypatch.setattr(stream_module, "BLOCK_FRAMES", block)
+        made = audio.convert(source, tmp_path / f"{block}.wav")
+        felt, rate = soundfile.read(made.output, dtype="float32")
+        assert rate == RATE
+        # Written as 24-bit steps: half of one is all that may differ.
+        np.testing.assert_allclose(felt, np.stack(whole, axis=1), rtol=0, atol=0.51 / 2**23)
+
+
+def test_tells_peaks_and_frequencies_and_length(tmp_path: Path) -> None:
+    samples = np.where(np.arange(2) == 0, sound(12.0, frequency_hz=93.7), 0.5 * sound(12.0, frequency_hz=310.2))
+    samples[777, 1] = -0.9
+    made = audio.convert(write(tmp_path / "a.flac", samples, subtype="PCM_24"), tmp_path / "b.wav")
+    assert (made.sample_rate_hz, made.channels, made.n_clipped) == (RATE, 2, 0)
+    assert made.duration_s == 12.0
+    assert made.peak_in == pytest.approx(0.9, abs=1e-6)
+    assert made.peak_out == pytest.approx(np.abs(soundfile.read(made.output)[0]).max(), abs=1e-6)
+    assert made.frequency_in_hz == pytest.approx(93.7, abs=0.02)
+    # |H(93.7)| = 0.53 and |H(310.2)| = 0.96: half as loud before, nearly equal after; the first stays ahead.
+    assert made.frequency_out_hz == pytest.approx(93.7, abs=0.02)
+    narrow = audio.convert(made.source, tmp_path / "c.wav", converter={"kind": "svf_bandpass", "q": 4.0})
+    assert narrow.frequency_out_hz == pytest.approx(310.2, abs=0.02)
+
+
+@pytest.mark.parametrize("seconds", [0.2, 1.0, 2.49, 7.0])
+def test_frequencies_of_short_and_long_sounds(tmp_path: Path, seconds: float) -> None:
+    made = audio.convert(write(tmp_path / "a.wav", sound(seconds, 1)), tmp_path / "b.wav")
+    assert made.frequency_in_hz == pytest.approx(93.7, abs=0.4 if seconds < 0.5 else 0.03)
+
+
+def test_silence_has_no_frequency_and_stays_silent(tmp_path: Path) -> None:
+    made = audio.convert(write(tmp_path / "a.wav", np.zeros(RATE)), tmp_path / "b.wav")
+    assert (made.peak_in, made.peak_out, made.frequency_in_hz, made.frequency_out_hz) == (0.0, 0.0, None, None)
+
+
+@pytest.mark.parametrize("suffix", ["wav", "flac", "ogg", "mp3"])
+def test_every_format_is_read_and_written(tmp_path: Path, suffix: str) -> None:
+    source = write(tmp_path / f"a.{suffix}", sound())
+    made = audio.convert(source, tmp_path / f"b.{suffix}")
+    felt, rate = soundfile.read(made.output)
+    assert rate == RATE
+    # |H(93.7 Hz)| of the default band-pass: 1 / sqrt(1 + Q^2 (f/250 - 250/f)^2), Q = 0.707.
+    expected = 0.4 / np.sqrt(1 + 0.5 * (93.7 / 250 - 250 / 93.7) ** 2)
+    assert np.sqrt(2) * felt[4000:12_000, 0].std() == pytest.approx(expected, rel=0.03)
+
+
+def test_what_a_converter_holds_back_comes_at_the_end(tmp_path: Path) -> None:
+    source = write(tmp_path / "a.wav", sound(), subtype="PCM_24")
+    made = audio.convert(source, tmp_path / "b.wav", converter=Held(held=5000))
+    np.testing.assert_array_equal(soundfile.read(made.output)[0], soundfile.read(source)[0])
+
+
+def test_mono_is_the_mean_of_the_channels(tmp_path: Path) -> None:
+    source = write(tmp_path / "a.wav", sound(), subtype="PCM_24")
+    made = audio.convert(source, tmp_path / "b.wav", converter=Held(), mono=True)
+    assert made.channels == 1
+    np.testing.assert_allclose(soundfile.read(made.output)[0], soundfile.read(source)[0].mean(axis=1), atol=2**-22)
+
+
+def test_what_is_beyond_full_scale_is_cut_and_counted(tmp_path: Path) -> None:
+    source = write(tmp_path / "a.wav", np.array([0.1, 0.6, -0.7, 0.4]), subtype="PCM_24")
+    made = audio.convert(source, tmp_path / "b.wav", converter=Held(gain=2.0))
+    assert made.n_clipped == 2
+    assert made.peak_out == pytest.approx(1.4, abs=1e-6)
+    np.testing.assert_allclose(soundfile.read(made.output)[0], [0.2, 1.0, -1.0, 0.8], atol=2**-22)
+
+
+def broken_sources(folder: Path) -> dict[Path, str]:
+    samples = sound()
+    samples[5000, 1] = np.nan
+    whole = write(folder / "whole.flac", sound(20.0)).read_bytes()
+    (folder / "cut.flac").write_bytes(whole[: len(whole) // 2])
+    whole = write(folder / "whole.wav", sound()).read_bytes()
+    (folder / "cut.wav").write_bytes(whole[: len(whole) // 2])
+    (folder / "text.wav").write_text("no sound")
+    write(folder / "empty.wav", np.zeros((0, 1)))
+    return {
+        write(folder / "nan.wav", samples, subtype="FLOAT"): r"nan\.wav: sample 5000 is .*nan",
+        folder / "cut.flac": r"cut\.flac",
+        folder / "cut.wav": r"cut\.wav is cut short",
+        folder / "text.wav": r"text\.wav: not a readable sound",
+        folder / "empty.wav": r"empty\.wav has no samples",
+        folder / "absent.wav": r"absent\.wav is not a file",
+    }
+
+
+def test_a_broken_source_leaves_no_output_and_keeps_the_old_one(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "b.wav").write_bytes(b"old")
+    for source, reason in broken_sources(tmp_path).items():
+        with pytest.raises(AudioError, match=reason):
+            audio.convert(source, out / "b.wav", overwrite=True)
+    assert [path.name for path in out.iterdir()] == ["b.wav"]
+    assert (out / "b.wav").read_bytes() == b"old"
+
+
+def test_a_converter_that_loses_samples_leaves_no_output(tmp_path: Path) -> None:
+    source = write(tmp_path / "a.wav", sound())
+    with pytest.raises(AudioError, match="Held made 15999 samples of 16000"):
+        audio.convert(source, tmp_path / "b.wav", converter=Held(held=10, lost=1))
+    assert [path.name for path in tmp_path.iterdir()] == ["a.wav"]
+
+
+def test_outputs_are_only_overwritten_on_request(tmp_path: Path) -> None:
+    source = write(tmp_path / "a.wav", sound())
+    (tmp_path / "b.wav").write_bytes(b"old")
+    with pytest.raises(AudioError, match="exists. Choose another name, or allow"):
+        audio.convert(source, tmp_path / "b.wav")
+    audio.convert(source, tmp_path / "b.wav", overwrite=True)
+    assert soundfile.info(tmp_path / "b.wav").frames == 16_000
+    with pytest.raises(AudioError, match="is the sound itself"):
+        audio.convert(source, source, overwrite=True)
+    os.link(source, tmp_path / "same.wav")
+    with pytest.raises(AudioError, match="is the sound itself"):
+        audio.convert(source, tmp_path / "same.wav", overwrite=True)
+    with pytest.raises(AudioError, match="is a folder"):
+        (tmp_path / "folder.wav").mkdir()
+        audio.convert(source, tmp_path / "folder.wav", overwrite=True)
+
+
+def test_a_place_that_cannot_be_written_is_named(tmp_path: Path) -> None:
+    source = write(tmp_path / "a.wav", sound())
+    with pytest.raises(AudioError, match="Choose a folder that exists"):
+        audio.convert(source, tmp_path / "absent" / "b.wav")
+    with pytest.raises(AudioError, match=r"no suffix of a known format; it must end in one of \.wav"):
+        audio.convert(source, tmp_path / "b.aac")
+
+
+@pytest.mark.parametrize(
+    ("settings", "reason"),
+    [
+        ({"converter": "nope"}, "no kind 'nope'"),
+        ({"converter": {"kind": "svf_bandpass", "q": 1000}}, "q is 1000"),
+        ({"converter": 3}, "has no stream"),
+        ({"actuator": "nope"}, "actuator is 'nope'"),
+        ({"intensity": 1.5}, "intensity is 1.5"),
+    ],
+)
+def test_settings_that_cannot_work_are_refused(tmp_path: Path, settings: dict[str, object], reason: str) -> None:
+    source = write(tmp_path / "a.wav", sound())
+    with pytest.raises(ConfigError, match=reason):
+        audio.convert(source, tmp_path / "b.wav", **settings)  # type: ignore[arg-type]
+
+
+def test_memory_does_not_grow_with_length(tmp_path: Path) -> None:
+    peaks = []
+    for seconds in (20.0, 200.0):
+        source = write(tmp_path / f"{seconds}.wav", np.tile(sound(2.0), (round(seconds / 2), 1)))
+        audio.convert(source, tmp_path / "b.wav", overwrite=True)  # imports and caches
+        tracemalloc.start()
+        audio.convert(source, tmp_path / "b.wav", overwrite=True)
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] < 1.1 * peaks[0]
+
+
+def test_the_picture_shows_both_sounds(tmp_path: Path) -> None:
+    source = write(tmp_path / "a.ogg", sound(1.0))
+    made = audio.convert(source, tmp_path / "b.wav", picture=tmp_path / "b.png")
+    assert made.picture == tmp_path / "b.png"
+    with Image.open(made.picture) as image:
+        pixels = np.asarray(image.convert("L"), dtype=float)
+    # The brightest row of a spectrogram lies at the pitch of the tone: ln(4000 / 93.7) of ln(4000 / 10) from the top.
+    before = pixels[62 : 62 + 240, 85:970]
+    assert np.argmax(before.mean(axis=1)) / 239 == pytest.approx(np.log(4000 / 93.7) / np.log(400), abs=0.02)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.ogg", "b.png", "b.wav"]

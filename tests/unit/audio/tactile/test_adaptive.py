@@ -1,0 +1,88 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.tactile.adaptive import Adaptive, clear_of
+from scene2hap.errors import AudioError, ConfigError
+
+RATE = 8000
+
+
+def tones(seconds: float, **amplitudes: float) -> np.ndarray:
+    t = np.arange(round(RATE * seconds)) / RATE
+    return sum(a * np.sin(2 * np.pi * float(name[1:]) * t) for name, a in amplitudes.items()).astype(np.float32)
+
+
+def amplitude(y: np.ndarray, frequency_hz: float) -> float:
+    """Of the component at a whole number of hertz, over the last second."""
+    last = y[-RATE:].astype(float)
+    return float(2 * abs(np.mean(last * np.exp(-2j * np.pi * frequency_hz * np.arange(RATE) / RATE))))
+
+
+def test_left_alone_it_finds_the_source_and_keeps_a_band_around_it() -> None:
+    y = Adaptive().stream(RATE, ConversionContext(intensity=0.5)).process(tones(4, f187=0.3, f500=0.3, f40=0.5))
+    assert amplitude(y, 187) == pytest.approx(0.3, rel=0.01)
+    # |H|^2 of one band-pass of Q = 2 is 1 / (1 + 4 (r - 1 / r)^2), which two in series have as |H|.
+    r = 500 / 187
+    assert amplitude(y, 500) == pytest.approx(0.3 / (1 + 4 * (r - 1 / r) ** 2), rel=0.05)
+    assert amplitude(y, 40) < 0.5 * 0.03
+
+
+def test_follows_a_source_whose_pitch_changes_without_a_click() -> None:
+    y = (
+        Adaptive()
+        .stream(RATE, ConversionContext(intensity=0.5))
+        .process(np.concatenate([tones(6, f150=0.3), tones(6, f300=0.3)]))
+    )
+    assert amplitude(y, 300) == pytest.approx(0.3, rel=0.01)
+    curvature = np.abs(np.diff(y[RATE:].astype(float), 2)).max()
+    assert curvature < 2.0 * 0.3 * (2 * np.pi * 300 / RATE) ** 2
+
+
+@pytest.mark.parametrize(("own_hz", "target_hz"), [(187.0, 230.0), (100.0, 80.0), (286.0, 350.0)])
+def test_moves_the_band_to_its_target_and_nowhere_else(own_hz: float, target_hz: float) -> None:
+    context = ConversionContext(own_hz=own_hz, target_hz=target_hz)
+    y = Adaptive().stream(RATE, context).process(tones(3, **{f"f{own_hz:.0f}": 0.5}))
+    assert amplitude(y, target_hz) == pytest.approx(0.5, rel=0.01)
+    for elsewhere in (own_hz, abs(2 * own_hz - target_hz), target_hz - 2 * (target_hz - own_hz)):
+        if abs(elsewhere - target_hz) > 1:
+            assert amplitude(y, elsewhere) < 0.5 * 10 ** (-40 / 20)
+
+
+def test_keeps_the_beat_of_what_it_moves() -> None:
+    context = ConversionContext(own_hz=100.0, target_hz=120.0)
+    y = Adaptive().stream(RATE, context).process(tones(4, f100=0.3, f102=0.3))
+    assert amplitude(y, 120) == pytest.approx(0.3, rel=0.02)
+    assert amplitude(y, 122) == pytest.approx(0.3, rel=0.02)
+
+
+def test_keeps_clear_of_its_neighbours_within_its_limit() -> None:
+    context = ConversionContext(intensity=0.5, neighbours_hz=(187.0,), own_hz=187.0)
+    y = Adaptive().stream(RATE, context).process(tones(3, f187=0.5)).astype(float)
+    spectrum = np.abs(np.fft.rfft(y[-2 * RATE :] * np.hanning(2 * RATE)))
+    moved = abs(np.log2(np.argmax(spectrum) / 2 / 187))
+    assert 0.3 < moved <= 1 / 3 + 0.01
+    still = Adaptive(shift_octaves=0.0).stream(RATE, context).process(tones(3, f187=0.5))
+    assert amplitude(still, 187) == pytest.approx(0.5, rel=0.01)
+
+
+def test_clear_of_takes_the_nearest_clear_place() -> None:
+    assert clear_of(200.0, (400.0,), 160.0, 250.0) == 200.0
+    two_jnds = 1.22**2
+    assert clear_of(200.0, (180.0,), 160.0, 290.0) == pytest.approx(180 * two_jnds, rel=0.01)
+    assert clear_of(200.0, (200.0,), 170.0, 210.0) == pytest.approx(170.0, rel=0.01)
+
+
+def test_bad_settings_are_refused() -> None:
+    with pytest.raises(ConfigError, match="q is 0.1"):
+        Adaptive(q=0.1)
+    with pytest.raises(ConfigError, match="shift_octaves is 2"):
+        Adaptive(shift_octaves=2)
+    with pytest.raises(ConfigError, match="sample_rate_hz is 500 Hz"):
+        Adaptive().stream(500, ConversionContext())
+    with pytest.raises(AudioError, match="target_hz is -3 Hz"):
+        ConversionContext(target_hz=-3.0)
+    with pytest.raises(AudioError, match=r"neighbours_hz\[1\] is 0 Hz"):
+        ConversionContext(neighbours_hz=(100.0, 0.0))

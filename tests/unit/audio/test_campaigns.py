@@ -1,0 +1,66 @@
+"""Small forms of the campaigns in stress/audio.py."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from scene2hap.audio import analysis
+from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.conversion import convert_clip
+from scene2hap.audio.loops import apply_seam, find_seam
+from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.select import explain_choice
+from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
+from seam_judge import judge
+from sound_draws import RATES, chopped, coloured_noise, hum_among_decoys, hum_in_noise, loop_clip, recordings
+
+RECORDINGS = recordings()
+needs_recordings = pytest.mark.skipif(not RECORDINGS, reason="no recordings beside the repository (../shared/audio)")
+
+
+def test_the_pitch_of_a_hum_in_noise_is_right_to_a_fiftieth_of_a_hertz() -> None:
+    for seed in range(12):
+        truth, x, rate = hum_in_noise(np.random.default_rng([1, seed]))
+        assert analysis.dominant_frequency_hz(x, rate) == pytest.approx(truth, abs=0.02), seed
+
+
+@pytest.mark.parametrize("kind", [pytest.param("recording", marks=needs_recordings), "noise", "tone", "beat"])
+def test_the_wrap_of_a_loop_is_a_place_like_any_other_heard_or_felt(kind: str) -> None:
+    stands_out = []
+    for seed in range(3):
+        rng = np.random.default_rng([2, seed])
+        name, x, rate, _ = loop_clip(kind, rng, RECORDINGS)
+        x = x[: 2 * rate]
+        felt = convert_clip(AudioClip(x, rate), SvfBandpass(), ConversionContext()).samples.astype(float)
+        seam = find_seam(x, rate, felt)
+        for signal, law in ((x, seam), (felt, seam.fitted(felt))):
+            verdict = judge(apply_seam(signal, law), signal, rate, rng)
+            if not verdict.passes:
+                stands_out.append((seed, name, verdict))
+    assert len(stands_out) <= 1, stands_out
+
+
+def test_the_judge_notices_tones_and_rumble_chopped_at_random() -> None:
+    """A test of the test: it must be able to fail. By chance a chopped tone of 30 to 500 Hz meets itself within a step
+    in 1 to 8 cases of a hundred, and rumble in a fifth of them."""
+    noticed = {"tone": 0, "brown": 0}
+    for seed in range(8):
+        rng = np.random.default_rng([3, seed])
+        _, x, rate, _ = loop_clip("tone", rng, {})
+        noticed["tone"] += not judge(chopped(x[:rate], rng), x[:rate], rate, rng).passes
+        rumble = coloured_noise(rng, RATES[1], 2.0)
+        noticed["brown"] += not judge(chopped(rumble, rng), rumble, RATES[1], rng).passes
+    assert noticed["tone"] >= 6
+    assert noticed["brown"] >= 4
+
+
+@needs_recordings
+def test_a_recorded_hum_wins_over_whatever_else_a_search_brings_home() -> None:
+    lost = []
+    for seed in range(1):
+        title, candidates = hum_among_decoys(np.random.default_rng([4, seed]), RECORDINGS)
+        choice = explain_choice(candidates)
+        if choice.winner.credit.title != title:
+            lost.append(str(choice))
+    assert not lost, "\n\n".join(lost)

@@ -1,0 +1,70 @@
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from scene2hap.audio.distinctness import Feel, difference, distinctness, feel_of, frequency_jnds
+from scene2hap.errors import AudioError
+
+RATE = 8000
+T = np.arange(2 * RATE) / RATE
+
+
+def felt(frequency_hz: float, level_db: float = 20.0, envelope_hz: float | None = None) -> Feel:
+    return Feel(frequency_hz, envelope_hz, level_db)
+
+
+def test_a_jnd_of_frequency_is_a_weber_fraction() -> None:
+    assert frequency_jnds(100.0, 122.0) == pytest.approx(1.0)
+    assert frequency_jnds(148.84, 100.0) == pytest.approx(2.0)
+    with pytest.raises(AudioError, match="two_hz|other_hz is 0 Hz"):
+        frequency_jnds(100.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "is_distinct"),
+    [
+        (felt(100), felt(149), True),
+        (felt(100), felt(148), False),
+        (felt(100, 20.0), felt(123, 25.1), True),
+        (felt(100, 20.0), felt(123, 24.9), False),
+        (felt(100, 10.0), felt(121, 40.0), False),
+        (felt(100, 20.0, 2.0), felt(100, 20.0, 3.0), True),
+        (felt(100, 20.0, 2.0), felt(100, 20.0, None), False),
+    ],
+)
+def test_two_ways_to_be_distinct(one: Feel, other: Feel, is_distinct: bool) -> None:
+    assert difference("a", one, "b", other).is_distinct is is_distinct
+    assert difference("b", other, "a", one).is_distinct is is_distinct
+
+
+def test_nothing_is_left_far_away_of_what_is_not_felt_there() -> None:
+    assert difference("a", felt(100, 20.0), "b", felt(200, 13.0)).far_away > 3.0
+    assert difference("a", felt(100, 20.0), "b", felt(200, 11.0)).far_away == 0.0
+
+
+def test_every_pair_is_told_the_least_distinct_first() -> None:
+    pairs = distinctness({"a": felt(100), "b": felt(105), "c": felt(300)})
+    assert [(pair.first, pair.second) for pair in pairs] == [("a", "b"), ("b", "c"), ("a", "c")]
+
+
+def test_feel_is_read_from_the_loop() -> None:
+    x = 0.2 * np.sin(2 * np.pi * 180 * T) * (1 + 0.6 * np.sin(2 * np.pi * 8 * T))
+    feel = feel_of(x, RATE)
+    assert (feel.frequency_hz, feel.envelope_hz) == (180.0, 8.0)
+    # The side bands hold 2 (m / 2)^2 of the carrier's energy, at thresholds that differ little from its own.
+    carrier_db = 20 * math.log10(0.2) + 42.6
+    assert feel.level_db == pytest.approx(carrier_db + 10 * math.log10(1 + 0.18), abs=0.3)
+
+
+def test_a_steady_tone_has_no_envelope_rate_and_silence_no_feel() -> None:
+    assert feel_of(0.2 * np.sin(2 * np.pi * 180 * T), RATE).envelope_hz is None
+    with pytest.raises(AudioError, match="silent"):
+        feel_of(np.zeros(RATE), RATE)
+
+
+def test_the_dominant_frequency_is_that_felt_most_and_not_the_largest() -> None:
+    x = 0.3 * np.sin(2 * np.pi * 40 * T) + 0.05 * np.sin(2 * np.pi * 250 * T)
+    assert feel_of(x, RATE).frequency_hz == 250.0

@@ -1,0 +1,148 @@
+"""The seven sources of the demo kitchen, made by the synthesizer from fixed words, through the whole conversion."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from scene2hap.audio.actuators import ACTUATORS
+from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.felt_loop import Plan, SourceClip, felt_loop, plan_scene
+from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.audio.levels import threshold_db
+from scene2hap.audio.select import select_clip
+from scene2hap.audio.sources.synth import Synthesizer
+from scene2hap.audio.tactile.adaptive import Adaptive
+from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
+from scene2hap.haptics import ActuatorProfile, VibrationDescription
+
+FLAT = ActuatorProfile()
+KITCHEN = {
+    "washing machine": ("spinning", 1.0, (0.85, 0.6, 0.6)),
+    "smartphone": ("vibrating", 0.5, (0.15, 0.07, 0.008)),
+    "electric toothbrush": ("brushing", 0.5, (0.25, 0.03, 0.03)),
+    "handheld fan": ("blowing", 0.35, (0.2, 0.1, 0.05)),
+    "cooker hood": ("ventilating", 0.25, (0.6, 0.5, 0.4)),
+    "microwave": ("humming", 0.2, (0.5, 0.4, 0.3)),
+    "refrigerator": ("humming", 0.1, (1.8, 0.6, 0.65)),
+}
+
+
+@cache
+def kitchen() -> dict[str, SourceClip]:
+    sources = {}
+    for name, (verb, intensity, size_m) in KITCHEN.items():
+        wanted = VibrationDescription(name, "on", f"{name} {verb}", f"{name} {verb}", intensity, size_m)
+        sources[name] = SourceClip(select_clip(Synthesizer().find(wanted)), intensity, name)
+    return sources
+
+
+@pytest.fixture(scope="module")
+def baked() -> dict[str, tuple[Plan, HapticLoop]]:
+    sources = kitchen()
+    plans = plan_scene(list(sources.values()), Adaptive(), FLAT)
+    return {
+        name: (plan, felt_loop(source.clip, Adaptive(), plan))
+        for (name, source), plan in zip(sources.items(), plans, strict=True)
+    }
+
+
+@cache
+def spectrum(loop: HapticLoop) -> tuple[np.ndarray, np.ndarray]:
+    x = loop.tactile.samples.astype(float)
+    return np.fft.rfftfreq(len(x), 1 / loop.tactile.sample_rate_hz), 2 * np.abs(np.fft.rfft(x)) / len(x)
+
+
+def peak_hz(loop: HapticLoop) -> float:
+    f, a = spectrum(loop)
+    return float(f[np.argmax(a)])
+
+
+def level_db(loop: HapticLoop) -> float:
+    f, a = spectrum(loop)
+    inside = (f >= 10) & (f <= 1000)
+    return float(10 * np.log10(np.sum((a[inside] / 10 ** (threshold_db(f[inside]) / 20)) ** 2)))
+
+
+# The smallest published fraction, and the one that distinctness is measured by.
+@pytest.mark.parametrize("weber", [0.18, 0.22])
+def test_every_pair_of_the_kitchen_is_distinct(baked: dict[str, tuple[Plan, HapticLoop]], weber: float) -> None:
+    for one, other in combinations(baked, 2):
+        (_, a), (_, b) = baked[one], baked[other]
+        jnds = abs(math.log(peak_hz(a) / peak_hz(b))) / math.log1p(weber)
+        levels = abs(level_db(a) - level_db(b)) / 2.5
+        assert jnds >= 2.0 or (jnds >= 1.0 and levels >= 2.0), (one, other, jnds, levels)
+        assert jnds >= 1.0, (one, other)
+
+
+def test_the_order_of_intensities_is_kept(baked: dict[str, tuple[Plan, HapticLoop]]) -> None:
+    for one, other in combinations(KITCHEN, 2):
+        if KITCHEN[one][1] > KITCHEN[other][1]:
+            assert level_db(baked[one][1]) > level_db(baked[other][1]), (one, other)
+
+
+def test_nothing_is_moved_further_than_a_third_of_an_octave_or_3_db(
+    baked: dict[str, tuple[Plan, HapticLoop]],
+) -> None:
+    sources = kitchen()
+    for name, (plan, loop) in baked.items():
+        assert plan.context.own_hz is not None
+        assert abs(math.log2(peak_hz(loop) / plan.context.own_hz)) <= 1 / 3, name
+        # What it is moved from is in its own spectrum, not far below its strongest component.
+        x = sources[name].clip.samples.astype(float)
+        magnitude = np.abs(np.fft.rfft(x * np.hanning(len(x))))
+        f = np.fft.rfftfreq(len(x), 1 / sources[name].clip.sample_rate_hz)
+        near = np.abs(f - plan.context.own_hz) < 1.0
+        assert magnitude[near].max() > magnitude[(f > 20) & (f < 1000)].max() * 10 ** (-24 / 20), name
+        intended = 31.0 + 17.0 * math.log10(KITCHEN[name][1])
+        assert abs(level_db(loop) - intended) <= 3.0, name
+
+
+def test_all_of_it_is_still_felt_12_db_further_away(baked: dict[str, tuple[Plan, HapticLoop]]) -> None:
+    for name, (_, loop) in baked.items():
+        assert level_db(loop) > 12.0, name
+
+
+def test_what_dominates_the_loop_dominates_in_touch(baked: dict[str, tuple[Plan, HapticLoop]]) -> None:
+    for name, (_, loop) in baked.items():
+        f, a = spectrum(loop)
+        inside = (f >= 10) & (f <= 1000)
+        felt = np.where(inside, a / 10 ** (threshold_db(np.maximum(f, 1.0)) / 20), 0.0)
+        assert float(f[np.argmax(felt)]) == pytest.approx(peak_hz(loop), rel=0.01), name
+        assert loop.frequency_tactile_hz == pytest.approx(peak_hz(loop), rel=0.01), name
+
+
+def test_no_peak_exceeds_the_head_room(baked: dict[str, tuple[Plan, HapticLoop]]) -> None:
+    for name, (_, loop) in baked.items():
+        assert np.abs(loop.tactile.samples).max() <= 0.502, name
+
+
+def test_a_converter_that_follows_no_target_is_not_asked_to() -> None:
+    sources = kitchen()
+    for plan in plan_scene(list(sources.values()), SvfBandpass(), FLAT):
+        assert plan.context.target_hz == plan.context.own_hz
+        assert len(plan.context.neighbours_hz) == 6
+
+
+def test_sources_keep_clear_of_loops_that_stand(baked: dict[str, tuple[Plan, HapticLoop]]) -> None:
+    sources = kitchen()
+    standing = [(baked["smartphone"][1], "smartphone")]
+    (plan,) = plan_scene([sources["washing machine"]], Adaptive(), FLAT, standing=standing)
+    assert plan.context.target_hz is not None
+    assert abs(math.log(plan.context.target_hz / peak_hz(baked["smartphone"][1]))) >= math.log(1.22)
+
+
+def test_levels_hold_on_a_resonant_actuator() -> None:
+    t = np.arange(4 * 8000) / 8000
+    clip = AudioClip((0.5 * np.sin(2 * np.pi * 190 * t)).astype(np.float32), 8000)
+    lra = ACTUATORS["lra"]
+    (plan,) = plan_scene([SourceClip(clip, 0.2, "a")], Adaptive(), lra)
+    f, a = spectrum(felt_loop(clip, Adaptive(), plan))
+    r = f[1:] / 175.0
+    answer = a[1:] / np.sqrt(1 + (12.0 * (r - 1 / r)) ** 2)
+    felt = np.sum((answer / 10 ** (threshold_db(f[1:]) / 20))[f[1:] <= 1000] ** 2)
+    assert 10 * math.log10(felt) == pytest.approx(31.0 + 17.0 * math.log10(0.2), abs=0.1)

@@ -1,0 +1,108 @@
+from __future__ import annotations
+
+import math
+from itertools import combinations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from scene2hap.audio.levels import drive_db, sensation_level_db
+from scene2hap.audio.spreading import Placement, SpreadLimits, Voice, spread
+from scene2hap.errors import ConfigError
+from scene2hap.haptics import ActuatorProfile
+
+FLAT = ActuatorProfile()
+
+
+def lacking(places: list[Placement], weber: float = 0.22, jnd_db: float = 2.5) -> int:
+    """How many pairs are neither two JNDs of frequency apart, nor one and two of level."""
+    count = 0
+    for one, other in combinations(places, 2):
+        jnds = abs(math.log(one.target_hz / other.target_hz)) / math.log1p(weber)
+        levels = abs(one.level_db - other.level_db) / jnd_db
+        count += not (jnds >= 2 or (jnds >= 1 and levels >= 2))
+    return count
+
+
+def test_two_alike_are_moved_just_apart() -> None:
+    places = spread([Voice(200.0, 20.0, "a"), Voice(200.0, 20.0, "b")])
+    low, high = sorted(place.target_hz for place in places)
+    assert high / low == pytest.approx(1.25**2, rel=0.01)
+    assert [place.level_db for place in places] == [20.0, 20.0]
+
+
+def test_what_is_apart_already_stays() -> None:
+    voices = [Voice(100.0, 20.0), Voice(160.0, 20.0), Voice(251.0, 12.0)]
+    for voice, place in zip(voices, spread(voices), strict=True):
+        assert place.target_hz == pytest.approx(voice.own_hz, rel=1e-6)
+        assert place.level_db == pytest.approx(voice.level_db)
+
+
+def test_one_kind_stays_together_and_zero_limits_move_nothing() -> None:
+    voices = [Voice(200.0, 20.0, "fan"), Voice(205.0, 20.0, "fan")]
+    assert [round(place.target_hz, 6) for place in spread(voices)] == [200.0, 205.0]
+    still = spread([Voice(200.0, 20.0, "a"), Voice(200.0, 20.0, "b")], limits=SpreadLimits(octaves=0, level_db=0))
+    assert still == (Placement(200.0, 20.0), Placement(200.0, 20.0))
+    assert spread([]) == ()
+
+
+def test_equal_voices_of_one_group_get_one_place() -> None:
+    one, two, _ = spread([Voice(200.0, 20.0, "fan"), Voice(200.0, 20.0, "fan"), Voice(205.0, 20.0, "pump")])
+    assert one == two
+
+
+def test_what_is_placed_stays_and_others_keep_clear_of_it() -> None:
+    placed, free = spread([Voice(200.0, 20.0, "a", is_placed=True), Voice(260.0, 20.0, "b")])
+    assert placed == Placement(200.0, 20.0)
+    assert free.target_hz / 200.0 >= 1.25**2
+
+
+def test_nobody_is_moved_to_where_the_actuator_cannot_bring_its_level() -> None:
+    weak_below = ActuatorProfile("lra", 20.0, 1000.0, 220.0, 6.0)
+    level_db = 22.0
+    voices = [Voice(200.0, level_db, name) for name in "abc"]
+    for place in spread(voices, weak_below):
+        assert float(drive_db(place.target_hz, place.level_db, weak_below)) <= -6.0
+
+
+_voices = st.lists(
+    st.tuples(st.floats(60, 500), st.floats(0.1, 1.0)).map(lambda v: (v[0], sensation_level_db(v[1]))),
+    min_size=2,
+    max_size=4,
+)
+
+
+@settings(max_examples=8, deadline=None)
+@given(_voices)
+def test_limits_and_order_hold_and_no_pair_is_made_worse_in_sum(drawn: list[tuple[float, float]]) -> None:
+    voices = [Voice(own_hz, level_db, str(i)) for i, (own_hz, level_db) in enumerate(drawn)]
+    places = spread(voices)
+    for voice, place in zip(voices, places, strict=True):
+        assert abs(math.log2(place.target_hz / voice.own_hz)) <= 1 / 3
+        assert abs(place.level_db - voice.level_db) <= 3.0
+    for (one, there), (other, here) in combinations(zip(voices, places, strict=True), 2):
+        if one.level_db > other.level_db + 1e-6:
+            assert there.level_db > here.level_db
+    assert places == spread(voices)
+
+
+def test_a_crowd_is_relieved_as_far_as_limits_go() -> None:
+    rng = np.random.default_rng(4)
+    voices = [
+        Voice(float(f), sensation_level_db(float(i)), str(k))
+        for k, (f, i) in enumerate(rng.uniform((60, 0.1), (400, 1), (16, 2)))
+    ]
+    before = [Placement(voice.own_hz, voice.level_db) for voice in voices]
+    after = list(spread(voices))
+    assert lacking(after) < 0.8 * lacking(before)
+    assert after == list(spread(voices))
+    for voice, place in zip(voices, after, strict=True):
+        assert abs(math.log2(place.target_hz / voice.own_hz)) <= 1 / 3
+        assert abs(place.level_db - voice.level_db) <= 3.0
+
+
+def test_limits_have_bounds() -> None:
+    with pytest.raises(ConfigError, match="spread setting octaves"):
+        SpreadLimits.parse({"octaves": 2.0})
