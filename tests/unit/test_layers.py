@@ -11,7 +11,7 @@ PACKAGE = Path(__file__).parents[2] / "src" / "scene2hap"
 LAYERS = [
     {"errors"},
     {"checks"},
-    {"plugins", "settings"},
+    {"plugins", "settings", "secret"},
     {"scene"},
     {"contact", "materials"},
     {"haptics"},

@@ -22,7 +22,7 @@ from scene2hap.llm import waits
 from scene2hap.llm.http_reply import HttpReply as HttpReply
 from scene2hap.llm.pace import Pace
 from scene2hap.llm.quiet_logs import scrubbed
-from scene2hap.llm.secret import Secret as Secret
+from scene2hap.secret import Secret as Secret
 
 if TYPE_CHECKING:
     import ssl

@@ -20,7 +20,7 @@ from scene2hap.llm.image_tokens import LostImages
 from scene2hap.llm.json_text import first_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.schema import fields_in_words
-from scene2hap.llm.secret import Secret
+from scene2hap.secret import Secret
 
 if TYPE_CHECKING:
     from scene2hap.llm.http_client import Transport

@@ -17,7 +17,7 @@ from scene2hap.llm.http_errors import failure, server_error
 from scene2hap.llm.image_tokens import ImagesAsText
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.schema import strict_schema
-from scene2hap.llm.secret import Secret
+from scene2hap.secret import Secret
 
 if TYPE_CHECKING:
     from scene2hap.llm.http_client import Transport

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
 
-from scene2hap.llm.secret import Secret
+from scene2hap.secret import Secret
 
 _LOGGERS = ("httpx", "httpcore.connection", "httpcore.http11", "httpcore.http2", "httpcore.proxy")
 _IN_USE: ContextVar[Secret | None] = ContextVar("secret in use", default=None)

@@ -14,7 +14,7 @@ from scene2hap import OpenAIBackend
 from scene2hap.errors import BackendError, BackendUnavailable, ConfigError
 from scene2hap.llm.http_client import Endpoint
 from scene2hap.llm.http_reply import HttpReply
-from scene2hap.llm.secret import Secret
+from scene2hap.secret import Secret
 
 
 def post(answer: Callable[[httpx.Request], httpx.Response], body: Any = None, key: str | None = KEY) -> HttpReply:

@@ -15,8 +15,8 @@ from scene2hap.audio.sources import web
 from scene2hap.audio.sources.freesound.rate import MINUTE_S, RateLimit
 from scene2hap.audio.sources.freesound.sounds import FIELDS, Sound, read_sounds
 from scene2hap.audio.sources.store import plain_line
-from scene2hap.audio.sources.token import Token
 from scene2hap.errors import BackendError, BackendUnavailable, BadAnswer
+from scene2hap.secret import Secret
 
 if TYPE_CHECKING:
     from scene2hap.audio.sources.web import Transport
@@ -51,7 +51,7 @@ class Service:
     """
 
     base_url: str
-    token: Token
+    token: Secret
     timeout_s: float
     transport: Transport | None = None
     clock: Callable[[], float] = time.monotonic

@@ -17,10 +17,10 @@ from scene2hap.audio.sources.freesound.ladder import ladder
 from scene2hap.audio.sources.freesound.service import Service
 from scene2hap.audio.sources.freesound.sounds import Sound, read_sounds
 from scene2hap.audio.sources.store import MAX_CLIP_S, Store, digest, is_long_enough
-from scene2hap.audio.sources.token import Token
 from scene2hap.audio.sources.web import checked_base
 from scene2hap.errors import AudioError, BackendUnavailable, ConfigError
 from scene2hap.haptics import VibrationDescription
+from scene2hap.secret import Secret
 from scene2hap.settings import cache_folder
 
 if TYPE_CHECKING:
@@ -78,13 +78,15 @@ class Freesound:
         number("timeout_s", timeout_s, "s", above=0.0, error=ConfigError)
         if sort not in SORTS:
             raise ConfigError(f"sort is {sort!r}; it must be one of {', '.join(SORTS)}.")
+        if not token_env:
+            raise ConfigError("token_env is empty; it must be the name of an environment variable.")
         self._licences = cc.checked(licences)
         self._candidates = how_many("candidates", candidates)
         self._filter = f"duration:[{MIN_DURATION_S:g} TO {max_duration_s:g}] {cc.as_filter(self._licences)}"
         self._max_duration_s = float(max_duration_s)
         self._sort = sort
         self._service = Service(
-            checked_base(base_url), Token(token, token_env), timeout_s, transport, clock=clock, sleep=sleep
+            checked_base(base_url), Secret(token, token_env), timeout_s, transport, clock=clock, sleep=sleep
         )
         self._store = Store(cache if cache is not None else cache_folder("freesound"))
 

@@ -17,8 +17,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from scene2hap.audio.sources.store import plain_line
-from scene2hap.audio.sources.token import MASK
 from scene2hap.errors import BackendUnavailable
+from scene2hap.secret import MASK
 
 MAX_FILES = 1000
 LOG_NAME = "log.txt"

@@ -18,13 +18,15 @@ that an answer may well contain."""
 class Secret:
     """A key that shows itself to nobody: given, or read from an environment variable each time it is needed."""
 
-    __slots__ = ("_value", "_variable")
+    __slots__ = ("_value", "variable")
 
     def __init__(self, value: str | None = None, variable: str = "") -> None:
         if not isinstance(value, str | None):
-            raise ConfigError(f"an API key is a {type(value).__name__}; it must be a text.")
+            raise ConfigError(f"an API key or token is a {type(value).__name__}; it must be a text.")
+        if not isinstance(variable, str):
+            raise ConfigError("the name of an environment variable with a key must be a text.")
         self._value = value
-        self._variable = variable
+        self.variable = variable
 
     def __repr__(self) -> str:
         return f"Secret({MASK})"
@@ -33,14 +35,14 @@ class Secret:
         return self
 
     def __reduce__(self) -> NoReturn:
-        raise TypeError("a backend with an API key is not pickled, lest the key reach a file; build it again instead.")
+        raise TypeError("a service with a key is not pickled, lest the key reach a file; build it again instead.")
 
     def reveal(self) -> str:
         """The key itself, "" where there is none.
 
         Raises: ConfigError: it holds characters that no header may carry (httpx would quote them in its error).
         """
-        value = (self._value or os.environ.get(self._variable, "")).strip()
+        value = (self._value or os.environ.get(self.variable, "")).strip()
         if not (value.isascii() and value.isprintable()):
             del value  # reporters of errors show local variables
             raise ConfigError("the API key holds line breaks or characters outside ASCII; copy it again.")

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from scene2hap.errors import ConfigError
-from scene2hap.llm.secret import Secret
+from scene2hap.secret import Secret
 
 KEY = "sk-0123456789abcdef"
 
