@@ -113,15 +113,14 @@ def _write(bundle: HapticBundle, folder: Path) -> None:
                 "frequency_tactile_hz": loop.frequency_tactile_hz,
                 "credit": asdict(loop.audible.credit),
             }
+            if why := bundle.choices.get(object_id, {}).get(state):
+                loops[object_id][state]["choice"] = why.splitlines()
     put("scene.json", {"format": scene_json.FORMAT, "version": scene_json.VERSION, **scene})
     put("objects.json", _objects.dump_python(dict(bundle.objects), mode="json"))
     put("loops.json", loops)
     put("overrides.json", _override_rows(bundle, folder, written))
     owed = dict.fromkeys(replace(who, query="") for who in bundle.credits)  # found by two queries, owed once
-    lines = [
-        f"{who.title}, by {who.author}, {who.licence}{', ' + who.address if who.address else ''}"
-        for who in owed
-    ]
+    lines = [f"{who.title}, by {who.author}, {who.licence}{', ' + who.address if who.address else ''}" for who in owed]
     text = "\n".join(["Sounds in this bundle, cut into loops and turned into vibration", *lines]) + "\n"
     (folder / "credits.txt").write_text(text, encoding="utf-8")
     put(
@@ -152,15 +151,20 @@ def read_bundle(folder: Path) -> HapticBundle:
     if missing:
         raise BundleIncomplete(f"{folder} lacks {missing[0]} ({len(missing)} missing). Bake it again or restore it.")
     try:
+        rows = _json_file(folder, "loops.json")
         return HapticBundle(
             _read_scene(folder),
             str(manifest.get("scene_category", "undefined")),
             _objects.validate_python(_json_file(folder, "objects.json")),
             {
                 object_id: {state: _read_loop(folder, row) for state, row in states.items()}
-                for object_id, states in _json_file(folder, "loops.json").items()
+                for object_id, states in rows.items()
             },
             read_overrides(folder),
+            {
+                object_id: {state: "\n".join(row["choice"]) for state, row in states.items() if "choice" in row}
+                for object_id, states in rows.items()
+            },
         )
     except ValidationError as cause:
         problem = checks.first_problem(cause)

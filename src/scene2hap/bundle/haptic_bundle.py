@@ -17,14 +17,18 @@ from scene2hap.scene.snapshot import SceneSnapshot
 
 @dataclass(frozen=True)
 class HapticBundle:
-    """A baked scene: what is in it, what inference says of each object, the loops of each source by state, and what a
-    person has overridden."""
+    """A baked scene: what is in it, what inference says of each object, and the loops of each source by state.
+
+    `overrides` are what a person says against inference; `choices` tell why each sound was chosen, as a table of its
+    candidates in text, by id and state.
+    """
 
     snapshot: SceneSnapshot
     scene_category: str
     objects: Mapping[str, ObjectHaptics]
     loops: Mapping[str, Mapping[str, HapticLoop]]
     overrides: Mapping[str, Override] = field(default_factory=dict)
+    choices: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for object_id in (*self.objects, *self.loops, *self.overrides):

@@ -8,33 +8,18 @@ from __future__ import annotations
 
 import asyncio
 import warnings
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
-from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
-from pydantic import BeforeValidator, Field, ValidationInfo, field_validator
-
-from scene2hap.audio.actuators import actuator_profile
-from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
-from scene2hap.audio.haptic_loop import HapticLoop
-from scene2hap.audio.select import select_clip
-from scene2hap.audio.sources import SOURCES
-from scene2hap.audio.sources.chain import ENOUGH, gather
-from scene2hap.audio.spreading import SpreadLimits
-from scene2hap.audio.tactile import CONVERTERS
+from scene2hap.baking.config import BakeConfig
+from scene2hap.baking.sound import Progress, make_loops
 from scene2hap.bundle import HapticBundle, Override
-from scene2hap.haptics import ActuatorProfile, ObjectHaptics, SourceState, VibrationDescription
+from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.llm.chain import Inference, infer_scene
-from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.report import InferenceReport
-from scene2hap.llm.wrappers import build_backend, reports
+from scene2hap.llm.wrappers import reports
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.settings import cache_folder
-
-Progress = Callable[[str, str, int, int], None]
-"""Told (stage, what is done, how many are done, of how many)."""
 
 OnReport = Callable[[InferenceReport], None]
 
@@ -42,46 +27,6 @@ _VIBRATES = "This object vibrates by itself: tell in which states."
 
 _ASSUMED_INTENSITY = 0.3
 """Of a state that a person wants and no model describes."""
-
-
-def _sources(specs: object) -> object:
-    return tuple(SOURCES.build(spec) for spec in specs) if isinstance(specs, list | tuple) else (SOURCES.build(specs),)
-
-
-class BakeConfig(InferenceConfig):
-    """How a scene is baked. Every part is chosen by a `kind`, or given ready made.
-
-    llm : the backend of inference, whose course the settings of `InferenceConfig` decide. One that is reached over a
-        network gets retries, repairs and a cache around it (`standard_stack`), unless it is given ready made;
-    cache_dir : where its answers are kept, None for the user's folder of caches;
-    max_cost_usd : what the answers may cost, checked before each call, None for no limit;
-    prices : of models, in US dollars per million tokens read and written, beside the dated list;
-    audio : where sounds come from, tried in order until `enough_candidates` remain (1 is the paper's rule);
-    tactile : what turns sound into touch; actuator : what it is turned for, by name, CSV file or fields;
-    spread : how far a source may be moved in frequency and level to be told from the others;
-    seed : of everything that is synthesized.
-    """
-
-    of_what = "bake"
-
-    cache_dir: Path | None = None
-    max_cost_usd: float | None = Field(default=None, ge=0.0)
-    prices: dict[str, tuple[float, float]] = Field(default_factory=dict)
-    llm: Any = Field(default="lexicon", validate_default=True)
-    audio: Annotated[Any, BeforeValidator(_sources)] = Field(default="synth", validate_default=True)
-    enough_candidates: int = Field(default=ENOUGH, ge=1, le=5)
-    tactile: Annotated[Any, BeforeValidator(CONVERTERS.build)] = Field(default="adaptive", validate_default=True)
-    actuator: Annotated[ActuatorProfile, BeforeValidator(actuator_profile)] = Field(default_factory=ActuatorProfile)
-    spread: SpreadLimits = Field(default_factory=SpreadLimits)
-    seed: int = 0
-
-    @field_validator("llm", mode="before")
-    @classmethod
-    def _in_its_stack(cls, spec: object, info: ValidationInfo) -> object:
-        # Folder, limit and prices stand before the backend in the class, so they are known here.
-        folder = info.data.get("cache_dir") or cache_folder("llm")
-        limits = {"max_cost": info.data.get("max_cost_usd"), "prices": info.data.get("prices")}
-        return build_backend(spec, folder, **limits)
 
 
 def bake(
@@ -120,8 +65,8 @@ async def abake(
     wishes = _of_this_scene(overrides or {}, scene)
     inference = await _infer(scene, config, wishes, user_prompt, progress, on_report)
     objects = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in inference.objects.items()}
-    loops = await _make_loops(objects, wishes, config, progress)
-    return HapticBundle(scene, inference.scene_category, objects, loops, wishes)
+    sounds = await make_loops(objects, wishes, config, progress or _say_nothing)
+    return HapticBundle(scene, inference.scene_category, objects, sounds.loops, wishes, sounds.choices)
 
 
 def rebake(
@@ -166,9 +111,10 @@ async def arebake(
     sounding = {key: haptics for key, haptics in said.items() if key in {*again, *other_sound}}
     kept = {key: loops for key, loops in bundle.loops.items() if key not in sounding}
     standing = [(loop, inferred[key].object_category) for key, states in kept.items() for loop in states.values()]
-    made = await _make_loops(sounding, wishes, config, progress, standing)
-    loops = {key: {**kept, **made}[key] for key in said if key in kept or key in made}
-    return replace(bundle, objects=said, loops=loops)
+    made = await make_loops(sounding, wishes, config, progress or _say_nothing, standing)
+    loops, choices = kept | made.loops, {key: bundle.choices[key] for key in kept if key in bundle.choices}
+    ordered = {key: loops[key] for key in said if key in loops}
+    return replace(bundle, objects=said, loops=ordered, choices=choices | made.choices)
 
 
 async def _infer(
@@ -213,50 +159,6 @@ def _of_this_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) -> d
     for object_id in overrides.keys() - known:
         warnings.warn(f"the override of {object_id!r} is dropped: the scene has no such object any more.", stacklevel=3)
     return {key: wish for key, wish in overrides.items() if key in known}
-
-
-async def _make_loops(
-    objects: Mapping[str, ObjectHaptics],
-    wishes: Mapping[str, Override],
-    config: BakeConfig,
-    progress: Progress | None,
-    standing: Sequence[tuple[HapticLoop, str]] = (),
-) -> dict[str, dict[str, HapticLoop]]:
-    """The loops of all objects by state; `standing` are those of the scene's other objects, and their categories.
-
-    All sounds are chosen before any is converted, since each source is moved clear of the others.
-    """
-    tell = progress or _say_nothing
-    wanted = [(key, haptics, state) for key, haptics in objects.items() for state in haptics.states]
-    sources = []
-    for done, (object_id, haptics, state) in enumerate(wanted, start=1):
-        clip = wishes[object_id].clip if object_id in wishes else None
-        if clip is None:
-            clip = await asyncio.to_thread(_choose, object_id, haptics, state, config)
-        sources.append(SourceClip(clip, state.intensity, haptics.object_category))
-        tell("sound", object_id, done, len(wanted))
-    plans = await asyncio.to_thread(plan_scene, sources, config.tactile, config.actuator, config.spread, standing)
-    loops: dict[str, dict[str, HapticLoop]] = {}
-    for done, ((object_id, _, state), source, plan) in enumerate(zip(wanted, sources, plans, strict=True), start=1):
-        loops.setdefault(object_id, {})[state.name] = await asyncio.to_thread(
-            felt_loop, source.clip, config.tactile, plan
-        )
-        tell("touch", object_id, done, len(wanted))
-    return loops
-
-
-def _choose(object_id: str, haptics: ObjectHaptics, state: SourceState, config: BakeConfig) -> AudioClip:
-    description = VibrationDescription(
-        object_category=haptics.object_category,
-        state=state.name,
-        sentence=state.sentence,
-        keywords=state.keywords,
-        intensity=state.intensity,
-        size_m=haptics.estimated_size_m,
-        material=haptics.material_category,
-        seed=config.seed,
-    )
-    return select_clip(gather(object_id, description, config.audio, enough=config.enough_candidates))
 
 
 def _hits(backend: object) -> str:

@@ -1,0 +1,61 @@
+"""`scene2hap report` and `scene2hap bake --dry-run`, as a person runs them."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from scene2hap import bake
+from scene2hap.cli import main
+from scene2hap.demo import kitchen_path
+from scripted_backend import SCENE, Scripted
+
+
+@pytest.fixture
+def bundle(tmp_path: Path) -> Path:
+    return bake(SCENE, {"llm": Scripted()}).override("phone", gain_db=-6.0).save(tmp_path / "b")
+
+
+def test_report_tells_who_said_what(bundle: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["report", str(bundle)]) == 0
+    said = capsys.readouterr().out
+    assert "phone ringing (intensity 0.5)" in said
+    assert "scripted, prompt" in said
+    assert "vibration: v" in said
+    assert "-6 dB" in said
+    assert said.count("chosen") == 2  # two states, each with its candidates
+
+
+def test_report_on_named_objects_as_json(bundle: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["report", str(bundle), "table", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)["objects"]
+    assert list(told) == ["table"]
+    assert told["table"]["reasons"]["size"] == "s"
+
+
+def test_report_on_what_is_not_there(bundle: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["report", str(bundle), "chair"]) == 1
+    assert "chair" in capsys.readouterr().err
+
+
+def test_dry_run_asks_nobody_and_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    cache = tmp_path / "cache"
+    asked = ["bake", str(kitchen_path()), "--dry-run", "--llm", "openai:gpt-4o", "--no-pictures", "--cache", str(cache)]
+    assert main(asked) == 0
+    said = capsys.readouterr().out
+    assert "calls in all" in said
+    assert "US dollars (prices of" in said
+    assert not any(cache.glob("*"))
+
+
+def test_a_model_without_a_price_costs_unknown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    address = ["--llm", "local:nobody", "--base-url", "http://127.0.0.1:9/v1", "--cache", str(tmp_path)]
+    assert main(["bake", str(kitchen_path()), "--dry-run", "--no-pictures", "--json", *address]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["cost_usd"] is None
+    assert told["calls"]["scene_analyzer"] == 1
+
+
+def test_bake_needs_a_folder(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bake", str(kitchen_path())]) == 1
+    assert "-o BUNDLE" in capsys.readouterr().err
