@@ -35,7 +35,9 @@ class Verdict:
 
     @property
     def passes(self) -> bool:
-        return self.level_db <= LEVEL_SLACK_DB and self.step_ratio <= STEP_RATIO and self.distance_db <= DISTANCE_SLACK_DB
+        return (
+            self.level_db <= LEVEL_SLACK_DB and self.step_ratio <= STEP_RATIO and self.distance_db <= DISTANCE_SLACK_DB
+        )
 
 
 def judge(loop: Signal, clip: Signal, rate: int, rng: np.random.Generator) -> Verdict:

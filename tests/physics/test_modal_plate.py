@@ -14,7 +14,7 @@ from scene2hap import InfinitePlate, Material, ModalPlate, Plate, materials, pla
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation import modes as modes_module
 from scene2hap.propagation.domain import ThinPlateWarning
-from scene2hap.propagation.modal_plate import _beyond_cutoff
+from scene2hap.propagation.near_field import beyond_cutoff
 
 MATERIAL = Material("test", 2500.0, 70e9, 0.22, loss_factor=0.02)
 FURNITURE = {
@@ -224,5 +224,5 @@ def test_share_beyond_the_cut_off() -> None:
     t = np.linspace(1e-7, 1.0, 400_001)
     a = np.array([0.0, 0.01, 0.3, 1.0, 4.0, 12.0, 19.0])
     expected = [2 * np.trapezoid(j0(x / t) * t, t) for x in a]
-    np.testing.assert_allclose(_beyond_cutoff(a), expected, atol=2e-5)
-    assert (_beyond_cutoff(np.array([21.0, 1e12])) == 0).all()
+    np.testing.assert_allclose(beyond_cutoff(a), expected, atol=2e-5)
+    assert (beyond_cutoff(np.array([21.0, 1e12])) == 0).all()

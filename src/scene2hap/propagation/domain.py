@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 import warnings
 from functools import lru_cache
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap.errors import ModelDomainError
+from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation.plate import Plate
 
 THIN_WAVELENGTHS = 6.0
@@ -49,6 +50,33 @@ def warn_if_thick(plate: Plate, frequencies_hz: NDArray[np.float64]) -> None:
         _warn_once(plate)
 
 
+OutsideDomain = Literal["warn", "raise", "ignore"]
+"""What a model does about an object outside the domain where it holds."""
+
+
+def check_choice(outside_domain: str) -> None:
+    """Raises: ConfigError: it is none of "warn", "raise" and "ignore"."""
+    if outside_domain not in get_args(OutsideDomain):
+        raise ConfigError(f"outside_domain is {outside_domain!r}; it must be 'warn', 'raise' or 'ignore'.")
+
+
+def check_thin(object_id: str, plate: Plate, top_hz: float, outside_domain: OutsideDomain) -> None:
+    """Warn once per object, or raise, if six thicknesses exceed its wavelength at the top frequency.
+
+    Raises: ModelDomainError; warns: ThinPlateWarning.
+    """
+    if outside_domain == "ignore" or top_hz <= _thin_limit_hz(plate):
+        return
+    if outside_domain == "raise":
+        raise ModelDomainError(f"object {object_id!r}: {_too_thick(plate)}")
+    _warn_of_object(object_id, plate)
+
+
+@lru_cache(maxsize=4096)
+def _warn_of_object(object_id: str, plate: Plate) -> None:
+    warnings.warn(f"object {object_id!r}: {_too_thick(plate)}", ThinPlateWarning, stacklevel=5)
+
+
 def _thin_limit_hz(plate: Plate) -> float:
     k = 2 * math.pi / (THIN_WAVELENGTHS * plate.thickness_m)
     return (k / plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
@@ -56,10 +84,13 @@ def _thin_limit_hz(plate: Plate) -> float:
 
 @lru_cache(maxsize=4096)
 def _warn_once(plate: Plate) -> None:
-    warnings.warn(
+    # The caller of the model, past this function, `warn_if_thick` and the model itself.
+    warnings.warn(_too_thick(plate), ThinPlateWarning, stacklevel=4)
+
+
+def _too_thick(plate: Plate) -> str:
+    return (
         f"a plate of {1e3 * plate.thickness_m:g} mm {plate.material.name} is thick beside its bending waves above "
         f"{_thin_limit_hz(plate):.3g} Hz (wavelength below {THIN_WAVELENGTHS:g} thicknesses): its answers there come "
-        "from a plate that is too stiff. Keep below that frequency, or treat it as a RigidBody.",
-        ThinPlateWarning,
-        stacklevel=4,  # the caller of the model, past this function, `warn_if_thick` and the model itself
+        "from a plate that is too stiff. Keep below that frequency, or treat it as a RigidBody."
     )

@@ -14,13 +14,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap import checks
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
+from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_thin
 from scene2hap.propagation.paths import Arrivals, cheapest_arrivals
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.points import arrivals_at, as_points
@@ -38,17 +40,32 @@ class ExponentialPlate:
     frequency : which dominant frequency of a source counts under `Bands.dominant()`: "tactile", the peak after the
         band-pass, which is what the hand feels; or "raw", the peak of the audio file, as in the paper.
     max_hops : contacts that vibration may cross, None for any number; 1 (phone to desk) is the paper's reach.
+    interface_loss_db : what crossing a contact costs at 250 Hz, >= 0 [dB]; at other frequencies it follows the law like
+        any distance. 0, the default, is the paper's.
+    floor_db : least attenuation wherever a source arrives at all, <= 0 [dB], so that a thin sheet of metal, which the
+        law silences within a hand's breadth, may still be felt; None for the bare law.
+    outside_domain : "warn" once per object, "raise" or "ignore" where the wavelength is below six thicknesses
+        (`domain.THIN_WAVELENGTHS`). The law is a style that may be applied to anything, so it ignores by default.
+    Raises: ConfigError: a setting out of bounds.
     """
 
     frequency: Literal["tactile", "raw"] = "tactile"
     max_hops: int | None = None
+    interface_loss_db: float = 0.0
+    floor_db: float | None = None
+    outside_domain: OutsideDomain = "ignore"
     kind: Literal["exponential_plate"] = "exponential_plate"
+    least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
 
     def __post_init__(self) -> None:
         if self.frequency not in ("tactile", "raw"):
             raise ConfigError(f"frequency is {self.frequency!r}; it must be 'tactile' or 'raw'.")
         if self.max_hops is not None and self.max_hops < 1:
             raise ConfigError(f"max_hops is {self.max_hops}; it must be at least 1 contact, or None for any number.")
+        checks.number("interface_loss_db", self.interface_loss_db, "dB", at_least=0.0, error=ConfigError)
+        if self.floor_db is not None:
+            checks.number("floor_db", self.floor_db, "dB", at_most=0.0, error=ConfigError, hint="None is no floor.")
+        check_choice(self.outside_domain)
 
     def plate_transfer(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
@@ -70,19 +87,32 @@ class ExponentialPlate:
 
         Since k = c sqrt(omega) on every plate, the cheapest way is the same at all frequencies, and one search per
         source serves all bands. A rigid body passes vibration on undiminished.
+
+        Raises: ModelDomainError, warns: ThinPlateWarning, for an object outside the domain, if so configured.
         """
+        top_hz = max(bands.edges_hz, default=max((self._frequency_hz(item) for item in excitations), default=0.0))
+        for object_id, body in network.bodies.items():
+            if isinstance(body, Plate):
+                check_thin(object_id, body, top_hz, self.outside_domain)
         price = {
             object_id: body.wavenumber_per_root_omega if isinstance(body, Plate) else 0.0
             for object_id, body in network.bodies.items()
         }
+        loss = self.interface_loss_db * math.log(10) / 20
         crossing = [
-            -math.log(contact.weight) / math.sqrt(2 * math.pi * REFERENCE_HZ) if contact.weight > 0 else math.inf
+            (loss - math.log(contact.weight)) / math.sqrt(2 * math.pi * REFERENCE_HZ)
+            if contact.weight > 0
+            else math.inf
             for contact in network.contacts
         ]
         source_ids = tuple(excitation.source_id for excitation in excitations)
         arrivals = cheapest_arrivals(price, network.contacts, crossing, source_ids, self.max_hops)
-        dominant = np.array([getattr(excitation, f"frequency_{self.frequency}_hz") for excitation in excitations])
-        return ExponentialField(source_ids, arrivals, price, bands, dominant)
+        dominant = np.array([self._frequency_hz(item) for item in excitations])
+        floor = 0.0 if self.floor_db is None else 10 ** (self.floor_db / 20)
+        return ExponentialField(source_ids, arrivals, price, bands, dominant, floor)
+
+    def _frequency_hz(self, excitation: Excitation) -> float:
+        return excitation.frequency_raw_hz if self.frequency == "raw" else excitation.frequency_tactile_hz
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,14 +124,16 @@ class ExponentialField:
     price_per_m: Mapping[str, float]
     bands: Bands
     dominant_hz: NDArray[np.float64]
+    floor: float = 0.0
 
     def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
         """Gamma at points of one object; see `PropagationField`."""
         length = arrivals_at(self.arrivals, self.price_per_m, self.source_ids, object_id, points_m)
         if self.bands.kind == "dominant":
-            gamma: NDArray[np.float64] = np.exp(-length * np.sqrt(2 * math.pi * self.dominant_hz))
-            return gamma[:, :, None]
-        return band_rms(length, self.bands.widths_hz())
+            gamma: NDArray[np.float64] = np.exp(-length * np.sqrt(2 * math.pi * self.dominant_hz))[:, :, None]
+        else:
+            gamma = band_rms(length, self.bands.widths_hz())
+        return np.maximum(gamma, self.floor * np.isfinite(length)[:, :, None]) if self.floor else gamma
 
 
 def band_rms(length: NDArray[np.float64], edges_hz: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -15,15 +15,21 @@ Source: Cremer, Heckl, Petersson, Structure-Borne Sound, point-driven plate.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap.propagation.domain import as_frequencies, warn_if_thick
+from scene2hap.haptics import Bands
+from scene2hap.propagation.contact_law import ContactLaw
+from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, check_choice, warn_if_thick
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.points import as_points
+from scene2hap.propagation.protocol import ContactNetwork, Excitation
+from scene2hap.propagation.substructuring import CoupledField, as_law, prepare_coupled
 
 NEAREST_KR = 1e-4
 """Below this kr both terms of Pi grow without bound and their difference is 1 to 1e-8: it is then set to 1."""
@@ -61,9 +67,33 @@ def spreading(kr: NDArray[np.complex128]) -> NDArray[np.complex128]:
 
 @dataclass(frozen=True)
 class InfinitePlate:
-    """The damped Green's function of the infinite plate; length, width and edges of a plate do not matter to it."""
+    """The damped Green's function of the infinite plate; length, width and edges of a plate do not matter to it.
 
+    Parameters: contact : stiffness of contacts, or its settings; outside_domain : what to do about an object of a scene
+    that is thicker than thin-plate theory allows (`domain.THIN_WAVELENGTHS`): "warn" once per object, "raise" or
+    "ignore".
+    Raises: ConfigError: out of bounds.
+    """
+
+    contact: ContactLaw = field(default_factory=ContactLaw)
+    outside_domain: OutsideDomain = "warn"
     kind: Literal["infinite_plate"] = "infinite_plate"
+    least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "contact", as_law(self.contact))
+        check_choice(self.outside_domain)
+
+    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> CoupledField:
+        """The field of a scene: all bodies coupled at their contacts, see `substructuring`.
+
+        Raises: ModelDomainError: an object outside the domain, if so configured. Warns: ThinPlateWarning, otherwise.
+        """
+        return prepare_coupled(network, excitations, bands, self.elastic_body, self.contact, self.outside_domain)
+
+    def elastic_body(self, plate: Plate, max_frequency_hz: float) -> InfiniteBody:
+        """A plate, ready to be coupled at any frequency."""
+        return InfiniteBody(plate, plate.material.loss_factor)
 
     def plate_transfer(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
@@ -90,13 +120,54 @@ class InfinitePlate:
         """
         f = as_frequencies(frequencies_hz, positive_because="nothing holds the infinite plate in place")
         warn_if_thick(plate, f)
-        stiffness = plate.bending_stiffness_nm * (1 + 1j * plate.material.loss_factor)
-        driven: NDArray[np.complex128] = -1j / (8 * stiffness * _damped_wavenumber(plate, f) ** 2)
-        return _spread(plate, drive_m, points_m, f) * driven
+        return _spread(plate, drive_m, points_m, f) * _driven(plate, plate.material.loss_factor, f)
 
 
-def _damped_wavenumber(plate: Plate, frequencies_hz: NDArray[np.float64]) -> NDArray[np.complex128]:
-    loss = complex(1, plate.material.loss_factor) ** -0.25
+@dataclass(frozen=True, eq=False)
+class InfiniteBody:
+    """A plate without edges as an `ElasticBody`; nothing comes back in it, so that it has no resonances."""
+
+    plate: Plate
+    plate_loss: float
+    loss_factor: float = math.inf
+
+    def receptance(
+        self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
+    ) -> NDArray[np.complex128]:
+        """See `ElasticBody`."""
+        r = np.linalg.norm(points_m[:, None] - forces_m, axis=2)
+        x = self.plate.wavenumber_rad_m(frequencies_hz)[:, None, None] * r
+        return _looked_up(x, self.plate_loss) * _driven(self.plate, self.plate_loss, frequencies_hz)[:, None, None]
+
+
+TABLE_X = 100.0
+"""k r up to which `_looked_up` has a table."""
+
+
+def _looked_up(x: NDArray[np.float64], eta: float) -> NDArray[np.complex128]:
+    """Pi(k_c r) for x = k r, to 1e-4: a scene asks for millions of them, and Hankel functions take a microsecond."""
+    ray = complex(1, eta) ** -0.25
+    # Told without its phase and decay, Pi is smooth.
+    spread: NDArray[np.complex128] = np.interp(x, *_table(eta)) * np.exp(-1j * ray * x)
+    far = x > TABLE_X
+    spread[far] = spreading((ray * x[far]).astype(np.complex128))
+    return spread
+
+
+@lru_cache(maxsize=64)
+def _table(eta: float) -> tuple[NDArray[np.float64], NDArray[np.complex128]]:
+    ray, x = complex(1, eta) ** -0.25, np.linspace(0.0, TABLE_X, 10001)
+    return x, spreading((ray * x).astype(np.complex128)) * np.exp(1j * ray * x)
+
+
+def _driven(plate: Plate, eta: float, frequencies_hz: NDArray[np.float64]) -> NDArray[np.complex128]:
+    stiffness = plate.bending_stiffness_nm * complex(1, eta)
+    driven: NDArray[np.complex128] = -1j / (8 * stiffness * _damped_wavenumber(plate, eta, frequencies_hz) ** 2)
+    return driven
+
+
+def _damped_wavenumber(plate: Plate, eta: float, frequencies_hz: NDArray[np.float64]) -> NDArray[np.complex128]:
+    loss = complex(1, eta) ** -0.25
     k: NDArray[np.complex128] = (plate.wavenumber_rad_m(frequencies_hz) * loss).astype(np.complex128)
     return k
 
@@ -106,4 +177,4 @@ def _spread(
 ) -> NDArray[np.complex128]:
     offsets = as_points(points_m, 2) - as_points(drive_m, 2)
     r = np.hypot(offsets[:, 0], offsets[:, 1])
-    return spreading(np.outer(r, _damped_wavenumber(plate, frequencies_hz)))
+    return spreading(np.outer(r, _damped_wavenumber(plate, plate.material.loss_factor, frequencies_hz)))

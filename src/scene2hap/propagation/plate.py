@@ -51,6 +51,11 @@ class Plate:
         """Four letters F, S, C for the edges x=0, x=length, y=0, y=width."""
         return _EDGES.get(self.boundary, self.boundary)
 
+    @property
+    def mass_kg(self) -> float:
+        """Mass of the whole plate [kg]."""
+        return self.length_m * self.width_m * self.thickness_m * self.material.density_kg_m3
+
     @cached_property
     def bending_stiffness_nm(self) -> float:
         """D = E h^3 / (12 (1 - nu^2)) [N m].
@@ -80,10 +85,20 @@ class Plate:
 
 @dataclass(frozen=True)
 class RigidBody:
-    """A compact body that moves as a whole: mass_kg > 0 [kg]."""
+    """A compact body that moves as a whole.
+
+    Parameters: mass_kg > 0 [kg]; size_m : length, width, thickness > 0 [m] of the box whose inertia it has when it
+    rocks, None for a body that does not; material : of its surface where others touch it, None if unknown.
+    Raises: ModelDomainError: a mass or size that is not positive and finite.
+    """
 
     mass_kg: float
+    size_m: tuple[float, float, float] | None = None
+    material: Material | None = None
 
     def __post_init__(self) -> None:
         mass = checks.number("mass_kg", self.mass_kg, "kg", above=0.0, error=ModelDomainError)
         object.__setattr__(self, "mass_kg", mass)
+        if self.size_m is not None:
+            size = checks.vector("size_m", self.size_m, "m", size=3, above=0.0, error=ModelDomainError)
+            object.__setattr__(self, "size_m", size)

@@ -17,6 +17,8 @@ from scene2hap import checks
 from scene2hap.errors import ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.plate import Plate, RigidBody
+from scene2hap.propagation.points import as_points
+from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import Contact
 
 Body = Plate | RigidBody
@@ -39,13 +41,26 @@ class Excitation:
 
 @dataclass(frozen=True)
 class ContactNetwork:
-    """The bodies of a scene and where they touch (world points [m]).
+    """The bodies of a scene, where they touch (world points [m]) and where they are.
 
     An object without a body, since nobody knows its material, does not carry vibration; it may still be a source.
+    `poses` puts the frame of a body into the world: its origin in a corner of the plate's mid-plane, x along the
+    length, y along the width. A plate without a pose has its corner at the world's origin and its sides along x and y.
     """
 
     bodies: Mapping[str, Body]
     contacts: Sequence[Contact] = field(default_factory=tuple)
+    poses: Mapping[str, Pose] = field(default_factory=dict)
+
+    def on_body(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
+        """World points as (n_points, 2) [m] along length and width of a body, from its corner.
+
+        Points beside a body are taken to its nearest edge, as if a rigid leg led there; a body without size keeps them.
+        """
+        points, pose, body = as_points(points_m, 3), self.poses.get(object_id), self.bodies.get(object_id)
+        flat = (points if pose is None else pose.to_own(points))[:, :2]
+        size = (body.length_m, body.width_m) if isinstance(body, Plate) else body and body.size_m
+        return np.clip(flat, 0.0, size[:2]) if size else flat
 
 
 @runtime_checkable

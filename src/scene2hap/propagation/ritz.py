@@ -15,6 +15,7 @@ Bhat, J. Sound Vib. 102 (1985), for orthogonal polynomials as the basis.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -43,11 +44,21 @@ class AxisBasis:
 
     def values(self, x_m: NDArray[np.float64]) -> NDArray[np.float64]:
         """The functions at (n_points,) [m] -> (n_points, n_functions) [m^-1/2]."""
-        n = len(self.coefficients)
-        xi = np.clip(2 * x_m / self.length_m - 1, -1.0, 1.0)
-        values: NDArray[np.float64] = legendre.legvander(xi, n - 1) * _norms(n) @ self.coefficients
-        values *= np.sqrt(2 / self.length_m)
+        # As cosines, since a hand asks for one point at a time and the Legendre recurrence is a loop.
+        angle = np.arccos(np.clip(2 * x_m / self.length_m - 1, -1.0, 1.0))
+        values: NDArray[np.float64] = np.cos(angle[:, None] * np.arange(len(self._chebyshev))) @ self._chebyshev
         return values
+
+    @cached_property
+    def _chebyshev(self) -> NDArray[np.float64]:
+        """The functions' coefficients in Chebyshev polynomials cos(n arccos xi) [m^-1/2]."""
+        n = len(self.coefficients)
+        angle = np.pi * (np.arange(n) + 0.5) / n
+        values = legendre.legvander(np.cos(angle), n - 1) * _norms(n) @ self.coefficients
+        coefficients: NDArray[np.float64] = np.cos(np.outer(np.arange(n), angle)) @ values
+        coefficients *= 2 / n * np.sqrt(2 / self.length_m)
+        coefficients[0] /= 2
+        return coefficients
 
     @cached_property
     def _derivatives(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -81,6 +92,11 @@ def axis_bases(edges: str, length_m: float, n_terms: int) -> tuple[AxisBasis, ..
     families = (slice(0, None, 2), slice(1, None, 2)) if edges[0] == edges[1] else (slice(None),)
     coefficients = _coefficients(edges, n_terms)
     return tuple(AxisBasis(coefficients[:, family], length_m) for family in families)
+
+
+def joined(bases: Sequence[AxisBasis]) -> AxisBasis:
+    """The functions of several bases of one axis, one after the other."""
+    return AxisBasis(np.hstack([basis.coefficients for basis in bases]), bases[0].length_m)
 
 
 def stiffness(x: AxisBasis, y: AxisBasis, poisson_ratio: float) -> NDArray[np.float64]:

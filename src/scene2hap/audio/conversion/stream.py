@@ -182,7 +182,7 @@ class _Felt:
 
 
 def _steps(block: Block, *, is_beyond: bool) -> NDArray[np.int32]:
-    """24-bit integers in the upper bits of int32, beyond full scale full scale; half the time that libsndfile takes."""
+    """24-bit integers in the upper bits of int32, on the scale of `files.write_wav`; beyond full scale, full scale."""
     scaled = block * np.float32(_FULL_SCALE)
     np.rint(scaled, out=scaled)
     if is_beyond:

@@ -1,0 +1,203 @@
+"""What preparing a scene and touching it cost, as a table in Markdown; docs/propagation.md holds the latest.
+
+OPENBLAS_NUM_THREADS=1 python benchmarks/propagation.py
+
+Times are of the processor, not of the clock, so that other programs disturb them little. Ratios are of times taken in
+turns in one run. The phone on an oak top that docs/propagation.md shows is printed as well.
+"""
+
+from __future__ import annotations
+
+import platform
+import time
+import warnings
+from collections.abc import Callable
+from importlib.metadata import version
+
+import numpy as np
+
+from scene2hap import (
+    Bands,
+    Contact,
+    ContactNetwork,
+    Excitation,
+    ExponentialPlate,
+    InfinitePlate,
+    ModalPlate,
+    Plate,
+    PropagationField,
+    PropagationModel,
+    materials,
+    plate_modes,
+)
+from scene2hap.propagation import infinite_plate, modal_body, modes, rigid
+from scene2hap.propagation.domain import ThinPlateWarning
+from scene2hap.scene.pose import Pose
+
+SEED = 3
+THIRDS = Bands.third_octaves(10, 1000)
+N_SOURCES = 8
+MODELS: dict[str, PropagationModel] = {"Infinite": InfinitePlate(), "Modal": ModalPlate()}
+
+
+def room(n_objects: int = 50, n_contacts: int = 60, seed: int = SEED, prefix: str = "") -> ContactNetwork:
+    """Objects of a flat: a fifth are sheets of 2-6 mm steel or glass, of which half are unsymmetric, as is a fifth of
+    the rest; a fifth are compact. Each stands on one of the six before it; further contacts close loops."""
+    rng = np.random.default_rng(seed)
+    names = [f"{prefix}{i:04d}" for i in range(n_objects)]
+    kinds: list[Callable[[int], Plate]] = [
+        lambda i: _plate(rng, (0.3, 0.7), (0.2, 0.4), (0.002, 0.006), ("glass", "steel")[i % 2], i % 10 == 0),
+        lambda i: _plate(rng, (0.6, 1.4), (0.3, 0.8), (0.015, 0.03), "oak", i % 10 == 1),
+        lambda i: _plate(rng, (0.4, 1.0), (0.2, 0.4), (0.012, 0.02), "plywood", False),
+        lambda i: _plate(rng, (0.08, 0.15), (0.06, 0.1), (0.05, 0.1), "ceramic", False),
+        lambda i: _plate(rng, (0.2, 0.4), (0.2, 0.3), (0.01, 0.03), "plastic", False),
+    ]
+    bodies = {name: kinds[i % 5](i) for i, name in enumerate(names)}
+    poses = {name: Pose(tuple(rng.uniform(-0.1, 0.1, 3))) for name in names}
+    pairs = [(i, int(rng.integers(max(0, i - 6), i))) for i in range(1, n_objects)]
+    while len(pairs) < n_contacts:
+        i, j = rng.choice(n_objects, 2, replace=False)
+        pairs.append((int(i), int(j)))
+    contacts = [Contact(names[i], names[j], (*rng.uniform(0.0, 0.4, 2), 0.0)) for i, j in pairs]
+    return ContactNetwork(bodies, contacts, poses)
+
+
+def _plate(
+    rng: np.random.Generator,
+    length: tuple[float, float],
+    width: tuple[float, float],
+    thickness: tuple[float, float],
+    material: str,
+    is_unsymmetric: bool,
+) -> Plate:
+    size = (rng.uniform(*length), rng.uniform(*width), rng.uniform(*thickness))
+    return Plate(*size, materials.lookup(material), "CFFS" if is_unsymmetric else "free")
+
+
+def sources(prefix: str = "") -> list[Excitation]:
+    """Eight of the compact objects."""
+    return [Excitation(f"{prefix}{3 + 5 * i:04d}", 100.0, 100.0, 0.3) for i in range(N_SOURCES)]
+
+
+def seconds(work: Callable[[], object], repeat: int = 1) -> float:
+    begin = time.process_time()
+    for _ in range(repeat):
+        work()
+    return (time.process_time() - begin) / repeat
+
+
+def forget() -> None:
+    """Make every plate one that was never seen."""
+    for cached in (modes._modes_up_to, modes.first_bending_hz, modal_body.modal_body, rigid.is_compact):
+        cached.cache_clear()
+    infinite_plate._table.cache_clear()
+
+
+def preparing(model: PropagationModel) -> tuple[float, float]:
+    """Seconds for a room never seen, and when one of its objects moves; the median of five."""
+    network, excitations = room(), sources()
+    model.prepare(network, excitations, THIRDS)  # imports are done before the clock starts
+    cold, warm = [], []
+    for k in range(5):
+        forget()
+        cold.append(seconds(lambda: model.prepare(network, excitations, THIRDS)))
+        poses = {**network.poses, "0007": Pose((0.01 * k, 0.02, 0.0))}
+        moved = ContactNetwork(network.bodies, network.contacts, poses)
+        warm.append(seconds(lambda moved=moved: model.prepare(moved, excitations, THIRDS)))  # type: ignore[misc]
+    return float(np.median(cold)), float(np.median(warm))
+
+
+def touching(
+    fields: dict[str, PropagationField], object_id: str, point_m: tuple[float, float, float]
+) -> dict[str, float]:
+    """Seconds per touch: the best of nine turns of fifty."""
+    for field in fields.values():
+        field.attenuation(object_id, [point_m])
+    best = dict.fromkeys(fields, np.inf)
+    for _ in range(9):
+        for name, field in fields.items():
+            best[name] = min(best[name], seconds(lambda field=field: field.attenuation(object_id, [point_m]), 50))  # type: ignore[misc]
+    return best
+
+
+def touch_on_a_plate(plate: Plate, feet: int = 1) -> dict[str, float]:
+    contacts = [
+        Contact(f"s{i}", "plate", (plate.length_m * (0.1 + 0.1 * i) + dx, plate.width_m * (0.2 + 0.07 * i) + dy, 0.0))
+        for i in range(N_SOURCES)
+        for dx, dy in ((0.0, 0.0), (0.02, 0.0), (0.0, 0.03), (0.02, 0.03))[:feet]
+    ]
+    network = ContactNetwork({"plate": plate}, contacts)
+    excitations = [Excitation(f"s{i}", 100.0, 100.0, 0.2) for i in range(N_SOURCES)]
+    models = {"Exponential": ExponentialPlate(), **MODELS}
+    fields = {name: model.prepare(network, excitations, THIRDS) for name, model in models.items()}
+    return touching(fields, "plate", (0.3, 0.2, 0.0))
+
+
+def flats(n_rooms: int) -> ContactNetwork:
+    """Many rooms of fifty objects that do not touch one another."""
+    parts = [room(seed=SEED + i, prefix=f"{i:03d}-") for i in range(n_rooms)]
+    return ContactNetwork(
+        {name: body for part in parts for name, body in part.bodies.items()},
+        [contact for part in parts for contact in part.contacts],
+        {name: pose for part in parts for name, pose in part.poses.items()},
+    )
+
+
+def phone_on_oak() -> None:
+    glass, oak = materials.lookup("glass"), materials.lookup("oak")
+    feet = [Contact("phone", "top", (0.4 + x, 0.3 + y, 0.0)) for x in (0.01, 0.14) for y in (0.01, 0.06)]
+    bodies = {"top": Plate(1.2, 0.7, 0.025, oak), "phone": Plate(0.15, 0.07, 0.008, glass)}
+    network = ContactNetwork(bodies, feet, {"phone": Pose((0.4, 0.3, 0.0))})
+    points = {"beside a foot": (0.42, 0.32, 0), "under its middle": (0.475, 0.335, 0), "0.4 m away": (0.85, 0.45, 0)}
+    points["far corner"] = (1.15, 0.05, 0)
+    print(
+        "| band, Hz | " + " | ".join(f"Modal, {name}" for name in points) + " | Infinite, 0.4 m | Exponential, 0.4 m |"
+    )
+    print("|---" * (len(points) + 3) + "|")
+    gains = [
+        20
+        * np.log10(
+            model.prepare(network, [Excitation("phone", 175, 175, 0.2)], THIRDS).attenuation(
+                "top", list(points.values())
+            )
+        )
+        for model in (ModalPlate(), InfinitePlate(), ExponentialPlate())
+    ]
+    for band, (low, high) in enumerate(THIRDS.widths_hz()):
+        modal = [f"{gain:.1f}" for gain in gains[0][:, 0, band]]
+        others = [f"{gain[2, 0, band]:.1f}" for gain in gains[1:]]
+        print(f"| {low:.0f}-{high:.0f} | " + " | ".join(modal + others) + " |")
+
+
+def main() -> None:
+    warnings.simplefilter("ignore", ThinPlateWarning)
+    print("| what | Infinite | Modal | bound |\n|---|---|---|---|")
+    times = {name: preparing(model) for name, model in MODELS.items()}
+    print(
+        "| 50 objects, 60 contacts, 20 bands, cold, s | " + " | ".join(f"{t[0]:.2f}" for t in times.values()) + " | 1 |"
+    )
+    ratios = " | ".join(f"{t[1]:.3f} ({100 * t[1] / t[0]:.0f} %)" for t in times.values())
+    print(f"| when one object moves, s (of cold) | {ratios} | 10 % |")
+    steel = materials.lookup("steel")
+    free, held = Plate(0.65, 0.42, 0.002, steel), Plate(0.72, 0.45, 0.002, steel, "CFFS")
+    for what, plate, feet in (("free", free, 1), ("CFFS", held, 1), ("free, four feet each", free, 4)):
+        n = int((plate_modes(plate, max_frequency_hz=1000.0).frequencies_hz <= 1000.0).sum())
+        best = touch_on_a_plate(plate, feet)
+        cells = [f"{1e6 * best[name]:.0f} ({best[name] / best['Exponential']:.1f})" for name in MODELS]
+        own = f"{1e6 * best['Exponential']:.0f}"
+        print(f"| touch, 8 sources, {n} modes, {what}, us (over Exponential, {own}) | " + " | ".join(cells) + " | 5 |")
+    cells = []
+    for model in MODELS.values():
+        fields = {str(n): model.prepare(flats(n), sources("000-"), THIRDS) for n in (1, 100)}
+        best = touching(fields, "000-0001", (0.2, 0.2, 0.0))
+        cells.append(f"{best['100'] / best['1']:.2f}")
+    print("| touch among 5,000 objects over that among 50 | " + " | ".join(cells) + " | 1.5 |\n")
+    phone_on_oak()
+    print(
+        f"\nMachine: {platform.system()} {platform.machine()}, Python {platform.python_version()}, "
+        f"numpy {version('numpy')}, scipy {version('scipy')}; seed {SEED}."
+    )
+
+
+if __name__ == "__main__":
+    main()

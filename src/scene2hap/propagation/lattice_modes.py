@@ -1,0 +1,192 @@
+"""Harmonic answers of a lattice: its modes up to a frequency, and the static share of all that are stiffer.
+
+    u(z) = Phi (Lambda - z)^-1 Phi^T p + sum over j of (z + s)^j R_j            z = k_c^4
+    R_j = (G A)^j G p',  G = (K + s A)^-1,  p' = p - A Phi Phi^T p
+
+for (K - z A) u = p, where A holds the areas of the nodes. The series is that of the modes left out, which lie above z;
+each term leaves less than half of the error before. One factorisation of K + s A gives the modes,
+by Lanczos' method, and the series; another tells how many modes there are.
+
+The stiffest springs of a lattice are up to 1e16 times as stiff as its longest wave, so one solve alone would bury that
+wave in rounding. Each is refined by its own residual, computed from the springs (`Lattice.restoring`).
+
+Letters: k [rad/m] wavenumber, Lambda [m^-4] eigenvalues k^4, Phi [1/m] shapes normalised over the area, p [-] force
+for D = 1, s [m^-4] shift, c complex.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.errors import ModelDomainError
+from scene2hap.propagation.lattice import Lattice, bending_lattice
+from scene2hap.propagation.modes import n_rigid_motions
+from scene2hap.propagation.plate import Plate
+
+if TYPE_CHECKING:
+    from scipy.sparse.linalg import SuperLU
+
+MARGIN = 1.5
+"""Modes are solved up to this many times the top frequency; the series takes over from there."""
+TERMS = 4
+"""Terms of the series. Measured on furniture: with them the answer is within 0.02 dB of a direct solve at p95."""
+STIFFEST = 2e-12
+"""Part of the stiffest springs that stands well clear of their rounding."""
+SMALL = 500
+"""Nodes up to which all modes are solved at once, which is then faster than Lanczos' method."""
+
+
+@dataclass(frozen=True, eq=False)
+class LatticeModes:
+    """The lowest modes of a lattice and the factors that answer for the rest.
+
+    k4 : (n_modes,) [m^-4], rising, 0 for rigid motions; shapes : (n_nodes, n_modes) [1/m]; shift_k4 : s.
+    """
+
+    lattice: Lattice
+    k4: NDArray[np.float64]
+    shapes: NDArray[np.float64]
+    shift_k4: float
+    factors: SuperLU
+
+    @property
+    def frequencies_hz(self) -> NDArray[np.float64]:
+        """Natural frequencies (n_modes,) [Hz]."""
+        found: NDArray[np.float64] = np.sqrt(self.k4) / self.lattice.plate.wavenumber_per_root_omega**2 / (2 * math.pi)
+        return found
+
+    def stiffer(self, forces: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The series' terms R_j for forces (n_nodes, n_forces) -> (TERMS, n_nodes, n_forces)."""
+        areas = self.lattice.areas_m2[:, None]
+        terms = np.empty((TERMS, *forces.shape))
+        force = forces
+        for j in range(TERMS):
+            force = force - areas * (self.shapes @ (self.shapes.T @ force))
+            terms[j] = solve_shifted(self.lattice, self.factors, self.shift_k4, force)
+            terms[j] -= self.shapes @ (self.shapes.T @ (areas * terms[j]))
+            force = areas * terms[j]
+        return terms
+
+
+def lattice_modes(plate: Plate, resolution: int, top_frequency_hz: float) -> LatticeModes:
+    """Modes that answer up to a frequency [Hz]; remembered by plate, resolution and frequency in thirds of an octave.
+
+    Raises: ModelDomainError: too many nodes, see `bending_lattice`.
+    """
+    lowest_hz = (math.pi / max(plate.length_m, plate.width_m) / plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
+    thirds = math.ceil(3 * math.log2(max(top_frequency_hz / lowest_hz, 1.0)) - 1e-9)
+    return _modes_up_to(plate, resolution, lowest_hz * 2 ** (thirds / 3))
+
+
+def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArray[np.float64]:
+    """The lowest natural frequencies (n_modes,) [Hz], rigid motions included.
+
+    Raises: ModelDomainError: the lattice has fewer nodes; too many nodes, see `bending_lattice`.
+    """
+    n_nodes = bending_lattice(plate, resolution).n_nodes
+    if n_modes > n_nodes:
+        raise ModelDomainError(
+            f"n_modes is {n_modes}; a lattice of resolution {resolution} has {n_nodes} modes. Raise the resolution."
+        )
+    area, edge = plate.length_m * plate.width_m, 2 * (plate.length_m + plate.width_m)
+    k = edge / (2 * area) * (math.sqrt(1 + 16 * math.pi * area * n_modes / edge**2) - 1)  # Weyl, free edges
+    lattice, factors, shift = _factorised(plate, resolution, k**4)
+    count = n_modes
+    while True:
+        count = min(int(1.2 * count) + 2, n_nodes)
+        k4, _ = _lowest(lattice, factors, shift, count)
+        if count == n_nodes or n_modes_below(lattice, k4[n_modes - 1] * (1 - 1e-9)) < n_modes:
+            break
+    frequencies: NDArray[np.float64] = np.sqrt(k4[:n_modes]) / plate.wavenumber_per_root_omega**2 / (2 * math.pi)
+    return frequencies
+
+
+@lru_cache(maxsize=8)  # bodies keep their own
+def _modes_up_to(plate: Plate, resolution: int, top_frequency_hz: float) -> LatticeModes:
+    wanted = float(plate.wavenumber_rad_m(MARGIN * top_frequency_hz)) ** 4
+    lattice, factors, shift = _factorised(plate, resolution, wanted)
+    expected = count = n_modes_below(lattice, wanted)
+    while True:
+        count = int(1.2 * count) + 4
+        k4, shapes = _lowest(lattice, factors, shift, count)
+        enough = k4[-1] > wanted and np.count_nonzero(k4 <= wanted * (1 + 1e-9)) >= expected
+        if enough or len(k4) == lattice.n_nodes:
+            break
+    kept = max(np.count_nonzero(k4 <= wanted), n_rigid_motions(plate))
+    return LatticeModes(lattice, k4[:kept], shapes[:, :kept], shift, factors)
+
+
+def _factorised(plate: Plate, resolution: int, top_k4: float) -> tuple[Lattice, SuperLU, float]:
+    """The lattice, the factors of K + s A, and s, for modes up to k^4."""
+    lattice = bending_lattice(plate, resolution)
+    # Large enough beside the stiffest springs for refinement to converge, small beside the modes that matter.
+    shift = max(1e-2 * top_k4, STIFFEST * lattice.stiffest_k4)
+    return lattice, _factors(lattice, shift), shift
+
+
+def _factors(lattice: Lattice, shift_k4: float) -> SuperLU:
+    """Factors of K + s A, with pivots on the diagonal."""
+    from scipy.sparse import diags_array
+    from scipy.sparse.linalg import splu
+
+    shifted = (lattice.stiffness + shift_k4 * diags_array(lattice.areas_m2)).tocsc()
+    return splu(shifted, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+
+
+def n_modes_below(lattice: Lattice, k4: float) -> int:
+    """How many modes lie below k^4: the negative pivots of K - k^4 A, by Sylvester's law of inertia.
+
+    Lanczos' method may miss one of a pair of equal modes, as square plates have them, and this tells. 0 where rounding
+    of the stiffest springs would tell instead.
+    """
+    if k4 < STIFFEST * lattice.stiffest_k4:
+        return 0
+    pivots: NDArray[np.float64] = _factors(lattice, -k4).U.diagonal()
+    return int(np.count_nonzero(pivots < 0))
+
+
+def solve_shifted(
+    lattice: Lattice, factors: SuperLU, shift_k4: float, forces: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Deflections u of (K + s A) u = p, (n_nodes, ...) each, refined."""
+    found: NDArray[np.float64] = factors.solve(forces)
+    areas = lattice.areas_m2 if forces.ndim == 1 else lattice.areas_m2[:, None]
+    # Each pass gains the digits that the shift has above the rounding of the stiffest springs.
+    for _ in range(1 if shift_k4 > 1e5 * STIFFEST * lattice.stiffest_k4 else 2):
+        found += factors.solve(forces - lattice.restoring(found) - shift_k4 * areas * found)
+    return found
+
+
+def _lowest(
+    lattice: Lattice, factors: SuperLU, shift_k4: float, count: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """k^4 (n,) [m^-4], rising, and shapes (n_nodes, n) [1/m] of at least `count` modes, or of all."""
+    from scipy.sparse.linalg import LinearOperator, eigsh
+
+    n, root = lattice.n_nodes, np.sqrt(lattice.areas_m2)
+
+    def compliance(force: NDArray[np.float64]) -> NDArray[np.float64]:
+        scale = root if force.ndim == 1 else root[:, None]
+        moved: NDArray[np.float64] = scale * solve_shifted(lattice, factors, shift_k4, scale * force)
+        return moved
+
+    if n > SMALL and count < n // 3:
+        operator = LinearOperator((n, n), matvec=compliance, matmat=compliance, dtype=np.float64)
+        start = np.random.default_rng(0).standard_normal(n)
+        vectors = eigsh(operator, count, which="LM", v0=start)[1]
+    else:
+        dense = compliance(np.eye(n))
+        vectors = np.linalg.eigh((dense + dense.T) / 2)[1]
+    shapes = vectors / root[:, None]
+    # Rayleigh's quotient over the springs: exact to the square of what the shapes still miss.
+    k4 = np.einsum("in,in->n", shapes, lattice.restoring(shapes))
+    order = np.argsort(k4)
+    k4 = k4[order]
+    k4[: n_rigid_motions(lattice.plate)] = 0.0
+    return k4, shapes[:, order]

@@ -1,0 +1,229 @@
+"""A plate as a lattice of masses, springs and dampers: answers to harmonic forces, and motion in time.
+
+    w(x) / F(x0) = P(x) (K D (1 + j eta) - omega^2 m A)^-1 P(x0)^T
+
+K and A are the springs and areas of `lattice`, P its interpolation. It is a second opinion on `ModalPlate`, made of
+different stuff: nothing is assumed about shapes, and the error falls as the square of the cell. It costs more.
+
+Letters: w [m], F [N], D [N m] bending stiffness, m [kg/m2] mass per area, eta [-] loss factor, k_c [rad/m] damped
+wavenumber, k_c^4 = m omega^2 / (D (1 + j eta)). Time runs as e^{+j omega t}.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from scene2hap import checks
+from scene2hap.errors import ConfigError, ModelDomainError
+from scene2hap.haptics import Bands
+from scene2hap.propagation.contact_law import ContactLaw
+from scene2hap.propagation.coupling import ElasticBody
+from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, check_choice, warn_if_thick
+from scene2hap.propagation.lattice import LONGEST
+from scene2hap.propagation.lattice_body import lattice_body
+from scene2hap.propagation.lattice_modes import LatticeModes, lattice_modes, lowest_frequencies_hz
+from scene2hap.propagation.modes import n_rigid_motions, points_on
+from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.protocol import ContactNetwork, Excitation
+from scene2hap.propagation.stepping import ExactStepper, NewmarkStepper, State, Stepper
+from scene2hap.propagation.substructuring import CoupledField, as_law, prepare_coupled
+
+CELLS_PER_WAVE = 6.0
+"""Fewest cells in a bending wavelength; with six, the lattice turns it 9 % too slowly, (k h)^2 / 12."""
+FINEST = 256
+
+
+@dataclass(frozen=True)
+class MassSpringDamper:
+    """The bending lattice of a plate.
+
+    Parameters: resolution : cells along the shorter side, 4..256; in a scene, plates whose waves are shorter than
+    `CELLS_PER_WAVE` of them get as many as they need; loss_floor, contact, outside_domain : as of `ModalPlate`.
+    Raises: ConfigError: out of bounds.
+    """
+
+    resolution: int = 32
+    loss_floor: float = 0.01
+    contact: ContactLaw = field(default_factory=ContactLaw)
+    outside_domain: OutsideDomain = "warn"
+    kind: Literal["mass_spring_damper"] = "mass_spring_damper"
+    least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
+
+    def __post_init__(self) -> None:
+        cells = checks.number("resolution", self.resolution, "cells", at_least=4, at_most=FINEST, error=ConfigError)
+        if cells != int(cells):
+            raise ConfigError(f"resolution is {cells:g} cells; it must be a whole number, as 32.")
+        object.__setattr__(self, "resolution", int(cells))
+        checks.number("loss_floor", self.loss_floor, "-", at_least=0.0, at_most=2.0, error=ConfigError)
+        object.__setattr__(self, "contact", as_law(self.contact))
+        check_choice(self.outside_domain)
+
+    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> CoupledField:
+        """The field of a scene: all lattices coupled at their contacts, see `substructuring`.
+
+        Raises: ModelDomainError: a plate whose waves need more cells than 256 or nodes than a lattice may have; no
+        loss at all; an object outside the domain, if so configured. Warns: ThinPlateWarning, otherwise.
+        """
+        return prepare_coupled(network, excitations, bands, self.elastic_body, self.contact, self.outside_domain)
+
+    def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
+        """A plate, ready to be coupled, for frequencies up to `max_frequency_hz` [Hz]; see `lattice_body`."""
+        resolution = max(self.resolution, _needed_resolution(plate, max_frequency_hz))
+        if resolution > FINEST:
+            raise ModelDomainError(_too_coarse(plate, max_frequency_hz, FINEST))
+        return lattice_body(plate, resolution, max_frequency_hz, self._loss_factor(plate))
+
+    def plate_transfer(
+        self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
+    ) -> NDArray[np.complex128]:
+        """Amplitude at points of one plate over the amplitude at the driven point; above 1 where the plate resonates.
+
+        Parameters: drive_m : (2,) [m]; points_m : (n_points, 2) [m], from the plate's corner along length and width;
+        frequencies_hz : (n_frequencies,) [Hz], >= 0; 0 is answered as a limit.
+        Returns: (n_points, n_frequencies) complex128 [-].
+        Raises: ModelDomainError: a point outside the plate; a driven point that an edge holds still; fewer than
+        `CELLS_PER_WAVE` cells in a wavelength; no loss at all, since a resonance is then infinite.
+        Warns: ThinPlateWarning: the wavelength falls below six thicknesses.
+        """
+        f = as_frequencies(frequencies_hz)
+        drive = points_on(plate, drive_m)
+        found = self._receptance(plate, drive, np.vstack([drive, points_on(plate, points_m)]), f)
+        if not found[0].all():
+            raise ModelDomainError(
+                f"the driven point ({drive[0, 0]:g}, {drive[0, 1]:g}) m lies on an edge that does not move (boundary "
+                f"{plate.boundary!r}), so nothing can be related to its amplitude. Drive a point off the edge."
+            )
+        ratio: NDArray[np.complex128] = found[1:] / found[0]
+        return ratio
+
+    def plate_receptance(
+        self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
+    ) -> NDArray[np.complex128]:
+        """Deflection at points over the force at the driven point.
+
+        Parameters, errors and warnings as `plate_transfer`, but that a held point answers 0, and that 0 Hz is refused
+        for a plate that nothing holds in place.
+        Returns: (n_points, n_frequencies) complex128 [m/N].
+        """
+        loose = "nothing holds this plate in place" if n_rigid_motions(plate) else ""
+        f = as_frequencies(frequencies_hz, positive_because=loose)
+        return self._receptance(plate, points_on(plate, drive_m), points_on(plate, points_m), f)
+
+    def natural_frequencies_hz(self, plate: Plate, n_modes: int) -> NDArray[np.float64]:
+        """The lattice's lowest natural frequencies (n_modes,) float64 [Hz], rising, 0 for rigid motions.
+
+        Their error falls as the square of the cell; at a resolution of 32 the first six are within 1.5 %.
+        """
+        count = int(checks.number("n_modes", n_modes, "-", at_least=1, error=ModelDomainError))
+        return lowest_frequencies_hz(plate, self.resolution, count)
+
+    def plate_motion(
+        self,
+        plate: Plate,
+        drive_m: ArrayLike,
+        points_m: ArrayLike,
+        force_n: ArrayLike,
+        sample_rate_hz: float,
+        *,
+        max_frequency_hz: float = 1000.0,
+        stepper: Literal["exact", "newmark"] = "exact",
+    ) -> NDArray[np.float64]:
+        """Deflection in time under a force at the driven point, from rest.
+
+        Modes up to `max_frequency_hz` are stepped with viscous damping of ratio eta/2 (`stepping`), which needs no
+        loss; what is stiffer follows the force at once.
+
+        Parameters: force_n : (n_samples,) [N], straight between samples; the rest as `plate_transfer`.
+        Returns: (n_points, n_samples) float64 [m], the first at rest but for the static share.
+        """
+        force = np.asarray(force_n, dtype=np.float64)
+        if force.ndim != 1 or not np.isfinite(force).all():
+            raise ModelDomainError(f"force_n has shape {force.shape}; it must be (n_samples,) finite numbers [N].")
+        rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=ModelDomainError)
+        drive, points = points_on(plate, drive_m), points_on(plate, points_m)
+        top = as_frequencies(max_frequency_hz)
+        self._check_cells(plate, top)
+        modes = lattice_modes(plate, self.resolution, float(top[0]))
+        lattice, m = modes.lattice, plate.material.density_kg_m3 * plate.thickness_m
+        pushed = lattice.interpolation(drive).T.toarray()
+        look = lattice.interpolation(points)
+        shapes = modes.shapes / math.sqrt(m)
+        push, seen = (shapes.T @ pushed)[:, 0], look @ shapes
+        static = (look @ _summed(modes.stiffer(pushed)[:, :, 0], modes.shift_k4)) / plate.bending_stiffness_nm
+
+        walk = self._stepper(plate, modes, 1 / rate, stepper)
+        state = State(np.zeros(len(push)), np.zeros(len(push)))
+        motion = np.outer(static, force)
+        for i in range(1, len(force)):
+            state = walk.step(state, push * force[i - 1], push * force[i])
+            motion[:, i] += seen @ state.displacement
+        return motion
+
+    def _stepper(self, plate: Plate, modes: LatticeModes, dt_s: float, kind: str) -> Stepper:
+        omega, zeta = 2 * math.pi * modes.frequencies_hz, self._loss(plate) / 2
+        if kind == "exact":
+            return ExactStepper(omega, zeta, dt_s)
+        if kind == "newmark":
+            return NewmarkStepper(np.ones_like(omega), 2 * zeta * omega, omega**2, dt_s)
+        raise ConfigError(f"stepper is {kind!r}; it must be 'exact' or 'newmark'.")
+
+    def _receptance(
+        self, plate: Plate, drive_m: NDArray[np.float64], points_m: NDArray[np.float64], f: NDArray[np.float64]
+    ) -> NDArray[np.complex128]:
+        self._check_cells(plate, f)
+        top = float(f.max(initial=0.0))
+        # 1e-9 of the top frequency stands for 0 Hz, where a loose plate has a limit but no value.
+        asked = np.maximum(f, max(1e-9 * top, 1e-9))
+        body = lattice_body(plate, self.resolution, top, self._loss_factor(plate))
+        found: NDArray[np.complex128] = body.receptance(points_m, drive_m, asked)[:, :, 0].T
+        return found
+
+    def _loss_factor(self, plate: Plate) -> float:
+        eta = self._loss(plate)
+        if eta == 0:
+            raise ModelDomainError(
+                f"material {plate.material.name!r} has a loss factor of 0 and so has loss_floor; a resonance would be "
+                "infinite. Give one of them a value above 0; 0.01 suits assembled objects."
+            )
+        return eta
+
+    def _loss(self, plate: Plate) -> float:
+        return max(plate.material.loss_factor, self.loss_floor)
+
+    def _check_cells(self, plate: Plate, f: NDArray[np.float64]) -> None:
+        """Refuse frequencies whose waves the lattice is too coarse for, and warn of a plate too thick for them."""
+        top = float(f.max(initial=0.0))
+        if _needed_resolution(plate, top) > self.resolution:
+            raise ModelDomainError(_too_coarse(plate, top, self.resolution))
+        warn_if_thick(plate, f)
+
+
+def _needed_resolution(plate: Plate, frequency_hz: float) -> int:
+    """Cells along the shorter side that leave every cell a `CELLS_PER_WAVE`th of a wave, at most a thousand million."""
+    widest = max(min(plate.length_m, plate.width_m), max(plate.length_m, plate.width_m) / LONGEST)
+    waves = float(plate.wavenumber_rad_m(frequency_hz)) / (2 * math.pi) * widest
+    return math.ceil(min(CELLS_PER_WAVE * waves, 1e9))
+
+
+def _too_coarse(plate: Plate, frequency_hz: float, resolution: int) -> str:
+    needed = _needed_resolution(plate, frequency_hz)
+    way_out = f"at least {needed}" if needed <= FINEST else f"{needed}, beyond {FINEST}; use InfinitePlate"
+    return (
+        f"{frequency_hz:g} Hz makes waves of {2e3 * math.pi / float(plate.wavenumber_rad_m(frequency_hz)):.3g} mm on a "
+        f"plate of {plate.length_m:g} × {plate.width_m:g} m, shorter than {CELLS_PER_WAVE:g} cells of a lattice of "
+        f"resolution {resolution}. It must be {way_out}."
+    )
+
+
+def _summed(terms: NDArray[Any], ratio: NDArray[Any] | float) -> NDArray[Any]:
+    """Sum of terms[j] ratio^j over the first axis."""
+    total: NDArray[Any] = terms[-1]
+    for term in terms[-2::-1]:
+        total = total * ratio + term
+    return total

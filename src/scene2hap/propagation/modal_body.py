@@ -1,0 +1,96 @@
+"""A plate with edges, ready to be coupled and to be asked often."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.propagation.infinite_plate import InfiniteBody
+from scene2hap.propagation.modes import MARGIN, largest_block
+from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.plate_terms import PlateTerms
+from scene2hap.propagation.recall import Recall
+
+MOST_FUNCTIONS = 1100
+"""Size of the largest eigenproblem for a scene, some 0.4 s: a hundred modes without symmetry, four hundred with."""
+NO_RETURN = 3.0
+"""A wave that has fallen by this exponent (26 dB), exp(-eta k L / 4) on a way of the shorter side L, meets no edge
+that matters."""
+
+
+@lru_cache(maxsize=128)
+def modal_body(plate: Plate, max_frequency_hz: float, loss_factor: float) -> ModalBody | SplitBody:
+    """The body of a plate; remembered, since scenes are prepared anew whenever a contact changes.
+
+    Where a rug or a foil has too many modes to solve for, or so much loss that nothing comes back from its edges, it is
+    a `SplitBody`, whose upper frequencies see no edges.
+    """
+    shorter = min(plate.length_m, plate.width_m)
+    k = min(float(plate.wavenumber_rad_m(max_frequency_hz)), 4 * NO_RETURN / (loss_factor * shorter))
+    limit_hz = (k / plate.wavenumber_per_root_omega) ** 2 / (2 * np.pi)
+    while largest_block(plate, MARGIN * limit_hz) > MOST_FUNCTIONS:
+        limit_hz *= 0.9
+    if limit_hz >= max_frequency_hz * (1 - 1e-9):
+        return ModalBody(plate, max_frequency_hz, loss_factor)
+    return SplitBody(ModalBody(plate, limit_hz, loss_factor), InfiniteBody(plate, loss_factor), limit_hz)
+
+
+@dataclass(frozen=True, eq=False)
+class SplitBody:
+    """An `ElasticBody` with edges up to a frequency, and without them above."""
+
+    below: ModalBody
+    above: InfiniteBody
+    limit_hz: float
+
+    @property
+    def loss_factor(self) -> float:
+        """See `ElasticBody`."""
+        return self.below.loss_factor
+
+    def receptance(
+        self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
+    ) -> NDArray[np.complex128]:
+        """See `ElasticBody`."""
+        is_low = frequencies_hz <= self.limit_hz
+        answer = np.empty((len(is_low), len(points_m), len(forces_m)), dtype=np.complex128)
+        answer[is_low] = self.below.receptance(points_m, forces_m, frequencies_hz[is_low])
+        answer[~is_low] = self.above.receptance(points_m, forces_m, frequencies_hz[~is_low])
+        return answer
+
+
+class ModalBody:
+    """An `ElasticBody` by modes, for frequencies up to `max_frequency_hz`."""
+
+    def __init__(self, plate: Plate, max_frequency_hz: float, loss_factor: float) -> None:
+        self.plate = plate
+        self.loss_factor = loss_factor
+        self.terms = PlateTerms(plate, max_frequency_hz)
+        self._at_forces = Recall(self.terms.of_forces)
+        self._among_forces = Recall(self._symmetric)
+        self._spectra = Recall(self._spectrum, room=4)
+
+    def receptance(
+        self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
+    ) -> NDArray[np.complex128]:
+        """See `ElasticBody`."""
+        terms = self._among_forces(forces_m) if points_m is forces_m else self._at_forces(forces_m)(points_m)
+        n_points, n_forces, n_terms = terms.shape
+        flat = (terms.reshape(-1, n_terms) @ self._spectra(frequencies_hz)).view(np.complex128)
+        return flat.reshape(n_points, n_forces, -1).transpose(2, 0, 1)
+
+    def _symmetric(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+        terms = self._at_forces(points_m)(points_m)
+        return (terms + terms.transpose(1, 0, 2)) / 2  # to the last bit, which rounding is not
+
+    def _spectrum(self, frequencies_hz: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Real and imaginary part, by turns, of each term at each frequency (n_terms, 2 n_frequencies) [m^2/N]."""
+        loss = complex(1, self.loss_factor)
+        q: NDArray[np.complex128] = (self.plate.wavenumber_rad_m(frequencies_hz) ** 4 / loss).astype(np.complex128)
+        spectrum = self.terms.spectrum(q)
+        spectrum /= self.plate.bending_stiffness_nm * loss
+        real: NDArray[np.float64] = spectrum.view(np.float64)
+        return real

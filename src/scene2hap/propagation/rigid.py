@@ -1,0 +1,74 @@
+"""Bodies that move as a whole: which ones do, and how they answer to forces.
+
+    Y(x, x') = -1 / omega^2 * (1/m + (x - x_c) (x' - x'_c) / I_y + (y - y_c) (y' - y'_c) / I_x)
+
+Letters: Y [m/N] receptance, m [kg], I_x, I_y [kg m2] inertia of a box about its middle, where x_c, y_c are.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.propagation.modes import first_bending_hz
+from scene2hap.propagation.plate import Plate, RigidBody
+
+COMPACT_THICKNESS = 1 / 5
+"""Part of the shorter side above which a thickness makes a body compact; thin-plate theory is far gone by then."""
+COMPACT_HZ = 2000.0
+"""First mode above which a free body is rigid in all that a hand feels, up to 1 kHz."""
+
+
+@lru_cache(maxsize=4096)
+def is_compact(plate: Plate) -> bool:
+    """Whether a plate is so stiff that it moves as a whole. One that is held at an edge would not move at all, and is
+    left as the stiff plate that it is."""
+    if plate.edges != "FFFF":
+        return False
+    if plate.thickness_m > COMPACT_THICKNESS * min(plate.length_m, plate.width_m):
+        return True
+    # The first mode of a free beam along the longer side is a trial deflection, so the plate's lies below (Rayleigh).
+    longer = max(plate.length_m, plate.width_m)
+    if 22.374 / (longer * plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi) < COMPACT_HZ:
+        return False
+    return first_bending_hz(plate) > COMPACT_HZ
+
+
+@dataclass(frozen=True, eq=False)
+class RigidMotion:
+    """A rigid body, ready to be coupled: up and down, and, where its size is known, rocking.
+
+    `size_m` as of `RigidBody`; points are told from its corner.
+    """
+
+    mass_kg: float
+    size_m: tuple[float, float, float] | None = None
+    loss_factor: float = math.inf
+
+    @classmethod
+    def of(cls, body: Plate | RigidBody | None, mass_kg: float, *, rocks: bool) -> RigidMotion:
+        """A body of that mass, with the size of `body` if it rocks."""
+        if isinstance(body, Plate):
+            size: tuple[float, float, float] | None = (body.length_m, body.width_m, body.thickness_m)
+        else:
+            size = body.size_m if body is not None else None
+        return cls(mass_kg, size if rocks else None)
+
+    def receptance(
+        self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
+    ) -> NDArray[np.complex128]:
+        """See `ElasticBody`."""
+        yielding = np.full((len(points_m), len(forces_m)), 1 / self.mass_kg)
+        if self.size_m is not None:
+            length, width, thickness = self.size_m
+            inertia = self.mass_kg / 12 * (np.array([length, width]) ** 2 + thickness**2)
+            middle = np.array([length, width]) / 2
+            yielding += ((points_m - middle) / inertia) @ (forces_m - middle).T
+        answer: NDArray[np.complex128] = (-yielding / (2 * np.pi * frequencies_hz[:, None, None]) ** 2).astype(
+            np.complex128
+        )
+        return answer

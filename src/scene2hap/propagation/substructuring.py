@@ -1,0 +1,170 @@
+"""A whole scene for the physical models: every object a body of its own, coupled where they touch.
+
+What attenuation means: deflection at the touch over what the source would do if nothing touched it. The source is a
+rigid body with one free vibration on all of its contacts, in phase; for one contact, with mobilities Y of source,
+receiver and contact,
+
+    v = v_free Y_transfer / (Y_source + Y_receiver + Y_contact)
+
+Compact bodies move as a whole; so does every source. Objects that no source can reach are never solved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from scene2hap.errors import ConfigError
+from scene2hap.haptics import Bands
+from scene2hap.propagation.contact_law import ContactLaw
+from scene2hap.propagation.coupling import ElasticBody, Joint, couple, ends_of
+from scene2hap.propagation.domain import OutsideDomain, check_thin
+from scene2hap.propagation.joints import joints_of, reached
+from scene2hap.propagation.plate import Plate, RigidBody
+from scene2hap.propagation.points import as_points
+from scene2hap.propagation.protocol import ContactNetwork, Excitation
+from scene2hap.propagation.rigid import RigidMotion, is_compact
+from scene2hap.propagation.sampling import Sampling
+
+POINTS_AT_ONCE = 32
+
+
+def prepare_coupled(
+    network: ContactNetwork,
+    excitations: Sequence[Excitation],
+    bands: Bands,
+    elastic_body: Callable[[Plate, float], ElasticBody],
+    law: ContactLaw,
+    outside_domain: OutsideDomain = "warn",
+    density: float = 1.0,
+) -> CoupledField:
+    """The field of a scene.
+
+    Parameters: elastic_body : makes the body of a plate that is not compact, for frequencies up to some top [Hz];
+    law : stiffness of contacts; density : frequencies per band over what is needed, for checks.
+    Raises, warns: ModelDomainError or ThinPlateWarning, as `outside_domain` says, for an object whose bending waves
+    are shorter than six of its thicknesses.
+    """
+    source_ids = tuple(item.source_id for item in excitations)
+    mass_kg = {item.source_id: item.mass_kg for item in excitations}
+    joints = joints_of(network, network.bodies.keys() | mass_kg.keys(), law)
+    groups = reached(joints, source_ids)
+    top_hz = max(
+        (*bands.edges_hz, *(item.frequency_tactile_hz for item in excitations if not bands.edges_hz)), default=0.0
+    )
+    bodies: dict[str, ElasticBody] = {}
+    for object_id in sorted({x for _, several in groups for joint in several for x in (joint.a, joint.b)}):
+        body = network.bodies.get(object_id)
+        if object_id in mass_kg:
+            bodies[object_id] = RigidMotion.of(body, mass_kg[object_id], rocks=object_id in network.poses)
+        elif isinstance(body, RigidBody) or (isinstance(body, Plate) and is_compact(body)):
+            bodies[object_id] = RigidMotion.of(body, body.mass_kg, rocks=object_id in network.poses)
+        elif body is not None:
+            check_thin(object_id, body, top_hz, outside_domain)
+            bodies[object_id] = elastic_body(body, top_hz)
+    losses = [body.loss_factor for body in bodies.values()] + [joint.loss_factor for joint in joints]
+    sampling = Sampling.of(bands, excitations, min(losses, default=1.0), density)
+    reach: dict[str, Reached] = {}
+    for sources, several in groups:
+        if several:
+            reach |= _solved(bodies, several, sources, source_ids, sampling)
+    return CoupledField(source_ids, bands, network, sampling, reach)
+
+
+def _solved(
+    bodies: Mapping[str, ElasticBody],
+    joints: Sequence[Joint],
+    sources: Sequence[str],
+    source_ids: tuple[str, ...],
+    sampling: Sampling,
+) -> dict[str, Reached]:
+    solved = couple(bodies, joints, sources, sampling.frequencies_hz)
+    forces = np.ascontiguousarray(solved.forces.transpose(1, 2, 0))
+    columns = np.array([source_ids.index(x) for x in sources])
+    own = sampling.columns(columns)
+    if own is not None:
+        forces = np.take_along_axis(forces, own[None, :, None], axis=2)[:, :, 0]
+    return {
+        x: Reached(bodies[x], np.array(at), np.array(rows), np.array(signs), forces, columns)
+        for x, (at, rows, signs) in ends_of(joints).items()
+    }
+
+
+@dataclass(eq=False)
+class Reached:
+    """An object that some sources reach.
+
+    points_m : (n_joints, 2) [m]; rows, signs : (n_joints,) where its joints are in the forces of its group and which
+    way they pull; forces : (n_all_joints, n_sources, n_frequencies), or without the last axis, each source at its own
+    frequency [N/m]; columns : (n_sources,) which of all sources these are.
+    """
+
+    body: ElasticBody
+    points_m: NDArray[np.float64]
+    rows: NDArray[np.intp]
+    signs: NDArray[np.float64]
+    forces: NDArray[np.complex128]
+    columns: NDArray[np.intp]
+    _own: NDArray[np.complex128] | None = field(default=None, repr=False)
+
+    @property
+    def own_forces(self) -> NDArray[np.complex128]:
+        """Forces that act on this object at its joints; taken out of its group's when first asked for."""
+        if self._own is None:
+            signs = self.signs.reshape(-1, *[1] * (self.forces.ndim - 1))
+            self._own = np.ascontiguousarray(-signs * self.forces[self.rows])
+        return self._own
+
+    def gains(self, points_m: NDArray[np.float64], sampling: Sampling) -> NDArray[np.float64]:
+        """Gains (n_points, n_sources, n_bands) [-] at points (n_points, 2) [m]."""
+        receptance = self.body.receptance(points_m, self.points_m, sampling.frequencies_hz).transpose(1, 2, 0)
+        own = sampling.columns(self.columns)
+        if own is not None:
+            moved: NDArray[np.complex128] = np.einsum("pcs,cs->ps", receptance[:, :, own], self.own_forces)
+            magnitudes: NDArray[np.float64] = np.abs(moved)[:, :, None]
+            return magnitudes
+        # Not einsum, which is four times slower with complex numbers.
+        moved = (receptance[:, :, None] * self.own_forces).sum(axis=1)
+        return sampling.gains(moved)
+
+
+@dataclass(frozen=True, eq=False)
+class CoupledField:
+    """A scene, prepared: the forces in all contacts of the objects that a source reaches."""
+
+    source_ids: tuple[str, ...]
+    bands: Bands
+    network: ContactNetwork
+    sampling: Sampling
+    reach: Mapping[str, Reached]
+
+    def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
+        """Deflection over the sources' free ones; above 1 where something resonates. See `PropagationField`."""
+        points = as_points(points_m, 3)
+        gains = np.zeros((len(points), len(self.source_ids), self.bands.n_bands))
+        found = self.reach.get(object_id)
+        if found is not None:
+            flat = self.network.on_body(object_id, points)
+            for begin in range(0, len(points), POINTS_AT_ONCE):
+                part = slice(begin, begin + POINTS_AT_ONCE)
+                gains[part, found.columns] = found.gains(flat[part], self.sampling)
+        for column, source_id in enumerate(self.source_ids):
+            if source_id == object_id:
+                gains[:, column] = 1.0
+        return gains
+
+
+def as_law(law: ContactLaw | Mapping[str, Any]) -> ContactLaw:
+    """A contact law as it is, or from its settings, so that a table of TOML will do. Raises: ConfigError."""
+    if isinstance(law, ContactLaw):
+        return law
+    try:
+        return ContactLaw(**law)
+    except TypeError as cause:
+        raise ConfigError(
+            f"contact is {law!r}; it must be a ContactLaw or its settings tip_radius_m, preload_n and loss_floor."
+        ) from cause

@@ -1,0 +1,149 @@
+"""Campaigns on analysis, loops and choice: random sounds of known kind, and how often the promises hold.
+
+python stress/audio.py [frequency] [loops] [choice] [--seed 0] [--draws N]
+
+frequency : 1,000 tones of 15 to 500 Hz with a second partial at -6 dB, 2.5 s, noise in 20-1000 Hz at 10 dB below;
+    of the recorded hums, the strongest third octave of a bank of Butterworth filters tells the octave.
+loops : 300 clips, of which recordings, noises, tones and beats a quarter each; the wrap of the loop is judged against
+    200 places inside the clip (`tests/seam_judge.py`), and so are four loops that were chopped out at random.
+choice : 200 draws of a recorded hum among the other recordings and eight synthesized decoys (`tests/sound_draws.py`).
+Recordings are looked for beside the repository (../shared/audio); without them their share is left out, and said so.
+"""
+
+from __future__ import annotations
+
+import argparse
+import platform
+import sys
+import time
+from collections import defaultdict
+from pathlib import Path
+
+import numpy as np
+from scipy.signal import butter, sosfiltfilt
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+
+from scene2hap.audio import analysis
+from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.conversion import convert_clip
+from scene2hap.audio.loops import apply_seam, find_seam
+from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.select import explain_choice
+from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
+from seam_judge import judge
+from sound_draws import (
+    HUMS,
+    Signal,
+    chopped,
+    hum_among_decoys,
+    hum_in_noise,
+    loop_clip,
+    recordings,
+)
+
+N_CHOPPED = 4
+"""Careless loops per clip; of tones 2 to 8 in a hundred meet themselves by chance, which single chops blur."""
+KINDS = ("recording", "noise", "tone", "beat")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("campaigns", nargs="*", metavar="CAMPAIGN", help="frequency, loops, choice; default all")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--draws", type=int, help="instead of 1,000, 300 and 200")
+    arguments = parser.parse_args()
+    print(f"Python {platform.python_version()}, {platform.machine()}, seed {arguments.seed}")
+    real = recordings()
+    if not real:
+        print("no recordings beside the repository: synthesized sounds alone")
+    for name in arguments.campaigns or CAMPAIGNS:
+        begin = time.perf_counter()
+        CAMPAIGNS[name](real, arguments.seed, arguments.draws)
+        print(f"({time.perf_counter() - begin:.0f} s)\n")
+
+
+def frequency(real: dict[str, tuple[Signal, int]], seed: int, draws: int | None) -> None:
+    errors = []
+    for i in range(draws or 1000):
+        truth, x, rate = hum_in_noise(np.random.default_rng([seed, i]))
+        errors.append(abs(analysis.dominant_frequency_hz(x, rate) - truth))
+    print(
+        f"dominant frequency, {len(errors)} draws: median error {np.median(errors):.4f} Hz, largest {max(errors):.4f}"
+    )
+    for name in sorted(HUMS & set(real)):
+        x, rate = real[name]
+        print(
+            f"  {name}: {analysis.dominant_frequency_hz(x, rate):.2f} Hz; "
+            f"strongest third octave {strongest_third_octave_hz(x, rate):.1f} Hz"
+        )
+
+
+def strongest_third_octave_hz(x: Signal, rate: int) -> float:
+    """The centre of the third octave, 12.5 to 800 Hz, that holds most energy: Butterworth band-passes, no spectrum."""
+    centres = 10 ** np.arange(1.1, 2.91, 0.1)
+    energies = []
+    for centre in centres:
+        band = butter(2, (centre * 10**-0.05, centre * 10**0.05), "bandpass", fs=rate, output="sos")
+        energies.append(np.sum(sosfiltfilt(band, x - x.mean()) ** 2))
+    return float(centres[np.argmax(energies)])
+
+
+def loops(real: dict[str, tuple[Signal, int]], seed: int, draws: int | None) -> None:
+    kinds = KINDS if real else KINDS[1:]
+    rows: dict[str, list[tuple[bool, bool, float]]] = defaultdict(list)
+    slowest, phases = 0.0, []
+    for i in range(draws or 300):
+        kind = kinds[i % len(kinds)]
+        rng = np.random.default_rng([seed, i])
+        _, x, rate, pitch_hz = loop_clip(kind, rng, real)
+        clip = AudioClip(x.astype(np.float32), rate)
+        heard = clip.samples.astype(float)
+        felt = convert_clip(clip, SvfBandpass(), ConversionContext()).samples.astype(float)
+        begin = time.process_time()
+        seam = find_seam(heard, rate, felt)
+        slowest = max(slowest, time.process_time() - begin)
+        if kind == "tone":
+            phases.append(360 * abs((pitch_hz * seam.length / rate + 0.5) % 1.0 - 0.5))
+        rows[kind].append(
+            (
+                judge(apply_seam(heard, seam), heard, rate, rng).passes,
+                judge(apply_seam(felt, seam.fitted(felt)), felt, rate, rng).passes,
+                float(np.mean([not judge(chopped(heard, rng), heard, rate, rng).passes for _ in range(N_CHOPPED)])),
+            )
+        )
+    everything = [row for kind in rows.values() for row in kind]
+    print(f"loops, {len(everything)} clips: share whose wrap does not stand out, and of chopped ones that do")
+    print(f"  {'kind':10} {'clips':>5} {'heard':>7} {'felt':>7} {'chopped':>8}")
+    for kind, row in (*rows.items(), ("all", everything)):
+        heard_share, felt_share, chopped_share = np.mean(row, axis=0)
+        print(f"  {kind:10} {len(row):5} {heard_share:7.1%} {felt_share:7.1%} {chopped_share:8.1%}")
+    print(
+        f"  tones wrap within {max(phases):.2f} degrees; slowest search for a shared seam {slowest:.2f} s of processor"
+    )
+
+
+def choice(real: dict[str, tuple[Signal, int]], seed: int, draws: int | None) -> None:
+    if not HUMS & set(real):
+        print("choice: no recordings, nothing to choose")
+        return
+    won: dict[str, list[bool]] = defaultdict(list)
+    table = ""
+    for i in range(draws or 200):
+        title, candidates = hum_among_decoys(np.random.default_rng([seed, i]), real)
+        made = explain_choice(candidates)
+        won[title].append(made.winner.credit.title == title)
+        if not won[title][-1] or not table:
+            table = str(made)
+    everything = [each for each_hum in won.values() for each in each_hum]
+    print(f"choice, {len(everything)} draws: the hum wins in {np.mean(everything):.1%}")
+    for title, row in sorted(won.items()):
+        print(f"  {title}: {sum(row)} of {len(row)}")
+    print("an example (a lost one, if any):")
+    print(table)
+
+
+CAMPAIGNS = {"frequency": frequency, "loops": loops, "choice": choice}
+
+if __name__ == "__main__":
+    main()

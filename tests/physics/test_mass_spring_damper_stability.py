@@ -1,0 +1,60 @@
+"""A small form of the campaign `stress/propagation.py`: extreme plates, scenes and steps, and nothing bad in return."""
+
+import importlib.util
+import signal
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from scene2hap import Material, Plate
+from scene2hap.errors import ModelDomainError
+
+SCRIPT = Path(__file__).parents[2] / "stress" / "propagation.py"
+
+
+@pytest.fixture(scope="module")
+def campaign() -> ModuleType:
+    if not hasattr(signal, "SIGPROF"):
+        pytest.skip("the campaign limits processor time by SIGPROF, which this system lacks")
+    spec = importlib.util.spec_from_file_location("stress_propagation", SCRIPT)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module  # where its dataclasses look for their annotations
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_every_model_answers_or_refuses(campaign: ModuleType) -> None:
+    tallies = campaign.run(3, 3, 30.0)
+    assert {name: tally.bad for name, tally in tallies.items() if tally.bad} == {}
+    assert len(tallies) == 2 * len(campaign.MODELS) + 1
+    assert all(tally.answered for tally in tallies.values())
+
+
+def test_no_stepper_makes_energy(campaign: ModuleType) -> None:
+    for name, dt, gain, drift in [*campaign.steppers(300), *campaign.lattice_steppers(100)]:
+        assert gain <= 1e-12, (name, dt)
+        assert drift <= 1e-12, (name, dt)
+
+
+def test_the_campaign_sees_what_is_bad(campaign: ModuleType) -> None:
+    def spin() -> object:
+        while True:
+            pass
+
+    def refuse() -> object:
+        raise ModelDomainError("no")
+
+    tally = campaign.Tally()
+    tally.ask("infinite", 5.0, lambda: campaign.np.array([float("inf")]))
+    tally.ask("foreign", 5.0, lambda: 1 / 0)
+    tally.ask("unclear", 5.0, refuse)
+    tally.ask("endless", 0.05, spin)
+    tally.ask("clear", 5.0, lambda: Plate(1.0, -1.0, 0.1, Material("m", 1.0, 1.0, 0.0)))
+    tally.ask("fine", 5.0, lambda: campaign.np.zeros(3))
+    kinds = [line.split(":")[0] for line in tally.bad]
+    assert kinds == ["infinite", "foreign", "unclear", "endless"]
+    assert (tally.answered, tally.refused.total()) == (1, 1)

@@ -1,0 +1,128 @@
+"""Which bodies are what, and where points of the world lie on them."""
+
+import math
+
+import numpy as np
+import pytest
+
+from scene2hap import (
+    Bands,
+    Contact,
+    ContactNetwork,
+    Excitation,
+    InfinitePlate,
+    ModalPlate,
+    Plate,
+    Pose,
+    RigidBody,
+    materials,
+    plate_modes,
+)
+from scene2hap.errors import ConfigError, ModelDomainError
+from scene2hap.propagation.contact_law import ContactLaw
+from scene2hap.propagation.modal_body import ModalBody, SplitBody
+from scene2hap.propagation.modes import first_bending_hz
+from scene2hap.propagation.recall import Recall
+from scene2hap.propagation.rigid import is_compact
+from scene2hap.propagation.sampling import Sampling
+
+OAK, STEEL, CERAMIC = (materials.lookup(name) for name in ("oak", "steel", "ceramic"))
+
+
+@pytest.mark.parametrize(
+    ("plate", "compact"),
+    [
+        (Plate(1.2, 0.7, 0.025, OAK), False),
+        (Plate(0.5, 0.3, 0.061, OAK), True),  # thicker than a fifth of the shorter side
+        (Plate(0.5, 0.3, 0.059, OAK), False),
+        (Plate(0.09, 0.08, 0.012, CERAMIC), True),  # first mode above 2 kHz
+        (Plate(0.3, 0.3, 0.002, STEEL), False),
+        (Plate(0.09, 0.08, 0.012, CERAMIC, "CFFF"), False),  # held: it would not move at all
+    ],
+)
+def test_compact_bodies(plate: Plate, compact: bool) -> None:
+    assert is_compact(plate) == compact
+
+
+@pytest.mark.parametrize("edges", ["free", "CFFF", "SSFF", "SSSS", "FFFS", "CCSF"])
+@pytest.mark.parametrize("size", [(0.3, 0.3), (0.5, 0.11)])
+def test_the_quick_first_mode_is_the_first_mode(edges: str, size: tuple[float, float]) -> None:
+    plate = Plate(*size, 0.004, STEEL, edges)
+    frequencies = plate_modes(plate, 6).frequencies_hz
+    assert first_bending_hz(plate) == pytest.approx(frequencies[frequencies > 1e-6][0], rel=2e-3)
+
+
+def test_points_of_the_world_on_a_body() -> None:
+    turn = Pose((1.0, 2.0, 3.0), (0.5**0.5, 0.0, 0.0, 0.5**0.5))  # z of the plate points along -y
+    network = ContactNetwork({"p": Plate(1.0, 0.5, 0.01, OAK), "r": RigidBody(1.0)}, (), {"p": turn})
+    points = turn.to_world([[0.2, 0.3, 0.0], [0.2, 0.3, -0.7], [1.4, -0.2, 0.0]])
+    np.testing.assert_allclose(network.on_body("p", points), [[0.2, 0.3], [0.2, 0.3], [1.0, 0.0]], atol=1e-12)
+    np.testing.assert_allclose(network.on_body("r", points), points[:, :2])
+    np.testing.assert_allclose(network.on_body("nobody", points), points[:, :2])
+    with pytest.raises(ModelDomainError, match="n_points, 3"):
+        network.on_body("p", [[0.0, 0.0]])
+
+
+def test_a_rug_has_edges_only_where_waves_come_back() -> None:
+    rug = Plate(2.0, 1.5, 0.01, materials.Material("felt", 300.0, 2e6, 0.2, 0.3))
+    body = ModalPlate().elastic_body(rug, 1000.0)
+    assert isinstance(body, SplitBody)
+    f = np.array([0.9, 1.1]) * body.limit_hz
+    at = np.array([[1.0, 0.75]])
+    below, above = body.receptance(at, at, f)[:, 0, 0]
+    assert above == pytest.approx(InfinitePlate().plate_receptance(rug, at[0], at, f[1:])[0, 0], rel=1e-3)
+    # So much loss that the middle hardly knows of the edges: no step where one body takes over from the other.
+    assert abs(20 * math.log10(abs(below / above) * f[0] / f[1])) < 1.0
+    assert isinstance(ModalPlate().elastic_body(Plate(1.2, 0.7, 0.025, OAK), 1000.0), ModalBody)
+
+
+def test_frequencies_of_bands() -> None:
+    bands, source = Bands.third_octaves(), [Excitation("s", 99.0, 44.0), Excitation("t", 99.0, 55.0)]
+    sampling = Sampling.of(bands, source, 0.01)
+    assert sampling.starts is not None
+    for band, (low, high) in enumerate(bands.widths_hz()):
+        begin = sampling.starts[band]
+        end = sampling.starts[band + 1] if band + 1 < bands.n_bands else len(sampling.frequencies_hz)
+        inside = sampling.frequencies_hz[begin:end]
+        assert low < inside.min() < inside.max() < high
+        assert np.diff(inside).max() <= 0.55 * 0.01 * low * (1 + 1e-9)
+        assert inside.mean() == pytest.approx((low + high) / 2)
+    flat = sampling.gains(np.full((2, len(sampling.frequencies_hz)), 0.6 + 0.8j))
+    np.testing.assert_allclose(flat, np.ones((2, 20)))
+    assert len(Sampling.of(bands, source, math.inf).frequencies_hz) == 20 * 8
+    assert Sampling.of(Bands.dominant(), source, 0.01).frequencies_hz.tolist() == [44.0, 55.0]
+
+
+def test_recall_asks_once_and_forgets_the_oldest() -> None:
+    asked: list[float] = []
+    recall = Recall(lambda array: asked.append(float(array[0])) or 2 * array, room=2)
+    for value in (1.0, 1.0, 2.0, 1.0, 3.0, 2.0, 1.0):
+        assert recall(np.array([value]))[0] == 2 * value
+    assert asked == [1.0, 2.0, 3.0, 1.0]
+
+
+@pytest.mark.parametrize("model", [ModalPlate, InfinitePlate])
+@pytest.mark.parametrize(
+    "settings",
+    [{"contact": {"preload_n": 0.0}}, {"contact": {"weight": 1}}, {"contact": 7}, {"outside_domain": "perhaps"}],
+)
+def test_settings_out_of_bounds(model: type, settings: dict) -> None:
+    with pytest.raises(ConfigError, match=r"preload_n|contact is|outside_domain is"):
+        model(**settings)
+    assert model(contact={"preload_n": 2.0}).contact == ContactLaw(preload_n=2.0)
+
+
+def test_a_rigid_body_needs_a_mass_and_a_size() -> None:
+    with pytest.raises(ModelDomainError, match="mass_kg is 0"):
+        RigidBody(0.0)
+    with pytest.raises(ModelDomainError, match=r"size_m\[1\] is 0"):
+        RigidBody(1.0, (0.1, 0.0, 0.1))
+
+
+def test_no_source_no_contact_no_trouble() -> None:
+    network = ContactNetwork({"t": Plate(1.0, 0.5, 0.02, OAK)}, [Contact("t", "u", (0, 0, 0))])
+    for bands in (Bands.dominant(), Bands.third_octaves()):
+        assert ModalPlate().prepare(network, [], bands).attenuation("t", [[0, 0, 0]]).shape == (1, 0, bands.n_bands)
+        alone = ModalPlate().prepare(network, [Excitation("s", 99.0, 99.0)], bands)
+        assert not alone.attenuation("t", [[0, 0, 0]]).any()
+        assert (alone.attenuation("s", [[0, 0, 0]]) == 1).all()

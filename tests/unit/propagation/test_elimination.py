@@ -1,0 +1,81 @@
+"""Joining bodies two at a time, against LAPACK on the whole matrix."""
+
+import numpy as np
+import pytest
+
+from scene2hap.propagation import elimination
+from scene2hap.propagation.elimination import Element, joinings, solve
+
+N_F = 40
+
+
+def room(rng: np.random.Generator, pairs: list[tuple[int, int]]) -> list[Element]:
+    """One row per pair of bodies; symmetric matrices of no other structure."""
+    elements = []
+    for body in range(1 + max(max(pair) for pair in pairs)):
+        rows = np.array([row for row, pair in enumerate(pairs) if body in pair], dtype=np.intp)
+        matrix = rng.normal(size=(2, len(rows), len(rows), N_F))
+        signs = np.array([1.0 if body == pairs[row][0] else -1.0 for row in rows])
+        real, imaginary = matrix + matrix.transpose(0, 2, 1, 3)
+        elements.append(Element(rows, signs, real + 1j * imaginary))
+    return elements
+
+
+def whole(elements: list[Element], compliance: np.ndarray, free: np.ndarray) -> np.ndarray:
+    n = len(compliance)
+    system = np.zeros((N_F, n, n), dtype=np.complex128)
+    for element in elements:
+        system[:, element.rows[:, None], element.rows] += element.matrix(slice(None)).transpose(2, 0, 1)
+    system[:, np.arange(n), np.arange(n)] += compliance.T
+    return np.linalg.solve(system, np.broadcast_to(free, (N_F, *free.shape)))
+
+
+PAIRS = {
+    "chain": [(i, i + 1) for i in range(12)],
+    "ring": [(i, (i + 1) % 9) for i in range(9)],
+    "four feet each": [(i, i + 1) for i in range(6) for _ in range(4)],
+    "all on a floor": [(0, i) for i in range(1, 15) for _ in range(3)] + [(3, 4), (5, 6), (5, 9)],
+    "two apart": [(0, 1), (1, 2), (3, 4), (3, 4)],
+}
+
+
+@pytest.mark.parametrize("shape", PAIRS)
+def test_as_lapack(shape: str) -> None:
+    rng = np.random.default_rng(11)
+    elements = room(rng, PAIRS[shape])
+    n = len(PAIRS[shape])
+    compliance = 4 + rng.normal(size=(n, N_F)) + 1j * rng.normal(size=(n, N_F))
+    free = np.sign(rng.normal(size=(n, 3)))
+    expected = whole(elements, compliance, free)
+    found = solve(elements, compliance, free).transpose(2, 0, 1)
+    assert (np.abs(found - expected) <= 1e-9 * np.abs(expected).max(axis=(1, 2), keepdims=True)).all()
+
+
+@pytest.mark.parametrize("narrow", [0, 16])
+def test_pivots_that_vanish_at_some_frequencies(narrow: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(elimination, "_NARROW", narrow)
+    rng = np.random.default_rng(3)
+    elements = room(rng, PAIRS["chain"])
+    compliance = np.zeros((12, N_F), dtype=np.complex128)
+    for row, (a, b) in enumerate(PAIRS["chain"]):
+        own = sum(
+            element.receptance[list(element.rows).index(row)][list(element.rows).index(row)]
+            for element in (elements[a], elements[b])
+        )
+        compliance[row, 7] = -own[7]
+        compliance[row, 9] = 1e-14 - own[9]
+    free = np.ones((12, 1))
+    expected = whole(elements, compliance, free)
+    np.testing.assert_allclose(solve(elements, compliance, free).transpose(2, 0, 1), expected, rtol=1e-7)
+
+
+def test_every_joint_is_eliminated_once_and_fronts_stay_narrow() -> None:
+    """Forty objects with four feet each, on eight shelves that stand on a floor: no front is wider than two shelves."""
+    pairs = [(1 + i // 5, 9 + i) for i in range(40) for _ in range(4)] + [
+        (0, 1 + i) for i in range(8) for _ in range(4)
+    ]
+    rows_of = [np.array([row for row, pair in enumerate(pairs) if body in pair]) for body in range(49)]
+    plan = joinings(rows_of)
+    eliminated = [row for joining in plan for row in joining.rows[: joining.n_shared].tolist()]
+    assert sorted(eliminated) == list(range(len(pairs)))
+    assert max(len(joining.rows) for joining in plan) <= 32
