@@ -29,6 +29,7 @@ _HOME = {
     "scene2hap.propagation.infinite_plate": ("InfinitePlate",),
     "scene2hap.propagation.modal_plate": ("ModalPlate",),
     "scene2hap.propagation.modes": ("plate_modes",),
+    "scene2hap.propagation.mass_spring_damper": ("MassSpringDamper",),
     "scene2hap.propagation.controls": ("FullPropagation", "NoPropagation"),
     "scene2hap.audio.clip": ("AudioClip", "Credit"),
     "scene2hap.audio.haptic_loop": ("HapticLoop",),
@@ -154,6 +155,7 @@ if TYPE_CHECKING:
     from scene2hap.propagation.controls import NoPropagation as NoPropagation
     from scene2hap.propagation.exponential_plate import ExponentialPlate as ExponentialPlate
     from scene2hap.propagation.infinite_plate import InfinitePlate as InfinitePlate
+    from scene2hap.propagation.mass_spring_damper import MassSpringDamper as MassSpringDamper
     from scene2hap.propagation.modal_plate import ModalPlate as ModalPlate
     from scene2hap.propagation.modes import plate_modes as plate_modes
     from scene2hap.propagation.plate import Plate as Plate

@@ -16,6 +16,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.errors import ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.protocol import Excitation
 
@@ -23,6 +24,8 @@ SPACING = 0.55
 """Distance of frequencies, in half-power widths at the band's lower edge."""
 LEAST = 8
 """Frequencies in a band, however lossy everything is: masses and springs bend |H| too."""
+MOST = 200_000
+"""Frequencies that are solved at most: some minutes for a scene of 50 objects."""
 END_WEIGHTS = np.array([13 / 12, 7 / 8, 25 / 24])
 """Of the frequencies next to the edge of a band, outermost first; all others weigh 1."""
 
@@ -41,12 +44,21 @@ class Sampling:
 
     @classmethod
     def of(cls, bands: Bands, excitations: Sequence[Excitation], loss_factor: float, density: float = 1.0) -> Sampling:
-        """Frequencies for bodies and contacts with at least that loss; `density` 2 doubles them, for checks."""
+        """Frequencies for bodies and contacts with at least that loss; `density` 2 doubles them, for checks.
+
+        Raises: ModelDomainError: so little loss that they are too many.
+        """
         if bands.kind == "dominant":
             own = np.array([item.frequency_tactile_hz for item in excitations])
             return cls(own, None, np.ones(len(own)))
         low, high = bands.widths_hz().T
-        wanted = np.ceil(density * (high - low) / (SPACING * loss_factor * low))
+        wanted = np.ceil(density * (high - low) / (SPACING * max(loss_factor, 1e-300) * low))
+        if wanted.sum() > MOST:
+            raise ModelDomainError(
+                f"a loss factor of {loss_factor:.3g} takes {wanted.sum():.3g} frequencies to resolve its resonances in "
+                f"these bands; at most {MOST:,} are solved. Give a loss_floor (0.01 suits assembled objects) or "
+                "Bands.dominant()."
+            )
         counts = np.maximum(wanted, np.ceil(LEAST * density)).astype(np.intp)
         middles = [
             begin + (end - begin) * (np.arange(n) + 0.5) / n for begin, end, n in zip(low, high, counts, strict=True)

@@ -1,0 +1,94 @@
+"""``scene2hap convert`` as people and machines use it."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import soundfile
+
+from scene2hap.cli import main
+
+RATE = 8000
+
+
+def hum(path: Path, frequency_hz: float = 98.0) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    soundfile.write(path, 0.5 * np.sin(2 * np.pi * frequency_hz * np.arange(3 * RATE) / RATE), RATE)
+    return path
+
+
+def test_a_file_becomes_a_file_and_the_table_says_what_happened(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    source, output = hum(tmp_path / "hum.wav"), tmp_path / "felt.flac"
+    assert main(["convert", str(source), "-o", str(output), "--picture"]) == 0
+    shown = capsys.readouterr().out
+    assert "1 files, 3.0 s of sound" in shown
+    felt, _ = soundfile.read(output)
+    assert len(felt) == 3 * RATE
+    # 0.5 is -6.0 dB; the rest is in the file.
+    cells = ("felt.flac", "3.00", "-6.0", f"{20 * np.log10(np.abs(felt).max()):.1f}", "98.00")
+    assert [cell in shown for cell in cells] == [True] * 5
+    assert output.with_suffix(".png").stat().st_size > 10_000
+
+
+def test_converter_actuator_and_format_are_chosen_by_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = hum(tmp_path / "in" / "hum.wav").parent
+    response = tmp_path / "mine.csv"
+    response.write_text("Hz,dB\n50,-10\n150,0\n400,-8\n")
+    chosen = ["--converter", '{"kind": "svf_bandpass", "q": 5}', "--actuator", str(response), "--format", "flac"]
+    assert main(["convert", str(folder), "-o", str(tmp_path / "out"), "--json", "--workers", "1", *chosen]) == 0
+    [made] = json.loads(capsys.readouterr().out)["converted"]
+    assert made["output"] == str(tmp_path / "out" / "hum.flac")
+    assert made["frequency_out_hz"] == pytest.approx(98.0, abs=0.02)
+    assert made["peak_out"] < 0.1
+
+
+def test_one_bad_file_is_told_and_the_others_are_made(tmp_path: Path) -> None:
+    good, bad = hum(tmp_path / "good.wav"), tmp_path / "bad.wav"
+    bad.write_text("not a sound")
+    command = [sys.executable, "-m", "scene2hap", "convert", str(bad), str(good), "-o", str(tmp_path / "out")]
+    run = subprocess.run([*command, "--json", "--workers", "2"], capture_output=True, text=True, check=False)
+    assert run.returncode == 1
+    assert "bad.wav: not a readable sound" in run.stderr
+    assert "1 of 2 files were not converted" in run.stderr
+    assert "Traceback" not in run.stderr
+    outcome = json.loads(run.stdout)
+    assert [row["source"] for row in outcome["failed"]] == [str(bad)]
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["good.wav"]
+
+
+def test_what_exists_is_kept_unless_forced(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    source, output = hum(tmp_path / "hum.wav"), tmp_path / "felt.wav"
+    output.write_bytes(b"mine")
+    assert main(["convert", str(source), "-o", str(output), "-q"]) == 1
+    assert "--force" in capsys.readouterr().err
+    assert output.read_bytes() == b"mine"
+    assert main(["convert", str(source), "-o", str(output), "-q", "--force"]) == 0
+    assert soundfile.info(output).frames == 3 * RATE
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reason"),
+    [
+        (["--converter", "nope"], "no kind 'nope'"),
+        (["--converter", "{broken"], "which is no JSON"),
+        (["--actuator", "nope"], "actuator is 'nope'"),
+        (["--intensity", "2"], "intensity is 2"),
+        (["--workers", "0"], "--workers is 0"),
+    ],
+)
+def test_wrong_settings_are_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], reason: str
+) -> None:
+    source = hum(tmp_path / "hum.wav")
+    assert main(["convert", str(source), "-o", str(tmp_path / "out"), *arguments]) == 1
+    told = capsys.readouterr().err
+    assert reason in told
+    assert told.count("error:") == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["hum.wav"]
