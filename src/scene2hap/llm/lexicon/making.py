@@ -15,14 +15,16 @@ _TILE, _TILE_THICKNESS_M = "ceramic", 0.008  # floor tiles of 8 mm; assumed
 def painted_with(material_names: Sequence[str]) -> str | None:
     """The material that the names of an object's surface materials agree on ("M_Wood_Oak": oak); None otherwise.
 
-    A chair painted with "wood" and "fabric" is left to the table, which knows what one sits on.
+    A chair painted with "wood" and "fabric" is left to the table, which knows what one sits on; and so is a cabinet that
+    is mostly "sage_lacquer" with handles of "steel". The names stand in the order of the faces that they cover.
     """
-    told = set()
-    for name in material_names:
-        tokens, _ = spelling.read_words(name)
-        found = [words.PAINT_WORDS[word] for word in tokens if word in words.PAINT_WORDS]
-        told.update(found[-1:])
-    return told.pop() if len(told) == 1 else None
+    told = [_told_by(name) for name in material_names]
+    return told[0] if told and set(told) <= {told[0], None} else None
+
+
+def _told_by(material_name: str) -> str | None:
+    tokens, _ = spelling.read_words(material_name)
+    return next((words.PAINT_WORDS[word] for word in reversed(tokens) if word in words.PAINT_WORDS), None)
 
 
 def make(reading: NameReading, row: ObjectRow, scene_category: str, material_names: Sequence[str]) -> tuple[str, float]:
