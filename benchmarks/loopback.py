@@ -73,7 +73,8 @@ def answer(component: str, prompt: str) -> dict[str, Any]:
     if component == "material_estimator":
         return {"density_kg_m3": 2000.0, "youngs_modulus_gpa": 20.0, "poisson_ratio": 0.3, "damping_ratio": 0.01}
     if component == "vibration_describer":
-        return {"sentence": "It hums.", "keywords": "machine humming"}
+        category = prompt.split("Object: ")[1].split("\n")[0]
+        return {"sentence": f"{category} hums.", "keywords": f"{category} humming"}
     name = prompt.split("Authored object name: ")[1].split("\n")[0]
     vibrates = name in VIBRATING
     return {

@@ -7,8 +7,6 @@ no key, no address, and of pictures only their digest within the key.
 from __future__ import annotations
 
 import asyncio
-import hashlib
-import json
 import os
 import threading
 from collections.abc import Iterator, Mapping
@@ -18,14 +16,13 @@ from typing import Any, BinaryIO
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from scene2hap.errors import BackendError, BadAnswer, ConfigError, ReplayMiss
+from scene2hap.errors import BadAnswer, ConfigError, ReplayMiss
 from scene2hap.llm.protocol import LLMBackend, LLMReply, LLMRequest
-
-_HASHED_ONLY = "prompt, answer_schema, temperature or images (of these only the key tells)"
+from scene2hap.llm.request_key import canonical, part_names, plain, request_key
 
 
 class _Entry(BaseModel):
-    """One line of a recording."""
+    """One line of a recording. `asked_model` may be answered for by a dated name; `parts` name what is not kept."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -38,17 +35,22 @@ class _Entry(BaseModel):
     model: str
     finish_reason: str
     usage: dict[str, int]
+    asked_model: str = ""
+    parts: dict[str, str] = {}
 
 
 class ReplayBackend:
     """Answers from a recording and nothing else. Of several answers to one request the last one counts.
 
+    model : answers of this model alone count; None for all.
     Raises: ConfigError: the file cannot be read. BadAnswer: a line is broken; names file and line.
     """
 
-    def __init__(self, path: str | os.PathLike[str]) -> None:
+    def __init__(self, path: str | os.PathLike[str], model: str | None = None) -> None:
         self._path = Path(path)
-        self._entries = {entry.key: entry for entry in _read(self._path)}
+        self._model = model
+        self._all = _read(self._path)
+        self._entries = {entry.key: entry for entry in self._all if model in (None, entry.asked_model or entry.model)}
         self._played: set[str] = set()
 
     @property
@@ -69,8 +71,8 @@ class ReplayBackend:
         asked = f"{request.component} about {request.subject or 'the scene'!r}"
         missing = f"{self._path} has no answer for {asked} (key {key})."
         differences = [
-            (_differing(entry, request), entry)
-            for entry in self._entries.values()
+            (_differing(entry, request, self._model), entry)
+            for entry in self._all
             if entry.component == request.component
         ]
         if not differences:
@@ -78,7 +80,7 @@ class ReplayBackend:
         fields, nearest = min(differences, key=lambda pair: (len(pair[0]), pair[1].subject != request.subject))
         return (
             f"{missing} Nearest is the answer about {nearest.subject or 'the scene'!r} (key {nearest.key}), where "
-            f"{', '.join(fields) or _HASHED_ONLY} differ. Record it again with RecordingBackend."
+            f"{', '.join(fields) or 'something that it does not keep'} differ. Record it again with RecordingBackend."
         )
 
 
@@ -121,14 +123,22 @@ class RecordingBackend:
             component=request.component,
             subject=request.subject,
             prompt_version=request.prompt_version,
-            facts=_plain(request.facts),
+            facts=plain(request.facts),
             text=reply.text,
             model=reply.model,
             finish_reason=reply.finish_reason,
             usage=dict(reply.usage),
+            asked_model=self._asked_model() or reply.model,
+            parts=part_names(request),
         )
-        await asyncio.to_thread(self._append, _canonical(entry.model_dump()).encode() + b"\n")
+        await asyncio.to_thread(self._append, canonical(entry.model_dump()).encode() + b"\n")
         return replace(reply, key=key)
+
+    def _asked_model(self) -> str:
+        try:
+            return str(self.identity.get("model", ""))
+        except ConfigError:  # a recording does without
+            return ""
 
     def _append(self, line: bytes) -> None:
         try:
@@ -140,46 +150,6 @@ class RecordingBackend:
                 os.fsync(file.fileno())
         except OSError as cause:
             raise _cannot_write(self._path, cause) from cause
-
-
-def request_key(request: LLMRequest) -> str:
-    """A name for everything in a request that decides its answer: "v1:" and a SHA-256.
-
-    Subject and prompt version are left out: the same question about another object has the same answer, and a new
-    version that asks the same words does too.
-    Raises: BackendError: a fact has no JSON (an infinity, an object of Python).
-    """
-    content = {
-        "component": request.component,
-        "prompt": request.prompt,
-        "facts": request.facts,
-        "answer_schema": request.answer_schema,
-        "temperature": request.temperature,
-        "images": [{"sha256": hashlib.sha256(png).hexdigest(), "type": "image/png"} for png in request.images],
-    }
-    return f"v1:{hashlib.sha256(_canonical(content).encode()).hexdigest()}"
-
-
-def _canonical(value: Any) -> str:
-    """The one JSON text of a value: sorted keys, no spaces, whole floats as integers (1.0 and 1 are one number)."""
-    try:
-        text = json.dumps(_plain(value), sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
-        text.encode()
-    except (TypeError, ValueError) as cause:
-        raise BackendError(
-            f"no JSON for this request: {cause}. Use texts, finite numbers, lists and objects."
-        ) from cause
-    return text
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    if isinstance(value, float) and value.is_integer():
-        return int(value)
-    return value
 
 
 def _read(path: Path) -> list[_Entry]:
@@ -205,13 +175,16 @@ def _entries(path: Path, content: bytes) -> Iterator[_Entry]:
             ) from cause
 
 
-def _differing(entry: _Entry, request: LLMRequest) -> list[str]:
-    """The fields in which a recorded request differs from `request`, as far as they are recorded."""
-    asked, recorded = _plain(request.facts), entry.facts
+def _differing(entry: _Entry, request: LLMRequest, model: str | None) -> list[str]:
+    """What a recorded request differs in from `request`."""
+    asked, recorded = plain(request.facts), entry.facts
     fields = [f"facts.{name}" for name in sorted({*asked, *recorded}) if asked.get(name) != recorded.get(name)]
+    recorded_model = entry.asked_model or entry.model
+    if model not in (None, recorded_model):
+        fields.append(f"model ({recorded_model!r} recorded, {model!r} asked)")
     if entry.prompt_version != request.prompt_version:
         fields.append(f"prompt_version ({entry.prompt_version!r} recorded, {request.prompt_version!r} asked)")
-    return fields
+    return fields + [name for name, part in part_names(request).items() if entry.parts.get(name, part) != part]
 
 
 def _ends_in_newline(file: BinaryIO) -> bool:

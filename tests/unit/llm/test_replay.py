@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 
 from scene2hap.errors import BackendError, BadAnswer, ConfigError, ReplayMiss
 from scene2hap.llm.protocol import LLMBackend, LLMReply, LLMRequest
-from scene2hap.llm.replay import RecordingBackend, ReplayBackend, request_key
+from scene2hap.llm.replay import RecordingBackend, ReplayBackend
+from scene2hap.llm.request_key import request_key
 
 REQUEST = LLMRequest(
     component="object_analyzer",
@@ -161,9 +162,10 @@ def test_last_of_several_answers_counts(tmp_path: Path) -> None:
 def test_nothing_but_the_listed_fields_is_written(tmp_path: Path) -> None:
     line = json.loads(record(tmp_path / "answers.jsonl").read_text(encoding="utf-8"))
     assert set(line) == {
+        *("asked_model", "parts"),
         *("key", "component", "subject", "prompt_version", "facts", "text", "model", "finish_reason", "usage"),
     }
-    assert "png" not in json.dumps(line)
+    assert "png one" not in json.dumps(line)
 
 
 def test_a_request_that_cannot_be_recorded_is_not_paid_for(tmp_path: Path) -> None:
@@ -190,10 +192,25 @@ def test_miss_names_the_nearest_entry_and_what_differs(tmp_path: Path) -> None:
     assert "facts.object_name" not in message
 
 
-def test_miss_by_what_is_only_hashed_says_so(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("part", "value"),
+    [("images", ()), ("answer_schema", {"type": "array"}), ("temperature", 0.9), ("prompt", "What is that fridge?")],
+)
+def test_miss_names_the_part_that_changed(tmp_path: Path, part: str, value: Any) -> None:
     replay = ReplayBackend(record(tmp_path / "answers.jsonl"))
-    with pytest.raises(ReplayMiss, match="prompt, answer_schema, temperature or images"):
-        ask(replay, images=())
+    with pytest.raises(ReplayMiss, match=f"where {part} differ"):
+        ask(replay, **{part: value})
+
+
+def test_another_model_misses(tmp_path: Path) -> None:
+    path = record(tmp_path / "answers.jsonl")
+    assert ask(ReplayBackend(path, model="echo")).model == "echo"
+    with pytest.raises(ReplayMiss, match=r"model \('echo' recorded, 'gpt-4o' asked\)"):
+        ask(ReplayBackend(path, model="gpt-4o"))
+
+
+def test_miss_of_another_prompt_version(tmp_path: Path) -> None:
+    replay = ReplayBackend(record(tmp_path / "answers.jsonl"))
     with pytest.raises(ReplayMiss, match=r"prompt_version \('1' recorded, '2' asked\)"):
         ask(replay, prompt="new words", prompt_version="2")
 

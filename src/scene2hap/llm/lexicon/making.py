@@ -15,8 +15,8 @@ _TILE, _TILE_THICKNESS_M = "ceramic", 0.008  # floor tiles of 8 mm; assumed
 def painted_with(material_names: Sequence[str]) -> str | None:
     """The material that the names of an object's surface materials agree on ("M_Wood_Oak": oak); None otherwise.
 
-    A chair painted with "wood" and "fabric" is left to the table, which knows what one sits on; and so is a cabinet that
-    is mostly "sage_lacquer" with handles of "steel". The names stand in the order of the faces that they cover.
+    A chair painted with "wood" and "fabric" is left to the table, which knows what one sits on, and so is a cabinet
+    that is mostly "sage_lacquer" with handles of "steel". Names stand in the order of the faces that they cover.
     """
     told = [_told_by(name) for name in material_names]
     return told[0] if told and set(told) <= {told[0], None} else None

@@ -20,7 +20,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from scene2hap.errors import ConfigError
 from scene2hap.llm.protocol import Component, LLMReply, LLMRequest
-from scene2hap.llm.replay import request_key
+from scene2hap.llm.request_key import request_key
 from scene2hap.llm.validation import find_fault
 from scene2hap.llm.wrappers.file_lock import FileLock
 from scene2hap.llm.wrappers.stack import Spec, Wrapper
