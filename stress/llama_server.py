@@ -53,7 +53,7 @@ def main() -> int:
     scene = kitchen() if arguments.no_images else capture_images(kitchen())
     started = time.monotonic()
     with serving(server, weights(arguments.weights)) as url:
-        backend = standard_stack(LocalBackend(base_url=url, max_tokens=700, timeout_s=120.0), retries=2)
+        backend = standard_stack(LocalBackend(base_url=url, max_tokens=4000, timeout_s=120.0), retries=2)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # that a model of noise ignores what it is told
             found = asyncio.run(infer_scene(scene, backend, config={"concurrency": LANES}))
@@ -92,7 +92,7 @@ def serving(server: Path, folder: Path) -> Iterator[str]:
     # Bytes above 127 are banned: most random sequences of them are no UTF-8, which the server answers with status 500.
     bias = [word for token in range(131, 259) for word in ("--logit-bias", f"{token}-1000")]
     command = [server, "-m", folder / "tiny.gguf", "--mmproj", folder / "mmproj.gguf", "--jinja", "--offline"]
-    command += ["--host", "127.0.0.1", "--port", "8091", "-t", "2", "-np", LANES, "-c", LANES * CONTEXT, *bias]
+    command += ["--host", "127.0.0.1", "--port", "8091", "-t", "1", "-np", LANES, "-c", LANES * CONTEXT, *bias]
     with (BUILD / "server.log").open("wb") as log:
         process = subprocess.Popen([str(word) for word in command], stdout=log, stderr=log)
         try:

@@ -56,7 +56,11 @@ _HOME = {
     "scene2hap.session": ("HapticFrame", "HapticSession", "SessionConfig", "Touch"),
     "scene2hap.touch_track": ("TouchTrack",),
     "scene2hap.track_player": ("play_track",),
-    "scene2hap.devices.protocol": ("ActuatorSink",),
+    "scene2hap.devices.protocol": ("ActuatorSink", "SinkEvent", "SinkStats"),
+    "scene2hap.devices.serial_amp": ("SerialAmplifierSink",),
+    "scene2hap.devices.tee": ("TeeSink",),
+    "scene2hap.devices.udp": ("UdpSink",),
+    "scene2hap.devices.vhp_amp": ("VhpSink",),
     "scene2hap.devices.memory": ("MemorySink",),
     "scene2hap.devices.wav": ("WavSink",),
 }
@@ -105,6 +109,12 @@ if TYPE_CHECKING:
     from scene2hap.contact.graph import ContactGraph as ContactGraph
     from scene2hap.devices.memory import MemorySink as MemorySink
     from scene2hap.devices.protocol import ActuatorSink as ActuatorSink
+    from scene2hap.devices.protocol import SinkEvent as SinkEvent
+    from scene2hap.devices.protocol import SinkStats as SinkStats
+    from scene2hap.devices.serial_amp import SerialAmplifierSink as SerialAmplifierSink
+    from scene2hap.devices.tee import TeeSink as TeeSink
+    from scene2hap.devices.udp import UdpSink as UdpSink
+    from scene2hap.devices.vhp_amp import VhpSink as VhpSink
     from scene2hap.devices.wav import WavSink as WavSink
     from scene2hap.haptics import (
         ActuatorProfile as ActuatorProfile,

@@ -7,6 +7,11 @@ SINKS = PluginGroup(
     builtins={
         "wav": "scene2hap.devices.wav:WavSink",
         "memory": "scene2hap.devices.memory:MemorySink",
+        "soundcard": "scene2hap.devices.soundcard:SoundCardSink",
+        "serial": "scene2hap.devices.serial_amp:SerialAmplifierSink",
+        "vhp": "scene2hap.devices.vhp_amp:VhpSink",
+        "udp": "scene2hap.devices.udp:UdpSink",
+        "tee": "scene2hap.devices.tee:TeeSink",
     },
-    extras={},
+    extras={"serial": "serial", "vhp": "serial", "soundcard": "soundcard"},
 )

@@ -26,15 +26,48 @@ class SinkFormat:
 
 @dataclass(frozen=True)
 class SinkStats:
-    """What a sink has done so far."""
+    """What a sink has done so far.
+
+    `frames` were handed to the device, at the device's rate; `dropped_frames` were taken from the session while there
+    was no device for them, at the session's rate; `underruns` are times at which the device ran dry; `faults` are
+    exceptions of the fill or of `on_event`; `latency_s` is the time from taking a sample to playing it, None unknown.
+    """
 
     frames: int = 0
     underruns: int = 0
+    connected: bool = True
+    reconnects: int = 0
+    dropped_frames: int = 0
+    faults: int = 0
+    latency_s: float | None = None
+
+
+@dataclass(frozen=True)
+class SinkEvent:
+    """Something that a game may want to tell its player.
+
+    kind : "connected" (first or again), "unavailable" (cannot be reached, tried again later), "stalled" (takes no
+    samples), "resumed" (takes them again), "lost" (was there, is gone) or "fault" (the mix could not be had).
+    message : a sentence with what to do next; at_s : when [s], on the clock of `time.monotonic`.
+    """
+
+    kind: str
+    message: str
+    at_s: float
+
+
+EventCallback = Callable[[SinkEvent], None]
+"""Is called on a sink's own thread, so it must be quick and must not call `stop` or `close`."""
 
 
 @runtime_checkable
 class ActuatorSink(Protocol):
-    """Takes the mix to hands, or to a file. `stop` and `close` may be called twice."""
+    """Takes the mix to hands, or to a file. `stop` and `close` may be called twice.
+
+    A sink may have more, which is looked up by name: `on_event`, an `EventCallback` or None that may be set at any
+    time (sinks with a device behind them: see `scene2hap.devices.link`); `abort()`, to be called instead of `stop` and
+    `close` when a run has failed; `show(frame)`, which is handed every HapticFrame, for devices that want gains.
+    """
 
     def open(self, format: SinkFormat) -> None:
         """Get ready. Raises: DeviceError."""

@@ -57,15 +57,15 @@ class ObjectAnswer(Answer):
     """Object Analyzer: what the object is, of what, for what, and whether it vibrates."""
 
     object_category: Annotated[str, _at_most(4)] = Field(min_length=1, max_length=60)
-    category_reason: str
+    category_reason: str = Field(max_length=600)
     material_category: str = Field(min_length=1, max_length=60)
     estimated_length_m: float = Field(ge=0.0, le=1e5)
     estimated_width_m: float = Field(ge=0.0, le=1e5)
     estimated_thickness_m: float = Field(ge=0.0, le=1e5)
-    size_reason: str
-    usage: str
+    size_reason: str = Field(max_length=600)
+    usage: str = Field(max_length=600)
     vibrates: bool
-    vibration_reason: str
+    vibration_reason: str = Field(max_length=600)
     states: list[StateAnswer]
     confidence: float = Field(ge=0.0, le=1.0)
 

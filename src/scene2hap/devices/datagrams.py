@@ -1,0 +1,70 @@
+"""Datagrams to one address, that never wait, with errors of our own."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import socket
+import time
+
+from scene2hap.devices.link import CarryOn
+from scene2hap.errors import DeviceError, DeviceLost, DeviceNotFound
+
+PROBES = 2
+_PROBE_S = 0.02
+_FULL = (errno.EAGAIN, errno.EWOULDBLOCK, errno.ENOBUFS)
+
+
+class Datagrams:
+    """A socket to host and port.
+
+    UDP has no handshake, but a machine where nobody listens on the port mostly says so, once something was sent: so the
+    socket is probed with a first datagram. Silence from a network that drops such answers counts as somebody there.
+    """
+
+    def __init__(self, host: str, port: int) -> None:
+        self._place = f"{host}:{port}"
+        self._host = host
+        self._port = port
+        self._socket: socket.socket | None = None
+        self.not_sent = 0
+
+    def connect(self, probe: bytes, carry_on: CarryOn) -> None:
+        """Find the address and knock. Raises: DeviceNotFound: no such host, or nobody listens there."""
+        try:
+            family, kind, protocol, _, address = socket.getaddrinfo(self._host, self._port, type=socket.SOCK_DGRAM)[0]
+            self._socket = socket.socket(family, kind, protocol)
+            self._socket.setblocking(False)
+            self._socket.connect(address)
+        except OSError as cause:
+            raise DeviceNotFound(f"{self._place} cannot be reached: {cause}. Check host and network.") from cause
+        for _ in range(PROBES):
+            try:
+                self.send(probe)
+            except DeviceLost as cause:
+                raise DeviceNotFound(str(cause)) from cause
+            end = time.monotonic() + _PROBE_S
+            while carry_on() and time.monotonic() < end:
+                time.sleep(0.005)
+
+    def send(self, data: bytes) -> None:
+        """Send, or count as not sent where the machine's queue is full. Raises: DeviceLost."""
+        if self._socket is None:
+            raise DeviceLost(f"{self._place} is not open.")
+        try:
+            self._socket.send(data)
+        except ConnectionRefusedError as cause:
+            raise DeviceLost(f"nobody listens at {self._place}. Start the receiver there.") from cause
+        except OSError as cause:
+            if cause.errno not in _FULL:
+                raise DeviceLost(f"{self._place} cannot be reached: {cause}. Check the network.") from cause
+            self.not_sent += 1
+
+    def close(self, *farewell: bytes) -> None:
+        """Say farewell and close; never raises, may be called twice."""
+        for data in farewell:
+            with contextlib.suppress(DeviceError):
+                self.send(data)
+        if self._socket is not None:
+            self._socket.close()
+            self._socket = None

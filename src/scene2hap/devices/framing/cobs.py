@@ -1,0 +1,45 @@
+"""Consistent overhead byte stuffing: any bytes, without a zero among them.
+
+Source: Cheshire and Baker, Consistent Overhead Byte Stuffing, IEEE/ACM Transactions on Networking 7(2), 1999.
+"""
+
+from __future__ import annotations
+
+LONGEST_RUN = 254
+"""Bytes after which a run without a zero is cut; the overhead is at most one byte in as many, and one."""
+
+
+def encode(data: bytes) -> bytes:
+    """The bytes without zeros, without a delimiter."""
+    out = bytearray()
+    runs = data.split(b"\0")
+    for number, run in enumerate(runs):
+        while len(run) >= LONGEST_RUN:
+            out.append(0xFF)
+            out += run[:LONGEST_RUN]
+            run = run[LONGEST_RUN:]
+            # A full run stands for no zero; at the very end nothing is left to say.
+            if not run and number == len(runs) - 1:
+                return bytes(out)
+        out.append(len(run) + 1)
+        out += run
+    return bytes(out)
+
+
+def decode(data: bytes) -> bytes | None:
+    """What was encoded, or None where the bytes were not made by `encode`."""
+    if not data or 0 in data:
+        return None
+    out = bytearray()
+    position, end = 0, len(data)
+    while True:
+        code = data[position]
+        following = position + code
+        if following > end:
+            return None
+        out += data[position + 1 : following]
+        position = following
+        if position == end:
+            return bytes(out)
+        if code <= LONGEST_RUN:
+            out.append(0)

@@ -1,0 +1,29 @@
+"""Sums that tell damaged bytes from whole ones."""
+
+from __future__ import annotations
+
+import zlib
+
+CRC_SIZE = 4
+
+
+def with_crc32(data: bytes) -> bytes:
+    """The bytes and their CRC-32 behind them, little-endian (reflected 0x04C11DB7, as in Ethernet and zip)."""
+    return data + zlib.crc32(data).to_bytes(CRC_SIZE, "little")
+
+
+def without_crc32(data: bytes) -> bytes | None:
+    """What `with_crc32` was given, or None where the sum does not fit."""
+    body = data[:-CRC_SIZE]
+    if len(data) < CRC_SIZE or zlib.crc32(body) != int.from_bytes(data[-CRC_SIZE:], "little"):
+        return None
+    return body
+
+
+def fletcher16(data: bytes, start: int = 1) -> int:
+    """Fletcher's 16-bit sum modulo 255 (Fletcher 1982), going on from `start`; VHP boards begin at 1."""
+    low, high = start & 0xFF, start >> 8
+    for byte in data:
+        low = (low + byte) % 255
+        high = (high + low) % 255
+    return high << 8 | low

@@ -1,0 +1,165 @@
+"""Frames of our own protocol: a header, a payload and a CRC-32; COBS between zeros on a wire, bare in a datagram.
+
+    version u8 | type u8 | sequence u16 | channels u8 | format u8 | count u16 | time_us u32 | payload | CRC-32 u32
+
+All little-endian. `count` is sample frames in PCM and payload bytes elsewhere; `time_us` is the sender's clock modulo
+2^32. See docs/serial-protocol.md and docs/udp.md.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.devices.framing import cobs
+from scene2hap.devices.framing.crc import with_crc32, without_crc32
+from scene2hap.devices.protocol import Block
+from scene2hap.errors import DeviceError
+
+VERSION = 1
+MAX_PAYLOAD = 1024
+"""Bytes; keeps a frame inside one Ethernet datagram and inside a small board's memory."""
+
+_HEADER = struct.Struct("<BBHBBHI")
+_LONGEST_ENCODED = cobs.LONGEST_RUN + MAX_PAYLOAD + _HEADER.size + 4
+_FULL_SCALE = 32767.0
+
+
+class FrameType(IntEnum):
+    """What a frame is for."""
+
+    HELLO = 1
+    FORMAT = 2
+    PCM = 3
+    CREDIT = 4
+    MUTE = 5
+    STREAM = 6
+
+
+class SampleFormat(IntEnum):
+    """How samples are written; NONE where there are none."""
+
+    NONE = 0
+    INT16 = 1
+    FLOAT32 = 2
+
+    @property
+    def dtype(self) -> np.dtype[np.int16] | np.dtype[np.float32]:
+        """Little-endian samples of this format."""
+        return np.dtype("<i2") if self is SampleFormat.INT16 else np.dtype("<f4")
+
+
+@dataclass(frozen=True)
+class Frame:
+    """One frame; `sequence` counts modulo 2^16 and `time_us` modulo 2^32."""
+
+    type: FrameType
+    sequence: int = 0
+    channels: int = 0
+    format: SampleFormat = SampleFormat.NONE
+    count: int = 0
+    time_us: int = 0
+    payload: bytes = b""
+
+    def __post_init__(self) -> None:
+        if len(self.payload) != self.payload_size or self.payload_size > MAX_PAYLOAD:
+            raise DeviceError(
+                f"a {self.type.name} frame has {len(self.payload)} bytes of payload; it must be "
+                f"{self.payload_size}, and at most {MAX_PAYLOAD}."
+            )
+
+    @property
+    def payload_size(self) -> int:
+        """Bytes that the header announces."""
+        if self.type is not FrameType.PCM:
+            return self.count
+        return self.count * self.channels * (self.format.dtype.itemsize if self.format else 0)
+
+
+def message(type: FrameType, payload: bytes = b"", *, sequence: int = 0, time_us: int = 0) -> Frame:
+    """A frame without samples."""
+    return Frame(type, sequence, count=len(payload), time_us=time_us, payload=payload)
+
+
+def pcm(block: Block, *, sequence: int, time_us: int = 0, format: SampleFormat = SampleFormat.INT16) -> Frame:
+    """A frame of samples (n_frames, n_channels)."""
+    payload = to_int16(block) if format is SampleFormat.INT16 else block.astype("<f4").tobytes()
+    return Frame(FrameType.PCM, sequence, block.shape[1], format, len(block), time_us, payload)
+
+
+def to_int16(block: Block) -> bytes:
+    """Samples as 16-bit integers, 1.0 as 32767, rounded to nearest, clipped; what is not a number is silence."""
+    within = np.clip(np.nan_to_num(block, nan=0.0), -1.0, 1.0)
+    whole: NDArray[np.int16] = np.rint(within * np.float32(_FULL_SCALE)).astype("<i2")
+    return whole.tobytes()
+
+
+def samples(frame: Frame) -> Block:
+    """The samples of a PCM frame (n_frames, n_channels) float32."""
+    raw = np.frombuffer(frame.payload, dtype=frame.format.dtype).astype(np.float32)
+    scale = np.float32(_FULL_SCALE) if frame.format is SampleFormat.INT16 else np.float32(1.0)
+    return (raw / scale).reshape(frame.count, frame.channels)
+
+
+def to_datagram(frame: Frame) -> bytes:
+    """Header, payload and CRC-32, without framing."""
+    header = _HEADER.pack(VERSION, frame.type, frame.sequence, frame.channels, frame.format, frame.count, frame.time_us)
+    return with_crc32(header + frame.payload)
+
+
+def from_datagram(data: bytes) -> Frame | None:
+    """The frame, or None where a byte is wrong; never raises."""
+    body = without_crc32(data)
+    if body is None or len(body) < _HEADER.size:
+        return None
+    version, kind, sequence, channels, format, count, time_us = _HEADER.unpack_from(body)
+    payload = body[_HEADER.size :]
+    if version != VERSION:
+        return None
+    try:
+        return Frame(FrameType(kind), sequence, channels, SampleFormat(format), count, time_us, payload)
+    except (ValueError, DeviceError):
+        return None
+
+
+def to_wire(frame: Frame) -> bytes:
+    """COBS between two zeros: a frame that follows a damaged one begins afresh, whatever came before."""
+    return b"\0" + cobs.encode(to_datagram(frame)) + b"\0"
+
+
+class FrameParser:
+    """Takes bytes as they come and finds frames; `damaged` counts runs of bytes that were not a frame."""
+
+    def __init__(self) -> None:
+        self._rest = bytearray()
+        self._overlong = False
+        self.damaged = 0
+
+    def feed(self, data: bytes) -> Iterator[Frame]:
+        """The frames that are complete with these bytes. Never raises; keeps at most one frame's bytes."""
+        self._rest += data
+        *ended, rest = self._rest.split(b"\0")
+        self._rest = rest
+        for run in ended:
+            whole = not self._overlong
+            self._overlong = False
+            if not run and whole:
+                continue
+            frame = self._frame(run) if whole else None
+            if frame is None:
+                self.damaged += 1
+            else:
+                yield frame
+        if len(self._rest) > _LONGEST_ENCODED:
+            self._rest.clear()
+            self._overlong = True
+
+    @staticmethod
+    def _frame(run: bytearray) -> Frame | None:
+        decoded = cobs.decode(bytes(run)) if len(run) <= _LONGEST_ENCODED else None
+        return None if decoded is None else from_datagram(decoded)

@@ -1,0 +1,102 @@
+"""What the two ends of a serial link tell each other besides samples; docs/serial-protocol.md is the written form."""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+
+from scene2hap.devices.framing.frames import Frame, FrameType, message
+
+_HELLO = struct.Struct("<IB")
+_FORMAT = struct.Struct("<IBHH")
+_CREDIT = struct.Struct("<HBHHIII")
+
+GREETED = 1
+"""CREDIT flag: a HELLO came since the device woke; without it the device must be greeted again."""
+
+HEARD = 2
+"""CREDIT flag: `last_sequence` is that of a PCM frame."""
+
+MUTED = 4
+"""CREDIT flag: the output is silent, since the watchdog or a MUTE said so."""
+
+
+@dataclass(frozen=True)
+class Hello:
+    """The host greets: which rate [Hz] and how many channels it would like; 0 Hz for the device's own."""
+
+    sample_rate_hz: int
+    channels: int
+
+    def to_frame(self, sequence: int = 0) -> Frame:
+        """As a frame."""
+        return message(FrameType.HELLO, _HELLO.pack(self.sample_rate_hz, self.channels), sequence=sequence)
+
+    @classmethod
+    def from_frame(cls, frame: Frame) -> Hello | None:
+        """From a frame, None where it is something else."""
+        return cls(*_HELLO.unpack(frame.payload)) if _is(frame, FrameType.HELLO, _HELLO) else None
+
+
+@dataclass(frozen=True)
+class DeviceFormat:
+    """The device answers: what it plays, how many frames it can queue, and how many it takes in one PCM frame."""
+
+    sample_rate_hz: int
+    channels: int
+    queue_frames: int
+    block_frames: int
+
+    def to_frame(self) -> Frame:
+        """As a frame."""
+        packed = _FORMAT.pack(self.sample_rate_hz, self.channels, self.queue_frames, self.block_frames)
+        return message(FrameType.FORMAT, packed)
+
+    @classmethod
+    def from_frame(cls, frame: Frame) -> DeviceFormat | None:
+        """From a frame, None where it is something else."""
+        return cls(*_FORMAT.unpack(frame.payload)) if _is(frame, FrameType.FORMAT, _FORMAT) else None
+
+
+@dataclass(frozen=True)
+class Credit:
+    """The device's state, told whole each time, so that a lost CREDIT costs nothing.
+
+    last_sequence : of the newest PCM frame it accepted; free_frames, queued_frames : of its queue; accepted_frames,
+    damaged, underruns : totals since HELLO, modulo 2^32. The frame's `time_us` repeats that of the PCM frame.
+    """
+
+    last_sequence: int
+    flags: int
+    free_frames: int
+    queued_frames: int
+    accepted_frames: int
+    damaged: int
+    underruns: int
+
+    def to_frame(self, time_us: int = 0) -> Frame:
+        """As a frame."""
+        packed = _CREDIT.pack(
+            self.last_sequence,
+            self.flags,
+            self.free_frames,
+            self.queued_frames,
+            self.accepted_frames % 2**32,
+            self.damaged % 2**32,
+            self.underruns % 2**32,
+        )
+        return message(FrameType.CREDIT, packed, time_us=time_us)
+
+    @classmethod
+    def from_frame(cls, frame: Frame) -> Credit | None:
+        """From a frame, None where it is something else."""
+        return cls(*_CREDIT.unpack(frame.payload)) if _is(frame, FrameType.CREDIT, _CREDIT) else None
+
+
+def is_newer(sequence: int, than: int) -> bool:
+    """Whether a 16-bit sequence number comes after another one, across the wrap."""
+    return 0 < (sequence - than) % 2**16 < 2**15
+
+
+def _is(frame: Frame, type: FrameType, layout: struct.Struct) -> bool:
+    return frame.type is type and len(frame.payload) == layout.size

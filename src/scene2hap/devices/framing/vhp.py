@@ -1,0 +1,137 @@
+"""Frames for the open boards of google/audio-to-tactile (VHP): twelve channels at 2 kHz, eight samples at a time.
+
+A sample is a byte, 0 to 255 for -1 to 1 with 128 in the middle; boards double it to a pulse width of 0 to 510 in 512.
+Samples are interleaved: data[12 n + c] is sample n of channel c. See docs/serial-protocol.md for each layout.
+
+Source: google/audio-to-tactile (Apache-2.0), src/cpp/message.h, pwm.cpp and the streaming_slim sketch with its script.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+
+from scene2hap.devices.framing.crc import fletcher16
+from scene2hap.devices.protocol import Block
+from scene2hap.errors import DeviceError
+
+SAMPLE_RATE_HZ = 2000
+CHANNELS = 12
+FRAMES = 8
+MIDDLE = 128
+_HALF_SCALE = 127.0
+
+SLIM_HEADER = bytes([0xC8, 0xC9, 0x11, 0x80])
+"""The board counts bytes and ignores these; the last should be 96 and is 128 in everything that talks to it."""
+
+SLIM_CREDIT = b"buffer_copied"
+"""The line that the slim board prints when it wants a frame."""
+
+SLIM_QUEUE_FRAMES = 8
+"""Slim frames that the board gathers before it swaps buffers; its counter must land on exactly their 800 bytes."""
+
+_START = 200
+_PACKET_SIZE = 132
+_HEADER_SIZE = 4
+MORE = 23
+"""The byte by which the sleeve asks for the next packet."""
+
+
+class Recipient(IntEnum):
+    """Who shall listen on the sleeve's wire."""
+
+    ALL = 1
+    PUCK = 2
+    SLEEVE = 3
+    SLIM_BOARD = 4
+
+
+class MessageType(IntEnum):
+    """The messages that streaming needs."""
+
+    DISABLE_AMPLIFIERS = 14
+    ENABLE_AMPLIFIERS = 15
+    ALL_TACTORS_SAMPLES = 17
+    STREAM_START = 21
+    STREAM_STOP = 22
+
+
+@dataclass(frozen=True)
+class Message:
+    """A message of type and payload (at most 128 bytes); `recipient` is None in the wireless form."""
+
+    type: int
+    payload: bytes = b""
+    recipient: int | None = None
+
+    def __post_init__(self) -> None:
+        if len(self.payload) > _PACKET_SIZE - _HEADER_SIZE:
+            raise DeviceError(f"a VHP message holds at most 128 bytes, got {len(self.payload)}.")
+
+
+def to_bytes(block: Block) -> bytes:
+    """Eight frames (8, up to 12) as 96 bytes; channels that the block lacks rest at mid-scale.
+
+    Raises: DeviceError: another shape.
+    """
+    if block.ndim != 2 or len(block) != FRAMES or block.shape[1] > CHANNELS:
+        raise DeviceError(f"VHP boards take blocks of ({FRAMES}, 1 to {CHANNELS}) samples, got {block.shape}.")
+    data = np.full((FRAMES, CHANNELS), MIDDLE, dtype=np.uint8)
+    within = np.clip(np.nan_to_num(block, nan=0.0), -1.0, 1.0)
+    data[:, : block.shape[1]] = np.rint(within * _HALF_SCALE) + MIDDLE
+    return data.tobytes()
+
+
+def from_bytes(data: bytes) -> Block:
+    """The samples (8, 12) float32 of 96 bytes. Raises: DeviceError: another size."""
+    if len(data) != FRAMES * CHANNELS:
+        raise DeviceError(f"a VHP block has {FRAMES * CHANNELS} bytes, got {len(data)}.")
+    raw = np.frombuffer(data, dtype=np.uint8).astype(np.float32)
+    return ((raw - MIDDLE) / np.float32(_HALF_SCALE)).reshape(FRAMES, CHANNELS)
+
+
+def slim_frame(block: Block) -> bytes:
+    """The 100 bytes that the slim board takes over USB."""
+    return SLIM_HEADER + to_bytes(block)
+
+
+def slim_ending() -> bytes:
+    """Eight frames of rest: an idle board repeats its last buffer for ever, so this must be what it holds."""
+    return (SLIM_HEADER + bytes([MIDDLE]) * (FRAMES * CHANNELS)) * SLIM_QUEUE_FRAMES
+
+
+def packet(message: Message) -> bytes:
+    """The sleeve's wired form: 132 bytes, padded by zeros. Raises: DeviceError: no recipient."""
+    if message.recipient is None:
+        raise DeviceError("a wired VHP message needs a recipient, such as Recipient.SLEEVE.")
+    head = bytes([_START, message.recipient, message.type, len(message.payload)])
+    return (head + message.payload).ljust(_PACKET_SIZE, b"\0")
+
+
+def sleeve_packet(block: Block, recipient: Recipient = Recipient.SLEEVE) -> bytes:
+    """The packet with samples for all channels."""
+    return packet(Message(MessageType.ALL_TACTORS_SAMPLES, to_bytes(block), recipient))
+
+
+def from_packet(data: bytes) -> Message | None:
+    """The message of a wired packet, or None where it is not one; never raises. It has no sum of its own."""
+    if len(data) != _PACKET_SIZE or data[0] != _START or data[3] > _PACKET_SIZE - _HEADER_SIZE:
+        return None
+    return Message(data[2], data[_HEADER_SIZE : _HEADER_SIZE + data[3]], data[1])
+
+
+def wireless(message: Message) -> bytes:
+    """The Bluetooth form: a Fletcher sum, beginning at 1 and little-endian, in place of start byte and recipient."""
+    rest = bytes([message.type, len(message.payload)]) + message.payload
+    return fletcher16(rest).to_bytes(2, "little") + rest
+
+
+def from_wireless(data: bytes) -> Message | None:
+    """The message of a Bluetooth packet, or None where a byte is wrong; never raises."""
+    if len(data) < _HEADER_SIZE or data[3] != len(data) - _HEADER_SIZE or data[3] > _PACKET_SIZE - _HEADER_SIZE:
+        return None
+    if fletcher16(data[2:]) != int.from_bytes(data[:2], "little"):
+        return None
+    return Message(data[2], data[_HEADER_SIZE:])

@@ -1,0 +1,291 @@
+"""Sinks with a device behind them: a thread that takes the mix at the device's pace, and outlives the device.
+
+A device is a `Line`: five methods that a sound card, a serial port or a socket can each fill in a page. `LiveSink` does
+the rest. Whatever goes wrong with a device is a state and not an exception: the thread reports a `SinkEvent`, goes on
+taking the mix at the wall clock's pace and drops it (so that the session's clock, ramps and queues never stand still),
+tries again after 0.1 s, 0.2 s, ... 2 s, and fades in over 50 ms when the device is back.
+
+    unavailable ─┬─► connected ─┬─► stalled ─► resumed        (the kinds of SinkEvent)
+       ▲         │              └─► lost ─┐
+       └─────────┴────────────────────────┘
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from typing import Protocol, Self
+
+import numpy as np
+
+from scene2hap.devices.pace import Pace
+from scene2hap.devices.protocol import Block, EventCallback, Fill, SinkEvent, SinkFormat, SinkStats
+from scene2hap.devices.rate import RateConverter
+from scene2hap.errors import DeviceError, DeviceTimeout
+
+FADE_S = 0.05
+"""Length of the fade when a device comes (back); shorter would be felt as a knock."""
+
+POLL_S = 0.005
+"""Longest wait inside a line, and so the time that `stop` may take."""
+
+STALL_S = 0.5
+"""A device that wants no samples for so long is reported as stalled, and the mix goes on without it; before, the mix
+waits, so that a hiccup costs no sample (on a busy machine 0.3 s were seen between two ends of a pseudo-terminal)."""
+
+GIVE_UP_S = 1.5
+"""... and after so long is closed and opened anew."""
+
+FIRST_RETRY_S, LAST_RETRY_S = 0.1, 2.0
+"""The pause between attempts, doubled each time until the device has played."""
+
+_FAIR_S = 4 * POLL_S
+_IDLE_BLOCK_S = 0.02
+_JOIN_S = 5.0
+
+CarryOn = Callable[[], bool]
+"""To be called every few milliseconds by a line that waits; False means: give up, the sink is being stopped."""
+
+
+class Line(Protocol):
+    """The way to one device. All methods are called on the sink's thread and may raise DeviceError at any time.
+
+    `underruns` and `latency_s` (None unknown) are read for `stats` from any thread.
+    """
+
+    @property
+    def underruns(self) -> int:
+        """Times at which the device ran dry."""
+        ...
+
+    @property
+    def latency_s(self) -> float | None:
+        """From taking a sample to playing it [s]."""
+        ...
+
+    def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
+        """Reach the device, and tell the sample rate [Hz] at which it plays."""
+        ...
+
+    def wanted(self, timeout_s: float) -> int:
+        """Frames that the device takes now, 0 for none; waits at most `timeout_s` for it to want some."""
+        ...
+
+    def send(self, block: Block) -> None:
+        """Hand over as many frames as were wanted."""
+        ...
+
+    def disconnect(self) -> None:
+        """Silence the device if it is there, and let go of it; never raises, may be called twice."""
+        ...
+
+
+class LiveSink:
+    """An ActuatorSink on a line.
+
+    `open`, `start` and `stats` return at once, whatever the device does; `stop` waits for the thread, which is a few
+    milliseconds. Errors of the device come as events; only misuse raises.
+
+    Parameters: line : the way to the device; name : what to call it in events; on_event : an EventCallback or None,
+    may be set at any time.
+    """
+
+    def __init__(self, line: Line, name: str, *, on_event: EventCallback | None = None) -> None:
+        self.on_event = on_event
+        self._line = line
+        self._name = name
+        self._format: SinkFormat | None = None
+        self._fill: Fill | None = None
+        self._thread: threading.Thread | None = None
+        self._stopping = threading.Event()
+        self._playing = threading.Event()
+        self._frames = self._dropped = self._faults = self._connects = 0
+        self._told: tuple[str, str] | None = None
+        self._filter_s = 0.0
+        self._idle = Pace(1)
+
+    def open(self, format: SinkFormat) -> None:
+        """Get ready and count anew; the device itself is reached by `start`, and may be missing."""
+        self.stop()
+        self._format = format
+        self._frames = self._dropped = self._faults = self._connects = 0
+
+    def start(self, fill: Fill) -> None:
+        """Take blocks from `fill`, on a thread of the sink's own. Raises: DeviceError: not open."""
+        if self._format is None:
+            raise DeviceError(f"{self._name} is not open; call open(SinkFormat(...)) before start.")
+        self.stop()
+        self._fill = fill
+        self._stopping.clear()
+        self._told = None
+        self._thread = threading.Thread(target=self._work, args=(self._format,), name=self._name, daemon=True)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Silence and release the device; the thread has ended when this returns."""
+        self._stopping.set()
+        thread, self._thread = self._thread, None
+        if thread is None or thread is threading.current_thread():
+            return
+        thread.join(_JOIN_S)
+        if thread.is_alive():
+            self._tell("fault", f"{self._name}: its driver does not return; the thread ends when it does.")
+
+    def close(self) -> None:
+        """Stop; `open` is needed before the next `start`."""
+        self.stop()
+        self._format = None
+        self._fill = None
+
+    def wait_connected(self, timeout_s: float) -> bool:
+        """Whether the device plays, waiting at most so long [s] for it."""
+        return self._playing.wait(timeout_s)
+
+    @property
+    def stats(self) -> SinkStats:
+        """What was done since `open`."""
+        latency_s = self._line.latency_s
+        return SinkStats(
+            frames=self._frames,
+            underruns=self._line.underruns,
+            connected=self._playing.is_set(),
+            reconnects=max(0, self._connects - 1),
+            dropped_frames=self._dropped,
+            faults=self._faults,
+            latency_s=None if latency_s is None else latency_s + self._filter_s,
+        )
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def _work(self, format: SinkFormat) -> None:
+        pause_s = FIRST_RETRY_S
+        self._idle = Pace(format.sample_rate_hz)
+        self._idle.restart(time.monotonic())
+        while not self._stopping.is_set():
+            frames = self._frames
+            problem = self._attempt(format)
+            if self._stopping.is_set():
+                break
+            pause_s = FIRST_RETRY_S if self._frames > frames else pause_s
+            kind = "lost" if self._playing.is_set() else "unavailable"
+            self._playing.clear()
+            self._tell(kind, f"{problem} Trying again.")
+            self._idle_until(time.monotonic() + pause_s)
+            pause_s = min(2 * pause_s, LAST_RETRY_S)
+        self._playing.clear()
+
+    def _attempt(self, format: SinkFormat) -> str:
+        """Reach the device and play until it fails; tells why it did, "" when stopped."""
+        try:
+            rate_hz = self._line.connect(format, self._carry_on)
+            if not self._stopping.is_set():
+                self._connects += 1
+                self._playing.set()
+                self._tell("connected", f"{self._name} plays at {rate_hz} Hz.")
+                self._play(format, rate_hz)
+        except DeviceError as cause:
+            return str(cause)
+        except Exception as cause:  # a driver's own errors must not end the thread
+            self._faults += 1
+            return f"{self._name}: {type(cause).__name__}: {cause}."
+        finally:
+            self._line.disconnect()
+        return ""
+
+    def _play(self, format: SinkFormat, rate_hz: int) -> None:
+        stream = _Stream(self._pull, format, rate_hz)
+        self._filter_s = stream.latency_s
+        last = time.monotonic()
+        waited_s = 0.0
+        stalled = False
+        while not self._stopping.is_set():
+            n_frames = self._line.wanted(POLL_S)
+            now = time.monotonic()
+            # On a busy machine this thread may sleep through what the device wanted; that is not the device's fault.
+            waited_s += min(now - last, _FAIR_S)
+            last = now
+            if n_frames:
+                if stalled:
+                    stalled = False
+                    stream = _Stream(self._pull, format, rate_hz)
+                    self._tell("resumed", f"{self._name} takes samples again.")
+                self._line.send(stream.take(n_frames))
+                self._frames += n_frames
+                waited_s = 0.0
+                self._idle.restart(now)
+            elif waited_s > GIVE_UP_S:
+                raise DeviceTimeout(f"{self._name} took no samples for {waited_s:.1f} s.")
+            elif waited_s > STALL_S:
+                if not stalled:
+                    stalled = True
+                    self._tell("stalled", f"{self._name} took no samples for {waited_s:.2f} s.")
+                self._drop_due(format)
+
+    def _carry_on(self) -> bool:
+        if self._format is not None:
+            self._drop_due(self._format)
+        return not self._stopping.is_set()
+
+    def _idle_until(self, end_s: float) -> None:
+        while self._carry_on() and (left := end_s - time.monotonic()) > 0:
+            self._stopping.wait(min(left, _IDLE_BLOCK_S))
+
+    def _drop_due(self, format: SinkFormat) -> None:
+        """Keep the session's clock going without a device."""
+        block = max(1, round(_IDLE_BLOCK_S * format.sample_rate_hz))
+        while (due := self._idle.due(time.monotonic())) >= block and not self._stopping.is_set():
+            n_frames = min(due, block)
+            self._pull(n_frames)
+            self._idle.take(n_frames)
+            self._dropped += n_frames
+
+    def _pull(self, n_frames: int) -> Block:
+        n_channels = len(self._format.channels) if self._format else 0
+        fill = self._fill
+        try:
+            block = fill(n_frames) if fill is not None else np.zeros((n_frames, n_channels), dtype=np.float32)
+            if block.shape != (n_frames, n_channels):
+                raise DeviceError(f"the mix has shape {block.shape}; it must be {(n_frames, n_channels)}")
+            return block
+        except Exception as cause:  # silence is better for a hand than a thread that died on a note
+            self._faults += 1
+            self._tell("fault", f"{self._name} plays silence: {type(cause).__name__}: {cause}.")
+            return np.zeros((n_frames, n_channels), dtype=np.float32)
+
+    def _tell(self, kind: str, message: str) -> None:
+        """Report once, not at every attempt."""
+        if self._told == (kind, message):
+            return
+        self._told = (kind, message)
+        callback = self.on_event
+        if callback is None:
+            return
+        try:
+            callback(SinkEvent(kind, message, time.monotonic()))
+        except Exception:  # the game's error, which must not silence its hands
+            self._faults += 1
+
+
+class _Stream:
+    """The mix at a device's rate, faded in."""
+
+    def __init__(self, pull: Fill, format: SinkFormat, rate_hz: int) -> None:
+        self._pull = pull
+        self._rate = RateConverter(format.sample_rate_hz, rate_hz, len(format.channels))
+        self.latency_s = self._rate.latency_s
+        n_fade = max(1, round(FADE_S * rate_hz))
+        phase = np.arange(1, n_fade + 1, dtype=np.float32) / np.float32(n_fade)
+        self._fade = (0.5 - 0.5 * np.cos(np.pi * phase)).astype(np.float32)[:, None]
+
+    def take(self, n_frames: int) -> Block:
+        block = self._rate.convert(self._pull(self._rate.needed(n_frames)), n_frames)
+        if len(self._fade):
+            now, self._fade = self._fade[:n_frames], self._fade[n_frames:]
+            block = block.copy()
+            block[: len(now)] *= now
+        return block

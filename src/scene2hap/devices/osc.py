@@ -1,0 +1,133 @@
+"""Gains as Open Sound Control messages, as the paper's Unity scene sent them to Max/MSP.
+
+    /scene2hap/hello  sample_rate_hz i                when the sink connects
+    /scene2hap/play   clip s                          when a clip is first felt: start its loop here
+    /scene2hap/gain   gain f, clip s, hand i          whenever a gain changes, and all of them once a second
+
+The receiver plays and mixes the clips itself. Source: the paper, section Audio Processing (a message with attenuation
+ratio, path of the audio file and hand index at every change; one when a file is first played); OSC 1.0.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.devices.datagrams import Datagrams
+from scene2hap.devices.link import CarryOn
+from scene2hap.devices.pace import Pace
+from scene2hap.devices.protocol import Block, SinkFormat
+from scene2hap.errors import MissingExtra
+
+REPEAT_S = 1.0
+"""All gains are told again so often, since datagrams get lost."""
+
+_BLOCK_S = 0.02
+
+
+class GainFrame(Protocol):
+    """What is needed of a HapticFrame: gains (n_hands, n_sources, n_bands)."""
+
+    @property
+    def gains(self) -> NDArray[np.float32]: ...  # noqa: D102
+    @property
+    def hands(self) -> tuple[str, ...]: ...  # noqa: D102
+    @property
+    def sources(self) -> tuple[str, ...]: ...  # noqa: D102
+
+
+class OscLine:
+    """Messages instead of samples, which are taken at the wall clock's pace and thrown away.
+
+    `latest` is the newest frame of gains; any thread may set it.
+    """
+
+    def __init__(self, datagrams: Datagrams, clips: Mapping[str, str]) -> None:
+        _require_python_osc()
+        self.latest: GainFrame | None = None
+        self.latency_s: float | None = None
+        self._datagrams = datagrams
+        self._clips = clips
+        self._told: dict[tuple[str, int], float] = {}
+        self._playing: set[str] = set()
+        self._repeated_s = 0.0
+        self._pace = Pace(1)
+        self._block_frames = 1
+
+    @property
+    def underruns(self) -> int:
+        """Datagrams that the machine would not queue."""
+        return self._datagrams.not_sent
+
+    def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
+        """Say hello, and forget what was told before."""
+        self._told.clear()
+        self._playing.clear()
+        self._datagrams.connect(encode("/scene2hap/hello", format.sample_rate_hz), carry_on)
+        self._block_frames = max(1, round(_BLOCK_S * format.sample_rate_hz))
+        self._pace = Pace(format.sample_rate_hz)
+        self._pace.restart(time.monotonic())
+        return format.sample_rate_hz
+
+    def wanted(self, timeout_s: float) -> int:
+        """Tell what has changed, then wait for the clock."""
+        self._tell_changes()
+        wait_s = self._pace.wait_s(self._block_frames, time.monotonic())
+        if wait_s > 0:
+            time.sleep(min(wait_s, timeout_s))
+        return self._block_frames if self._pace.due(time.monotonic()) >= self._block_frames else 0
+
+    def send(self, block: Block) -> None:
+        """Let the samples go: the receiver makes its own."""
+        self._pace.take(len(block))
+
+    def disconnect(self) -> None:
+        """Tell that nothing is felt any more."""
+        loud = [key for key, gain in self._told.items() if gain]
+        self._datagrams.close(*(encode("/scene2hap/gain", 0.0, clip, hand) for clip, hand in loud))
+        self._told.clear()
+
+    def _tell_changes(self) -> None:
+        frame = self.latest
+        now = time.monotonic()
+        if now - self._repeated_s > REPEAT_S:
+            self._repeated_s = now
+            self._told = dict.fromkeys(self._told, -1.0)
+        if frame is None:
+            return
+        for clip, hand, gain in gains_of(frame, self._clips):
+            if gain > 0 and clip not in self._playing:
+                self._playing.add(clip)
+                self._datagrams.send(encode("/scene2hap/play", clip))
+            if gain != self._told.get((clip, hand), 0.0):
+                self._datagrams.send(encode("/scene2hap/gain", gain, clip, hand))
+            self._told[clip, hand] = gain
+
+
+def gains_of(frame: GainFrame, clips: Mapping[str, str]) -> Iterator[tuple[str, int, float]]:
+    """Clip, index of the hand and gain of the loudest band, for every source and hand."""
+    loudest = np.asarray(frame.gains).max(axis=2, initial=0.0)
+    for hand in range(len(frame.hands)):
+        for number, source in enumerate(frame.sources):
+            yield clips.get(source, source), hand, float(loudest[hand, number])
+
+
+def encode(address: str, *values: str | float | int) -> bytes:
+    """One OSC message; integers as i, floats as f, strings as s."""
+    from pythonosc.osc_message_builder import OscMessageBuilder
+
+    builder = OscMessageBuilder(address)
+    for value in values:
+        builder.add_arg(value)
+    return bytes(builder.build().dgram)
+
+
+def _require_python_osc() -> None:
+    try:
+        import pythonosc.osc_message_builder  # noqa: F401
+    except ImportError as cause:
+        raise MissingExtra("OSC messages need python-osc. Run: pip install 'scene2hap[osc]'") from cause

@@ -1,0 +1,274 @@
+"""A serial amplifier in Python: what a device must do, as a class without wires and as a program on a port.
+
+    python -m scene2hap.devices.reference_device          makes a pseudo-terminal and prints its name (not on Windows)
+    python -m scene2hap.devices.reference_device PORT     plays the device on one end of a cable
+    ... --wav heard.wav                                   keeps what it played, once it is ended by Ctrl-C
+
+so that `SerialAmplifierSink` can be tried without hardware. The same behaviour for boards is in firmware/.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import select
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+
+from scene2hap.devices.framing.frames import Frame, FrameParser, FrameType, SampleFormat, to_wire
+from scene2hap.devices.framing.link_messages import GREETED, HEARD, MUTED, Credit, DeviceFormat, Hello, is_newer
+from scene2hap.errors import DeviceError
+
+WATCHDOG_S = 0.05
+CREDIT_EVERY_S = 0.005
+MUTE_RAMP_S = 0.005
+
+Samples = np.ndarray[tuple[int, int], np.dtype[np.int16]]
+"""Samples (n_frames, n_channels) as they came."""
+
+
+class ReferenceDevice:
+    """A serial amplifier without wires: bytes in, bytes out, and a clock that the caller turns.
+
+    Parameters: sample_rate_hz, channels : what it plays; queue_frames : of its queue; on_samples : is handed what was
+    accepted; on_output : is handed what was played, silence included. Both get (n_frames, n_channels) int16.
+    """
+
+    def __init__(
+        self,
+        sample_rate_hz: int = 4000,
+        channels: int = 2,
+        queue_frames: int = 400,
+        *,
+        on_samples: Callable[[Samples], None] | None = None,
+        on_output: Callable[[Samples], None] | None = None,
+    ) -> None:
+        self.format = DeviceFormat(sample_rate_hz, channels, queue_frames, 128)
+        self.accepted_frames = self.underruns = self.lost = self.refused = 0
+        self.muted = True
+        self.grants_credit = True
+        self._on_samples = on_samples
+        self._on_output = on_output
+        self._parser = FrameParser()
+        self._queue: deque[Samples] = deque()
+        self._queued = 0
+        self._outgoing = bytearray()
+        self._greeted = False
+        self._sequence: int | None = None
+        self._echo_us = 0
+        self._fed_s = self._credit_s = self._clock_s = -np.inf
+        self._held = np.zeros(channels)
+        self._ramp = 0
+
+    @property
+    def damaged(self) -> int:
+        """Runs of bytes that were not a frame."""
+        return self._parser.damaged
+
+    def receive(self, data: bytes, now_s: float) -> None:
+        """Bytes from the host."""
+        for frame in self._parser.feed(data):
+            if Hello.from_frame(frame):
+                self._greet()
+            elif frame.type is FrameType.MUTE:
+                self._mute()
+            elif frame.type is FrameType.PCM and self._greeted:
+                self._accept(frame, now_s)
+
+    def advance(self, now_s: float) -> None:
+        """Play until now; mute when the host is silent; tell it where things stand."""
+        if now_s - self._fed_s > WATCHDOG_S:
+            self._mute()
+        if self._clock_s == -np.inf:
+            self._clock_s = now_s
+        n_due = int((now_s - self._clock_s) * self.format.sample_rate_hz)
+        self._clock_s += n_due / self.format.sample_rate_hz
+        self._play(n_due)
+        if now_s - self._credit_s >= CREDIT_EVERY_S:
+            self._credit(now_s)
+
+    def to_send(self) -> bytes:
+        """Bytes for the host."""
+        data = bytes(self._outgoing)
+        self._outgoing.clear()
+        return data
+
+    def _greet(self) -> None:
+        self._greeted = True
+        self._sequence = None
+        self._queue.clear()
+        self._queued = self.accepted_frames = self.underruns = self._parser.damaged = 0
+        self._outgoing += to_wire(self.format.to_frame())
+
+    def _accept(self, frame: Frame, now_s: float) -> None:
+        if self._sequence is not None and not is_newer(frame.sequence, self._sequence):
+            return
+        if frame.count and (frame.format is not SampleFormat.INT16 or frame.channels > self.format.channels):
+            return
+        if self._sequence is not None:
+            self.lost += (frame.sequence - self._sequence - 1) % 2**16
+        self._sequence = frame.sequence
+        self._echo_us = frame.time_us
+        if self._queued + frame.count > self.format.queue_frames:
+            self.refused += 1
+        elif frame.count:
+            self._store(np.frombuffer(frame.payload, dtype="<i2").reshape(frame.count, frame.channels), now_s)
+        self._credit(now_s)
+
+    def _store(self, samples: Samples, now_s: float) -> None:
+        self._fed_s = now_s
+        self.muted = False
+        self._queue.append(samples)
+        self._queued += len(samples)
+        self.accepted_frames += len(samples)
+        if self._on_samples is not None:
+            self._on_samples(samples)
+
+    def _credit(self, now_s: float) -> None:
+        if not self.grants_credit:
+            return
+        self._credit_s = now_s
+        flags = GREETED * self._greeted | HEARD * (self._sequence is not None) | MUTED * self.muted
+        free = self.format.queue_frames - self._queued
+        credit = Credit(
+            self._sequence or 0, flags, free, self._queued, self.accepted_frames, self.damaged, self.underruns
+        )
+        self._outgoing += to_wire(credit.to_frame(self._echo_us))
+
+    def _mute(self) -> None:
+        """Drop what is queued: samples that are late are worse than none."""
+        self.muted = True
+        self._queue.clear()
+        self._queued = 0
+
+    def _play(self, n_frames: int) -> None:
+        out = np.zeros((n_frames, self.format.channels), dtype=np.int16)
+        done = 0
+        while done < n_frames and self._queue:
+            block = self._queue.popleft()
+            taken = min(len(block), n_frames - done)
+            out[done : done + taken, : block.shape[1]] = block[:taken]
+            if taken < len(block):
+                self._queue.appendleft(block[taken:])
+            done += taken
+        self._queued -= done
+        if done:
+            self._held = out[done - 1].astype(float)
+            self._ramp = n_ramp = round(MUTE_RAMP_S * self.format.sample_rate_hz)
+        if done < n_frames:
+            self.underruns += done > 0 and not self.muted
+            n_ramp = round(MUTE_RAMP_S * self.format.sample_rate_hz)
+            steps = np.clip(self._ramp - 1 - np.arange(n_frames - done), 0, None) / n_ramp
+            out[done:] = np.rint(steps[:, None] * self._held)
+            self._ramp = max(0, self._ramp - (n_frames - done))
+        if self._on_output is not None and n_frames:
+            self._on_output(out)
+
+
+class Wire(Protocol):
+    """Bytes to and from a host; both raise OSError when it has gone."""
+
+    def read(self, timeout_s: float) -> bytes:
+        """What has arrived, waiting at most so long for a first byte."""
+        ...
+
+    def write(self, data: bytes) -> None:
+        """Send, or drop what cannot be sent now."""
+        ...
+
+
+class PseudoTerminal:
+    """The device's end of a pseudo-terminal; the host opens `name`."""
+
+    def __init__(self) -> None:
+        import pty
+        import tty
+
+        self._master, self._slave = pty.openpty()
+        tty.setraw(self._slave)
+        os.set_blocking(self._master, False)
+        self.name = os.ttyname(self._slave)
+
+    def read(self, timeout_s: float) -> bytes:
+        """What has arrived, waiting at most so long for a first byte."""
+        ready, _, _ = select.select([self._master], [], [], timeout_s)
+        return os.read(self._master, 4096) if ready else b""
+
+    def write(self, data: bytes) -> None:
+        """Send, or drop what cannot be sent now."""
+        with contextlib.suppress(BlockingIOError):
+            os.write(self._master, data)
+
+    def close(self) -> None:
+        """Pull the plug; may be called twice."""
+        for end in (self._master, self._slave):
+            with contextlib.suppress(OSError):
+                os.close(end)
+        self._master = self._slave = -1
+
+
+def serve(device: ReferenceDevice, wire: Wire, stop: threading.Event) -> None:
+    """Let a device live on a wire until told to stop. Raises: OSError: the wire has gone."""
+    while not stop.is_set():
+        data = wire.read(0.001)
+        now = time.monotonic()
+        if data:
+            device.receive(data, now)
+        device.advance(now)
+        if answer := device.to_send():
+            wire.write(answer)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the device until Ctrl-C."""
+    parser = argparse.ArgumentParser(
+        prog="python -m scene2hap.devices.reference_device", description="A serial amplifier in Python."
+    )
+    parser.add_argument(
+        "port", nargs="?", help="serial port; without it a pseudo-terminal is made and its name printed"
+    )
+    parser.add_argument("--baud", type=int, default=921600)
+    parser.add_argument("--rate", type=int, default=4000, metavar="HZ", help="sample rate that it plays")
+    parser.add_argument("--channels", type=int, default=2)
+    parser.add_argument("--wav", type=Path, help="keep what was played")
+    chosen = parser.parse_args(arguments)
+    heard: list[Samples] = []
+    keep = heard.append if chosen.wav else None
+    device = ReferenceDevice(chosen.rate, chosen.channels, on_output=keep)
+    try:
+        wire = _wire(chosen.port, chosen.baud)
+        with contextlib.suppress(KeyboardInterrupt):
+            serve(device, wire, threading.Event())
+    except OSError as cause:
+        print(f"error: {cause}")
+        return 1
+    print(f"\n{device.accepted_frames} frames, {device.damaged} damaged runs, {device.underruns} underruns")
+    if chosen.wav:
+        import soundfile
+
+        soundfile.write(chosen.wav, np.concatenate([np.zeros((0, chosen.channels), np.int16), *heard]), chosen.rate)
+    return 0
+
+
+def _wire(port: str | None, baud_rate: int) -> Wire:
+    if port is None:
+        if os.name == "nt":
+            raise DeviceError("Windows has no pseudo-terminals; give one port of a com0com pair.")
+        terminal = PseudoTerminal()
+        print(terminal.name, flush=True)
+        return terminal
+    from scene2hap.devices.serial_port import SerialPort, require_pyserial
+
+    require_pyserial()
+    return SerialPort(port, baud_rate)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,199 @@
+"""A serial amplifier that speaks our protocol (docs/serial-protocol.md)."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+
+import numpy as np
+
+from scene2hap import checks
+from scene2hap.devices.framing.frames import FrameParser, FrameType, message, pcm, to_wire
+from scene2hap.devices.framing.link_messages import GREETED, HEARD, Credit, DeviceFormat, Hello, is_newer
+from scene2hap.devices.link import CarryOn, LiveSink
+from scene2hap.devices.protocol import Block, EventCallback, SinkFormat
+from scene2hap.devices.serial_port import SerialPort, require_pyserial
+from scene2hap.errors import ConfigError, DeviceError, DeviceLost, DeviceTimeout
+
+HELLO_EVERY_S = 0.1
+ANSWER_S = 2.5
+"""Boards of the Arduino family restart when their port is opened, and need some 2 s until they listen."""
+
+PROBE_S = 0.05
+"""Without room and without news for so long, an empty PCM frame is sent: its CREDIT tells which others were lost."""
+
+_BITS_PER_BYTE = 10
+_FRAME_OVERHEAD = 19
+
+
+class SerialAmplifierSink(LiveSink):
+    """Plays on a serial amplifier; needs the extra `serial`. Failures are events, see `scene2hap.devices.link`.
+
+    Parameters: port : its name, such as "/dev/ttyACM0" or "COM5"; baud_rate : for real UARTs (USB boards ignore it);
+    sample_rate_hz : the device's, None takes what the device offers; buffer_s : how much is kept in the device's
+    queue [s], which is the latency that it adds; block_frames : frames of the device per PCM frame.
+    Raises: MissingExtra; ConfigError: a number out of bounds, or a baud rate that cannot carry the samples.
+    """
+
+    def __init__(
+        self,
+        port: str,
+        *,
+        baud_rate: int = 921600,
+        sample_rate_hz: int | None = None,
+        buffer_s: float = 0.02,
+        block_frames: int = 16,
+        on_event: EventCallback | None = None,
+    ) -> None:
+        require_pyserial()
+        line = SerialLine(port, baud_rate, sample_rate_hz, buffer_s, block_frames)
+        super().__init__(line, f"serial amplifier {port}", on_event=on_event)
+
+
+class SerialLine:
+    """The way to a serial amplifier; see `scene2hap.devices.link.Line`."""
+
+    def __init__(
+        self, port: str, baud_rate: int, sample_rate_hz: int | None, buffer_s: float, block_frames: int
+    ) -> None:
+        self._name = port
+        self._baud_rate = int(checks.number("baud_rate", baud_rate, "baud", at_least=9600, error=ConfigError))
+        self._wish_hz = 0
+        if sample_rate_hz is not None:
+            wish = checks.number("sample_rate_hz", sample_rate_hz, "Hz", at_least=500, at_most=48000, error=ConfigError)
+            self._wish_hz = int(wish)
+        self._buffer_s = checks.number("buffer_s", buffer_s, "s", at_least=0.002, at_most=1.0, error=ConfigError)
+        self._block = int(checks.number("block_frames", block_frames, "-", at_least=1, at_most=256, error=ConfigError))
+        self.underruns = 0
+        self.latency_s: float | None = None
+        self._port: SerialPort | None = None
+        self._parser = FrameParser()
+        self._in_flight: deque[tuple[int, int]] = deque()
+        self._news_s = 0.0
+        self._sequence = 0
+        self._room = 0
+        self._block_frames = self._block
+        self._target_frames = 0
+        self._rate_hz = self._channels = 0
+
+    def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
+        """Open the port and greet until the device answers."""
+        self._port = SerialPort(self._name, self._baud_rate)
+        self._parser = FrameParser()
+        self._in_flight.clear()
+        self._room = 0
+        device = self._greet(self._port, len(format.channels), carry_on)
+        if device is None:
+            return 1
+        self._check(device, len(format.channels))
+        self._rate_hz = device.sample_rate_hz
+        self._channels = len(format.channels)
+        self._block_frames = min(self._block, device.block_frames, device.queue_frames // 2)
+        wished = max(round(self._buffer_s * device.sample_rate_hz), 2 * self._block_frames)
+        self._target_frames = min(wished, device.queue_frames)
+        self._news_s = time.monotonic()
+        return device.sample_rate_hz
+
+    def wanted(self, timeout_s: float) -> int:
+        """One block where the device has room for it within the buffer wished for."""
+        if self._room < self._block_frames:
+            self._listen(timeout_s)
+            if self._in_flight and time.monotonic() - self._news_s > PROBE_S:
+                self._news_s = time.monotonic()
+                self.send(np.zeros((0, self._channels), dtype=np.float32))
+        return self._block_frames if self._room >= self._block_frames else 0
+
+    def send(self, block: Block) -> None:
+        """One PCM frame."""
+        self._sequence = (self._sequence + 1) % 2**16
+        self._in_flight.append((self._sequence, len(block)))
+        self._room -= len(block)
+        self._write(to_wire(pcm(block, sequence=self._sequence, time_us=_micros(time.monotonic()))))
+
+    def disconnect(self) -> None:
+        """Mute the device and close the port."""
+        port, self._port = self._port, None
+        self.latency_s = None
+        if port is None:
+            return
+        try:
+            farewell = to_wire(message(FrameType.MUTE))
+            port.write(farewell)
+            # Closing throws away what was not sent, so the frame needs its time on the wire.
+            time.sleep(0.001 + len(farewell) * _BITS_PER_BYTE / self._baud_rate)
+        except DeviceError:
+            pass  # a device that has gone mutes itself, by its watchdog
+        port.close()
+
+    def _greet(self, port: SerialPort, n_channels: int, carry_on: CarryOn) -> DeviceFormat | None:
+        hello = to_wire(Hello(self._wish_hz, n_channels).to_frame())
+        began = asked = time.monotonic()
+        port.write(hello)
+        while carry_on():
+            for frame in self._parser.feed(port.read(0.005)):
+                if answer := DeviceFormat.from_frame(frame):
+                    return answer
+            now = time.monotonic()
+            if now - began > ANSWER_S:
+                raise DeviceTimeout(
+                    f"{self._name} does not answer at {self._baud_rate} baud. Is it the right port, does its program "
+                    "speak scene2hap's protocol (firmware/), and does the baud rate match?"
+                )
+            if now - asked > HELLO_EVERY_S:
+                asked = now
+                port.write(hello)
+        return None
+
+    def _check(self, device: DeviceFormat, n_channels: int) -> None:
+        if self._wish_hz and device.sample_rate_hz != self._wish_hz:
+            raise DeviceError(
+                f"{self._name} plays at {device.sample_rate_hz} Hz and cannot do {self._wish_hz} Hz. "
+                "Leave sample_rate_hz out to take what it offers."
+            )
+        if device.channels < n_channels:
+            raise DeviceError(f"{self._name} has {device.channels} channels; the session has {n_channels} hands.")
+        if not (500 <= device.sample_rate_hz <= 48000 and device.block_frames and device.queue_frames >= 2):
+            raise DeviceError(f"{self._name} answers with {device}, which cannot be played.")
+        block = min(self._block, device.block_frames, device.queue_frames // 2)
+        needed = (_FRAME_OVERHEAD + 2 * n_channels * block) / block * device.sample_rate_hz * _BITS_PER_BYTE
+        if needed > self._baud_rate:
+            raise DeviceError(
+                f"{self._name}: {device.sample_rate_hz} Hz need {needed:.0f} baud, and it is open at "
+                f"{self._baud_rate}. Raise baud_rate, or block_frames."
+            )
+
+    def _listen(self, timeout_s: float) -> None:
+        """Take in credits, the newest of which tells all."""
+        if self._port is None:
+            raise DeviceLost(f"{self._name} is not open.")
+        newest: tuple[Credit, int] | None = None
+        for frame in self._parser.feed(self._port.read(timeout_s)):
+            if credit := Credit.from_frame(frame):
+                newest = credit, frame.time_us
+        if newest is not None:
+            self._take(*newest)
+
+    def _take(self, credit: Credit, sent_us: int) -> None:
+        if not credit.flags & GREETED:
+            raise DeviceLost(f"{self._name} has restarted.")
+        now = time.monotonic()
+        heard = credit.flags & HEARD
+        while heard and self._in_flight and not is_newer(self._in_flight[0][0], credit.last_sequence):
+            self._in_flight.popleft()
+            self._news_s = now
+        flying = sum(n_frames for _, n_frames in self._in_flight)
+        room = min(credit.free_frames, self._target_frames - credit.queued_frames)
+        self._room = room - flying
+        self.underruns = credit.underruns
+        if heard:
+            transfer_s = (_micros(now) - sent_us) % 2**32 / 1e6
+            self.latency_s = transfer_s + credit.queued_frames / self._rate_hz
+
+    def _write(self, data: bytes) -> None:
+        if self._port is None:
+            raise DeviceLost(f"{self._name} is not open.")
+        self._port.write(data)
+
+
+def _micros(now_s: float) -> int:
+    return int(now_s * 1e6) % 2**32

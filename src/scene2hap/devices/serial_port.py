@@ -1,0 +1,107 @@
+"""A serial port that never blocks for long, with errors of our own.
+
+What drivers do: a full port raises after the write timeout, at times without reason, and a timeout of 0 spins (pyserial
+3.5 on POSIX); a port that was pulled out raises SerialException, OSError or termios.error, depending on the call;
+closing one with bytes that nobody takes can wait for half a minute, unless they are thrown away first.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import sys
+from typing import TYPE_CHECKING
+
+from scene2hap.errors import DeviceError, DeviceLost, DeviceNotFound, MissingExtra
+
+if TYPE_CHECKING:
+    import serial
+
+WRITE_TIMEOUT_S = 0.05
+
+
+def require_pyserial() -> None:
+    """Raises: MissingExtra: pyserial is not installed."""
+    try:
+        import serial  # noqa: F401
+    except ImportError as cause:
+        raise MissingExtra("serial ports need pyserial. Run: pip install 'scene2hap[serial]'") from cause
+
+
+class SerialPort:
+    """An open port.
+
+    Raises: DeviceNotFound: no such port; DeviceError: it is in use, may not be opened, or refuses the baud rate.
+    """
+
+    def __init__(self, name: str, baud_rate: int) -> None:
+        import serial
+
+        self.name = name
+        # SerialException is an OSError.
+        self._lost: tuple[type[Exception], ...] = (OSError, ValueError, TypeError, *_termios_error())
+        try:
+            self._port: serial.Serial = serial.Serial(
+                name, baud_rate, timeout=0.0, write_timeout=WRITE_TIMEOUT_S, exclusive=True
+            )
+        except self._lost as cause:
+            raise _open_error(name, baud_rate, cause) from cause
+        # The 16 ms timer of FTDI chips would hold back every credit; other chips have none, and say so.
+        with contextlib.suppress(NotImplementedError, AttributeError, *self._lost):
+            self._port.set_low_latency_mode(True)
+
+    def read(self, timeout_s: float) -> bytes:
+        """What has arrived, waiting at most so long [s] for a first byte. Raises: DeviceLost."""
+        try:
+            self._port.timeout = timeout_s
+            return self._port.read(max(1, self._port.in_waiting))
+        except self._lost as cause:
+            raise DeviceLost(f"{self.name} has gone: {_reason(cause)}. Plug it in again.") from cause
+
+    def write(self, data: bytes) -> None:
+        """Hand bytes to the driver, or give up after 50 ms; the protocol finds out what arrived. Raises: DeviceLost."""
+        import serial
+
+        try:
+            self._port.write(data)
+        except serial.SerialTimeoutException:
+            # Says nothing: pyserial looks at the clock once more after the last byte, and on a busy machine raises
+            # though all were taken. A device that takes none grants no credit, and is given up for that.
+            pass
+        except self._lost as cause:
+            raise DeviceLost(f"{self.name} has gone: {_reason(cause)}. Plug it in again.") from cause
+
+    def close(self) -> None:
+        """Throw away what was not sent, and close; never raises."""
+        with contextlib.suppress(*self._lost):
+            self._port.reset_output_buffer()
+        with contextlib.suppress(*self._lost):
+            self._port.close()
+
+
+def _termios_error() -> tuple[type[Exception], ...]:
+    # termios.error is no OSError, and there is no termios on Windows.
+    if sys.platform == "win32":
+        return ()
+    import termios
+
+    return (termios.error,)
+
+
+def _open_error(name: str, baud_rate: int, cause: Exception) -> DeviceError:
+    code = getattr(cause, "errno", None)
+    text = str(cause)
+    if code in (errno.ENOENT, errno.ENODEV, errno.ENXIO, errno.EIO) or "FileNotFoundError" in text:
+        return DeviceNotFound(f"no serial port {name}. `python -m serial.tools.list_ports` lists what there is.")
+    if code in (errno.EAGAIN, errno.EBUSY):
+        return DeviceError(f"{name} is in use by another program. Close it there.")
+    if code in (errno.EACCES, errno.EPERM) or "PermissionError" in text:
+        return DeviceError(
+            f"{name} may not be opened: permission denied. On Linux add yourself to the group that owns it "
+            "(dialout or uucp) and log in again; on Windows another program holds it."
+        )
+    return DeviceError(f"{name} cannot be opened at {baud_rate} baud: {_reason(cause)}.")
+
+
+def _reason(cause: Exception) -> str:
+    return str(cause).rstrip(".") or type(cause).__name__

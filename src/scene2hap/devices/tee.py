@@ -1,0 +1,178 @@
+"""Several sinks at once.
+
+Devices have clocks of their own, so the mix is put on a tape that each reads at its own pace. Whoever is furthest has
+the session render on; who falls more than 0.1 s behind (a slower clock, a device that was away) jumps to the head, with
+a cross-fade. Sinks without a clock, such as WavSink, are given every block once, in order.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from scene2hap.devices.clock import has_clock
+from scene2hap.devices.protocol import ActuatorSink, Block, EventCallback, Fill, SinkEvent, SinkFormat, SinkStats
+from scene2hap.errors import ConfigError, DeviceError
+
+MAX_LAG_S = 0.1
+
+
+class TeeSink:
+    """Hands one mix to several sinks: objects, kinds, or mappings with a `kind`.
+
+    `stats` adds them up, is connected if any is, and tells the largest latency; `sinks` gives access to each. With only
+    sinks that have no clock, `pull` takes from the session, as theirs does.
+    Raises: ConfigError: no sink, or something that is none.
+    """
+
+    def __init__(
+        self, sinks: Sequence[ActuatorSink | str | Mapping[str, Any]], *, on_event: EventCallback | None = None
+    ) -> None:
+        from scene2hap.devices import SINKS
+
+        built = [SINKS.build(sink) for sink in sinks]
+        strangers = [sink for sink in built if not isinstance(sink, ActuatorSink)]
+        if not built or strangers:
+            raise ConfigError(f"TeeSink needs at least one sink and nothing else, got {strangers or 'none'}.")
+        self.sinks: tuple[ActuatorSink, ...] = tuple(sink for sink in built if isinstance(sink, ActuatorSink))
+        self.on_event = on_event
+        self._format: SinkFormat | None = None
+        self._tape: _Tape | None = None
+        for sink in self.sinks:
+            if hasattr(sink, "on_event") and getattr(sink, "on_event", None) is None:
+                sink.on_event = self._pass_on
+
+    def open(self, format: SinkFormat) -> None:
+        """Open all. Raises: DeviceError: one cannot be; the others are closed again."""
+        self._format = format
+        for number, sink in enumerate(self.sinks):
+            try:
+                sink.open(format)
+            except Exception:
+                for opened in self.sinks[:number]:
+                    getattr(opened, "abort", opened.close)()
+                raise
+
+    def start(self, fill: Fill) -> None:
+        """Start all. Raises: DeviceError: not open."""
+        if self._format is None:
+            raise DeviceError("TeeSink is not open; call open(SinkFormat(...)) before start.")
+        self._tape = tape = _Tape(fill, self._format, [sink for sink in self.sinks if not has_clock(sink)])
+        for sink in self.sinks:
+            if has_clock(sink):
+                sink.start(_Reader(tape, self._format).read)
+
+    def pull(self, n_frames: int) -> Block:
+        """Take and hand on the next frames, where no sink has a clock. Raises: DeviceError: not started, or one has."""
+        if self._tape is None or has_clock(self):
+            raise DeviceError("TeeSink is not started, or has a device in it that takes blocks by itself.")
+        return self._tape.advance(n_frames)
+
+    def stop(self) -> None:
+        """Stop all."""
+        for sink in self.sinks:
+            sink.stop()
+        self._tape = None
+
+    def close(self) -> None:
+        """Close all."""
+        self.stop()
+        for sink in self.sinks:
+            sink.close()
+        self._format = None
+
+    def abort(self) -> None:
+        """Stop all, and leave no file behind where a sink can do that."""
+        self.stop()
+        for sink in self.sinks:
+            getattr(sink, "abort", sink.close)()
+        self._format = None
+
+    def show(self, frame: object) -> None:
+        """Hand the gains of an update to those who want them."""
+        for sink in self.sinks:
+            if show := getattr(sink, "show", None):
+                show(frame)
+
+    @property
+    def stats(self) -> SinkStats:
+        """What all did together."""
+        each = [sink.stats for sink in self.sinks]
+        latencies = [stats.latency_s for stats in each if stats.latency_s is not None]
+        return SinkStats(
+            frames=sum(stats.frames for stats in each),
+            underruns=sum(stats.underruns for stats in each),
+            connected=any(stats.connected for stats in each),
+            reconnects=sum(stats.reconnects for stats in each),
+            dropped_frames=sum(stats.dropped_frames for stats in each),
+            faults=sum(stats.faults for stats in each),
+            latency_s=max(latencies, default=None),
+        )
+
+    def _pass_on(self, event: SinkEvent) -> None:
+        if self.on_event is not None:
+            self.on_event(event)
+
+
+class _Tape:
+    """The newest part of the mix, rendered on by whoever reads past its head.
+
+    Readers are sinks' own threads, never a sound card's callback, so that a lock is in order.
+    """
+
+    def __init__(self, fill: Fill, format: SinkFormat, recorders: Sequence[ActuatorSink]) -> None:
+        self._fill = fill
+        self._recorders = recorders
+        self._keep = 2 * round(MAX_LAG_S * format.sample_rate_hz)
+        self._samples = np.zeros((0, len(format.channels)), dtype=np.float32)
+        self.lock = threading.Lock()
+        self.head = 0
+        self._block = self._samples
+        for recorder in recorders:
+            recorder.start(lambda n_frames: self._block)
+
+    def advance(self, n_frames: int) -> Block:
+        """Render on."""
+        self._block = block = self._fill(n_frames)
+        for recorder in self._recorders:
+            recorder.pull(n_frames)  # type: ignore[attr-defined]  # what makes it one
+        self._samples = np.concatenate([self._samples[-self._keep :], block])
+        self.head += n_frames
+        return block
+
+    def read(self, start: int, n_frames: int) -> Block:
+        """The frames from a position on."""
+        missing = start + n_frames - self.head
+        if missing > 0:
+            self.advance(missing)
+        first = len(self._samples) - (self.head - start)
+        return self._samples[first : first + n_frames]
+
+
+class _Reader:
+    """One device's place on the tape."""
+
+    def __init__(self, tape: _Tape, format: SinkFormat) -> None:
+        self._tape = tape
+        self._most = round(MAX_LAG_S * format.sample_rate_hz)
+        self._position = 0
+
+    def read(self, n_frames: int) -> Block:
+        with self._tape.lock:
+            late = self._tape.head - self._position
+            if late <= self._most:
+                block = self._tape.read(self._position, n_frames)
+                self._position += n_frames
+                return block
+            old = self._tape.read(self._position, n_frames) if late < 2 * self._most else None
+            self._position = self._tape.head
+            block = self._tape.read(self._position, n_frames).copy()
+            self._position += n_frames
+        rising = (np.arange(1, n_frames + 1, dtype=np.float32) / np.float32(n_frames))[:, None]
+        block *= rising
+        if old is not None:
+            block += (1 - rising) * old
+        return block

@@ -1,0 +1,114 @@
+"""The mix over a network: PCM in datagrams, or the gains as OSC messages; docs/udp.md is for the receiving side."""
+
+from __future__ import annotations
+
+import struct
+import time
+from collections.abc import Mapping
+from typing import Literal
+
+from scene2hap import checks
+from scene2hap.devices.datagrams import Datagrams
+from scene2hap.devices.framing.frames import MAX_PAYLOAD, FrameType, SampleFormat, message, pcm, to_datagram
+from scene2hap.devices.link import CarryOn, LiveSink
+from scene2hap.devices.osc import GainFrame, OscLine
+from scene2hap.devices.pace import Pace
+from scene2hap.devices.protocol import Block, EventCallback, SinkFormat
+from scene2hap.errors import ConfigError
+
+ANNOUNCE_S = 1.0
+"""A receiver that starts late learns rate and channels after at most so long."""
+
+_SAMPLES = {"int16": SampleFormat.INT16, "float32": SampleFormat.FLOAT32}
+
+
+class UdpSink(LiveSink):
+    """Sends the mix, or its gains, to a program that renders; see docs/udp.md. Failures are events.
+
+    Parameters: host, port : where it listens; content : "pcm" for blocks of samples, "osc" for messages of gain, clip
+    and hand as the paper sent them to Max/MSP (needs the extra `osc`); sample_rate_hz, block_frames, samples ("int16"
+    or "float32") : of PCM; clips : source id -> path of its sound, as the receiver of OSC knows it, else the id.
+    Raises: MissingExtra; ConfigError: a setting out of bounds.
+    """
+
+    def __init__(
+        self,
+        host: str = "127.0.0.1",
+        port: int = 9000,
+        *,
+        content: Literal["pcm", "osc"] = "pcm",
+        sample_rate_hz: int = 8000,
+        block_frames: int = 80,
+        samples: Literal["int16", "float32"] = "float32",
+        clips: Mapping[str, str] | None = None,
+        on_event: EventCallback | None = None,
+    ) -> None:
+        if content not in ("pcm", "osc") or samples not in _SAMPLES:
+            raise ConfigError(
+                f'UdpSink content is {content!r} and samples {samples!r}; they must be "pcm" or "osc", and "int16" or '
+                '"float32".'
+            )
+        datagrams = Datagrams(host, int(checks.number("port", port, "-", at_least=1, at_most=65535, error=ConfigError)))
+        self._osc = OscLine(datagrams, clips or {}) if content == "osc" else None
+        line: OscLine | PcmLine = self._osc or PcmLine(datagrams, sample_rate_hz, block_frames, _SAMPLES[samples])
+        super().__init__(line, f"UDP receiver {host}:{port}", on_event=on_event)
+
+    def show(self, frame: GainFrame) -> None:
+        """Take in the gains of one update; the game's thread never waits here. Nothing to do for PCM."""
+        if self._osc is not None:
+            self._osc.latest = frame
+
+
+class PcmLine:
+    """Blocks of samples, paced by the wall clock; see `scene2hap.devices.link.Line`."""
+
+    def __init__(self, datagrams: Datagrams, sample_rate_hz: int, block_frames: int, format: SampleFormat) -> None:
+        rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", at_least=500, at_most=192000, error=ConfigError)
+        self._rate_hz = int(rate)
+        self._wish = int(checks.number("block_frames", block_frames, "-", at_least=1, at_most=512, error=ConfigError))
+        self._block_frames = self._wish
+        self._datagrams = datagrams
+        self._samples = format
+        self._pace = Pace(self._rate_hz)
+        self._sequence = 0
+        self._announcement = b""
+        self._announced_s = 0.0
+        self.latency_s: float | None = None
+
+    @property
+    def underruns(self) -> int:
+        """Datagrams that the machine would not queue."""
+        return self._datagrams.not_sent
+
+    def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
+        """Announce the stream."""
+        names = "\n".join(format.channels).encode()
+        self._announcement = to_datagram(message(FrameType.STREAM, struct.pack("<I", self._rate_hz) + names))
+        self._block_frames = min(self._wish, MAX_PAYLOAD // (len(format.channels) * self._samples.dtype.itemsize))
+        self._datagrams.connect(self._announcement, carry_on)
+        self._announced_s = time.monotonic()
+        self.latency_s = self._block_frames / self._rate_hz
+        self._pace.restart(time.monotonic())
+        return self._rate_hz
+
+    def wanted(self, timeout_s: float) -> int:
+        """A block whenever the clock has come so far."""
+        wait_s = self._pace.wait_s(self._block_frames, time.monotonic())
+        if wait_s > 0:
+            time.sleep(min(wait_s, timeout_s))
+        return self._block_frames if self._pace.due(time.monotonic()) >= self._block_frames else 0
+
+    def send(self, block: Block) -> None:
+        """One PCM datagram, and now and then the announcement."""
+        now = time.monotonic()
+        self._pace.take(len(block))
+        self._sequence = (self._sequence + 1) % 2**16
+        stamp = int(now * 1e6) % 2**32
+        self._datagrams.send(to_datagram(pcm(block, sequence=self._sequence, time_us=stamp, format=self._samples)))
+        if now - self._announced_s > ANNOUNCE_S:
+            self._announced_s = now
+            self._datagrams.send(self._announcement)
+
+    def disconnect(self) -> None:
+        """Tell the receiver to fall silent."""
+        self._datagrams.close(to_datagram(message(FrameType.MUTE)))

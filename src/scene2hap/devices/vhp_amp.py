@@ -1,0 +1,140 @@
+"""VHP boards of google/audio-to-tactile as a sink: twelve channels at 2 kHz over a serial port.
+
+The boards ask for each block of 4 ms, and that is all they say. What they need to be spared stands in
+docs/serial-protocol.md; none of it was tried on a board by us, but against boards that the tests play.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import Literal
+
+import numpy as np
+
+from scene2hap.devices.framing import vhp
+from scene2hap.devices.link import CarryOn, LiveSink
+from scene2hap.devices.protocol import Block, EventCallback, SinkFormat
+from scene2hap.devices.serial_port import SerialPort, require_pyserial
+from scene2hap.errors import ConfigError, DeviceError, DeviceLost, DeviceTimeout
+
+BAUD_RATE = 1_000_000
+KICK_S = 0.1
+"""A board whose question got lost asks again once it is given a block."""
+
+ANSWER_S = 1.0
+
+ECHO_S = 0.002
+"""Half a block: what the board asks sooner after a block is no question."""
+
+
+class VhpSink(LiveSink):
+    """Plays on a VHP board; needs the extra `serial`. Hands are the first channels, the others rest.
+
+    Parameters: port : its name; board : "slim" (over USB) or "sleeve" (over UART).
+    Raises: MissingExtra; ConfigError: another board.
+    """
+
+    def __init__(
+        self, port: str, *, board: Literal["slim", "sleeve"] = "slim", on_event: EventCallback | None = None
+    ) -> None:
+        if board not in ("slim", "sleeve"):
+            raise ConfigError(f'board is {board!r}; it must be "slim" or "sleeve".')
+        require_pyserial()
+        super().__init__(VhpLine(port, slim=board == "slim"), f"VHP {board} at {port}", on_event=on_event)
+
+
+class VhpLine:
+    """The way to a VHP board; see `scene2hap.devices.link.Line`."""
+
+    def __init__(self, port: str, *, slim: bool) -> None:
+        self._name = port
+        self._slim = slim
+        self.underruns = 0
+        # The slim board gathers eight blocks before it plays them; the sleeve plays the last one it got.
+        self.latency_s: float | None = vhp.FRAMES * (vhp.SLIM_QUEUE_FRAMES if slim else 1) / vhp.SAMPLE_RATE_HZ
+        self._port: SerialPort | None = None
+        self._heard = b""
+        self._asked_s = self._kicked_s = 0.0
+
+    def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
+        """Open the port, switch amplifiers on, and wait for the board to ask."""
+        if len(format.channels) > vhp.CHANNELS:
+            raise DeviceError(
+                f"{self._name} has {vhp.CHANNELS} channels; the session has {len(format.channels)} hands."
+            )
+        self._port = SerialPort(self._name, BAUD_RATE)
+        self._heard = b""
+        if not self._slim:
+            self._port.write(vhp.packet(vhp.Message(vhp.MessageType.ENABLE_AMPLIFIERS, recipient=vhp.Recipient.SLEEVE)))
+        began = time.monotonic()
+        self._write(_REST)
+        while carry_on() and not self._is_asked(0.005):
+            now = time.monotonic()
+            if now - began > ANSWER_S:
+                raise DeviceTimeout(f"{self._name} asks for no samples. Is it a VHP board with a streaming program?")
+            if now - self._kicked_s > KICK_S:
+                self._write(_REST)
+        self._write(_REST)
+        self._asked_s = time.monotonic()
+        return vhp.SAMPLE_RATE_HZ
+
+    def wanted(self, timeout_s: float) -> int:
+        """A block for each time that the board asks."""
+        now = time.monotonic()
+        if self._is_asked(timeout_s):
+            self._asked_s = now
+            return vhp.FRAMES
+        if now - self._asked_s > ANSWER_S:
+            raise DeviceLost(f"{self._name} has stopped asking for samples.")
+        if now - max(self._asked_s, self._kicked_s) > KICK_S:
+            self.underruns += 1
+            return vhp.FRAMES
+        return 0
+
+    def send(self, block: Block) -> None:
+        """One block."""
+        self._write(block)
+
+    def disconnect(self) -> None:
+        """Leave the board at rest: it would repeat what it got last for ever."""
+        port = self._port
+        if port is None:
+            return
+        try:
+            for _ in range(vhp.SLIM_QUEUE_FRAMES if self._slim else 1):
+                # Block by block, since its counter must land on a full buffer.
+                self._is_asked(KICK_S / 2)
+                self._write(_REST)
+            if not self._slim:
+                off = vhp.Message(vhp.MessageType.DISABLE_AMPLIFIERS, recipient=vhp.Recipient.SLEEVE)
+                port.write(vhp.packet(off))
+            # Closing throws away what was not sent: 132 bytes are 1.3 ms at 1 Mbaud.
+            time.sleep(0.004)
+        except DeviceError:
+            pass  # it has gone
+        port.close()
+        self._port = None
+
+    def _is_asked(self, timeout_s: float) -> bool:
+        if self._port is None:
+            raise DeviceLost(f"{self._name} is not open.")
+        end = time.monotonic() + timeout_s
+        while True:
+            self._heard = (self._heard + self._port.read(max(0.0, end - time.monotonic())))[-1024:]
+            sign = vhp.SLIM_CREDIT if self._slim else bytes([vhp.MORE])
+            if sign in self._heard:
+                self._heard = b""
+                # Two questions at once, or one sooner than a block can be played: a frame that USB has cut in two.
+                if time.monotonic() - self._kicked_s > ECHO_S:
+                    return True
+            if time.monotonic() >= end:
+                return False
+
+    def _write(self, block: Block) -> None:
+        if self._port is None:
+            raise DeviceLost(f"{self._name} is not open.")
+        self._kicked_s = time.monotonic()
+        self._port.write(vhp.slim_frame(block) if self._slim else vhp.sleeve_packet(block))
+
+
+_REST = np.zeros((vhp.FRAMES, 1), dtype=np.float32)

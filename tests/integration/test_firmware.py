@@ -1,0 +1,68 @@
+"""The firmware's own code, compiled for the host, at the other end of the wire."""
+
+import os
+import shutil
+import subprocess
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from scene2hap.devices.protocol import SinkEvent, SinkFormat
+from scene2hap.devices.serial_amp import SerialAmplifierSink
+from serial_bench import eventually
+
+HOST = Path(__file__).parents[2] / "firmware" / "host" / "main.cpp"
+COMPILER = shutil.which("c++") or shutil.which("g++") or shutil.which("clang++")
+
+pytestmark = [
+    pytest.mark.skipif(os.name == "nt", reason="pseudo-terminals are POSIX"),
+    pytest.mark.skipif(COMPILER is None, reason="no C++ compiler"),
+]
+
+
+@pytest.fixture(scope="module")
+def amplifier(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    program = tmp_path_factory.mktemp("firmware") / "amplifier"
+    flags = ["-std=c++17", "-O1", "-Wall", "-Wextra", "-Werror", "-fsanitize=undefined", "-fno-sanitize-recover"]
+    subprocess.run([str(COMPILER), *flags, "-o", str(program), str(HOST)], check=True)
+    return program
+
+
+def test_the_firmware_plays_what_was_sent(amplifier: Path, tmp_path: Path) -> None:
+    events: list[SinkEvent] = []
+    position = [0]
+
+    def counting(n_frames: int) -> "np.ndarray[tuple[int, int], np.dtype[np.float32]]":
+        place = np.arange(position[0], position[0] + n_frames) % 30000 + 1
+        position[0] += n_frames
+        return (np.stack([place, -place], axis=1) / 32767).astype(np.float32)
+
+    heard = tmp_path / "heard.raw"
+    with heard.open("wb") as out:
+        program = subprocess.Popen([str(amplifier)], stdin=subprocess.PIPE, stdout=out, stderr=subprocess.PIPE)
+        assert program.stderr is not None
+        assert program.stdin is not None
+        port = program.stderr.readline().decode().strip()
+        try:
+            for _ in range(2):  # the second time it is greeted again, with another run of sequences
+                with SerialAmplifierSink(port, buffer_s=0.05, on_event=events.append) as sink:
+                    sink.open(SinkFormat(4000, ("left", "right")))
+                    sink.start(counting)
+                    assert eventually(lambda sink=sink: sink.stats.frames >= 4000)  # type: ignore[misc]
+                    assert sink.stats.latency_s is not None
+            time.sleep(0.2)  # its ramp to zero
+        finally:
+            program.stdin.close()
+            errors = program.stderr.read()
+            program.stderr.close()
+            assert program.wait(10) == 0
+    assert errors == b""
+    assert [event.kind for event in events] == ["connected", "connected"]
+    left, right = np.fromfile(heard, dtype="<i2").reshape(-1, 2).astype(int).T
+    np.testing.assert_array_equal(right, -left)
+    # Whatever the timing, what rises by one per sample is the mix; an underrun ramps down and goes on where it was.
+    steps = np.diff(left)
+    assert (steps == 1).sum() > 6000
+    assert not left[-1]

@@ -1,0 +1,306 @@
+"""The serial amplifier over real pseudo-terminals, with the reference device at the other end."""
+
+import errno
+import itertools
+import os
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+import soundfile
+from numpy.typing import NDArray
+
+from scene2hap import HapticSession, Touch
+from scene2hap.devices import SINKS
+from scene2hap.devices.protocol import ActuatorSink, SinkEvent, SinkFormat
+from scene2hap.devices.reference_device import PseudoTerminal, ReferenceDevice
+from scene2hap.devices.serial_amp import SerialAmplifierSink
+from scenes import RATE, table_with_two_phones
+from serial_bench import Plug, eventually
+from wire_damage import damaged
+
+pytestmark = pytest.mark.skipif(os.name == "nt", reason="pseudo-terminals are POSIX")
+
+FORMAT = SinkFormat(4000, ("left", "right"))
+SECONDS = 30 if os.environ.get("CI") else 6
+
+
+class Counting:
+    """A mix whose 16-bit samples count up, left in the low and right in the high digits, so that each is known."""
+
+    def __init__(self) -> None:
+        self.position = 0
+
+    def __call__(self, n_frames: int) -> NDArray[np.float32]:
+        place = np.arange(self.position, self.position + n_frames)
+        self.position += n_frames
+        return (np.stack([place % 30000, place // 30000], axis=1) / 32767).astype(np.float32)
+
+    @staticmethod
+    def positions(samples: NDArray[np.int16]) -> NDArray[np.int64]:
+        return samples[:, 0].astype(np.int64) + 30000 * samples[:, 1].astype(np.int64)
+
+
+class Kept:
+    """Makes reference devices that keep what they accept."""
+
+    def __init__(self, **settings: int) -> None:
+        self.blocks: list[NDArray[np.int16]] = []
+        self._settings = settings
+
+    def __call__(self) -> ReferenceDevice:
+        return ReferenceDevice(on_samples=self.blocks.append, **self._settings)
+
+    @property
+    def samples(self) -> NDArray[np.int16]:
+        return np.concatenate(self.blocks)
+
+
+class Deaf(ReferenceDevice):
+    """Hears one byte in a hundred wrongly."""
+
+    rng = np.random.default_rng(4)
+
+    def receive(self, data: bytes, now_s: float) -> None:
+        ((worse, _),) = damaged([data], 0.01, self.rng)
+        super().receive(worse, now_s)
+
+
+@pytest.fixture
+def events() -> list[SinkEvent]:
+    return []
+
+
+@pytest.fixture(autouse=True)
+def _nothing_is_left_behind() -> Iterator[None]:
+    before = threading.active_count()
+    yield
+    assert threading.active_count() == before
+
+
+def kinds(events: list[SinkEvent]) -> list[str]:
+    return [event.kind for event in events]
+
+
+def test_every_sample_arrives_bit_exact(tmp_path: Path, events: list[SinkEvent]) -> None:
+    kept = Kept()
+    with Plug(tmp_path, kept) as plug:
+        # Both ends share a machine that may be busy: 0.1 s in the queue rides over its pauses.
+        sink = SerialAmplifierSink(str(plug.path), buffer_s=0.1, on_event=events.append)
+        sink.open(FORMAT)
+        sink.start(Counting())
+        assert eventually(lambda: sink.stats.frames >= SECONDS * 4000, within_s=6 * SECONDS)
+        sink.close()
+        stats = sink.stats
+        device = plug.device
+    assert kinds(events) == ["connected"], events
+    assert (device.damaged, device.lost, device.refused) == (0, 0, 0)
+    played = Counting.positions(kept.samples)[200:]  # after the fade
+    first = stats.dropped_frames + 200  # dropped while the device was being greeted
+    np.testing.assert_array_equal(played, np.arange(first, first + len(played)))
+    assert len(played) >= SECONDS * 4000 - 400
+
+
+def test_a_session_of_48_khz_is_converted(tmp_path: Path) -> None:
+    kept = Kept()
+    clock = itertools.count()
+
+    def sine(n_frames: int) -> NDArray[np.float32]:
+        place = np.fromiter(itertools.islice(clock, n_frames), dtype=np.float64)
+        wave = np.sin(2 * np.pi * 200 * place / 48000)
+        return np.stack([wave, 0.5 * wave], axis=1).astype(np.float32)
+
+    with Plug(tmp_path, kept) as plug, SerialAmplifierSink(str(plug.path)) as sink:
+        sink.open(SinkFormat(48000, ("left", "right")))
+        sink.start(sine)
+        assert eventually(lambda: plug.device.accepted_frames > 2400, within_s=30)
+        assert eventually(lambda: sink.stats.latency_s is not None)
+    left = kept.samples[400:2400, 0] / 32767
+    spectrum = np.abs(np.fft.rfft(left)) / 1000
+    assert spectrum[100] == pytest.approx(1, abs=1e-3)  # 200 Hz, of 2 Hz per bin
+    assert np.delete(spectrum, 100).max() < 1e-3
+    np.testing.assert_allclose(kept.samples[400:2400, 1] / 32767, 0.5 * left, atol=1e-4)
+
+
+def test_a_bad_wire_costs_frames_and_nothing_else(tmp_path: Path, events: list[SinkEvent]) -> None:
+    blocks: list[NDArray[np.int16]] = []
+    device = Deaf(on_samples=blocks.append)
+    mix = Counting()
+    with Plug(tmp_path, lambda: device) as plug:
+        sink = SerialAmplifierSink(str(plug.path), block_frames=8, on_event=events.append)
+        with sink:
+            sink.open(FORMAT)
+            sink.start(mix)
+            assert eventually(lambda: device.accepted_frames > 4000)
+    assert kinds(events) == ["connected"], events
+    assert device.damaged > 100
+    at = [Counting.positions(block) for block in blocks[40:]]
+    assert all((np.diff(positions) == 1).all() for positions in at)
+    starts = np.array([positions[0] for positions in at])
+    assert (np.diff(starts) > 0).all()
+    assert starts[-1] < mix.position
+
+
+def test_a_device_without_credit_is_taken_up_again(tmp_path: Path, events: list[SinkEvent]) -> None:
+    mix = Counting()
+    with Plug(tmp_path) as plug, SerialAmplifierSink(str(plug.path), on_event=events.append) as sink:
+        sink.open(FORMAT)
+        sink.start(mix)
+        assert eventually(lambda: plug.device.accepted_frames > 400)
+        plug.device.grants_credit = False
+        assert eventually(lambda: "stalled" in kinds(events))
+        assert eventually(lambda: plug.device.muted)  # by its watchdog
+        position = mix.position
+        assert eventually(lambda: mix.position > position + 400)  # the session goes on
+        plug.device.grants_credit = True
+        assert eventually(lambda: not plug.device.muted)
+    assert kinds(events)[:2] == ["connected", "stalled"]
+    assert kinds(events)[2] in ("resumed", "lost")
+
+
+def test_a_device_that_restarts_is_greeted_anew(tmp_path: Path, events: list[SinkEvent]) -> None:
+    with Plug(tmp_path) as plug, SerialAmplifierSink(str(plug.path), on_event=events.append) as sink:
+        sink.open(FORMAT)
+        sink.start(Counting())
+        assert eventually(lambda: plug.device.accepted_frames > 400)
+        plug.device._greeted = False  # as after a brown-out
+        assert eventually(lambda: kinds(events) == ["connected", "lost", "connected"])
+    assert "restarted" in events[1].message
+
+
+def test_pulled_out_and_put_in_again(tmp_path: Path, events: list[SinkEvent]) -> None:
+    plug = Plug(tmp_path)
+    sink = SerialAmplifierSink(str(plug.path), on_event=events.append)
+    mix = Counting()
+    sink.open(FORMAT)
+    sink.start(mix)
+    assert eventually(lambda: kinds(events) == ["unavailable"])
+    assert "no serial port" in events[0].message
+    try:
+        for _ in range(3):
+            plug.put_in()
+            assert eventually(lambda: plug.device.accepted_frames > 200)
+            position = mix.position
+            plug.pull_out()
+            assert eventually(lambda position=position: mix.position > position + 400)  # type: ignore[misc]
+            assert not sink.stats.connected
+    finally:
+        plug.pull_out()
+        sink.close()
+    assert sink.stats.reconnects == 2, events
+    assert kinds(events).count("connected") == kinds(events).count("lost") == 3
+
+
+def test_a_frozen_device_is_given_up_and_found_again(
+    tmp_path: Path, events: list[SinkEvent], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("scene2hap.devices.serial_amp.ANSWER_S", 0.2)
+    mix = Counting()
+    with Plug(tmp_path) as plug, SerialAmplifierSink(str(plug.path), on_event=events.append) as sink:
+        sink.open(FORMAT)
+        sink.start(mix)
+        assert eventually(lambda: plug.device.accepted_frames > 400)
+        plug.freeze()
+        assert eventually(lambda: kinds(events) == ["connected", "stalled", "lost", "unavailable"])
+        position = mix.position
+        assert eventually(lambda: mix.position > position + 400)
+        plug.wake_up()
+        assert eventually(lambda: kinds(events)[-1] == "connected" and plug.device.accepted_frames > 0)
+
+
+def test_a_session_goes_on_without_its_amplifier(tmp_path: Path, events: list[SinkEvent]) -> None:
+    plug = Plug(tmp_path)
+    sink = {"kind": "serial", "port": str(plug.path), "on_event": events.append}
+    session = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE}, sink=sink)
+    on_the_phone = Touch("left", "phone", (0.1, 0.73, 0.4))
+    with session:
+        assert eventually(lambda: bool(events))
+        position = session.position
+        assert eventually(lambda: session.position > position + RATE / 10)
+        with plug:
+            assert eventually(lambda: plug.device.accepted_frames > 200)
+            assert session.update(touches=[on_the_phone]).gain("left", "phone") == 1.0
+            assert eventually(lambda: bool(plug.device._held.any()))
+        assert eventually(lambda: kinds(events)[-1] in ("lost", "unavailable"))
+        position = session.position
+        assert session.update(touches=[on_the_phone]).gain("left", "phone") == 1.0
+        assert eventually(lambda: session.position > position + RATE / 10)
+    assert kinds(events)[:3] == ["unavailable", "connected", "lost"]
+
+
+def test_what_is_at_the_port_is_told_apart(
+    tmp_path: Path, events: list[SinkEvent], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def told(words: str, make: Kept | None = None, **settings: object) -> None:
+        events.clear()
+        with Plug(tmp_path, make or Kept()) as plug:
+            sink = SerialAmplifierSink(str(plug.path), on_event=events.append, **settings)  # type: ignore[arg-type]
+            with sink:
+                sink.open(FORMAT)
+                sink.start(Counting())
+                assert eventually(lambda: bool(events))
+        assert events[0].kind == "unavailable"
+        assert words in events[0].message
+
+    told("plays at 4000 Hz and cannot do 8000 Hz", sample_rate_hz=8000)
+    told("has 1 channels", Kept(channels=1))
+    told("Raise baud_rate", baud_rate=115200)
+    import serial
+
+    def refused(*args: object, **kwargs: object) -> None:
+        raise serial.SerialException(errno.EACCES, "could not open port: [Errno 13] Permission denied")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(serial, "Serial", refused)
+        told("permission denied")
+
+
+def test_a_port_in_use(tmp_path: Path, events: list[SinkEvent]) -> None:
+    with Plug(tmp_path) as plug, SerialAmplifierSink(str(plug.path)) as first:
+        first.open(FORMAT)
+        first.start(Counting())
+        assert first.wait_connected(10)
+        with SerialAmplifierSink(str(plug.path), on_event=events.append) as second:
+            second.open(FORMAT)
+            second.start(Counting())
+            assert eventually(lambda: bool(events))
+        assert first.stats.connected
+    assert "in use" in events[0].message
+
+
+def test_something_that_does_not_answer(events: list[SinkEvent], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("scene2hap.devices.serial_amp.ANSWER_S", 0.2)
+    terminal = PseudoTerminal()
+    with SerialAmplifierSink(terminal.name, on_event=events.append) as sink:
+        sink.open(FORMAT)
+        sink.start(Counting())
+        assert eventually(lambda: bool(events))
+    terminal.close()
+    assert "does not answer" in events[0].message
+
+
+def test_the_reference_device_is_a_program(tmp_path: Path) -> None:
+    wav = tmp_path / "heard.wav"
+    command = [sys.executable, "-m", "scene2hap.devices.reference_device", "--wav", str(wav)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as program:
+        assert program.stdout is not None
+        port = program.stdout.readline().strip()
+        sink = SINKS.build({"kind": "serial", "port": port, "buffer_s": 0.04})
+        assert isinstance(sink, ActuatorSink)
+        sink.open(FORMAT)
+        sink.start(lambda n: np.full((n, 2), 0.5, dtype=np.float32))
+        assert eventually(lambda: sink.stats.frames > 2000, within_s=20)
+        sink.stop()
+        sink.close()
+        program.send_signal(signal.SIGINT)
+        report = program.stdout.read()
+        assert program.wait(20) == 0
+    assert " 0 damaged runs" in report
+    heard, rate = soundfile.read(wav)
+    assert rate == 4000
+    assert np.abs(heard).max() == pytest.approx(0.5, abs=1e-4)

@@ -1,0 +1,153 @@
+"""PCM and OSC over the loopback, against receivers that are not ours."""
+
+import re
+import socket
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from pythonosc.dispatcher import Dispatcher
+from pythonosc.osc_server import OSCUDPServer
+
+from scene2hap import HapticSession, Touch
+from scene2hap.devices.protocol import SinkEvent, SinkFormat
+from scene2hap.devices.udp import UdpSink
+from scene2hap.session import HapticFrame
+from scenes import RATE, table_with_two_phones
+from serial_bench import eventually
+
+PAGE = Path(__file__).parents[2] / "docs" / "udp.md"
+
+
+@pytest.fixture
+def listener() -> Iterator[socket.socket]:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
+        sock.bind(("127.0.0.1", 0))
+        sock.settimeout(10)
+        yield sock
+
+
+def receiver_of_the_page() -> Any:
+    (code,) = [block for block in re.findall(r"```python\n(.*?)```", PAGE.read_text("utf-8"), re.S) if "def " in block]
+    names: dict[str, Any] = {}
+    exec(code, names)
+    return names["receive"]
+
+
+def counting(n_frames: int, position: list[int]) -> NDArray[np.float32]:
+    place = np.arange(position[0], position[0] + n_frames, dtype=np.float32)
+    position[0] += n_frames
+    return np.stack([place, -place], axis=1) / np.float32(2**20)
+
+
+def test_the_receiver_of_the_page_gets_every_sample(listener: socket.socket) -> None:
+    got: list[tuple[float, ...]] = []
+    told: set[tuple[int, int]] = set()
+
+    def play(samples: tuple[float, ...], channels: int, rate: int) -> None:
+        got.append(samples)
+        told.add((channels, rate))
+
+    thread = threading.Thread(target=receiver_of_the_page(), args=(listener, play))
+    thread.start()
+    position = [0]
+    with UdpSink("127.0.0.1", listener.getsockname()[1]) as sink:
+        sink.open(SinkFormat(8000, ("left", "right")))
+        sink.start(lambda n: counting(n, position))
+        assert eventually(lambda: sink.stats.frames >= 4000)
+    thread.join(10)
+    assert not thread.is_alive()
+    samples = np.array(got).reshape(-1, 2)
+    assert told == {(2, 8000)}
+    assert len(samples) == sink.stats.frames
+    after_fade = samples[400:]
+    first = sink.stats.dropped_frames + 400
+    np.testing.assert_array_equal(after_fade[:, 0] * 2**20, np.arange(first, first + len(after_fade)))
+    np.testing.assert_array_equal(after_fade[:, 1], -after_fade[:, 0])
+
+
+def test_it_is_paced_by_the_clock(listener: socket.socket) -> None:
+    with UdpSink("127.0.0.1", listener.getsockname()[1]) as sink:
+        sink.open(SinkFormat(8000, ("left",)))
+        sink.start(lambda n: np.zeros((n, 1), dtype=np.float32))
+        assert sink.wait_connected(10)
+        began = time.monotonic()
+        assert eventually(lambda: sink.stats.frames >= 2400)
+        # Never ahead of the clock; how late depends on the machine.
+        assert time.monotonic() - began > 0.29
+
+
+def test_a_receiver_that_is_not_there_yet(listener: socket.socket) -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as reserved:
+        reserved.bind(("127.0.0.1", 0))
+        port = reserved.getsockname()[1]
+    events: list[SinkEvent] = []
+    position = [0]
+    with UdpSink("127.0.0.1", port, on_event=events.append) as sink:
+        sink.open(SinkFormat(8000, ("left", "right")))
+        sink.start(lambda n: counting(n, position))
+        assert eventually(lambda: bool(events))
+        assert events[0].kind == "unavailable"
+        assert "nobody listens" in events[0].message
+        assert eventually(lambda: position[0] > 800)
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as late:
+            late.bind(("127.0.0.1", port))
+            assert eventually(lambda: sink.stats.frames > 800)
+        assert eventually(lambda: events[-1].kind in ("lost", "unavailable"))
+    assert [event.kind for event in events[:3]] == ["unavailable", "connected", "lost"]
+
+
+class MaxPatch:
+    """An OSC server of python-osc that writes down what it hears."""
+
+    def __init__(self) -> None:
+        self.heard: list[tuple[str, tuple[Any, ...]]] = []
+        dispatcher = Dispatcher()
+        dispatcher.set_default_handler(lambda address, *values: self.heard.append((address, values)))
+        self._server = OSCUDPServer(("127.0.0.1", 0), dispatcher)
+        self.port = self._server.server_address[1]
+        self._thread = threading.Thread(target=self._server.serve_forever, kwargs={"poll_interval": 0.01})
+
+    def __enter__(self) -> "MaxPatch":
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._server.shutdown()
+        self._server.server_close()
+        self._thread.join()
+
+    def is_silent(self) -> bool:
+        last = {values[1:]: values[0] for values in self.of("/scene2hap/gain")}
+        return bool(last) and not any(last.values())
+
+    def of(self, address: str) -> list[tuple[Any, ...]]:
+        return [values for heard, values in self.heard if heard == address]
+
+
+def test_gains_reach_a_patch_as_the_paper_sent_them() -> None:
+    scene, bundle = table_with_two_phones()
+    with MaxPatch() as patch:
+        sink = UdpSink("127.0.0.1", patch.port, content="osc", clips={"phone": "loops/phone.wav"})
+        session = HapticSession(scene, bundle, {"sample_rate_hz": RATE}, sink=sink)
+        with session:
+            assert sink.wait_connected(10)
+            frame = session.update(touches=[Touch("right", "phone", (0.1, 0.73, 0.4))])
+            assert isinstance(frame, HapticFrame)
+            sink.show(frame)
+            assert eventually(lambda: ("loops/phone.wav", 1) in [told[1:] for told in patch.of("/scene2hap/gain")])
+            assert patch.of("/scene2hap/hello")[0] == (RATE,)
+            assert ("loops/phone.wav",) in patch.of("/scene2hap/play")
+            assert (1.0, "loops/phone.wav", 1) in patch.of("/scene2hap/gain")
+            assert eventually(lambda: session.position > RATE / 10)  # the session's clock runs
+            sink.show(session.update(touches=[]))
+            assert eventually(lambda: patch.of("/scene2hap/gain")[-1][0] == 0.0)
+            sink.show(session.update(touches=[Touch("left", "phone", (0.1, 0.73, 0.4))]))
+            assert eventually(lambda: (1.0, "loops/phone.wav", 0) in patch.of("/scene2hap/gain"))
+        assert eventually(patch.is_silent)
+    assert patch.of("/scene2hap/play").count(("loops/phone.wav",)) == 1

@@ -1,0 +1,193 @@
+"""A sink's thread, against a line that fails on command."""
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from scene2hap.devices.link import LiveSink
+from scene2hap.devices.protocol import ActuatorSink, SinkEvent, SinkFormat
+from scene2hap.errors import DeviceError, DeviceLost, DeviceNotFound
+from serial_bench import eventually
+
+FORMAT = SinkFormat(1000, ("left", "right"))
+
+
+class ScriptedLine:
+    """A device that is there, wants samples and takes them, or not."""
+
+    def __init__(self) -> None:
+        self.there = True
+        self.wants = True
+        self.error: Exception | None = None
+        self.underruns = 0
+        self.latency_s: float | None = 0.01
+        self.taken: list[NDArray[np.float32]] = []
+        self.connects = self.disconnects = 0
+
+    def connect(self, format: SinkFormat, carry_on: Callable[[], bool]) -> int:
+        carry_on()
+        if not self.there:
+            raise DeviceNotFound("no device.")
+        self.connects += 1
+        return format.sample_rate_hz
+
+    def wanted(self, timeout_s: float) -> int:
+        time.sleep(min(timeout_s, 0.001))
+        if self.error is not None:
+            error, self.error = self.error, None
+            raise error
+        return 4 if self.wants else 0
+
+    def send(self, block: NDArray[np.float32]) -> None:
+        self.taken.append(block)
+
+    def disconnect(self) -> None:
+        self.disconnects += 1
+
+    @property
+    def samples(self) -> NDArray[np.float32]:
+        return np.concatenate(self.taken)
+
+
+class Bench:
+    """A sink on a scripted line, with a mix of ones and a list of what it told."""
+
+    def __init__(self) -> None:
+        self.line = ScriptedLine()
+        self.events: list[SinkEvent] = []
+        self.sink = LiveSink(self.line, "test device", on_event=self.events.append)
+        self.asked = 0
+
+    def fill(self, n_frames: int) -> NDArray[np.float32]:
+        self.asked += n_frames
+        return np.ones((n_frames, 2), dtype=np.float32)
+
+    @property
+    def kinds(self) -> list[str]:
+        return [event.kind for event in self.events]
+
+    def start(self) -> None:
+        self.sink.open(FORMAT)
+        self.sink.start(self.fill)
+
+
+@pytest.fixture
+def bench() -> Iterator[Bench]:
+    made = Bench()
+    yield made
+    made.sink.close()
+    made.sink.close()
+    assert not [thread for thread in threading.enumerate() if thread.name == "test device"]
+
+
+def test_it_is_an_actuator_sink(bench: Bench) -> None:
+    assert isinstance(bench.sink, ActuatorSink)
+    with pytest.raises(DeviceError, match="not open"):
+        bench.sink.start(bench.fill)
+
+
+def test_the_mix_arrives_faded_in(bench: Bench) -> None:
+    bench.start()
+    assert bench.sink.wait_connected(10)
+    assert eventually(lambda: len(bench.line.taken) > 20)
+    bench.sink.stop()
+    x = bench.line.samples[:, 0]
+    # The raised cosine over 50 ms, from its definition.
+    n = np.arange(1, 51)
+    np.testing.assert_allclose(x[:50], 0.5 - 0.5 * np.cos(np.pi * n / 50), atol=1e-6)
+    assert (x[50:] == 1).all()
+    stats = bench.sink.stats
+    assert (stats.frames, stats.dropped_frames, stats.reconnects) == (len(x), 0, 0)
+    assert not stats.connected
+    assert bench.kinds == ["connected"]
+    assert bench.line.disconnects == 1
+
+
+def test_a_missing_device_is_told_once_and_found_later(bench: Bench) -> None:
+    bench.line.there = False
+    bench.start()
+    assert eventually(lambda: bench.asked > 300)  # the session's clock goes on meanwhile
+    assert bench.kinds == ["unavailable"]
+    assert bench.events[0].message == "no device. Trying again."
+    assert bench.sink.stats.dropped_frames > 280
+    assert not bench.sink.stats.connected
+    bench.line.there = True
+    assert bench.sink.wait_connected(10)
+    assert eventually(lambda: bool(bench.line.taken))
+    assert bench.kinds == ["unavailable", "connected"]
+
+
+@pytest.mark.parametrize("error", [DeviceLost("it has gone."), ZeroDivisionError("a driver's bug")])
+def test_a_lost_device_is_taken_up_again_with_a_fade(bench: Bench, error: Exception) -> None:
+    bench.start()
+    assert eventually(lambda: len(bench.line.taken) > 20)
+    bench.line.error = error
+    assert eventually(lambda: bench.sink.stats.reconnects == 1 and bench.line.taken[-1][0, 0] == 1)
+    assert bench.kinds == ["connected", "lost", "connected"]
+    x = bench.line.samples[:, 0]
+    back = int(np.argmin(x[1:])) + 1
+    assert x[back] < 0.01
+    assert np.abs(np.diff(x[back:])).max() < 0.04  # pi / 2 / 50 at its steepest
+    assert bench.sink.stats.faults == isinstance(error, ZeroDivisionError)
+
+
+def test_a_stalled_device_resumes_with_a_fade(bench: Bench) -> None:
+    bench.start()
+    assert eventually(lambda: len(bench.line.taken) > 20)
+    bench.line.wants = False
+    assert eventually(lambda: "stalled" in bench.kinds)
+    asked = bench.asked
+    assert eventually(lambda: bench.asked > asked + 50)
+    n = len(bench.line.samples)
+    bench.line.wants = True
+    assert eventually(lambda: len(bench.line.samples) > n)
+    assert bench.line.samples[n, 0] < 0.01
+    assert bench.kinds[:3] == ["connected", "stalled", "resumed"]
+
+
+def test_a_device_that_stalls_for_long_is_opened_anew(bench: Bench) -> None:
+    bench.start()
+    assert bench.sink.wait_connected(10)
+    bench.line.wants = False
+    assert eventually(lambda: bench.line.connects > 1)
+    assert bench.kinds[:4] == ["connected", "stalled", "lost", "connected"]
+
+
+def test_a_mix_that_fails_is_silence(bench: Bench) -> None:
+    def broken(n_frames: int) -> NDArray[np.float32]:
+        raise ValueError("no gains")
+
+    bench.sink.open(FORMAT)
+    bench.sink.start(broken)
+    assert eventually(lambda: len(bench.line.taken) > 5)
+    bench.sink.start(lambda n_frames: np.ones((n_frames, 3), dtype=np.float32))
+    assert eventually(lambda: any("shape" in event.message for event in bench.events))
+    assert not bench.line.samples.any()
+    assert bench.sink.stats.faults > 0
+    assert "fault" in bench.kinds
+
+
+def test_a_callback_that_fails_silences_nothing(bench: Bench) -> None:
+    def broken(event: SinkEvent) -> None:
+        raise RuntimeError("game over")
+
+    bench.sink.on_event = broken
+    bench.start()
+    assert eventually(lambda: len(bench.line.taken) > 5)
+    assert bench.sink.stats.faults == 1
+
+
+def test_it_can_be_started_again(bench: Bench) -> None:
+    for _ in range(3):
+        bench.start()
+        assert bench.sink.wait_connected(10)
+        bench.sink.stop()
+        bench.sink.stop()
+    assert bench.line.connects == bench.line.disconnects == 3
+    bench.sink.close()
+    with pytest.raises(DeviceError, match="not open"):
+        bench.sink.start(bench.fill)

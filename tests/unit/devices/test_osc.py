@@ -1,0 +1,78 @@
+"""Messages of gain, clip and hand; bytes worked by hand from OSC 1.0."""
+
+import builtins
+import sys
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from scene2hap.devices.osc import encode, gains_of
+from scene2hap.devices.serial_amp import SerialAmplifierSink
+from scene2hap.devices.udp import UdpSink
+from scene2hap.errors import ConfigError, MissingExtra
+
+
+@dataclass
+class Frame:
+    gains: NDArray[np.float32]
+    hands: tuple[str, ...] = ("left", "right")
+    sources: tuple[str, ...] = ("radio", "kettle")
+
+
+def test_a_gain_message_by_hand() -> None:
+    by_hand = b"/scene2hap/gain\0" + b",fsi\0\0\0\0" + b"\x3f\0\0\0" + b"a.wav\0\0\0" + b"\0\0\0\1"
+    assert encode("/scene2hap/gain", 0.5, "a.wav", 1) == by_hand
+
+
+def test_gains_are_told_per_hand_and_clip() -> None:
+    gains = np.array([[[0.1, 0.5], [0, 0]], [[0.25, 0.2], [1, 0]]], dtype=np.float32)
+    assert list(gains_of(Frame(gains), {"radio": "loops/radio.wav"})) == [
+        ("loops/radio.wav", 0, 0.5),
+        ("kettle", 0, 0.0),
+        ("loops/radio.wav", 1, 0.25),
+        ("kettle", 1, 1.0),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"port": 0}, "at least 1"),
+        ({"port": 70000}, "at most 65535"),
+        ({"content": "mp3"}, '"pcm" or "osc"'),
+        ({"samples": "int24"}, '"int16"'),
+        ({"sample_rate_hz": 0}, "at least 500"),
+        ({"block_frames": 0}, "at least 1"),
+    ],
+)
+def test_settings_out_of_bounds(settings: dict[str, object], words: str) -> None:
+    with pytest.raises(ConfigError, match=words):
+        UdpSink(**settings)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    "settings", [{"baud_rate": 300}, {"sample_rate_hz": 1}, {"buffer_s": 0}, {"block_frames": 1000}]
+)
+def test_serial_settings_out_of_bounds(settings: dict[str, object]) -> None:
+    with pytest.raises(ConfigError, match=next(iter(settings))):
+        SerialAmplifierSink("/dev/none", **settings)  # type: ignore[arg-type]
+
+
+def test_a_missing_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    real = builtins.__import__
+
+    def without(name: str, *args: object) -> object:
+        if name.split(".")[0] in ("serial", "pythonosc"):
+            raise ImportError(name)
+        return real(name, *args)  # type: ignore[arg-type]
+
+    for name in [name for name in sys.modules if name.split(".")[0] in ("serial", "pythonosc")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setattr(builtins, "__import__", without)
+    with pytest.raises(MissingExtra, match=r"scene2hap\[serial\]"):
+        SerialAmplifierSink("/dev/none")
+    with pytest.raises(MissingExtra, match=r"scene2hap\[osc\]"):
+        UdpSink(content="osc")
+    UdpSink()

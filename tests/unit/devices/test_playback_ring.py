@@ -1,0 +1,125 @@
+"""The ring that a sound card's callback copies from."""
+
+import gc
+import tracemalloc
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from scene2hap.devices.playback_ring import PlaybackRing
+
+N_FADE = 40
+
+
+def tone(n: int, begin: int = 0) -> NDArray[np.float32]:
+    x = np.sin(2 * np.pi * np.arange(begin, begin + n) / 400)
+    return np.stack([x, 0.5 * x], axis=1).astype(np.float32)
+
+
+def played(ring: PlaybackRing, n: int) -> NDArray[np.float32]:
+    out = np.full((n, 2), np.nan, dtype=np.float32)
+    ring.play(out)
+    return out
+
+
+@settings(derandomize=True, deadline=None, max_examples=60)
+@given(st.lists(st.tuples(st.integers(0, 300), st.integers(1, 300)), min_size=1, max_size=60))
+def test_what_was_written_is_played_in_order(steps: list[tuple[int, int]]) -> None:
+    ring = PlaybackRing(700, 2, 1)
+    written, out = 0, []
+    for n_write, n_play in steps:
+        n_write = min(n_write, 700 - ring.level)
+        ring.write(tone(n_write, written))
+        written += n_write
+        if ring.level >= n_play:
+            out.append(played(ring, n_play))
+    heard = np.concatenate([np.zeros((0, 2), dtype=np.float32), *out])
+    np.testing.assert_array_equal(heard, tone(len(heard)))
+    assert ring.gaps == 0
+
+
+@settings(derandomize=True, deadline=None, max_examples=100)
+@given(
+    st.lists(st.tuples(st.integers(0, 200), st.integers(1, 200)), min_size=1, max_size=40),
+    st.integers(0, 40),
+)
+def test_starving_and_closing_never_jump(steps: list[tuple[int, int]], close_at: int) -> None:
+    ring = PlaybackRing(1000, 2, N_FADE)
+    written, out = 0, [np.zeros((1, 2), dtype=np.float32)]
+    for i, (n_write, n_play) in enumerate(steps):
+        ring.closing = i >= close_at
+        n_write = min(n_write, 1000 - ring.level)
+        ring.write(tone(n_write, written))
+        written += n_write
+        out.append(played(ring, n_play))
+    heard = np.concatenate(out)
+    assert np.isfinite(heard).all()
+    # Slopes of the tone and of the fade, at most.
+    assert np.abs(np.diff(heard, axis=0)).max() <= 2 * np.pi / 400 + np.pi / 2 / N_FADE + 1e-6
+
+
+def test_a_gap_is_counted_once_and_faded_in_again() -> None:
+    ring = PlaybackRing(1000, 2, N_FADE)
+    ring.write(tone(300))
+    played(ring, 290)
+    assert not played(ring, 100)[10 + N_FADE :].any()
+    assert not played(ring, 100).any()
+    assert ring.gaps == 1
+    ring.write(tone(300, 300))
+    back = played(ring, 200)
+    np.testing.assert_array_equal(back[N_FADE:], tone(200, 300)[N_FADE:])
+    assert np.abs(back[0]).max() < 0.01
+
+
+def test_silence_before_the_first_samples_is_no_gap() -> None:
+    ring = PlaybackRing(1000, 2, N_FADE)
+    assert not played(ring, 500).any()
+    assert ring.gaps == 0
+    assert ring.is_silent
+
+
+def test_closing_is_exact() -> None:
+    ring = PlaybackRing(1000, 2, N_FADE)
+    ring.write(np.ones((900, 2), dtype=np.float32))
+    played(ring, 100)
+    ring.closing = True
+    out = played(ring, 100)
+    assert out[N_FADE - 2].all()
+    assert not out[N_FADE - 1 :].any()
+    assert ring.is_silent
+    ring.restart()
+    assert ring.level == 0
+    assert not ring.closing
+
+
+def test_the_callback_makes_no_arrays() -> None:
+    ring = PlaybackRing(4000, 2, N_FADE)
+    out = np.empty((500, 2), dtype=np.float32)
+    block = tone(500)
+    ring.write(block)
+    ring.play(out)
+    gc.collect()
+    tracemalloc.start()
+    try:
+        for _ in range(50):
+            ring.write(block)
+            before = tracemalloc.get_traced_memory()[0]
+            tracemalloc.reset_peak()
+            ring.play(out)
+            # Views of arrays are small objects; a block of samples would be 4000 bytes.
+            assert tracemalloc.get_traced_memory()[1] - before < 2000
+    finally:
+        tracemalloc.stop()
+
+
+def test_more_frames_than_the_ring_holds_wrap() -> None:
+    ring = PlaybackRing(100, 2, 1)
+    for i in range(30):
+        ring.write(tone(70, 70 * i))
+        np.testing.assert_array_equal(played(ring, 70), tone(70, 70 * i))
+    assert ring.level == 0
+    assert ring.shape == (100, 2)
+    assert pytest.approx(0) == ring.gaps

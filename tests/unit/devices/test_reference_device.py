@@ -1,0 +1,112 @@
+"""What a device must do, on a clock turned by hand: docs/serial-protocol.md, "The device"."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.devices.framing.frames import FrameParser, FrameType, message, pcm, to_wire
+from scene2hap.devices.framing.link_messages import GREETED, HEARD, MUTED, Credit, DeviceFormat, Hello
+from scene2hap.devices.reference_device import ReferenceDevice
+
+
+class Bench:
+    def __init__(self) -> None:
+        self.played: list[NDArray[np.int16]] = []
+        self.accepted: list[NDArray[np.int16]] = []
+        self.device = ReferenceDevice(1000, 2, 100, on_samples=self.accepted.append, on_output=self.played.append)
+        self.parser = FrameParser()
+
+    def say(self, data: bytes, now_s: float) -> None:
+        self.device.receive(data, now_s)
+
+    def block(self, sequence: int, n_frames: int = 10, level: float = 1.0) -> bytes:
+        return to_wire(pcm(np.full((n_frames, 2), level, dtype=np.float32), sequence=sequence, time_us=sequence))
+
+    def credits(self, now_s: float) -> list[Credit]:
+        self.device.advance(now_s)
+        found = [Credit.from_frame(frame) for frame in self.parser.feed(self.device.to_send())]
+        return [credit for credit in found if credit is not None]
+
+    @property
+    def output(self) -> NDArray[np.int16]:
+        return np.concatenate(self.played)
+
+
+HELLO = to_wire(Hello(0, 2).to_frame())
+
+
+def test_it_answers_hello_and_takes_nothing_before() -> None:
+    bench = Bench()
+    bench.say(bench.block(1), 0.0)
+    assert bench.credits(0.0)[-1].flags == MUTED
+    bench.say(HELLO, 0.001)
+    (frame,) = bench.parser.feed(bench.device.to_send())
+    assert DeviceFormat.from_frame(frame) == DeviceFormat(1000, 2, 100, 128)
+    assert bench.credits(0.01)[-1].flags == GREETED | MUTED
+    assert bench.accepted == []
+
+
+def test_it_plays_what_it_took_and_tells_where_it_stands() -> None:
+    bench = Bench()
+    bench.say(HELLO + bench.block(9), 0.0)
+    (credit,) = bench.credits(0.0)[-1:]
+    assert credit == Credit(9, GREETED | HEARD, 90, 10, 10, 0, 0)
+    (credit,) = bench.credits(0.0085)[-1:]
+    assert (credit.free_frames, credit.queued_frames) == (98, 2)
+    np.testing.assert_array_equal(bench.output[:8], 32767)
+
+
+def test_the_watchdog_mutes_50_ms_after_the_last_frame() -> None:
+    bench = Bench()
+    bench.say(HELLO + bench.block(1, 80), 0.0)
+    bench.credits(0.0)
+    assert not bench.credits(0.049)[-1].flags & MUTED
+    assert bench.credits(0.055)[-1].flags & MUTED
+    bench.credits(0.08)
+    out = bench.output[:, 0].astype(int)
+    assert (out[:49] == 32767).all()
+    # A ramp of 5 ms to zero, not a step, and nothing of what was queued.
+    np.testing.assert_array_equal(out[49:55], np.rint(32767 * np.array([4, 3, 2, 1, 0, 0]) / 5))
+    assert not out[54:].any()
+    bench.say(bench.block(2), 0.081)
+    assert not bench.credits(0.086)[-1].flags & MUTED
+    assert bench.output[-1, 0] == 32767
+
+
+def test_mute_is_at_once() -> None:
+    bench = Bench()
+    bench.say(HELLO + bench.block(1, 80), 0.0)
+    bench.credits(0.010)
+    bench.say(to_wire(message(FrameType.MUTE)), 0.010)
+    bench.credits(0.030)
+    assert not bench.output[15:].any()
+
+
+def test_an_old_sequence_is_no_new_samples() -> None:
+    bench = Bench()
+    bench.say(HELLO + bench.block(65535) + bench.block(65535) + bench.block(0) + bench.block(65535), 0.0)
+    assert bench.device.accepted_frames == 20
+    bench.say(bench.block(3), 0.0)
+    assert bench.device.lost == 2
+
+
+def test_an_empty_frame_is_a_question() -> None:
+    bench = Bench()
+    bench.say(HELLO + bench.block(1, 0), 0.0)
+    (credit,) = bench.credits(0.0)[-1:]
+    assert credit == Credit(1, GREETED | HEARD | MUTED, 100, 0, 0, 0, 0)
+
+
+def test_more_than_it_can_queue_is_refused() -> None:
+    bench = Bench()
+    bench.say(HELLO + bench.block(1, 60) + bench.block(2, 60), 0.0)
+    assert bench.device.refused == 1
+    assert bench.credits(0.0)[-1].free_frames == 40
+
+
+def test_no_bytes_crash_it() -> None:
+    rng = np.random.default_rng(3)
+    bench = Bench()
+    for k in range(300):
+        bench.say(HELLO + rng.bytes(50) + b"\0", k * 0.01)
+        bench.credits(k * 0.01)
+    assert bench.device.accepted_frames == 0

@@ -1,0 +1,68 @@
+"""The sound card's settings, without a sound card."""
+
+import pytest
+
+from scene2hap.devices import SINKS
+from scene2hap.devices.clock import has_clock
+from scene2hap.devices.memory import MemorySink
+from scene2hap.devices.protocol import ActuatorSink, SinkFormat
+from scene2hap.devices.soundcard import SoundCardSink
+from scene2hap.errors import ConfigError, MissingExtra
+
+FORMAT = SinkFormat(48000, ("left", "right"))
+
+
+@pytest.fixture(autouse=True)
+def _installed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("scene2hap.devices.portaudio.find_spec", lambda name: object())
+
+
+@pytest.mark.parametrize(
+    ("channels", "columns"),
+    [(None, [0, 1]), ([3, 4], [2, 3]), ({"right": 1, "left": 2}, [1, 0]), ({"left": 4, "right": 3, "toe": 1}, [3, 2])],
+)
+def test_channel_maps(channels: object, columns: list[int]) -> None:
+    sink = SoundCardSink(channels=channels)  # type: ignore[arg-type]
+    assert sink._card_line.columns(FORMAT) == columns
+
+
+@pytest.mark.parametrize("channels", [[0, 1], [1, 1], [1.5, 2], {"left": True}, ["1"], [1, 300]])
+def test_channels_that_cannot_be(channels: object) -> None:
+    with pytest.raises(ConfigError, match="channel"):
+        SoundCardSink(channels=channels)  # type: ignore[arg-type]
+
+
+def test_every_hand_needs_a_channel() -> None:
+    for channels in ({"left": 1}, [1]):
+        with pytest.raises(ConfigError, match="none for the hand 'right'"):
+            SoundCardSink(channels=channels).open(FORMAT)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("latency", ["medium", 0.0, -1.0, 2.0, float("nan"), None])
+def test_latencies_that_cannot_be(latency: object) -> None:
+    with pytest.raises(ConfigError, match="latency"):
+        SoundCardSink(latency=latency)  # type: ignore[arg-type]
+
+
+def test_without_sounddevice_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("scene2hap.devices.portaudio.find_spec", lambda name: None)
+    with pytest.raises(MissingExtra, match=r"pip install 'scene2hap\[soundcard\]'"):
+        SINKS.build("soundcard")
+
+
+def test_it_is_a_sink_with_a_clock() -> None:
+    sink = SINKS.build({"kind": "soundcard", "device": "DualSense", "channels": [3, 4], "latency": "low"})
+    assert isinstance(sink, SoundCardSink)
+    assert isinstance(sink, ActuatorSink)
+    assert has_clock(sink)
+    assert not has_clock(MemorySink())
+    assert not sink.stats.connected
+    assert sink.stats.underruns == 0
+
+
+def test_several_sinks_have_a_clock_if_one_has() -> None:
+    def tee(*sinks: object) -> object:
+        return SINKS.build({"kind": "tee", "sinks": sinks})
+
+    assert has_clock(tee(MemorySink(), SoundCardSink()))  # type: ignore[arg-type]
+    assert not has_clock(tee(MemorySink(), MemorySink()))  # type: ignore[arg-type]

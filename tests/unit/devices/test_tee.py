@@ -1,0 +1,143 @@
+"""One mix to several sinks."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import soundfile
+from numpy.typing import NDArray
+
+from scene2hap.devices import SINKS
+from scene2hap.devices.memory import MemorySink
+from scene2hap.devices.protocol import ActuatorSink, Fill, SinkEvent, SinkFormat, SinkStats
+from scene2hap.devices.tee import TeeSink
+from scene2hap.devices.wav import WavSink
+from scene2hap.errors import ConfigError, DeviceError
+
+FORMAT = SinkFormat(1000, ("left", "right"))
+
+
+class Counting:
+    """A mix whose samples are their own positions."""
+
+    def __init__(self) -> None:
+        self.position = 0
+
+    def __call__(self, n_frames: int) -> NDArray[np.float32]:
+        place = np.arange(self.position, self.position + n_frames, dtype=np.float32)
+        self.position += n_frames
+        return np.stack([place, -place], axis=1)
+
+
+class Device:
+    """A device whose clock is the test."""
+
+    def __init__(self) -> None:
+        self.on_event = None
+        self.shown: list[object] = []
+        self.fill: Fill | None = None
+        self.frames = 0
+
+    def open(self, format: SinkFormat) -> None: ...
+
+    def start(self, fill: Fill) -> None:
+        self.fill = fill
+
+    def stop(self) -> None:
+        self.fill = None
+
+    def close(self) -> None:
+        self.stop()
+
+    def show(self, frame: object) -> None:
+        self.shown.append(frame)
+
+    def take(self, n_frames: int) -> NDArray[np.float32]:
+        assert self.fill is not None
+        self.frames += n_frames
+        return self.fill(n_frames)[:, 0]
+
+    @property
+    def stats(self) -> SinkStats:
+        return SinkStats(frames=self.frames, connected=False, latency_s=0.01 * self.frames)
+
+
+def test_devices_read_the_same_tape_at_their_own_pace() -> None:
+    a, b, memory = Device(), Device(), MemorySink()
+    tee = TeeSink([a, b, memory])
+    tee.open(FORMAT)
+    tee.start(Counting())
+    got_a = np.concatenate([a.take(n) for n in (5, 20, 7)])
+    got_b = np.concatenate([b.take(n) for n in (30, 1, 3)])
+    np.testing.assert_array_equal(got_a, np.arange(32))
+    np.testing.assert_array_equal(got_b, np.arange(34))
+    np.testing.assert_array_equal(memory.samples[:, 0], np.arange(34))
+    assert tee.stats == SinkStats(frames=100, latency_s=pytest.approx(0.34), connected=True)
+    tee.close()
+    tee.close()
+
+
+def test_one_that_fell_behind_jumps_with_a_cross_fade() -> None:
+    a, b = Device(), Device()
+    tee = TeeSink([a, b])
+    tee.open(FORMAT)
+    tee.start(Counting())
+    b.take(10)
+    a.take(150)  # b is 140 behind, more than 100
+    rising = np.arange(1, 21) / 20
+    np.testing.assert_allclose(b.take(20), (1 - rising) * np.arange(10, 30) + rising * np.arange(150, 170), atol=1e-3)
+    np.testing.assert_array_equal(b.take(5), np.arange(170, 175))
+    a.take(2000)  # so far that nothing is left to fade from
+    np.testing.assert_allclose(b.take(20), rising * np.arange(2150, 2170), atol=1e-3)
+    tee.stop()
+
+
+def test_files_alone_are_pulled(tmp_path: Path) -> None:
+    wav, memory = WavSink(tmp_path / "a.wav"), MemorySink()
+    tee = TeeSink([wav, memory])
+    tee.open(SinkFormat(1000, ("left",)))
+    with pytest.raises(DeviceError, match="not started"):
+        tee.pull(3)
+    tee.start(lambda n: np.full((n, 1), 0.5, dtype=np.float32))
+    tee.pull(30)
+    tee.close()
+    np.testing.assert_array_equal(soundfile.read(wav.path)[0], np.full(30, 0.5))
+    assert memory.stats.frames == 30
+
+
+def test_an_aborted_run_leaves_no_file(tmp_path: Path) -> None:
+    tee = TeeSink([WavSink(tmp_path / "a.wav"), Device()])
+    tee.open(FORMAT)
+    tee.start(Counting())
+    tee.abort()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_one_that_cannot_open_closes_the_others(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("in the way")
+    tee = TeeSink([WavSink(tmp_path / "a.wav"), WavSink(tmp_path / "file" / "b.wav")])
+    with pytest.raises(DeviceError, match="cannot be written"):
+        tee.open(FORMAT)
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+def test_events_and_gains_are_passed_on() -> None:
+    device = Device()
+    told: list[SinkEvent] = []
+    tee = TeeSink([device, MemorySink()], on_event=told.append)
+    event = SinkEvent("lost", "it has gone.", 1.0)
+    assert device.on_event is not None
+    device.on_event(event)
+    assert told == [event]
+    tee.show("frame")
+    assert device.shown == ["frame"]
+
+
+def test_it_is_built_from_settings(tmp_path: Path) -> None:
+    tee = SINKS.build({"kind": "tee", "sinks": ["memory", {"kind": "wav", "path": str(tmp_path / "a.wav")}]})
+    assert isinstance(tee, TeeSink)
+    assert isinstance(tee, ActuatorSink)
+    assert [type(sink) for sink in tee.sinks] == [MemorySink, WavSink]
+    for wrong in ([], [3]):
+        with pytest.raises(ConfigError, match="at least one sink"):
+            TeeSink(wrong)  # type: ignore[arg-type]

@@ -1,0 +1,79 @@
+"""Frames for VHP boards, against bytes worked by hand from docs/serial-protocol.md."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from scene2hap.devices.framing import vhp
+from scene2hap.errors import DeviceError
+
+
+def test_slim_frame_by_hand() -> None:
+    block = np.zeros((8, 2), dtype=np.float32)
+    block[0] = 1.0, -1.0
+    block[1, 1] = 0.5
+    rest = [0x80] * 10
+    by_hand = [0xC8, 0xC9, 0x11, 0x80, 0xFF, 0x01, *rest, 0x80, 0xC0, *rest] + [0x80] * 72
+    assert vhp.slim_frame(block) == bytes(by_hand)
+    assert len(vhp.slim_frame(block)) == 100
+
+
+def test_slim_ending_fills_the_boards_buffer_with_rest() -> None:
+    ending = vhp.slim_ending()
+    assert len(ending) == 800
+    assert ending == bytes([0xC8, 0xC9, 0x11, 0x80, *[128] * 96]) * 8
+
+
+def test_sleeve_packets_by_hand() -> None:
+    packet = vhp.sleeve_packet(np.zeros((8, 12), dtype=np.float32))
+    assert packet == bytes([200, 3, 17, 96, *[128] * 96, *[0] * 32])
+    amplifiers = vhp.packet(vhp.Message(vhp.MessageType.ENABLE_AMPLIFIERS, recipient=vhp.Recipient.ALL))
+    assert amplifiers == bytes([200, 1, 15, 0, *[0] * 128])
+    assert vhp.from_packet(amplifiers) == vhp.Message(15, b"", 1)
+
+
+def test_wireless_by_hand() -> None:
+    # type 14, no payload: low 1 + 14 = 15, 15 + 0 = 15; high 15, 15 + 15 = 30.
+    assert vhp.wireless(vhp.Message(vhp.MessageType.DISABLE_AMPLIFIERS)) == bytes([15, 30, 14, 0])
+
+
+@given(st.binary(max_size=128), st.integers(0, 255), st.sampled_from(vhp.Recipient))
+def test_messages_round_trip(payload: bytes, type: int, recipient: vhp.Recipient) -> None:
+    wired = vhp.Message(type, payload, recipient)
+    assert vhp.from_packet(vhp.packet(wired)) == wired
+    bare = vhp.Message(type, payload)
+    assert vhp.from_wireless(vhp.wireless(bare)) == bare
+
+
+@given(st.lists(st.integers(-127, 127), min_size=96, max_size=96))
+def test_samples_round_trip(levels: list[int]) -> None:
+    block = (np.array(levels).reshape(8, 12) / 127).astype(np.float32)
+    np.testing.assert_allclose(vhp.from_bytes(vhp.to_bytes(block)), block, atol=1e-7)
+
+
+@given(st.binary(max_size=140))
+def test_no_bytes_crash_a_decoder(data: bytes) -> None:
+    vhp.from_packet(data)
+    vhp.from_packet((b"\xc8" + data).ljust(132, b"\0")[:132])
+    vhp.from_wireless(data)
+
+
+@given(st.binary(min_size=1, max_size=60), st.data())
+def test_a_flipped_bit_is_seen_without_wires(payload: bytes, data: st.DataObject) -> None:
+    packet = bytearray(vhp.wireless(vhp.Message(17, payload)))
+    place = data.draw(st.integers(0, len(packet) - 1))
+    packet[place] ^= 1 << data.draw(st.integers(0, 7))
+    assert vhp.from_wireless(bytes(packet)) is None
+
+
+def test_what_does_not_fit() -> None:
+    for shape in ((7, 2), (8, 13), (8,)):
+        with pytest.raises(DeviceError, match="blocks of"):
+            vhp.to_bytes(np.zeros(shape, dtype=np.float32))
+    with pytest.raises(DeviceError, match="at most 128"):
+        vhp.Message(1, b"x" * 129)
+    with pytest.raises(DeviceError, match="recipient"):
+        vhp.packet(vhp.Message(1))
+    with pytest.raises(DeviceError, match="96 bytes"):
+        vhp.from_bytes(b"abc")
