@@ -58,6 +58,7 @@ _HOME = {
     "scene2hap.track_player": ("play_track",),
     "scene2hap.devices.protocol": ("ActuatorSink", "SinkEvent", "SinkStats"),
     "scene2hap.devices.serial_amp": ("SerialAmplifierSink",),
+    "scene2hap.devices.soundcard": ("SoundCardSink",),
     "scene2hap.devices.tee": ("TeeSink",),
     "scene2hap.devices.udp": ("UdpSink",),
     "scene2hap.devices.vhp_amp": ("VhpSink",),
@@ -112,6 +113,7 @@ if TYPE_CHECKING:
     from scene2hap.devices.protocol import SinkEvent as SinkEvent
     from scene2hap.devices.protocol import SinkStats as SinkStats
     from scene2hap.devices.serial_amp import SerialAmplifierSink as SerialAmplifierSink
+    from scene2hap.devices.soundcard import SoundCardSink as SoundCardSink
     from scene2hap.devices.tee import TeeSink as TeeSink
     from scene2hap.devices.udp import UdpSink as UdpSink
     from scene2hap.devices.vhp_amp import VhpSink as VhpSink

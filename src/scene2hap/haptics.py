@@ -94,7 +94,8 @@ class ActuatorProfile:
 
     `q` is the quality factor of the resonance [-]; None, or no resonance, means a flat response. `response_db` is a
     measured response as points (frequency [Hz], level [dB]) of rising frequency, which then stands instead of the
-    resonance. `audio.actuators` turns either into a curve and its inverse.
+    resonance. `audio.actuators` turns either into a curve and its inverse. What it can bear: `max_amplitude`, the
+    largest sample, 0..1 [-], and `max_rms` [-] over any window of `rms_window_s`, the time over which it warms up [s].
     Raises: ConfigError: a bound that is not above the other, or points that are not.
     """
 
@@ -104,8 +105,13 @@ class ActuatorProfile:
     resonance_hz: float | None = None
     q: float | None = None
     response_db: tuple[tuple[float, float], ...] = ()
+    max_amplitude: float = 1.0
+    max_rms: float = 1.0
+    rms_window_s: float = 1.0
 
     def __post_init__(self) -> None:
+        for name, unit, most in (("max_amplitude", "-", 1.0), ("max_rms", "-", 1.0), ("rms_window_s", "s", 3600.0)):
+            checks.number(name, getattr(self, name), unit, above=0.0, at_most=most, error=ConfigError)
         low = checks.number("min_frequency_hz", self.min_frequency_hz, "Hz", above=0.0, error=ConfigError)
         checks.number("max_frequency_hz", self.max_frequency_hz, "Hz", above=low, error=ConfigError)
         for name, unit in (("resonance_hz", "Hz"), ("q", "-")):

@@ -1,0 +1,109 @@
+"""What a sound card's callback copies from: samples rendered ahead, and a fade for every beginning and end.
+
+One thread writes and one reads. Each owns one counter, which only grows, and reads the other's; neither ever waits.
+`play` makes no array: it copies and multiplies into what the sound card gave it.
+
+       write ──► [ rendered ahead ] ──► play
+    fade in : at the first samples, and after every gap
+    fade out: when `closing` is set, and from the last sample on when samples run out
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from scene2hap.devices.protocol import Block
+
+
+class PlaybackRing:
+    """A ring of n_frames for n_channels, with fades of n_fade frames."""
+
+    def __init__(self, n_frames: int, n_channels: int, n_fade: int) -> None:
+        self._data: Block = np.zeros((n_frames, n_channels), dtype=np.float32)
+        phase = np.arange(n_fade + 1) / n_fade
+        self._rise = (0.5 - 0.5 * np.cos(math.pi * phase)).astype(np.float32)[:, None]
+        self._fall = np.ascontiguousarray(self._rise[::-1])
+        self._last = np.zeros((1, n_channels), dtype=np.float32)
+        self._written = self._read = 0
+        self._top = n_fade
+        self._place = 0
+        self._is_dry = False
+        self.closing = False
+        """Set by the writer to fade out; what is written after that is not heard."""
+        self.gaps = 0
+        """Times at which samples ran out while playing."""
+
+    def restart(self) -> None:
+        """Be as new, for another stream; the count of gaps goes on."""
+        self._written = self._read = self._place = 0
+        self._is_dry = self.closing = False
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Frames and channels."""
+        return self._data.shape[0], self._data.shape[1]
+
+    @property
+    def level(self) -> int:
+        """Frames written and not yet played."""
+        return self._written - self._read
+
+    @property
+    def is_silent(self) -> bool:
+        """True where a fade has come to its end, or nothing was played yet."""
+        return self._place == 0
+
+    def write(self, block: Block) -> None:
+        """Append frames (n, n_channels); more than are free overwrite what was not played yet."""
+        size = len(self._data)
+        at = self._written % size
+        first = min(len(block), size - at)
+        self._data[at : at + first] = block[:first]
+        self._data[: len(block) - first] = block[first:]
+        self._written += len(block)
+
+    def play(self, out: Block) -> None:
+        """Fill `out` (n, n_channels) with the next frames, or with a fade and silence."""
+        n_frames = len(out)
+        if self._place == 0:
+            self._is_dry = False
+            if self.closing or self.level < n_frames:
+                out.fill(0.0)
+                return
+        have = 0 if self._is_dry else min(n_frames, self.level)
+        self._copy(out, have)
+        if self.closing:
+            self._fade_out(out[:have], out[:have])
+        elif self._place < self._top:
+            self._fade_in(out[:have])
+        if have < n_frames:
+            if not self._is_dry and not self.closing:
+                self.gaps += 1
+            self._is_dry = True
+            self._fade_out(self._last, out[have:])
+
+    def _copy(self, out: Block, n_frames: int) -> None:
+        if n_frames == 0:
+            return
+        size = len(self._data)
+        at = self._read % size
+        first = min(n_frames, size - at)
+        out[:first] = self._data[at : at + first]
+        out[first:n_frames] = self._data[: n_frames - first]
+        self._last[0] = out[n_frames - 1]
+        self._read += n_frames
+
+    def _fade_in(self, out: Block) -> None:
+        n = min(len(out), self._top - self._place)
+        np.multiply(out[:n], self._rise[self._place + 1 : self._place + 1 + n], out=out[:n])
+        self._place += n
+
+    def _fade_out(self, signal: Block, out: Block) -> None:
+        """Write `signal` (as many frames as `out`, or one that is held) with the gate falling."""
+        n = min(len(out), self._place)
+        begin = self._top - self._place + 1
+        np.multiply(signal[:n], self._fall[begin : begin + n], out=out[:n])
+        out[n:].fill(0.0)
+        self._place -= n

@@ -1,0 +1,169 @@
+"""PortAudio through the package sounddevice: finding devices, and its errors in words of our own.
+
+PortAudio knows the devices that were there when it was started, so one that was plugged in later needs a new start.
+That would end every stream, so it is done only while none of ours is open. Its calls are not safe to make from two
+threads at once, hence the lock; callbacks are outside it.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib.util import find_spec
+from typing import Any
+
+from scene2hap.errors import DeviceError, DeviceNotFound, MissingExtra
+
+_LOCK = threading.RLock()
+_open_streams = 0
+
+
+@dataclass(frozen=True)
+class Card:
+    """An output device: PortAudio's index, its name and host interface, and what it can do."""
+
+    index: int
+    name: str
+    interface: str
+    n_channels: int
+    rate_hz: int
+
+    def __str__(self) -> str:
+        return f"{self.index}: {self.name!r} ({self.interface}, {self.n_channels} channels, {self.rate_hz} Hz)"
+
+
+def require_sounddevice() -> None:
+    """Raises: MissingExtra: the package is not installed."""
+    if find_spec("sounddevice") is None:
+        raise MissingExtra("the sound card needs sounddevice, which is not installed. "
+                           "Run: pip install 'scene2hap[soundcard]'")  # fmt: skip
+
+
+def cards() -> list[Card]:
+    """Every output device that PortAudio knows. Raises: DeviceError: there is no PortAudio."""
+    with _LOCK:
+        sd = _sounddevice()
+        interfaces = [str(item["name"]) for item in sd.query_hostapis()]
+        return [
+            Card(i, item["name"], interfaces[item["hostapi"]], item["max_output_channels"],
+                 round(item["default_samplerate"]))
+            for i, item in enumerate(sd.query_devices())
+            if item["max_output_channels"] > 0
+        ]  # fmt: skip
+
+
+def find_card(device: str | int | None) -> Card:
+    """The device of an index, or the one whose name is or contains `device`; None for the system's own choice.
+
+    Raises: DeviceNotFound; DeviceError: there is no PortAudio.
+    """
+    with _LOCK:
+        found = _match(device, cards())
+        if found is None and _open_streams == 0:
+            _restart()
+            found = _match(device, cards())
+        if found is None:
+            known = "; ".join(map(str, cards())) or "none"
+            wanted = "no default output" if device is None else f"no output {device!r}"
+            raise DeviceNotFound(f"{wanted} among the sound cards. Known: {known}.")
+        return found
+
+
+def accepts(card: Card, n_channels: int, rate_hz: int) -> bool:
+    """Whether the device plays so many channels at that rate; one that is busy or gone says no to everything."""
+    with _LOCK:
+        sd = _sounddevice()
+        try:
+            sd.check_output_settings(card.index, n_channels, "float32", samplerate=rate_hz)
+        except (sd.PortAudioError, ValueError):
+            return False
+        return True
+
+
+def open_stream(
+    card: Card,
+    n_channels: int,
+    rate_hz: int,
+    latency: float | str,
+    block_frames: int,
+    play: Callable[..., None],
+) -> Any:
+    """A started `sounddevice.OutputStream`. Raises: DeviceError."""
+    global _open_streams
+    with _LOCK:
+        sd = _sounddevice()
+        with _translated(card):
+            stream = sd.OutputStream(rate_hz, block_frames, card.index, n_channels, "float32", latency, callback=play)
+            try:
+                stream.start()
+            except sd.PortAudioError:
+                stream.close(ignore_errors=True)
+                raise
+        _open_streams += 1
+        return stream
+
+
+def is_active(stream: Any) -> bool:
+    """Whether a stream still asks for samples."""
+    try:
+        return bool(stream.active)
+    except _sounddevice().PortAudioError:
+        return False
+
+
+def close_stream(stream: Any, *, drain: bool) -> None:
+    """Give a stream back, after what it holds has been played if `drain`."""
+    global _open_streams
+    with _LOCK:
+        try:
+            (stream.stop if drain else stream.abort)(ignore_errors=True)
+        finally:
+            stream.close(ignore_errors=True)
+            _open_streams -= 1
+
+
+def restart_if_idle() -> None:
+    """Look for devices anew, unless a stream is open."""
+    with _LOCK:
+        if _open_streams == 0:
+            _restart()
+
+
+def _restart() -> None:
+    sd = _sounddevice()
+    sd._terminate()
+    sd._initialize()
+
+
+def _match(device: str | int | None, known: list[Card]) -> Card | None:
+    if device is None:
+        index = int(_sounddevice().default.device[1])
+        return next((card for card in known if card.index == index), None)
+    if isinstance(device, int):
+        return next((card for card in known if card.index == device), None)
+    wanted = device.casefold()
+    exact = [card for card in known if card.name.casefold() == wanted]
+    return next(iter(exact or [card for card in known if wanted in card.name.casefold()]), None)
+
+
+def _sounddevice() -> Any:
+    require_sounddevice()
+    try:
+        import sounddevice
+    except OSError as cause:
+        raise DeviceError(
+            f"PortAudio cannot be loaded: {cause}. On Debian and Ubuntu: apt-get install libportaudio2; elsewhere "
+            "reinstall the package sounddevice, which brings it."
+        ) from cause
+    return sounddevice
+
+
+@contextmanager
+def _translated(card: Card) -> Iterator[None]:
+    sd = _sounddevice()
+    try:
+        yield
+    except (sd.PortAudioError, ValueError) as cause:
+        raise DeviceError(f"sound card {card.name!r} cannot be opened: {cause}.") from cause

@@ -1,0 +1,261 @@
+"""Sound cards, and all that shows up as one: head-phone outputs, game pads, audio amplifiers on USB.
+
+Samples are rendered ahead into a ring by the sink's thread, and the sound card's callback only copies from there; what
+the session does, and Python's own pauses, are hidden by what lies ahead:
+
+    session ──► ring (`latency` + 12 ms) ──► PortAudio's buffer (`latency`) ──► actuator
+
+The ring is as long as the buffer since Python may stop all its threads at once, the callback among them, as when it
+collects garbage (60 ms were seen). Once that is over, the driver asks in one go for all that was played meanwhile.
+Losing the device is a state, handled by `scene2hap.devices.link`.
+"""
+
+from __future__ import annotations
+
+import atexit
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap import checks
+from scene2hap.devices import portaudio
+from scene2hap.devices.link import CarryOn, LiveSink
+from scene2hap.devices.playback_ring import PlaybackRing
+from scene2hap.devices.protocol import Block, EventCallback, SinkFormat, SinkStats
+from scene2hap.errors import ConfigError, DeviceError, DeviceLost
+
+DEFAULT_LATENCY_S = 0.1
+"""The least that played without a gap in all measured takes; see docs/actuators.md."""
+
+AHEAD_S = 0.012
+"""Rendered ahead beyond the device's latency: some turns of the sink's thread."""
+
+CHUNK_S = 0.005
+"""Frames are rendered in blocks of about this; gains, and the watchdog, can only act between two."""
+
+CATCHING_UP = 1.05
+"""How much faster than it is played the ring is filled again after a burst."""
+
+BLOCK_FRAMES = 256
+FADE_S = 0.005
+
+_LONGEST_FADE_S = 0.5
+
+
+@dataclass(frozen=True)
+class SoundCardStats(SinkStats):
+    """As every sink's; `load` is the share of its time that the callback needs [-], and `device` what is played on."""
+
+    load: float = 0.0
+    device: str = ""
+
+
+class SoundCardSink(LiveSink):
+    """Plays each hand on a channel of a sound card.
+
+    Parameters:
+    device : its name or a part of it, or PortAudio's index; None for the system's default.
+    channels : the channel of each hand, counted from 1: by name {"left": 3, "right": 4} or in the hands' order [3, 4];
+        None for 1, 2, ... Channels that no hand has stay silent.
+    latency : of the device's buffer [s], or "low" or "high" for what its driver suggests.
+    sample_rate_hz : of the device; None for the session's where the device takes it, else the device's own.
+    on_event : an EventCallback or None.
+    Raises: ConfigError: a channel or latency that cannot be; MissingExtra: sounddevice is not installed.
+    """
+
+    def __init__(
+        self,
+        device: str | int | None = None,
+        *,
+        channels: Mapping[str, int] | Sequence[int] | None = None,
+        latency: float | str = DEFAULT_LATENCY_S,
+        sample_rate_hz: int | None = None,
+        on_event: EventCallback | None = None,
+    ) -> None:
+        portaudio.require_sounddevice()
+        self._card_line = _CardLine(device, _checked_channels(channels), _checked_latency(latency), sample_rate_hz)
+        name = "the default sound card" if device is None else f"sound card {device!r}"
+        super().__init__(self._card_line, name, on_event=on_event)
+
+    def open(self, format: SinkFormat) -> None:
+        """Get ready. Raises: ConfigError: a hand without a channel."""
+        self._card_line.columns(format)
+        super().open(format)
+        # A program that ends without `close` still fades out, and before PortAudio is taken down.
+        atexit.register(self.close)
+
+    def close(self) -> None:
+        """Fade out and give the sound card back."""
+        atexit.unregister(self.close)
+        super().close()
+
+    @property
+    def stats(self) -> SoundCardStats:
+        """What was done since `open`."""
+        line = self._card_line
+        return SoundCardStats(**vars(super().stats), load=line.load, device=line.device)
+
+
+class _CardLine:
+    """The way to one sound card."""
+
+    def __init__(
+        self,
+        device: str | int | None,
+        channels: Mapping[str, int] | tuple[int, ...] | None,
+        latency: float | str,
+        rate_hz: int | None,
+    ) -> None:
+        self._wanted_device = device
+        self._channels = channels
+        self._latency = latency
+        self._rate_hz = rate_hz
+        self._stream: Any = None
+        self._ring = PlaybackRing(1, 1, 1)
+        self._ahead = self._chunk = 0
+        self._pace = self._rendered_at = 0.0
+        self._columns: list[int] = []
+        self._wide: Block = np.zeros((0, 0), dtype=np.float32)
+        self._gaps = self._flags = 0
+        self.latency_s: float | None = None
+        self.device = ""
+
+    @property
+    def underruns(self) -> int:
+        """Gaps, of our own rendering or told by the driver."""
+        return self._gaps + self._ring.gaps + self._flags
+
+    @property
+    def load(self) -> float:
+        """Share of its time that the callback needs [-]."""
+        stream = self._stream
+        return float(stream.cpu_load) if stream is not None else 0.0
+
+    def columns(self, format: SinkFormat) -> list[int]:
+        """The device's channel for each of the format's, from 0. Raises: ConfigError: one has none."""
+        hands = format.channels
+        if self._channels is None:
+            return list(range(len(hands)))
+        if isinstance(self._channels, Mapping):
+            missing = [hand for hand in hands if hand not in self._channels]
+            numbers = [self._channels.get(hand, 0) for hand in hands]
+        else:
+            missing = list(hands[len(self._channels) :])
+            numbers = list(self._channels[: len(hands)])
+        if missing:
+            raise ConfigError(f"channels has none for the hand {missing[0]!r}; give a channel number for each hand.")
+        return [number - 1 for number in numbers]
+
+    def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
+        """Find and open the device; tells its sample rate."""
+        self._columns = self.columns(format)
+        try:
+            return self._open(portaudio.find_card(self._wanted_device), format)
+        except DeviceError:
+            # The device may have come back under another number, which only a new start of PortAudio can see.
+            portaudio.restart_if_idle()
+            carry_on()
+            return self._open(portaudio.find_card(self._wanted_device), format)
+
+    def _open(self, card: portaudio.Card, format: SinkFormat) -> int:
+        n_channels = max(self._columns) + 1
+        if n_channels > card.n_channels:
+            raise DeviceError(f"sound card {card.name!r} has {card.n_channels} channels; a hand is on {n_channels}.")
+        rate_hz, n_channels = self._setting(card, n_channels, format.sample_rate_hz)
+        # The stream's latency is known only when its callback already runs, so the ring must be there before.
+        if self._ring.shape != (rate_hz, n_channels):
+            self._gaps += self._ring.gaps
+            self._ring = PlaybackRing(rate_hz, n_channels, max(1, round(FADE_S * rate_hz)))
+        ring = self._ring
+        ring.restart()
+
+        def callback(out: NDArray[np.float32], n_frames: int, when: Any, status: Any) -> None:
+            ring.play(out)
+            if status.output_underflow:
+                self._flags += 1
+
+        self._stream = portaudio.open_stream(card, n_channels, rate_hz, self._latency, BLOCK_FRAMES, callback)
+        self._ahead = min(rate_hz, round((self._stream.latency + AHEAD_S) * rate_hz))
+        self._chunk = round(min(CHUNK_S * rate_hz, self._ahead / 8))
+        self._pace = CATCHING_UP * rate_hz
+        self._wide = np.zeros((self._ahead, n_channels), dtype=np.float32)
+        self.latency_s = float(self._stream.latency) + self._ahead / rate_hz
+        self.device = card.name
+        return rate_hz
+
+    def _setting(self, card: portaudio.Card, n_channels: int, session_rate_hz: int) -> tuple[int, int]:
+        """The first rate and number of channels that the device takes."""
+        rates = [self._rate_hz] if self._rate_hz is not None else [session_rate_hz, card.rate_hz]
+        # Some devices can only be opened with all their channels.
+        for rate_hz in rates:
+            for n in dict.fromkeys((n_channels, card.n_channels)):
+                if portaudio.accepts(card, n, rate_hz):
+                    return rate_hz, n
+        # Let the attempt itself say what is wrong: busy, not permitted, gone.
+        return rates[0], n_channels
+
+    def wanted(self, timeout_s: float) -> int:
+        """Frames that the ring takes now. Raises: DeviceLost: the sound card has gone."""
+        due = self._due()
+        if due == 0:
+            time.sleep(min(timeout_s, self._chunk / self._pace / 2))
+            due = self._due()
+        return due
+
+    def _due(self) -> int:
+        """Frames to render now: as time goes by, though drivers ask in bursts, so that changes are felt evenly."""
+        if not portaudio.is_active(self._stream):
+            raise DeviceLost(f"sound card {self.device!r} has gone.")
+        level, now = self._ring.level, time.monotonic()
+        free = max(0, self._ahead - level)
+        if level >= self._ahead // 2:
+            free = min(free, int((now - self._rendered_at) * self._pace))
+            if free < self._chunk:
+                return 0
+        self._rendered_at = now
+        return free
+
+    def send(self, block: Block) -> None:
+        """Put frames into the ring, each hand on its channel."""
+        wide = self._wide[: len(block)]
+        wide[:, self._columns] = block
+        np.clip(wide, -1.0, 1.0, out=wide)
+        self._ring.write(wide)
+
+    def disconnect(self) -> None:
+        """Fade out, play what is on its way, and let go."""
+        stream, self._stream = self._stream, None
+        if stream is None:
+            return
+        self._ring.closing = True
+        deadline = time.monotonic() + _LONGEST_FADE_S
+        while portaudio.is_active(stream) and not self._ring.is_silent and time.monotonic() < deadline:
+            time.sleep(FADE_S / 2)
+        # A driver that does not ask for samples would be waited for without end.
+        portaudio.close_stream(stream, drain=portaudio.is_active(stream) and self._ring.is_silent)
+        self.latency_s = None
+
+
+def _checked_channels(channels: Mapping[str, int] | Sequence[int] | None) -> Mapping[str, int] | tuple[int, ...] | None:
+    if channels is None:
+        return None
+    by_name = isinstance(channels, Mapping)
+    numbers = list(channels.values()) if isinstance(channels, Mapping) else list(channels)
+    for number in numbers:
+        if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= 256:
+            raise ConfigError(f"channels has {number!r}; a channel is a whole number, 1 for a card's first.")
+    if len(set(numbers)) < len(numbers):
+        raise ConfigError(f"channels is {channels!r}; each hand needs a channel of its own.")
+    return dict(channels) if by_name else tuple(numbers)  # type: ignore[arg-type]  # narrowed above
+
+
+def _checked_latency(latency: float | str) -> float | str:
+    if isinstance(latency, str):
+        if latency not in ("low", "high"):
+            raise ConfigError(f"latency is {latency!r}; it must be seconds, 'low' or 'high'.")
+        return latency
+    return checks.number("latency", latency, "s", above=0.0, at_most=1.0, error=ConfigError)

@@ -1,0 +1,201 @@
+"""The parts of the safety layer that have a memory. Each gives the same samples however its input is cut in blocks.
+
+What must be reset now and then is reset at places counted from the first frame, never from the start of a block.
+Arrays are float64 (n_frames, n_channels).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+Signal = NDArray[np.float64]
+
+RELEASE_S = 0.3
+"""Time constant with which the peak guard lets go; several periods of the slowest vibration that is felt."""
+
+WINDOW_PARTS = 4
+"""The power guard's time constant is the budget's window over this."""
+
+KNEE = 0.7
+"""Share of the budget's power from which on the power guard turns down."""
+
+
+class Gate:
+    """Opens and closes over raised cosines; a change of mind on the way goes on from where it is.
+
+    Position in the fade is an integer, so that a fade ends on the frame that it should.
+    """
+
+    def __init__(self, n_opening: int, n_closing: int) -> None:
+        self._up, self._down = n_closing, n_opening
+        self._top = n_opening * n_closing
+        self._place = 0
+
+    @property
+    def is_shut(self) -> bool:
+        """True where nothing passes."""
+        return self._place == 0
+
+    def factors(self, n_frames: int, is_opening: bool) -> Signal | float:
+        """What the next frames are multiplied with (n_frames, 1), while the gate moves towards open or shut."""
+        target = self._top if is_opening else 0
+        if self._place == target:
+            return 1.0 if is_opening else 0.0
+        step = self._up if is_opening else -self._down
+        places = np.clip(self._place + step * np.arange(1, n_frames + 1), 0, self._top)
+        if n_frames:
+            self._place = int(places[-1])
+        return np.asarray(0.5 - 0.5 * np.cos(math.pi * places / self._top))[:, None]
+
+
+class PeakGuard:
+    """Turns each channel down at once when it exceeds the limit, and lets go slowly.
+
+        u[n] = max_{k <= n} c[k] a^(n - k),   c = max(0, 1 - P / |x|),   y = x (1 - u)
+
+    so that a signal that stays too loud is scaled rather than clipped. Symbols: P limit, a release per frame.
+    """
+
+    _CELL = 4096
+
+    def __init__(self, limit: float, sample_rate_hz: float, n_channels: int) -> None:
+        self._limit = limit
+        self._release = math.exp(-1.0 / (RELEASE_S * sample_rate_hz))
+        self._powers = self._release ** np.arange(self._CELL)[:, None]
+        self._held = np.zeros(n_channels)
+        self._frame = 0
+        self.n_limited = 0
+
+    def pass_through(self, x: Signal) -> Signal:
+        """The signal within the limit."""
+        parts, begin = [], 0
+        while begin < len(x):
+            end = min(len(x), begin + self._CELL - self._frame)
+            parts.append(self._within_a_cell(x[begin:end]))
+            begin = end
+        return np.concatenate(parts) if parts else x
+
+    def _within_a_cell(self, x: Signal) -> Signal:
+        level = np.abs(x)
+        is_over = level > self._limit
+        powers = self._powers[self._frame : self._frame + len(x)]
+        self._frame += len(x)
+        y = x
+        if is_over.any() or self._held.any():
+            self.n_limited += int(is_over.sum())
+            excess = np.where(is_over, 1.0 - self._limit / np.maximum(level, self._limit), 0.0)
+            # Referred to the cell's first frame, a decaying maximum is a plain one, free of rounding.
+            held = np.maximum(np.maximum.accumulate(excess / powers, axis=0), self._held)
+            self._held = held[-1]
+            y = np.clip(x * (1.0 - held * powers), -self._limit, self._limit)
+        if self._frame == self._CELL:
+            self._frame = 0
+            self._held = self._held * self._release**self._CELL
+            self._held[self._held < 1e-7] = 0.0
+        return y
+
+
+class PowerGuard:
+    """Keeps the mean square over any window of T seconds within W, by a thermal model of the first order.
+
+        q' = (y^2 - q) / tau,   g^2 = min(1, (V - q) / (V (1 - KNEE))),   y = g x,   V = W / (1 + tau / T)
+
+    As q approaches V the gain goes to zero, so q never exceeds it; then the integral of y^2 over T is
+    tau (q_1 - q_0) + integral of q <= (tau + T) V = T W. The gain moves once per cell, along a line.
+    Symbols: W power budget [1], T window [s], tau time constant [s], P peak of the input.
+    """
+
+    def __init__(self, rms: float, window_s: float, peak: float, sample_rate_hz: float, n_channels: int) -> None:
+        tau_frames = window_s / WINDOW_PARTS * sample_rate_hz
+        self._most = rms**2 / (1 + 1 / WINDOW_PARTS)
+        knee = self._most * (1 - KNEE)
+        # A small budget fills within few frames and needs short cells.
+        n_frames = min(knee * tau_frames / (2 * peak**2), 0.002 * sample_rate_hz)
+        self._n = max(8, round(n_frames))
+        self._keep = math.exp(-self._n / tau_frames)
+        # Two cells at full power must fit into what is left, since a gain is decided one cell ahead.
+        self._knee = max(knee, 2 * (1 - self._keep) * peak**2)
+        self._ramp = (np.arange(1, self._n + 1) / self._n)[:, None]
+        self._power = [0.0] * n_channels
+        self._gains = [(self._gain_for(0.0),) * 2] * n_channels
+        self._moments = np.zeros((3, n_channels))
+        self._frame = 0
+        self.n_limited = 0
+
+    def pass_through(self, x: Signal) -> Signal:
+        """The signal within the budget."""
+        n_cells = -(-(self._frame + len(x)) // self._n)
+        begin, end = self._frame, self._frame + len(x)
+        self._frame = end % self._n
+        n_full = end // self._n
+        cells = np.zeros((n_cells * self._n, x.shape[1]))
+        cells[begin:end] = x
+        gains = self._advance(cells.reshape(n_cells, self._n, -1), begin, n_full)
+        factors = (gains[:, 0, None] + gains[:, 1, None] * self._ramp).reshape(n_cells * self._n, -1)[begin:end]
+        self.n_limited += int(((factors < 1.0) & (x != 0.0)).sum())
+        return np.asarray(x * factors)
+
+    def _advance(self, cells: Signal, begin: int, n_full: int) -> Signal:
+        """Gain at the start of each cell and its change within (n_cells, 2, n_channels); the model moves on."""
+        squares = cells**2
+        # Energy under the gain g + d r is g^2 sum x^2 + 2 g d sum x^2 r + d^2 sum x^2 r^2; summed in order, since
+        # numpy's pairwise sums would depend on where blocks are cut.
+        moments = np.stack([squares, squares * self._ramp, squares * self._ramp**2])
+        if begin:
+            moments[:, 0, begin - 1] = self._moments
+        sums = np.cumsum(moments, axis=2)[:, :, -1]
+        self._moments = sums[:, -1] if n_full < len(cells) else np.zeros_like(self._moments)
+        gains = np.zeros((len(cells), 2, cells.shape[2]))
+        for channel, told in enumerate(np.moveaxis(sums, 2, 0).tolist()):
+            for cell, (a, b, c) in enumerate(zip(*told, strict=True)):
+                now, following = self._gains[channel]
+                change = following - now
+                gains[cell, :, channel] = now, change
+                if cell < n_full:
+                    energy = now * now * a + 2 * now * change * b + change * change * c
+                    power = self._keep * self._power[channel] + (1 - self._keep) * energy / self._n
+                    self._power[channel] = power
+                    self._gains[channel] = (following, self._gain_for(power))
+        return gains
+
+    def _gain_for(self, power: float) -> float:
+        return math.sqrt(min(max((self._most - power) / self._knee, 0.0), 1.0))
+
+
+class SlewGuard:
+    """Lets no channel move by more than `step` per frame; a signal that keeps to it passes untouched."""
+
+    def __init__(self, step: float, n_channels: int) -> None:
+        self._step = step
+        self._last = np.zeros(n_channels)
+        self.n_limited = 0
+
+    def pass_through(self, x: Signal) -> Signal:
+        """The signal, or the nearest that is slow enough to follow it."""
+        if not len(x):
+            return x
+        steps = np.diff(x, axis=0, prepend=self._last[None])
+        if (np.abs(steps) > self._step).any():
+            x = np.stack([self._follow(x[:, c], steps[:, c], self._last[c]) for c in range(x.shape[1])], axis=1)
+        self._last = x[-1]
+        return x
+
+    def _follow(self, x: Signal, steps: Signal, last: float) -> Signal:
+        """One channel, frame by frame from each step that is too large until the signal is caught up with."""
+        y = x.copy()
+        too_large = np.flatnonzero(np.abs(steps) > self._step).tolist()
+        done = 0
+        for start in too_large:
+            if start < done:
+                continue
+            at = y[start - 1] if start else last
+            done = start
+            while done < len(x) and abs(x[done] - at) > self._step:
+                at += math.copysign(self._step, x[done] - at)
+                y[done] = at
+                done += 1
+                self.n_limited += 1
+        return y

@@ -1,0 +1,217 @@
+"""What stands between the mix and every actuator, and cannot be left out.
+
+    repair -> clip -> gate -> DC block, low-pass -> gate -> peak guard -> power guard -> slew guard
+
+1. What is not finite becomes 0, and what exceeds full scale is clipped to it.
+2. A first-order high-pass at 4.6 Hz: a constant heats a coil and moves nothing. -0.22 dB at 20 Hz.
+3. A second-order Butterworth low-pass at the actuator's f_max: -0.26 dB at half of it.
+4. The gate fades in at the start, and out when the session stops or its game falls silent (the watchdog).
+5. Peak, power and slew are held to the actuator's budget whatever comes in (`scene2hap.render.guards`).
+
+A mix within the budget meets steps 2 to 4 alone. The same samples come out however the input is cut in blocks; only the
+gate obeys the clock, and moves at the beginning of a block.
+
+Threads: `feed` and `release` belong to the game and `process` to whoever pulls samples; neither waits for the other.
+"""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap import checks
+from scene2hap.errors import ConfigError
+from scene2hap.haptics import ActuatorProfile
+from scene2hap.render.guards import Gate, PeakGuard, PowerGuard, SlewGuard
+
+Block = NDArray[np.float32]
+
+DC_BLOCK_HZ = 4.6
+"""A constant has fallen by 42 dB 200 ms after the fade-in began; the least that gives 40 dB is 4.4 Hz."""
+
+FADE_IN_S = 0.06
+"""Long enough that the DC block's own settling on a 20 Hz tone stays below full scale."""
+
+FADE_OUT_S = 0.008
+"""With the wait for the next block, 5 ms on a sound card, still about 10 ms."""
+
+INAUDIBLE = 2.0**-40
+"""Below it the filters' endless tails count as zero, so that silence becomes exact."""
+
+_ROUNDING = 2.0**-23
+
+
+@dataclass(frozen=True)
+class Budget:
+    """What an actuator can bear, from its profile.
+
+    Parameters:
+    max_amplitude : largest sample, 0..1 [-]; max_rms : largest root mean square over any window of `rms_window_s`
+        [-]; at or above max_amplitude it is no limit; rms_window_s : time over which the actuator warms up [s].
+    max_frequency_hz : corner of the low-pass [Hz].
+    Raises: ConfigError: out of bounds.
+    """
+
+    max_amplitude: float = 1.0
+    max_rms: float = 1.0
+    rms_window_s: float = 1.0
+    max_frequency_hz: float = 1000.0
+
+    def __post_init__(self) -> None:
+        peak = checks.number("max_amplitude", self.max_amplitude, "-", above=0.0, at_most=1.0, error=ConfigError)
+        checks.number("max_rms", self.max_rms, "-", at_least=0.02 * peak, at_most=1.0, error=ConfigError)
+        checks.number("rms_window_s", self.rms_window_s, "s", at_least=0.1, at_most=3600.0, error=ConfigError)
+        checks.number("max_frequency_hz", self.max_frequency_hz, "Hz", at_least=20.0, error=ConfigError)
+
+    @classmethod
+    def of(cls, profile: ActuatorProfile) -> Budget:
+        """The budget of a profile; what it does not tell stays at the default."""
+        told = {item.name: getattr(profile, item.name) for item in fields(cls) if hasattr(profile, item.name)}
+        return cls(**told)
+
+
+@dataclass(frozen=True)
+class SafetyStats:
+    """Samples that the safety layer had to change, by reason, and how often the watchdog closed the gate."""
+
+    repaired: int = 0
+    clipped: int = 0
+    peak_limited: int = 0
+    power_limited: int = 0
+    slew_limited: int = 0
+    watchdog_trips: int = 0
+
+
+class SafetyLayer:
+    """The safety layer of `n_channels` outputs.
+
+    Parameters: watchdog_s : time without `feed` after which the output fades to zero [s], None for sinks whose clock
+    is not that of a wall; clock : what tells the time [s].
+    Raises: ConfigError: a budget or a watchdog that is out of bounds.
+    """
+
+    def __init__(
+        self,
+        profile: ActuatorProfile | Budget,
+        sample_rate_hz: float,
+        n_channels: int,
+        *,
+        watchdog_s: float | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        from scipy.signal import butter, sosfilt
+
+        self.budget = budget = profile if isinstance(profile, Budget) else Budget.of(profile)
+        if watchdog_s is not None:
+            watchdog_s = checks.number("watchdog_s", watchdog_s, "s", at_least=0.02, at_most=1.0, error=ConfigError)
+        self._watchdog_s = watchdog_s
+        self._clock = clock
+        self._fed_at = -math.inf
+        self._is_released = False
+        self._is_tripped = True
+        self.silent = threading.Event()
+        """Set once the gate has closed after `release`."""
+        peak = budget.max_amplitude
+        corner_hz = min(budget.max_frequency_hz, 0.45 * sample_rate_hz)
+        self._sos = np.concatenate(
+            [
+                butter(1, DC_BLOCK_HZ, "highpass", fs=sample_rate_hz, output="sos"),
+                butter(2, corner_hz, "lowpass", fs=sample_rate_hz, output="sos"),
+            ]
+        )
+        self._filter = sosfilt
+        self._state = np.zeros((len(self._sos), 2, n_channels))
+        self._gate = Gate(round(FADE_IN_S * sample_rate_hz), round(FADE_OUT_S * sample_rate_hz))
+        self._peak = PeakGuard(peak, sample_rate_hz, n_channels)
+        self._power = (
+            PowerGuard(budget.max_rms, budget.rms_window_s, peak, sample_rate_hz, n_channels)
+            if budget.max_rms < peak
+            else None
+        )
+        slew = 2 * math.pi * budget.max_frequency_hz * peak / sample_rate_hz
+        self._slew = SlewGuard(slew - _ROUNDING * peak, n_channels)
+        self._repaired = self._clipped = self._trips = 0
+
+    def feed(self) -> None:
+        """Tell the watchdog that the game is alive."""
+        self._fed_at = self._clock()
+
+    def release(self) -> None:
+        """Fade out for good; `silent` tells when that is done."""
+        self._is_released = True
+
+    def process(self, block: Block) -> Block:
+        """The next samples (n_frames, n_channels) float32, safe to play."""
+        # Gated before the filters too, so that they start from rest and have nothing to settle from.
+        gate = self._gate.factors(len(block), self._may_play())
+        x = self._repair(np.asarray(block, dtype=np.float64)) * gate
+        if len(x):
+            filtered, self._state = self._filter(self._sos, x, axis=0, zi=self._state)
+            # Where the state has died away, what is left of it only costs time (denormal numbers).
+            self._state[np.abs(self._state) < INAUDIBLE**2] = 0.0
+            x = np.where(np.abs(filtered) < INAUDIBLE, 0.0, filtered)
+        x = self._peak.pass_through(x * gate)
+        if self._power is not None:
+            x = self._power.pass_through(x)
+        x = self._slew.pass_through(x)
+        if self._is_released and self._gate.is_shut:
+            self.silent.set()
+        return x.astype(np.float32)
+
+    def guard(self, fill: Callable[[int], Block]) -> Callable[[int], Block]:
+        """A fill that is safe to play.
+
+        With a watchdog, that is on a live sink, a `fill` that raises is first faded out and only then heard of, so
+        that no actuator meets a jump; without one the error is raised at once.
+        """
+
+        def safe(n_frames: int) -> Block:
+            try:
+                block = fill(n_frames)
+            except Exception:
+                if self._watchdog_s is None or self._gate.is_shut:
+                    raise
+                self._fed_at = -math.inf
+                block = np.zeros((n_frames, self._state.shape[2]), dtype=np.float32)
+            return self.process(block)
+
+        return safe
+
+    @property
+    def stats(self) -> SafetyStats:
+        """What had to be changed so far."""
+        return SafetyStats(
+            self._repaired,
+            self._clipped,
+            self._peak.n_limited,
+            self._power.n_limited if self._power is not None else 0,
+            self._slew.n_limited,
+            self._trips,
+        )
+
+    def _may_play(self) -> bool:
+        if self._is_released:
+            return False
+        if self._watchdog_s is None:
+            return True
+        is_late = self._clock() - self._fed_at > self._watchdog_s
+        self._trips += is_late and not self._is_tripped
+        self._is_tripped = is_late
+        return not is_late
+
+    def _repair(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        is_finite = np.isfinite(x)
+        if not is_finite.all():
+            self._repaired += int(x.size - is_finite.sum())
+            x = np.where(is_finite, x, 0.0)
+        is_over = np.abs(x) > 1.0
+        if is_over.any():
+            self._clipped += int(is_over.sum())
+            x = np.clip(x, -1.0, 1.0)
+        return x

@@ -1,0 +1,175 @@
+"""A session on a real sound server with a null sink; judged by what its monitor hears.
+
+Skipped, saying what to install, where there is no server; with SCENE2HAP_REQUIRE_SOUND set that is a failure instead.
+"""
+
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+
+from scene2hap.devices.protocol import SinkEvent
+from scene2hap.devices.soundcard import SoundCardSink
+from sound_server import DEVICE, RATE, SoundServer, missing
+from sound_takes import TONES_HZ, TOUCHES, Game, session_on, take, undisturbed
+
+PROBLEM = missing()
+if PROBLEM and "SCENE2HAP_REQUIRE_SOUND" in os.environ:
+    raise RuntimeError(PROBLEM)
+pytestmark = pytest.mark.skipif(bool(PROBLEM), reason=PROBLEM)
+
+
+@pytest.fixture
+def server() -> Iterator[SoundServer]:
+    with undisturbed(), SoundServer() as running:
+        yield running
+
+
+def wait_for(is_so: Callable[[], object], timeout_s: float = 20.0) -> None:
+    deadline = time.monotonic() + timeout_s
+    while not is_so():
+        assert time.monotonic() < deadline, "nothing happened"
+        time.sleep(0.005)
+
+
+def test_a_take_of_ten_seconds() -> None:
+    # A virtual machine may stand still for longer than the latency; a broken player never gives three good takes.
+    for attempt in range(3):
+        with undisturbed(), SoundServer() as server:
+            verdict = take(server, 10.0)
+        if verdict.residual < 1e-4 or attempt == 2:
+            break
+    assert min(verdict.correlation) >= 0.99
+    assert verdict.frequency_hz == pytest.approx(TONES_HZ, abs=0.1)
+    assert verdict.residual < 1e-4, f"a discontinuity; underruns told: {verdict.underruns}"
+
+
+def test_fades_and_the_dead_game(server: SoundServer) -> None:
+    sink = SoundCardSink(DEVICE)
+    recorder = server.record(is_timed=True)
+    threads = threading.active_count()
+    with session_on(sink) as session:
+        assert sink.wait_connected(10.0)
+        game = Game(session, lambda _: 0.01)
+        game.start()
+        time.sleep(1.0)
+        died = game.kill()
+        told_s = sink.stats.latency_s
+        assert told_s is not None
+        time.sleep(0.8)
+        heard = np.abs(recorder.samples).max(axis=1)
+        silent_from = int(np.flatnonzero(heard)[-1]) + 1
+        # Exact zeros from then on; half a second of slack for machines that stand still.
+        assert len(heard) - silent_from > RATE // 10
+        assert (silent_from - recorder.frame_at(died)) / RATE < 0.1 + 0.01 + told_s + 0.5
+        session.update(touches=TOUCHES)
+        time.sleep(0.05)
+    assert threading.active_count() == threads
+    time.sleep(0.3)
+    recorder.stop()
+    first = int(np.flatnonzero(heard)[0])
+    assert heard[first : first + 48].max() < 0.01
+
+
+def test_unplug_and_return(server: SoundServer) -> None:
+    events: list[SinkEvent] = []
+    sink = SoundCardSink(DEVICE, on_event=events.append)
+    with session_on(sink) as session:
+        game = Game(session, lambda _: 0.01)
+        game.start()
+        for _ in range(3):
+            assert sink.wait_connected(20.0)
+            server.unplug()
+            wait_for(lambda: not sink.stats.connected)
+            server.plug_in()
+        assert sink.wait_connected(20.0)
+        recorder = server.record()
+        time.sleep(0.5)
+        heard = recorder.stop()
+        before = sink.stats.frames
+        time.sleep(0.3)
+        assert sink.stats.frames > before
+        assert np.abs(heard).max() > 0.25
+        game.kill()
+        assert sink.stats.reconnects == 3
+        assert session.stats.updates > 50
+    assert [event.kind for event in events if event.kind != "unavailable"] == ["connected"] + 3 * ["lost", "connected"]
+
+
+def test_a_server_that_crashes_and_comes_back(server: SoundServer) -> None:
+    events: list[SinkEvent] = []
+    sink = SoundCardSink(DEVICE, on_event=events.append)
+    with session_on(sink) as session:
+        assert sink.wait_connected(10.0)
+        server.kill()
+        wait_for(lambda: any(event.kind == "unavailable" for event in events))
+        session.update(touches=TOUCHES)
+        assert sink.stats.dropped_frames >= 0
+        server.start()
+        assert sink.wait_connected(20.0)
+    kinds = [event.kind for event in events]
+    assert kinds.index("lost") < kinds.index("unavailable")
+    assert kinds[-1] == "connected"
+
+
+def test_a_server_that_stands_still(server: SoundServer) -> None:
+    events: list[SinkEvent] = []
+    sink = SoundCardSink(DEVICE, on_event=events.append)
+    with session_on(sink):
+        assert sink.wait_connected(10.0)
+        server.signal(signal.SIGSTOP)
+        wait_for(lambda: any(event.kind == "stalled" for event in events))
+        server.signal(signal.SIGCONT)
+        wait_for(lambda: events[-1].kind in ("resumed", "connected"))
+
+
+def test_a_device_of_another_rate(server: SoundServer) -> None:
+    recorder = server.record()
+    sink = SoundCardSink(DEVICE, sample_rate_hz=44100)
+    with session_on(sink) as session:
+        assert sink.wait_connected(10.0)
+        game = Game(session, lambda _: 0.01)
+        game.start()
+        time.sleep(2.0)
+        game.kill()
+    heard = recorder.stop()
+    begin = int(np.flatnonzero(np.abs(heard).max(axis=1) > 1e-3)[0]) + RATE // 2
+    # The server resamples 44.1 kHz to the monitor's 48 kHz. Ten pieces of ten cycles each: a stall spoils few of them.
+    left = heard[begin : begin + RATE, 0].astype(np.float64).reshape(10, -1)
+    t = np.arange(RATE // 10) / RATE
+    wave = np.exp(-2j * np.pi * TONES_HZ[0] * t)
+    assert np.median(2 * np.abs(left @ wave) / len(t)) == pytest.approx(0.3, rel=0.03)
+    assert np.median(np.sqrt(2 * np.mean(left**2, axis=1))) == pytest.approx(0.3, rel=0.03)
+
+
+def test_hands_on_the_back_channels_of_a_game_pad() -> None:
+    with undisturbed(), SoundServer(n_channels=4) as server:
+        recorder = server.record()
+        sink = SoundCardSink(DEVICE, channels={"left": 3, "right": 4})
+        with session_on(sink) as session:
+            assert sink.wait_connected(10.0)
+            game = Game(session, lambda _: 0.01)
+            game.start()
+            time.sleep(1.0)
+            game.kill()
+        heard = recorder.stop()
+    peaks = np.abs(heard).max(axis=0)
+    assert not peaks[:2].any()
+    assert peaks[2] == pytest.approx(0.3, rel=0.05)
+    assert peaks[3] > 0.1
+
+
+def test_a_device_that_is_not_there(server: SoundServer) -> None:
+    events: list[SinkEvent] = []
+    sink = SoundCardSink("no such card", on_event=events.append)
+    with session_on(sink) as session:
+        wait_for(lambda: events)
+        session.update(touches=TOUCHES)
+        assert not sink.stats.connected
+    assert events[0].kind == "unavailable"
+    assert "no output 'no such card' among the sound cards. Known: " in events[0].message
+    assert "'pulse'" in events[0].message
