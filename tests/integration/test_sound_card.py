@@ -37,11 +37,11 @@ def wait_for(is_so: Callable[[], object], timeout_s: float = 20.0) -> None:
 
 
 def test_a_take_of_ten_seconds() -> None:
-    # A virtual machine may stand still for longer than the latency; a broken player never gives three good takes.
-    for attempt in range(3):
+    # A virtual machine may stand still for longer than the latency; a broken player never gives a good take in five.
+    for attempt in range(5):
         with undisturbed(), SoundServer() as server:
             verdict = take(server, 10.0)
-        if verdict.residual < 1e-4 or attempt == 2:
+        if verdict.residual < 1e-4 or attempt == 4:
             break
     assert min(verdict.correlation) >= 0.99
     assert verdict.frequency_hz == pytest.approx(TONES_HZ, abs=0.1)
