@@ -1,4 +1,4 @@
-"""The command line: ``scene2hap demo``, ``bake``, ``render``, ``convert``, ``inspect``, ``report``, ``doctor``.
+"""The command line: ``scene2hap demo``, ``bake``, ``render``, ``play``, ``convert``, ``inspect``, ``report``, ``doctor``.
 
 A command returns what it did as plain JSON values; ``--json`` prints them, otherwise the command has shown tables.
 Errors that a person can act on are one line on standard error and exit status 1; wrong usage is 2.
@@ -13,11 +13,11 @@ import warnings
 from collections.abc import Sequence
 
 from scene2hap import __version__
-from scene2hap.cli import bake, convert, demo, doctor, inspect, render, report
+from scene2hap.cli import bake, convert, demo, doctor, inspect, play, render, report
 from scene2hap.cli.console import Console
 from scene2hap.errors import Scene2HapError
 
-COMMANDS = (demo, bake, render, convert, inspect, report, doctor)
+COMMANDS = (demo, bake, render, play, convert, inspect, report, doctor)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -1,0 +1,137 @@
+"""Feel a bundle: arrow keys move a hand over a plan of the scene, meters show what it feels.
+
+Keys: arrows move, space lifts the hand and puts it down, + and - turn the level, q ends.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import json
+import shutil
+import sys
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from rich.live import Live
+from rich.text import Text
+
+from scene2hap.bundle import HapticBundle
+from scene2hap.cli.console import Console
+from scene2hap.cli.plan import Plan
+from scene2hap.cli.settings import read_settings
+from scene2hap.errors import ConfigError
+from scene2hap.session import HapticFrame, HapticSession, SessionConfig, Touch
+
+HELP = "feel a bundle with the arrow keys"
+
+HAND = "right"
+UPDATE_S = 0.02
+_STEP_DB = 3.0
+_METER = 30
+_LEAST = 8
+_MOVES = {"\x1b[A": (-1, 0), "\x1b[B": (1, 0), "\x1b[C": (0, 1), "\x1b[D": (0, -1)}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``scene2hap play``."""
+    parser.add_argument("bundle", metavar="BUNDLE", help="folder that bake wrote")
+    parser.add_argument("--sink", default="soundcard", help="where to play: a kind, or JSON with one (soundcard)")
+    parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [session]")
+
+
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
+    """Play until q."""
+    if not sys.stdin.isatty():
+        raise ConfigError("scene2hap play needs a terminal for its keys. Use `scene2hap render` for a file of touches.")
+    bundle = HapticBundle.load(arguments.bundle)
+    config = SessionConfig.parse(read_settings(arguments.settings, "session"))
+    sink = json.loads(arguments.sink) if arguments.sink.lstrip().startswith("{") else arguments.sink
+    width, height = shutil.get_terminal_size()
+    # Beside the plan stand a line for each source, one for the hand, and one left free.
+    player = Player(bundle, n_columns=max(_LEAST, width - 1), n_rows=max(_LEAST, height - len(bundle.loops) - 2))
+    with (
+        HapticSession(bundle.snapshot, bundle, config, hands=(HAND,), sink=sink) as session,
+        keys() as pressed,
+        Live(refresh_per_second=20, screen=True) as screen,
+    ):
+        while player.press(pressed()):
+            session.set_user(gain_db=player.gain_db)
+            frame = session.update(touches=player.touches())
+            screen.update(player.view(frame))
+            time.sleep(UPDATE_S)
+    return {"bundle": arguments.bundle, "ended_on": player.on}
+
+
+class Player:
+    """Where the hand is, and what it looks like."""
+
+    def __init__(self, bundle: HapticBundle, n_columns: int = 64, n_rows: int = 22) -> None:
+        self.plan = Plan.of(bundle.snapshot, n_columns, n_rows)
+        self._sources = frozenset(bundle.loops)
+        n_rows, n_columns = self.plan.top.shape
+        self._hand = (n_rows // 2, n_columns // 2)
+        self._is_down = True
+        self.gain_db = 0.0
+
+    @property
+    def on(self) -> str:
+        """The id of the object under the hand, "" for none."""
+        found = self.plan.touched(*self._hand)
+        return found[0] if found else ""
+
+    def press(self, key: str) -> bool:
+        """Take in a key; false if it ends the play."""
+        if key in _MOVES:
+            n_rows, n_columns = self.plan.top.shape
+            down, right = _MOVES[key]
+            row, column = self._hand
+            self._hand = (min(max(row + down, 0), n_rows - 1), min(max(column + right, 0), n_columns - 1))
+        elif key == " ":
+            self._is_down = not self._is_down
+        elif key in ("+", "-"):
+            self.gain_db += _STEP_DB if key == "+" else -_STEP_DB
+        return key != "q"
+
+    def touches(self) -> list[Touch]:
+        """What the hand touches now."""
+        found = self.plan.touched(*self._hand) if self._is_down else None
+        return [Touch(HAND, *found)] if found else []
+
+    def view(self, frame: HapticFrame) -> Text:
+        """Plan, touched object, and a meter per source."""
+        state = self.on or "nothing" if self._is_down else "lifted"
+        lines = [f"hand on: {state}    level {self.gain_db:+g} dB    arrows, space, + -, q"]
+        for source_id in frame.sources:
+            gain = min(frame.gain(HAND, source_id), 1.0)
+            lines.append(f"{source_id:<28.28} {'#' * round(_METER * gain):<{_METER}} {gain:5.3f}")
+        return Text("\n".join(lines + self.plan.lines(self._sources, self._hand)), no_wrap=True)
+
+
+@contextlib.contextmanager
+def keys() -> Iterator[Callable[[], str]]:
+    """Keys as they are pressed: a function that gives the next one, "" while there is none."""
+    if sys.platform == "win32":
+        raise ConfigError("scene2hap play reads keys on POSIX terminals only; use `scene2hap render` here.")
+    import os
+    import select
+    import termios
+    import tty
+
+    terminal = sys.stdin.fileno()
+    before = termios.tcgetattr(terminal)
+    tty.setcbreak(terminal)
+
+    def pressed() -> str:
+        if not select.select([terminal], [], [], 0)[0]:
+            return ""
+        key = os.read(terminal, 1).decode("latin-1")
+        if key == "\x1b" and select.select([terminal], [], [], 0.01)[0]:
+            key += os.read(terminal, 2).decode("latin-1")
+        return key
+
+    try:
+        yield pressed
+    finally:
+        termios.tcsetattr(terminal, termios.TCSADRAIN, before)

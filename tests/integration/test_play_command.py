@@ -1,0 +1,76 @@
+"""`scene2hap play` on a pseudo-terminal, and the plan that it shows."""
+
+import os
+import select
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from scene2hap.cli import main
+from scene2hap.cli.plan import Plan
+from scene2hap.cli.play import Player
+from scenes import table_with_two_phones
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs a POSIX terminal")
+
+
+def test_the_plan_shows_what_is_on_top() -> None:
+    scene, bundle = table_with_two_phones()
+    plan = Plan.of(scene)
+    hits = {plan.touched(row, column) for row in range(22) for column in range(64)}
+    touched = {hit[0]: hit[1] for hit in hits if hit}
+    assert set(touched) >= {"table", *bundle.loops}
+    for object_id, point in touched.items():
+        low, high = scene.object(object_id).bounds_m
+        assert all(low - 1e-9 <= point)
+        assert all(point <= high + 1e-9)
+    lines = plan.lines(frozenset(bundle.loops), (0, 0))
+    assert lines[0][0] == "@"
+    assert "*" in "".join(lines)
+
+
+def test_keys_move_lift_and_turn() -> None:
+    player = Player(table_with_two_phones()[1])
+    for _ in range(200):
+        player.press("\x1b[A")
+        player.press("\x1b[D")
+    assert player._hand == (0, 0)  # it stays on the plan
+    player.press("+")
+    assert player.gain_db == 3.0
+    player.press(" ")
+    assert player.touches() == []
+    assert player.press("x")
+    assert not player.press("q")
+
+
+def test_without_a_terminal_it_says_what_to_do(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["play", str(tmp_path)]) == 1
+    assert "terminal" in capsys.readouterr().err
+
+
+def test_a_person_plays(tmp_path: Path) -> None:
+    import pty
+
+    folder = table_with_two_phones()[1].save(tmp_path / "b")
+    child, terminal = pty.fork()
+    if child == 0:
+        os.environ.update(TERM="xterm", COLUMNS="100", LINES="40")
+        os.execv(sys.executable, [sys.executable, "-m", "scene2hap", "play", str(folder), "--sink", "memory"])
+    said, started = b"", time.monotonic()
+    sent = False
+    while time.monotonic() - started < 60:
+        if select.select([terminal], [], [], 0.1)[0]:
+            try:
+                said += os.read(terminal, 65536)
+            except OSError:  # the other side has closed
+                break
+        if not sent and b"hand on" in said:
+            os.write(terminal, b"\x1b[A\x1b[C\x1b[B++ q")
+            sent = True
+    _, status = os.waitpid(child, 0)
+    os.close(terminal)
+    assert sent
+    assert os.waitstatus_to_exitcode(status) == 0
+    assert b"table" in said
