@@ -73,4 +73,4 @@ def test_a_person_plays(tmp_path: Path) -> None:
     os.close(terminal)
     assert sent
     assert os.waitstatus_to_exitcode(status) == 0
-    assert b"table" in said
+    assert b"hand on: phone" in said

@@ -1,4 +1,4 @@
-"""The command line: ``scene2hap demo``, ``bake``, ``render``, ``play``, ``convert``, ``inspect``, ``report``, ``doctor``.
+"""The command line, ``scene2hap COMMAND``: one module per command.
 
 A command returns what it did as plain JSON values; ``--json`` prints them, otherwise the command has shown tables.
 Errors that a person can act on are one line on standard error and exit status 1; wrong usage is 2.

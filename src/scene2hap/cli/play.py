@@ -70,10 +70,16 @@ class Player:
     def __init__(self, bundle: HapticBundle, n_columns: int = 64, n_rows: int = 22) -> None:
         self.plan = Plan.of(bundle.snapshot, n_columns, n_rows)
         self._sources = frozenset(bundle.loops)
-        n_rows, n_columns = self.plan.top.shape
-        self._hand = (n_rows // 2, n_columns // 2)
+        self._hand = self._on_a_source()
         self._is_down = True
         self.gain_db = 0.0
+
+    def _on_a_source(self) -> tuple[int, int]:
+        items = self.plan.scene.objects
+        for row, column in zip(*(self.plan.top >= 0).nonzero(), strict=True):
+            if items[self.plan.top[row, column]].id in self._sources:
+                return int(row), int(column)
+        return 0, 0
 
     @property
     def on(self) -> str:
