@@ -2,43 +2,75 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from weakref import WeakValueDictionary
 
 import numpy as np
 
 from scene2hap.contact.broad import Boxes, Floats
+from scene2hap.contact.profile import Profile, Triple, profile_of, triples
+from scene2hap.contact.stance import Stance
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject, TriMesh
 
+# Directions that one shape is asked for; past this, things tumble and old ones are forgotten.
+_MAX_PROFILES = 64
 
-@dataclass(frozen=True, eq=False)
+
 class Shape:
     """The triangles (m, 3, 3) [m] of a mesh in its own frame, their boxes, and the corners in use (n, 3)."""
 
-    triangles: Floats
-    boxes: Boxes
-    corners: Floats
-
-    @cached_property
-    def box(self) -> Boxes:
-        """The bounding box (1, 3) of all."""
-        return self.boxes.hull()
-
-    @cached_property
-    def size_m(self) -> float:
-        """Diagonal of the own bounding box, which no motion changes."""
-        return float(np.linalg.norm(self.box.high - self.box.low))
+    def __init__(self, triangles: Floats, corners: Floats) -> None:
+        self.triangles = triangles
+        self.boxes = boxes_of(triangles)
+        self.corners = corners
+        self.box: Boxes = self.boxes.hull()
+        self.low, self.high = self.box.low[0], self.box.high[0]
+        # Of the own bounding box, which no motion changes.
+        self.size_m = float(np.linalg.norm(self.high - self.low))
+        self.middle: Triple = triples((self.box.low + self.box.high) / 2)[0]
+        self.half: Triple = triples((self.box.high - self.box.low) / 2)[0]
+        self._profiles: dict[Triple, Profile] = {}
 
     @cached_property
     def normals(self) -> Floats:
         """Unit normals (m, 3) of the triangles, 0 for those without area."""
-        a, b, c = self.triangles[:, 0], self.triangles[:, 1], self.triangles[:, 2]
-        normals = np.cross(b - a, c - a)
-        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+        normals, lengths = self._cross
         unit: Floats = normals / np.where(lengths > 0, lengths, 1.0)
         return unit
+
+    @cached_property
+    def is_cuboid(self) -> bool:
+        """Whether the triangles are the six sides of the own bounding box, however cut."""
+        edges = self.high - self.low
+        if not (edges > 0).all():
+            return False
+        near = 1e-9 * float(edges.max())
+        areas = self._cross[1][:, 0] / 2
+        on_side = np.zeros(len(areas), dtype=bool)
+        for axis in range(3):
+            for end in (self.low[axis], self.high[axis]):
+                side = (np.abs(self.triangles[:, :, axis] - end) <= near).all(axis=1)
+                true = edges.prod() / edges[axis]
+                if abs(areas[side].sum() - true) > 1e-6 * true:
+                    return False
+                on_side |= side
+        return bool(on_side.all())
+
+    def profile(self, up: Triple) -> Profile:
+        """The level faces for the own direction `up`, which is rounded by the caller."""
+        found = self._profiles.get(up)
+        if found is None:
+            if len(self._profiles) >= _MAX_PROFILES:
+                self._profiles.clear()
+            found = self._profiles[up] = profile_of(self, up)
+        return found
+
+    @cached_property
+    def _cross(self) -> tuple[Floats, Floats]:
+        a, b, c = self.triangles[:, 0], self.triangles[:, 1], self.triangles[:, 2]
+        normals = np.cross(b - a, c - a)
+        return normals, np.linalg.norm(normals, axis=1, keepdims=True)
 
 
 # Instances share a mesh, and sessions come and go over one scene: a shape lives as long as some body uses it.
@@ -49,47 +81,59 @@ def shape_of(mesh: TriMesh) -> Shape:
     """The shape of a mesh, made once for equal meshes."""
     shape = _shapes.get(mesh.digest)
     if shape is None:
-        triangles = mesh.vertices_m[mesh.faces]
-        corners = mesh.vertices_m[np.unique(mesh.faces)]
-        shape = Shape(triangles, boxes_of(triangles), corners)
+        shape = Shape(mesh.vertices_m[mesh.faces], mesh.vertices_m[np.unique(mesh.faces)])
         _shapes[mesh.digest] = shape
     return shape
 
 
-@dataclass(frozen=True, eq=False)
 class Body:
-    """A shape at a place; a thing that moves gets a new body."""
+    """A shape at a place; a thing that moves gets a new body.
 
-    id: str
-    shape: Shape
-    pose: Pose
-    up_axis: int
+    `low` and `high` are a box (three numbers each [m]) that holds it; its height is exact, its sides may be wide.
+    """
+
+    __slots__ = ("__dict__", "high", "id", "low", "pose", "position_m", "shape", "size_m", "stance", "up_axis")
+
+    def __init__(self, object_id: str, shape: Shape, pose: Pose, up_axis: int) -> None:
+        self.id = object_id
+        self.shape = shape
+        self.size_m = shape.size_m
+        self.pose = pose
+        self.up_axis = up_axis
+        stance = self.stance = Stance(shape, pose.rotation_xyzw, up_axis)
+        x, y, z = self.position_m = pose.position_m
+        low, high = stance.low, stance.high
+        self.low = (x + low[0], y + low[1], z + low[2])
+        self.high = (x + high[0], y + high[1], z + high[2])
 
     @classmethod
     def of(cls, item: SceneObject, up_axis: int) -> Body:
-        """The body of an object in a scene whose axis `up_axis` (0, 1, 2) points up."""
+        """The body of an object in a scene whose axis `up_axis` (1, 2) points up."""
         return cls(item.id, shape_of(item.geometry.mesh), item.pose, up_axis)
 
-    @cached_property
-    def box(self) -> Boxes:
-        """The bounding box (1, 3) in the world."""
-        points = self.pose.to_world(self.shape.corners)
-        return Boxes(points.min(axis=0, keepdims=True), points.max(axis=0, keepdims=True))
-
-    @property
-    def size_m(self) -> float:
-        """Diagonal of the own bounding box."""
-        return self.shape.size_m
+    def at(self, pose: Pose) -> Body:
+        """The same thing elsewhere."""
+        # Every frame of a game comes by here, often.
+        body = Body.__new__(Body)
+        shape, up_axis, stance = self.shape, self.up_axis, self.stance
+        body.id, body.shape, body.size_m, body.pose, body.up_axis = self.id, shape, self.size_m, pose, up_axis
+        if stance.rotation_xyzw != pose.rotation_xyzw:
+            stance = Stance(shape, pose.rotation_xyzw, up_axis)
+        body.stance = stance
+        x, y, z = body.position_m = pose.position_m
+        (a, b, c), (d, e, f) = stance.low, stance.high
+        body.low, body.high = (x + a, y + b, z + c), (x + d, y + e, z + f)
+        return body
 
     @property
     def lowest_m(self) -> float:
         """Height of the lowest point."""
-        return float(self.box.low[0, self.up_axis])
+        return self.low[self.up_axis]
 
     @property
     def highest_m(self) -> float:
         """Height of the highest point."""
-        return float(self.box.high[0, self.up_axis])
+        return self.high[self.up_axis]
 
     @property
     def up(self) -> Floats:

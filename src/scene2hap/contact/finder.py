@@ -6,28 +6,36 @@ alone, so that moving step by step ends exactly where building from nothing does
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.broad import Boxes, Floats, box_pairs
-from scene2hap.contact.narrow import ROUNDING_M, Gap, Meeting, Patch
-from scene2hap.contact.support import TOUCH_M, Support, fall_reach_m, falls, hang_reach_m, hangs, supports, weight
-from scene2hap.scene.snapshot import Contact
-
-Pair = tuple[str, str]
+from scene2hap.contact.broad import Floats
+from scene2hap.contact.crowd import Crowd
+from scene2hap.contact.junction import Junction, Pair, pair_of
+from scene2hap.contact.level import Aside, rest_points
+from scene2hap.contact.narrow import ROUNDING_M
+from scene2hap.contact.profile import Triple
+from scene2hap.contact.support import (
+    TOUCH_M,
+    Support,
+    fall_reach_m,
+    hang_reach_m,
+    hangs,
+    level_supports,
+    supports,
+    weight,
+)
+from scene2hap.contact.tie import UNCLEAR, Tie, apart_by, slide
 
 # A patch holds what is this much farther apart than the nearest points, as a share of the tolerance (assumed): the feet
 # of a chair are never quite level.
 _PATCH_SHARE = 0.25
 _CLEAR_M = 1e-4  # The way between surfaces nearer than this has no direction to speak of (assumed).
-
-
-def pair_of(x: str, y: str) -> Pair:
-    """The pair of two ids, lower one first."""
-    return (x, y) if x < y else (y, x)
+_NO_WAY = (0.0, 0.0, 0.0)
+_ONES = (1.0,) * 4
 
 
 class ContactFinder:
@@ -41,170 +49,296 @@ class ContactFinder:
         self._up_axis = up_axis
         self._infers = tolerance_m is None
         self._tolerance_m = TOUCH_M if tolerance_m is None else tolerance_m
+        self._within_m = max(self._tolerance_m, ROUNDING_M)
         self._bodies: dict[str, Body] = {}
-        self._zones: dict[str, Boxes] = {}
-        self._near: dict[str, set[str]] = {}
-        self._pairs: dict[Pair, _PairFacts] = {}
+        self._crowd = Crowd(up_axis, self._margins_m)
+        self._ties: dict[str, dict[str, Tie]] = {}
         self._held: dict[str, dict[str, _Bond]] = {}
+        # Those that nothing wholly supports, so that larger things near them may bear on how they hang.
+        self._loose: set[str] = set()
 
     def body(self, object_id: str) -> Body:
         """The body of that id, where it is now."""
         return self._bodies[object_id]
 
-    def replace(self, placed: Iterable[Body], gone: Iterable[str] = ()) -> dict[Pair, tuple[Contact, ...]]:
+    def replace(self, placed: Sequence[Body], gone: Iterable[str] = ()) -> dict[Pair, Junction | None]:
         """Take in bodies that are new or elsewhere and forget others.
 
-        Returns the contacts of every pair that may have changed, empty for pairs that do not touch.
+        Returns where the pairs touch that may have changed, None for those that do not touch.
         """
-        bodies, gone = {body.id: body for body in placed}, set(gone)
-        dirty = self._take_out(gone | bodies.keys())
-        self._bodies |= bodies
-        dirty |= self._put_in(bodies)
+        dirty: set[Pair] = set()
+        unsure: set[str] = set()
+        for x in gone:
+            del self._bodies[x]
+            for y in self._crowd.take_out(x):
+                self._part(x, y, dirty, unsure)
+            self._ties.pop(x, None)
+            self._held.pop(x, None)
+            self._loose.discard(x)
+        for body in placed:
+            self._bodies[body.id] = body
+        left = self._crowd.put(placed)
+        seen: set[str] = set()
+        found: dict[Pair, Junction | None] = {}
+        for body in placed:
+            x = body.id
+            if x not in left and self._slide(body, found):
+                continue
+            for y in left.get(x, ()):
+                self._part(x, y, dirty, unsure)
+            self._look_around(body, seen, dirty, unsure)
+            seen.add(x)
         if self._infers:
-            dirty |= self._hold_anew({x for pair in dirty for x in pair} | bodies.keys() | gone)
-        return {pair: self._contacts(pair) for pair in sorted(dirty)}
+            unsure.update(seen)
+            for x in unsure:
+                if x in self._bodies:
+                    self._hold_anew(x, dirty)
+        for pair in dirty:
+            found[pair] = self._junction(pair)
+        return found
 
-    def _take_out(self, stale: set[str]) -> set[Pair]:
-        """Forget bodies and their neighbourhoods; the pairs that they were in."""
-        dirty = set()
-        for x in stale & self._bodies.keys():
-            del self._bodies[x], self._zones[x]
-            for y in self._near.pop(x):
-                self._near[y].remove(x)
-                self._pairs.pop(pair_of(x, y), None)
-                dirty.add(pair_of(x, y))
-        return dirty
-
-    def _put_in(self, bodies: dict[str, Body]) -> set[Pair]:
-        """Find out what is near the bodies; the pairs that they are in."""
-        self._near |= {x: set() for x in bodies}
-        self._zones |= {x: self._zone(body) for x, body in bodies.items()}
-        boxes = {x: body.box for x, body in self._bodies.items()}
-        dirty = set()
-        for seekers, sought in ((bodies, boxes), (boxes, bodies)):
-            ids_a, ids_b = list(seekers), list(sought)
-            for i, j in box_pairs(_stack(self._zones[x] for x in ids_a), _stack(boxes[x] for x in ids_b)):
-                for x, y in ((ids_a[row], ids_b[column]) for row, column in zip(i.tolist(), j.tolist(), strict=True)):
-                    if x != y:
-                        self._near[x].add(y)
-                        self._near[y].add(x)
-                        dirty.add(pair_of(x, y))
-        return dirty
-
-    def _zone(self, body: Body) -> Boxes:
-        """All that a body may touch, fall onto or hang from."""
+    def _margins_m(self, body: Body) -> tuple[float, float]:
+        """How far a body may touch or hang from others, and how much farther it may fall."""
         if not self._infers:
-            return body.box.grown(max(self._tolerance_m, ROUNDING_M))
-        down = np.zeros(3)
-        down[self._up_axis] = -fall_reach_m(body.size_m)
-        return body.box.grown(max(self._tolerance_m, hang_reach_m(body.size_m))).swept(down)
+            return self._within_m, 0.0
+        return max(self._tolerance_m, hang_reach_m(body.size_m)), fall_reach_m(body.size_m)
 
-    def _hold_anew(self, affected: set[str]) -> set[Pair]:
-        """Find out what holds these bodies; the pairs in which one holds or held the other."""
-        dirty = set()
-        for x in affected:
-            before = self._held.pop(x, {})
-            if x in self._bodies:
-                self._held[x] = self._holders(x)
-            dirty |= {pair_of(x, y) for y in before.keys() | self._held.get(x, {}).keys()}
-        return dirty
+    def _part(self, x: str, y: str, dirty: set[Pair], unsure: set[str]) -> None:
+        """Note that two are neighbours no more."""
+        mine = self._ties.get(x)
+        tie = mine.pop(y, None) if mine else None
+        if tie is not None:
+            self._ties[y].pop(x, None)
+            dirty.add(pair_of(x, y))
+            unsure.add(y)
+
+    def _slide(self, body: Body, found: dict[Pair, Junction | None]) -> bool:
+        """The short way for what stays on its only support with nothing else near enough to matter.
+
+        It ends where the long way does. False, and nothing done, where that is not sure.
+        """
+        x, bodies = body.id, self._bodies
+        ties = self._ties.get(x)
+        if ties is None or len(ties) != 1 or x in self._loose or not self._infers:
+            return False
+        ((y, tie),) = ties.items()
+        support, is_a = bodies[y], x == tie.a.id
+        if (tie.b if is_a else tie.a) is not support or not self._stands_alone(body, y):
+            return False
+        bond = self._held[x].get(y)
+        if bond is None or not bond.lies or bond.weight != 1.0:
+            return False
+        slid = slide(body, support)
+        if slid is None:
+            return False
+        rest, points = slid
+        tie.slide(body, rest, is_a)
+        n = len(points)
+        found[(x, y) if is_a else (y, x)] = Junction(points, _ONES[:n], bond.normals[:n])
+        return True
+
+    def _stands_alone(self, body: Body, support: str) -> bool:
+        """Whether all neighbours but its support are beside a body, and none may hang from it."""
+        bodies, loose, margin_m, size_m = self._bodies, self._loose, self._within_m, body.size_m
+        (x0, x1, x2), (x3, x4, x5) = body.low, body.high
+        flat = 3 - self._up_axis
+        if flat == 1:
+            x2, x5 = x1, x4
+        x0, x2, x3, x5 = x0 - margin_m, x2 - margin_m, x3 + margin_m, x5 + margin_m
+        for z in self._crowd.near[body.id]:
+            other = bodies[z]
+            low, high = other.low, other.high
+            if x0 > high[0] or low[0] > x3 or x2 > high[flat] or low[flat] > x5:
+                if z in loose and size_m > other.size_m:
+                    return False
+            elif z != support or (z in loose and size_m > other.size_m):
+                return False
+        return True
+
+    def _look_around(self, body: Body, seen: set[str], dirty: set[Pair], unsure: set[str]) -> None:
+        """Tie a body that moved to what is now near enough to matter."""
+        x, bodies, loose, infers, within_m = body.id, self._bodies, self._loose, self._infers, self._within_m
+        ties = self._ties.get(x)
+        if ties is None:
+            ties = self._ties[x] = {}
+        (x0, x1, x2), (x3, x4, x5) = body.low, body.high
+        flat, upright = (2, 1) if self._up_axis == 1 else (1, 2)
+        if upright == 2:
+            x1, x2, x4, x5 = x2, x1, x5, x4
+        for y in self._crowd.near[x]:
+            other = bodies[y]
+            low, high = other.low, other.high
+            old = ties.get(y)
+            if old is None and (
+                x0 - high[0] > within_m
+                or low[0] - x3 > within_m
+                or x2 - high[flat] > within_m
+                or low[flat] - x5 > within_m
+            ):
+                # Beside each other: neither can fall onto the other, and hanging is asked for by what is loose.
+                if y in loose and body.size_m > other.size_m:
+                    unsure.add(y)
+                continue
+            if y in seen:
+                continue
+            tie = Tie.between(body, other, infers) if x < y else Tie.between(other, body, infers)
+            if tie.rest_a is None and tie.rest_b is None and apart_by(body, other, within_m):
+                if old is not None:
+                    del ties[y], self._ties[y][x]
+                    dirty.add(pair_of(x, y))
+            else:
+                ties[y] = tie
+                self._ties.setdefault(y, {})[x] = tie
+                dirty.add(pair_of(x, y))
+            if tie.rest(y) is not None or (old is not None and old.rest(y) is not None) or y in loose:
+                unsure.add(y)
+
+    def _hold_anew(self, x: str, dirty: set[Pair]) -> None:
+        """Find out what holds a body; the pairs in which another than before does are dirty."""
+        before, now = self._held.get(x), self._holders(x)
+        if now:
+            self._held[x] = now
+        elif before:
+            del self._held[x]
+        for y in (before or {}).keys() | now.keys():
+            dirty.add(pair_of(x, y))
 
     def _holders(self, x: str) -> dict[str, _Bond]:
         """What holds a body, by support and, as far as that is wanting, by hanging."""
-        size_m, near = self._bodies[x].size_m, sorted(self._near[x])
-        falls_m = {y: found for y in near if (found := self._facts(x, y).falls(x)) is not None}
-        below = supports(falls_m, fall_reach_m(size_m))
-        bonds = {y: self._lying(support, 1 if x < y else -1) for y, support in below.items()}
+        body = self._bodies[x]
+        below: dict[str, Support] | None = {}
+        rests = {y: rest for y, tie in self._ties[x].items() if (rest := tie.rest(x)) is not None}
+        if rests:
+            reach_m = fall_reach_m(body.size_m)
+            below = None if UNCLEAR in rests.values() else level_supports(rests, reach_m)
+            if below is None:
+                near = sorted(rests)
+                falls_m = {y: found for y in near if (found := self._ties[x][y].falls(x)) is not None}
+                below, rests = supports(falls_m, reach_m), {}
+        bonds = {}
+        for y, support in (below or {}).items():
+            sign = 1.0 if x < y else -1.0
+            normal = (0.0, -sign, 0.0) if self._up_axis == 1 else (0.0, 0.0, -sign)
+            way = (normal[0] * support.fall_m, normal[1] * support.fall_m, normal[2] * support.fall_m)
+            bonds[y] = _Bond(support.weight, way, normal, y in rests, x)
         supported = max((bond.weight for bond in bonds.values()), default=0.0)
         if supported < 1:
-            reach_m = hang_reach_m(size_m)
-            larger = (y for y in near if self._bodies[y].size_m > size_m)
-            gaps = {y: gap for y in larger if (gap := self._facts(x, y).gap(reach_m)) is not None}
-            for y, share in hangs({y: gap.distance_m for y, gap in gaps.items()}, reach_m).items():
-                bond = _Bond((1 - supported) * share, gaps[y].way_m, _direction(gaps[y]))
+            self._loose.add(x)
+            for y, bond in self._hanging(body, supported).items():
                 bonds[y] = max(bonds.get(y, _NO_BOND), bond, key=_strength)
+        else:
+            self._loose.discard(x)
         return bonds
 
-    def _lying(self, support: Support, sign: int) -> _Bond:
-        """The bond of a thing with what supports it; sign 1 if the thing is the pair's `a`, -1 if its `b`."""
-        down = [0.0, 0.0, 0.0]
-        down[self._up_axis] = -float(sign)
-        return _Bond(support.weight, support.fall_m * np.array(down), (down[0], down[1], down[2]))
+    def _hanging(self, body: Body, supported: float) -> dict[str, _Bond]:
+        """What holds a body sideways, as far as nothing supports it."""
+        x, reach_m = body.id, hang_reach_m(body.size_m)
+        ways: dict[str, tuple[float, Triple]] = {}
+        bodies, size_m = self._bodies, body.size_m
+        larger = [
+            y
+            for y in self._crowd.near[x]
+            if (other := bodies[y]).size_m > size_m and not apart_by(body, other, reach_m)
+        ]
+        if not larger:
+            return {}
+        for y in sorted(larger):
+            way = self._apart(self._tie(x, y), reach_m)
+            if way is not None:
+                ways[y] = way
+        shares = hangs({y: distance for y, (distance, _) in ways.items()}, reach_m)
+        return {
+            y: _Bond((1 - supported) * share, ways[y][1], _direction(*ways[y]), False, x) for y, share in shares.items()
+        }
 
-    def _contacts(self, pair: Pair) -> tuple[Contact, ...]:
+    def _apart(self, tie: Tie, within_m: float) -> tuple[float, Triple] | None:
+        """How far two are apart and which way, if it is at most `within_m`."""
+        side = self._aside(tie, within_m)
+        if side is not None:
+            return (side.distance_m, side.way_m) if side.points else None
+        gap = tie.gap(within_m)
+        return None if gap is None else (gap.distance_m, _triple(gap.way_m))
+
+    def _aside(self, tie: Tie, within_m: float) -> Aside | None:
+        # A stated tolerance knows no up, and its contacts go along with any motion.
+        return tie.aside(within_m, _PATCH_SHARE * self._tolerance_m) if self._infers else None
+
+    def _tie(self, x: str, y: str) -> Tie:
+        tie = self._ties[x].get(y)
+        if tie is None:
+            a, b = pair_of(x, y)
+            tie = self._ties[x][y] = self._ties.setdefault(y, {})[x] = Tie.between(
+                self._bodies[a], self._bodies[b], True
+            )
+        return tie
+
+    def _junction(self, pair: Pair) -> Junction | None:
         """The contacts of a pair by its strongest bond: a held by b, b held by a, or mere touch."""
         a, b = pair
-        if b not in self._near.get(a, ()):
-            return ()
-        facts, slack_m = self._facts(a, b), _PATCH_SHARE * self._tolerance_m
-        held = (self._held.get(x, {}).get(y) for x, y in (pair, (b, a)))
-        bond = max((one for one in held if one), key=_strength, default=_NO_BOND)
-        if bond.weight < 1 and (gap := facts.gap(self._tolerance_m)) is not None:
-            touch = _Bond(weight(gap.distance_m, self._tolerance_m), np.zeros(3), _direction(gap))
-            if touch.weight > bond.weight:
-                bond, slack_m = touch, gap.distance_m + slack_m
+        tie = self._ties.get(a, {}).get(b)
+        if tie is None:
+            return None
+        slack_m = _PATCH_SHARE * self._tolerance_m
+        bond, is_touch = _NO_BOND, False
+        for x, y in ((a, b), (b, a)):
+            held = self._held.get(x)
+            one = held.get(y) if held else None
+            if one is not None and _strength(one) > _strength(bond):
+                bond = one
+        if bond.weight < 1 and not apart_by(tie.a, tie.b, self._within_m):
+            apart = self._apart(tie, self._tolerance_m)
+            if apart is not None:
+                share = weight(apart[0], self._tolerance_m)
+                if share > bond.weight:
+                    bond, is_touch = _Bond(share, _NO_WAY, _direction(*apart), False, a), True
+                    slack_m += apart[0]
         if bond.weight <= 0:
-            return ()
-        patch = facts.patch(bond.way_m, slack_m)
-        points = (self._bodies[a].pose.to_world(patch.on_a_m) + self._bodies[b].pose.to_world(patch.on_b_m)) / 2
-        return tuple(Contact(a, b, (x, y, z), bond.normal, weight=bond.weight) for x, y, z in points.tolist())
+            return None
+        points = self._points(tie, bond, slack_m, is_touch)
+        return Junction(points, (bond.weight,) * len(points), (bond.normal,) * len(points)) if points else None
 
-    def _facts(self, x: str, y: str) -> _PairFacts:
-        pair = pair_of(x, y)
-        if pair not in self._pairs:
-            self._pairs[pair] = _PairFacts(self._bodies[pair[0]], self._bodies[pair[1]])
-        return self._pairs[pair]
+    def _points(self, tie: Tie, bond: _Bond, slack_m: float, is_touch: bool) -> tuple[Triple, ...]:
+        if bond.lies:
+            x, y = (tie.a, tie.b) if bond.faller == tie.a.id else (tie.b, tie.a)
+            rest = tie.rest(bond.faller)
+            assert rest is not None
+            return rest_points(x, y, rest)
+        if is_touch and (side := self._aside(tie, self._tolerance_m)) is not None:
+            return side.points
+        patch = tie.patch(np.array(bond.way_m), slack_m)
+        points = (tie.a.pose.to_world(patch.on_a_m) + tie.b.pose.to_world(patch.on_b_m)) / 2
+        return tuple((x, y, z) for x, y, z in points.tolist())
 
 
 class _Bond(NamedTuple):
-    """How much two objects are in contact, the way (3,) [m] that takes the pair's `a` to its `b`, and the normal."""
+    """How much two objects are in contact, the way [m] that takes the pair's `a` to its `b`, and the normal; whether
+    the faller `lies` on the other with a level sole."""
 
     weight: float
-    way_m: Floats
-    normal: tuple[float, float, float] | None
+    way_m: Triple
+    normal: Triple | None
+    lies: bool
+    faller: str
+
+    @property
+    def normals(self) -> tuple[Triple | None, ...]:
+        return (self.normal,) * 4
 
 
-_NO_BOND = _Bond(0.0, np.zeros(3), None)
+_NO_BOND = _Bond(0.0, _NO_WAY, None, False, "")
 
 
 def _strength(bond: _Bond) -> tuple[float, bool]:
     return (bond.weight, bond.normal is not None)
 
 
-class _PairFacts:
-    """What is known of two bodies where they are now, each fact found when first asked for."""
-
-    def __init__(self, a: Body, b: Body) -> None:
-        self._meeting = Meeting(a, b)
-        self._falls: dict[str, Floats | None] = {}
-        self._gaps: dict[float, Gap | None] = {}
-        self._patches: dict[tuple[float, ...], Patch] = {}
-
-    def falls(self, x: str) -> Floats | None:
-        if x not in self._falls:
-            meeting = self._meeting
-            self._falls[x] = falls(meeting, meeting.a if x == meeting.a.id else meeting.b)
-        return self._falls[x]
-
-    def gap(self, within_m: float) -> Gap | None:
-        if within_m not in self._gaps:
-            self._gaps[within_m] = self._meeting.gap(within_m)
-        return self._gaps[within_m]
-
-    def patch(self, way_m: Floats, within_m: float) -> Patch:
-        key = (*way_m.tolist(), within_m)
-        if key not in self._patches:
-            self._patches[key] = self._meeting.patch(way_m, within_m)
-        return self._patches[key]
-
-
-def _direction(gap: Gap) -> tuple[float, float, float] | None:
-    if gap.distance_m < _CLEAR_M:
+def _direction(distance_m: float, way_m: Triple) -> Triple | None:
+    if distance_m < _CLEAR_M:
         return None
-    x, y, z = (gap.way_m / np.linalg.norm(gap.way_m)).tolist()
+    x, y, z = (np.array(way_m) / np.linalg.norm(way_m)).tolist()
     return (x, y, z)
 
 
-def _stack(boxes: Iterable[Boxes]) -> Boxes:
-    rows = [Boxes(np.empty((0, 3)), np.empty((0, 3))), *boxes]
-    return Boxes(np.concatenate([box.low for box in rows]), np.concatenate([box.high for box in rows]))
+def _triple(way: Floats) -> Triple:
+    x, y, z = way.tolist()
+    return (x, y, z)

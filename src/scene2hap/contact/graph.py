@@ -6,21 +6,23 @@ which follows the objects unless one is stated (`contact.support`).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from scene2hap import checks
 from scene2hap.contact.body import Body
-from scene2hap.contact.finder import ContactFinder, Pair
+from scene2hap.contact.finder import ContactFinder
+from scene2hap.contact.junction import ContactArrays, Junction, Pair, junctions_of, pair_of
 from scene2hap.errors import SceneError, UnknownObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot, unknown_object
 
 if TYPE_CHECKING:
     import networkx
+    import numpy as np
+    from numpy.typing import NDArray
 
 
 @dataclass(frozen=True)
@@ -38,6 +40,9 @@ class ContactChange:
         return bool(self.appeared or self.vanished or self.shifted)
 
 
+NO_CHANGE = ContactChange()
+
+
 class ContactGraph:
     """The contacts of a scene, kept up to date as its objects move.
 
@@ -51,6 +56,9 @@ class ContactGraph:
     points stand for a pair's patch, and each bears the pair's weight: 1 up to two thirds of its tolerance, falling
     smoothly to 0. The normal points from a to b; it is None where surfaces touch sideways or cut each other. A thing
     wholly inside a closed other, away from its surface, does not touch it.
+
+    For loops that run often, `junctions` and `beside` are what the graph itself keeps, changed in place by `update` and
+    read without a copy; `contacts`, `arrays` and `graph` are made from them when asked for.
     """
 
     def __init__(self, scene: SceneSnapshot, *, tolerance_m: float | None = None) -> None:
@@ -59,28 +67,94 @@ class ContactGraph:
             tolerance_m = checks.number("tolerance_m", tolerance_m, "m", at_least=0.0, error=SceneError, hint=hint)
         self._up_axis = {"y": 1, "z": 2}[scene.up_axis]
         self._poses = {item.id: item.pose for item in scene.objects}
-        self._pairs: dict[Pair, tuple[Contact, ...]] = {}
+        self._poses_lent = False
+        self._junctions: dict[Pair, Junction] = {}
+        self._beside: dict[str, dict[str, Junction]] = {}
+        self._version = self._topology = 0
+        self._views: dict[str, object] = {}
         self._finder: ContactFinder | None = None
         if scene.contacts is None:
             self._finder = ContactFinder(self._up_axis, tolerance_m)
-            self._settle(self._finder.replace(Body.of(item, self._up_axis) for item in scene.objects))
+            self._settle(self._finder.replace([Body.of(item, self._up_axis) for item in scene.objects]))
         else:
-            self._settle(_by_pair(scene.contacts))
+            self._settle(junctions_of(scene.contacts))
 
     @property
     def contacts(self) -> tuple[Contact, ...]:
         """All contacts, a < b, sorted by pair; points in world coordinates [m]."""
-        return self._reading.contacts
+        found = self._views.get("contacts")
+        if found is None:
+            found = tuple(one for pair in sorted(self._junctions) for one in self._junctions[pair].contacts(pair))
+            self._views["contacts"] = found
+        return cast("tuple[Contact, ...]", found)
+
+    @property
+    def arrays(self) -> ContactArrays:
+        """All contacts as arrays, sorted by pair."""
+        found = self._views.get("arrays")
+        if found is None:
+            found = self._views["arrays"] = ContactArrays.of(self._poses, self._junctions)
+        return cast("ContactArrays", found)
 
     @property
     def graph(self) -> networkx.Graph[str]:
         """Object ids as nodes; edges carry their `contacts` as a list. Drawn anew after a change."""
-        return self._reading.graph
+        import networkx
+
+        found = self._views.get("graph")
+        if found is None:
+            drawn: networkx.Graph[str] = networkx.Graph()
+            drawn.add_nodes_from(sorted(self._poses))
+            pairs = sorted(self._junctions)
+            drawn.add_edges_from((*pair, {"contacts": list(self._junctions[pair].contacts(pair))}) for pair in pairs)
+            found = self._views["graph"] = drawn
+        return cast("networkx.Graph[str]", found)
+
+    @property
+    def junctions(self) -> Mapping[Pair, Junction]:
+        """Where the pairs touch; read-only, and changed by later updates. A junction itself never changes."""
+        return self._junctions
+
+    @property
+    def beside(self) -> Mapping[str, Mapping[str, Junction]]:
+        """For each object that touches any: the others, and where; read-only, and changed by later updates."""
+        return self._beside
+
+    @property
+    def version(self) -> int:
+        """A number that is another after every update that changed a contact."""
+        return self._version
+
+    @property
+    def topology(self) -> int:
+        """A number that is another after every update by which a pair came to touch or ceased to."""
+        return self._topology
 
     @property
     def poses(self) -> Mapping[str, Pose]:
         """Where every object is; read-only, and left as it is by later updates."""
+        self._poses_lent = True
         return MappingProxyType(self._poses)
+
+    def __contains__(self, object_id: object) -> bool:
+        return object_id in self._poses
+
+    def pose(self, object_id: str) -> Pose:
+        """Where an object is. Raises: UnknownObject."""
+        _demand(object_id, self._poses)
+        return self._poses[object_id]
+
+    def patch(self, a: str, b: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The points of a pair in a's and in b's own coordinates, both (n, 3) [m], none where the two do not touch.
+
+        Raises: UnknownObject: an id is not in the scene.
+        """
+        import numpy as np
+
+        pose_a, pose_b = self.pose(a), self.pose(b)
+        junction = self._beside.get(a, {}).get(b)
+        points = np.array(junction.points_m if junction else ()).reshape(-1, 3)
+        return pose_a.to_own(points), pose_b.to_own(points)
 
     def neighbours(self, object_id: str) -> tuple[str, ...]:
         """The ids of all that touch an object, sorted.
@@ -88,7 +162,7 @@ class ContactGraph:
         Raises: UnknownObject: the id is not in the scene.
         """
         _demand(object_id, self._poses)
-        return self._reading.neighbours.get(object_id, ())
+        return tuple(sorted(self._beside.get(object_id, ())))
 
     def update(
         self,
@@ -106,6 +180,36 @@ class ContactGraph:
         Raises: UnknownObject: an id that is not in the scene. SceneError: an added id that already is, or a pose that
         is no Pose. The graph is then as it was.
         """
+        if added or removed or contacts is not None:
+            return self._rebuild(moved, added, removed, contacts)
+        stale = {}
+        poses = self._poses
+        for x, pose in moved.items():
+            if x not in poses:
+                _demand(x, poses)
+            if not isinstance(pose, Pose):
+                _demand_pose(x, pose)
+            here = poses[x]
+            if here is not pose and (here.position_m != pose.position_m or here.rotation_xyzw != pose.rotation_xyzw):
+                stale[x] = pose
+        if not stale:
+            return NO_CHANGE
+        if self._poses_lent:
+            self._poses, self._poses_lent = dict(self._poses), False
+        self._poses.update(stale)
+        if self._finder is None:
+            return self._settle({pair: None for x in stale for pair in self._pairs_of(x)})
+        body = self._finder.body
+        return self._settle(self._finder.replace([body(x).at(pose) for x, pose in stale.items()]))
+
+    def _rebuild(
+        self,
+        moved: Mapping[str, Pose],
+        added: Sequence[SceneObject],
+        removed: Sequence[str],
+        contacts: Sequence[Contact] | None,
+    ) -> ContactChange:
+        """An update that changes more than poses."""
         poses = dict(self._poses)
         for x in removed:
             _demand(x, poses)
@@ -116,79 +220,64 @@ class ContactGraph:
             poses[item.id] = item.pose
         for x, pose in moved.items():
             _demand(x, poses)
-            if not isinstance(pose, Pose):
-                raise SceneError(f"the pose of {x!r} is {pose!r}; it must be a Pose.")
+            _demand_pose(x, pose)
             poses[x] = pose
         for contact in contacts or ():
             _demand(contact.a, poses)
             _demand(contact.b, poses)
 
-        before, self._poses = self._poses, poses
+        before, self._poses, self._poses_lent = self._poses, poses, False
         if contacts is not None:
             self._finder = None
-            return self._settle(dict.fromkeys(self._pairs, ()) | _by_pair(contacts))
+            return self._settle({**dict.fromkeys(self._junctions), **junctions_of(contacts)})
         stale = {x for x in before if poses.get(x) != before[x]} | {*removed, *(item.id for item in added)}
         if self._finder is None:
-            return self._settle({pair: () for pair in self._pairs if not stale.isdisjoint(pair)})
+            return self._settle({pair: None for x in stale for pair in self._pairs_of(x)})
         new = {item.id: Body.of(item, self._up_axis) for item in added}
         placed = {x: new[x] if x in new else self._finder.body(x) for x in stale & poses.keys()}
-        bodies = [replace(body, pose=poses[x]) for x, body in sorted(placed.items())]
-        return self._settle(self._finder.replace(bodies, stale - poses.keys()))
+        bodies = [body.at(poses[x]) for x, body in sorted(placed.items())]
+        gone = stale & before.keys() & {*removed}
+        return self._settle(self._finder.replace(bodies, gone))
 
-    def _settle(self, found: Mapping[Pair, tuple[Contact, ...]]) -> ContactChange:
-        """Take over the contacts of these pairs, none for an empty tuple, and tell what that changes."""
-        before = {pair: self._pairs.get(pair, ()) for pair in found}
-        kept = {pair: contacts for pair, contacts in self._pairs.items() if pair not in found}
-        self._pairs = kept | {pair: contacts for pair, contacts in found.items() if contacts}
-        self._reading = _Reading(self._pairs, self._poses)
-        stayed = (pair for pair in found if found[pair] and before[pair])
-        return ContactChange(
-            appeared=frozenset(pair for pair in found if found[pair] and not before[pair]),
-            vanished=frozenset(pair for pair in found if before[pair] and not found[pair]),
-            shifted=frozenset(pair for pair in stayed if found[pair] != before[pair]),
-        )
+    def _pairs_of(self, object_id: str) -> list[Pair]:
+        return [pair_of(object_id, other) for other in self._beside.get(object_id, ())]
 
-
-class _Reading:
-    """The views of one state of the graph, each made when first asked for."""
-
-    def __init__(self, pairs: Mapping[Pair, tuple[Contact, ...]], ids: Iterable[str]) -> None:
-        self._pairs, self._ids = pairs, tuple(ids)
-
-    @cached_property
-    def contacts(self) -> tuple[Contact, ...]:
-        return tuple(contact for pair in sorted(self._pairs) for contact in self._pairs[pair])
-
-    @cached_property
-    def graph(self) -> networkx.Graph[str]:
-        import networkx
-
-        graph: networkx.Graph[str] = networkx.Graph()
-        graph.add_nodes_from(sorted(self._ids))
-        graph.add_edges_from((*pair, {"contacts": list(self._pairs[pair])}) for pair in sorted(self._pairs))
-        return graph
-
-    @cached_property
-    def neighbours(self) -> dict[str, tuple[str, ...]]:
-        beside: dict[str, list[str]] = {}
-        for a, b in self._pairs:
-            beside.setdefault(a, []).append(b)
-            beside.setdefault(b, []).append(a)
-        return {x: tuple(sorted(others)) for x, others in beside.items()}
-
-
-def _by_pair(contacts: Iterable[Contact]) -> dict[Pair, tuple[Contact, ...]]:
-    """Given contacts with a < b, in an order that does not depend on the giver's."""
-    pairs: dict[Pair, list[Contact]] = {}
-    for contact in contacts:
-        if contact.a > contact.b:
-            x = contact.normal
-            turned = None if x is None else (-x[0], -x[1], -x[2])
-            contact = replace(contact, a=contact.b, b=contact.a, normal=turned)
-        pairs.setdefault((contact.a, contact.b), []).append(contact)
-    return {pair: tuple(sorted(several, key=lambda one: one.point_m)) for pair, several in pairs.items()}
+    def _settle(self, found: Mapping[Pair, Junction | None]) -> ContactChange:
+        """Take over where these pairs touch, None for nowhere, and tell what that changes."""
+        appeared: list[Pair] = []
+        vanished: list[Pair] = []
+        shifted: list[Pair] = []
+        junctions, beside = self._junctions, self._beside
+        for pair, junction in found.items():
+            before = junctions.get(pair)
+            if junction == before:
+                continue
+            a, b = pair
+            if junction is None:
+                vanished.append(pair)
+                del junctions[pair], beside[a][b], beside[b][a]
+                continue
+            (appeared if before is None else shifted).append(pair)
+            junctions[pair] = junction
+            if before is None:
+                beside.setdefault(a, {})[b] = beside.setdefault(b, {})[a] = junction
+            else:
+                beside[a][b] = beside[b][a] = junction
+        if self._views:
+            self._views.clear()
+        if not (appeared or vanished or shifted):
+            return NO_CHANGE
+        self._version += 1
+        if appeared or vanished:
+            self._topology += 1
+        return ContactChange(frozenset(appeared), frozenset(vanished), frozenset(shifted))
 
 
 def _demand(object_id: str, known: Mapping[str, object]) -> None:
     if object_id not in known:
         raise UnknownObject(unknown_object(object_id, known))
+
+
+def _demand_pose(object_id: str, pose: object) -> None:
+    if not isinstance(pose, Pose):
+        raise SceneError(f"the pose of {object_id!r} is {pose!r}; it must be a Pose.")

@@ -17,18 +17,14 @@ from numpy.typing import NDArray
 
 from scene2hap.contact.body import Body, boxes_of
 from scene2hap.contact.broad import Boxes, Floats, Indices, box_pairs
+from scene2hap.contact.spread import spread
 from scene2hap.contact.triangles import Meetings, closest_points, meetings, plane_gap
 
 Marks = NDArray[np.bool_]
 
-MAX_POINTS = 4
-"""Contact points of one pair: the corners of a patch, few enough for a dense solve over a scene (assumed)."""
-
 ROUNDING_M = 1e-9
 """Below this a gap is rounding."""
 
-_SPREAD_M = 0.005  # Points of a pair nearer than this are one (assumed: the width of a chair's foot).
-_TIE_M = 1e-6  # Lengths this near are equal, so that rounding does not choose between the corners of a square.
 _BATCH = 4096  # Triangle pairs in the kernel at once: some 10 MB.
 
 
@@ -103,7 +99,7 @@ class Meeting:
                 hits = every.distance <= within_m
                 ends.append((every.on_p[hits] - way, every.on_q[hits]))
         on_guest, on_host = (np.concatenate(side) for side in zip(*ends, strict=True))
-        chosen = _spread((on_guest + on_host) / 2)
+        chosen = spread((on_guest + on_host) / 2)
         guest_own = (on_guest[chosen] - self._position) @ self._rotation
         host_own = on_host[chosen]
         return Patch(guest_own, host_own) if self.guest_is_a else Patch(host_own, guest_own)
@@ -159,25 +155,3 @@ def _nearest_first(pairs: Near, within_m: float) -> Iterator[tuple[Floats, Float
     for start in range(0, len(order), _BATCH):
         rows = order[start : start + _BATCH]
         yield pairs.guest[rows], pairs.host[rows]
-
-
-def _spread(points: Floats) -> list[int]:
-    """Rows of at most `MAX_POINTS` of the points (n, 3) [m], far from each other."""
-    if not len(points):
-        return []
-    apart = np.linalg.norm(points - points.mean(axis=0), axis=1)
-    chosen = [_first(points, apart >= apart.max() - _TIE_M)]
-    apart = np.linalg.norm(points - points[chosen[0]], axis=1)
-    while len(chosen) < MAX_POINTS and apart.max() > _SPREAD_M:
-        chosen.append(_first(points, apart >= apart.max() - _TIE_M))
-        apart = np.minimum(apart, np.linalg.norm(points - points[chosen[-1]], axis=1))
-    return chosen
-
-
-def _first(points: Floats, tied: NDArray[np.bool_]) -> int:
-    """Of the tied points the one with the least x, then y, then z, each up to rounding."""
-    rows = np.flatnonzero(tied)
-    for axis in range(3):
-        values = points[rows, axis]
-        rows = rows[values <= values.min() + _TIE_M]
-    return int(rows[0])

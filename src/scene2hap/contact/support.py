@@ -23,6 +23,7 @@ import numpy as np
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Floats
+from scene2hap.contact.level import Rest
 from scene2hap.contact.narrow import Meeting
 from scene2hap.contact.triangles import height_range
 
@@ -49,7 +50,8 @@ def weight(gap_m: float, tolerance_m: float) -> float:
     """
     if tolerance_m == 0.0:
         return 1.0 if gap_m <= 0.0 else 0.0
-    return float(_weights(np.array(gap_m), tolerance_m))
+    x = 3 * gap_m / tolerance_m - 2
+    return 1.0 if x <= 0 else 0.0 if x >= 1 else 0.5 * (1 + math.cos(math.pi * x))
 
 
 def fall_reach_m(size_m: float) -> float:
@@ -70,7 +72,7 @@ def falls(meeting: Meeting, faller: Body) -> Floats | None:
     reach. None where nothing falls onto the other.
     """
     other = meeting.b if faller is meeting.a else meeting.a
-    if not _is_over(faller, other):
+    if not is_over(faller, other):
         return None
     reach_m = fall_reach_m(faller.size_m)
     bottom = faller.lows_m <= faller.lowest_m + reach_m
@@ -110,6 +112,22 @@ def supports(falls_m: Mapping[str, Floats], reach_m: float) -> dict[str, Support
     }
 
 
+def level_supports(rests: Mapping[str, Rest], reach_m: float) -> dict[str, Support] | None:
+    """The same for a thing with one level sole, from how it lies on what is level below; None where that depends on
+    which part of the sole sees what."""
+    first = min(rest.fall_m for rest in rests.values())
+    found = {}
+    for name, (fall_m, _) in rests.items():
+        share = weight(fall_m, reach_m) * weight(fall_m - first, TOUCH_M)
+        if share > 0 and weight(fall_m - first, _HIDDEN_M) < 1:
+            if not any(rest.wholly and rest.fall_m == first for rest in rests.values()):
+                return None
+            share *= weight(fall_m - first, _HIDDEN_M)
+        if share > 0:
+            found[name] = Support(share, fall_m)
+    return found
+
+
 def hangs(gaps_m: Mapping[str, float], reach_m: float) -> dict[str, float]:
     """Which of the larger things around hold what nothing supports, and how much of a contact each is (0..1)."""
     least = min(gaps_m.values(), default=math.inf)
@@ -122,7 +140,7 @@ def _weights(gaps_m: Floats, tolerance_m: float) -> Floats:
     return np.where(x < 1.0, 0.5 * (1 + np.cos(np.pi * x)), 0.0)
 
 
-def _is_over(x: Body, y: Body) -> bool:
+def is_over(x: Body, y: Body) -> bool:
     """Whether x may rest on y; never true both ways.
 
     A thing on another lies over all of it, give or take `TOUCH_M`, or stands in it with a higher bottom. Things side by

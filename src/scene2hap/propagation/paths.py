@@ -55,31 +55,49 @@ def cheapest_arrivals(
     owner = [object_id for contact in contacts for object_id in (contact.a, contact.b)]
     points = np.array([contact.point_m for contact in contacts], dtype=np.float64).reshape(-1, 3)
     crossing = np.asarray(crossing_cost, dtype=np.float64)
-    # What it costs to come in by one contact (row) and leave by another (column).
-    transit = {
-        object_id: price_per_m[object_id] * _distances(points[own // 2]) + crossing[own // 2]
-        for object_id, own in sides.items()
-        if object_id in price_per_m
-    }
-
     costs = np.full((len(source_ids), 2 * len(contacts)), np.inf)
     for row, source_id in enumerate(source_ids):
         if source_id in sides:
             out = sides[source_id]
             costs[row, out ^ 1] = crossing[out // 2]
-    hops, entered = 1, {owner[side] for side in np.flatnonzero(np.isfinite(costs).any(axis=0))}
-    while entered and (max_hops is None or hops < max_hops):
+    hops, entered = 1, np.flatnonzero(np.isfinite(costs).any(axis=0))
+    while len(entered) and (max_hops is None or hops < max_hops):
         improved = costs.copy()
-        for object_id in entered & transit.keys():
-            own = sides[object_id]
-            onward = (costs[:, own, None] + transit[object_id]).min(axis=1)
-            improved[:, own ^ 1] = np.minimum(improved[:, own ^ 1], onward)
-        entered = {owner[side] for side in np.flatnonzero((improved < costs).any(axis=0))}
+        for object_id, rows in _by_object(owner, entered[_useful(costs, crossing, entered)]).items():
+            if object_id in price_per_m:
+                own = sides[object_id]
+                way = price_per_m[object_id] * _distances(points[rows // 2], points[own // 2]) + crossing[own // 2]
+                onward = (costs[:, rows, None] + way).min(axis=1)
+                improved[:, own ^ 1] = np.minimum(improved[:, own ^ 1], onward)
+        entered = np.flatnonzero((improved < costs).any(axis=0))
         hops, costs = hops + 1, improved
-    return {object_id: Arrivals(points[sides[object_id] // 2], costs[:, sides[object_id]]) for object_id in transit}
+    return {
+        object_id: Arrivals(points[own // 2], costs[:, own])
+        for object_id, own in sides.items()
+        if object_id in price_per_m
+    }
 
 
-def _distances(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+def _useful(costs: NDArray[np.float64], crossing: NDArray[np.float64], entered: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Which of the sides are entered more cheaply than they were reached from within their own object.
+
+    The others lead nowhere new: a straight way is never longer than one by another point. This is what keeps a floor
+    with a thousand things on it from being searched from every one of them.
+    """
+    with np.errstate(invalid="ignore"):  # a contact of weight 0 costs inf, and inf - inf is nan
+        within = costs[:, entered ^ 1] - crossing[entered // 2]
+    useful: NDArray[np.bool_] = np.any(~(within <= costs[:, entered]), axis=0)
+    return useful
+
+
+def _by_object(owner: Sequence[str], rows: NDArray[np.intp]) -> dict[str, NDArray[np.intp]]:
+    grouped: dict[str, list[int]] = defaultdict(list)
+    for row in rows.tolist():
+        grouped[owner[row]].append(row)
+    return {object_id: np.array(own, dtype=np.intp) for object_id, own in grouped.items()}
+
+
+def _distances(from_m: NDArray[np.float64], to_m: NDArray[np.float64]) -> NDArray[np.float64]:
     # The norm of explicit differences: the Gram-matrix shortcut loses half the digits for close points.
-    distances: NDArray[np.float64] = np.linalg.norm(points_m[:, None, :] - points_m[None, :, :], axis=2)
+    distances: NDArray[np.float64] = np.linalg.norm(from_m[:, None, :] - to_m[None, :, :], axis=2)
     return distances

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from contact_scenes import box, boxes, floor, found, on_floor, pairs, points, scene, weight
+from scene2hap.contact.body import Body
 from scene2hap.contact.graph import ContactChange, ContactGraph
 from scene2hap.errors import SceneError, UnknownObject
 from scene2hap.scene.pose import Pose
@@ -128,19 +129,28 @@ def test_a_change_of_weight_alone_is_a_shift() -> None:
 
 
 def test_what_does_not_move_is_not_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
-    from scene2hap.contact import narrow
+    from scene2hap.contact import finder, narrow
 
     graph = room(*(on_floor(f"crate{i}", (0.2, 0.2, 0.2), -2, i * 0.5 - 2) for i in range(6)))
-    met: set[str] = set()
-    near = narrow.Meeting.near
+    met: list[set[str]] = []
+    near, tie = narrow.Meeting.near, finder.Tie.between
 
     def watched(self: narrow.Meeting, *args: object, **kwargs: object) -> object:
-        met.update({self.a.id, self.b.id})
+        met.append({self.a.id, self.b.id})
         return near(self, *args, **kwargs)  # type: ignore[arg-type]
 
+    def tied(a: Body, b: Body, infers: bool) -> finder.Tie:
+        met.append({a.id, b.id})
+        return tie(a, b, infers)
+
     monkeypatch.setattr(narrow.Meeting, "near", watched)
+    monkeypatch.setattr(finder.Tie, "between", tied)
     graph.update({"cup": Pose((0.25, 0.76, 0.1))})
-    assert met == {"cup", "table"}
+    assert all(pair == {"cup", "table"} for pair in met)
+    # A tilted thing has no level sole, so that triangles must tell.
+    graph.update({"cup": Pose((0.25, 0.77, 0.1), (0.1, 0.0, 0.0, 1.0))})
+    assert len(met) > 2
+    assert all(pair == {"cup", "table"} for pair in met)
 
 
 def test_objects_come_and_go() -> None:

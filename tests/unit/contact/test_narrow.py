@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 from contact_scenes import Triple, box, boxes
 from scene2hap.contact.body import Body, shape_of
-from scene2hap.contact.narrow import MAX_POINTS, Meeting
+from scene2hap.contact.narrow import Meeting
+from scene2hap.contact.spread import MAX_POINTS
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject
 

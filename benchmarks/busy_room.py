@@ -1,0 +1,190 @@
+"""A room of tables with things on them, for measurements: any number of objects, movers that slide, a hand's touches.
+
+One object in seven is a table, the last few tables hold what is left over; each table bears a tray with a thing on it
+and four more things, all turned about the vertical. Movers slide to and fro on their table, every other one turning;
+every tenth frame the first of them is lifted or put down.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap import (
+    AudioClip,
+    DominantSurface,
+    HapticBundle,
+    HapticLoop,
+    ObjectHaptics,
+    Pose,
+    SceneObject,
+    SceneSnapshot,
+    SourceState,
+    Touch,
+    TriMesh,
+    materials,
+)
+from scene2hap.scene.snapshot import Box, with_relative_heights
+
+N_SOURCES, N_MOVERS = 7, 5
+_TABLE = (1.2, 0.72, 0.8)
+_LIFT_M = 0.25
+_RATE = 8000
+
+
+@dataclass(frozen=True)
+class BusyRoom:
+    """A scene, what was baked for it, who moves and which two objects hands touch."""
+
+    scene: SceneSnapshot
+    bundle: HapticBundle
+    movers: tuple[str, ...]
+    touched: tuple[str, str]
+
+    def frame(self, i: int) -> dict[str, Pose]:
+        """Where the movers are in frame i; neighbouring frames are some 5 mm apart."""
+        moved = {}
+        for k, name in enumerate(self.movers):
+            home = self.scene.object(name).pose
+            x, y, z = home.position_m
+            phase = 0.1 * i + k
+            lifted = _LIFT_M if k == 0 and (i // 10) % 2 else 0.0
+            spin = yaw(0.02 * i) if k % 2 else Pose()
+            turned = spin.compose(Pose((0, 0, 0), home.rotation_xyzw)).rotation_xyzw
+            moved[name] = Pose((x + 0.05 * math.sin(phase), y + lifted, z + 0.03 * math.cos(phase)), turned)
+        return moved
+
+    def touches(self, i: int) -> list[Touch]:
+        """A hand on either touched object, elsewhere in every frame."""
+        hands = zip(("left", "right"), self.touched, strict=True)
+        return [Touch(hand, name, self._point(name, i)) for hand, name in hands]
+
+    def _point(self, name: str, i: int) -> tuple[float, float, float]:
+        low, high = self.scene.object(name).bounds_m
+        x, z = (float(low[a] + (high[a] - low[a]) * (0.5 + 0.4 * math.sin(0.37 * i + a))) for a in (0, 2))
+        return (x, float(high[1]), z)
+
+
+def busy_room(n_objects: int, kind: str = "box", seed: int = 1) -> BusyRoom:
+    """A room of that many objects. kind : "box", twelve triangles each, or "mesh", some 500 each."""
+    rng = np.random.default_rng(seed)
+    made = {"box": _box, "mesh": _round}[kind]
+    n_tables = max(1, (n_objects - 1 + 6) // 7)
+    side = math.ceil(math.sqrt(n_tables))
+    extent = 2.0 * side + 2.0
+    objects = [_thing("floor", _slab(kind, (extent, 0.1, extent)), (extent / 2, -0.05, extent / 2), 0.0)]
+    items: list[str] = []
+    for t in range(n_tables):
+        x, z = 2.0 * (t % side) + 2.0, 2.0 * (t // side) + 2.0
+        angle = float(rng.uniform(-0.4, 0.4))
+        objects.append(_thing(f"table{t:05d}", _desk(kind), (x, _TABLE[1] / 2, z), angle))
+        turn = yaw(angle)
+        for k in range(6):
+            if len(objects) == n_objects:
+                break
+            slot = (-0.4 + 0.4 * (k % 3), 0.0, -0.18 + 0.36 * (k // 3))
+            size = (0.26, 0.02, 0.26) if k == 4 else tuple(float(edge) for edge in rng.uniform(0.06, 0.14, 3))
+            bottom = _TABLE[1]
+            if k == 5:  # stands on the tray, which is the one before
+                slot, bottom = (0.0, 0.0, 0.18), _TABLE[1] + 0.02
+            at = turn.to_world(np.array(slot)) + np.array([x, bottom + size[1] / 2, z])
+            name = f"item{t:05d}_{k}"
+            geometry = _box(size) if k == 4 else made(size)
+            objects.append(_thing(name, geometry, tuple(at.tolist()), float(rng.uniform(-3, 3))))
+            if k < 4:
+                items.append(name)
+    scene = SceneSnapshot("busy room", "y", with_relative_heights(objects, "y"))
+    # Both hands are on one floor and one table that bear movers; two movers are sources, five sources stand still.
+    near = [name for name in items if name.startswith("item00000")][:3]
+    others = [items[round(k * (len(items) - 1) / 8)] for k in range(1, 9)]
+    movers = tuple(dict.fromkeys([*near, *others[::4], *others]))[:N_MOVERS]
+    still = [name for name in [*items[3:4], *others, *items] if name not in movers]
+    sources = [*movers[:2], *dict.fromkeys(still)][:N_SOURCES]
+    return BusyRoom(scene, _bundle(scene, sources), movers, ("floor", "table00000"))
+
+
+def yaw(angle: float) -> Pose:
+    """A turn about the vertical [rad]."""
+    return Pose((0, 0, 0), (0.0, math.sin(angle / 2), 0.0, math.cos(angle / 2)))
+
+
+def _thing(name: str, mesh: TriMesh, at_m: tuple[float, ...], angle: float) -> SceneObject:
+    x, y, z = (float(edge) for edge in np.ptp(mesh.bounds_m, axis=0))
+    surface = DominantSurface(Pose((-x / 2, 0.0, z / 2), (-(0.5**0.5), 0.0, 0.0, 0.5**0.5)), x, z, y)
+    return SceneObject(name, name, Pose((at_m[0], at_m[1], at_m[2]), yaw(angle).rotation_xyzw), mesh, surface)
+
+
+def _box(size: tuple[float, ...]) -> TriMesh:
+    return Box((size[0], size[1], size[2])).mesh
+
+
+def _slab(kind: str, size: tuple[float, float, float]) -> TriMesh:
+    return _box(size) if kind == "box" else _gridded(size, 9)
+
+
+def _desk(kind: str) -> TriMesh:
+    if kind == "box":
+        return _box(_TABLE)
+    x, y, z = _TABLE
+    parts = [_gridded((x, 0.04, z), 6)]
+    moves = [(0.0, y / 2 - 0.02, 0.0)]
+    for sx in (-1, 1):
+        for sz in (-1, 1):
+            parts.append(_gridded((0.06, y - 0.04, 0.06), 1))
+            moves.append((sx * (x / 2 - 0.05), -0.02, sz * (z / 2 - 0.05)))
+    return _joined([(part.vertices_m + move, part.faces) for part, move in zip(parts, moves, strict=True)])
+
+
+def _gridded(size: tuple[float, float, float], n: int) -> TriMesh:
+    """A cuboid whose faces are n x n squares of two triangles each."""
+    line = np.linspace(-0.5, 0.5, n + 1)
+    u, v = (axis.ravel() for axis in np.meshgrid(line, line, indexing="ij"))
+    cell = np.arange(n)[:, None] * (n + 1) + np.arange(n)
+    a, b, c, d = (np.ravel(cell + step) for step in (0, n + 1, n + 2, 1))
+    quads = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    parts = []
+    for axis in range(3):
+        for end in (-0.5, 0.5):
+            points = np.insert(np.stack([u, v], 1), axis, end, axis=1) * size
+            flip = (end > 0) == (axis == 1)
+            parts.append((points, quads[:, ::-1] if flip else quads))
+    return _joined(parts)
+
+
+def _round(size: tuple[float, ...]) -> TriMesh:
+    """An upright prism of 125 sides: 498 triangles."""
+    n = 125
+    angle = 2 * np.pi * np.arange(n) / n
+    ring = np.stack([np.cos(angle) * size[0] / 2, np.zeros(n), np.sin(angle) * size[2] / 2], axis=1)
+    up = np.array([0.0, size[1] / 2, 0.0])
+    i, j = np.arange(n), (np.arange(n) + 1) % n
+    sides = np.concatenate([np.stack([i, i + n, j], 1), np.stack([j, i + n, j + n], 1)])
+    k = np.arange(1, n - 1)
+    bottom = np.stack([np.zeros_like(k), k, k + 1], 1)
+    return TriMesh(np.concatenate([ring - up, ring + up]), np.concatenate([sides, bottom, bottom[:, ::-1] + n]))
+
+
+def _joined(parts: list[tuple[NDArray[np.float64], NDArray[np.integer]]]) -> TriMesh:
+    start = np.cumsum([0, *(len(vertices) for vertices, _ in parts)])
+    faces = [faces + first for (_, faces), first in zip(parts, start[:-1], strict=True)]
+    return TriMesh(np.concatenate([vertices for vertices, _ in parts]), np.concatenate(faces))
+
+
+def _bundle(scene: SceneSnapshot, sources: list[str]) -> HapticBundle:
+    t = np.arange(4000) / _RATE
+    objects, loops = {}, {}
+    for item in scene.objects:
+        x, y, z = (float(edge) for edge in np.ptp(item.geometry.mesh.bounds_m, axis=0))
+        hums = item.id in sources
+        states = (SourceState("humming", 0.5, "thing humming", "hum"),) if hums else ()
+        name = "glass" if hums else "oak"
+        objects[item.id] = ObjectHaptics(
+            "thing", name, materials.lookup(name), (x, z, min(y, 0.03)), "stands there", hums, states
+        )
+    for k, source in enumerate(sources):
+        clip = AudioClip((0.3 * np.sin(2 * np.pi * (80 + 40 * k) * t)).astype(np.float32), _RATE)
+        loops[source] = {"humming": HapticLoop(clip, clip, 80.0 + 40 * k, 80.0 + 40 * k)}
+    return HapticBundle(scene, "room", objects, loops)

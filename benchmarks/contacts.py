@@ -1,0 +1,67 @@
+"""Found contacts beside those listed by hand, as a table in Markdown.
+
+python benchmarks/contacts.py [folder of scenes]
+
+`benchmarks/contacts/` holds the lists and the rule for a true pair. Thresholds were tuned on the scenes marked so.
+"""
+
+from __future__ import annotations
+
+import csv
+import sys
+import warnings
+from pathlib import Path
+
+from scene2hap import load_scene
+from scene2hap.contact.graph import ContactGraph
+
+LISTS = Path(__file__).parent / "contacts"
+SCENES = Path(__file__).parents[2] / "shared" / "scenes"
+# File below the folder of scenes, its unit [m] where the file lies, and what the scene is for: "tuned" on, "reported",
+# or "kept" for regressions alone.
+TABLE = {
+    "aws_house_living": ("aws_house_living.glb", None, "tuned"),
+    "composed_kitchen_kaykit": ("composed_kitchen_kaykit.glb", None, "tuned"),
+    "aws_house_bedroom": ("aws_house_bedroom.glb", None, "reported"),
+    "sketchfab_kitchen": ("scene.gltf", 0.01, "reported"),
+    "messy_japanese_room": ("room.glb", 0.1, "kept"),
+}
+
+
+Pairs = set[tuple[str, str]]
+
+
+def judged(name: str, scenes: Path) -> tuple[Pairs, Pairs, Pairs]:
+    """The true pairs, those found, and those found that count for nothing."""
+    file, unit_m, _ = TABLE[name]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        graph = ContactGraph(load_scene(scenes / name / file, unit_m=unit_m))
+    with (LISTS / f"{name}.csv").open(encoding="utf-8", newline="") as lines:
+        rows = list(csv.DictReader(lines))
+    true = {(row["a"], row["b"]) for row in rows if row["truth"] == "true"}
+    either = {(row["a"], row["b"]) for row in rows if row["truth"] == "either"}
+    return true, set(graph.junctions) - either, set(graph.junctions) & either
+
+
+def main() -> None:
+    scenes = Path(sys.argv[1]) if len(sys.argv) > 1 else SCENES
+    print("| scene | use | true pairs | found | of these either | precision | recall | wrong | missing |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    n_true = n_found = n_right = 0
+    for name, (_, _, use) in TABLE.items():
+        true, found, either = judged(name, scenes)
+        right = true & found
+        if use == "reported":
+            n_true, n_found, n_right = n_true + len(true), n_found + len(found), n_right + len(right)
+        wrong, missing = (", ".join(map("–".join, sorted(pairs))) for pairs in (found - true, true - found))
+        print(
+            f"| {name} | {use} | {len(true)} | {len(found) + len(either)} | {len(either)} | "
+            f"{len(right) / max(len(found), 1):.3f} | "
+            f"{len(right) / len(true):.3f} | {wrong} | {missing} |"
+        )
+    print(f"\nReported, together: precision {n_right / n_found:.3f}, recall {n_right / n_true:.3f}.")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,244 @@
+"""What a frame costs here and in the paper's loop written plainly, as tables in Markdown.
+
+OMP_NUM_THREADS=1 python benchmarks/paper_loop.py [n_frames]
+
+The plain loop, once per frame: compare all bounding boxes with all, draw a networkx graph, follow all paths from every
+touch to every source depth first up to two contacts, one exponential (of 20 bands) per path. Both see the same frames
+of the same room (`busy_room`), in turns; times are medians, of the processor's time, so that other programs disturb
+them little.
+"""
+
+from __future__ import annotations
+
+import gc
+import math
+import platform
+import sys
+import time
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+
+import networkx as nx
+import numpy as np
+from busy_room import BusyRoom, busy_room
+
+from scene2hap import Bands, HapticSession, Plate, Pose, Touch
+from scene2hap.contact.body import Body
+from scene2hap.contact.crowd import Crowd
+from scene2hap.contact.graph import ContactGraph
+from scene2hap.propagation.band_rms import BandRms
+from scene2hap.propagation.exponential_plate import band_rms
+from scene2hap.propagation.live_paths import LivePaths
+
+Clock = Callable[[], float]
+
+BANDS = Bands.third_octaves(10, 1000)
+N_HOPS = 2
+TOLERANCE_M = 0.004
+_IN_A_ROW = 50
+
+
+class PaperLoop:
+    """The loop of the paper, written down plainly."""
+
+    def __init__(self, room: BusyRoom) -> None:
+        self.ids = [item.id for item in room.scene.objects]
+        self.row = {name: i for i, name in enumerate(self.ids)}
+        self.corners = [np.unique(item.geometry.mesh.vertices_m, axis=0) for item in room.scene.objects]
+        bounds = np.array([item.bounds_m for item in room.scene.objects])
+        self.low, self.high = bounds[:, 0].copy(), bounds[:, 1].copy()
+        omega = 2 * np.pi * np.sqrt(np.prod(BANDS.widths_hz(), axis=1))
+        self.k = {}
+        for name, haptics in room.bundle.objects.items():
+            m, h = haptics.material, haptics.estimated_size_m[2]
+            stiffness = m.youngs_modulus_pa * h**3 / (12 * (1 - m.poisson_ratio**2))
+            self.k[name] = (m.density_kg_m3 * h * omega**2 / stiffness) ** 0.25
+        self.sources = list(room.bundle.loops)
+
+    def update(self, moved: dict[str, Pose], touches: Sequence[Touch]) -> np.ndarray:
+        for name, pose in moved.items():
+            points = pose.to_world(self.corners[self.row[name]])
+            self.low[self.row[name]], self.high[self.row[name]] = points.min(axis=0), points.max(axis=0)
+        graph = self.graph()
+        gains = np.zeros((2, len(self.sources), BANDS.n_bands))
+        for hand, touch in enumerate(touches):
+            for path in nx.all_simple_paths(graph, touch.object_id, set(self.sources), cutoff=N_HOPS):
+                here, loss = np.asarray(touch.point_m), np.zeros(BANDS.n_bands)
+                for a, b in pairwise(path):
+                    there = graph.edges[a, b]["point"]
+                    loss = loss + self.k[a] * np.linalg.norm(there - here)
+                    here = there
+                row = self.sources.index(path[-1])
+                gains[hand, row] = np.maximum(gains[hand, row], np.exp(-loss))
+        return gains
+
+    def graph(self) -> nx.Graph:
+        low, high = self.low - TOLERANCE_M / 2, self.high + TOLERANCE_M / 2
+        meet = ((low[:, None] <= high) & (high[:, None] >= low)).all(axis=2)
+        graph = nx.Graph()
+        graph.add_nodes_from(self.ids)
+        for i, j in np.argwhere(np.triu(meet, 1)):
+            point = (np.maximum(low[i], low[j]) + np.minimum(high[i], high[j])) / 2
+            graph.add_edge(self.ids[i], self.ids[j], point=point)
+        return graph
+
+
+class OurLoop:
+    """The same frame with scene2hap's parts and nothing around them: graph, paths, gains."""
+
+    def __init__(self, room: BusyRoom) -> None:
+        self.graph = ContactGraph(room.scene)
+        price = {
+            name: Plate(*haptics.estimated_size_m, haptics.material).wavenumber_per_root_omega
+            for name, haptics in room.bundle.objects.items()
+        }
+        self.sources = list(room.bundle.loops)
+        self.paths = LivePaths(self.graph, price, _crossing, self.sources, N_HOPS)
+        self.gains = BandRms(BANDS.edges_hz, lambda length: band_rms(length, BANDS.widths_hz()))
+
+    def update(self, moved: dict[str, Pose], touches: Sequence[Touch]) -> np.ndarray:
+        self.graph.update(moved)
+        return self.felt(self.lengths(touches))
+
+    def lengths(self, touches: Sequence[Touch]) -> list[list[float]]:
+        """What the cheapest way from each source to each hand costs: the nearest of a hand's touches is the loudest."""
+        nearest: dict[str, list[float]] = {}
+        for touch in touches:
+            costs = self.paths.costs(touch.object_id, touch.point_m)
+            known = nearest.get(touch.hand)
+            nearest[touch.hand] = costs if known is None else list(map(min, known, costs))
+        return list(nearest.values())
+
+    def felt(self, costs: list[list[float]]) -> np.ndarray:
+        return self.gains(np.array(costs).ravel()).reshape(len(costs), -1, BANDS.n_bands)
+
+
+def _crossing(weight: float) -> float:
+    return -math.log(weight) / math.sqrt(2 * math.pi * 250.0) if weight > 0 else math.inf
+
+
+def session_of(room: BusyRoom) -> HapticSession:
+    config = {"propagation": {"kind": "exponential_plate", "max_hops": N_HOPS}, "bands": BANDS}
+    return HapticSession(room.scene, room.bundle, config)
+
+
+def times_of(steps: Sequence[Callable[[int], object]], n_frames: int, clock: Clock, warm: int = 20) -> np.ndarray:
+    """Seconds (n_steps, n_frames) that the steps take, a second's worth of frames of one after the other's."""
+    taken = np.empty((len(steps), warm + n_frames))
+    for first in range(0, warm + n_frames, _IN_A_ROW):
+        for row, step in enumerate(steps):
+            for i in range(first, min(first + _IN_A_ROW, warm + n_frames)):
+                start = clock()
+                step(i)
+                taken[row, i] = clock() - start
+    return taken[:, warm:]
+
+
+def frames_of(room: BusyRoom, n_frames: int) -> list[tuple[dict[str, Pose], list[Touch]]]:
+    return [(room.frame(i), room.touches(i)) for i in range(n_frames + 20)]
+
+
+def compared(n_objects: int, kind: str, n_frames: int) -> None:
+    """Medians, in turns; and the 99th percentile over the median, ours alone."""
+    room = busy_room(n_objects, kind)
+    plain, ours, session = PaperLoop(room), OurLoop(room), session_of(room)
+    frames = frames_of(room, n_frames)
+    few = n_frames if n_objects < 500 else min(n_frames, 60)
+    steps = [lambda i, loop=loop: loop.update(*frames[i]) for loop in (plain, ours, session)]
+    slow, fast, whole = np.median(times_of(steps, few, time.thread_time), axis=1)
+    alone = times_of([steps[1]], n_frames, time.thread_time)[0]
+    print(
+        f"| {n_objects} | {kind} | {1e3 * slow:.3f} | {1e3 * fast:.4f} | {slow / fast:.1f} | {1e3 * whole:.4f} | "
+        f"{slow / whole:.1f} | {np.percentile(alone, 99) / np.median(alone):.2f} |"
+    )
+
+
+def split(n_objects: int, kind: str, n_frames: int) -> None:
+    """Where the time of our frame goes, as means of the processor's time."""
+    room = busy_room(n_objects, kind)
+    loop, spent = OurLoop(room), dict.fromkeys(("broad", "update", "paths", "gains"), 0.0)
+    put = Crowd.put
+
+    def timed_put(self: Crowd, bodies: Sequence[Body]) -> dict[str, set[str]]:
+        start = time.thread_time()
+        found = put(self, bodies)
+        spent["broad"] += time.thread_time() - start
+        return found
+
+    Crowd.put = timed_put
+    try:
+        for moved, touches in frames_of(room, n_frames):
+            marks = [time.thread_time()]
+            loop.graph.update(moved)
+            marks.append(time.thread_time())
+            costs = loop.lengths(touches)
+            marks.append(time.thread_time())
+            loop.felt(costs)
+            marks.append(time.thread_time())
+            for name, taken in zip(("update", "paths", "gains"), np.diff(marks), strict=True):
+                spent[name] += taken
+    finally:
+        Crowd.put = put
+    each = {name: 1e6 * taken / (n_frames + 20) for name, taken in spent.items()}
+    print(
+        f"| {n_objects} | {kind} | {each['broad']:.1f} | {each['update'] - each['broad']:.1f} | {each['paths']:.1f} | "
+        f"{each['gains']:.1f} |"
+    )
+
+
+def at_rest(n_objects: int, n_updates: int) -> None:
+    """Fresh touch points on five objects each time, nothing moves."""
+    room = busy_room(n_objects)
+    loop, session = OurLoop(room), session_of(room)
+    names = [item.id for item in room.scene.objects[:5]]
+    rng = np.random.default_rng(0)
+    points = {name: room.scene.object(name).bounds_m for name in names}
+    frames = [
+        [
+            Touch(("left", "right")[k % 2], name, tuple(rng.uniform(*points[name]).tolist()))
+            for k, name in enumerate(names)
+        ]
+        for _ in range(n_updates + 20)
+    ]
+    ours, whole = times_of(
+        [lambda i: loop.update({}, frames[i]), lambda i: session.update({}, frames[i])], n_updates, time.thread_time
+    )
+    print(
+        f"\nAt rest, five fresh touches, {n_objects} objects: {1 / np.median(ours):.0f} updates/s, "
+        f"through HapticSession {1 / np.median(whole):.0f}."
+    )
+
+
+def growth(n_frames: int) -> None:
+    print("\n| objects | contacts, 5 movers [µs] | with paths and gains [µs] |\n|---|---|---|")
+    rooms = {n: busy_room(n) for n in (100, 1000, 10000)}
+    loops = {n: OurLoop(room) for n, room in rooms.items()}
+    frames = {n: frames_of(room, 2 * n_frames) for n, room in rooms.items()}
+    gc.freeze()
+    whole = times_of([lambda i, n=n: loops[n].update(*frames[n][i]) for n in rooms], n_frames, time.thread_time)
+    part = times_of(
+        [lambda i, n=n: loops[n].graph.update(frames[n][i + n_frames][0]) for n in rooms], n_frames, time.thread_time
+    )
+    for row, n in enumerate(rooms):
+        print(f"| {n} | {1e6 * np.median(part[row]):.1f} | {1e6 * np.median(whole[row]):.1f} |")
+
+
+def main() -> None:
+    n_frames = int(sys.argv[1]) if len(sys.argv) > 1 else 400
+    print(f"Python {platform.python_version()}, numpy {np.__version__}, {platform.machine()}, gc {gc.isenabled()}\n")
+    print(
+        "| objects | meshes | plain loop [ms] | parts [ms] | ratio | HapticSession [ms] | ratio | parts p99 / median |"
+    )
+    print("|---|---|---|---|---|---|---|---|")
+    cases = [(n_objects, kind) for kind in ("box", "mesh") for n_objects in (50, 1000)]
+    for case in cases:
+        compared(*case, n_frames)
+    print("\n| objects | meshes | broad [µs] | narrow [µs] | paths [µs] | gains [µs] |\n|---|---|---|---|---|---|")
+    for case in cases:
+        split(*case, n_frames)
+    at_rest(50, n_frames)
+    growth(n_frames)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,125 @@
+"""Who may matter to whom: a list of neighbours for every body, wide enough to last while things move a little.
+
+Every body has a zone, all that it may touch, fall onto or hang from; two whose zones meet are neighbours. The zone of
+what moves is drawn `SKIN_M` too wide, and drawn anew only when it has left it (Verlet's lists). Who stands on such a
+list too much does no harm: the list saves looking and decides nothing.
+
+Source: L. Verlet, Computer experiments on classical fluids I, Phys. Rev. 159 (1967) 98.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from scene2hap.contact.body import Body
+from scene2hap.contact.broad import Boxes, box_pairs
+from scene2hap.contact.profile import Triple
+
+SKIN_M = 0.04
+"""How far a thing may move before its neighbours are looked for anew (assumed: a hand's way in two or three frames)."""
+
+# From so many bodies at once on, sorting all is cheaper than asking for each.
+_MANY = 16
+_NOWHERE = (np.inf, -np.inf)
+_Room = tuple[Triple, Triple]
+
+
+class Crowd:
+    """The bodies' zones as columns of numbers.
+
+    Parameters: margins_m : how far a body's zone reaches beyond it to all sides, and how much farther down [m].
+    """
+
+    def __init__(self, up_axis: int, margins_m: Callable[[Body], tuple[float, float]]) -> None:
+        self._up_axis = up_axis
+        self._margins_m = margins_m
+        self._low, self._high = (np.full((3, 64), value) for value in _NOWHERE)
+        self._ids: list[str] = []
+        self._rows: dict[str, int] = {}
+        self._free: list[int] = []
+        self._rooms: dict[str, _Room] = {}
+        self.near: dict[str, set[str]] = {}
+
+    def take_out(self, object_id: str) -> set[str]:
+        """Forget a body; who were its neighbours."""
+        row = self._rows.pop(object_id)
+        self._low[:, row], self._high[:, row] = _NOWHERE
+        self._free.append(row)
+        del self._rooms[object_id]
+        neighbours = self.near.pop(object_id)
+        for other in neighbours:
+            self.near[other].discard(object_id)
+        return neighbours
+
+    def put(self, bodies: Sequence[Body]) -> dict[str, set[str]]:
+        """Place bodies, new ones or ones that moved; by id of those that left their zone, who has ceased to be a
+        neighbour; two that left each other at once are told once."""
+        left: dict[str, set[str]] = {}
+        drawn, rooms = [], self._rooms
+        for body in bodies:
+            room = rooms.get(body.id)
+            if room is not None:
+                (a, b, c), (d, e, f), (x, y, z), (u, v, w) = room[0], room[1], body.low, body.high
+                if x >= a and y >= b and z >= c and u <= d and v <= e and w <= f:
+                    continue
+            self._draw(body, 0.0 if room is None else SKIN_M)
+            drawn.append(body.id)
+        if not drawn:
+            return left
+        found = self._neighbours(drawn)
+        for object_id in drawn:
+            before, now = self.near.get(object_id, set()), found[object_id]
+            self.near[object_id] = now
+            for other in before - now:
+                self.near[other].discard(object_id)
+            for other in now - before:
+                self.near.setdefault(other, set()).add(object_id)
+            left[object_id] = before - now
+        return left
+
+    def _draw(self, body: Body, skin_m: float) -> None:
+        row = self._rows.get(body.id)
+        if row is None:
+            row = self._rows[body.id] = self._free.pop() if self._free else len(self._ids)
+            if row == len(self._ids):
+                self._ids.append(body.id)
+                if row >= self._low.shape[1]:
+                    self._low, self._high = (
+                        np.concatenate([array, np.full_like(array, value)], axis=1)
+                        for array, value in zip((self._low, self._high), _NOWHERE, strict=True)
+                    )
+            self._ids[row] = body.id
+        side, down = self._margins_m(body)
+        low = [edge - skin_m for edge in body.low]
+        high = [edge + skin_m for edge in body.high]
+        self._rooms[body.id] = ((low[0], low[1], low[2]), (high[0], high[1], high[2]))
+        low = [edge - side for edge in low]
+        low[self._up_axis] -= down
+        self._low[:, row], self._high[:, row] = low, [edge + side for edge in high]
+
+    def _neighbours(self, ids: Sequence[str]) -> dict[str, set[str]]:
+        if len(ids) < _MANY:
+            return {x: self._meeting(x) for x in ids}
+        found: dict[str, set[str]] = {x: set() for x in ids}
+        rows, every = np.array([self._rows[x] for x in ids]), np.array(list(self._rows.values()))
+        low, high = self._low.T, self._high.T
+        for i, j in box_pairs(Boxes(low[rows], high[rows]), Boxes(low[every], high[every])):
+            for x, y in zip(rows[i].tolist(), every[j].tolist(), strict=True):
+                if x != y:
+                    found[self._ids[x]].add(self._ids[y])
+        return found
+
+    def _meeting(self, object_id: str) -> set[str]:
+        row = self._rows[object_id]
+        low, high = self._low, self._high
+        first, second = (0, 2) if self._up_axis == 1 else (0, 1)
+        meets = (low[first] <= high[first, row]) & (high[first] >= low[first, row])
+        rows = np.flatnonzero(meets)
+        for axis in (second, self._up_axis):
+            rows = rows[(low[axis][rows] <= high[axis, row]) & (high[axis][rows] >= low[axis, row])]
+        ids = self._ids
+        found = {ids[k] for k in rows.tolist()}
+        found.discard(object_id)
+        return found

@@ -1,0 +1,188 @@
+"""Level things: how far one is to fall onto another, how far two blocks stand apart, and where they then touch.
+
+The same answers that triangles give, in closed form: over each other, outlines in a plane decide; beside each other,
+the corners of one outline against the edges of the other.
+
+    u, v : the world's level axes; h : the height [m]
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from scene2hap.contact.body import Body
+from scene2hap.contact.profile import Triple
+from scene2hap.contact.spread import spread_few
+from scene2hap.contact.stance import Point, Stance, edges_of
+
+# Outlines lie over each other from this overlap on, as a share of the upper one's radius, and at most: equal boxes
+# side by side, whose rims coincide, do not.
+_RIM, _RIM_M = 1e-4, 1e-4
+_ROUNDING_M = 1e-9
+
+
+class Rest(NamedTuple):
+    """How far a thing is to fall [m] to what it then lies on with all or with some of its sole."""
+
+    fall_m: float
+    wholly: bool
+
+
+def rest_on(x: Body, y: Body) -> Rest | None:
+    """How x lies on y, one the sole and one the top of its object; None where that cannot be told from outlines, a
+    fall of inf where they are beside each other."""
+    sole, tray = x.stance.footing, y.stance.tray
+    if sole is None or tray is None:
+        return None
+    a, v_axis = x.up_axis, x.stance.v_axis
+    px, py = x.position_m, y.position_m
+    fall_m = px[a] + sole.height - py[a] - tray.height
+    du, dv = px[0] - py[0], px[v_axis] - py[v_axis]
+    cu, cv = sole.middle[0] + du, sole.middle[1] + dv
+    radius = sole.radius
+    for nu, nv, offset in tray.edges:
+        if nu * cu + nv * cv - offset < radius:
+            break
+    else:
+        return Rest(fall_m, True)
+    rim = min(_RIM * radius, _RIM_M)
+    outline = [(u + du, v + dv) for u, v in x.stance.sole_outline]
+    wholly = True
+    for nu, nv, offset in tray.edges:
+        inside = [nu * u + nv * v - offset for u, v in outline]
+        if max(inside) <= rim:
+            return _beside(x, y)
+        wholly = wholly and min(inside) >= -_ROUNDING_M
+    if wholly:
+        return Rest(fall_m, True)
+    if not sole.is_filled:
+        return None
+    for nu, nv, offset in edges_of(x.stance.sole_outline):
+        offset += nu * du + nv * dv
+        if max(nu * u + nv * v - offset for u, v in tray.outline) <= rim:
+            return _beside(x, y)
+    return Rest(fall_m, False)
+
+
+def _beside(x: Body, y: Body) -> Rest | None:
+    # Only of blocks the outline is all.
+    return Rest(math.inf, False) if x.stance.is_block and y.stance.is_block else None
+
+
+def rest_points(x: Body, y: Body, rest: Rest) -> tuple[Triple, ...]:
+    """Points of the world half way between x's sole and y's top where they are over each other."""
+    sole, tray = x.stance.footing, y.stance.tray
+    assert sole is not None
+    assert tray is not None
+    a, v_axis = x.up_axis, x.stance.v_axis
+    px, py = x.position_m, y.position_m
+    height = (px[a] + sole.height + py[a] + tray.height) / 2
+    u, v = px[0], px[v_axis]
+    if rest.wholly:
+        if a == 1:
+            return tuple([(u + pu, height, v + pv) for pu, pv in sole.points])
+        level: Sequence[Point] = [(u + pu, v + pv) for pu, pv in sole.points]
+    else:
+        ring = clipped([(u + pu - py[0], v + pv - py[v_axis]) for pu, pv in x.stance.sole_outline], tray.edges)
+        level = [(pu + py[0], pv + py[v_axis]) for pu, pv in _chosen(ring, y.stance)]
+    if a == 1:
+        return tuple([(pu, height, pv) for pu, pv in level])
+    return tuple([(pu, pv, height) for pu, pv in level])
+
+
+def clipped(ring: list[Point], edges: Sequence[Triple]) -> list[Point]:
+    """What of a convex polygon lies inside all edges.
+
+    Source: I. E. Sutherland, G. W. Hodgman, Reentrant polygon clipping, Comm. ACM 17 (1974) 32.
+    """
+    for nu, nv, offset in edges:
+        inside = [nu * u + nv * v - offset for u, v in ring]
+        cut: list[Point] = []
+        for k, here in enumerate(inside):
+            before = inside[k - 1]
+            if (here < 0) != (before < 0):
+                (u1, v1), (u2, v2), share = ring[k - 1], ring[k], before / (before - here)
+                cut.append((u1 + share * (u2 - u1), v1 + share * (v2 - v1)))
+            if here >= 0:
+                cut.append(ring[k])
+        ring = cut
+    return ring
+
+
+class Aside(NamedTuple):
+    """Two blocks beside each other: the distance [m], the way (3,) [m] from x to y there, and points half way where
+    they are at most `slack_m` farther apart."""
+
+    distance_m: float
+    way_m: Triple
+    points: tuple[Triple, ...]
+
+
+_FAR = Aside(math.inf, (0.0, 0.0, 0.0), ())
+
+
+def aside(x: Body, y: Body, within_m: float, slack_m: float) -> Aside | None:
+    """How two blocks are apart, a distance of inf if by more than `within_m`; None where one is over the other."""
+    a, v_axis = x.up_axis, x.stance.v_axis
+    below, above = max(x.low[a], y.low[a]), min(x.high[a], y.high[a])
+    upright = max(below - above, 0.0)
+    if upright > within_m:
+        return _FAR
+    ring_x, ring_y = _placed(x, v_axis), _placed(y, v_axis)
+    if _overlap(ring_x, ring_y):
+        return None
+    near = _corners_near(ring_x, ring_y) + [(q, p) for p, q in _corners_near(ring_y, ring_x)]
+    least = min(math.dist(p, q) for p, q in near)
+    distance = math.hypot(least, upright)
+    if distance > within_m:
+        return _FAR
+    ends = [(p, q) for p, q in near if math.hypot(math.dist(p, q), upright) <= distance + slack_m]
+    middles = [((p[0] + q[0]) / 2, (p[1] + q[1]) / 2) for p, q in ends]
+    origin = (y.position_m[0], y.position_m[v_axis])
+    own = _own([(u - origin[0], v - origin[1]) for u, v in middles], y.stance)
+    far = [middles[k] for k in spread_few(own)][:2]
+    heights = (below, above) if above - below > 2 * _ROUNDING_M else ((below + above) / 2,)
+    p, q = min(zip([math.dist(*pair) for pair in near], near, strict=True))[1]
+    rise = 0.0 if upright == 0 else upright if y.low[a] >= x.high[a] else -upright
+    points = tuple(_point(a, *middle, height) for height in heights for middle in far)
+    return Aside(distance, _point(a, q[0] - p[0], q[1] - p[1], rise), points)
+
+
+def _placed(x: Body, v_axis: int) -> list[Point]:
+    u, v = x.position_m[0], x.position_m[v_axis]
+    return [(u + pu, v + pv) for pu, pv in x.stance.sole_outline]
+
+
+def _corners_near(corners: Sequence[Point], ring: Sequence[Point]) -> list[tuple[Point, Point]]:
+    """For each corner and each edge of the ring, the corner and the edge's point nearest to it."""
+    found = []
+    for u, v in corners:
+        for (u1, v1), (u2, v2) in zip(ring, [*ring[1:], ring[0]], strict=True):
+            eu, ev = u2 - u1, v2 - v1
+            t = min(max(((u - u1) * eu + (v - v1) * ev) / (eu * eu + ev * ev), 0.0), 1.0)
+            found.append(((u, v), (u1 + t * eu, v1 + t * ev)))
+    return found
+
+
+def _overlap(ring_x: Sequence[Point], ring_y: Sequence[Point]) -> bool:
+    for ring, other in ((ring_x, ring_y), (ring_y, ring_x)):
+        for nu, nv, offset in edges_of(tuple(ring)):
+            if max(nu * u + nv * v - offset for u, v in other) <= _ROUNDING_M:
+                return False
+    return True
+
+
+def _chosen(ring: Sequence[Point], stance: Stance) -> list[Point]:
+    return [ring[k] for k in spread_few(_own(ring, stance))]
+
+
+def _own(ring: Sequence[Point], stance: Stance) -> list[Point]:
+    """Coordinates that turn along with the stance, so that it does not matter how a whole scene is turned."""
+    c, s = stance.heading
+    return [(c * u + s * v, c * v - s * u) for u, v in ring]
+
+
+def _point(up_axis: int, u: float, v: float, h: float) -> Triple:
+    return (u, h, v) if up_axis == 1 else (u, v, h)

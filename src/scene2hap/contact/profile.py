@@ -1,0 +1,130 @@
+"""The level faces of a shape for a way that is up: the sole that it stands on and the top that bears others.
+
+Most things stand on level faces on level faces, and what touches there is a matter of flat convex outlines; only the
+rest needs triangles. A sole is the lowest of a shape and a top its highest, so that wherever they are over each other,
+nothing of the two shapes is nearer.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.contact.spread import spread
+
+if TYPE_CHECKING:
+    from scene2hap.contact.body import Shape
+
+Floats = NDArray[np.float64]
+Triple = tuple[float, float, float]
+
+# How uneven a level face may be, as a share of the shape's size and at most (assumed).
+_UNEVEN, _UNEVEN_M = 1e-4, 2e-4
+_COVER = 1e-3  # An outline is filled when its triangles' area differs by less than this share.
+
+
+class Sole(NamedTuple):
+    """What a shape stands on, in its own frame [m].
+
+    Up to four `points_m` stand for it; `outline_m` is its convex outline; `middle_m` and `radius_m` are a ball around
+    it; `is_filled` if it is all of its outline, as the feet of a chair are not.
+    """
+
+    points_m: tuple[Triple, ...]
+    outline_m: tuple[Triple, ...]
+    middle_m: Triple
+    radius_m: float
+    is_filled: bool
+
+
+class Profile(NamedTuple):
+    """The sole and the top's convex outline [m], None where there is none; `across` is a level direction by which an
+    upright turn can be told; `is_block` if the shape is a cuboid with level faces."""
+
+    sole: Sole | None
+    top_m: tuple[Triple, ...] | None
+    across: Triple
+    is_block: bool
+
+
+def profile_of(shape: Shape, up: tuple[float, float, float]) -> Profile:
+    """The profile of a shape whose own direction `up` points up."""
+    up_axis = np.asarray(up) / np.linalg.norm(up)
+    across = np.eye(3)[int(np.argmin(np.abs(up_axis)))]
+    e1 = np.cross(up_axis, across)
+    e1 /= np.linalg.norm(e1)
+    plane = np.stack([e1, np.cross(up_axis, e1)], axis=1)
+    uneven_m = min(_UNEVEN * shape.size_m, _UNEVEN_M)
+    sole, top = (_Face.at(shape, sign * up_axis, plane, uneven_m) for sign in (-1.0, 1.0))
+    is_block = shape.is_cuboid and float(np.abs(up_axis).max()) > 1 - 1e-9
+    return Profile(
+        sole=sole.as_sole() if sole else None,
+        top_m=triples(top.outline_m) if top and top.is_filled else None,
+        across=triples(e1[None])[0],
+        is_block=is_block,
+    )
+
+
+class _Face(NamedTuple):
+    """The extreme level face of a shape in one direction: its corners (n, 3) and their outline (m, 3) [m]."""
+
+    corners_m: Floats
+    outline_m: Floats
+    is_filled: bool
+
+    @classmethod
+    def at(cls, shape: Shape, outwards: Floats, plane: Floats, uneven_m: float) -> _Face | None:
+        heights = shape.triangles @ outwards
+        level = (heights >= heights.max() - uneven_m).all(axis=1)
+        a, b, c = (shape.triangles[level] @ plane).transpose(1, 0, 2)
+        u, v = b - a, c - a
+        area = float(np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum()) / 2
+        if area <= 0:
+            return None
+        corners = np.unique(shape.triangles[level].reshape(-1, 3), axis=0)
+        rows = outline(corners @ plane)
+        around = polygon_area((corners @ plane)[rows])
+        # A face drawn from both sides has its area twice.
+        is_filled = any(abs(area - n * around) <= _COVER * around for n in (1, 2))
+        return cls(corners, corners[rows], is_filled)
+
+    def as_sole(self) -> Sole:
+        middle = (self.outline_m.min(axis=0) + self.outline_m.max(axis=0)) / 2
+        radius = float(np.linalg.norm(self.outline_m - middle, axis=1).max())
+        points = triples(self.corners_m[spread(self.corners_m)])
+        return Sole(points, triples(self.outline_m), triples(middle[None])[0], radius, self.is_filled)
+
+
+def triples(points: Floats) -> tuple[Triple, ...]:
+    """Points (n, 3) as plain numbers."""
+    return tuple((x, y, z) for x, y, z in points.tolist())
+
+
+def outline(points: Floats) -> list[int]:
+    """Rows of the points (n, 2) on their convex outline, against the clock; none in line with its neighbours.
+
+    Source: A. M. Andrew, Another efficient algorithm for convex hulls in two dimensions (1979).
+    """
+    order = np.lexsort((points[:, 1], points[:, 0])).tolist()
+    at = points.tolist()
+    halves: list[list[int]] = []
+    for rows in (order, order[::-1]):
+        half: list[int] = []
+        for row in rows:
+            while len(half) > 1 and _turn(at[half[-2]], at[half[-1]], at[row]) <= 0:
+                half.pop()
+            half.append(row)
+        halves.append(half[:-1])
+    return halves[0] + halves[1]
+
+
+def polygon_area(corners: Floats) -> float:
+    """Area of a polygon (n, 2)."""
+    x, y = corners.T
+    return abs(float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum())) / 2
+
+
+def _turn(a: list[float], b: list[float], c: list[float]) -> float:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])

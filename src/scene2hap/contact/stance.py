@@ -1,0 +1,160 @@
+"""A shape turned, but not yet placed: all that a slide leaves as it is.
+
+In plain numbers, since a frame of a game moves a few things, and numpy's cost per call would be most of the time. The
+level plane has coordinates (u, v), the world's two axes that are not up.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from scene2hap.contact.profile import Profile, Triple
+
+if TYPE_CHECKING:
+    from scene2hap.contact.body import Shape
+
+Point = tuple[float, float]
+
+# Digits of the upward direction by which level faces are known: a game's rounding makes no difference, nor does an
+# engine's trembling by less than 3 thousandths of a degree.
+_DIGITS = 4
+_UP = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+_UPRIGHT = 1 - 1e-12  # An own axis this near to upright: the own box has the true height.
+
+
+class Footing(NamedTuple):
+    """A sole, turned [m]: points that stand for it, its height, a circle around it, and whether its outline is full."""
+
+    points: tuple[Point, ...]
+    height: float
+    middle: Point
+    radius: float
+    is_filled: bool
+
+
+class Tray(NamedTuple):
+    """A top, turned [m]: its outline, its height, and (n_u, n_v, offset) of each edge: n u >= offset is inside."""
+
+    outline: tuple[Point, ...]
+    height: float
+    edges: tuple[Triple, ...]
+
+
+class Stance:
+    """A shape with a rotation. `low` and `high` are a box around it, relative to its position [m]."""
+
+    __slots__ = (
+        "_footing",
+        "_heading",
+        "_outline",
+        "_shape",
+        "_tray",
+        "high",
+        "is_block",
+        "low",
+        "profile",
+        "rotation_xyzw",
+        "rows",
+        "up_axis",
+        "v_axis",
+    )
+
+    def __init__(self, shape: Shape, rotation_xyzw: tuple[float, float, float, float], up_axis: int) -> None:
+        x, y, z, w = self.rotation_xyzw = rotation_xyzw
+        self._shape = shape
+        xx, yy, zz, xy, xz, yz, wx, wy, wz = x * x, y * y, z * z, x * y, x * z, y * z, x * w, y * w, z * w
+        self.rows: tuple[Triple, Triple, Triple] = (
+            (1 - 2 * (yy + zz), 2 * (xy - wz), 2 * (xz + wy)),
+            (2 * (xy + wz), 1 - 2 * (xx + zz), 2 * (yz - wx)),
+            (2 * (xz - wy), 2 * (yz + wx), 1 - 2 * (xx + yy)),
+        )
+        self.up_axis, self.v_axis = up_axis, 3 - up_axis
+        up = self.rows[up_axis]
+        if x == 0.0 and (z if up_axis == 1 else y) == 0.0:
+            key = _UP[up_axis]
+        else:
+            key = (round(up[0], _DIGITS) + 0.0, round(up[1], _DIGITS) + 0.0, round(up[2], _DIGITS) + 0.0)
+        self.profile: Profile = shape.profile(key)
+        self.is_block = self.profile.is_block
+        self.low, self.high = self._bounds(up)
+        self._footing: Footing | None = None
+        self._tray: Tray | None = None
+        self._outline: tuple[Point, ...] = ()
+        self._heading: Point | None = None
+
+    def _bounds(self, up: Triple) -> tuple[Triple, Triple]:
+        (mx, my, mz), (hx, hy, hz) = self._shape.middle, self._shape.half
+        (a, b, c), (d, e, f), (g, h, i) = self.rows
+        u, v, w = a * mx + b * my + c * mz, d * mx + e * my + f * mz, g * mx + h * my + i * mz
+        x = abs(a) * hx + abs(b) * hy + abs(c) * hz
+        y = abs(d) * hx + abs(e) * hy + abs(f) * hz
+        z = abs(g) * hx + abs(h) * hy + abs(i) * hz
+        low, high = (u - x, v - y, w - z), (u + x, v + y, w + z)
+        if self.is_block or abs(up[0]) > _UPRIGHT or abs(up[1]) > _UPRIGHT or abs(up[2]) > _UPRIGHT:
+            return low, high
+        heights = self._shape.corners @ np.array(up)
+        least, most = float(heights.min()), float(heights.max())
+        if self.up_axis == 1:
+            return (low[0], least, low[2]), (high[0], most, high[2])
+        return (low[0], low[1], least), (high[0], high[1], most)
+
+    @property
+    def footing(self) -> Footing | None:
+        """What it stands on, if that is level."""
+        if self._footing is None and (sole := self.profile.sole) is not None:
+            (a, b, c), (d, e, f), (g, h, i) = self.rows[0], self.rows[self.v_axis], self.rows[self.up_axis]
+            x, y, z = sole.middle_m
+            middle = (a * x + b * y + c * z, d * x + e * y + f * z)
+            height = g * x + h * y + i * z
+            points = tuple([(a * x + b * y + c * z, d * x + e * y + f * z) for x, y, z in sole.points_m])
+            self._footing = Footing(points, height, middle, sole.radius_m, sole.is_filled)
+        return self._footing
+
+    @property
+    def sole_outline(self) -> tuple[Point, ...]:
+        """The outline of what it stands on."""
+        if not self._outline and (sole := self.profile.sole) is not None:
+            self._outline = tuple([(u, v) for u, v, _ in map(self._turned, sole.outline_m)])
+        return self._outline
+
+    @property
+    def tray(self) -> Tray | None:
+        """What it bears others with, if that is level and convex."""
+        if self._tray is None and self.profile.top_m is not None:
+            corners = [self._turned(corner) for corner in self.profile.top_m]
+            outline = tuple([(u, v) for u, v, _ in corners])
+            self._tray = Tray(outline, sum(h for _, _, h in corners) / len(corners), edges_of(outline))
+        return self._tray
+
+    @property
+    def heading(self) -> Point:
+        """A way in the level plane that turns along with the shape, of length 1."""
+        if self._heading is None:
+            u, v, _ = self._turned(self.profile.across)
+            self._heading = (u, v)
+        return self._heading
+
+    def _turned(self, point: Triple) -> Triple:
+        """(u, v, height) of a point of the own frame."""
+        x, y, z = point
+        (a, b, c), (d, e, f), (g, h, i) = self.rows[0], self.rows[self.v_axis], self.rows[self.up_axis]
+        return (a * x + b * y + c * z, d * x + e * y + f * z, g * x + h * y + i * z)
+
+
+def edges_of(outline: tuple[Point, ...]) -> tuple[Triple, ...]:
+    """(n_u, n_v, offset) of each edge of a convex outline, the normal of length 1 and pointing inwards."""
+    mu, mv = sum(u for u, _ in outline) / len(outline), sum(v for _, v in outline) / len(outline)
+    edges = []
+    for (u1, v1), (u2, v2) in zip(outline, outline[1:] + outline[:1], strict=True):
+        nu, nv = v1 - v2, u2 - u1
+        length = (nu * nu + nv * nv) ** 0.5
+        if length == 0:
+            continue
+        nu, nv = nu / length, nv / length
+        offset = nu * u1 + nv * v1
+        if nu * mu + nv * mv < offset:
+            nu, nv, offset = -nu, -nv, -offset
+        edges.append((nu, nv, offset))
+    return tuple(edges)

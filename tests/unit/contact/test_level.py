@@ -1,0 +1,102 @@
+"""Outlines against triangles: the closed forms tell what `Meeting` and `falls` tell."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from contact_scenes import box
+from scene2hap.contact.body import Body
+from scene2hap.contact.level import aside, clipped, rest_on, rest_points
+from scene2hap.contact.narrow import Meeting
+from scene2hap.contact.support import falls
+from scene2hap.scene.pose import Pose
+
+TURNS = st.floats(-3.0, 3.0)
+PLACES = st.tuples(st.floats(-0.6, 0.6), st.floats(-0.5, 0.5))
+
+
+def block(name: str, size: tuple[float, float, float], at: tuple[float, float, float], turn: float) -> Body:
+    return Body.of(box(name, size, at, (0.0, math.sin(turn / 2), 0.0, math.cos(turn / 2))), 1)
+
+
+@given(PLACES, TURNS, TURNS, st.floats(-0.003, 0.03))
+@settings(derandomize=True, deadline=None, max_examples=80)
+def test_a_block_falls_onto_another_as_its_triangles_do(
+    at: tuple[float, float], turn_x: float, turn_y: float, gap: float
+) -> None:
+    lower = block("lower", (0.8, 0.2, 0.5), (0.0, 0.1, 0.0), turn_y)
+    upper = block("upper", (0.3, 0.1, 0.2), (at[0], 0.25 + gap, at[1]), turn_x)
+    rest = rest_on(upper, lower)
+    assert rest is not None
+    told = falls(Meeting(upper, lower), upper)
+    least = math.inf if told is None else float(told.min())
+    # Rims that overlap by a tenth of a millimetre may or may not count.
+    if math.isinf(rest.fall_m) != math.isinf(least):
+        moved = block("upper", (0.2998, 0.1, 0.1998), upper.position_m, turn_x)
+        again = rest_on(moved, lower)
+        assert again is not None
+        assume(math.isinf(again.fall_m) == math.isinf(least))
+    elif math.isfinite(least):
+        assert rest.fall_m == pytest.approx(gap, abs=1e-12)
+        assert least == pytest.approx(gap, abs=1e-9)
+        points = np.array(rest_points(upper, lower, rest))
+        for body, half in ((upper, (0.15, 0.05, 0.1)), (lower, (0.4, 0.1, 0.25))):
+            own = np.abs(body.pose.to_own(points))
+            assert (own[:, [0, 2]] <= np.array(half)[[0, 2]] + 1e-9).all()
+        assert points[:, 1] == pytest.approx(0.2 + gap / 2)
+
+
+@given(st.floats(0.4, 0.85), TURNS, TURNS, TURNS, st.floats(-0.4, 0.4))
+@settings(derandomize=True, deadline=None, max_examples=50)
+def test_two_blocks_are_apart_as_their_triangles_are(
+    apart: float, bearing: float, turn_x: float, turn_y: float, rise: float
+) -> None:
+    at = (apart * math.cos(bearing), 0.1 + rise, apart * math.sin(bearing))
+    x = block("x", (0.3, 0.2, 0.2), at, turn_x)
+    y = block("y", (0.8, 0.3, 0.5), (0.0, 0.15, 0.0), turn_y)
+    told = aside(x, y, 0.5, 0.001)
+    gap = Meeting(x, y).gap(0.5)
+    if told is None:
+        assert apart < 0.66  # the circles around the two outlines overlap
+    elif gap is None:
+        assert math.isinf(told.distance_m)
+    else:
+        assert told.distance_m == pytest.approx(gap.distance_m, abs=1e-9)
+        assert told.way_m == pytest.approx(gap.way_m.tolist(), abs=1e-6) or gap.distance_m < 1e-9
+        assert 2 <= len(told.points) <= 4 or told.way_m[1] != 0.0
+
+
+def test_blocks_face_to_face_touch_at_the_corners_of_what_they_share() -> None:
+    x, y = block("x", (0.2, 0.2, 0.2), (0, 0.1, 0), 0.0), block("y", (0.2, 0.4, 0.1), (0.203, 0.3, 0), 0.0)
+    side = aside(x, y, 0.004, 0.001)
+    assert side is not None
+    assert side.distance_m == pytest.approx(0.003)
+    assert side.way_m == pytest.approx((0.003, 0.0, 0.0))
+    expected = {(0.1015, height, z) for height in (0.1, 0.2) for z in (-0.05, 0.05)}
+    assert {tuple(np.round(point, 9).tolist()) for point in side.points} == expected
+
+
+def test_a_clipped_square_loses_its_corner() -> None:
+    square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+    ring = clipped(square, [(-math.sqrt(0.5), -math.sqrt(0.5), -1.5 * math.sqrt(0.5))])
+    assert {(round(u, 9), round(v, 9)) for u, v in ring} == {(0, 0), (1, 0), (1, 0.5), (0.5, 1), (0, 1)}
+
+
+def test_what_leans_is_no_block() -> None:
+    leaning = Body.of(box("leaning", (0.1, 0.1, 0.1), (0, 0, 0), (0.2, 0.0, 0.0, 1.0)), 1)
+    assert not leaning.stance.is_block
+    assert leaning.stance.footing is None
+    assert rest_on(leaning, block("floor", (1, 1, 1), (0, -0.6, 0), 0.0)) is None
+
+
+def test_a_box_around_a_turned_body_holds_it() -> None:
+    rng = np.random.default_rng(2)
+    for _ in range(50):
+        item = box("b", (0.1, 0.4, 0.2), (1, 2, 3), rng.normal(size=4).tolist())
+        body = Body.of(item, 1).at(Pose((3.0, 1.0, 2.0), item.pose.rotation_xyzw))
+        corners = body.pose.to_world(body.shape.corners)
+        assert body.low == pytest.approx(corners.min(axis=0))
+        assert body.high == pytest.approx(corners.max(axis=0))

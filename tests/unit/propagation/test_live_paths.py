@@ -1,0 +1,97 @@
+"""Ways asked one by one over a graph that moves, against the search of the whole scene."""
+
+import math
+
+import numpy as np
+import pytest
+
+from contact_scenes import box, scene
+from scene2hap.contact.graph import ContactGraph
+from scene2hap.propagation.live_paths import LivePaths
+from scene2hap.propagation.paths import cheapest_arrivals
+from scene2hap.propagation.points import arrivals_at
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import Contact
+
+SOURCES = ("radio", "phone", "lamp", "fan")
+PRICES = {"floor": 0.3, "table": 0.2, "shelf": 0.4, "radio": 0.1, "phone": 0.5, "cup": 0.2}
+
+
+def crossing(weight: float) -> float:
+    return 0.01 - math.log(weight) / 40
+
+
+def room() -> ContactGraph:
+    return ContactGraph(
+        scene(
+            box("floor", (4.0, 0.1, 4.0), (0, -0.05, 0)),
+            box("table", (1.2, 0.7, 0.8), (0, 0.35, 0)),
+            box("shelf", (0.6, 1.0, 0.3), (1.2, 0.5, 0)),
+            box("radio", (0.2, 0.1, 0.1), (-0.3, 0.75, 0)),
+            box("phone", (0.1, 0.01, 0.1), (0.2, 0.705, 0.1)),
+            box("cup", (0.08, 0.1, 0.08), (0.2, 0.76, 0.1)),
+            box("lamp", (0.1, 0.3, 0.1), (1.2, 1.15, 0)),
+            box("fan", (0.1, 0.3, 0.1), (5.0, 5.0, 5.0)),
+        )
+    )
+
+
+@pytest.mark.parametrize("max_hops", [1, 2, 3, None])
+def test_what_is_told_is_what_a_search_of_the_whole_scene_finds(max_hops: int | None) -> None:
+    graph = room()
+    paths = LivePaths(graph, PRICES, crossing, SOURCES, max_hops)
+    rng = np.random.default_rng(1)
+    reached = 0
+    for step in range(12):
+        lift = 0.3 if step % 4 == 3 else 0.0
+        graph.update({"phone": Pose((0.2 + 0.01 * step, 0.705, 0.1)), "radio": Pose((-0.3, 0.75 + lift, 0.02 * step))})
+        costs = [crossing(contact.weight) for contact in graph.contacts]
+        arrivals = cheapest_arrivals(PRICES, graph.contacts, costs, SOURCES, max_hops)
+        for touched in graph.poses:
+            for _ in range(2):  # the second time from what was gathered the first
+                point = tuple(rng.uniform(-1, 1, 3).tolist())
+                found = paths.costs(touched, point)
+                if touched in PRICES:
+                    expected = arrivals_at(arrivals, PRICES, SOURCES, touched, [point])[0]
+                    np.testing.assert_allclose(found, expected, rtol=1e-12)
+                    reached += int(np.isfinite(expected).sum())
+                else:
+                    assert found == [0.0 if source == touched else math.inf for source in SOURCES]
+    assert reached > 100
+
+
+def test_an_engines_contacts_serve_as_well() -> None:
+    graph = room()
+    paths = LivePaths(graph, PRICES, crossing, SOURCES, 2)
+    given = [Contact("radio", "table", (0, 0.7, 0), weight=0.5), Contact("floor", "table", (0, 0, 1))]
+    graph.update({}, contacts=given)
+    price = crossing(0.5) + PRICES["table"] * math.dist((0, 0.7, 0), (0, 0, 1)) + crossing(1.0) + PRICES["floor"] * 2.0
+    for _ in range(2):
+        assert paths.costs("floor", (2.0, 0.0, 1.0)) == pytest.approx([price, math.inf, math.inf, math.inf], rel=1e-12)
+
+
+def test_leaving_out_what_leads_nowhere_new_loses_no_way() -> None:
+    rng = np.random.default_rng(3)
+    contacts = [
+        Contact(f"t{i:03d}", "floor", (*rng.uniform(0, 9, 2).tolist(), 0.0)) for i in range(60) for _ in range(3)
+    ]
+    prices = {"floor": 0.3} | {f"t{i:03d}": float(rng.uniform(0.01, 1)) for i in range(60)}
+    arrivals = cheapest_arrivals(prices, contacts, [0.0] * 180, ["t000"], None)
+    import networkx
+
+    graph = networkx.Graph()
+    for name in prices:
+        own = [c for c in contacts if name in (c.a, c.b)]
+        for i, one in enumerate(own):
+            for two in own[:i]:
+                apart = math.dist(one.point_m, two.point_m) * (0.0 if name == "t000" else prices[name])
+                graph.add_edge(
+                    one.point_m,
+                    two.point_m,
+                    weight=min(apart, graph.get_edge_data(one.point_m, two.point_m, {"weight": math.inf})["weight"]),
+                )
+    truth = networkx.multi_source_dijkstra_path_length(graph, {c.point_m for c in contacts if c.a == "t000"})
+    for point, cost in zip(arrivals["floor"].points_m.tolist(), arrivals["floor"].costs[0], strict=True):
+        best = arrivals_at(arrivals, prices, ["t000"], "floor", [point])[0, 0]
+        assert best == pytest.approx(truth[tuple(point)], abs=1e-12)
+        assert cost >= best - 1e-12
