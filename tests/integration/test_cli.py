@@ -12,6 +12,7 @@ from PIL import Image
 
 from scene2hap.cli import main
 from scene2hap.demo import kitchen_path
+from scene2hap.render.safety import FADE_OUT_S
 
 SOURCES = {
     "refrigerator",
@@ -80,7 +81,7 @@ def test_bake_then_render_then_inspect(tmp_path: Path, capsys: pytest.CaptureFix
     command = ["render", str(bundle), "--touches", str(touches), "-o", str(wav)]
     assert main(command) == 0
     samples, rate = soundfile.read(wav)
-    assert len(samples) == rate
+    assert len(samples) == rate + round(FADE_OUT_S * rate)
     assert not samples[:, 0].any()
     assert np.abs(samples[rate // 2 :, 1]).max() > 0.05
     assert main([*command, "--propagation", "no_propagation", "--quiet"]) == 0

@@ -7,6 +7,7 @@ import pytest
 
 from scene2hap import HapticSession, MemorySink, TouchTrack, play_track
 from scene2hap.errors import SessionError, UnknownObject
+from scene2hap.render.safety import FADE_OUT_S
 from scene2hap.track_player import PlayedFrame
 from scenes import RATE, table_with_two_phones
 
@@ -52,7 +53,7 @@ def play(document: object = DOCUMENT) -> list[PlayedFrame]:
     sink = MemorySink()
     with HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE}, sink=sink) as session:
         play_track(session, TouchTrack.parse(document), sink, on_frame=frames.append)
-    assert len(sink.samples) == 4 * RATE
+    assert len(sink.samples) == 4 * RATE + round(FADE_OUT_S * RATE)
     return frames
 
 

@@ -60,7 +60,11 @@ def render_track(
     config: SessionConfig,
     update_rate_hz: float,
 ) -> list[PlayedFrame]:
-    """Play a track on a bundle into a WAV file, with a progress bar; the frames are returned."""
+    """Play a track on a bundle into a WAV file, with a progress bar; the frames are returned.
+
+    The model is waited for, so that the file does not depend on how fast a worker was.
+    """
+    config = SessionConfig.parse(config, prepare="blocking")
     frames: list[PlayedFrame] = []
     sink = WavSink(path)
     with console.progress() as tell, HapticSession(bundle.snapshot, bundle, config, sink=sink) as session:

@@ -1,8 +1,20 @@
-"""The sources' tactile loops, split in bands and ready to be read at any position."""
+"""The sources' tactile loops, split in bands and ready to be read at any position.
+
+A loop of n samples at f Hz lasts n f_t / f tactile samples, seldom a whole number. It is stored as the nearest whole
+number N of samples, over as many turns within a second as make that nearest, and read at
+
+    u(t) = round(t N / (turns n f_t / f)) mod N
+
+in exact integer arithmetic. So it keeps the period of the loop that is heard beside it for ever: it is never off by
+more than one tactile sample, where playing N samples round and round would drift. Once in a while (10 s or more for a
+loop of 5 s, never where the rates divide) u steps by 0 or 2 samples; over that cell the two readings are cross-faded.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,45 +23,102 @@ from scene2hap.audio.bands import split_bands
 from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.haptics import Bands
 
+CELL = 24
+"""Samples that are read at once. numpy keeps Python's interpreter lock in operations on up to 500 numbers, and 20 bands
+over 24 samples are 480. An audio thread that gives the lock away may have to wait for a game's whole update."""
+
+_SPAN_S = 1.0
+
+
+class _Loop(NamedTuple):
+    """Samples (length + CELL, n_bands), the last CELL being the first again; they pass at numerator / denominator.
+
+    Bands lie side by side, so that a cell of a loop is one stretch of memory and not one per band.
+    """
+
+    samples: NDArray[np.float32]
+    length: int
+    numerator: int
+    denominator: int
+
 
 class LoopBank:
-    """Loops at one sample rate, in a fixed order.
+    """Loops at one tactile rate, in a fixed order; a row is one band of one loop.
 
-    A loop of another rate is resampled as the periodic signal that it is, to the nearest whole number of samples.
+    Parameters: loops : of any rates; bands : what each is split into; sample_rate_hz : the tactile rate.
     """
 
     def __init__(self, loops: Sequence[AudioClip], bands: Bands, sample_rate_hz: int) -> None:
-        resampled = [_at_rate(loop, sample_rate_hz) for loop in loops]
-        self._loops = [split_bands(samples, sample_rate_hz, bands) for samples in resampled]
-        self.n_rows = len(loops) * bands.n_bands
+        self.sample_rate_hz = sample_rate_hz
+        self.n_bands = bands.n_bands
+        self._loops = [_stored(loop, bands, sample_rate_hz) for loop in loops]
+        self._periods = [(len(loop.samples), loop.sample_rate_hz) for loop in loops]
+        self._fade = (0.5 - 0.5 * np.cos(np.pi * np.arange(1, CELL + 1) / CELL)).astype(np.float32)
+        self._other = np.zeros((self.n_bands, CELL), dtype=np.float32)
 
     def __len__(self) -> int:
         return len(self._loops)
 
-    def length(self, loop: int) -> int:
-        """Samples after which that loop begins anew."""
-        return int(self._loops[loop].shape[1])
+    @property
+    def n_rows(self) -> int:
+        """Bands of all loops together."""
+        return len(self) * self.n_bands
 
-    def read(self, start: int, n_frames: int) -> NDArray[np.float32]:
-        """Samples (n_loops * n_bands, n_frames) from a position on the common clock; every loop wraps by itself."""
-        if not self._loops:
-            return np.zeros((0, n_frames), dtype=np.float32)
-        return np.concatenate([_wrapped(loop, start, n_frames) for loop in self._loops])
+    @property
+    def nbytes(self) -> int:
+        """Memory that the loops take [byte]."""
+        return sum(loop.samples.nbytes for loop in self._loops)
+
+    def fill(self, loop: int, begin: int, out: NDArray[np.float32]) -> None:
+        """Write CELL samples of a loop's bands into (n_bands, CELL), from a tactile sample of the common clock on."""
+        samples, length, numerator, denominator = self._loops[loop]
+        if numerator == denominator:
+            start = begin % length
+            out[...] = samples[start : start + CELL].T
+            return
+        here = (2 * begin * numerator + denominator) // (2 * denominator)
+        there = (2 * (begin + CELL) * numerator + denominator) // (2 * denominator) - CELL
+        start = here % length
+        out[...] = samples[start : start + CELL].T
+        if there != here:
+            start = there % length
+            np.subtract(samples[start : start + CELL].T, out, out=self._other)
+            np.multiply(self._other, self._fade, out=self._other)
+            np.add(out, self._other, out=out)
+
+    def position_s(self, loop: int, frame: int, sample_rate_hz: int) -> float:
+        """Where a loop stands at a frame of a clock that runs at another rate, in time since its beginning [s]."""
+        n, rate_hz = self._periods[loop]
+        return (frame * rate_hz % (n * sample_rate_hz)) / (sample_rate_hz * rate_hz)
 
 
-def _wrapped(loop: NDArray[np.float32], start: int, n_frames: int) -> NDArray[np.float32]:
-    length = loop.shape[1]
-    first = start % length
-    if first + n_frames <= length:
-        return loop[:, first : first + n_frames]
-    return loop[:, np.arange(first, first + n_frames) % length]
+def _stored(loop: AudioClip, bands: Bands, sample_rate_hz: int) -> _Loop:
+    # Over `turns` turns the loop lasts exact / unit tactile samples.
+    turns = _turns(len(loop.samples), loop.sample_rate_hz, sample_rate_hz)
+    exact, unit = turns * len(loop.samples) * sample_rate_hz, loop.sample_rate_hz
+    length = max(1, (2 * exact + unit) // (2 * unit))
+    split = split_bands(_resampled(np.tile(loop.samples, turns), length), length * sample_rate_hz * unit / exact, bands)
+    samples = np.empty((length + CELL, len(split)), dtype=np.float32)
+    samples[:length] = split.T
+    samples[length:] = samples[np.arange(CELL) % length]
+    common = math.gcd(length * unit, exact)
+    return _Loop(samples, length, length * unit // common, exact // common)
 
 
-def _at_rate(loop: AudioClip, sample_rate_hz: int) -> Samples:
-    if loop.sample_rate_hz == sample_rate_hz:
-        return loop.samples
-    n_in = len(loop.samples)
-    n_out = max(1, round(n_in * sample_rate_hz / loop.sample_rate_hz))
+def _turns(n_samples: int, sample_rate_hz: int, tactile_rate_hz: int) -> int:
+    """How many turns, within a second, come nearest to a whole number of tactile samples, relative to their length."""
+
+    def error(turns: int) -> float:
+        rest = turns * n_samples * tactile_rate_hz % sample_rate_hz
+        return min(rest, sample_rate_hz - rest) / turns
+
+    return min(range(1, max(1, int(_SPAN_S * sample_rate_hz) // n_samples) + 1), key=error)
+
+
+def _resampled(samples: Samples, n_out: int) -> Samples:
+    n_in = len(samples)
+    if n_in == n_out:
+        return samples
     # irfft of the truncated or zero-padded spectrum is exact band-limited interpolation of a periodic signal.
-    spectrum = np.fft.rfft(loop.samples.astype(np.float64))
+    spectrum = np.fft.rfft(samples.astype(np.float64))
     return (np.fft.irfft(spectrum, n_out) * (n_out / n_in)).astype(np.float32)

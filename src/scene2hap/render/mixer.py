@@ -1,93 +1,136 @@
 """Gains and loops in, samples for every hand out.
 
-Every change of gains is spread over a raised cosine, and changes that overlap add up:
+    loops (tactile rate) ── gains ──► mix (tactile rate) ──► upsampler ──► soft limiter ──► hands (session's rate)
 
-    g(t) = g_0 + sum_j (g_j - g_{j-1}) r((t - t_j) / T)      r(x) = (1 - cos(pi x)) / 2 on [0, 1]
+The clock counts frames at the session's rate. A change of gains may be stamped with any frame and begins with the next
+tactile sample, so at most one tactile sample later. What is felt lags the clock by the constant `delay_s`.
 
-so that a mix is one matrix product of all pending gain steps with the loops, each step then weighed by its ramp.
-A stepped gain would put sidebands into the tactile band; see Kaaresoja 2014 and Okamoto 2009 for the time budget.
+A stepped gain would put sidebands into the tactile band, so every change is spread over a raised cosine; changes that
+overlap add up (`scene2hap.render.tactile_mix`). See Kaaresoja 2014 and Okamoto 2009 for the time budget.
 
-Threads: `set_gains` (game) appends to a deque and `render` (audio) pops from it; neither waits for the other.
+Threads: `set_gains` (game) appends to a deque and `render` (audio) pops from it; neither waits for the other. `render`
+does not give the interpreter lock away in its midst for 20 bands or fewer, so that a game's Python cannot cut in.
 """
 
 from __future__ import annotations
 
-import math
 from collections import deque
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.render.limiter import soft_limit
-from scene2hap.render.loop_bank import LoopBank
+from scene2hap import checks
+from scene2hap.errors import ConfigError, SessionError
+from scene2hap.render.limiter import limit_in_place
+from scene2hap.render.loop_bank import CELL, LoopBank
+from scene2hap.render.tactile_mix import Gains, TactileMix
+from scene2hap.render.upsampler import Upsampler
 
 
-@dataclass(frozen=True, eq=False)
-class _Step:
-    """From `start` on, the gains grow by `delta` (n_hands, n_rows)."""
+@dataclass(frozen=True)
+class MixerStats:
+    """What was done so far: rows (bands of loops) times cells that were mixed, that were skipped since nothing lets
+    them through, and changes of gains that came too fast and went into the next one."""
 
-    start: int
-    delta: NDArray[np.float32]
+    rows_mixed: int = 0
+    rows_skipped: int = 0
+    changes_merged: int = 0
 
 
 class Mixer:
     """The running mix of `n_hands` outputs.
 
-    Parameters: ramp_frames : frames over which a gain change is spread, >= 1.
+    Parameters: bank : the loops, at the tactile rate; sample_rate_hz : rate of the outputs, at least the tactile one;
+    ramp_s : time over which a gain change is spread [s]; skip_silent : leave out loops that nothing lets through.
+    Raises: ConfigError: a rate or time that is out of bounds.
     """
 
-    def __init__(self, bank: LoopBank, n_hands: int, ramp_frames: int) -> None:
-        self._bank = bank
-        self._n_hands = n_hands
-        self._ramp_frames = ramp_frames
-        self._incoming: deque[tuple[int, NDArray[np.float32]]] = deque()
-        self._target = np.zeros((n_hands, bank.n_rows), dtype=np.float32)
-        self._settled = self._target
-        self._steps: list[_Step] = []
+    def __init__(
+        self, bank: LoopBank, n_hands: int, *, sample_rate_hz: int, ramp_s: float, skip_silent: bool = True
+    ) -> None:
+        hint = "Mix at a tactile rate that is not above the session's."
+        checks.number(
+            "sample_rate_hz", sample_rate_hz, "Hz", at_least=bank.sample_rate_hz, error=ConfigError, hint=hint
+        )
+        checks.number("ramp_s", ramp_s, "s", above=0.0, error=ConfigError)
+        self._shape = (n_hands, bank.n_rows)
+        self._n_bands = bank.n_bands
+        self._is_skipping = skip_silent
+        self._tactile_rate_hz, self._sample_rate_hz = bank.sample_rate_hz, sample_rate_hz
+        self._upsampler = Upsampler(bank.sample_rate_hz, sample_rate_hz, n_hands)
+        self._outputs = self._upsampler.outputs(0)
+        self._scratch = np.zeros_like(self._outputs)
+        ramp = max(1, round(ramp_s * bank.sample_rate_hz))
+        self._mix = TactileMix(bank, n_hands, ramp, self._upsampler.cell, is_skipping=skip_silent)
+        self._incoming: deque[tuple[int, Gains]] = deque()
         self._position = 0
+        self._tick = 0
+        self._cell_begin = -CELL
+        self._cell_frame = self._cell_end_frame = 0
 
     @property
     def position(self) -> int:
         """The frame that the next `render` begins with."""
         return self._position
 
+    @property
+    def delay_s(self) -> float:
+        """How long after its frame on the clock a sample is felt [s]; the same for all frequencies."""
+        return self._upsampler.delay_s
+
+    @property
+    def stats(self) -> MixerStats:
+        """What was done so far."""
+        mixed, offered = self._mix.n_rows_mixed, self._mix.n_cells * self._shape[1]
+        return MixerStats(mixed, offered - mixed, self._mix.n_merged)
+
     def set_gains(self, gains: NDArray[np.float32], at_frame: int) -> None:
-        """Move to gains (n_hands, n_rows) from a frame on; frames in the past count as the next one."""
-        self._incoming.append((at_frame, gains))
+        """Move to gains (n_hands, n_rows) from a frame on; frames in the past count as the next one.
+
+        Raises: SessionError: another shape, or gains that are not finite; the audio thread could not tell anyone.
+        """
+        if gains.shape != self._shape or not np.isfinite(gains).all():
+            raise SessionError(f"gains has shape {gains.shape}; it must be finite numbers of shape {self._shape}.")
+        self._incoming.append((at_frame, Gains.of(gains, self._n_bands, self._is_skipping)))
 
     def render(self, n_frames: int) -> NDArray[np.float32]:
         """The next samples (n_frames, n_hands) float32 in [-1, 1]."""
-        begin, end = self._position, self._position + n_frames
-        while self._incoming and self._incoming[0][0] < end:
-            at_frame, gains = self._incoming.popleft()
-            self._steps.append(_Step(max(at_frame, begin), gains - self._target))
-            self._target = gains
-        mix = self._mix(self._bank.read(begin, n_frames), begin)
-        self._settle(end)
+        out = np.empty((n_frames, self._shape[0]), dtype=np.float32)
+        self.render_into(out)
+        return out
+
+    def render_into(self, out: NDArray[np.float32]) -> None:
+        """Write the next samples into a block (n_frames, n_hands) float32."""
+        frame, end = self._position, self._position + len(out)
+        while frame < end:
+            if frame == self._cell_end_frame:
+                self._enter_cell()
+            stop = min(end, self._cell_end_frame)
+            self._take_gains(self._upsampler.input_of(stop - 1) + 1)
+            if self._mix.compute():
+                self._outputs = self._upsampler.outputs(self._cell_begin)
+                limit_in_place(self._outputs, self._scratch)
+            ready = self._outputs[:, frame - self._cell_frame : stop - self._cell_frame]
+            out[frame - self._position : stop - self._position] = ready.T
+            frame = stop
         self._position = end
-        return soft_limit(mix).T
 
-    def _mix(self, loops: NDArray[np.float32], begin: int) -> NDArray[np.float32]:
-        n_frames = loops.shape[1]
-        if not self._steps and not self._settled.any():
-            return np.zeros((self._n_hands, n_frames), dtype=np.float32)
-        gains = np.concatenate([self._settled, *(step.delta for step in self._steps)])
-        parts = (gains @ loops).reshape(len(self._steps) + 1, self._n_hands, n_frames)
-        mix: NDArray[np.float32] = parts[0].copy()
-        frames = np.arange(begin, begin + n_frames)
-        for step, part in zip(self._steps, parts[1:], strict=True):
-            phase = np.clip((frames - step.start + 1) / self._ramp_frames, 0.0, 1.0)
-            mix += part * (0.5 - 0.5 * np.cos(math.pi * phase)).astype(np.float32)
-        return mix
+    def _enter_cell(self) -> None:
+        self._cell_begin += CELL
+        self._cell_frame = self._cell_end_frame
+        self._cell_end_frame = self._upsampler.first_output_of(self._cell_begin + CELL)
+        self._upsampler.next_cell()
+        self._mix.enter(self._cell_begin)
 
-    def _settle(self, end: int) -> None:
-        """Fold in the steps whose ramps have ended."""
-        running = [step for step in self._steps if step.start + self._ramp_frames > end]
-        if not running:
-            # The sum of all steps, without the rounding of adding them up.
-            self._settled = self._target
-        elif len(running) < len(self._steps):
-            ended = [step.delta for step in self._steps if step.start + self._ramp_frames <= end]
-            self._settled = self._settled + np.sum(ended, axis=0, dtype=np.float32)
-        self._steps = running
+    def _take_gains(self, end: int) -> None:
+        """Start the gains whose time comes before a tactile sample, none of them in what is rendered."""
+        while self._incoming:
+            at_frame, gains = self._incoming[0]
+            tick = max(-(-at_frame * self._tactile_rate_hz // self._sample_rate_hz), self._tick)
+            if tick >= end:
+                break
+            self._incoming.popleft()
+            self._mix.start(gains, tick)
+            self._tick = tick
+        self._tick = max(self._tick, end)

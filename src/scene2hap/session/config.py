@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, model_validator
 
-from scene2hap.haptics import Bands
+from scene2hap.audio.actuators import actuator_profile
+from scene2hap.haptics import ActuatorProfile, Bands
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.exponential_plate import ExponentialPlate
 from scene2hap.settings import Settings
@@ -23,19 +24,64 @@ def _bands(value: object) -> object:
     return named[value]() if isinstance(value, str) and value in named else value
 
 
+class SkipConfig(Settings):
+    """Which work is left out; none of it is felt. docs/playing.md has each bound, `SessionStats.skipped` the savings.
+
+    unreachable : objects that no source reaches over contacts are not told to the model, and not asked about.
+    below_threshold : sources that are not felt at a hand are left out of its mix.
+    silent_bands : bands in which a source has next to nothing, and loops that nothing lets through, are not mixed.
+    idle_hands : hands that touch nothing are not computed.
+    unchanged_frames : nothing is computed again for an update that brings nothing new.
+    """
+
+    of_what = "skip"
+
+    unreachable: bool = True
+    below_threshold: bool = True
+    silent_bands: bool = True
+    idle_hands: bool = True
+    unchanged_frames: bool = True
+
+
+def _skip(value: object) -> object:
+    return SkipConfig(**dict.fromkeys(SkipConfig.model_fields, value)) if isinstance(value, bool) else value
+
+
 class SessionConfig(Settings):
     """How a scene is played. Every part with alternatives is chosen by a `kind`, so that a table of TOML will do.
 
     propagation : a kind, a mapping with `kind` and settings, or a model; `scene2hap.propagation.MODELS` lists kinds.
     bands : bands in which gains are told: Bands, "dominant" (the paper's) or "third-octaves" (20 from 10 to 1000 Hz).
+    prepare : "background": a worker prepares the model while the last field plays on, and `update` never waits (but for
+        `ExponentialPlate`, prepared in place); "blocking": `update` waits, so that output depends on input alone.
     gain_limit_db : cap on what one source may gain at a hand by propagation, None for no cap.
+    tactile_rate_hz : rate at which loops are mixed, or the sample rate where that is lower; the mixed hands are
+        resampled once. At least 2.5 times the highest band edge.
     control_period_s : usual time between updates; gain changes are spread over it, and over at least 10 ms.
+    watchdog_s : time without an update after which a sink with a clock of its own fades to zero.
+    actuator : what the safety layer holds the output to; an ActuatorProfile, or as `audio.actuators` reads it.
+    skip : a SkipConfig or its settings, or true or false for all or nothing.
     """
 
     of_what = "session"
 
     propagation: Annotated[Any, BeforeValidator(MODELS.build)] = Field(default_factory=ExponentialPlate)
     bands: Annotated[Bands, BeforeValidator(_bands)] = Field(default_factory=Bands.dominant)
+    prepare: Literal["background", "blocking"] = "background"
     gain_limit_db: float | None = Field(default=0.0, le=MAX_GAIN_DB, allow_inf_nan=False)
     sample_rate_hz: int = Field(default=48000, ge=1000, le=192000)
+    tactile_rate_hz: int = Field(default=8000, ge=1000, le=192000)
     control_period_s: float = Field(default=0.02, gt=0.0, le=1.0)
+    watchdog_s: float = Field(default=0.1, ge=0.02, le=1.0)
+    actuator: Annotated[ActuatorProfile, BeforeValidator(actuator_profile)] = Field(default_factory=ActuatorProfile)
+    skip: Annotated[SkipConfig, BeforeValidator(_skip)] = Field(default_factory=SkipConfig)
+
+    @model_validator(mode="after")
+    def _tactile_rate_holds_the_bands(self) -> Self:
+        top_hz = max(self.bands.edges_hz, default=0.0)
+        if self.tactile_rate_hz < 2.5 * top_hz:
+            raise ValueError(
+                f"tactile_rate_hz is {self.tactile_rate_hz} Hz; it must be at least 2.5 times the highest band edge, "
+                f"{2.5 * top_hz:g} Hz. Raise it, or use lower bands"
+            )
+        return self

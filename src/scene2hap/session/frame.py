@@ -39,20 +39,57 @@ class HapticFrame:
         Raises: SessionError: no such hand; UnknownObject: no such source.
         """
         if hand not in self.hands:
-            raise SessionError(f"no hand {hand!r}; this session has {', '.join(map(repr, self.hands))}.")
+            raise SessionError(unknown_hand(hand, self.hands))
         if source_id not in self.sources:
             raise UnknownObject(unknown_source(source_id, self.sources))
         return float(self.gains[self.hands.index(hand), self.sources.index(source_id)].max())
 
 
 @dataclass(frozen=True)
+class SkipCounts:
+    """How often each kind of work was left out; see `SkipConfig`.
+
+    Parameters: unreachable_objects : objects that the model was not told of, summed over preparations;
+    unreachable_touches : touches that it was not asked about; changes_out_of_reach : contact changes after which
+    nothing had to be prepared; below_threshold : sources left out at a hand; silent_bands : gains left out at a hand;
+    rows_not_mixed : bands of loops, times cells of 3 ms, that no gain let through; idle_hands : hands that touched
+    nothing; unchanged_frames : updates that brought nothing new.
+    """
+
+    unreachable_objects: int = 0
+    unreachable_touches: int = 0
+    changes_out_of_reach: int = 0
+    below_threshold: int = 0
+    silent_bands: int = 0
+    rows_not_mixed: int = 0
+    idle_hands: int = 0
+    unchanged_frames: int = 0
+
+
+@dataclass(frozen=True)
 class SessionStats:
-    """What a session has done so far; `bodiless` objects carry no vibration since their material is unknown."""
+    """What a session has done so far.
+
+    Parameters: fields_prepared : fields taken into use; bodiless : objects that carry no vibration, since their
+    material is unknown; field_age_s : for how long the field in use has been out of date, 0 while it is not [s];
+    field_latency_s : time from the change that the field in use tells of to its use [s]; fields_failed : preparations
+    that the model refused, the last field playing on, and last_failure what it said.
+    """
 
     updates: int = 0
     fields_prepared: int = 0
     gains_capped: int = 0
     bodiless: tuple[str, ...] = ()
+    field_age_s: float = 0.0
+    field_latency_s: float = 0.0
+    fields_failed: int = 0
+    last_failure: str = ""
+    skipped: SkipCounts = SkipCounts()
+
+
+def unknown_hand(hand: str, hands: Sequence[str]) -> str:
+    """The sentence for a name that is no hand."""
+    return f"no hand {hand!r}; this session has {', '.join(map(repr, hands))}."
 
 
 def unknown_source(source_id: str, source_ids: Sequence[str]) -> str:

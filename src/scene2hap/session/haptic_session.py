@@ -1,8 +1,8 @@
 """A scene under hands.
 
-`update` belongs to the game's thread and `render` to the audio thread. `update` keeps the contact graph, prepares the
-propagation field when a contact changed, and turns touches into gains; `render` mixes the sources' loops with them.
-Nothing here reaches a network, and `render` never waits for `update`.
+`render` belongs to the audio thread, everything else to the game's. `update` keeps the contact graph, has the
+propagation field prepared when a contact changed, and turns touches into gains; `render` mixes the sources' loops with
+them. Nothing here reaches a network, `update` never waits for a model, and `render` never waits for `update`.
 """
 
 from __future__ import annotations
@@ -11,23 +11,22 @@ from collections.abc import Mapping, Sequence
 from types import TracebackType
 from typing import Any, Self
 
-import numpy as np
-from numpy.typing import NDArray
-
+from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
-from scene2hap.contact.graph import ContactGraph
-from scene2hap.devices import SINKS
-from scene2hap.devices.protocol import ActuatorSink, Block, SinkFormat
+from scene2hap.devices.protocol import ActuatorSink, Block
 from scene2hap.errors import ConfigError, SessionError, UnknownObject
-from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.protocol import Body, ContactNetwork, Excitation, PropagationField, PropagationModel
-from scene2hap.render.loop_bank import LoopBank
-from scene2hap.render.mixer import Mixer
+from scene2hap.haptics import ObjectHaptics
+from scene2hap.render.safety import SafetyStats
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Contact, SceneSnapshot, unknown_object
-from scene2hap.session.config import MAX_GAIN_DB, MIN_RAMP_S, SessionConfig
-from scene2hap.session.frame import HapticFrame, SessionStats, Touch
+from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot, unknown_object
+from scene2hap.session.config import SessionConfig
+from scene2hap.session.explain import Explanation
+from scene2hap.session.frame import HapticFrame, SessionStats, Touch, unknown_hand
+from scene2hap.session.listening import Listening
+from scene2hap.session.output import Output
+from scene2hap.session.playback import Playback
 from scene2hap.session.sources import Sources
+from scene2hap.session.stage import Stage
 
 
 class HapticSession:
@@ -48,30 +47,17 @@ class HapticSession:
         sink: ActuatorSink | str | Mapping[str, Any] | None = None,
     ) -> None:
         self.config = SessionConfig.parse(config)
-        self.hands = tuple(hands)
-        if not self.hands or len(set(self.hands)) < len(self.hands):
-            raise ConfigError(f"hands is {self.hands!r}; it must be at least one name, each once.")
-        self._scene = scene
-        self._sources = Sources(bundle)
-        for object_id in self._sources.ids:
+        self.hands = _distinct(hands)
+        self._bundle = bundle
+        self._sources = Sources()
+        for object_id, loops in bundle.loops.items():
             scene.object(object_id)
-        self._bodies = _bodies(scene, bundle)
-        self._graph = ContactGraph(scene)
-        self._updates = self._fields_prepared = self._gains_capped = 0
-        # One row of loops per state, so that switching states is a change of gains like any other: ramped, no click.
-        tactile = [loop.tactile for loop in self._sources.all_loops()]
-        self._bank = LoopBank(tactile, self.config.bands, self.config.sample_rate_hz)
-        ramp_s = max(self.config.control_period_s, MIN_RAMP_S)
-        self._mixer = Mixer(self._bank, len(self.hands), max(1, round(ramp_s * self.config.sample_rate_hz)))
-        self._field = self._prepare()
-        self._last_stamp = 0
-        self._last_rows: NDArray[np.float32] | None = None
-        built = SINKS.build(sink) if sink is not None else None
-        if built is not None and not isinstance(built, ActuatorSink):
-            raise ConfigError(f"sink is {built!r}; it must have open, start, stop, close and stats.")
-        self._sink = built
-
-    # -- the game's side --------------------------------------------------------------------------------------
+            self._sources.add(object_id, loops, bundle.objects.get(object_id), bundle.gain_db(object_id))
+        self._stage = Stage(scene, bundle)
+        self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
+        self._listening = Listening(self.config, self._stage, self._sources)
+        self._output = Output(sink, self.config)
+        self._last_stamp = self._updates = 0
 
     @property
     def source_ids(self) -> tuple[str, ...]:
@@ -81,7 +67,7 @@ class HapticSession:
     @property
     def snapshot(self) -> SceneSnapshot:
         """The scene as it is now."""
-        return self._scene.with_poses(self._graph.poses)
+        return self._stage.snapshot
 
     def update(
         self,
@@ -100,25 +86,72 @@ class HapticSession:
         Raises: UnknownObject: a touched or moved object is not in the scene; SessionError: an unknown hand, or a
         position before that of the last update.
         """
-        stamp = self._stamp(at_sample)
         felt = [(self._hand_index(touch), touch) for touch in touches]
+        stamp = self._stamp(at_sample)
         if moved or contacts is not None:
-            change = self._graph.update(moved or {}, contacts=contacts)
-            # A field is told in world coordinates, so that any move of a body in contact makes it stale.
-            if change.appeared or change.vanished or change.shifted:
-                self._field = self._prepare()
-        gains = np.zeros((len(self.hands), len(self.source_ids), self.config.bands.n_bands))
-        for hand, touch in felt:
-            np.maximum(gains[hand], self._attenuation(touch), out=gains[hand])
-        levels = np.array([self._sources.factor(source_id, self._graph) for source_id in self.source_ids])
-        frame = HapticFrame((gains * levels[:, None]).astype(np.float32), self.hands, self.source_ids)
-        rows = np.zeros((len(self.hands), len(self._bank), self.config.bands.n_bands), dtype=np.float32)
-        rows[:, self._sources.active_rows()] = frame.gains
-        if self._last_rows is None or not np.array_equal(rows, self._last_rows):
-            self._mixer.set_gains(rows.reshape(len(self.hands), -1), stamp)
-            self._last_rows = rows
+            self._listening.follow(self._stage.graph.update(moved or {}, contacts=contacts))
+        frame, mixed = self._listening.frame(self.hands, felt, moved or (), is_paused=self._playback.is_paused)
+        if mixed is not None:
+            self._playback.set_gains(mixed, self._sources.active_rows(), stamp)
         self._updates += 1
+        self._output.feed(frame)
         return frame
+
+    def add(
+        self,
+        object: SceneObject,
+        haptics: ObjectHaptics | None = None,
+        loops: Mapping[str, HapticLoop] | None = None,
+    ) -> None:
+        """Put an object into the scene, which vibrates if it has loops, by the name of each state.
+
+        Without both, what the bundle says of its id holds, so that what was removed may come back as it was.
+        Raises: SceneError: its id is taken; SessionError: a loop is none.
+        """
+        if haptics is None and loops is None:
+            haptics, loops = self._bundle.objects.get(object.id), self._bundle.loops.get(object.id)
+        for state, loop in (loops or {}).items():
+            if not isinstance(loop, HapticLoop):
+                raise SessionError(f"loops[{state!r}] of {object.id!r} is {loop!r}; it must be a HapticLoop.")
+        change = self._stage.add(object, haptics)
+        if loops:
+            self._sources.add(object.id, loops, haptics, self._bundle.gain_db(object.id))
+            self._playback.change_rows(self._sources.rows(), self._now)
+        self._listening.follow(change, is_other_cast=bool(loops))
+
+    def remove(self, object_id: str) -> None:
+        """Take an object out of the scene; what is felt of it fades.
+
+        Raises: UnknownObject; SessionError: it is the last object.
+        """
+        if len(self._stage.objects) == 1 and object_id in self._stage.objects:
+            raise SessionError(f"{object_id!r} is the last object of the scene; add another one before removing it.")
+        change = self._stage.remove(object_id)
+        is_source = object_id in self._sources
+        if is_source:
+            self._sources.remove(object_id)
+            self._playback.change_rows(self._sources.rows(), self._now)
+        self._listening.follow(change, is_other_cast=is_source)
+
+    def add_hand(self, name: str) -> None:
+        """Add an output. A sink that is running is faded out and opened anew with one channel more.
+
+        Raises: ConfigError: the name is taken; SessionError: the sink is running and keeps its channels for ever;
+        DeviceError: it cannot be opened again.
+        """
+        hands = _distinct((*self.hands, name))
+        with self._output.reopened_for(hands, self.render):
+            self._playback.add_hand()
+            self._use_hands(hands)
+
+    def remove_hand(self, name: str) -> None:
+        """Take away an output, but not the last; otherwise as `add_hand`. Raises: SessionError: an unknown hand."""
+        if name not in self.hands:
+            raise SessionError(unknown_hand(name, self.hands))
+        hands = _distinct([hand for hand in self.hands if hand != name])
+        with self._output.reopened_for(hands, self.render):
+            self._playback.remove_hand(self.hands.index(name))
+            self._use_hands(hands)
 
     def set_source(
         self,
@@ -133,114 +166,109 @@ class HapticSession:
 
         Raises: UnknownObject: not a source; SessionError: it has no such state, or the gain is out of bounds.
         """
-        if state is not None and self._sources.set_state(source_id, state):
-            self._field = self._prepare()
-        self._sources.set(source_id, on, gain_db, mute)
+        self._listening.levels_changed(self._sources.set(source_id, on, state, gain_db, mute))
 
     def set_user(self, *, gain_db: float | None = None, mute: bool | None = None) -> None:
         """Set the level of everything; felt from the next update on. Raises: SessionError: out of bounds."""
         self._sources.user.set(gain_db, mute)
+        self._listening.levels_changed()
 
-    # -- the audio side ---------------------------------------------------------------------------------------
+    def pause(self) -> None:
+        """Fade everything out now, and let all loops stand still; updates go on to follow the scene."""
+        self._playback.pause(self._now)
+        self._listening.levels_changed()
+        self._output.show(self._listening.silence(self.hands))
+
+    def resume(self) -> None:
+        """Let all loops go on from where they stopped; felt from the next update on."""
+        self._playback.resume()
+        self._listening.levels_changed()
+
+    def explain(self, hand: str) -> Explanation:
+        """Each source that a hand felt at the last update, and its way there. Raises: SessionError: an unknown hand."""
+        if hand not in self.hands:
+            raise SessionError(unknown_hand(hand, self.hands))
+        return self._listening.explain(hand)
+
+    def wait_prepared(self, timeout_s: float | None = None) -> bool:
+        """Wait until the worker has prepared the scene as it is; false after the timeout [s]. For loading screens."""
+        return self._listening.wait(timeout_s)
 
     def render(self, n_frames: int) -> Block:
         """The next samples of the mix (n_frames, n_hands) float32 in [-1, 1]."""
-        return self._mixer.render(n_frames)
+        return self._playback.render(n_frames)
 
     @property
     def position(self) -> int:
-        """The sample that `render` gives next, on the clock that `at_sample` speaks of."""
-        return self._mixer.position
+        """The sample that `render` gives next, on the clock that `at_sample` speaks of; it stands still in a pause."""
+        return self._playback.position
 
     def position_s(self, source_id: str) -> float:
         """Where in its loop a source is [s], for a game that plays the audible loop beside. Raises: UnknownObject."""
-        length = self._bank.length(self._sources.active_row(source_id))
-        return (self._mixer.position % length) / self.config.sample_rate_hz
+        return self._playback.position_s(self._sources[source_id].row)
 
     def start(self) -> None:
-        """Send the mix to the sink. Raises: SessionError: the session has none; DeviceError: it cannot be opened."""
-        if self._sink is None:
-            raise SessionError("this session has no sink; give one to HapticSession(..., sink=), or call render.")
-        self._sink.open(SinkFormat(self.config.sample_rate_hz, self.hands))
-        self._sink.start(self.render)
+        """Send the mix through the safety layer to the sink.
+
+        Raises: SessionError: the session has no sink; DeviceError: it cannot be opened; ConfigError: the actuator's
+        budget is out of bounds.
+        """
+        self._output.start(self.render, self.hands)
 
     def stop(self) -> None:
-        """Stop the sink and give it back; may be called twice."""
-        if self._sink is not None:
-            self._sink.stop()
-            self._sink.close()
+        """Fade out, stop the sink and give it back; may be called twice."""
+        self._output.stop()
 
     def __enter__(self) -> Self:
-        if self._sink is not None:
+        if self._output.exists:
             self.start()
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if error is None or self._sink is None:
+        if error is None:
             self.stop()
         else:
-            # A sink that can tell a failed run from a finished one leaves no half-written file behind.
-            getattr(self._sink, "abort", self.stop)()
+            self._output.abort()
 
     @property
     def stats(self) -> SessionStats:
         """What was done so far."""
-        bodiless = tuple(item.id for item in self._scene.objects if item.id not in self._bodies)
-        return SessionStats(self._updates, self._fields_prepared, self._gains_capped, bodiless)
+        return self._listening.stats(self._updates, self._playback.rows_not_mixed)
 
-    # -- from touches to gains --------------------------------------------------------------------------------
+    @property
+    def safety_stats(self) -> SafetyStats:
+        """What the safety layer of a started session had to change."""
+        return self._output.safety_stats
+
+    @property
+    def _now(self) -> int:
+        return max(self._playback.position, self._last_stamp)
 
     def _stamp(self, at_sample: int | None) -> int:
-        stamp = self._mixer.position if at_sample is None else at_sample
         if at_sample is not None and at_sample < self._last_stamp:
             raise SessionError(
                 f"at_sample is {at_sample}; the last update was at {self._last_stamp}, and time cannot go back. "
                 "Give updates in the order in which they happen."
             )
-        self._last_stamp = max(stamp, self._last_stamp)
+        self._last_stamp = self._now if at_sample is None else at_sample
         return self._last_stamp
+
+    def _use_hands(self, hands: tuple[str, ...]) -> None:
+        self.hands = hands
+        self._listening.levels_changed()
 
     def _hand_index(self, touch: Touch) -> int:
         if touch.hand not in self.hands:
-            raise SessionError(f"no hand {touch.hand!r}; this session has {', '.join(map(repr, self.hands))}.")
-        if touch.object_id not in self._graph.poses:
-            raise UnknownObject(unknown_object(touch.object_id, self._graph.poses))
+            raise SessionError(unknown_hand(touch.hand, self.hands))
+        if touch.object_id not in self._stage.objects:
+            raise UnknownObject(unknown_object(touch.object_id, self._stage.objects))
         return self.hands.index(touch.hand)
 
-    def _attenuation(self, touch: Touch) -> NDArray[np.float64]:
-        """What of each source arrives at a touch (n_sources, n_bands), capped."""
-        found: NDArray[np.float64] = self._field.attenuation(touch.object_id, [touch.point_m])[0]
-        # A guest model's NaN must not reach a hand.
-        found = np.clip(np.nan_to_num(found, nan=0.0), 0.0, 10 ** (MAX_GAIN_DB / 20))
-        if self.config.gain_limit_db is None:
-            return found
-        limit = 10 ** (self.config.gain_limit_db / 20)
-        self._gains_capped += int((found > limit).sum())
-        return np.minimum(found, limit)
 
-    def _prepare(self) -> PropagationField:
-        model: PropagationModel = self.config.propagation
-        excitations = [
-            Excitation(key, loop.frequency_raw_hz, loop.frequency_tactile_hz, _mass_kg(self._bodies.get(key)))
-            for key, loop in self._sources.loops().items()
-        ]
-        self._fields_prepared += 1
-        return model.prepare(ContactNetwork(self._bodies, self._graph.contacts), excitations, self.config.bands)
-
-
-def _bodies(scene: SceneSnapshot, bundle: HapticBundle) -> dict[str, Body]:
-    """The plate of every object whose material and thickness are known."""
-    bodies: dict[str, Body] = {}
-    for item in scene.objects:
-        haptics = bundle.objects.get(item.id)
-        if haptics is not None and haptics.material is not None and all(edge > 0 for edge in haptics.estimated_size_m):
-            bodies[item.id] = Plate(*haptics.estimated_size_m, haptics.material)
-    return bodies
-
-
-def _mass_kg(body: Body | None) -> float:
-    if isinstance(body, Plate):
-        return body.length_m * body.width_m * body.thickness_m * body.material.density_kg_m3
-    return body.mass_kg if body is not None else 1.0
+def _distinct(hands: Sequence[str]) -> tuple[str, ...]:
+    names = tuple(hands)
+    if not names or len(set(names)) < len(names):
+        raise ConfigError(f"hands is {names!r}; it must be at least one name, each once.")
+    return names

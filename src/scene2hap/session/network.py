@@ -2,59 +2,74 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
+from functools import lru_cache
 
-from scene2hap.audio.haptic_loop import HapticLoop
-from scene2hap.bundle import HapticBundle
+from scene2hap.haptics import ObjectHaptics
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.protocol import Body, ContactNetwork, Excitation
+from scene2hap.propagation.protocol import Body, Excitation
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot
+from scene2hap.scene.snapshot import DominantSurface, SceneObject
+from scene2hap.session.sources import LoopRow
 
 UNKNOWN_MASS_KG = 1.0
 """Mass of a source whose material nobody knows."""
 
 
-def bodies_of(scene: SceneSnapshot, bundle: HapticBundle) -> dict[str, Body]:
-    """The plate of every object whose material and thickness are known."""
-    bodies: dict[str, Body] = {}
-    for item in scene.objects:
-        haptics = bundle.objects.get(item.id)
-        if haptics is not None and haptics.material is not None and all(edge > 0 for edge in haptics.estimated_size_m):
-            bodies[item.id] = Plate(*haptics.estimated_size_m, haptics.material)
-    return bodies
+def body_of(haptics: ObjectHaptics | None) -> Plate | None:
+    """The plate of an object whose material and thickness are known."""
+    if haptics is None or haptics.material is None or not all(edge > 0 for edge in haptics.estimated_size_m):
+        return None
+    return Plate(*haptics.estimated_size_m, haptics.material)
 
 
-def network_of(
-    scene: SceneSnapshot, bodies: Mapping[str, Body], poses: Mapping[str, Pose], contacts: Sequence[Contact]
-) -> ContactNetwork:
-    """The network of a scene whose objects are at `poses` now."""
-    placed = {
-        item.id: plate_pose(item, poses[item.id], body)
-        for item in scene.objects
-        if isinstance(body := bodies.get(item.id), Plate)
-    }
-    return ContactNetwork(bodies, contacts, placed)
+class PlatePoses(Mapping[str, Pose]):
+    """Where the corner of each object's plate is, worked out when first asked for.
 
-
-def plate_pose(item: SceneObject, pose: Pose, plate: Plate) -> Pose:
-    """Where the corner of an object's plate is, for the object at `pose`.
-
-    A plate whose size was corrected shares its middle with the surface that was measured.
+    A model asks for a few of many, and in its own thread.
     """
-    surface = item.surface
-    middle = ((surface.length_m - plate.length_m) / 2, (surface.width_m - plate.width_m) / 2, 0.0)
-    return pose.compose(surface.pose).compose(Pose(middle))
+
+    def __init__(
+        self, objects: Mapping[str, SceneObject], bodies: Mapping[str, Body], poses: Mapping[str, Pose]
+    ) -> None:
+        self._objects, self._bodies, self._poses = objects, bodies, poses
+        self._known: dict[str, Pose] = {}
+
+    def __getitem__(self, object_id: str) -> Pose:
+        found = self._known.get(object_id)
+        if found is None:
+            body = self._bodies[object_id]
+            if not isinstance(body, Plate):
+                raise KeyError(object_id)
+            corner = _corner(self._objects[object_id].surface, body.length_m, body.width_m)
+            found = self._known[object_id] = self._poses[object_id].compose(corner)
+        return found
+
+    def __contains__(self, object_id: object) -> bool:
+        return isinstance(object_id, str) and isinstance(self._bodies.get(object_id), Plate)
+
+    def __iter__(self) -> Iterator[str]:
+        return (object_id for object_id, body in self._bodies.items() if isinstance(body, Plate))
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
 
 
-def excitations_of(loops: Mapping[str, HapticLoop], bodies: Mapping[str, Body]) -> list[Excitation]:
+@lru_cache(maxsize=4096)
+def _corner(surface: DominantSurface, length_m: float, width_m: float) -> Pose:
+    """A plate whose size was corrected shares its middle with the surface that was measured."""
+    middle = ((surface.length_m - length_m) / 2, (surface.width_m - width_m) / 2, 0.0)
+    return surface.pose.compose(Pose(middle))
+
+
+def excitations_of(rows: Iterable[LoopRow], bodies: Mapping[str, Body]) -> tuple[Excitation, ...]:
     """One excitation per source, in their order."""
-    return [
+    return tuple(
         Excitation(
-            source_id,
-            loop.frequency_raw_hz,
-            loop.frequency_tactile_hz,
-            bodies[source_id].mass_kg if source_id in bodies else UNKNOWN_MASS_KG,
+            row.source_id,
+            row.loop.frequency_raw_hz,
+            row.loop.frequency_tactile_hz,
+            bodies[row.source_id].mass_kg if row.source_id in bodies else UNKNOWN_MASS_KG,
         )
-        for source_id, loop in loops.items()
-    ]
+        for row in rows
+    )

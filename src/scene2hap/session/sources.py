@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
 
 from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
-from scene2hap.bundle import HapticBundle
-from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import SessionError, UnknownObject
+from scene2hap.haptics import ObjectHaptics
 from scene2hap.session.config import MAX_GAIN_DB
 from scene2hap.session.frame import unknown_source
 
@@ -36,84 +38,106 @@ class Level:
         return 0.0 if self.is_muted else self.factor_unmuted
 
 
+@dataclass(frozen=True, eq=False)
+class LoopRow:
+    """One state of one source: what the mix has a row of loops for. Each is itself alone, whatever its names."""
+
+    source_id: str
+    state: str
+    loop: HapticLoop
+
+
 @dataclass
-class _Source:
+class Source:
+    """A vibrating object; `needs` tells the contact that each state needs, by category or id."""
+
+    rows: Mapping[str, LoopRow]
+    needs: Mapping[str, str | None]
     state: str
     is_on: bool = True
     level: Level = field(default_factory=Level)
 
+    @property
+    def row(self) -> LoopRow:
+        """The row of the state that it is in."""
+        return self.rows[self.state]
+
 
 class Sources:
-    """The sources of a bundle, in its order; all on at first, each in its first state."""
+    """The sources that are there now, in the order in which they came; each is on at first, in its first state."""
 
-    def __init__(self, bundle: HapticBundle) -> None:
-        self._bundle = bundle
-        self._sources = {
-            object_id: _Source(next(iter(states)), level=Level(10 ** (bundle.gain_db(object_id) / 20)))
-            for object_id, states in bundle.loops.items()
-        }
-        self.ids = tuple(self._sources)
+    def __init__(self) -> None:
+        self._sources: dict[str, Source] = {}
+        self.ids: tuple[str, ...] = ()
         self.user = Level()
-        self._rows = [(object_id, state) for object_id, states in bundle.loops.items() for state in states]
+        self._active_rows: tuple[LoopRow, ...] = ()
 
-    def loop(self, source_id: str) -> HapticLoop:
-        """The loop of the state that the source is in."""
-        return self._bundle.loops[source_id][self._sources[source_id].state]
+    def __contains__(self, object_id: object) -> bool:
+        return object_id in self._sources
 
-    def loops(self) -> Mapping[str, HapticLoop]:
-        """The current loop of each source."""
-        return {source_id: self.loop(source_id) for source_id in self.ids}
+    def add(
+        self, object_id: str, loops: Mapping[str, HapticLoop], haptics: ObjectHaptics | None, gain_db: float = 0.0
+    ) -> None:
+        """Take in a source with a loop for each of its states, at least one."""
+        rows = {state: LoopRow(object_id, state, loop) for state, loop in loops.items()}
+        needs = {state.name: state.needs_contact for state in haptics.states} if haptics is not None else {}
+        self._sources[object_id] = Source(rows, needs, next(iter(rows)), level=Level(10 ** (gain_db / 20)))
+        self._list()
 
-    def all_loops(self) -> list[HapticLoop]:
-        """The loop of every state of every source: the rows of the mix."""
-        return [self._bundle.loops[source_id][state] for source_id, state in self._rows]
+    def remove(self, object_id: str) -> None:
+        """Forget a source."""
+        del self._sources[object_id]
+        self._list()
 
-    def active_row(self, source_id: str) -> int:
-        """The row of the state that a source is in. Raises: UnknownObject."""
-        return self._rows.index((source_id, self._known(source_id).state))
-
-    def active_rows(self) -> list[int]:
-        """The row of each source, in their order."""
-        return [self.active_row(source_id) for source_id in self.ids]
-
-    def set_state(self, source_id: str, state: str) -> bool:
-        """Put a source into a state; true if that is another one.
-
-        Raises: UnknownObject; SessionError: it has no such state.
-        """
-        source = self._known(source_id)
-        states = self._bundle.loops[source_id]
-        if state not in states:
-            raise SessionError(f"{source_id!r} has no state {state!r}; it has {', '.join(map(repr, states))}.")
-        is_other = state != source.state
-        source.state = state
-        return is_other
-
-    def set(self, source_id: str, on: bool | None, gain_db: float | None, mute: bool | None) -> None:
-        """Switch a source, or set its level. Raises: UnknownObject; SessionError: the gain is out of bounds."""
-        source = self._known(source_id)
-        if on is not None:
-            source.is_on = on
-        source.level.set(gain_db, mute)
-
-    def factor(self, source_id: str, graph: ContactGraph) -> float:
-        """What the source's signal is multiplied with now: 0 when off, muted, or without the contact it needs."""
-        source = self._sources[source_id]
-        if not source.is_on or not self._has_needed_contact(source_id, graph):
-            return 0.0
-        return source.level.factor * self.user.factor
-
-    def _known(self, source_id: str) -> _Source:
+    def __getitem__(self, source_id: str) -> Source:
+        """A source. Raises: UnknownObject."""
         try:
             return self._sources[source_id]
         except KeyError:
             raise UnknownObject(unknown_source(source_id, self.ids)) from None
 
-    def _has_needed_contact(self, source_id: str, graph: ContactGraph) -> bool:
-        state = self._sources[source_id].state
-        needed = next(item.needs_contact for item in self._bundle.objects[source_id].states if item.name == state)
-        return needed is None or any(needed in (other, self._category(other)) for other in graph.neighbours(source_id))
+    def rows(self) -> list[LoopRow]:
+        """The row of every state of every source."""
+        return [row for source in self._sources.values() for row in source.rows.values()]
 
-    def _category(self, object_id: str) -> str:
-        haptics = self._bundle.objects.get(object_id)
-        return haptics.object_category if haptics else ""
+    def active_rows(self) -> tuple[LoopRow, ...]:
+        """The row of each source, in their order; the same tuple until one changes."""
+        return self._active_rows
+
+    def set(self, source_id: str, on: bool | None, state: str | None, gain_db: float | None, mute: bool | None) -> bool:
+        """Change what is not None; true if the source is in another state then.
+
+        Raises: UnknownObject; SessionError: it has no such state, or the gain is out of bounds.
+        """
+        source = self[source_id]
+        if state is not None and state not in source.rows:
+            raise SessionError(f"{source_id!r} has no state {state!r}; it has {', '.join(map(repr, source.rows))}.")
+        source.level.set(gain_db, mute)
+        if on is not None:
+            source.is_on = on
+        is_other = state is not None and state != source.state
+        if is_other:
+            source.state = state or source.state
+            self._list()
+        return is_other
+
+    def _list(self) -> None:
+        self.ids = tuple(self._sources)
+        self._active_rows = tuple(source.row for source in self._sources.values())
+
+    def factors(
+        self, neighbours: Callable[[str], Iterable[str]], category: Callable[[str], str]
+    ) -> NDArray[np.float64]:
+        """What each source's signal is multiplied with now: 0 when off, muted, or without the contact that it needs."""
+
+        def has_needed(source_id: str, source: Source) -> bool:
+            needed = source.needs.get(source.state)
+            return needed is None or any(needed in (other, category(other)) for other in neighbours(source_id))
+
+        user = self.user.factor
+        return np.array(
+            [
+                source.level.factor * user if source.is_on and has_needed(source_id, source) else 0.0
+                for source_id, source in self._sources.items()
+            ]
+        )

@@ -1,6 +1,7 @@
-"""The mixer against a slow one written out sample by sample."""
+"""The mixer against a slow one written out sample by sample, and what its threads may rely on."""
 
-import math
+import threading
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -9,126 +10,297 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from scene2hap import AudioClip, Bands
-from scene2hap.render.limiter import THRESHOLD, soft_limit
-from scene2hap.render.loop_bank import LoopBank
+from scene2hap.errors import ConfigError, SessionError
+from scene2hap.render.loop_bank import CELL, LoopBank
 from scene2hap.render.mixer import Mixer
+from slow_mixer import Changes, slow_mix
 
-RATE = 8000
+TACTILE = 8000
+RAMP_S = 0.01
 RAMP = 80
+RATES = [8000, 48000, 44100, 12000]
+TONES = [(100, 800), (250, 320), (40, 1000), (125, 64), (800, 10)]
 
 
 def tone(frequency_hz: float, n: int, amplitude: float = 0.3) -> AudioClip:
-    samples = amplitude * np.sin(2 * np.pi * frequency_hz * np.arange(n) / RATE)
-    return AudioClip(samples.astype(np.float32), RATE)
+    samples = amplitude * np.sin(2 * np.pi * frequency_hz * np.arange(n) / TACTILE)
+    return AudioClip(samples.astype(np.float32), TACTILE)
 
 
 def bank() -> LoopBank:
-    return LoopBank([tone(100, 800), tone(250, 320), tone(40, 1000)], Bands.dominant(), RATE)
+    return LoopBank([tone(*item) for item in TONES], Bands.dominant(), TACTILE)
 
 
-def slow_mix(changes: list[tuple[int, NDArray[np.float32]]], n_frames: int, n_hands: int) -> NDArray[np.float64]:
-    """One frame at a time: every change of gain on its own raised cosine, then sources, hands, limiter."""
-    loops = [clip.samples.astype(float) for clip in (tone(100, 800), tone(250, 320), tone(40, 1000))]
-    out = np.zeros((n_frames, n_hands))
-    for t in range(n_frames):
-        gains = np.zeros((n_hands, 3))
-        before = np.zeros((n_hands, 3))
-        for start, target in changes:
-            phase = min(max((t - start + 1) / RAMP, 0.0), 1.0)
-            gains += (target - before) * (0.5 - 0.5 * math.cos(math.pi * phase))
-            before = target.astype(float)
-        for hand in range(n_hands):
-            x = sum(gains[hand, s] * loop[t % len(loop)] for s, loop in enumerate(loops))
-            if abs(x) > 10 ** (-3 / 20):
-                rest = 1 - 10 ** (-3 / 20)
-                x = math.copysign(10 ** (-3 / 20) + rest * math.tanh((abs(x) - 10 ** (-3 / 20)) / rest), x)
-            out[t, hand] = x
-    return out
+def new_mixer(rate: int = 48000, n_hands: int = 2, **settings: bool) -> Mixer:
+    return Mixer(bank(), n_hands, sample_rate_hz=rate, ramp_s=RAMP_S, **settings)
 
 
-CHANGES = st.lists(
-    st.tuples(st.integers(0, 900), st.lists(st.floats(0.0, 4.0, width=32), min_size=6, max_size=6)), max_size=6
-)
-
-
-@settings(derandomize=True, deadline=None, max_examples=40)
-@given(CHANGES, st.lists(st.integers(1, 4096), min_size=1, max_size=8))
-def test_equals_the_slow_mixer_for_any_blocks(changes: list[tuple[int, list[float]]], blocks: list[int]) -> None:
-    stamped = [(start, np.array(gains, dtype=np.float32).reshape(2, 3)) for start, gains in sorted(changes)]
-    mixer = Mixer(bank(), 2, RAMP)
-    for start, gains in stamped:
-        mixer.set_gains(gains, start)
-    n_frames = 1200
-    parts, done = [], 0
+def play(mixer: Mixer, blocks: list[int], n_frames: int) -> NDArray[np.float32]:
+    parts: list[NDArray[np.float32]] = []
+    done = 0
     while done < n_frames:
-        n = min(blocks[len(parts) % len(blocks)], n_frames - done)
-        parts.append(mixer.render(n))
-        done += n
-    out = np.concatenate(parts)
+        parts.append(mixer.render(min(blocks[len(parts) % len(blocks)], n_frames - done)))
+        done += len(parts[-1])
+    return np.concatenate(parts)
+
+
+def stamped(changes: list[tuple[int, list[float]]]) -> Changes:
+    return [(start, np.array(gains, dtype=np.float32).reshape(2, -1)) for start, gains in sorted(changes)]
+
+
+# Gains of 0 are drawn often, so that loops come into use and go out of it.
+GAIN = st.one_of(st.just(0.0), st.floats(0.0, 4.0, width=32))
+CHANGES = st.lists(
+    st.tuples(st.integers(0, 5000), st.lists(GAIN, min_size=2 * len(TONES), max_size=2 * len(TONES))), max_size=6
+)
+BLOCKS = st.lists(st.integers(1, 4096), min_size=1, max_size=8)
+
+
+@settings(derandomize=True, deadline=None, max_examples=30)
+@given(CHANGES, BLOCKS, st.sampled_from(RATES))
+def test_equals_the_slow_mixer_for_any_blocks(
+    changes: list[tuple[int, list[float]]], blocks: list[int], rate: int
+) -> None:
+    n_frames = 6000
+    mixer = new_mixer(rate)
+    for start, gains in stamped(changes):
+        mixer.set_gains(gains, start)
+    out = play(mixer, blocks, n_frames)
+    loops = [clip.samples.astype(np.float64) for clip in (tone(*item) for item in TONES)]
+    expected = slow_mix(loops, stamped(changes), n_frames, 2, ramp=RAMP, rate_in_hz=TACTILE, rate_out_hz=rate)
     assert out.dtype == np.float32
-    np.testing.assert_allclose(out, slow_mix(stamped, n_frames, 2), atol=1e-6)
+    np.testing.assert_allclose(out, expected, atol=1e-6)
 
 
-def test_silence_before_the_first_gain() -> None:
-    assert not Mixer(bank(), 2, RAMP).render(5000).any()
+@settings(derandomize=True, deadline=None, max_examples=30)
+@given(CHANGES, BLOCKS, st.sampled_from([*RATES, 11025, 16001]))
+def test_blocks_of_any_size_give_the_same_bits(
+    changes: list[tuple[int, list[float]]], blocks: list[int], rate: int
+) -> None:
+    whole, cut = new_mixer(rate), new_mixer(rate)
+    for mixer in (whole, cut):
+        for start, gains in stamped(changes):
+            mixer.set_gains(gains, start)
+    np.testing.assert_array_equal(play(cut, blocks, 6000), whole.render(6000))
+
+
+@pytest.mark.parametrize("block", [1, 7, 128, 4096])
+def test_gains_that_arrive_just_in_time_give_the_same_bits(block: int) -> None:
+    rng = np.random.default_rng(block)
+    changes = [(int(at), rng.uniform(0, 1, (2, len(TONES))).astype(np.float32)) for at in range(5, 9000, 731)]
+    early, late = new_mixer(), new_mixer()
+    for at, gains in changes:
+        early.set_gains(gains, at)
+    parts = []
+    while late.position < 9000:
+        for at, gains in changes:
+            if late.position <= at < late.position + block:
+                late.set_gains(gains, at)
+        parts.append(late.render(block))
+    np.testing.assert_array_equal(np.concatenate(parts)[:9000], early.render(9000))
+
+
+def test_true_bands_at_a_kilohertz_of_updates() -> None:
+    rng = np.random.default_rng(3)
+    clips = [AudioClip(rng.uniform(-0.1, 0.1, n).astype(np.float32), TACTILE) for n in (4000, 3001)]
+    bands = Bands.third_octaves()
+    stored = LoopBank(clips, bands, TACTILE)
+    rows = [row for loop in range(2) for row in read(stored, loop, 0, len(clips[loop].samples))]
+    changes = [(frame, rng.uniform(0, 1, (2, 40)).astype(np.float32)) for frame in range(0, 4800, 48)]
+    mixer = Mixer(stored, 2, sample_rate_hz=48000, ramp_s=RAMP_S)
+    for frame, gains in changes:
+        mixer.set_gains(gains, frame)
+    expected = slow_mix(
+        [row.astype(np.float64) for row in rows], changes, 4800, 2, ramp=RAMP, rate_in_hz=TACTILE, rate_out_hz=48000
+    )
+    np.testing.assert_allclose(mixer.render(4800), expected, atol=1e-6)
+    assert mixer.stats.changes_merged == 0
+
+
+def read(stored: LoopBank, loop: int, start: int, n: int) -> NDArray[np.float32]:
+    cells = [np.zeros((stored.n_bands, CELL), dtype=np.float32) for _ in range(-(-n // CELL))]
+    for i, cell in enumerate(cells):
+        stored.fill(loop, start + i * CELL, cell)
+    return np.concatenate(cells, axis=1)[:, :n]
+
+
+def test_skipping_silent_loops_changes_nothing_that_counts_and_is_counted() -> None:
+    def run(skip_silent: bool) -> Mixer:
+        mixer = new_mixer(skip_silent=skip_silent)
+        for frame, loop in ((0, 0), (3000, 1), (3100, 0), (9000, 4)):
+            gains = np.zeros((2, len(TONES)), dtype=np.float32)
+            gains[0, loop] = 0.5
+            mixer.set_gains(gains, frame)
+        return mixer
+
+    skipping, full = run(True), run(False)
+    # Other rows stand beside it in the sum, so that a BLAS may add them in another order.
+    np.testing.assert_allclose(skipping.render(20000), full.render(20000), atol=1e-7)
+    assert full.stats.rows_skipped == 0
+    assert skipping.stats.rows_mixed + skipping.stats.rows_skipped == full.stats.rows_mixed
+    # One loop of five at a time, and two while one fades into the other.
+    assert skipping.stats.rows_skipped > 0.7 * full.stats.rows_mixed
+
+
+def test_silence_before_the_first_gain_and_after_the_last() -> None:
+    mixer = new_mixer()
+    assert not mixer.render(5000).any()
+    assert mixer.stats.rows_mixed == 0
+    mixer.set_gains(np.ones((2, len(TONES)), dtype=np.float32), 0)
+    assert mixer.render(5000).any()
+    mixer.set_gains(np.zeros((2, len(TONES)), dtype=np.float32), 0)
+    mixer.render(1000)
+    assert not mixer.render(5000).any()
+
+
+@pytest.mark.parametrize("rate", RATES)
+def test_a_change_begins_with_the_next_tactile_sample(rate: int) -> None:
+    constant = LoopBank([AudioClip(np.full(100, 0.5, dtype=np.float32), TACTILE)], Bands.dominant(), TACTILE)
+    for frame in (96, 97, 100, 101):
+        mixer = Mixer(constant, 1, sample_rate_hz=rate, ramp_s=1 / TACTILE)
+        mixer.set_gains(np.ones((1, 1), dtype=np.float32), frame)
+        first = int(np.flatnonzero(mixer.render(400)[:, 0])[0])
+        tick = -(-frame * TACTILE // rate)
+        assert frame <= first < frame + 2 * rate / TACTILE
+        assert first == -(-tick * rate // TACTILE)
+
+
+@pytest.mark.parametrize("rate", RATES)
+def test_the_delay_is_what_it_says(rate: int) -> None:
+    mixer = new_mixer(rate, 1)
+    gains = np.zeros((1, len(TONES)), dtype=np.float32)
+    gains[0, 0] = 1.0
+    mixer.set_gains(gains, 0)
+    out = mixer.render(rate)[rate // 2 :, 0]
+    t = np.arange(rate // 2, rate) / rate
+    phase = np.angle(np.sum(out * np.exp(-2j * np.pi * 100 * t)) * 1j)
+    assert -phase / (2 * np.pi * 100) == pytest.approx(mixer.delay_s, abs=1e-6)
+    assert mixer.delay_s < 0.001
 
 
 def test_a_late_change_starts_with_the_next_frame() -> None:
-    mixer = Mixer(bank(), 1, RAMP)
+    mixer = new_mixer(8000, 1)
     mixer.render(500)
-    mixer.set_gains(np.ones((1, 3), dtype=np.float32), 100)
+    mixer.set_gains(np.full((1, len(TONES)), 0.5, dtype=np.float32), 100)
     out = mixer.render(200)[:, 0]
-    assert np.abs(np.diff(out)).max() < 0.15
+    assert np.abs(np.diff(out)).max() < 0.3
     assert np.abs(out[:3]).max() < 0.01
+    assert np.abs(out[100:]).max() > 0.2
+
+
+def test_changes_that_come_too_fast_are_merged_and_the_last_one_counts() -> None:
+    mixer, direct = new_mixer(8000), new_mixer(8000)
+    last = np.full((2, len(TONES)), 0.2, dtype=np.float32)
+    for at in range(400):
+        mixer.set_gains(np.full((2, len(TONES)), at % 2, dtype=np.float32), at)
+    mixer.set_gains(last, 400)
+    direct.set_gains(last, 400)
+    mixer.render(1000)
+    direct.render(1000)
+    assert mixer.stats.changes_merged > 200
+    np.testing.assert_allclose(mixer.render(1000), direct.render(1000), atol=1e-6)
+
+
+def test_loud_mixes_stay_within_full_scale_at_every_rate() -> None:
+    for rate in RATES:
+        mixer = new_mixer(rate)
+        mixer.set_gains(np.full((2, len(TONES)), 1e6, dtype=np.float32), 0)
+        out = mixer.render(10000)
+        assert np.isfinite(out).all()
+        assert 0.99 < np.abs(out).max() <= 1.0
+
+
+def test_nothing_to_mix() -> None:
+    empty = Mixer(LoopBank([], Bands.third_octaves(), TACTILE), 2, sample_rate_hz=48000, ramp_s=RAMP_S)
+    empty.set_gains(np.zeros((2, 0), dtype=np.float32), 0)
+    assert empty.render(1000).shape == (1000, 2)
+    assert not empty.render(0).size
 
 
 def test_position_counts_frames() -> None:
-    mixer = Mixer(bank(), 1, RAMP)
+    mixer = new_mixer()
     for n in (1, 128, 4096):
         mixer.render(n)
     assert mixer.position == 4225
 
 
-@settings(derandomize=True, deadline=None, max_examples=200)
-@given(st.lists(st.floats(-1e6, 1e6, width=32), min_size=1, max_size=50))
-def test_limiter_stays_within_full_scale_and_keeps_order(values: list[float]) -> None:
-    x = np.sort(np.array(values, dtype=np.float32))
-    y = soft_limit(x)
-    assert np.abs(y).max() <= 1.0
-    assert (np.diff(y) >= 0).all()
+def test_render_into_a_buffer_of_the_caller() -> None:
+    mixer, other = new_mixer(), new_mixer()
+    gains = np.ones((2, len(TONES)), dtype=np.float32)
+    for each in (mixer, other):
+        each.set_gains(gains, 0)
+    wide = np.zeros((300, 4), dtype=np.float32)
+    mixer.render_into(wide[:, 1:3])
+    np.testing.assert_array_equal(wide[:, 1:3], other.render(300))
+    assert not wide[:, [0, 3]].any()
 
 
-def test_limiter_leaves_quiet_samples_untouched() -> None:
-    x = np.linspace(-THRESHOLD, THRESHOLD, 1001).astype(np.float32) * np.float32(0.999999)
-    np.testing.assert_array_equal(soft_limit(np.append(x, np.float32(2.0)))[:-1], x)
+def test_gains_are_copied_when_they_are_set() -> None:
+    mixer = new_mixer()
+    gains = np.ones((2, len(TONES)), dtype=np.float32)
+    mixer.set_gains(gains, 0)
+    gains[:] = np.nan
+    assert np.isfinite(mixer.render(1000)).all()
 
 
-def test_limiter_has_no_corner() -> None:
-    x = np.linspace(0.6, 0.9, 30001)
-    slope = np.diff(soft_limit(x.astype(np.float64))) / np.diff(x)  # type: ignore[arg-type]
-    assert np.abs(np.diff(slope)).max() < 0.01
+@pytest.mark.parametrize("bad", [np.zeros((1, len(TONES))), np.full((2, len(TONES)), np.nan)])
+def test_gains_that_cannot_be_played_are_refused_where_they_are_set(bad: NDArray[np.float64]) -> None:
+    with pytest.raises(SessionError, match=r"must be finite numbers of shape \(2, 5\)"):
+        new_mixer().set_gains(bad.astype(np.float32), 0)
 
 
-def test_loops_wrap_by_themselves() -> None:
-    short = LoopBank([tone(100, 80), tone(250, 32)], Bands.dominant(), RATE)
-    read = short.read(70, 200)
-    for row, (n, clip) in enumerate(((80, tone(100, 80)), (32, tone(250, 32)))):
-        np.testing.assert_array_equal(read[row], clip.samples[(70 + np.arange(200)) % n])
+def test_bad_rates() -> None:
+    with pytest.raises(ConfigError, match="sample_rate_hz is 4000 Hz; it must be at least 8000"):
+        new_mixer(4000)
+    with pytest.raises(ConfigError, match="ramp_s is 0 s"):
+        Mixer(bank(), 1, sample_rate_hz=8000, ramp_s=0.0)
 
 
-@pytest.mark.parametrize("rate", [2000, 6000, 11025, 48000])
-def test_a_loop_of_another_rate_keeps_its_sound(rate: int) -> None:
-    # 80 Hz over 0.5 s: 40 whole cycles at any rate.
-    resampled = LoopBank([tone(80, 4000)], Bands.dominant(), rate)
-    n = resampled.length(0)
-    assert n == round(0.5 * rate)
-    t = np.arange(n) / n * 0.5
-    np.testing.assert_allclose(resampled.read(0, n)[0], 0.3 * np.sin(2 * np.pi * 80 * t), atol=1e-5)
+def test_little_is_allocated_and_nothing_kept() -> None:
+    mixer = new_mixer()
+    rng = np.random.default_rng(0)
+    gains = [rng.uniform(0, 1, (2, len(TONES))).astype(np.float32) for _ in range(8)]
+    out = np.zeros((128, 2), dtype=np.float32)
+
+    def run(n_blocks: int) -> int:
+        worst = 0
+        for block in range(n_blocks):
+            mixer.set_gains(gains[block % 8], mixer.position)
+            tracemalloc.reset_peak()
+            before = tracemalloc.get_traced_memory()[0]
+            mixer.render_into(out)
+            worst = max(worst, tracemalloc.get_traced_memory()[1] - before)
+        return worst
+
+    tracemalloc.start()
+    try:
+        run(200)
+        held = tracemalloc.get_traced_memory()[0]
+        assert run(200) <= 4096
+        assert tracemalloc.get_traced_memory()[0] - held < 2048
+    finally:
+        tracemalloc.stop()
 
 
-def test_bands_of_a_loop_are_rows_that_add_up() -> None:
-    clip = AudioClip(np.random.default_rng(1).uniform(-0.5, 0.5, 4000).astype(np.float32), RATE)
-    bands = Bands.third_octaves()
-    read = LoopBank([clip], bands, RATE).read(0, 4000)
-    assert read.shape == (20, 4000)
-    np.testing.assert_allclose(read.sum(axis=0), clip.samples, atol=1e-5)
+def test_setting_gains_while_rendering() -> None:
+    mixer = new_mixer(48000, 1)
+    done = threading.Event()
+    n_set = 0
+
+    def game() -> None:
+        nonlocal n_set
+        while not done.is_set():
+            mixer.set_gains(np.full((1, len(TONES)), 0.1 * (n_set % 10), dtype=np.float32), mixer.position)
+            n_set += 1
+            done.wait(0.0002)
+
+    thread = threading.Thread(target=game)
+    thread.start()
+    out = np.concatenate([mixer.render(128) for _ in range(2000)])
+    done.set()
+    thread.join()
+    assert n_set > 10
+    assert np.isfinite(out).all()
+    # Twice the steepest that the loops can be at the loudest gain: no step, however the threads meet.
+    steepest = 0.9 * 0.3 * 2 * np.pi * sum(frequency for frequency, _ in TONES) / 48000
+    assert np.abs(np.diff(out[:, 0])).max() < 2 * steepest

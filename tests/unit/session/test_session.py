@@ -16,6 +16,7 @@ from scene2hap import (
     materials,
 )
 from scene2hap.errors import ConfigError, SessionError, UnknownObject
+from scene2hap.render.safety import SafetyLayer
 from scenes import RATE, table_with_two_phones
 
 CONFIG = {"sample_rate_hz": RATE}
@@ -209,14 +210,16 @@ def test_nothing_is_prepared_again_at_rest() -> None:
     assert s.stats.updates == 20
 
 
-def test_sinks_get_the_mix(tmp_path: object) -> None:
+def test_sinks_get_the_mix_through_the_safety_layer() -> None:
     sink = MemorySink()
     with HapticSession(*table_with_two_phones(), CONFIG, sink=sink) as s:
         s.update(touches=[ON_TABLE])
         sink.pull(1000)
     alone = session()
     alone.update(touches=[ON_TABLE])
-    np.testing.assert_array_equal(sink.samples, alone.render(1000))
+    safe = SafetyLayer(s.config.actuator, RATE, 2).process(alone.render(1000))
+    np.testing.assert_array_equal(sink.samples[:1000], safe)
+    assert np.abs(safe).max() > 0.001
 
 
 def test_a_run_that_fails_leaves_no_wav(tmp_path: object) -> None:

@@ -1,0 +1,108 @@
+"""From the tactile rate to the session's, without a seam between cells.
+
+    y[m] = sum_j h[p + j up] x[q - j]        q = m down // up,  p = m down mod up,  up / down = f_out / f_in
+
+h is a Kaiser-windowed low-pass at rate up f_in: flat to 1 kHz, and images (which lie above f_in / 2) at -80 dB or less.
+It is symmetric, so the delay is one number for all frequencies. Output m needs nothing later than input q, which is not
+later than m itself: filtering looks back only.
+
+The outputs of a cell are one product Y = X B^T with a banded matrix, the same for every cell if the rates divide, else
+one of few. Its shape is the same for every cell, so that the bits do not depend on how outputs are asked for.
+
+Source: Crochiere and Rabiner, Multirate Digital Signal Processing (1983), section 2.3.
+Symbols: x, X inputs, y, Y outputs, h taps, B matrix, m frame of the output, q sample of the input, p phase.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.render.loop_bank import CELL
+
+PASS_HZ = 1000.0
+"""Nothing above is felt, so the filter may begin to fall here."""
+
+IMAGE_DB = 80.0
+
+_MOST_KEPT = 64
+"""Matrices that are kept; 44.1 kHz has 10. Rates that hardly divide have up to f_in, made as they are needed."""
+
+Block = NDArray[np.float32]
+
+
+class Upsampler:
+    """A streaming converter for n_channels that takes its input in cells of CELL samples; f_out >= f_in.
+
+    `cell` (n_channels, CELL) is where input belongs; `delay_s` is how long a signal takes through. With equal rates
+    samples pass untouched and without delay.
+    """
+
+    def __init__(self, rate_in_hz: int, rate_out_hz: int, n_channels: int) -> None:
+        # scipy.linalg is slow to import, and whoever imports a session may not play it.
+        from scipy.linalg.blas import sgemm
+
+        self._sgemm = sgemm
+        common = math.gcd(rate_in_hz, rate_out_hz)
+        self._up, self._down = rate_out_hz // common, rate_in_hz // common
+        self._h = interpolation_filter(rate_in_hz, self._up)
+        self._n_taps = len(self._h) // self._up
+        self.delay_s = (len(self._h) - 1) / 2 / (rate_in_hz * self._up)
+        self._X = np.zeros((n_channels, self._n_taps - 1 + CELL), dtype=np.float32)
+        self._Y = np.zeros((n_channels, -(-CELL * self._up // self._down)), dtype=np.float32)
+        self.cell = self._X[:, self._n_taps - 1 :]
+        # The first output of a cell lies this much after its first input, in units of 1 / (up f_in).
+        n_kinds = self._down // math.gcd(self._down, CELL * self._up)
+        kinds = {self._offset(k * CELL) for k in range(n_kinds)} if n_kinds <= _MOST_KEPT else set()
+        self._kept = {offset: self._matrix(offset) for offset in kinds}
+
+    def input_of(self, frame: int) -> int:
+        """The newest input that an output needs."""
+        return frame * self._down // self._up
+
+    def first_output_of(self, sample: int) -> int:
+        """The first output that needs an input."""
+        return -(-sample * self._up // self._down)
+
+    def next_cell(self) -> None:
+        """Move on by CELL inputs; what outputs still reach back to is kept."""
+        self._X[:, :-CELL] = self._X[:, CELL:]
+
+    def outputs(self, cell_begin: int) -> Block:
+        """All outputs (n_channels, n_frames) whose newest input lies in the cell; a buffer that is used again."""
+        offset = self._offset(cell_begin)
+        B = self._kept[offset] if self._kept else self._matrix(offset)
+        self._sgemm(1.0, B.T, self._X.T, 0.0, self._Y.T, 1, 0, 1)
+        return self._Y
+
+    def _offset(self, sample: int) -> int:
+        return self.first_output_of(sample) * self._down - sample * self._up
+
+    def _matrix(self, offset: int) -> Block:
+        """Taps (n_frames, n_taps - 1 + CELL) from the inputs of a cell, and those before, to its outputs."""
+        B = np.zeros((self._Y.shape[1], self._X.shape[1]), dtype=np.float32)
+        for frame, row in enumerate(B):
+            newest, phase = divmod(offset + frame * self._down, self._up)
+            # The last output of some cells belongs to the next one; it is not used.
+            if newest < CELL:
+                row[newest : newest + self._n_taps] = self._h[phase :: self._up][::-1]
+        return B
+
+
+def interpolation_filter(rate_in_hz: int, up: int) -> NDArray[np.float64]:
+    """The low-pass h (n_taps * up,) at rate up * rate_in_hz, each of its phases with a gain of 1 at 0 Hz."""
+    if up == 1:
+        return np.ones(1)
+    from scipy.signal import firwin, kaiserord
+
+    nyquist_hz = rate_in_hz / 2
+    pass_hz = min(PASS_HZ, 0.8 * nyquist_hz)
+    rate_hz = rate_in_hz * up
+    # Some 2 dB to spare: Kaiser's formula is an estimate, and setting each phase to 1 costs a little.
+    n_wanted, beta = kaiserord(IMAGE_DB + 2, (nyquist_hz - pass_hz) / (rate_hz / 2))
+    n_taps = -(-n_wanted // up)
+    h = firwin(n_taps * up, (nyquist_hz + pass_hz) / 2, window=("kaiser", beta), fs=rate_hz)
+    phases = h.reshape(n_taps, up)
+    return np.asarray(phases / phases.sum(axis=0)).ravel()

@@ -1,0 +1,88 @@
+"""What of a source is worth mixing at a hand: how far each band of its loop rises over the threshold of touch.
+
+The loop is weighted by the threshold T(f), so that a vibration at the threshold has a peak of 1 whatever its frequency,
+and split into bands; p_b is the peak of band b over the whole loop. At band gains g_b no moment of it exceeds
+sum_b g_b p_b, in thresholds. A source is left out where that is below 10^(-10/20) / n for n sources, so that all that
+is left out of a hand stays, together and at every moment, 10 dB below what is felt.
+
+Bands of which less than -140 dB re full scale is left at their gain are left out as well.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from weakref import WeakKeyDictionary
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.audio.bands import split_bands
+from scene2hap.audio.levels import threshold_db
+from scene2hap.haptics import Bands
+from scene2hap.session.config import SkipConfig
+from scene2hap.session.counts import Counts
+from scene2hap.session.sources import LoopRow
+
+BELOW_THRESHOLD_DB = 10.0
+"""How far below the threshold of touch everything stays that is left out of a hand's mix."""
+SILENT = 1e-7
+"""Peak re full scale below which a band counts as silent."""
+RATE_HZ = 8000
+"""Rate at which peaks are looked for: eight samples per wave at 1 kHz miss it by a factor of cos(pi/8) at most."""
+
+
+class Audibility:
+    """Peaks of the rows of a mix.
+
+    Parameters: rows : the row of each source; skip : what to leave out.
+    """
+
+    def __init__(self, rows: Sequence[LoopRow], bands: Bands, skip: SkipConfig, counts: Counts) -> None:
+        self._skip, self._counts = skip, counts
+        peaks = np.array([_known(row, bands) for row in rows], dtype=np.float32).reshape(len(rows), 2, bands.n_bands)
+        self._felt, self._plain = peaks[:, 0].copy(), peaks[:, 1].copy()
+        self._least = np.float32(10 ** (-BELOW_THRESHOLD_DB / 20) / max(1, len(rows)))
+
+    def worth_mixing(self, gains: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Gains (n_hands, n_sources, n_bands), 0 where nothing is lost by it."""
+        if self._skip.below_threshold:
+            felt = np.add.reduce(gains * self._felt, axis=2)
+            is_out = felt < self._least
+            n_out = int(np.count_nonzero(is_out) - (felt.size - np.count_nonzero(felt)))
+            if n_out:
+                self._counts.below_threshold += n_out
+                gains = gains * ~is_out[:, :, None]
+        if self._skip.silent_bands:
+            left = gains * self._plain
+            is_out = left < SILENT
+            n_out = int(np.count_nonzero(is_out) - (left.size - np.count_nonzero(left)))
+            if n_out:
+                self._counts.silent_bands += n_out
+                gains = gains * ~is_out
+        return gains
+
+
+# Sources come and go, and what is known of their loops goes with them.
+_KNOWN: WeakKeyDictionary[LoopRow, tuple[Bands, NDArray[np.float64]]] = WeakKeyDictionary()
+
+
+def _known(row: LoopRow, bands: Bands) -> NDArray[np.float64]:
+    known = _KNOWN.get(row)
+    if known is None or known[0] != bands:
+        known = _KNOWN[row] = (bands, _peaks(row, bands))
+    return known[1]
+
+
+def _peaks(row: LoopRow, bands: Bands) -> NDArray[np.float64]:
+    """Peak of each band (2, n_bands): over the threshold of touch, then re full scale."""
+    clip = row.loop.tactile
+    spectrum = np.fft.rfft(clip.samples.astype(np.float64))
+    frequencies = np.fft.rfftfreq(len(clip.samples), 1 / clip.sample_rate_hz)
+    n = max(1, round(len(clip.samples) * RATE_HZ / clip.sample_rate_hz))
+    weights = (10 ** (-threshold_db(frequencies) / 20), np.ones(len(frequencies)))
+    weighted = [np.fft.irfft(spectrum * weight, n) * (n / len(clip.samples)) for weight in weights]
+    peaks: NDArray[np.float64] = np.array(
+        [np.abs(split_bands(samples, RATE_HZ, bands)).max(axis=1) for samples in weighted]
+    )
+    return peaks / math.cos(math.pi / 8)

@@ -1,0 +1,136 @@
+"""Why a hand feels what it feels: each source's way to it, object by object.
+
+The way is the one on which the paper's law loses least. For `ExponentialPlate` that is where the gain comes from;
+other models add up all ways, of which it is the most direct. How much of the source is left at each contact on it is
+asked of the field itself, so that the decibels of the steps add up to the gain at the hand, whatever the model.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from scene2hap.session.frame import HapticFrame, Touch
+from scene2hap.session.sources import Sources
+from scene2hap.session.stage import Stage
+from scene2hap.session.touch_gains import TouchGains
+from scene2hap.session.way import Point, Way, best_way
+
+
+@dataclass(frozen=True)
+class PathStep:
+    """One object on the way: how far through it [m], and how the level changes on that [dB]."""
+
+    object_id: str
+    length_m: float
+    change_db: float
+
+    def __str__(self) -> str:
+        return f"{self.object_id} ({self.length_m:.2f} m, {self.change_db:+.1f} dB)"
+
+
+@dataclass(frozen=True)
+class FeltSource:
+    """A source that is felt at a hand.
+
+    Parameters: state, on : what it is doing, and the object on which it is felt; gain_db : what arrives of it there, in
+    the band that arrives best; level_db : its volume and the user's; band : that band; steps : from the source to the
+    touched object, empty where the law knows no way (over an object of unknown material, say).
+    """
+
+    source_id: str
+    state: str
+    on: str
+    gain_db: float
+    level_db: float
+    band: int
+    steps: tuple[PathStep, ...]
+
+    @property
+    def length_m(self) -> float:
+        """Length of the whole way [m]."""
+        return sum(step.length_m for step in self.steps)
+
+    def __str__(self) -> str:
+        volume = f", volume {self.level_db:+.1f} dB" if abs(self.level_db) >= 0.05 else ""
+        way = " -> ".join(map(str, self.steps)) or "by no way that the paper's law knows"
+        return f"{self.source_id} ({self.state}) {self.gain_db:+.1f} dB over {self.length_m:.2f} m{volume}: {way}"
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """What a hand feels right now, the strongest first; `is_current` is false while a newer field is being prepared."""
+
+    hand: str
+    touches: tuple[str, ...]
+    felt: tuple[FeltSource, ...]
+    is_current: bool = True
+
+    @property
+    def text(self) -> str:
+        """The same in words, a line for each source."""
+        on = f"touches {', '.join(self.touches)}" if self.touches else "touches nothing"
+        late = "" if self.is_current else " (the next field is still being prepared)"
+        lines = [f"{self.hand} {on}{late}" + (":" if self.felt else " and feels nothing.")]
+        return "\n".join([*lines, *(f"  {item}" for item in self.felt)])
+
+    def to_data(self) -> dict[str, Any]:
+        """The same as plain data, for JSON."""
+        return {**asdict(self), "text": self.text}
+
+    def __str__(self) -> str:
+        return self.text
+
+
+class Explainer:
+    """Explains one moment.
+
+    Parameters: gains : asks the field in use; levels : what each source's volume comes to [-].
+    """
+
+    def __init__(
+        self, stage: Stage, sources: Sources, model: object, gains: TouchGains, levels: Mapping[str, float]
+    ) -> None:
+        self._stage, self._sources, self._model, self._gains, self._levels = stage, sources, model, gains, levels
+
+    def explain(self, hand: str, touches: Sequence[Touch], frame: HapticFrame, is_current: bool) -> Explanation:
+        """What a hand feels that was given a frame for these touches."""
+        felt = []
+        if touches and hand in frame.hands:
+            for source_id, given in zip(frame.sources, frame.gains[frame.hands.index(hand)], strict=True):
+                if given.any() and source_id in self._sources:
+                    felt.append(self._felt(source_id, int(given.argmax()), touches))
+        felt.sort(key=lambda item: -(item.gain_db + item.level_db))
+        return Explanation(hand, tuple(touch.object_id for touch in touches), tuple(felt), is_current)
+
+    def _felt(self, source_id: str, band: int, touches: Sequence[Touch]) -> FeltSource:
+        column = self._sources.ids.index(source_id)
+
+        def gain_at(object_id: str, point_m: Point) -> float:
+            return float(self._gains.of([Touch("", object_id, point_m)], self._stage.poses)[0, column, band])
+
+        touch = max(touches, key=lambda touch: gain_at(touch.object_id, touch.point_m))
+        on, point_m = touch.object_id, touch.point_m
+        way = best_way(source_id, on, point_m, self._stage.graph.contacts, self._stage.bodies, self._model)
+        steps = _steps(way, point_m, gain_at) if way is not None else ()
+        gain_db, level_db = decibels(gain_at(on, point_m)), decibels(self._levels.get(source_id, 0.0))
+        return FeltSource(source_id, self._sources[source_id].state, on, gain_db, level_db, band, steps)
+
+
+def decibels(gain: float) -> float:
+    """20 lg of a gain [dB], -infinity for 0."""
+    return 20 * math.log10(gain) if gain > 0 else -math.inf
+
+
+def _steps(way: Way, point_m: Point, gain_at: Callable[[str, Point], float]) -> tuple[PathStep, ...]:
+    """A step runs through its object up to the next contact; what the contact costs counts to the object behind it."""
+    steps, before_db = [PathStep(way.objects[0], 0.0, 0.0)], 0.0
+    leaves = (*way.entries, point_m)[1:]
+    for object_id, enter, leave in zip(way.objects[1:], way.entries, leaves, strict=True):
+        after_db = decibels(gain_at(object_id, leave))
+        change_db = after_db - before_db if math.isfinite(before_db) else 0.0
+        steps.append(PathStep(object_id, math.dist(enter, leave), change_db))
+        before_db = after_db
+    return tuple(steps)

@@ -1,0 +1,114 @@
+"""The way from a session to its sink: through the safety layer, faded at both ends."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+from scene2hap.devices import SINKS
+from scene2hap.devices.clock import has_clock
+from scene2hap.devices.protocol import ActuatorSink, Fill, SinkFormat
+from scene2hap.errors import ConfigError, DeviceError, SessionError
+from scene2hap.render.safety import FADE_OUT_S, SafetyLayer, SafetyStats
+from scene2hap.session.config import SessionConfig
+from scene2hap.session.frame import HapticFrame
+
+LONGEST_FADE_OUT_S = 0.25
+"""How long `stop` waits for a sink to take the fade; one without its device may never do."""
+
+
+class Output:
+    """A sink with the safety layer before it.
+
+    Raises: ConfigError: the sink lacks a method, or as the sink's own constructor.
+    """
+
+    def __init__(self, sink: ActuatorSink | str | Mapping[str, Any] | None, config: SessionConfig) -> None:
+        built = SINKS.build(sink) if sink is not None else None
+        if built is not None and not isinstance(built, ActuatorSink):
+            raise ConfigError(f"sink is {built!r}; it must have open, start, stop, close and stats.")
+        self._sink = built
+        self._config = config
+        self._safety: SafetyLayer | None = None
+        self._show: Callable[[HapticFrame], None] | None = getattr(built, "show", None)
+
+    @property
+    def exists(self) -> bool:
+        """Whether there is a sink."""
+        return self._sink is not None
+
+    @property
+    def safety_stats(self) -> SafetyStats:
+        """What the safety layer of a started sink had to change."""
+        return self._safety.stats if self._safety is not None else SafetyStats()
+
+    def feed(self, frame: HapticFrame) -> None:
+        """Tell the watchdog that the game is alive, and the sink what was decided."""
+        if self._safety is not None:
+            self._safety.feed()
+            self.show(frame)
+
+    def show(self, frame: HapticFrame) -> None:
+        """Hand a frame to a started sink that wants gains."""
+        if self._safety is not None and self._show is not None:
+            self._show(frame)
+
+    def start(self, fill: Fill, hands: Sequence[str]) -> None:
+        """Send what `fill` gives through the safety layer to the sink.
+
+        Raises: SessionError: there is no sink; DeviceError: it cannot be opened; ConfigError: the actuator's budget is
+        out of bounds.
+        """
+        if self._sink is None:
+            raise SessionError("this session has no sink; give one to HapticSession(..., sink=), or call render.")
+        rate = self._config.sample_rate_hz
+        watchdog_s = self._config.watchdog_s if has_clock(self._sink) else None
+        self._safety = SafetyLayer(self._config.actuator, rate, len(hands), watchdog_s=watchdog_s)
+        self._sink.open(SinkFormat(rate, tuple(hands)))
+        self._sink.start(self._safety.guard(fill))
+
+    def stop(self) -> None:
+        """Fade out, stop the sink and give it back; may be called twice."""
+        if self._sink is not None:
+            self._fade_out()
+            self._sink.stop()
+            self._sink.close()
+
+    def abort(self) -> None:
+        """Stop after a failure. A sink that can tell it from a finished run leaves no half-written file behind."""
+        if self._sink is not None:
+            if has_clock(self._sink):
+                self._fade_out()
+            self._safety = None
+            getattr(self._sink, "abort", self.stop)()
+
+    @contextlib.contextmanager
+    def reopened_for(self, hands: Sequence[str], fill: Fill) -> Iterator[None]:
+        """Let channels change: a started sink is faded out and stopped before, and opened anew after.
+
+        Raises: SessionError: what a started sink writes has its channels once and for all; and as `start`.
+        """
+        was_started = self._safety is not None
+        if was_started and self._sink is not None and not has_clock(self._sink):
+            raise SessionError(
+                f"{type(self._sink).__name__} has one channel per hand from its start, so that hands cannot come or go "
+                "while it runs. Name all hands when the session is made, or stop it first."
+            )
+        if was_started:
+            self.stop()
+        yield
+        if was_started:
+            self.start(fill, hands)
+
+    def _fade_out(self) -> None:
+        safety, self._safety = self._safety, None
+        if safety is None or self._sink is None:
+            return
+        safety.release()
+        if has_clock(self._sink):
+            safety.silent.wait(LONGEST_FADE_OUT_S)
+        else:
+            # Closed by its owner already, it takes no more.
+            with contextlib.suppress(DeviceError):
+                self._sink.pull(round(FADE_OUT_S * self._config.sample_rate_hz))  # type: ignore[attr-defined]

@@ -1,0 +1,210 @@
+"""The mix of a session, as loops and hands come and go, paused or not.
+
+Almost always it is one mixer. Loops go to free slots of it (`slot_bank`); a new hand, or more loops than there are
+slots, get a mixer of their own, in phase with the first, and what they play is added.
+
+Threads: `render` belongs to the audio thread, everything else to the game's. The audio thread reads one plan, which is
+replaced and never changed; neither waits for the other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.devices.protocol import Block
+from scene2hap.render.limiter import soft_limit
+from scene2hap.render.loop_bank import LoopBank
+from scene2hap.session.config import MIN_RAMP_S, SessionConfig
+from scene2hap.session.deck import Deck
+from scene2hap.session.slot_bank import SlotBank
+from scene2hap.session.sources import LoopRow
+
+SPARE_SLOTS = 16
+"""Empty slots of a new bank, at least; as many again as there are loops, if that is more."""
+
+Indices = NDArray[np.intp]
+
+
+_Route = tuple[Deck, list[int] | None, list[int], list[int], Indices | None]
+"""A deck, which sources it plays and in which slots, on which of its outputs, and of which channels; None for all."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Plan:
+    """What is played: each deck, the outputs of it that are heard, and the channels to which they go."""
+
+    n_channels: int
+    decks: tuple[tuple[Deck, Indices, Indices], ...]
+
+
+@dataclass(eq=False)
+class _Place:
+    """Where a loop is; `free_at` is the frame from which on nothing of it can be left, once it was given up."""
+
+    bank: SlotBank
+    slot: int
+    free_at: int = 0
+
+
+class Playback:
+    """The running mix.
+
+    Parameters: rows : loops that gains may be set for; n_hands : outputs.
+    """
+
+    def __init__(self, config: SessionConfig, rows: Sequence[LoopRow], n_hands: int) -> None:
+        self._config = config
+        self._tactile_rate_hz = min(config.tactile_rate_hz, config.sample_rate_hz)
+        self._position = 0
+        self._paused_from: int | None = None
+        self._frozen_at: int | None = None
+        self._hands = list(range(n_hands))
+        self._next_hand = n_hands
+        self._places: dict[LoopRow, _Place] = {}
+        self._retired: list[_Place] = []
+        self._routes: tuple[Sequence[LoopRow], list[_Route]] | None = None
+        self._banks = [self._new_bank(len(rows))]
+        self._decks = [Deck(config, self._banks[0], tuple(self._hands), 0)]
+        self._plan = self._new_plan()
+        # Twice the ramp, since gains that come too fast wait for each other.
+        fade_s = 2 * max(config.control_period_s, MIN_RAMP_S) + self._decks[0].mixer.delay_s + 0.01
+        self._fade_frames = round(fade_s * config.sample_rate_hz)
+        self.change_rows(rows, 0)
+
+    @property
+    def position(self) -> int:
+        """The frame that `render` gives next; it stands still in a pause."""
+        return self._position
+
+    @property
+    def is_paused(self) -> bool:
+        """Whether the mix fades or has faded to silence."""
+        return self._paused_from is not None
+
+    @property
+    def rows_not_mixed(self) -> int:
+        """Rows times cells that the mixers left out, since nothing lets them through."""
+        return sum(deck.mixer.stats.rows_skipped for deck in self._decks)
+
+    def position_s(self, row: LoopRow) -> float:
+        """Where in its loop a row is [s]."""
+        place = self._places[row]
+        loop = place.bank.slots[place.slot]
+        return loop.position_s(0, self._position, self._config.sample_rate_hz) if loop is not None else 0.0
+
+    def set_gains(self, gains: NDArray[np.float32], active: Sequence[LoopRow], at_frame: int) -> None:
+        """Move to gains (n_hands, n_sources, n_bands) of the active rows, one per source, and to 0 for all others."""
+        if self._paused_from is not None:
+            return
+        if self._routes is None or self._routes[0] is not active:
+            self._routes = (active, [self._route(active, *heard) for heard in self._plan.decks])
+        for deck, own, slots, outputs, channels in self._routes[1]:
+            told = gains if own is None else gains[:, own]
+            deck.move_to(told if channels is None else told[channels], slots, outputs, at_frame)
+
+    def _route(self, active: Sequence[LoopRow], deck: Deck, outputs: Indices, channels: Indices) -> _Route:
+        places = [self._places[row] for row in active]
+        # Decks of one bank share its slots.
+        own = [i for i, place in enumerate(places) if place.bank.slots is deck.bank.slots]
+        slots = [places[i].slot for i in own]
+        is_all = len(self._plan.decks) == 1
+        return deck, None if is_all else own, slots, outputs.tolist(), None if is_all else channels
+
+    def change_rows(self, rows: Sequence[LoopRow], at_frame: int) -> None:
+        """Go on with other rows; what is not among them any more is faded out."""
+        self._routes = None
+        wanted = set(rows)
+        gone = [self._places.pop(row) for row in list(self._places) if row not in wanted]
+        for place in gone:
+            place.free_at = at_frame + self._fade_frames
+            for deck in self._decks:
+                if deck.bank.slots is place.bank.slots:
+                    deck.fade([place.slot], at_frame)
+        self._retired = [place for place in (*self._retired, *gone) if not self._is_emptied(place)]
+        new = [row for row in rows if row not in self._places]
+        for row in new:
+            place = self._free_place(len(new))
+            place.bank.slots[place.slot] = LoopBank([row.loop.tactile], self._config.bands, self._tactile_rate_hz)
+            self._places[row] = place
+
+    def add_hand(self) -> None:
+        """One output more, the last."""
+        token, self._next_hand = self._next_hand, self._next_hand + 1
+        self._hands.append(token)
+        self._decks += [Deck(self._config, bank, (token,), self._position) for bank in self._banks]
+        self._plan = self._new_plan()
+
+    def remove_hand(self, channel: int) -> None:
+        """Take away an output."""
+        del self._hands[channel]
+        self._decks = [deck for deck in self._decks if not set(deck.hands).isdisjoint(self._hands)]
+        self._plan = self._new_plan()
+
+    def pause(self, at_frame: int) -> None:
+        """Fade to silence and then let the clock stand still."""
+        if self._paused_from is None:
+            for deck in self._decks:
+                deck.silence(at_frame)
+            self._paused_from = at_frame
+
+    def resume(self) -> None:
+        """Let the clock go on; gains are to be set anew."""
+        self._paused_from = None
+
+    def render(self, n_frames: int) -> Block:
+        """The next samples (n_frames, n_hands) float32 in [-1, 1]."""
+        plan, paused_from = self._plan, self._paused_from
+        if paused_from is None:
+            self._frozen_at = None
+            return self._render(plan, n_frames)
+        if self._frozen_at is None:
+            self._frozen_at = max(paused_from, self._position) + self._fade_frames
+        n_left = min(n_frames, max(0, self._frozen_at - self._position))
+        silence = np.zeros((n_frames - n_left, plan.n_channels), dtype=np.float32)
+        return np.concatenate([self._render(plan, n_left), silence])
+
+    def _render(self, plan: _Plan, n_frames: int) -> Block:
+        deck, outputs, _ = plan.decks[0]
+        if len(plan.decks) == 1 and len(outputs) == len(deck.hands):
+            mix = deck.render(self._position, n_frames)
+        else:
+            total = np.zeros((n_frames, plan.n_channels), dtype=np.float32)
+            for deck, outputs, channels in plan.decks:
+                total[:, channels] += deck.render(self._position, n_frames)[:, outputs]
+            mix = soft_limit(total)
+        self._position += n_frames
+        return mix
+
+    def _new_plan(self) -> _Plan:
+        self._routes = None
+        decks = []
+        for deck in self._decks:
+            heard = [(i, self._hands.index(hand)) for i, hand in enumerate(deck.hands) if hand in self._hands]
+            outputs, channels = np.array(heard, dtype=np.intp).reshape(-1, 2).T
+            decks.append((deck, outputs, channels))
+        return _Plan(len(self._hands), tuple(decks))
+
+    def _new_bank(self, n_rows: int) -> SlotBank:
+        n_slots = n_rows + max(SPARE_SLOTS, n_rows)
+        return SlotBank([None] * n_slots, self._config.bands, self._tactile_rate_hz)
+
+    def _is_emptied(self, place: _Place) -> bool:
+        """Empty a slot whose loop has faded."""
+        is_over = place.free_at <= self._position
+        if is_over:
+            place.bank.slots[place.slot] = None
+        return is_over
+
+    def _free_place(self, n_wanted: int) -> _Place:
+        for bank in self._banks:
+            if None in bank.slots:
+                return _Place(bank, bank.slots.index(None))
+        bank = self._new_bank(n_wanted)
+        self._banks.append(bank)
+        self._decks.append(Deck(self._config, bank, tuple(self._hands), self._position))
+        self._plan = self._new_plan()
+        return _Place(bank, 0)

@@ -1,0 +1,46 @@
+"""Loops that come and go under a running mixer.
+
+A mixer reads a fixed number of loops. Some of these slots are empty; a mixer reads none that its gains do not let
+through, so that an empty one costs nothing, and may be filled while it plays.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.haptics import Bands
+from scene2hap.render.loop_bank import LoopBank
+
+
+class SlotBank(LoopBank):
+    """A `LoopBank` of places.
+
+    Parameters: slots : a bank of one loop for each place, None for an empty one; shift : tactile samples by which the
+    clock of its mixer lags the session's.
+    """
+
+    def __init__(self, slots: list[LoopBank | None], bands: Bands, sample_rate_hz: int, shift: int = 0) -> None:
+        super().__init__((), bands, sample_rate_hz)
+        self.slots = slots
+        self._bands, self._shift = bands, shift
+
+    def shifted(self, shift: int) -> SlotBank:
+        """The same places, for a mixer that began that many tactile samples after the session."""
+        return SlotBank(self.slots, self._bands, self.sample_rate_hz, shift)
+
+    def __len__(self) -> int:
+        return len(self.slots)
+
+    @property
+    def nbytes(self) -> int:
+        """Memory that the loops take [byte]."""
+        return sum(bank.nbytes for bank in self.slots if bank is not None)
+
+    def fill(self, loop: int, begin: int, out: NDArray[np.float32]) -> None:
+        """See `LoopBank`; silence from an empty slot."""
+        bank = self.slots[loop]
+        if bank is None:
+            out.fill(0.0)
+        else:
+            bank.fill(0, begin + self._shift, out)

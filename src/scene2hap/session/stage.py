@@ -1,0 +1,93 @@
+"""What is there now: objects, what they are made of, where they are, and who touches whom."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeVar
+
+from scene2hap.bundle import HapticBundle
+from scene2hap.contact.graph import ContactChange, ContactGraph
+from scene2hap.haptics import ObjectHaptics
+from scene2hap.propagation.protocol import Body, ContactNetwork
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import SceneObject, SceneSnapshot
+from scene2hap.session.network import PlatePoses, body_of
+from scene2hap.session.reach import Reach
+
+Thing = TypeVar("Thing")
+
+
+class Stage:
+    """The objects of a session. Its mappings are replaced, never changed, so that another thread may go on reading."""
+
+    def __init__(self, scene: SceneSnapshot, bundle: HapticBundle) -> None:
+        self._scene = scene
+        self.objects: Mapping[str, SceneObject] = {item.id: item for item in scene.objects}
+        self.haptics: Mapping[str, ObjectHaptics] = bundle.objects
+        bodies = ((object_id, body_of(bundle.objects.get(object_id))) for object_id in self.objects)
+        self.bodies: Mapping[str, Body] = {object_id: body for object_id, body in bodies if body is not None}
+        self.graph = ContactGraph(scene)
+
+    @property
+    def snapshot(self) -> SceneSnapshot:
+        """The scene as it is now."""
+        scene = SceneSnapshot(self._scene.name, self._scene.up_axis, tuple(self.objects.values()))
+        return scene.with_poses(self.graph.poses)
+
+    @property
+    def bodiless(self) -> tuple[str, ...]:
+        """Objects whose material nobody knows."""
+        return tuple(object_id for object_id in self.objects if object_id not in self.bodies)
+
+    @property
+    def poses(self) -> Mapping[str, Pose]:
+        """Where every object is; never changed, a move makes another."""
+        return self.graph.poses
+
+    def category(self, object_id: str) -> str:
+        """What an object is, empty where unknown."""
+        haptics = self.haptics.get(object_id)
+        return haptics.object_category if haptics is not None else ""
+
+    def add(self, item: SceneObject, haptics: ObjectHaptics | None) -> ContactChange:
+        """Put in an object. Raises: SceneError: its id is taken."""
+        body = body_of(haptics)
+        change = self.graph.update({}, added=[item])
+        self.objects = _with(self.objects, item.id, item)
+        self.haptics = _with(self.haptics, item.id, haptics)
+        self.bodies = _with(self.bodies, item.id, body)
+        return change
+
+    def remove(self, object_id: str) -> ContactChange:
+        """Take out an object. Raises: UnknownObject."""
+        change = self.graph.update({}, removed=[object_id])
+        self.objects = _with(self.objects, object_id, None)
+        self.haptics = _with(self.haptics, object_id, None)
+        self.bodies = _with(self.bodies, object_id, None)
+        return change
+
+    def reach(self, source_ids: Sequence[str]) -> Reach:
+        """Which of the sources reach what, as things are."""
+        return Reach(self.graph.junctions, {*self.bodies, *source_ids}, source_ids)
+
+    def network(self, reach: Reach | None) -> Callable[[], ContactNetwork]:
+        """What a model is told of this moment: everything, or only what a source reaches; put together when called.
+
+        That may be in another thread, and later: spelling out contacts costs more than an update may take.
+        """
+        objects, bodies, poses, junctions = self.objects, self.bodies, self.poses, dict(self.graph.junctions)
+
+        def put_together() -> ContactNetwork:
+            contacts = [contact for pair in sorted(junctions) for contact in junctions[pair].contacts(pair)]
+            if reach is None:
+                return ContactNetwork(bodies, contacts, PlatePoses(objects, bodies, poses))
+            reached = {object_id: body for object_id, body in bodies.items() if object_id in reach.objects}
+            return ContactNetwork(reached, reach.within(contacts), PlatePoses(objects, reached, poses))
+
+        return put_together
+
+
+def _with(mapping: Mapping[str, Thing], key: str, value: Thing | None) -> dict[str, Thing]:
+    """A copy with another value, or without the key for None."""
+    changed = {name: thing for name, thing in mapping.items() if name != key}
+    return changed if value is None else {**changed, key: value}

@@ -1,0 +1,96 @@
+"""Loops at the tactile rate: their sound, their period and their rows."""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from scene2hap import AudioClip, Bands
+from scene2hap.render.loop_bank import CELL, LoopBank
+
+TACTILE = 8000
+
+
+def tone(cycles: int, n: int, rate: int) -> AudioClip:
+    samples = 0.3 * np.sin(2 * np.pi * cycles * np.arange(n) / n)
+    return AudioClip(samples.astype(np.float32), rate)
+
+
+def read(bank: LoopBank, loop: int, begin: int, n: int) -> NDArray[np.float32]:
+    """Cells from a position on."""
+    out = np.zeros((bank.n_bands, -(-n // CELL) * CELL), dtype=np.float32)
+    for at in range(0, n, CELL):
+        bank.fill(loop, begin + at, out[:, at : at + CELL])
+    return out[:, :n]
+
+
+def phase_of(x: NDArray[np.float32], begin: int, frequency_hz: float) -> complex:
+    t = (begin + np.arange(len(x))) / TACTILE
+    return complex(np.sum(x * np.hanning(len(x)) * np.exp(-2j * np.pi * frequency_hz * t)))
+
+
+def test_loops_wrap_by_themselves_even_when_shorter_than_a_cell() -> None:
+    clips = [AudioClip(np.linspace(-0.5, 0.5, n).astype(np.float32), TACTILE) for n in (1, 7, 80, 100)]
+    bank = LoopBank(clips, Bands.dominant(), TACTILE)
+    for loop, clip in enumerate(clips):
+        n = len(clip.samples)
+        np.testing.assert_array_equal(read(bank, loop, 70, 200)[0], clip.samples[(70 + np.arange(200)) % n])
+
+
+@pytest.mark.parametrize("rate", [4000, 11025, 22050, 44100, 48000, 96000])
+def test_a_loop_of_another_rate_keeps_its_sound(rate: int) -> None:
+    bank = LoopBank([tone(32, rate * 2 // 5, rate)], Bands.dominant(), TACTILE)
+    expected = 0.3 * np.sin(2 * np.pi * 80 * np.arange(4000) / TACTILE)
+    np.testing.assert_allclose(read(bank, 0, 0, 4000)[0], expected, atol=1e-6)
+
+
+# Lengths at which no number of samples at 8 kHz fits: about 5, 1.3, 0.2 and 0.003 s.
+ODD = [(220_501, 44_100), (62_423, 48_000), (8_821, 44_100), (133, 44_100), (55_127, 11_025)]
+
+
+@pytest.mark.parametrize(("n", "rate"), ODD)
+@pytest.mark.parametrize("minutes", [0, 1, 10, 600])
+def test_after_any_time_it_is_within_a_sample_of_the_loop_beside_it(n: int, rate: int, minutes: int) -> None:
+    cycles = max(1, round(100 * n / rate))
+    frequency_hz = cycles * rate / n
+    bank = LoopBank([tone(cycles, n, rate)], Bands.dominant(), TACTILE)
+    begin = minutes * 60 * TACTILE + 7
+    turn = phase_of(read(bank, 0, begin, 2400)[0], begin, frequency_hz) * 1j
+    lag_samples = -np.angle(turn) / (2 * np.pi * frequency_hz) * TACTILE
+    assert abs(lag_samples) <= 1.0
+
+
+@pytest.mark.parametrize(("n", "rate"), ODD)
+def test_keeping_step_makes_no_click(n: int, rate: int) -> None:
+    """Energy above 1 kHz, where the tone has none, over four seconds with all their slips."""
+    from scipy.signal import butter, sosfiltfilt
+
+    cycles = max(1, round(100 * n / rate))
+    bank = LoopBank([tone(cycles, n, rate)], Bands.dominant(), TACTILE)
+    x = read(bank, 0, 0, 32_000)[0].astype(np.float64)
+    high = sosfiltfilt(butter(8, 1000, "highpass", fs=TACTILE, output="sos"), x)[800:-800]
+    loudest = max(np.mean(high[at : at + 2000] ** 2) for at in range(0, len(high) - 2000, 500))
+    assert 10 * math.log10(loudest / np.mean(x**2)) < -60
+
+
+def test_position_is_that_of_the_audible_loop_however_long_it_runs() -> None:
+    n, rate = 220_501, 44_100
+    bank = LoopBank([tone(500, n, rate)], Bands.dominant(), TACTILE)
+    for frame in (0, 1, 239_999, 48_000 * 86_400 * 7 + 5):
+        exact = Fraction(frame, 48_000) % Fraction(n, rate)
+        assert bank.position_s(0, frame, 48_000) == pytest.approx(float(exact), abs=1e-12)
+
+
+def test_bands_of_a_loop_are_rows_that_add_up() -> None:
+    clip = AudioClip(np.random.default_rng(1).uniform(-0.5, 0.5, 4000).astype(np.float32), TACTILE)
+    bank = LoopBank([clip, clip], Bands.third_octaves(), TACTILE)
+    assert (len(bank), bank.n_bands, bank.n_rows) == (2, 20, 40)
+    np.testing.assert_allclose(read(bank, 0, 0, 4000).sum(axis=0), clip.samples, atol=1e-5)
+
+
+def test_memory_of_a_second_per_row() -> None:
+    clip = AudioClip(np.zeros(44_100, dtype=np.float32), 44_100)
+    bank = LoopBank([clip, clip], Bands.third_octaves(), TACTILE)
+    assert bank.nbytes == 2 * 20 * (8000 + CELL) * 4

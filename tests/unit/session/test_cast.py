@@ -1,0 +1,307 @@
+"""Objects, sources and hands that come and go while a session plays; pauses."""
+
+import gc
+
+import numpy as np
+import pytest
+
+from scene2hap import HapticSession, MemorySink, Pose, Touch
+from scene2hap.errors import ConfigError, SceneError, SessionError, UnknownObject
+from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
+
+CONFIG = {"sample_rate_hz": RATE}
+ON_TABLE = Touch("left", "table", (0.8, 0.72, 0.4))
+RIGHT_TOO = Touch("right", "table", (0.8, 0.72, 0.4))
+
+
+def session(**config: object) -> HapticSession:
+    return HapticSession(*table_with_two_phones(), {**CONFIG, **config})
+
+
+def fan() -> tuple[object, object, object]:
+    return box("fan", (0.1, 0.2, 0.1), (0.8, 0.82, 0.6)), haptics("plastic", (0.2, 0.1, 0.1), "on"), tone_loop(130)
+
+
+def steepest(*frequencies_hz: float, amplitude: float = 0.3) -> float:
+    """Largest step per sample of tones at full gain together, with a tenth to spare for their ramps."""
+    return 1.1 * sum(2 * np.pi * f * amplitude / RATE for f in frequencies_hz)
+
+
+def test_a_source_that_is_added_is_felt_like_one_that_was_there() -> None:
+    item, told, loop = fan()
+    snapshot, bundle = table_with_two_phones()
+    from dataclasses import replace
+
+    whole = replace(snapshot, objects=(*snapshot.objects, item))
+    there = HapticSession(
+        whole,
+        replace(
+            bundle, snapshot=whole, objects={**bundle.objects, "fan": told}, loops={**bundle.loops, "fan": {"on": loop}}
+        ),
+        CONFIG,
+    )
+    added = session()
+    added.add(item, told, {"on": loop})
+    assert added.source_ids == there.source_ids == ("phone", "alarm", "fan")
+    frames = [s.update(touches=[ON_TABLE]) for s in (there, added)]
+    np.testing.assert_array_equal(frames[1].gains, frames[0].gains)
+    assert frames[1].gain("left", "fan") > 0
+    np.testing.assert_array_equal(added.render(RATE), there.render(RATE))
+
+
+def test_the_others_play_on_without_a_click_as_sources_come_and_go() -> None:
+    item, told, loop = fan()
+    on_alarm = [Touch("left", "alarm", (1.5, 0.73, 0.4))]
+    changing, still = session(), session()
+    parts = []
+    for i in range(40):
+        if i % 4 == 1:
+            changing.add(item, told, {"on": loop})
+        if i % 4 == 3:
+            changing.remove("fan")
+        for s in (changing, still):
+            s.set_source("phone", on=False)
+            s.update(touches=on_alarm)
+        parts.append((changing.render(777), still.render(777)))
+    heard, expected = (np.concatenate(part) for part in zip(*parts, strict=True))
+    # The fan reaches the alarm over the table, but faintly; all else is the same to the sample.
+    assert np.abs(np.diff(heard[:, 0])).max() < steepest(160) + steepest(130, amplitude=0.03)
+    assert np.abs(heard[-777:] - expected[-777:]).max() < 0.03
+    assert changing.position_s("alarm") == still.position_s("alarm")
+
+
+def test_a_removed_source_fades_instead_of_stopping() -> None:
+    s = session()
+    on_phone = [Touch("left", "phone", (0.1, 0.73, 0.4))]
+    s.update(touches=on_phone)
+    before = s.render(4 * RATE)[-1:, 0]
+    s.remove("phone")
+    after = np.append(before, s.render(RATE)[:, 0])
+    assert np.abs(np.diff(after)).max() < steepest(100)
+    # 20 ms, and the sample at which it begins.
+    assert np.abs(after[2:60]).max() > 0.05
+    assert not after[round(0.025 * RATE) :].any()
+    frame = s.update(touches=[ON_TABLE])
+    assert frame.sources == ("alarm",)
+    with pytest.raises(UnknownObject, match="no object 'phone'"):
+        s.update(touches=on_phone)
+    with pytest.raises(UnknownObject, match="no source 'phone'"):
+        s.set_source("phone", on=True)
+
+
+def test_what_was_removed_comes_back_as_the_bundle_has_it() -> None:
+    s = session()
+    s.render(RATE // 3)
+    gains = dict(zip(s.source_ids, s.update(touches=[ON_TABLE]).gains[0], strict=True))
+    phone = s.snapshot.object("phone")
+    s.remove("phone")
+    s.add(phone)
+    assert s.source_ids == ("alarm", "phone")
+    again = s.update(touches=[ON_TABLE])
+    assert dict(zip(again.sources, again.gains[0], strict=True)) == gains
+    # All loops run on the session's clock, so that a game may start the sound where position_s says.
+    assert s.position_s("phone") == pytest.approx((RATE // 3) / RATE % 0.5)
+
+
+def test_a_thing_that_only_carries_comes_and_goes() -> None:
+    s = session()
+    s.add(box("tray", (0.4, 0.01, 0.3), (0.8, 0.725, 0.4)), haptics("steel", (0.4, 0.3, 0.01)))
+    on_tray = [Touch("left", "tray", (0.8, 0.73, 0.4))]
+    assert s.update(touches=on_tray).gain("left", "phone") > 0
+    s.update({"tray": Pose((0.8, 1.5, 0.4))})
+    assert s.update(touches=on_tray).gain("left", "phone") == 0
+    s.remove("tray")
+    assert "tray" not in {item.id for item in s.snapshot.objects}
+
+
+def test_a_held_source_shakes_the_hand_and_what_it_touches() -> None:
+    snapshot, bundle = table_with_two_phones()
+    s = HapticSession(snapshot, bundle, CONFIG)
+    # The alarm is held against the phone's side: the hand on it feels both.
+    s.update({"alarm": Pose((0.2, 0.725, 0.4))})
+    frame = s.update(touches=[Touch("left", "alarm", (0.2, 0.73, 0.4)), Touch("right", "phone", (0.1, 0.73, 0.4))])
+    assert frame.gain("left", "alarm") == frame.gain("right", "phone") == 1.0
+    assert 0.0 < frame.gain("left", "phone") < 1.0
+    assert 0.0 < frame.gain("right", "alarm") < 1.0
+    far = s.update({"alarm": Pose((0.2, 1.725, 0.4))}, [Touch("left", "alarm", (0.2, 1.73, 0.4))])
+    assert far.gain("left", "alarm") == 1.0
+    assert far.gain("left", "phone") == 0.0
+
+
+def test_more_sources_than_a_bank_has_slots_for() -> None:
+    s = session()
+    on_last = [Touch("left", "s39", (8.0 + 39, 0.0, 0.0))]
+    for i in range(40):
+        item = box(f"s{i}", (0.1, 0.1, 0.1), (8.0 + i, 0.0, 0.0))
+        s.add(item, haptics("steel", (0.1, 0.1, 0.1), "on"), {"on": tone_loop(50 + 10 * i)})
+        s.render(100)
+    assert s.update(touches=on_last).gain("left", "s39") == 1.0
+    s.render(RATE)
+    spectrum = np.abs(np.fft.rfft(s.render(RATE)[:, 0]))
+    assert int(spectrum.argmax()) == 50 + 10 * 39
+    assert spectrum.max() == pytest.approx(0.3 * RATE / 2, rel=1e-3)
+
+
+def test_slots_are_used_again() -> None:
+    s = session()
+    item, told, loop = fan()
+    for _ in range(200):
+        s.add(item, told, {"on": loop})
+        s.update(touches=[ON_TABLE])
+        s.render(RATE // 10)
+        s.remove("fan")
+    assert len(s._playback._decks) == 1
+
+
+def test_a_hand_that_is_added_feels_what_the_first_ones_feel() -> None:
+    s = session()
+    s.update(touches=[ON_TABLE])
+    s.render(1001)
+    s.add_hand("foot")
+    assert s.hands == ("left", "right", "foot")
+    frame = s.update(touches=[ON_TABLE, Touch("foot", "table", ON_TABLE.point_m)])
+    assert frame.gain("foot", "phone") == frame.gain("left", "phone") > 0
+    s.render(RATE)
+    out = s.render(RATE)
+    assert out.shape == (RATE, 3)
+    np.testing.assert_array_equal(out[:, 2], out[:, 0])
+    s.remove_hand("right")
+    assert s.update(touches=[ON_TABLE]).gains.shape[0] == 2
+    np.testing.assert_allclose(s.render(RATE)[RATE // 2 :, 0], out[RATE // 2 :, 0], atol=1e-6)
+    s.remove_hand("left")
+    s.update(touches=[Touch("foot", "table", ON_TABLE.point_m)])
+    s.render(RATE)
+    np.testing.assert_allclose(s.render(RATE)[:, 0], out[:, 2], atol=1e-6)
+
+
+def test_hands_that_play_on_hear_nothing_of_a_new_one() -> None:
+    changing, still = session(sample_rate_hz=44100), session(sample_rate_hz=44100)
+    for s in (changing, still):
+        s.update(touches=[ON_TABLE, RIGHT_TOO])
+        s.render(12345)
+    changing.add_hand("foot")
+    changing.update(touches=[ON_TABLE, RIGHT_TOO])
+    np.testing.assert_allclose(changing.render(4410)[:, :2], still.render(4410), atol=1e-6)
+
+
+def test_hands_keep_to_the_channels_of_a_sink_that_runs() -> None:
+    with HapticSession(*table_with_two_phones(), CONFIG, sink=MemorySink()) as s:
+        with pytest.raises(SessionError, match="MemorySink has one channel per hand from its start"):
+            s.add_hand("foot")
+        assert s.hands == ("left", "right")
+
+
+class Device(MemorySink):
+    """A sink with a clock, as far as a session can see, whose device takes a block now and then."""
+
+    pull = property()  # type: ignore[assignment]
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.opened: list[tuple[str, ...]] = []
+        self.is_running = False
+
+    def open(self, format: object) -> None:
+        super().open(format)  # type: ignore[arg-type]
+        self.opened.append(format.channels)  # type: ignore[attr-defined]
+
+    def __getattribute__(self, name: str) -> object:
+        if name == "pull":
+            raise AttributeError(name)
+        return super().__getattribute__(name)
+
+
+def test_a_device_is_opened_anew_for_other_hands() -> None:
+    device = Device()
+    with HapticSession(*table_with_two_phones(), CONFIG, sink=device) as s:
+        s.add_hand("foot")
+        s.remove_hand("left")
+    assert device.opened == [("left", "right"), ("left", "right", "foot"), ("right", "foot")]
+
+
+def test_a_pause_fades_out_stands_still_and_goes_on_where_it_was() -> None:
+    s, never = session(), session()
+    on_phone = [Touch("left", "phone", (0.1, 0.73, 0.4))]
+    for x in (s, never):
+        x.update(touches=on_phone)
+        x.render(RATE)
+    s.pause()
+    fading = s.render(RATE)[:, 0]
+    assert np.abs(fading[:80]).max() > 0.1
+    assert np.abs(np.diff(fading)).max() < steepest(100)
+    assert not fading[RATE // 10 :].any()
+    stood = s.position
+    assert s.update(touches=on_phone).gain("left", "phone") == 0.0
+    assert not s.render(3 * RATE).any()
+    assert s.position == stood
+    place = s.position_s("phone")
+    s.resume()
+    assert s.update(touches=on_phone).gain("left", "phone") == 1.0
+    s.render(1000)
+    assert s.position_s("phone") == pytest.approx((place + 1000 / RATE) % 0.5)
+    # From here on it is in step with one that was never paused, at the same place of the clock.
+    never.render(s.position - never.position)
+    np.testing.assert_allclose(s.render(500), never.render(500), atol=1e-6)
+
+
+def test_block_size_does_not_matter_to_a_pause() -> None:
+    def play(block: int) -> np.ndarray:
+        s = session()
+        s.update(touches=[ON_TABLE])
+        parts = [s.render(800)]
+        s.pause()
+        parts += [s.render(block) for _ in range(2400 // block)]
+        s.resume()
+        s.update(touches=[ON_TABLE])
+        return np.concatenate([*parts, *(s.render(block) for _ in range(2400 // block))])
+
+    np.testing.assert_allclose(play(1), play(2400), atol=1e-7)
+
+
+def test_moves_in_a_pause_count() -> None:
+    s = session()
+    s.update(touches=[ON_TABLE])
+    s.pause()
+    s.update({"phone": Pose((0.1, 1.2, 0.4))}, [ON_TABLE])
+    s.resume()
+    assert s.update(touches=[ON_TABLE]).gain("left", "phone") == 0.0
+
+
+def test_mistakes() -> None:
+    s = session()
+    with pytest.raises(SceneError, match="'phone' is already in the scene"):
+        s.add(s.snapshot.object("phone"))
+    with pytest.raises(SessionError, match=r"loops\['on'\] of 'fan' is 3; it must be a HapticLoop"):
+        s.add(fan()[0], None, {"on": 3})  # type: ignore[arg-type,dict-item]
+    with pytest.raises(UnknownObject, match="no object 'fan'"):
+        s.remove("fan")
+    with pytest.raises(ConfigError, match="hands is"):
+        s.add_hand("left")
+    with pytest.raises(SessionError, match="no hand 'foot'"):
+        s.remove_hand("foot")
+    for name in ("table", "block", "phone", "alarm"):
+        s.remove(name)
+    with pytest.raises(SessionError, match="'cup' is the last object"):
+        s.remove("cup")
+    assert s.source_ids == ()
+    assert s.update(touches=[Touch("left", "cup", (5.0, 0.1, 5.0))]).gains.shape == (2, 0, 1)
+    assert not s.render(100).any()
+
+
+def test_sessions_leave_nothing_behind() -> None:
+    import threading
+    import time
+    import weakref
+
+    s = session(propagation="infinite_plate")
+    s.update({"phone": Pose((0.12, 0.725, 0.4))})
+    assert s.wait_prepared(10.0)
+    gone, workers = weakref.ref(s), [t for t in threading.enumerate() if t.name == "scene2hap propagation"]
+    assert workers
+    del s
+    gc.collect()
+    assert gone() is None
+    end = time.monotonic() + 5.0
+    while any(t.is_alive() for t in workers) and time.monotonic() < end:
+        time.sleep(0.01)
+    assert not any(t.is_alive() for t in workers)

@@ -1,0 +1,64 @@
+"""Every propagation model drives the same session; which one is a line of configuration."""
+
+import warnings
+from typing import Any
+
+import numpy as np
+import pytest
+
+from scene2hap import HapticSession, Pose, Touch
+from scene2hap.propagation import MODELS
+from scene2hap.propagation.domain import ThinPlateWarning
+from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
+
+SETTINGS: dict[str, dict[str, Any]] = {"mass_spring_damper": {"resolution": 8}}
+ON_TABLE = Touch("left", "table", (0.8, 0.72, 0.4))
+HOME = Pose((0.1, 0.725, 0.4))
+
+
+@pytest.fixture(
+    params=[(kind, bands) for kind in MODELS.kinds() for bands in ("dominant", (40.0, 80.0, 160.0))], ids=str
+)
+def config(request: pytest.FixtureRequest) -> dict[str, Any]:
+    kind, bands = request.param
+    told = bands if isinstance(bands, str) else {"edges_hz": bands}
+    return {"sample_rate_hz": RATE, "propagation": {"kind": kind, **SETTINGS.get(kind, {})}, "bands": told}
+
+
+@pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
+def test_a_session_lives_on_it(config: dict[str, Any]) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ThinPlateWarning)
+        s = HapticSession(*table_with_two_phones(), config)
+
+        def felt(moved: Any = None) -> np.ndarray:
+            s.update(moved, [ON_TABLE])
+            assert s.wait_prepared(60.0)
+            gains = s.update(touches=[ON_TABLE]).gains
+            assert np.isfinite(gains).all()
+            assert ((gains >= 0) & (gains <= 1)).all()
+            return gains
+
+        before = felt()
+        assert s.update(touches=[Touch("right", "phone", HOME.position_m)]).gain("right", "phone") == 1.0
+        assert not s.update(touches=[Touch("right", "cup", (5.0, 0.1, 5.0))]).gains.any()
+        assert felt({"phone": Pose((0.1, 1.2, 0.4))})[0, 0].max() == 0.0
+        np.testing.assert_allclose(felt({"phone": HOME}), before, rtol=1e-9)
+
+        s.add(
+            box("fan", (0.1, 0.2, 0.1), (0.8, 0.82, 0.6)),
+            haptics("plastic", (0.2, 0.1, 0.1), "on"),
+            {"on": tone_loop(60)},
+        )
+        assert felt().shape == (2, 3, before.shape[2])
+        assert (felt()[0, 2].max() > 0) == (before[0, 0].max() > 0)
+        s.remove("fan")
+        np.testing.assert_allclose(felt(), before, rtol=1e-9)
+
+        for item in s.explain("left").felt:
+            assert sum(step.change_db for step in item.steps) == pytest.approx(item.gain_db, abs=1e-6)
+        out = s.render(RATE)
+        assert np.isfinite(out).all()
+        assert np.abs(out).max() <= 1.0
+        assert (np.abs(out[:, 0]).max() > 0) == (before.max() > 0)
+        assert s.stats.fields_failed == 0

@@ -1,0 +1,129 @@
+"""Why a hand feels what it feels, against the paper's law written out."""
+
+import json
+import math
+
+import pytest
+
+from scene2hap import Contact, HapticBundle, HapticSession, SceneSnapshot, Touch, materials
+from scene2hap.errors import SessionError
+from scenes import RATE, box, haptics, scene, table_with_two_phones, tone_loop
+
+
+def fall_db(material: str, thickness_m: float, frequency_hz: float, length_m: float) -> float:
+    """-20 lg exp(-k d), from the constants."""
+    m = materials.lookup(material)
+    D = m.youngs_modulus_pa * thickness_m**3 / (12 * (1 - m.poisson_ratio**2))
+    k = (m.density_kg_m3 * thickness_m * (2 * math.pi * frequency_hz) ** 2 / D) ** 0.25
+    return 20 * math.log10(math.exp(-k * length_m))
+
+
+def shelf_on_table(weight: float = 1.0) -> tuple[SceneSnapshot, HapticBundle]:
+    """A phone on a steel shelf that stands on an oak table, by two legs of which one is nearer."""
+    plain = scene(
+        box("table", (1.6, 0.02, 0.8), (0.8, 0.71, 0.4)),
+        box("shelf", (0.6, 0.02, 0.3), (0.5, 0.73, 0.4)),
+        box("phone", (0.1, 0.01, 0.1), (0.3, 0.745, 0.4)),
+    )
+    contacts = (
+        Contact("phone", "shelf", (0.3, 0.74, 0.4), weight=weight),
+        Contact("shelf", "table", (0.7, 0.74, 0.7)),
+        Contact("shelf", "table", (0.2, 0.74, 0.4)),
+    )
+    snapshot = SceneSnapshot("stack", "y", plain.objects, contacts)
+    inferred = {
+        "table": haptics("oak", (1.6, 0.8, 0.02)),
+        "shelf": haptics("steel", (0.6, 0.3, 0.02)),
+        "phone": haptics("glass", (0.1, 0.1, 0.01), "ringing"),
+    }
+    return snapshot, HapticBundle(snapshot, "room", inferred, {"phone": {"ringing": tone_loop(180)}})
+
+
+ON_TABLE = Touch("left", "table", (0.2, 0.74, 0.7))
+
+
+def test_the_way_over_two_objects() -> None:
+    s = HapticSession(*shelf_on_table(), {"sample_rate_hz": RATE})
+    frame = s.update(touches=[ON_TABLE])
+    (felt,) = s.explain("left").felt
+    assert [(step.object_id, round(step.length_m, 6)) for step in felt.steps] == [
+        ("phone", 0.0),
+        ("shelf", 0.1),
+        ("table", 0.3),
+    ]
+    expected = [0.0, fall_db("steel", 0.02, 180, 0.1), fall_db("oak", 0.02, 180, 0.3)]
+    assert [step.change_db for step in felt.steps] == pytest.approx(expected, abs=1e-6)
+    assert sum(expected) == pytest.approx(20 * math.log10(frame.gain("left", "phone")), abs=1e-4)
+    assert felt.length_m == pytest.approx(0.4)
+    assert (felt.source_id, felt.state, felt.on, felt.band) == ("phone", "ringing", "table", 0)
+
+
+def test_as_text_and_as_data() -> None:
+    s = HapticSession(*shelf_on_table(), {"sample_rate_hz": RATE})
+    s.set_source("phone", gain_db=-3.0)
+    s.update(touches=[ON_TABLE])
+    told = s.explain("left")
+    gain, shelf, table = (f"{x:+.1f}" for x in (told.felt[0].gain_db, *(y.change_db for y in told.felt[0].steps[1:])))
+    assert str(told) == (
+        "left touches table:\n"
+        f"  phone (ringing) {gain} dB over 0.40 m, volume -3.0 dB: phone (0.00 m, +0.0 dB) -> "
+        f"shelf (0.10 m, {shelf} dB) -> table (0.30 m, {table} dB)"
+    )
+    data = json.loads(json.dumps(told.to_data()))
+    assert data["felt"][0]["steps"][1]["object_id"] == "shelf"
+    assert data["text"] == told.text
+
+
+def test_a_weak_contact_counts_to_what_is_behind_it() -> None:
+    whole, weak = (
+        HapticSession(*shelf_on_table(weight), {"sample_rate_hz": RATE, "skip": False}) for weight in (1.0, 0.5)
+    )
+    for s in (whole, weak):
+        s.update(touches=[ON_TABLE])
+    changes = [[step.change_db for step in s.explain("left").felt[0].steps] for s in (whole, weak)]
+    # A weight is the loss at 250 Hz and follows the law from there.
+    lost = 20 * math.log10(0.5 ** math.sqrt(180 / 250))
+    assert changes[1] == pytest.approx([changes[0][0], changes[0][1] + lost, changes[0][2]], abs=1e-6)
+
+
+def test_only_what_is_felt_right_now() -> None:
+    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE})
+    assert s.explain("left").text == "left touches nothing and feels nothing."
+    s.update(touches=[Touch("left", "table", (0.3, 0.72, 0.4))])
+    assert [item.source_id for item in s.explain("left").felt] == ["phone", "alarm"]
+    assert s.explain("right").felt == ()
+    s.set_source("phone", on=False)
+    s.update(touches=[Touch("left", "table", (0.3, 0.72, 0.4))])
+    assert [item.source_id for item in s.explain("left").felt] == ["alarm"]
+    s.remove("alarm")
+    assert s.explain("left").felt == ()
+    s.update(touches=[Touch("left", "cup", (5.0, 0.1, 5.0))])
+    assert s.explain("left").text == "left touches cup and feels nothing."
+    with pytest.raises(SessionError, match="no hand 'foot'"):
+        s.explain("foot")
+
+
+def test_a_source_in_the_hand_is_its_own_way() -> None:
+    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE})
+    s.update(touches=[Touch("left", "phone", (0.1, 0.73, 0.4))])
+    phone = s.explain("left").felt[0]
+    assert phone.gain_db == 0.0
+    assert [(step.object_id, step.length_m, step.change_db) for step in phone.steps] == [("phone", 0.0, 0.0)]
+
+
+def test_hops_are_counted_as_the_law_counts_them() -> None:
+    law = {"kind": "exponential_plate", "max_hops": 1}
+    s = HapticSession(*shelf_on_table(), {"sample_rate_hz": RATE, "propagation": law})
+    s.update(touches=[Touch("left", "shelf", (0.5, 0.74, 0.4)), Touch("right", "table", (0.2, 0.74, 0.7))])
+    assert [step.object_id for step in s.explain("left").felt[0].steps] == ["phone", "shelf"]
+    assert s.explain("right").felt == ()
+
+
+@pytest.mark.parametrize("kind", ["exponential_plate", "infinite_plate", "full_propagation"])
+def test_steps_add_up_to_the_gain_for_any_model(kind: str) -> None:
+    s = HapticSession(*shelf_on_table(), {"sample_rate_hz": RATE, "propagation": kind, "bands": "third-octaves"})
+    frame = s.update(touches=[ON_TABLE])
+    (felt,) = s.explain("left").felt
+    told = sum(step.change_db for step in felt.steps)
+    assert told == pytest.approx(20 * math.log10(frame.gain("left", "phone")), abs=1e-4)
+    assert felt.band == int(frame.gains[0, 0].argmax())

@@ -1,0 +1,175 @@
+"""Fields that a worker prepares while the last one plays on."""
+
+import threading
+from typing import Any
+
+import numpy as np
+import pytest
+
+from scene2hap import Bands, HapticSession, Pose, Touch
+from scene2hap.errors import ModelDomainError
+from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
+
+ON_TABLE = Touch("left", "table", (0.8, 0.72, 0.4))
+SECONDS = 10.0
+
+
+class Field:
+    """Says of every touch how many contacts there were, over ten; and notes where it was asked."""
+
+    def __init__(self, source_ids: tuple[str, ...], n_contacts: int) -> None:
+        self.source_ids, self.n_contacts = source_ids, n_contacts
+        self.asked: list[Any] = []
+
+    def attenuation(self, object_id: str, points_m: Any) -> np.ndarray:
+        self.asked += np.asarray(points_m).tolist()
+        return np.full((len(points_m), len(self.source_ids), 1), self.n_contacts / 10)
+
+
+class Gated:
+    """A model whose every field after the first waits at a gate."""
+
+    def __init__(self) -> None:
+        self.gate, self.entered = threading.Event(), threading.Semaphore(0)
+        self.threads: list[int] = []
+        self.fields: list[Field] = []
+        self.problem: Exception | None = None
+
+    def prepare(self, network: Any, excitations: Any, bands: Bands) -> Field:
+        self.threads.append(threading.get_ident())
+        if self.fields:
+            self.entered.release()
+            assert self.gate.wait(SECONDS)
+            if self.problem is not None:
+                raise self.problem
+        field = Field(tuple(x.source_id for x in excitations), len(network.contacts))
+        self.fields.append(field)
+        return field
+
+
+def gated(**config: object) -> tuple[HapticSession, Gated]:
+    model = Gated()
+    return HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": model, **config}), model
+
+
+def shifted(x: float) -> dict[str, Pose]:
+    return {"phone": Pose((x, 0.725, 0.4))}
+
+
+def test_update_does_not_wait_and_the_last_field_plays_on() -> None:
+    s, model = gated()
+    first = s.update(touches=[ON_TABLE]).gains
+    s.update(shifted(0.2), [ON_TABLE])
+    assert model.entered.acquire(timeout=SECONDS)
+    # The worker is inside the model now, and updates go on.
+    np.testing.assert_array_equal(s.update(touches=[ON_TABLE]).gains, first)
+    assert s.stats.fields_prepared == 1
+    assert s.stats.field_age_s > 0
+    assert not s.wait_prepared(0.0)
+    model.gate.set()
+    assert s.wait_prepared(SECONDS)
+    assert s.stats.fields_prepared == 2
+    assert s.stats.field_age_s == 0
+    assert 0 < s.stats.field_latency_s < SECONDS
+    assert model.threads[0] == threading.get_ident() != model.threads[1]
+
+
+def test_only_the_newest_situation_is_prepared() -> None:
+    s, model = gated()
+    s.update(shifted(0.2))
+    assert model.entered.acquire(timeout=SECONDS)
+    for i in range(20):
+        s.update(shifted(0.21 + 0.01 * i))
+    model.gate.set()
+    assert s.wait_prepared(SECONDS)
+    assert len(model.fields) == 3
+    assert s.stats.fields_prepared <= 3
+
+
+def test_blocking_waits_in_update() -> None:
+    s, model = gated(prepare="blocking")
+    model.gate.set()
+    s.update(shifted(0.2))
+    assert s.stats.fields_prepared == 2
+    assert set(model.threads) == {threading.get_ident()}
+
+
+def test_exponential_plate_is_prepared_in_place() -> None:
+    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE})
+    before = s.update(touches=[ON_TABLE]).gain("left", "phone")
+    assert s.update(shifted(0.3), [ON_TABLE]).gain("left", "phone") > before
+    assert s.stats.field_age_s == 0
+
+
+def test_gains_over_a_vanished_contact_fade_in_20_ms_whatever_the_worker_does() -> None:
+    s, model = gated()
+    s.update(touches=[ON_TABLE])
+    s.render(RATE)
+    lifted = s.update({"phone": Pose((0.1, 1.2, 0.4))}, [ON_TABLE])
+    assert lifted.gain("left", "phone") == 0.0
+    assert lifted.gain("left", "alarm") > 0.0
+    s.set_source("alarm", mute=True)
+    s.update(touches=[ON_TABLE])
+    out = s.render(RATE)[:, 0]
+    assert np.abs(out[:40]).max() > 0.01
+    assert not out[round(0.021 * RATE) :].any()
+    # Its own gain stays, and where it is put down it is felt again once the worker is through.
+    held = s.update(touches=[Touch("left", "phone", (0.1, 1.205, 0.4))])
+    assert held.gain("left", "phone") == 1.0
+    model.gate.set()
+    s.update(shifted(0.1), [ON_TABLE])
+    assert s.wait_prepared(SECONDS)
+    assert s.update(touches=[ON_TABLE]).gain("left", "phone") > 0.0
+
+
+def test_a_stale_field_is_asked_where_the_object_was() -> None:
+    s, model = gated()
+    turned = Pose((3.0, 0.725, 0.4), (0.0, 0.5**0.5, 0.0, 0.5**0.5))
+    everything = {item.id: turned.compose(Pose((-0.1, -0.725, -0.4))).compose(item.pose) for item in s.snapshot.objects}
+    point = turned.compose(Pose((-0.1, -0.725, -0.4))).to_world([[0.8, 0.72, 0.4]])[0]
+    s.update(everything, [Touch("left", "table", tuple(point.tolist()))])
+    np.testing.assert_allclose(model.fields[0].asked[-1], [0.8, 0.72, 0.4], atol=1e-12)
+    model.gate.set()
+
+
+def test_sources_come_and_go_under_a_stale_field() -> None:
+    s, model = gated()
+    gain = s.update(touches=[ON_TABLE]).gain("left", "alarm")
+    s.add(
+        box("fan", (0.1, 0.2, 0.1), (0.8, 0.82, 0.6)), haptics("plastic", (0.2, 0.1, 0.1), "on"), {"on": tone_loop(90)}
+    )
+    s.remove("phone")
+    frame = s.update(touches=[ON_TABLE, Touch("right", "fan", (0.8, 0.92, 0.6))])
+    assert frame.sources == ("alarm", "fan")
+    assert frame.gain("left", "alarm") == gain
+    assert frame.gain("left", "fan") == 0.0
+    assert frame.gain("right", "fan") == 1.0
+    model.gate.set()
+    assert s.wait_prepared(SECONDS)
+    assert s.update(touches=[ON_TABLE]).gain("left", "fan") > 0.0
+
+
+def test_a_model_that_fails_leaves_the_last_field() -> None:
+    s, model = gated()
+    gains = s.update(touches=[ON_TABLE]).gains
+    model.problem = ModelDomainError("the phone is too thick")
+    model.gate.set()
+    s.update(shifted(0.2))
+    with pytest.warns(RuntimeWarning, match="the last one plays on: the phone is too thick"):
+        assert s.wait_prepared(SECONDS)
+    np.testing.assert_array_equal(s.update(touches=[ON_TABLE]).gains, gains)
+    assert s.stats.fields_failed == 1
+    assert s.stats.last_failure == "the phone is too thick"
+    assert s.stats.field_age_s > 0
+    model.problem = None
+    s.update(shifted(0.3))
+    assert s.wait_prepared(SECONDS)
+    assert s.stats.field_age_s == 0
+
+
+def test_a_model_that_fails_in_place_is_heard_at_once() -> None:
+    s, model = gated(prepare="blocking")
+    model.problem = ModelDomainError("the phone is too thick")
+    model.gate.set()
+    with pytest.raises(ModelDomainError, match="too thick"):
+        s.update(shifted(0.2))

@@ -1,0 +1,39 @@
+"""One minute of stress/session.py: a game at 1 kHz to which everything happens, in simulated time."""
+
+import importlib.util
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+
+@pytest.fixture(scope="module")
+def stress() -> ModuleType:
+    path = Path(__file__).parents[3] / "stress" / "session.py"
+    spec = importlib.util.spec_from_file_location("stress_session", path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    import sys
+
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_a_minute_without_an_exception_or_drift(stress: ModuleType) -> None:
+    found = stress.live(1.0)
+    assert found.n_events > 500
+    assert 0.05 < found.worst_level <= 1.0
+    assert found.drift_samples <= 1.0
+
+
+def test_memory_does_not_grow(stress: ModuleType) -> None:
+    import tracemalloc
+
+    tracemalloc.start()
+    try:
+        found = stress.live(0.1, seed=2)
+    finally:
+        tracemalloc.stop()
+    assert found.grown_bytes < 2**18
