@@ -38,7 +38,7 @@ def demo(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, obje
 def test_demo_writes_bundle_wav_and_picture(demo: tuple[Path, dict[str, object]]) -> None:
     folder, _ = demo
     samples, rate = soundfile.read(folder / "tour.wav")
-    assert samples.shape == (15 * rate, 2)
+    assert samples.shape == (15 * rate + round(FADE_OUT_S * rate), 2)
     assert np.abs(samples).max() <= 1.0
     with Image.open(folder / "tour.png") as picture:
         assert np.asarray(picture).std() > 10

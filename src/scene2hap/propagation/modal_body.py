@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.propagation.infinite_plate import InfiniteBody
-from scene2hap.propagation.modes import MARGIN, largest_block
+from scene2hap.propagation.modes import FINE, MARGIN, Fineness, largest_block
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.plate_terms import PlateTerms
 from scene2hap.propagation.recall import Recall
@@ -22,7 +22,9 @@ that matters."""
 
 
 @lru_cache(maxsize=128)
-def modal_body(plate: Plate, max_frequency_hz: float, loss_factor: float) -> ModalBody | SplitBody:
+def modal_body(
+    plate: Plate, max_frequency_hz: float, loss_factor: float, fineness: Fineness = FINE
+) -> ModalBody | SplitBody:
     """The body of a plate; remembered, since scenes are prepared anew whenever a contact changes.
 
     Where a rug or a foil has too many modes to solve for, or so much loss that nothing comes back from its edges, it is
@@ -34,8 +36,8 @@ def modal_body(plate: Plate, max_frequency_hz: float, loss_factor: float) -> Mod
     while largest_block(plate, MARGIN * limit_hz) > MOST_FUNCTIONS:
         limit_hz *= 0.9
     if limit_hz >= max_frequency_hz * (1 - 1e-9):
-        return ModalBody(plate, max_frequency_hz, loss_factor)
-    return SplitBody(ModalBody(plate, limit_hz, loss_factor), InfiniteBody(plate, loss_factor), limit_hz)
+        return ModalBody(plate, max_frequency_hz, loss_factor, fineness)
+    return SplitBody(ModalBody(plate, limit_hz, loss_factor, fineness), InfiniteBody(plate, loss_factor), limit_hz)
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,10 +67,10 @@ class SplitBody:
 class ModalBody:
     """An `ElasticBody` by modes, for frequencies up to `max_frequency_hz`."""
 
-    def __init__(self, plate: Plate, max_frequency_hz: float, loss_factor: float) -> None:
+    def __init__(self, plate: Plate, max_frequency_hz: float, loss_factor: float, fineness: Fineness = FINE) -> None:
         self.plate = plate
         self.loss_factor = loss_factor
-        self.terms = PlateTerms(plate, max_frequency_hz)
+        self.terms = PlateTerms(plate, max_frequency_hz, fineness)
         self._at_forces = Recall(self.terms.of_forces)
         self._among_forces = Recall(self._symmetric)
         self._spectra = Recall(self._spectrum, room=4)

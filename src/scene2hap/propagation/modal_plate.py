@@ -3,8 +3,8 @@
     w(x) / F(x0) = sum over the Ritz spectrum of phi(x) phi(x0) / (D_c (k_n^4 - k_c^4))  +  residual(x, x0)
     D_c = D (1 + j eta)                  k_c^4 = k^4 / (1 + j eta)
 
-The spectrum of `modes` is summed to its end: modes up to 1.5 times the top frequency are true, and the rest, too stiff
-to resonate, make up their static share. The residual is what polynomials cannot follow at all, see `near_field`.
+The spectrum of `modes` is summed to its end: modes up to 1.5 times the top frequency one by one, and the rest, too
+stiff to resonate, by powers of their compliance. The residual is what polynomials cannot follow, see `near_field`.
 
 Letters: phi [1/m] shape normalised over the area, D [N m], k [rad/m], eta [-] loss factor, c complex. Time runs as
 e^{+j omega t}.
@@ -31,6 +31,7 @@ from scene2hap.propagation.modes import MARGIN, n_rigid_motions, plate_modes, po
 from scene2hap.propagation.near_field import NearField
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
+from scene2hap.propagation.ritz import products
 from scene2hap.propagation.substructuring import CoupledField, as_law, prepare_coupled
 
 
@@ -118,6 +119,8 @@ class ModalPlate:
         for block in modes.blocks:
             weights = block.deflections(points_m) * block.deflections(drive_m)
             total += weights @ (1 / (block.k4[:, None] - k2**2))
+            answers = block.beyond(products(block.x, block.y, drive_m).T, k2**2)[:, 0]
+            total += products(block.x, block.y, points_m) @ answers
         return total / (plate.bending_stiffness_nm * (1 + 1j * eta))
 
     def _loss_factor(self, plate: Plate) -> float:

@@ -3,9 +3,10 @@
     K c = k^4 c          omega = k^2 sqrt(D / m)          integral of m phi_i phi_j = 1 kg if i = j, else 0
 
 K is the Ritz stiffness of `ritz`. A plate with alike edges on both ends of an axis has modes that are even or odd
-along it, so the eigenproblem falls into up to four smaller ones. Each is solved for the inverse (K + s)^-1, whose
+along it, so the eigenproblem falls into up to four smaller ones. Each is solved for the compliance (K + s)^-1, whose
 largest eigenvalues are the lowest modes: those of K grow as the eighth power of the basis size, and would bury rigid
-motions and the lowest modes of large or slender plates in rounding.
+motions and the lowest modes of large or slender plates in rounding. What is stiffer than the modes is never solved for:
+powers of the compliance tell its answer.
 
 Letters: k [rad/m] wavenumber, D [N m], m [kg/m2] mass per area, omega [rad/s], phi [kg^-1/2] shape, s [m^-4] shift.
 Source: as `ritz`.
@@ -16,6 +17,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -26,6 +28,8 @@ from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.ritz import AxisBasis, axis_bases, products, stiffness
 
+Number = TypeVar("Number", np.float64, np.complex128)
+
 LARGEST_BLOCK = 3000
 """Functions in one eigenproblem beyond which a plate is refused; it takes some 20 s, and hundreds of modes."""
 MARGIN = 1.5
@@ -35,30 +39,77 @@ SHIFT = 1e-2
 """s over k^4 of the highest mode wanted. Tuned: anywhere between 1e-4 and 1 the frequencies agree to 1e-9."""
 
 
+SMALL = 200
+"""Functions up to which an eigenproblem is solved whole; above, for its modes alone. Tuned: they take equal time."""
+ORDERS = 12
+"""Powers of compliance in `ModeBlock.beyond`: each is worth a factor of 2.25 below the top frequency, 6e-5 in all."""
+
+
+@dataclass(frozen=True)
+class Fineness:
+    """How many functions an axis of length L has, for waves up to k: per_k_length * k L + more, at least `least`.
+
+    A polynomial needs pi per wavelength, which is 1 / 2 for k L.
+    """
+
+    per_k_length: float = 1.85 / math.pi
+    more: int = 4
+    least: int = 16
+
+
+FINE = Fineness()
+"""What `plate_modes` takes; the least is tuned for what `modal_plate` asks of small plates."""
+
+
 @dataclass(frozen=True, eq=False)
 class ModeBlock:
-    """The whole Ritz spectrum of one symmetry: first its modes, then what is left of the basis.
+    """The modes of one symmetry, and the compliance of all else.
 
-    x, y : the basis of each axis, n = n_x n_y products; k4 : (n,) k^4 [m^-4], rising, 0 for rigid motions, true for
-    modes and too high for the rest; vectors : (n, n) orthonormal columns.
+    x, y : the basis of each axis, n = n_x n_y products; k4 : (n_modes,) k^4 [m^-4], rising, 0 for rigid motions;
+    vectors : (n, n_modes) orthonormal columns; compliance : (n, n) of (K + shift)^-1 [m^4]; shift [m^-4]; rest : what
+    of the spectrum is no mode, its k^4 and vectors, where it is known.
     """
 
     x: AxisBasis
     y: AxisBasis
     k4: NDArray[np.float64]
     vectors: NDArray[np.float64]
+    compliance: NDArray[np.float64]
+    shift: float
+    rest: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
 
     def deflections(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Every vector at points (n_points, 2) [m], normalised over the area -> (n_points, n) [1/m]."""
+        """Every mode at points (n_points, 2) [m], normalised over the area -> (n_points, n_modes) [1/m]."""
         return products(self.x, self.y, points_m) @ self.vectors
+
+    def beyond(self, forces: NDArray[np.float64], q: NDArray[Number]) -> NDArray[Number]:
+        """How what is stiffer than the modes answers to forces (n, n_forces), for q (n_q,) = k^4 / (1 + j eta) [m^-4]:
+        (K - q)^-1 without its modes -> (n, n_forces, n_q), by the rest of the spectrum, or else
+
+            sum over j of (q + shift)^j C^(j+1) forces          C = (K + shift)^-1
+        """
+        n, n_forces = forces.shape
+        answers: NDArray[Number]
+        if self.rest is not None:
+            k4, vectors = self.rest
+            weighted = (vectors.T @ forces)[:, :, None] / (k4[:, None, None] - q)
+            answers = vectors @ weighted.reshape(len(k4), -1)
+            return answers.reshape(n, n_forces, -1)
+        answer, orders = forces, []
+        for _ in range(ORDERS):
+            answer = self.compliance @ (answer - self.vectors @ (self.vectors.T @ answer))
+            orders.append(answer)
+        powers = (q + self.shift) ** np.arange(ORDERS)[:, None]
+        answers = np.stack(orders).reshape(ORDERS, -1).T @ powers
+        return answers.reshape(n, n_forces, -1)
 
 
 @dataclass(frozen=True, eq=False)
 class PlateModes:
     """Modes of a plate, from the lowest.
 
-    x, y : the bases of each axis; blocks : the spectrum by symmetry, one for each of their pairs; block, column :
-    (n_modes,) where in them each mode is.
+    x, y : the bases of each axis; blocks : modes by symmetry, one for each of their pairs; block, column : (n_modes,)
+    where in them each mode is.
     """
 
     plate: Plate
@@ -133,9 +184,9 @@ def first_bending_hz(plate: Plate) -> float:
     return float(math.sqrt(k4[k4 > 1e-6 / longest**4][0]) / plate.wavenumber_per_root_omega**2 / (2 * math.pi))
 
 
-def largest_block(plate: Plate, max_frequency_hz: float) -> int:
+def largest_block(plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> int:
     """Functions in the largest eigenproblem of `plate_modes` up to that frequency; its time grows with the cube."""
-    terms = _terms(plate, float(plate.wavenumber_rad_m(max_frequency_hz)))
+    terms = _terms(plate, float(plate.wavenumber_rad_m(max_frequency_hz)), fineness)
     edges = (plate.edges[:2], plate.edges[2:])
     return math.prod(math.ceil(n / 2) if pair[0] == pair[1] else n for n, pair in zip(terms, edges, strict=True))
 
@@ -169,10 +220,15 @@ def _lowest(plate: Plate, count: int) -> PlateModes:
         k *= 1.3
 
 
+def modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> PlateModes:
+    """As `plate_modes`, with a basis of another fineness."""
+    return _modes_up_to(plate, max_frequency_hz, fineness)
+
+
 @lru_cache(maxsize=128)  # a room full of plates; a sheet of a hundred modes holds some 8 MB
-def _modes_up_to(plate: Plate, max_frequency_hz: float) -> PlateModes:
+def _modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> PlateModes:
     k = float(plate.wavenumber_rad_m(max_frequency_hz))
-    terms, largest = _terms(plate, k), largest_block(plate, max_frequency_hz)
+    terms, largest = _terms(plate, k, fineness), largest_block(plate, max_frequency_hz, fineness)
     if largest > LARGEST_BLOCK:
         raise ModelDomainError(
             f"modes up to {max_frequency_hz:g} Hz of a plate of {plate.length_m:g} × {plate.width_m:g} m need "
@@ -182,35 +238,71 @@ def _modes_up_to(plate: Plate, max_frequency_hz: float) -> PlateModes:
     bases_x = axis_bases(plate.edges[:2], plate.length_m, terms[0])
     bases_y = axis_bases(plate.edges[2:], plate.width_m, terms[1])
     shift = SHIFT * max(k, math.pi / max(plate.length_m, plate.width_m)) ** 4
-    blocks = tuple(_solve(x, y, plate.material.poisson_ratio, shift) for x in bases_x for y in bases_y)
+    # Rigid motions lie below a thousandth of the shift, and any bending above it.
+    limit = max(k**4 * (1 + 1e-9), 1e-3 * shift)
+    nu = plate.material.poisson_ratio
+    pairs = [(x, y) for x in bases_x for y in bases_y]
+    if largest <= SMALL:
+        blocks = _solve_whole(pairs, nu, shift, limit)
+    else:
+        blocks = tuple(_solve(x, y, nu, shift, limit) for x, y in pairs)
     k4 = np.concatenate([block.k4 for block in blocks])
     block = np.concatenate([np.full(len(block.k4), i) for i, block in enumerate(blocks)])
     column = np.concatenate([np.arange(len(block.k4)) for block in blocks])
     order = np.argsort(k4, kind="stable")
     for rigid in order[: n_rigid_motions(plate)]:
         blocks[block[rigid]].k4[column[rigid]] = k4[rigid] = 0.0  # rather than what rounding left of it
-    modes = order[k4[order] <= k**4 * (1 + 1e-9)]
-    return PlateModes(plate, bases_x, bases_y, blocks, block[modes], column[modes])
+    return PlateModes(plate, bases_x, bases_y, blocks, block[order], column[order])
 
 
-def _terms(plate: Plate, k: float) -> tuple[int, int]:
-    return _n_terms(k * plate.length_m), _n_terms(k * plate.width_m)
+def _terms(plate: Plate, k: float, fineness: Fineness) -> tuple[int, int]:
+    """Functions along length and width; even and odd ones are as many, so that blocks of all symmetries are alike."""
+    wanted = (_n_terms(k * plate.length_m, fineness), _n_terms(k * plate.width_m, fineness))
+    is_even = (plate.edges[0] == plate.edges[1], plate.edges[2] == plate.edges[3])
+    return wanted[0] + (is_even[0] and wanted[0] % 2), wanted[1] + (is_even[1] and wanted[1] % 2)
 
 
-def _n_terms(k_length: float) -> int:
-    """Functions per axis for all waves up to k: a polynomial needs pi per wavelength; 2 k L / pi is a quarter more.
-
-    The least, 16, is tuned for what `modal_plate` asks of small plates.
-    """
-    return max(16, math.ceil(2 / math.pi * k_length) + 4)
+def _n_terms(k_length: float, fineness: Fineness) -> int:
+    return max(fineness.least, math.ceil(fineness.per_k_length * k_length) + fineness.more)
 
 
-def _solve(x: AxisBasis, y: AxisBasis, poisson_ratio: float, shift: float) -> ModeBlock:
-    from scipy.linalg import cho_factor, cho_solve, eigh
-
-    identity = np.eye(x.n_functions * y.n_functions)
-    inverse = cho_solve(cho_factor(stiffness(x, y, poisson_ratio) + shift * identity), identity)
-    compliance, vectors = eigh((inverse + inverse.T) / 2, driver="evd")
+def _solve_whole(
+    pairs: list[tuple[AxisBasis, AxisBasis]], poisson_ratio: float, shift: float, limit: float
+) -> tuple[ModeBlock, ...]:
+    """The spectra of several blocks of one size, together: small ones cost more to call for than to solve."""
+    matrices = np.stack([stiffness(x, y, poisson_ratio) for x, y in pairs])
+    diagonal = np.arange(matrices.shape[1])
+    matrices[:, diagonal, diagonal] += shift
+    compliances = np.linalg.inv(matrices)
+    values, vectors = np.linalg.eigh((compliances + compliances.transpose(0, 2, 1)) / 2)
     # The stiffest functions lie below rounding; they take no part in any answer.
-    k4 = 1 / np.maximum(compliance[::-1], 1e-18 / shift) - shift
-    return ModeBlock(x, y, k4, vectors[:, ::-1])
+    k4 = 1 / np.maximum(values[:, ::-1], 1e-18 / shift) - shift
+    vectors = vectors[:, :, ::-1]
+    counts = (k4 <= limit).sum(axis=1)
+    return tuple(
+        ModeBlock(*pair, own[:n].copy(), columns[:, :n], compliance, shift, (own[n:], columns[:, n:]))
+        for pair, own, columns, compliance, n in zip(pairs, k4, vectors, compliances, counts, strict=True)
+    )
+
+
+def _solve(x: AxisBasis, y: AxisBasis, poisson_ratio: float, shift: float, limit: float) -> ModeBlock:
+    """The modes of K c = k^4 c up to k^4 = `limit`. Most of the time of a whole spectrum goes into vectors that nobody
+    asks for."""
+    from scipy.linalg import eigh_tridiagonal
+    from scipy.linalg.lapack import dormqr, dpotrf, dpotri, dsytrd
+
+    matrix = stiffness(x, y, poisson_ratio)
+    matrix.flat[:: len(matrix) + 1] += shift
+    # Turned, it is the same matrix in the order that LAPACK wants, which then need not copy it.
+    factor = dpotrf(matrix.T, lower=1, overwrite_a=1)[0]
+    half = np.tril(dpotri(factor, lower=1, overwrite_c=1)[0])
+    compliance: NDArray[np.float64] = half + half.T
+    compliance.flat[:: len(matrix) + 1] /= 2
+    reflectors, diagonal, beside, tau, _ = dsytrd(compliance, lower=1, lwork=64 * len(matrix))
+    least = 1 / (limit + shift)
+    values, vectors = eigh_tridiagonal(
+        diagonal, beside, select="v", select_range=(least, np.inf), lapack_driver="stemr"
+    )
+    turned = dormqr("L", "N", reflectors[1:, :-1], tau, vectors[1:], 64 * vectors.shape[1] + 64)[0]
+    vectors = np.vstack([vectors[:1], turned])
+    return ModeBlock(x, y, 1 / values[::-1] - shift, vectors[:, ::-1], compliance, shift)

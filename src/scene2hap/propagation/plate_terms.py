@@ -16,14 +16,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from itertools import pairwise, product
 
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.modes import MARGIN, plate_modes
+from scene2hap.propagation.modes import FINE, MARGIN, Fineness, modes_up_to
 from scene2hap.propagation.near_field import NearField
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.ritz import joined
+from scene2hap.propagation.ritz import axis_basis
 
 N_NODES = 4
 
@@ -33,16 +34,15 @@ Floats = NDArray[np.float64]
 class PlateTerms:
     """The terms of one plate, for frequencies up to `max_frequency_hz`: first its modes, then the rest."""
 
-    def __init__(self, plate: Plate, max_frequency_hz: float) -> None:
-        self.modes = plate_modes(plate, max_frequency_hz=MARGIN * max_frequency_hz)
+    def __init__(self, plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> None:
+        self.modes = modes_up_to(plate, MARGIN * max_frequency_hz, fineness)
         k4 = float(plate.wavenumber_rad_m(max_frequency_hz)) ** 4
         self._nodes = k4 / 2 * (1 - np.cos(np.pi * (np.arange(N_NODES) + 0.5) / N_NODES))
-        self._x, self._y = joined(self.modes.x), joined(self.modes.y)
-        # The modes of a block are its first columns, since both rise.
-        blocks = self.modes.blocks
-        self._n_modes = [int((self.modes.block == i).sum()) for i in range(len(blocks))]
-        self._k4 = np.concatenate([block.k4[:n] for block, n in zip(blocks, self._n_modes, strict=True)])
-        self._phi = self._spread([block.vectors[:, :n] for block, n in zip(blocks, self._n_modes, strict=True)])
+        n_x, n_y = self.modes.terms
+        self._x = axis_basis(plate.edges[:2], plate.length_m, n_x)
+        self._y = axis_basis(plate.edges[2:], plate.width_m, n_y)
+        self._k4 = np.concatenate([block.k4 for block in self.modes.blocks])
+        self._phi = self._spread([block.vectors for block in self.modes.blocks])
 
     def spectrum(self, q: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Each term at each frequency (n_terms, n_frequencies): 1 / (k_n^4 - q) [m^4], then l_i(q) [-]."""
@@ -58,12 +58,13 @@ class PlateTerms:
         Returns: a function from points (n_points, 2) [m] to (n_points, n_forces, n_terms).
         """
         near = NearField(self.modes, forces_m)
-        phi = self._basis(forces_m) @ self._phi
+        basis_at_forces = self._basis(forces_m)
+        phi = basis_at_forces @ self._phi
+        by_axes = basis_at_forces.reshape(-1, *self.modes.terms)
         stiff = []
-        for block, n in zip(self.modes.blocks, self._n_modes, strict=True):
-            at_forces = block.deflections(forces_m)[:, n:]
-            weighted = at_forces[:, None] / (block.k4[n:] - self._nodes[:, None])
-            stiff.append(block.vectors[:, n:] @ weighted.reshape(-1, weighted.shape[2]).T)
+        for block, (along, across) in zip(self.modes.blocks, self._places(), strict=True):
+            forces = by_axes[:, along, across].reshape(len(forces_m), -1).T
+            stiff.append(block.beyond(forces, self._nodes).reshape(forces.shape[0], -1))
         # One column per force and node: how the rest of the spectrum answers to it, in the basis.
         rest = self._spread(stiff, side_by_side=False)
         k2 = np.sqrt(self._nodes)
@@ -86,9 +87,14 @@ class PlateTerms:
         widths = [columns.shape[1] for columns in by_block]
         ends = np.cumsum(widths) if side_by_side else np.array(widths)
         spread = np.zeros((*self.modes.terms, int(ends[-1])))
-        starts_x, starts_y = (np.cumsum([0, *(b.n_functions for b in bases)]) for bases in (self.modes.x, self.modes.y))
-        for i, (columns, end) in enumerate(zip(by_block, ends, strict=True)):
-            row, column = divmod(i, len(self.modes.y))
-            at = (slice(*starts_x[row : row + 2]), slice(*starts_y[column : column + 2]), slice(end - widths[i], end))
-            spread[at] = columns.reshape(self.modes.x[row].n_functions, self.modes.y[column].n_functions, -1)
+        for block, (along, across), columns, end in zip(self.modes.blocks, self._places(), by_block, ends, strict=True):
+            width = columns.shape[1]
+            shaped = columns.reshape(block.x.n_functions, block.y.n_functions, width)
+            spread[along, across, end - width : end] = shaped
         return spread.reshape(math.prod(self.modes.terms), -1 if spread.size else 0)
+
+    def _places(self) -> list[tuple[slice, slice]]:
+        """Where the functions of each block are among all of each axis."""
+        ends_x, ends_y = (np.cumsum([0, *(b.n_functions for b in bases)]) for bases in (self.modes.x, self.modes.y))
+        along, across = ([slice(*pair) for pair in pairwise(ends)] for ends in (ends_x, ends_y))
+        return list(product(along, across))

@@ -15,7 +15,6 @@ Bhat, J. Sound Vib. 102 (1985), for orthogonal polynomials as the basis.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -28,60 +27,69 @@ _FIXED = {"F": 0, "S": 1, "C": 2}
 
 
 @dataclass(frozen=True, eq=False)
-class AxisBasis:
-    """Functions of one coordinate, orthonormal on 0..length.
+class Family:
+    """Functions of xi, orthonormal on -1..1, whatever the length of their axis; shared by all plates of those edges.
 
-    coefficients : (n_legendre, n_functions) in normalised Legendre polynomials; length_m [m].
+    coefficients : (n_legendre, n_functions) in normalised Legendre polynomials.
     """
 
     coefficients: NDArray[np.float64]
+
+    @cached_property
+    def chebyshev(self) -> NDArray[np.float64]:
+        """The functions' coefficients in Chebyshev polynomials cos(n arccos xi)."""
+        n = len(self.coefficients)
+        angle = np.pi * (np.arange(n) + 0.5) / n
+        values = legendre.legvander(np.cos(angle), n - 1) * _norms(n) @ self.coefficients
+        coefficients: NDArray[np.float64] = np.cos(np.outer(np.arange(n), angle)) @ values
+        coefficients *= 2 / n
+        coefficients[0] /= 2
+        return coefficients
+
+    @cached_property
+    def integrals(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Integrals of X_i'' X_j'', X_i' X_j' and X_i X_j'' over xi, each (n, n)."""
+        derivative = _derivative(len(self.coefficients))
+        first = derivative @ self.coefficients
+        second = derivative @ first
+        return second.T @ second, first.T @ first, self.coefficients.T @ second
+
+
+@dataclass(frozen=True, eq=False)
+class AxisBasis:
+    """Functions of one coordinate, orthonormal on 0..length [m]."""
+
+    family: Family
     length_m: float
 
     @property
     def n_functions(self) -> int:
         """How many functions."""
-        return len(self.coefficients.T)
+        return len(self.family.coefficients.T)
 
     def values(self, x_m: NDArray[np.float64]) -> NDArray[np.float64]:
         """The functions at (n_points,) [m] -> (n_points, n_functions) [m^-1/2]."""
         # As cosines, since a hand asks for one point at a time and the Legendre recurrence is a loop.
+        chebyshev = self.family.chebyshev
         angle = np.arccos(np.clip(2 * x_m / self.length_m - 1, -1.0, 1.0))
-        values: NDArray[np.float64] = np.cos(angle[:, None] * np.arange(len(self._chebyshev))) @ self._chebyshev
+        values: NDArray[np.float64] = np.cos(angle[:, None] * np.arange(len(chebyshev))) @ chebyshev
+        values *= np.sqrt(2 / self.length_m)
         return values
 
-    @cached_property
-    def _chebyshev(self) -> NDArray[np.float64]:
-        """The functions' coefficients in Chebyshev polynomials cos(n arccos xi) [m^-1/2]."""
-        n = len(self.coefficients)
-        angle = np.pi * (np.arange(n) + 0.5) / n
-        values = legendre.legvander(np.cos(angle), n - 1) * _norms(n) @ self.coefficients
-        coefficients: NDArray[np.float64] = np.cos(np.outer(np.arange(n), angle)) @ values
-        coefficients *= 2 / n * np.sqrt(2 / self.length_m)
-        coefficients[0] /= 2
-        return coefficients
-
-    @cached_property
-    def _derivatives(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        derivative = _derivative(len(self.coefficients)) * (2 / self.length_m)
-        first = derivative @ self.coefficients
-        return first, derivative @ first
-
-    @cached_property
+    @property
     def curvature(self) -> NDArray[np.float64]:
         """Integrals of X_i'' X_j'' (n, n) [m^-4]."""
-        second = self._derivatives[1]
-        return second.T @ second
+        return self.family.integrals[0] * (2 / self.length_m) ** 4
 
-    @cached_property
+    @property
     def slope(self) -> NDArray[np.float64]:
         """Integrals of X_i' X_j' (n, n) [m^-2]."""
-        first = self._derivatives[0]
-        return first.T @ first
+        return self.family.integrals[1] * (2 / self.length_m) ** 2
 
-    @cached_property
+    @property
     def crossed(self) -> NDArray[np.float64]:
         """Integrals of X_i X_j'' (n, n) [m^-2]."""
-        return self.coefficients.T @ self._derivatives[1]
+        return self.family.integrals[2] * (2 / self.length_m) ** 2
 
 
 def axis_bases(edges: str, length_m: float, n_terms: int) -> tuple[AxisBasis, ...]:
@@ -89,14 +97,12 @@ def axis_bases(edges: str, length_m: float, n_terms: int) -> tuple[AxisBasis, ..
 
     Parameters: edges : two letters F, S, C for the edges at 0 and at length; n_terms : functions in all.
     """
-    families = (slice(0, None, 2), slice(1, None, 2)) if edges[0] == edges[1] else (slice(None),)
-    coefficients = _coefficients(edges, n_terms)
-    return tuple(AxisBasis(coefficients[:, family], length_m) for family in families)
+    return tuple(AxisBasis(family, length_m) for family in _families(edges, n_terms)[:-1])
 
 
-def joined(bases: Sequence[AxisBasis]) -> AxisBasis:
-    """The functions of several bases of one axis, one after the other."""
-    return AxisBasis(np.hstack([basis.coefficients for basis in bases]), bases[0].length_m)
+def axis_basis(edges: str, length_m: float, n_terms: int) -> AxisBasis:
+    """The functions of `axis_bases`, one family after the other."""
+    return AxisBasis(_families(edges, n_terms)[-1], length_m)
 
 
 def stiffness(x: AxisBasis, y: AxisBasis, poisson_ratio: float) -> NDArray[np.float64]:
@@ -104,11 +110,13 @@ def stiffness(x: AxisBasis, y: AxisBasis, poisson_ratio: float) -> NDArray[np.fl
 
     Returns: (n_x n_y, n_x n_y) float64 [m^-4], symmetric, positive but for rigid motions. Its eigenvalues are k^4.
     """
-    nu = poisson_ratio
-    mixed = np.kron(x.crossed, y.crossed.T)
-    matrix = np.kron(x.curvature, np.eye(y.n_functions)) + np.kron(np.eye(x.n_functions), y.curvature)
-    matrix += nu * (mixed + mixed.T) + 2 * (1 - nu) * np.kron(x.slope, y.slope)
-    return matrix
+    nu, n_x, n_y = poisson_ratio, x.n_functions, y.n_functions
+    along = np.stack([x.curvature, np.eye(n_x), nu * x.crossed, nu * x.crossed.T, 2 * (1 - nu) * x.slope])
+    across = np.stack([np.eye(n_y), y.curvature, y.crossed.T, y.crossed, y.slope])
+    # Five products of an axis with the other, added up by one matrix product.
+    summed = along.reshape(5, -1).T @ across.reshape(5, -1)
+    ordered: NDArray[np.float64] = summed.reshape(n_x, n_x, n_y, n_y).transpose(0, 2, 1, 3)
+    return ordered.reshape(n_x * n_y, n_x * n_y)
 
 
 def products(x: AxisBasis, y: AxisBasis, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -117,7 +125,15 @@ def products(x: AxisBasis, y: AxisBasis, points_m: NDArray[np.float64]) -> NDArr
     return values.reshape(len(points_m), -1)
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=512)
+def _families(edges: str, n_terms: int) -> tuple[Family, ...]:
+    """The families that do not mix, and last all of them in that order."""
+    parities = (slice(0, None, 2), slice(1, None, 2)) if edges[0] == edges[1] else (slice(None),)
+    coefficients = _coefficients(edges, n_terms)
+    apart = [coefficients[:, parity] for parity in parities]
+    return (*(Family(one) for one in apart), Family(np.hstack(apart)))
+
+
 def _coefficients(edges: str, n_terms: int) -> NDArray[np.float64]:
     from scipy.special import eval_jacobi, roots_legendre
 

@@ -33,6 +33,67 @@ from scene2hap.propagation.sampling import Sampling
 POINTS_AT_ONCE = 32
 
 
+@dataclass(frozen=True, eq=False)
+class Assembly:
+    """A scene whose plates are not solved yet.
+
+    groups : bodies that hang together, by their sources and joints; rigid : those that move as a whole, sources among
+    them; plates : those that bend and that a source can reach; top_hz : highest frequency that is asked for.
+    """
+
+    network: ContactNetwork
+    excitations: tuple[Excitation, ...]
+    bands: Bands
+    groups: Sequence[tuple[Sequence[str], Sequence[Joint]]]
+    rigid: Mapping[str, RigidMotion]
+    plates: Mapping[str, Plate]
+    top_hz: float
+
+    def solve(self, elastic: Mapping[str, ElasticBody], density: float = 1.0) -> CoupledField:
+        """The field, given a body for each of the plates.
+
+        Parameters: density : frequencies per band over what is needed.
+        """
+        source_ids = tuple(item.source_id for item in self.excitations)
+        bodies: dict[str, ElasticBody] = {**self.rigid, **elastic}
+        losses = [body.loss_factor for body in bodies.values()]
+        losses += [joint.loss_factor for _, joints in self.groups for joint in joints]
+        sampling = Sampling.of(self.bands, self.excitations, min(losses, default=1.0), density)
+        reach: dict[str, Reached] = {}
+        for sources, joints in self.groups:
+            if joints:
+                reach |= _solved(bodies, joints, sources, source_ids, sampling)
+        return CoupledField(source_ids, self.bands, self.network, sampling, reach)
+
+
+def assemble(
+    network: ContactNetwork,
+    excitations: Sequence[Excitation],
+    bands: Bands,
+    law: ContactLaw,
+    outside_domain: OutsideDomain = "warn",
+) -> Assembly:
+    """What hangs together and what bends. Parameters, errors and warnings as `prepare_coupled`."""
+    mass_kg = {item.source_id: item.mass_kg for item in excitations}
+    joints = joints_of(network, network.bodies.keys() | mass_kg.keys(), law)
+    groups = reached(joints, mass_kg)
+    top_hz = max(
+        (*bands.edges_hz, *(item.frequency_tactile_hz for item in excitations if not bands.edges_hz)), default=0.0
+    )
+    rigid: dict[str, RigidMotion] = {}
+    plates: dict[str, Plate] = {}
+    for object_id in sorted({x for _, several in groups for joint in several for x in (joint.a, joint.b)}):
+        body = network.bodies.get(object_id)
+        if object_id in mass_kg:
+            rigid[object_id] = RigidMotion.of(body, mass_kg[object_id], rocks=object_id in network.poses)
+        elif isinstance(body, RigidBody) or (isinstance(body, Plate) and is_compact(body)):
+            rigid[object_id] = RigidMotion.of(body, body.mass_kg, rocks=object_id in network.poses)
+        elif body is not None:
+            check_thin(object_id, body, top_hz, outside_domain)
+            plates[object_id] = body
+    return Assembly(network, tuple(excitations), bands, groups, rigid, plates, top_hz)
+
+
 def prepare_coupled(
     network: ContactNetwork,
     excitations: Sequence[Excitation],
@@ -49,30 +110,8 @@ def prepare_coupled(
     Raises, warns: ModelDomainError or ThinPlateWarning, as `outside_domain` says, for an object whose bending waves
     are shorter than six of its thicknesses.
     """
-    source_ids = tuple(item.source_id for item in excitations)
-    mass_kg = {item.source_id: item.mass_kg for item in excitations}
-    joints = joints_of(network, network.bodies.keys() | mass_kg.keys(), law)
-    groups = reached(joints, source_ids)
-    top_hz = max(
-        (*bands.edges_hz, *(item.frequency_tactile_hz for item in excitations if not bands.edges_hz)), default=0.0
-    )
-    bodies: dict[str, ElasticBody] = {}
-    for object_id in sorted({x for _, several in groups for joint in several for x in (joint.a, joint.b)}):
-        body = network.bodies.get(object_id)
-        if object_id in mass_kg:
-            bodies[object_id] = RigidMotion.of(body, mass_kg[object_id], rocks=object_id in network.poses)
-        elif isinstance(body, RigidBody) or (isinstance(body, Plate) and is_compact(body)):
-            bodies[object_id] = RigidMotion.of(body, body.mass_kg, rocks=object_id in network.poses)
-        elif body is not None:
-            check_thin(object_id, body, top_hz, outside_domain)
-            bodies[object_id] = elastic_body(body, top_hz)
-    losses = [body.loss_factor for body in bodies.values()] + [joint.loss_factor for joint in joints]
-    sampling = Sampling.of(bands, excitations, min(losses, default=1.0), density)
-    reach: dict[str, Reached] = {}
-    for sources, several in groups:
-        if several:
-            reach |= _solved(bodies, several, sources, source_ids, sampling)
-    return CoupledField(source_ids, bands, network, sampling, reach)
+    scene = assemble(network, excitations, bands, law, outside_domain)
+    return scene.solve({key: elastic_body(plate, scene.top_hz) for key, plate in scene.plates.items()}, density)
 
 
 def _solved(
