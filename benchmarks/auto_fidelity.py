@@ -1,0 +1,278 @@
+"""AutoFidelity against the finest model on random furniture, a table in Markdown; docs/propagation.md holds the latest.
+
+OPENBLAS_NUM_THREADS=1 python benchmarks/auto_fidelity.py [--draws 2000] [--tolerance 1.0]
+OPENBLAS_NUM_THREADS=1 python benchmarks/auto_fidelity.py --calibrate --draws 600
+
+A draw is a plate such as rooms have, a source of 0.05-5 kg on one, three or four feet anywhere on it, a touch anywhere
+on it, and bands: third octaves from 10 to 1000 Hz for one draw in three, else a run of them. Its error is that of the
+worst band, both gains floored at -40 dB re the source. Times are of the processor, prepare plus one touch, with every
+plate new. `--calibrate` prints the errors of every rung that `auto_rungs` has its bounds from, on other seeds.
+"""
+
+from __future__ import annotations
+
+import argparse
+import platform
+import sys
+import time
+import warnings
+from collections import Counter
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from importlib.metadata import version
+from itertools import repeat
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap import Bands, Contact, ContactNetwork, Excitation, Plate, Pose, PropagationField, materials
+from scene2hap.propagation import infinite_plate, modal_body, modes, rigid
+from scene2hap.propagation.auto import AutoFidelity, AutoField
+from scene2hap.propagation.auto_rungs import FINENESS, FLOOR_DB, Situation, body_of
+from scene2hap.propagation.contact_law import ContactLaw
+from scene2hap.propagation.substructuring import CoupledField, assemble
+
+REPORTED, CALIBRATING = 0, 100_000
+"""First seeds of the draws that are reported and of those that bounds come from."""
+LOSS_FLOOR = 0.01
+
+Range = tuple[float, float]
+# Materials; length, width and thickness [m]; boundaries.
+KINDS: dict[str, tuple[tuple[str, ...], Range, Range, Range, tuple[str, ...]]] = {
+    "table": (
+        ("oak", "beech", "pine", "plywood", "mdf", "chipboard"),
+        (0.6, 2.0),
+        (0.4, 1.0),
+        (0.015, 0.04),
+        ("free",),
+    ),
+    "shelf": (
+        ("plywood", "chipboard", "pine", "glass"),
+        (0.4, 1.2),
+        (0.2, 0.4),
+        (0.006, 0.025),
+        ("SSFF", "free", "SSSF"),
+    ),
+    "glass top": (("glass",), (0.4, 1.4), (0.4, 0.8), (0.004, 0.012), ("free",)),
+    "sheet": (
+        ("steel", "aluminium"),
+        (0.2, 0.7),
+        (0.15, 0.5),
+        (0.0008, 0.003),
+        ("free", "clamped", "simply-supported", "CFFF", "CFFS"),
+    ),
+    "board": (
+        ("plastic", "plexiglass", "bamboo", "oak", "cardboard"),
+        (0.2, 0.6),
+        (0.15, 0.4),
+        (0.003, 0.02),
+        ("free",),
+    ),
+    "stone": (("marble", "granite", "ceramic"), (0.3, 2.4), (0.2, 0.7), (0.01, 0.04), ("free",)),
+    "floor": (("concrete",), (2.5, 6.0), (2.5, 5.0), (0.1, 0.25), ("simply-supported", "clamped")),
+    "panel": (
+        ("plywood", "mdf", "gypsum", "glass"),
+        (0.6, 2.2),
+        (0.4, 1.2),
+        (0.006, 0.022),
+        ("simply-supported", "SSFF", "CFFF", "free"),
+    ),
+    "mat": (
+        ("rubber", "cork", "felt", "carpet", "leather", "foam"),
+        (0.2, 0.7),
+        (0.15, 0.45),
+        (0.004, 0.03),
+        ("free",),
+    ),
+    "small": (
+        ("plastic", "abs", "paper", "polypropylene", "ceramic"),
+        (0.08, 0.3),
+        (0.06, 0.2),
+        (0.004, 0.04),
+        ("free",),
+    ),
+}
+
+
+@dataclass(frozen=True)
+class Draw:
+    """A plate with a source on it and a touch."""
+
+    kind: str
+    plate: Plate
+    network: ContactNetwork
+    excitations: tuple[Excitation, ...]
+    bands: Bands
+    touch_m: tuple[float, float, float]
+
+
+def draw(seed: int) -> Draw:
+    rng = np.random.default_rng(seed)
+    kind = list(KINDS)[rng.integers(len(KINDS))]
+    names, lengths, widths, thicknesses, boundaries = KINDS[kind]
+    one, other = (float(np.exp(rng.uniform(*np.log(span)))) for span in (lengths, widths))
+    thickness = float(np.exp(rng.uniform(*np.log(thicknesses))))
+    material = materials.lookup(names[rng.integers(len(names))])
+    plate = Plate(max(one, other), min(one, other), thickness, material, boundaries[rng.integers(len(boundaries))])
+    size = np.array([plate.length_m, plate.width_m])
+    n_feet = int(rng.choice([1, 3, 4]))
+    apart = np.minimum(rng.uniform(0.03, 0.25, 2), 0.5 * size)
+    corner = rng.uniform(0.02 * size, 0.98 * size - apart * (n_feet > 1))
+    places = [(0, 0), (1, 0), (0.5, 1)] if n_feet == 3 else [(0, 0), (1, 0), (0, 1), (1, 1)][:n_feet]
+    feet = [Contact("source", "plate", (*map(float, corner + place * apart), 0.0)) for place in np.array(places)]
+    mass_kg = float(np.exp(rng.uniform(np.log(0.05), np.log(5))))
+    touch = rng.uniform(0.02, 0.98, 2) * size
+    is_whole = rng.random() < 1 / 3
+    first, last = np.sort(rng.choice(21, 2, replace=False))
+    edges = np.geomspace(10, 1000, 21)[first : last + 1]
+    bands = Bands.third_octaves() if is_whole else Bands(tuple(map(float, edges)))
+    network = ContactNetwork({"plate": plate}, feet, {"plate": Pose((0.0, 0.0, 0.0))})
+    return Draw(kind, plate, network, (Excitation("source", 100.0, 100.0, mass_kg),), bands, (*map(float, touch), 0.0))
+
+
+def by_rung(one: Draw, rung: str, density: float = 1.0) -> CoupledField:
+    """The field with all plates on one rung."""
+    scene = assemble(one.network, one.excitations, one.bands, ContactLaw(), "ignore")
+    bodies = {
+        key: body_of(rung, plate, scene.top_hz, max(plate.material.loss_factor, LOSS_FLOOR))
+        for key, plate in scene.plates.items()
+    }
+    return scene.solve(bodies, density)
+
+
+def forget() -> None:
+    """Make every plate one that was never seen."""
+    for cached in (modes._modes_up_to, modes.first_bending_hz, modal_body.modal_body, rigid.is_compact):
+        cached.cache_clear()
+    infinite_plate._table.cache_clear()
+
+
+def asked(one: Draw, field: PropagationField) -> NDArray[np.float64]:
+    """Gains at the touch [dB], floored."""
+    gains = field.attenuation("plate", [one.touch_m])[0, 0]
+    return np.maximum(20 * np.log10(np.maximum(gains, 1e-30)), FLOOR_DB)
+
+
+def wrong_by(one: NDArray[np.float64], other: NDArray[np.float64]) -> float:
+    return float(np.abs(one - other).max())
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of a draw: rung and bound, error [dB], and times [s] with it, with the finest and with ModalPlate."""
+
+    kind: str
+    rung: str
+    bound_db: float
+    error_db: float
+    auto_s: float
+    finest_s: float
+    modal_s: float
+
+
+def compare(seed: int, model: AutoFidelity) -> Outcome:
+    one = draw(seed)
+    forget()
+    begin = time.process_time()
+    field: AutoField = model.prepare(one.network, one.excitations, one.bands)
+    found = asked(one, field)
+    auto_s = time.process_time() - begin
+    times = []
+    for rung in ("fine", "finest"):
+        forget()
+        begin = time.process_time()
+        truth = asked(one, by_rung(one, rung))
+        times.append(time.process_time() - begin)
+    choice = field.choices["plate"]
+    return Outcome(one.kind, choice.rung, choice.bound_db, wrong_by(found, truth), auto_s, times[1], times[0])
+
+
+def calibrate(n_draws: int, first: int) -> None:
+    """Errors of every rung by what holds the plate."""
+    density = AutoFidelity()._density()
+    errors: dict[tuple[str, str], list[float]] = {}
+    for seed in range(first, first + n_draws):
+        one = draw(seed)
+        if rigid.is_compact(one.plate):
+            continue
+        scene = assemble(one.network, one.excitations, one.bands, ContactLaw(), "ignore")
+        situation: Situation = AutoFidelity()._situation(scene, "plate")
+        if situation.peak_db <= FLOOR_DB:
+            continue
+        truth = asked(one, by_rung(one, "finest"))
+        for rung in FINENESS:
+            errors.setdefault((situation.held, rung), []).append(
+                wrong_by(asked(one, by_rung(one, rung, density)), truth)
+            )
+        if one.plate.edges == "FFFF" and one.bands.edges_hz[-1] < 0.5 * modes.first_bending_hz(one.plate):
+            ratio = one.bands.edges_hz[-1] / modes.first_bending_hz(one.plate)
+            error = wrong_by(asked(one, by_rung(one, "rigid", density)), truth)
+            errors.setdefault(("free", "rigid, dB over (f / f_1)^2"), []).append(error / ratio**2)
+    print("| held | rung | draws | median | 95 % | 99 % | worst |\n|---|---|---|---|---|---|---|")
+    for (held, rung), several in sorted(errors.items()):
+        cells = " | ".join(f"{np.quantile(several, q):.2f}" for q in (0.5, 0.95, 0.99, 1.0))
+        print(f"| {held} | {rung} | {len(several)} | {cells} |")
+
+
+def report(outcomes: list[Outcome], tolerance_db: float) -> str:
+    errors = np.array([one.error_db for one in outcomes])
+    lines = [
+        "| rung | chosen | error, median / 99 % / worst, dB | within tolerance | bound, dB | ms, median | finest, ms |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for rung in ("rigid", "infinite", *FINENESS):
+        mine = [one for one in outcomes if one.rung == rung]
+        if mine:
+            apart = np.array([one.error_db for one in mine])
+            spread = " / ".join(f"{np.quantile(apart, q):.2f}" for q in (0.5, 0.99, 1.0))
+            times = [1e3 * float(np.median([getattr(one, name) for one in mine])) for name in ("auto_s", "finest_s")]
+            bound = max(one.bound_db for one in mine)
+            lines.append(
+                f"| {rung} | {100 * len(mine) / len(outcomes):.1f} % | {spread} | "
+                f"{100 * np.mean(apart <= tolerance_db):.1f} % | {bound:.2g} | {times[0]:.1f} | {times[1]:.1f} |"
+            )
+    auto, finest, modal = (
+        np.array([getattr(one, name) for one in outcomes]) for name in ("auto_s", "finest_s", "modal_s")
+    )
+    beyond = Counter(one.kind for one in outcomes if one.error_db > tolerance_db)
+    lines += [
+        "",
+        f"{len(outcomes)} draws: within {tolerance_db:g} dB {100 * np.mean(errors <= tolerance_db):.2f} %, "
+        f"99 % of errors below {np.quantile(errors, 0.99):.2f} dB; beyond: {dict(beyond)}.",
+        f"Median times: {1e3 * np.median(auto):.1f} ms against {1e3 * np.median(finest):.1f} ms of the finest "
+        f"(ratio of medians {np.median(finest) / np.median(auto):.1f}, "
+        f"median of ratios {np.median(finest / auto):.1f}, "
+        f"of sums {finest.sum() / auto.sum():.1f}) and {1e3 * np.median(modal):.1f} ms of ModalPlate "
+        f"({np.median(modal) / np.median(auto):.1f}, {np.median(modal / auto):.1f}, {modal.sum() / auto.sum():.1f}).",
+        "",
+        f"Machine: {platform.system()} {platform.machine()}, Python {platform.python_version()}, "
+        f"numpy {version('numpy')}, scipy {version('scipy')}; seeds from {REPORTED}.",
+    ]
+    return "\n".join(lines)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--draws", type=int, default=2000)
+    parser.add_argument("--tolerance", type=float, default=1.0)
+    parser.add_argument("--workers", type=int, default=1, help="processes")
+    parser.add_argument("--calibrate", action="store_true")
+    parser.add_argument("--first", type=int, default=REPORTED, help="first seed")
+    arguments = parser.parse_args()
+    warnings.simplefilter("ignore")
+    if arguments.calibrate:
+        calibrate(arguments.draws, arguments.first + CALIBRATING)
+        return
+    model = AutoFidelity(arguments.tolerance, outside_domain="ignore")
+    seeds = range(arguments.first, arguments.first + arguments.draws)
+    outcomes = []
+    with ProcessPoolExecutor(arguments.workers, initializer=compare, initargs=(arguments.first, model)) as pool:
+        for outcome in pool.map(compare, seeds, repeat(model), chunksize=10):
+            outcomes.append(outcome)
+            if len(outcomes) % 200 == 0:
+                print(len(outcomes), file=sys.stderr, flush=True)
+    print(report(outcomes, arguments.tolerance))
+
+
+if __name__ == "__main__":
+    main()

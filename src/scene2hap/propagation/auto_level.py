@@ -1,0 +1,66 @@
+"""The loudest that a plate can get beside its sources, before anything is solved.
+
+    g(f) <= F_b Y_inf B            F_b = 1 / |1 / K - 1 / (omega^2 m)|          Y_inf = 1 / (8 D k^2)
+    B = max(1, 8 / (pi omega n eta) sqrt(min(1, pi eta f / (2 b))))
+
+F_b is what a source of mass m pushes with, per unit of its free motion, through contacts of stiffness K against a wall;
+Y_inf the receptance of the plate without edges; B how far a resonance of modal density n rises above it: a mode whose
+shape is twice its mean at both points, 4 / (eta omega M), over the mean mobility pi n / (2 M), as the rms over a band
+of width b. Below the first resonance omega_1 a plate that is held yields less, 5.2 / (M (omega_1^2 - omega^2)).
+Derived here. It exceeded the loudest gain in each of the calibrating draws of benchmarks/auto_fidelity.py.
+
+Letters: g [-] gain, F_b [N/m], m [kg], M [kg] mass of the plate, K [N/m] complex, Y [m/N], D [N m], k [rad/m],
+n [s/rad], eta [-], b [Hz].
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.haptics import Bands
+from scene2hap.propagation.coupling import Joint
+from scene2hap.propagation.modes import first_bending_hz, n_rigid_motions
+from scene2hap.propagation.plate import Plate
+
+N_FREQUENCIES = 40
+
+
+def peak_level_db(
+    plate: Plate, loss_factor: float, pushed_by: Sequence[tuple[float, list[Joint]]], bands: Bands, own_hz: list[float]
+) -> float:
+    """Bound on the gain anywhere on a plate that sources push [dB].
+
+    Parameters: pushed_by : mass [kg] of each source on the plate, and its joints there; own_hz : what sources are asked
+    at if there are no bands.
+    """
+    edges = bands.widths_hz()
+    f = np.geomspace(edges[0, 0], edges[-1, 1], N_FREQUENCIES) if len(edges) else np.array(own_hz)
+    share = float(((edges[:, 1] - edges[:, 0]) / edges[:, 0]).min()) if len(edges) else 1e-9
+    omega = 2 * math.pi * f
+    force = np.max([_push(omega, mass, joints) for mass, joints in pushed_by], axis=0)
+    return float(20 * np.log10((force * _receptance(plate, loss_factor, omega, share)).max()))
+
+
+def _push(omega: NDArray[np.float64], mass_kg: float, joints: list[Joint]) -> NDArray[np.float64]:
+    stiffness = sum(joint.stiffness_n_m * complex(1, joint.loss_factor) for joint in joints)
+    force: NDArray[np.float64] = 1 / np.abs(1 / stiffness - 1 / (omega**2 * mass_kg))
+    return force
+
+
+def _receptance(plate: Plate, eta: float, omega: NDArray[np.float64], share: float) -> NDArray[np.float64]:
+    """The largest receptance of a plate [m/N]."""
+    D, mass = plate.bending_stiffness_nm, plate.mass_kg
+    m = plate.material.density_kg_m3 * plate.thickness_m
+    n = plate.length_m * plate.width_m / (4 * math.pi) * math.sqrt(m / D)
+    boost = 8 / (math.pi * omega * n * eta) * math.sqrt(min(1.0, math.pi * eta / (2 * share)))
+    bound: NDArray[np.float64] = np.maximum(1.0, boost) / (8 * np.sqrt(D * m) * omega)
+    # A plate clamped all round is the stiffest; its first mode is below 36 / S in any case.
+    could_be_first = 36.0 * max(plate.length_m / plate.width_m, plate.width_m / plate.length_m)
+    if n_rigid_motions(plate) == 0 and omega[0] < could_be_first / (plate.length_m * plate.width_m) * math.sqrt(D / m):
+        below = (2 * math.pi * first_bending_hz(plate)) ** 2 - omega**2
+        bound = np.minimum(bound, np.where(below > 0, 5.2 / (mass * np.maximum(below, 1e-300)), np.inf))
+    return bound

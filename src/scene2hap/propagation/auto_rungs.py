@@ -1,0 +1,122 @@
+"""The rungs of `auto`: models of one plate from the cheapest to the finest, and what each may be wrong by.
+
+    rigid     moves as a whole               wrong by 25 dB (f / f_1)^2, calibrated
+    infinite  has no edges                   wrong by what rises above the floor of -40 dB, derived (`auto_level`)
+    coarse    modes of a small basis         wrong by `MODAL_DB`, calibrated
+    medium    ...
+    fine      as `ModalPlate`
+    finest    `ModalPlate` with 2.6 polynomials per half wave, converged to 0.1 dB; what all are held against
+
+Every modal rung keeps its resonances one by one, the static share of all else, and the near field; they differ in the
+polynomials that they are made of. Errors are those of band gains, floored at -40 dB re the source, in the worst band.
+Calibrated: the 99th percentile over 600 draws of benchmarks/auto_fidelity.py (`--calibrate`), none of which is among
+those that it reports.
+
+Letters: f [Hz] top frequency, f_1 [Hz] first bending mode.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from scene2hap.propagation.coupling import ElasticBody
+from scene2hap.propagation.infinite_plate import InfiniteBody
+from scene2hap.propagation.modal_body import modal_body
+from scene2hap.propagation.modes import Fineness, first_bending_hz
+from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.rigid import RigidMotion
+
+FLOOR_DB = -40.0
+"""Gains below this are as good as none: errors are counted from here, re the source."""
+RIGID_DB = 25.0
+FINENESS = {
+    "coarse": Fineness(1.2 / math.pi, 3, 6),
+    "medium": Fineness(1.6 / math.pi, 3, 12),
+    "fine": Fineness(2.0 / math.pi, 4, 16),
+    "finest": Fineness(2.6 / math.pi, 8, 26),
+}
+MODAL_DB = {
+    "held, and quiet": {"coarse": 0.75, "medium": 0.4, "fine": 0.3},
+    "held": {"coarse": 3.0, "medium": 2.1, "fine": 0.8},
+    "free": {"coarse": 4.6, "medium": 0.9, "fine": 0.46},
+}
+"""Error of each basis by what holds the plate: "free" are two free edges or more; the rest is "held", and quiet where
+sources cannot bring it above `QUIET_DB`. Near edges that hold, a plate hardly moves, and small bases err most."""
+FINEST_DB = 0.1
+QUIET_DB = 5.0
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What an object of a scene is modelled by: its rung, the bound on its error [dB], and why."""
+
+    object_id: str
+    rung: str
+    bound_db: float
+    why: str
+
+    def __str__(self) -> str:
+        return f"{self.object_id}: {self.rung}, within {self.bound_db:.2g} dB: {self.why}"
+
+
+@dataclass(frozen=True)
+class Situation:
+    """What a choice rests on: a plate, its loss factor [-], the top frequency [Hz], and a bound on its gain [dB]
+    (`auto_level`), infinite if nothing is known of it."""
+
+    plate: Plate
+    loss_factor: float
+    top_hz: float
+    peak_db: float = math.inf
+
+    def choose(self, object_id: str, tolerance_db: float, *, may_be_infinite: bool = True) -> Choice:
+        """The cheapest rung whose bound is within the tolerance [dB]; the finest if none is."""
+        ratio = self._bending(tolerance_db)
+        if RIGID_DB * ratio**2 <= tolerance_db:
+            why = f"{self.top_hz:g} Hz is {ratio:.2g} of its first bending mode"
+            return Choice(object_id, "rigid", RIGID_DB * ratio**2, why)
+        above = max(0.0, self.peak_db - FLOOR_DB)
+        if may_be_infinite and above <= tolerance_db:
+            why = f"at most {self.peak_db:.0f} dB anywhere on it, and {FLOOR_DB:g} dB counts as none"
+            return Choice(object_id, "infinite", above, why)
+        held = self.held
+        for rung, bound in MODAL_DB[held].items():
+            if bound <= tolerance_db:
+                return Choice(object_id, rung, bound, f"the smallest basis that serves a plate that is {held}")
+        return Choice(object_id, "finest", FINEST_DB, f"no smaller basis serves a plate that is {held}")
+
+    def _bending(self, tolerance_db: float) -> float:
+        """Top frequency over that of the first bending mode, infinite where a glance shows that it is too high."""
+        longer = max(self.plate.length_m, self.plate.width_m)
+        # A free beam along the longer side is a trial deflection, so the first mode lies below its own (Rayleigh).
+        beam_hz = 22.374 / (longer * self.plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
+        if self.plate.edges != "FFFF" or RIGID_DB * (self.top_hz / beam_hz) ** 2 > tolerance_db:
+            return math.inf
+        return self.top_hz / first_bending_hz(self.plate)
+
+    @property
+    def held(self) -> str:
+        """The row of `MODAL_DB`."""
+        if self.plate.edges.count("F") >= 2:
+            return "free"
+        return "held, and quiet" if self.peak_db < QUIET_DB else "held"
+
+
+def body_of(rung: str, plate: Plate, max_frequency_hz: float, loss_factor: float) -> ElasticBody:
+    """The body that a rung makes of a plate, for frequencies up to `max_frequency_hz` [Hz]."""
+    return _MAKERS[rung](plate, max_frequency_hz, loss_factor)
+
+
+def _modal(fineness: Fineness) -> Callable[[Plate, float, float], ElasticBody]:
+    return lambda plate, max_frequency_hz, eta: modal_body(plate, max_frequency_hz, eta, fineness)
+
+
+_MAKERS: dict[str, Callable[[Plate, float, float], ElasticBody]] = {
+    "rigid": lambda plate, max_frequency_hz, eta: RigidMotion.of(plate, plate.mass_kg, rocks=True),
+    "infinite": lambda plate, max_frequency_hz, eta: InfiniteBody(plate, eta),
+    **{rung: _modal(fineness) for rung, fineness in FINENESS.items()},
+}
+RUNGS = tuple(_MAKERS)
+"""From the cheapest to the finest."""

@@ -1,0 +1,115 @@
+"""A picture of how a source is felt all over a plate. Needs the extra `plots`."""
+
+from __future__ import annotations
+
+import math
+import os
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from scene2hap import checks
+from scene2hap.errors import MissingExtra, ModelDomainError
+from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.points import as_points
+from scene2hap.propagation.protocol import ContactNetwork, PropagationField
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+RANGE_DB = 40.0
+"""How far below the loudest place colours go."""
+CELLS = 64
+"""Along the longer side."""
+
+
+def plot_field(
+    field: PropagationField,
+    network: ContactNetwork,
+    object_id: str,
+    *,
+    source_id: str | None = None,
+    band: int = 0,
+    touch_m: ArrayLike | None = None,
+    title: str = "",
+    path: str | os.PathLike[str] | None = None,
+) -> Figure:
+    """Attenuation over a plate as a map in dB, with the contacts of the source and a touch.
+
+    Parameters: field : prepared from `network`, by any model; object_id : a plate of it; source_id : one of the
+    field's, its first by default; band : which of the field's bands; touch_m : (3,) or (n, 3) [m], world;
+    path : where to write it as well, in the format of its ending, as .png.
+    Returns: a matplotlib Figure.
+    Raises: MissingExtra: matplotlib is not installed. ModelDomainError: no plate of that id, no such source or band.
+    """
+    plate = network.bodies.get(object_id)
+    if not isinstance(plate, Plate):
+        plates = sorted(key for key, body in network.bodies.items() if isinstance(body, Plate))
+        raise ModelDomainError(f"object {object_id!r} is no plate of this network; its plates are {plates}.")
+    source = source_id if source_id is not None else next(iter(field.source_ids), None)
+    if source not in field.source_ids:
+        raise ModelDomainError(f"source {source!r} is none of this field's; they are {list(field.source_ids)}.")
+    gains = _map(field, network, object_id, plate)
+    last = gains.shape[3] - 1
+    chosen = int(checks.number("band", band, "-", at_least=0, at_most=last, error=ModelDomainError))
+    level_db = 20 * np.log10(np.maximum(gains[:, :, field.source_ids.index(source), chosen], 1e-30))
+
+    figure = _new_figure(plate)
+    axes = figure.add_subplot()
+    loudest = float(level_db.max())
+    image = axes.imshow(
+        level_db.T, origin="lower", extent=(0, plate.length_m, 0, plate.width_m), cmap="viridis",
+        vmin=loudest - RANGE_DB, vmax=loudest, interpolation="bilinear",
+    )  # fmt: skip
+    figure.colorbar(image, ax=axes, label="attenuation, dB", shrink=0.8)
+    feet = _feet(network, object_id, source)
+    axes.plot(*feet.T, "o", color="white", markeredgecolor="black", label=f"{source} rests here")
+    if touch_m is not None:
+        touched = network.on_body(object_id, as_points(touch_m, 3))
+        axes.plot(*touched.T, "X", color="tab:red", markeredgecolor="white", markersize=10, label="touch")
+    axes.set(xlabel="length, m", ylabel="width, m", title=title or f"{source} on {object_id}")
+    axes.legend(loc="upper right", fontsize=8)
+    if path is not None:
+        _write(figure, Path(path))
+    return figure
+
+
+def _map(field: PropagationField, network: ContactNetwork, object_id: str, plate: Plate) -> NDArray[np.float64]:
+    """Gains in the middles of cells (n_x, n_y, n_sources, n_bands)."""
+    longer = max(plate.length_m, plate.width_m)
+    x, y = (
+        (np.arange(n) + 0.5) / n * side
+        for side in (plate.length_m, plate.width_m)
+        for n in (max(4, math.ceil(CELLS * side / longer)),)
+    )
+    points = np.stack([*np.meshgrid(x, y, indexing="ij"), np.zeros((len(x), len(y)))], axis=-1).reshape(-1, 3)
+    pose = network.poses.get(object_id)
+    gains = field.attenuation(object_id, points if pose is None else pose.to_world(points))
+    return gains.reshape(len(x), len(y), *gains.shape[1:])
+
+
+def _feet(network: ContactNetwork, object_id: str, source_id: str) -> NDArray[np.float64]:
+    points = [one.point_m for one in network.contacts if {one.a, one.b} == {object_id, source_id}]
+    return network.on_body(object_id, points) if points else np.empty((0, 2))
+
+
+def _new_figure(plate: Plate) -> Figure:
+    try:
+        from matplotlib.figure import Figure
+    except ImportError as cause:
+        raise MissingExtra("pictures of plates need matplotlib. Run: pip install 'scene2hap[plots]'") from cause
+    height = 1.4 + 5.5 * min(1.2, max(0.25, plate.width_m / plate.length_m))
+    return Figure(figsize=(7.5, height), dpi=110, layout="constrained")
+
+
+def _write(figure: Figure, path: Path) -> None:
+    handle, name = tempfile.mkstemp(dir=path.parent, suffix=path.suffix)
+    os.close(handle)
+    try:
+        figure.savefig(name)
+        os.replace(name, path)
+    finally:
+        Path(name).unlink(missing_ok=True)

@@ -1,0 +1,155 @@
+"""AutoFidelity: its tolerance against the finest model, what it says about its choices, and where they come from."""
+
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from scene2hap import Bands, Contact, ContactNetwork, Excitation, ModalPlate, Plate, Pose, materials
+from scene2hap.errors import ConfigError, ModelDomainError
+from scene2hap.propagation import MODELS, modes
+from scene2hap.propagation.auto import AutoFidelity
+from scene2hap.propagation.auto_level import peak_level_db
+from scene2hap.propagation.auto_rungs import FLOOR_DB, RUNGS, Situation
+from scene2hap.propagation.contact_law import ContactLaw
+from scene2hap.propagation.substructuring import assemble
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
+
+import auto_fidelity as campaign
+
+OAK, CONCRETE, STEEL = (materials.lookup(name) for name in ("oak", "concrete", "steel"))
+MODEL = AutoFidelity(outside_domain="ignore")
+FIRST_SEED = 300_000
+
+
+def furniture(count: int) -> list[campaign.Draw]:
+    """Draws whose finest model is quick; the campaign takes all."""
+    drawn = (campaign.draw(seed) for seed in range(FIRST_SEED, FIRST_SEED + 400))
+    quick = [one for one in drawn if modes.largest_block(one.plate, 1.5 * one.bands.edges_hz[-1]) < 110]
+    return quick[:count]
+
+
+def phone_on(plate: Plate, mass_kg: float = 0.2) -> tuple[ContactNetwork, list[Excitation]]:
+    feet = [Contact("phone", "top", (0.1 + x, 0.1 + y, 0.0)) for x in (0.0, 0.1) for y in (0.0, 0.05)]
+    return ContactNetwork({"top": plate}, feet), [Excitation("phone", 175.0, 175.0, mass_kg)]
+
+
+def test_it_keeps_its_tolerance_on_furniture() -> None:
+    errors, rungs = [], set()
+    for one in furniture(60):
+        field = MODEL.prepare(one.network, one.excitations, one.bands)
+        truth = campaign.asked(one, campaign.by_rung(one, "finest"))
+        errors.append(campaign.wrong_by(campaign.asked(one, field), truth))
+        rungs.add(field.choices["plate"].rung)
+    assert np.mean(np.array(errors) <= 1.0) >= 0.95  # 0.99 of 2,000 in the campaign
+    assert np.median(errors) < 0.3
+    assert len(rungs) >= 3
+
+
+def test_no_gain_exceeds_the_level_that_is_promised() -> None:
+    for one in furniture(30):
+        scene = assemble(one.network, one.excitations, one.bands, ContactLaw(), "ignore")
+        if "plate" not in scene.plates:
+            continue
+        joints = [joint for _, several in scene.groups for joint in several]
+        eta = max(one.plate.material.loss_factor, 0.01)
+        promised = peak_level_db(one.plate, eta, [(one.excitations[0].mass_kg, joints)], one.bands, [])
+        field = campaign.by_rung(one, "fine")
+        size = [one.plate.length_m, one.plate.width_m, 0.0]
+        anywhere = np.random.default_rng(1).uniform(0.02, 0.98, (20, 3)) * size
+        loudest = 20 * np.log10(field.attenuation("plate", anywhere).max())
+        assert loudest <= promised + 6.0  # corners of free plates move twice as much as the bound allows for
+
+
+@pytest.mark.parametrize(
+    ("plate", "bands", "rung"),
+    [
+        (Plate(0.5, 0.3, 0.061, OAK), Bands.third_octaves(), "rigid"),  # compact
+        (Plate(0.6, 0.4, 0.02, OAK), Bands((10.0, 20.0)), "rigid"),  # its first mode lies near 250 Hz
+        (Plate(5.0, 4.0, 0.2, CONCRETE, "clamped"), Bands((50.0, 80.0)), "infinite"),
+        (Plate(2.4, 1.2, 0.03, OAK, "SSSS"), Bands((40.0, 63.0, 100.0)), "coarse"),
+        (Plate(1.2, 0.7, 0.025, OAK), Bands.third_octaves(), "medium"),
+        (Plate(0.5, 0.4, 0.002, STEEL, "clamped"), Bands.third_octaves(), "fine"),
+    ],
+)
+def test_which_rung(plate: Plate, bands: Bands, rung: str) -> None:
+    field = MODEL.prepare(*phone_on(plate), bands)
+    choice = field.choices["top"]
+    assert choice.rung == rung
+    assert 0 <= choice.bound_db <= 1.0
+    assert "top: " + rung in field.explain()
+    assert field.choices["phone"].rung == "rigid"
+
+
+def test_a_tighter_tolerance_never_chooses_a_cheaper_rung() -> None:
+    for plate in (Plate(1.2, 0.7, 0.025, OAK), Plate(0.5, 0.4, 0.002, STEEL, "CFFS"), Plate(0.3, 0.2, 0.02, OAK)):
+        for top_hz in (30.0, 200.0, 1000.0):
+            situation = Situation(plate, 0.01, top_hz)
+            chosen = [situation.choose("x", tolerance) for tolerance in (6.0, 3.0, 1.0, 0.5, 0.1)]
+            places = [RUNGS.index(choice.rung) for choice in chosen]
+            assert places == sorted(places)
+            assert chosen[-1].bound_db <= 0.1
+
+
+def test_the_tightest_tolerance_is_the_finest_model() -> None:
+    one = furniture(1)[0]
+    field = AutoFidelity(0.1, outside_domain="ignore").prepare(one.network, one.excitations, one.bands)
+    truth = campaign.asked(one, campaign.by_rung(one, "finest"))
+    assert campaign.wrong_by(campaign.asked(one, field), truth) <= 0.1
+
+
+def test_a_chain_of_objects_shares_the_tolerance() -> None:
+    """A radio on a shelf on a table: two plates on the way, so each gets less than alone, and the sum still holds."""
+    shelf, table = Plate(0.6, 0.25, 0.018, OAK), Plate(1.4, 0.8, 0.03, OAK)
+    contacts = [Contact("radio", "shelf", (0.3 + x, 0.1, 0.0)) for x in (0.0, 0.1)]
+    contacts += [Contact("shelf", "table", (x, y, 0.0)) for x in (0.1, 0.55) for y in (0.05, 0.2)]
+    network = ContactNetwork({"shelf": shelf, "table": table}, contacts)
+    excitations, bands = [Excitation("radio", 150.0, 150.0, 1.0)], Bands.third_octaves()
+    field = AutoFidelity(1.0).prepare(network, excitations, bands)
+    assert all(field.choices[key].bound_db <= 1 / np.sqrt(2) for key in ("shelf", "table"))
+    finest = AutoFidelity(0.1).prepare(network, excitations, bands)
+    assert {finest.choices[key].rung for key in ("shelf", "table")} == {"finest"}
+    for object_id, point in (("shelf", (0.1, 0.2, 0.0)), ("table", (1.2, 0.3, 0.0))):
+        gains = [np.maximum(one.attenuation(object_id, [point])[0, 0], 0.01) for one in (field, finest)]
+        assert np.abs(20 * np.log10(gains[0] / gains[1])).max() < 1.0
+
+
+def test_one_plate_by_itself() -> None:
+    plate, f = Plate(1.2, 0.7, 0.025, replace(OAK, loss_factor=0.02)), np.array([0.0, 40.0, 200.0, 700.0])
+    points = [[0.2, 0.1], [0.7, 0.5]]
+    found = MODEL.plate_transfer(plate, [0.2, 0.1], points, f)
+    np.testing.assert_allclose(found[0], 1.0, rtol=1e-9)
+    expected = ModalPlate().plate_transfer(plate, [0.2, 0.1], points, f)
+    np.testing.assert_allclose(np.abs(found), np.abs(expected), rtol=0.1)
+    np.testing.assert_allclose(
+        np.abs(MODEL.plate_receptance(plate, [0.2, 0.1], points, f[1:])),
+        np.abs(ModalPlate().plate_receptance(plate, [0.2, 0.1], points, f[1:])),
+        rtol=0.1,
+    )
+    assert MODEL.choose(plate, 700.0).rung == "medium"
+    with pytest.raises(ModelDomainError, match="does not move"):
+        MODEL.plate_transfer(replace(plate, boundary="CFFF"), [0.0, 0.2], points, [50.0])
+
+
+def test_settings() -> None:
+    assert MODELS.build({"kind": "auto", "tolerance_db": 2.0}) == AutoFidelity(2.0)
+    for settings in ({"tolerance_db": 0.01}, {"tolerance_db": 9.0}, {"loss_floor": -1.0}, {"outside_domain": "no"}):
+        with pytest.raises(ConfigError, match="tolerance_db|loss_floor|outside_domain"):
+            AutoFidelity(**settings)
+    bare = replace(STEEL, loss_factor=0.0)
+    with pytest.raises(ModelDomainError, match="loss factor of 0"):
+        AutoFidelity(loss_floor=0.0).prepare(*phone_on(Plate(0.5, 0.4, 0.002, bare)), Bands((10.0, 20.0)))
+
+
+def test_poses_and_dominant_bands() -> None:
+    """A body that lies elsewhere answers the same; one frequency per source is a band as well."""
+    network, excitations = phone_on(Plate(1.2, 0.7, 0.025, OAK))
+    here = MODEL.prepare(network, excitations, Bands.dominant()).attenuation("top", [(0.9, 0.4, 0.0)])
+    away = Pose((3.0, -1.0, 0.7))
+    moved = [replace(one, point_m=tuple(np.add(one.point_m, away.position_m))) for one in network.contacts]
+    there = MODEL.prepare(ContactNetwork(network.bodies, moved, {"top": away}), excitations, Bands.dominant())
+    np.testing.assert_allclose(there.attenuation("top", [(3.9, -0.6, 0.7)]), here, rtol=1e-9)
+    assert 20 * np.log10(here[0, 0, 0]) > FLOOR_DB

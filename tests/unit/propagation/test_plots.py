@@ -1,0 +1,59 @@
+"""A plate's map: where it is loud, what is marked, and what is refused."""
+
+import sys
+
+import numpy as np
+import pytest
+
+from scene2hap import Bands, Contact, ContactNetwork, Excitation, ExponentialPlate, ModalPlate, Plate, Pose, materials
+from scene2hap.errors import MissingExtra, ModelDomainError
+from scene2hap.propagation.plots import plot_field
+
+TOP = Plate(0.8, 0.4, 0.02, materials.lookup("oak"))
+PLACE = Pose((1.0, 2.0, 0.5))
+NETWORK = ContactNetwork({"top": TOP}, [Contact("phone", "top", (1.2, 2.1, 0.5))], {"top": PLACE})
+FIELD = ExponentialPlate().prepare(NETWORK, [Excitation("phone", 150.0, 150.0, 0.2)], Bands((100.0, 200.0, 400.0)))
+
+
+def test_the_map_is_the_field() -> None:
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed; run: pip install 'scene2hap[plots]'")
+    figure = plot_field(FIELD, NETWORK, "top", band=1, touch_m=[1.5, 2.3, 0.5])
+    axes = figure.axes[0]
+    shown = np.asarray(axes.images[0].get_array())  # (n_y, n_x), from the corner
+    n_y, n_x = shown.shape
+    assert (n_x, n_y) == (64, 32)
+    at = PLACE.to_world([[(10 + 0.5) / n_x * 0.8, (20 + 0.5) / n_y * 0.4, 0.0]])
+    expected = 20 * np.log10(FIELD.attenuation("top", at)[0, 0, 1])
+    assert shown[20, 10] == pytest.approx(expected)
+    foot, touch = (line.get_xydata()[0] for line in axes.lines)
+    np.testing.assert_allclose(foot, [0.2, 0.1])
+    np.testing.assert_allclose(touch, [0.5, 0.3])
+    loudest = np.unravel_index(shown.argmax(), shown.shape)
+    np.testing.assert_allclose([loudest[1] / n_x * 0.8, loudest[0] / n_y * 0.4], foot, atol=0.03)
+
+
+def test_it_is_written(tmp_path) -> None:  # type: ignore[no-untyped-def]
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed; run: pip install 'scene2hap[plots]'")
+    field = ModalPlate().prepare(NETWORK, [Excitation("phone", 150.0, 150.0, 0.2)], Bands.dominant())
+    plot_field(field, NETWORK, "top", path=tmp_path / "map.png")
+    assert [item.name for item in tmp_path.iterdir()] == ["map.png"]
+    assert (tmp_path / "map.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+
+
+def test_a_missing_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    with pytest.raises(MissingExtra, match=r"scene2hap\[plots\]"):
+        plot_field(FIELD, NETWORK, "top")
+
+
+@pytest.mark.parametrize(
+    ("question", "message"),
+    [
+        ({"object_id": "phone"}, "no plate"),
+        ({"object_id": "top", "source_id": "radio"}, "radio"),
+        ({"object_id": "top", "band": 2}, "band is 2"),
+    ],
+)
+def test_refusals(question: dict, message: str) -> None:
+    with pytest.raises(ModelDomainError, match=message):
+        plot_field(FIELD, NETWORK, **question)
