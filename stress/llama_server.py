@@ -29,11 +29,11 @@ from scene2hap import LocalBackend, SceneSnapshot, capture_images, standard_stac
 from scene2hap.llm.chain import Inference, infer_scene
 from scene2hap.llm.wrappers import reports
 
-ROOT = Path(__file__).parents[1]
-sys.path.insert(0, str(ROOT / "benchmarks"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 
 from loopback import kitchen
 
+ROOT = Path(__file__).parents[1]
 BUILD = ROOT / "build" / "llama"
 WEIGHTS = ROOT.parent / "shared" / "tools"
 OFF = ("BUILD_SHARED_LIBS", "LLAMA_CURL", "LLAMA_OPENSSL", "LLAMA_BUILD_TESTS", "LLAMA_BUILD_EXAMPLES")

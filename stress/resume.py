@@ -3,9 +3,10 @@
     python stress/resume.py [--kills 20] [--latency 0.15]
 
 Each round bakes a scene of 44 objects against a loopback server with an empty cache, in a process of its own that is
-killed (SIGKILL) a random moment after a random number of answers, and then bakes it again to the end. A question counts as answered once the server
-has sent its answer; the one exception are answers that were sent less than `GRACE_S` before the kill, which the process
-may not have read or written yet. The bundle is compared byte by byte with that of a bake that nobody killed.
+killed (SIGKILL) a random moment after a random number of answers, and then bakes it again to the end. A question counts
+as answered once the server has sent its answer; the one exception are answers that were sent less than `GRACE_S` before
+the kill, which the process may not have read or written yet. The bundle is compared byte by byte with that of a bake
+that nobody killed.
 """
 
 from __future__ import annotations
