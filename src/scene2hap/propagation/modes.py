@@ -304,5 +304,5 @@ def _solve(x: AxisBasis, y: AxisBasis, poisson_ratio: float, shift: float, limit
         diagonal, beside, select="v", select_range=(least, np.inf), lapack_driver="stemr"
     )
     turned = dormqr("L", "N", reflectors[1:, :-1], tau, vectors[1:], 64 * vectors.shape[1] + 64)[0]
-    vectors = np.asarray(np.vstack([vectors[:1], turned]), dtype=np.float64)
-    return ModeBlock(x, y, 1 / values[::-1] - shift, vectors[:, ::-1], compliance, shift)
+    shapes: NDArray[np.float64] = np.vstack([vectors[:1], turned]).astype(np.float64, copy=False)
+    return ModeBlock(x, y, 1 / values[::-1] - shift, shapes[:, ::-1], compliance, shift)
