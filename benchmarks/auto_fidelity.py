@@ -159,7 +159,7 @@ def wrong_by(one: NDArray[np.float64], other: NDArray[np.float64]) -> float:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a draw: rung and bound, error [dB], and times [s] with it, with the finest and with ModalPlate."""
+    """What came of a draw: rung and bound, error [dB], and times [s] with it, the finest and the fine rung."""
 
     kind: str
     rung: str
@@ -167,7 +167,7 @@ class Outcome:
     error_db: float
     auto_s: float
     finest_s: float
-    modal_s: float
+    fine_s: float
 
 
 def compare(seed: int, model: AutoFidelity) -> Outcome:
@@ -231,8 +231,8 @@ def report(outcomes: list[Outcome], tolerance_db: float) -> str:
                 f"| {rung} | {100 * len(mine) / len(outcomes):.1f} % | {spread} | "
                 f"{100 * np.mean(apart <= tolerance_db):.1f} % | {bound:.2g} | {times[0]:.1f} | {times[1]:.1f} |"
             )
-    auto, finest, modal = (
-        np.array([getattr(one, name) for one in outcomes]) for name in ("auto_s", "finest_s", "modal_s")
+    auto, finest, fine = (
+        np.array([getattr(one, name) for one in outcomes]) for name in ("auto_s", "finest_s", "fine_s")
     )
     beyond = Counter(one.kind for one in outcomes if one.error_db > tolerance_db)
     lines += [
@@ -242,8 +242,8 @@ def report(outcomes: list[Outcome], tolerance_db: float) -> str:
         f"Median times: {1e3 * np.median(auto):.1f} ms against {1e3 * np.median(finest):.1f} ms of the finest "
         f"(ratio of medians {np.median(finest) / np.median(auto):.1f}, "
         f"median of ratios {np.median(finest / auto):.1f}, "
-        f"of sums {finest.sum() / auto.sum():.1f}) and {1e3 * np.median(modal):.1f} ms of ModalPlate "
-        f"({np.median(modal) / np.median(auto):.1f}, {np.median(modal / auto):.1f}, {modal.sum() / auto.sum():.1f}).",
+        f"of sums {finest.sum() / auto.sum():.1f}) and {1e3 * np.median(fine):.1f} ms of the fine rung "
+        f"({np.median(fine) / np.median(auto):.1f}, {np.median(fine / auto):.1f}, {fine.sum() / auto.sum():.1f}).",
         "",
         f"Machine: {platform.system()} {platform.machine()}, Python {platform.python_version()}, "
         f"numpy {version('numpy')}, scipy {version('scipy')}; seeds from {REPORTED}.",

@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 import soundfile
 
+from scene2hap.render.safety import FADE_OUT_S
+
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
@@ -25,7 +27,7 @@ def test_the_example_works_when_pasted(tmp_path: Path) -> None:
     assert run.returncode == 0, run.stderr
     assert "'smartphone': " in run.stdout
     samples, rate = soundfile.read(tmp_path / "touch.wav")
-    assert samples.shape == (2 * rate, 2)
+    assert samples.shape == (2 * rate + round(FADE_OUT_S * rate), 2)
     assert samples[:, 0].any()
     assert not samples[:, 1].any()
     assert (tmp_path / "kitchen.bundle" / "bundle.json").is_file()
