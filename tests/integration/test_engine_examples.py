@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 import soundfile
 
+from scene2hap.render.safety import FADE_OUT_S
+
 ROOT = Path(__file__).parents[2]
 SIM = ROOT.parent / "shared" / "scenes" / "furniture_sim"
 
@@ -32,7 +34,7 @@ def test_a_phone_is_carried_from_table_to_shelf_in_panda3d(tmp_path: Path) -> No
     told = run("panda3d_scene.py", "-o", "felt.wav", folder=tmp_path)
     assert "wrote felt.wav" in told
     samples, rate = soundfile.read(tmp_path / "felt.wav")
-    assert samples.shape == (2 * rate, 2)
+    assert samples.shape == (2 * rate + round(FADE_OUT_S * rate), 2)
     before, after = rms(samples[: rate - rate // 10]), rms(samples[rate + rate // 10 :])
     assert before[0] > 0.001  # the hand on the table feels the phone
     assert after[0] < before[0] / 100  # until it is taken away
@@ -46,7 +48,7 @@ def test_hands_feel_a_mujoco_dishwasher_while_its_rack_slides(tmp_path: Path) ->
     told = run("mujoco_kitchen.py", SIM / "dishwasher.xml", "--seconds", "0.2", "-o", "felt.wav", folder=tmp_path)
     assert re.search(r"^moved: .*top_rack by 0\.\d+ m", told, re.MULTILINE)
     samples, rate = soundfile.read(tmp_path / "felt.wav")
-    assert samples.shape == (round(0.2 * rate), 2)
+    assert samples.shape == (round(0.2 * rate) + round(FADE_OUT_S * rate), 2)
     left, right = rms(samples)
     assert left > right > 0  # on the source itself, and on what it touches
     assert {path.name for path in tmp_path.iterdir()} == {"felt.wav"}
