@@ -28,6 +28,7 @@ _HOME = {
     "scene2hap.propagation.exponential_plate": ("ExponentialPlate",),
     "scene2hap.propagation.infinite_plate": ("InfinitePlate",),
     "scene2hap.propagation.modal_plate": ("ModalPlate",),
+    "scene2hap.propagation.auto": ("AutoFidelity",),
     "scene2hap.propagation.modes": ("plate_modes",),
     "scene2hap.propagation.mass_spring_damper": ("MassSpringDamper",),
     "scene2hap.propagation.controls": ("FullPropagation", "NoPropagation"),
@@ -163,6 +164,7 @@ if TYPE_CHECKING:
         standard_stack as standard_stack,
     )
     from scene2hap.materials import Material as Material
+    from scene2hap.propagation.auto import AutoFidelity as AutoFidelity
     from scene2hap.propagation.controls import FullPropagation as FullPropagation
     from scene2hap.propagation.controls import NoPropagation as NoPropagation
     from scene2hap.propagation.exponential_plate import ExponentialPlate as ExponentialPlate

@@ -1,6 +1,11 @@
 """How vibration spreads from its sources over touching objects to a hand."""
 
+from typing import TYPE_CHECKING, Any
+
 from scene2hap.plugins import PluginGroup
+
+if TYPE_CHECKING:
+    from scene2hap.propagation.plots import plot_field as plot_field
 
 MODELS = PluginGroup(
     "scene2hap.propagation",
@@ -15,3 +20,11 @@ MODELS = PluginGroup(
     },
     extras={},
 )
+
+
+def __getattr__(name: str) -> Any:
+    if name == "plot_field":  # imported when it is first used: it needs the extra `plots`
+        from scene2hap.propagation.plots import plot_field
+
+        return plot_field
+    raise AttributeError(f"module 'scene2hap.propagation' has no attribute {name!r}")
