@@ -118,7 +118,7 @@ def sweep(spec: object, hands: tuple[str, ...], console: Console) -> dict[str, A
         if has_clock(sink):
             _keep_fed(safety, hands, console)
         else:
-            sink.pull(round(seconds * RATE_HZ))  # type: ignore[attr-defined]
+            sink.pull(round(seconds * RATE_HZ))  # type: ignore[attr-defined]  # no clock
     finally:
         safety.release()
         sink.stop()

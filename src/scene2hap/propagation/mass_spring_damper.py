@@ -24,7 +24,14 @@ from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.contact_law import ContactLaw
 from scene2hap.propagation.coupling import ElasticBody
-from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, check_choice, warn_if_thick
+from scene2hap.propagation.domain import (
+    THIN_WAVELENGTHS,
+    OutsideDomain,
+    as_frequencies,
+    check_choice,
+    driven_on_held_edge,
+    warn_if_thick,
+)
 from scene2hap.propagation.lattice import LONGEST
 from scene2hap.propagation.lattice_body import lattice_body
 from scene2hap.propagation.lattice_modes import LatticeModes, lattice_modes, lowest_frequencies_hz
@@ -95,10 +102,7 @@ class MassSpringDamper:
         drive = points_on(plate, drive_m)
         found = self._receptance(plate, drive, np.vstack([drive, points_on(plate, points_m)]), f)
         if not found[0].all():
-            raise ModelDomainError(
-                f"the driven point ({drive[0, 0]:g}, {drive[0, 1]:g}) m lies on an edge that does not move (boundary "
-                f"{plate.boundary!r}), so nothing can be related to its amplitude. Drive a point off the edge."
-            )
+            raise driven_on_held_edge(plate, drive)
         ratio: NDArray[np.complex128] = found[1:] / found[0]
         return ratio
 

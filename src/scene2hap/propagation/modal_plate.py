@@ -25,7 +25,14 @@ from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.contact_law import ContactLaw
 from scene2hap.propagation.coupling import ElasticBody
-from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, check_choice, warn_if_thick
+from scene2hap.propagation.domain import (
+    THIN_WAVELENGTHS,
+    OutsideDomain,
+    as_frequencies,
+    check_choice,
+    driven_on_held_edge,
+    warn_if_thick,
+)
 from scene2hap.propagation.modal_body import modal_body
 from scene2hap.propagation.modes import MARGIN, n_rigid_motions, plate_modes, points_on
 from scene2hap.propagation.near_field import NearField
@@ -85,10 +92,7 @@ class ModalPlate:
         warn_if_thick(plate, f)
         drive = points_on(plate, drive_m)
         if _held(plate, drive):
-            raise ModelDomainError(
-                f"the driven point ({drive[0, 0]:g}, {drive[0, 1]:g}) m lies on an edge that does not move (boundary "
-                f"{plate.boundary!r}), so nothing can be related to its amplitude. Drive a point off the edge."
-            )
+            raise driven_on_held_edge(plate, drive)
         driven = self._receptance(plate, drive, drive, f)
         ratio: NDArray[np.complex128] = self._receptance(plate, drive, points_on(plate, points_m), f) / driven
         return ratio

@@ -111,4 +111,4 @@ class Output:
         else:
             # Closed by its owner already, it takes no more.
             with contextlib.suppress(DeviceError):
-                self._sink.pull(round(FADE_OUT_S * self._config.sample_rate_hz))  # type: ignore[attr-defined]
+                self._sink.pull(round(FADE_OUT_S * self._config.sample_rate_hz))  # type: ignore[attr-defined]  # no clock
