@@ -45,7 +45,11 @@ LANES, CONTEXT = 4, 8192
 # no object would get any farther than its first question.
 BIAS = (
     *(f"{3 + byte}-1000" for byte in range(128, 256)),
-    *(f"{first + ord(mark)}+{more}" for mark, more in {'"': 2.5, ",": 2.5, "0": 2.5, ".": 1.5}.items() for first in (3, 227)),
+    *(
+        f"{first + ord(mark)}+{more}"
+        for mark, more in {'"': 2.5, ",": 2.5, "0": 2.5, ".": 1.5}.items()
+        for first in (3, 227)
+    ),
 )
 TEMPERATURE = 1.0
 
@@ -132,20 +136,7 @@ def built_server() -> Path:
         return server
     pip = [sys.executable, "-m", "pip"]
     run([*pip, "install", "-q", "--target", BUILD / "tools", "cmake"])
-    run(
-        [
-            *pip,
-            "download",
-            "-q",
-            "--no-deps",
-            "--no-binary",
-            ":all:",
-            "--no-build-isolation",
-            "-d",
-            BUILD,
-            "llama-cpp-python",
-        ]
-    )
+    run([*pip, "download", "-q", "--no-deps", "--no-binary", "llama-cpp-python", "-d", BUILD, "llama-cpp-python"])
     archive = max(BUILD.glob("llama_cpp_python-*.tar.gz"))
     with tarfile.open(archive) as file:
         file.extractall(BUILD, filter="data")

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import multiprocessing
+from collections import deque
 from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from itertools import groupby
+from itertools import chain, groupby
 
 from scene2hap.errors import ConfigError
 from scene2hap.scene.capture.config import CaptureConfig
@@ -20,12 +21,15 @@ from scene2hap.scene.snapshot import SceneSnapshot
 Progress = Callable[[int, int], None]
 """Told how many pictures are there, of how many."""
 
+# Portions that each of the other processes has been given, so that none waits while this one takes its own.
+_AHEAD = 2
+
 
 def render_all(scene: SceneSnapshot, workers: int | None = None, *, progress: Progress | None = None) -> CaptureStats:
     """Take every picture of a captured scene that was not taken yet; reading them afterwards costs nothing.
 
-    Parameters: workers : processes; 0 takes the pictures in this one, None means what the configuration says. Worker
-        processes import the main module, so that a script guards its entry with ``if __name__ == "__main__"``.
+    Parameters: workers : processes, of which this is one; None means what the configuration says. The others import the
+        main module, so that a script guards its entry with ``if __name__ == "__main__"``.
     Returns: what the capture did so far.
     Raises: ConfigError: the scene was not captured, or the workers died.
     """
@@ -36,12 +40,8 @@ def render_all(scene: SceneSnapshot, workers: int | None = None, *, progress: Pr
         if item.images is not None:
             sets += (item.images.isolated, item.images.context)
     wanted = studio.missing(shot for images in sets for shot in images.shots)
-    taken = (
-        _by_workers(studio, wanted, workers) if workers and wanted else ((shot, studio.image(shot)) for shot in wanted)
-    )
-    for n_done, (shot, picture) in enumerate(taken, start=1):
-        if workers:
-            studio.keep(shot, picture)
+    is_alone = workers <= 1 or len(wanted) <= 1
+    for n_done, _ in enumerate(_alone(studio, wanted) if is_alone else _shared(studio, wanted, workers - 1), start=1):
         if progress is not None:
             progress(n_done, len(wanted))
     return studio.stats
@@ -62,19 +62,34 @@ def _studio(scene: SceneSnapshot) -> Studio:
     return source
 
 
-def _by_workers(studio: Studio, wanted: list[Shot], workers: int) -> Iterator[tuple[Shot, bytes]]:
+def _alone(studio: Studio, wanted: list[Shot]) -> Iterator[Shot]:
+    for shot in wanted:
+        studio.image(shot)
+        yield shot
+
+
+def _shared(studio: Studio, wanted: list[Shot], others: int) -> Iterator[Shot]:
+    """Take pictures in this process, which need not start, and in others."""
     # Spawned processes are the same on every system, and inherit no thread that holds a lock.
     context = multiprocessing.get_context("spawn")
     setting = (studio.stage, studio.config, studio.factory, studio.below)
     # An object's pictures go together: its search tree is built in one process.
-    portions = [list(group) for _, group in groupby(wanted, key=lambda shot: (shot.kind, shot.subject))]
+    portions = deque(list(group) for _, group in groupby(wanted, key=lambda shot: (shot.kind, shot.subject)))
+    given: set[Future[list[tuple[Shot, bytes]]]] = set()
     try:
-        with ProcessPoolExecutor(workers, mp_context=context, initializer=_set_up, initargs=setting) as pool:
-            for done in as_completed([pool.submit(_take, portion) for portion in portions]):
-                yield from done.result()
+        with ProcessPoolExecutor(others, mp_context=context, initializer=_set_up, initargs=setting) as pool:
+            while portions or given:
+                while portions and len(given) < _AHEAD * others:
+                    given.add(pool.submit(_take, portions.popleft()))
+                if portions:
+                    yield from _alone(studio, portions.pop())
+                done, given = wait(given, timeout=0 if portions else None, return_when=FIRST_COMPLETED)
+                for shot, picture in chain.from_iterable(future.result() for future in done):
+                    studio.keep(shot, picture)
+                    yield shot
     except BrokenProcessPool as cause:
         raise ConfigError(
-            f"the {workers} worker processes of render_all died. Guard the script's entry with "
+            f"the {others} other processes of render_all died. Guard the script's entry with "
             '`if __name__ == "__main__":`, or pass workers=0.'
         ) from cause
 

@@ -28,7 +28,7 @@ class CaptureConfig(Settings):
     antialias : smooth edges by two more rays where neighbouring pixels differ; costs a seventh more time.
     share_copies : objects of one `instance_key` share isolated images, and context images too if they stand on the
         same kind of thing; False takes every object's own.
-    workers : processes of `render_all`; 0 renders in this one.
+    workers : processes of `render_all`, this one among them; 0 and 1 render here alone.
     cache_dir : a folder that keeps pictures between runs, None for memory alone.
     """
 

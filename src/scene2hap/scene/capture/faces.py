@@ -51,19 +51,18 @@ class Extents:
 
 def extents(by_axis_m: Floats32, camera: Camera) -> Extents:
     """Of triangles (3 axes, 3 corners, n), for all cameras that share eye and axes with this one."""
-    x, y, z = by_axis_m
     right, up, forward = camera.axes
     axes = np.stack((right, -up, forward))
     offsets = (axes @ camera.eye_m).astype(np.float32)
-    across, down, depth = (
-        x * a + y * b + z * c - offset for (a, b, c), offset in zip(axes.astype(np.float32), offsets, strict=True)
-    )
+    placed = axes.astype(np.float32) @ by_axis_m.reshape(3, -1) - offsets[:, None]
+    across, down, depth = placed.reshape(by_axis_m.shape)
     nearest = depth.min(axis=0)
     is_ahead = nearest > 0
     is_cut = ~is_ahead & (depth.max(axis=0) > 0)
     np.maximum(depth, _LEAST_DEPTH_M, out=depth)
-    across /= depth
-    down /= depth
+    np.reciprocal(depth, out=depth)
+    across *= depth
+    down *= depth
     low, high = (np.stack((pick(across, axis=0), pick(down, axis=0))) for pick in (np.min, np.max))
     return Extents(low, high, is_ahead, is_cut)
 

