@@ -155,6 +155,11 @@ def _periods() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return mix[-PERIOD:].astype(np.float64), safe[-PERIOD:].astype(np.float64)
 
 
+def safe_period() -> NDArray[np.float64]:
+    """One period (PERIOD, 2) of what a take plays, behind the safety layer."""
+    return _periods()[1]
+
+
 def _aligned(period: NDArray[np.float64], steady: NDArray[np.float64]) -> NDArray[np.float64]:
     """The period turned so that it begins where the recording does."""
     middle = len(steady) // 2 // PERIOD * PERIOD

@@ -1,0 +1,122 @@
+"""An hour on a real sound server with a null sink: every frame that its monitor recorded is held against the mix.
+
+    python stress/soak.py [--minutes 60] [--undisturbed] [--freeze]
+
+A game's thread updates at 1 kHz and makes garbage, at the default latency. What is recorded must be the safe mix,
+period after period; where it is not, the frames that are missing or too many are counted, for each hand alone, so that
+a drift between the hands would show as well.
+Needs: apt-get install --no-install-recommends pulseaudio pulseaudio-utils libportaudio2 libasound2-plugins
+"""
+
+from __future__ import annotations
+
+import argparse
+import gc
+import os
+import platform
+import sys
+import time
+from contextlib import nullcontext
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+
+from scene2hap.devices.soundcard import SoundCardSink
+from sound_server import DEVICE, RATE, SoundServer, missing
+from sound_takes import PERIOD, SETTLING, Game, safe_period, session_on, undisturbed
+
+_LOUDEST_ERROR = 1e-3
+"""Of full scale; above it a frame is not what was played."""
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--minutes", type=float, default=60.0)
+    parser.add_argument("--undisturbed", action="store_true", help="run before other programs (needs the right to)")
+    parser.add_argument("--freeze", action="store_true", help="gc.freeze() first, as a game may after loading")
+    arguments = parser.parse_args()
+    if problem := missing():
+        sys.exit(problem)
+    if arguments.freeze:
+        gc.freeze()
+    with undisturbed() if arguments.undisturbed else nullcontext(), SoundServer() as server:
+        heard = played(server, 60.0 * arguments.minutes)
+    report(heard)
+
+
+def played(server: SoundServer, seconds: float) -> NDArray[np.float32]:
+    """What the monitor heard while a game played, and a line per tenth of the time."""
+    sink = SoundCardSink(DEVICE)
+    recorder = server.record()
+    print(f"Python {platform.python_version()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
+    with session_on(sink) as session:
+        assert sink.wait_connected(10.0)
+        game = Game(session, lambda _: 0.001, allocates=True)
+        game.start()
+        for tenth in range(1, 11):
+            time.sleep(seconds / 10)
+            print(
+                f"{tenth * seconds / 600:.2g} min: {game.updates} updates, underruns {sink.stats.underruns}, "
+                f"{len(os.listdir('/proc/self/task'))} threads, {len(os.listdir('/proc/self/fd'))} files, "
+                f"{memory_mb():.1f} MB, load {os.getloadavg()[0]:.1f}, stolen {stolen_s():.0f} s",
+                flush=True,
+            )
+        end = recorder.n_heard
+        game.kill()
+    return recorder.stop()[:end]
+
+
+def report(heard: NDArray[np.float32]) -> None:
+    """Hold each period against the mix; where it differs, find how far it has slipped."""
+    steady = heard[int(np.flatnonzero(np.abs(heard).max(axis=1) > 1e-3)[0]) + SETTLING :]
+    safe = safe_period()
+    at = shift_of(steady[:PERIOD], safe)
+    first, worst, slips, broken = at, 0.0, [], 0
+    for number in range(len(steady) // PERIOD):
+        block = steady[number * PERIOD : (number + 1) * PERIOD].astype(np.float64)
+        error = residual(block, safe, at)
+        if error <= _LOUDEST_ERROR:
+            worst = max(worst, error)
+            continue
+        broken += 1
+        now = shift_of(block, safe)
+        # The period in which frames went missing fits neither place; the next one tells.
+        if now != at and residual(block, safe, now) <= _LOUDEST_ERROR:
+            slips.append((number * PERIOD / RATE, now[0] - at[0], now[1] - at[1]))
+            at = now
+    print(f"{len(steady) / RATE / 60:.1f} min in periods of {PERIOD / RATE} s: {broken} are not the mix,")
+    print(f"all others equal it within {worst:.1e}")
+    for at_s, left, right in slips:
+        print(f"  after {at_s:.1f} s slipped by {left} frames on the left hand, {right} on the right")
+    drift = (at[0] - first[0]) - (at[1] - first[1])
+    print(f"drift between the hands: {drift} frames")
+
+
+def shift_of(block: NDArray[np.floating], safe: NDArray[np.float64]) -> tuple[int, int]:
+    """Frames by which the period is turned in each channel of a block (PERIOD, 2)."""
+    spectrum = np.fft.fft(block, axis=0) * np.conj(np.fft.fft(safe, axis=0))
+    left, right = np.argmax(np.fft.ifft(spectrum, axis=0).real, axis=0)
+    return int(left), int(right)
+
+
+def residual(block: NDArray[np.float64], safe: NDArray[np.float64], shift: tuple[int, int]) -> float:
+    """The largest difference of a block from the turned period."""
+    turned = np.stack([np.roll(safe[:, hand], shift[hand]) for hand in range(2)], axis=1)
+    return float(np.abs(block - turned).max())
+
+
+def memory_mb() -> float:
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+
+def stolen_s() -> float:
+    """Time that a virtual machine's host gave to others, since boot [s]."""
+    return int(Path("/proc/stat").read_text().split()[8]) / os.sysconf("SC_CLK_TCK")
+
+
+if __name__ == "__main__":
+    main()
