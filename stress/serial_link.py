@@ -22,6 +22,7 @@ import tempfile
 import threading
 import time
 from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -240,23 +241,23 @@ def caller() -> tuple[bool, str]:
     return worst < 1e-3, "; ".join(parts)
 
 
-def _times(call: object, seconds: float = 1.0) -> np.ndarray:
+def _times(call: Callable[[], object], seconds: float = 1.0) -> np.ndarray:
     """Times of a game's calls, one a millisecond."""
     taken = []
     end = time.perf_counter() + seconds
     while time.perf_counter() < end:
         began = time.perf_counter()
-        call()  # type: ignore[operator]
+        call()
         taken.append(time.perf_counter() - began)
         time.sleep(0.001)
     return np.array(taken)
 
 
-def _longest(call: object, times: int = 20) -> str:
+def _longest(call: Callable[[], object], times: int = 20) -> str:
     taken = []
     for _ in range(times):
         began = time.perf_counter()
-        call()  # type: ignore[operator]
+        call()
         taken.append(time.perf_counter() - began)
     return f"longest {1e3 * max(taken):.3f} ms"
 

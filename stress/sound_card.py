@@ -21,6 +21,7 @@ import sys
 import threading
 import time
 from collections import Counter
+from collections.abc import Callable
 from contextlib import nullcontext
 from pathlib import Path
 
@@ -178,9 +179,9 @@ def unplug(arguments: argparse.Namespace) -> None:
         print(f"Python threads before and after: {threads}, {threading.active_count()}")
 
 
-def wait_for(is_so: object, timeout_s: float = 20.0) -> None:
+def wait_for(is_so: Callable[[], object], timeout_s: float = 20.0) -> None:
     deadline = time.monotonic() + timeout_s
-    while not is_so():  # type: ignore[operator]
+    while not is_so():
         assert time.monotonic() < deadline, "nothing happened"
         time.sleep(0.005)
 

@@ -1,13 +1,31 @@
-"""`scene2hap doctor`, as a person runs it."""
+"""`scene2hap doctor`, as a person runs it; its loop-back on a real sound server, whose monitor is the input."""
 
 import json
+import os
+import subprocess
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import soundfile
+from scipy.signal import chirp, correlate
 
 from scene2hap.cli import doctor, main
+from sound_server import RATE, SoundServer, missing
+from sound_takes import undisturbed
+
+PROBLEM = missing()
+if PROBLEM and "SCENE2HAP_REQUIRE_SOUND" in os.environ:
+    raise RuntimeError(PROBLEM)
+with_sound = pytest.mark.skipif(bool(PROBLEM), reason=PROBLEM)
+
+
+@pytest.fixture
+def server() -> Iterator[SoundServer]:
+    with undisturbed(), SoundServer() as running:
+        yield running
 
 
 def test_it_tells_every_extra(capsys: pytest.CaptureFixture[str]) -> None:
@@ -30,6 +48,8 @@ def test_the_sweep_visits_one_hand_after_the_other_and_is_quiet(tmp_path: Path) 
     path = tmp_path / "sweep.wav"
     assert main(["doctor", "-q", "--sweep", json.dumps({"kind": "wav", "path": str(path)})]) == 0
     samples, rate = soundfile.read(path)
+    lead, samples = np.split(samples, [round(doctor.PAUSE_S * rate)])
+    assert not lead.any()
     turn = round((doctor.SWEEP_S + doctor.PAUSE_S) * rate)
     peaks = np.array([np.abs(samples[i * turn : (i + 1) * turn]).max(axis=0) for i in range(2)])
     assert peaks[0] == pytest.approx([0.1, 0.0], abs=2e-3)
@@ -44,3 +64,73 @@ def test_the_sweep_visits_one_hand_after_the_other_and_is_quiet(tmp_path: Path) 
 def test_a_sink_that_is_none(sink: str, sentence: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["doctor", "-q", "--sweep", sink]) == 1
     assert sentence in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--loop-back"], "--loop-back listens to a sweep; add --sweep soundcard"),
+        (["--sweep", "memory", "--loop-back"], "--loop-back cannot hear --sweep 'memory', which plays nothing"),
+    ],
+)
+def test_a_loop_back_without_sound(arguments: list[str], sentence: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["doctor", "-q", *arguments]) == 1
+    assert sentence in " ".join(capsys.readouterr().err.split())
+
+
+class Sweeps(doctor._Sweeps):
+    """Kept, so that a test knows when the sweeps were asked for."""
+
+    latest: "Sweeps"
+
+    def __init__(self, n_hands: int) -> None:
+        super().__init__(n_hands)
+        Sweeps.latest = self
+
+
+@with_sound
+def test_the_latency_at_a_loop_back_is_what_another_recorder_finds(
+    server: SoundServer, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(doctor, "_Sweeps", Sweeps)
+    wave = chirp(np.arange(2 * RATE) / RATE, 40.0, 2.0, 400.0, method="log", phi=-90.0)
+    for attempt in range(3):
+        recorder = server.record(is_timed=True)
+        assert main(["doctor", "--json", "--sweep", "soundcard", "--loop-back", "pulse"]) == 0
+        heard = recorder.stop()
+        swept = json.loads(capsys.readouterr().out)["sweep"]
+        told: dict[str, Any] = swept["loop_back"]
+        # A machine that stands still breaks a take; a measurement that is wrong never agrees.
+        if min(hand["correlation"] for hand in told["hands"].values()) > 0.98 or attempt == 2:
+            break
+    assert (told["input"], told["found_from"], list(told["hands"])) == ("pulse", 0.3, ["left", "right"])
+    for channel, hand in enumerate(told["hands"].values()):
+        asked_at_s = Sweeps.latest.asked_at_s[channel]
+        assert asked_at_s is not None
+        begin = recorder.frame_at(asked_at_s)
+        place = int(np.argmax(correlate(heard[begin : begin + 3 * RATE, channel], wave, "valid")))
+        # A block of each recorder, and a third for the server's own.
+        assert hand["latency_s"] == pytest.approx(place / RATE, abs=3 * hand["uncertainty_s"])
+        assert 0.0 < hand["latency_s"] < 1.0
+        assert hand["correlation"] > 0.98
+        assert hand["gain_db"] == pytest.approx(0.0, abs=0.5)
+        assert hand["channel"] == channel + 1
+        assert 0.0 < hand["uncertainty_s"] < 0.05
+    left, right = (hand["latency_s"] for hand in told["hands"].values())
+    assert left == pytest.approx(right, abs=hand["uncertainty_s"])
+    # PortAudio's own word for it, which counts on a driver that keeps to it.
+    assert swept["latency_s"] == pytest.approx(left, abs=0.05)
+
+
+@with_sound
+def test_a_sweep_that_does_not_come_back(
+    server: SoundServer, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    subprocess.run(["pactl", "set-source-mute", "hap.monitor", "1"], check=True)
+    monkeypatch.setattr(doctor, "SWEEP_S", 0.5)
+    assert main(["doctor", "--sweep", "soundcard", "--loop-back", "--hands", "left"]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert "heard by" in told
+    assert "left: not found: correlation 0.00, below 0.3; no loop-back, the wrong input" in told
+    assert main(["doctor", "-q", "--sweep", "soundcard", "--loop-back", "no such input"]) == 1
+    assert "no input 'no such input' among the sound cards. Known: " in " ".join(capsys.readouterr().err.split())

@@ -1,6 +1,8 @@
 """Tell what this machine has for scene2hap: extras, sound cards and serial ports; and what to install for the rest.
 
-`--sweep soundcard` (or any other sink) plays a quiet sweep on each hand in turn, through the safety layer.
+`--sweep soundcard` (or any other sink) plays a quiet sweep on each hand in turn, through the safety layer. With
+`--loop-back` an input listens meanwhile, by a cable from the output or as a sound server's monitor; told is how long
+each hand's sweep took from being asked for to that input.
 """
 
 from __future__ import annotations
@@ -11,16 +13,19 @@ import math
 import platform
 import re
 import time
+from contextlib import nullcontext
+from dataclasses import asdict
 from importlib import metadata
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from scene2hap import __version__
 from scene2hap.cli.console import Console
-from scene2hap.devices import SINKS
+from scene2hap.devices import SINKS, loop_back
 from scene2hap.devices.clock import has_clock
-from scene2hap.devices.protocol import ActuatorSink, Block, Fill, SinkFormat
+from scene2hap.devices.protocol import ActuatorSink, Block, SinkFormat
 from scene2hap.errors import ConfigError, DeviceError, MissingExtra
 from scene2hap.haptics import ActuatorProfile
 from scene2hap.render.safety import SafetyLayer
@@ -33,6 +38,11 @@ SWEEP_S, PAUSE_S = 2.0, 0.5
 LEVEL_DB = -20.0
 """Quiet: a tenth of full scale."""
 
+MEASURED = (
+    "from the call that rendered the sweep's first sample to the hand-over of the block in which the input heard it, "
+    "by normalised cross-correlation with the sweep"
+)
+
 _EXTRA = re.compile(r"""^(?P<package>[A-Za-z0-9._-]+)[^;]*;.*extra\s*==\s*['"](?P<extra>[^'"]+)['"]""")
 _OF_DEVELOPERS = frozenset({"all", "test", "dev"})
 
@@ -41,6 +51,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``scene2hap doctor``."""
     parser.add_argument(
         "--sweep", metavar="SINK", help='a kind, or JSON: \'{"kind": "serial", "port": "/dev/ttyACM0"}\''
+    )
+    parser.add_argument(
+        "--loop-back",
+        metavar="INPUT",
+        nargs="?",
+        const="",
+        help="with --sweep: measure the latency at this input, its name, a part of it, or PortAudio's index; without "
+        "INPUT one that is called a loop-back, monitor or stereo mix, else the default one",
     )
     parser.add_argument("--hands", default="left,right", help="names of the outputs, in their order")
 
@@ -65,8 +83,11 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         console.say(f"{what}:")
         for line in found["found"] or [found["problem"] or "none"]:
             console.say(f"  {line}")
+    hands = tuple(arguments.hands.split(","))
     if arguments.sweep:
-        outcome["sweep"] = sweep(_spec(arguments.sweep), tuple(arguments.hands.split(",")), console)
+        outcome["sweep"] = sweep(_spec(arguments.sweep), hands, console, listen_to=arguments.loop_back)
+    elif arguments.loop_back is not None:
+        raise ConfigError("--loop-back listens to a sweep; add --sweep soundcard, or the sink that is to be measured.")
     return outcome
 
 
@@ -105,61 +126,140 @@ def serial_ports() -> dict[str, Any]:
     return {"found": [f"{port.device}: {port.description}" for port in list_ports.comports()], "problem": ""}
 
 
-def sweep(spec: object, hands: tuple[str, ...], console: Console) -> dict[str, Any]:
-    """Play the sweep on each hand in turn; what the sink counted. Raises: ConfigError, DeviceError."""
+def sweep(spec: object, hands: tuple[str, ...], console: Console, *, listen_to: str | None = None) -> dict[str, Any]:
+    """Play the sweep on each hand in turn; what the sink counted, and what an input heard if one is to `listen_to`.
+
+    `listen_to` is an input's name or index, "" for what looks like a loop-back. Raises: ConfigError, DeviceError.
+    """
     sink = SINKS.build(spec)
     if not isinstance(sink, ActuatorSink):
         raise ConfigError(f"--sweep {spec!r} is no sink; kinds are {', '.join(SINKS.kinds())}.")
-    seconds = len(hands) * (SWEEP_S + PAUSE_S)
+    if listen_to is not None and not has_clock(sink):
+        raise ConfigError(f"--loop-back cannot hear --sweep {spec!r}, which plays nothing; sweep a sound card.")
+    if hasattr(sink, "on_event"):
+        sink.on_event = lambda event: None if event.kind == "connected" else console.warn(event.message)
+    sweeps = _Sweeps(len(hands))
+    with _recording(listen_to, len(hands)) as recording:
+        latency_s = _play(sink, sweeps, hands, console, tail_s=0.0 if recording is None else loop_back.LONGEST_S)
+    stats = sink.stats
+    latency = "" if latency_s is None else f", latency {1e3 * latency_s:.0f} ms"
+    console.say(f"swept {', '.join(hands)}: {stats.frames} frames, {stats.underruns} underruns{latency}")
+    outcome: dict[str, Any] = {"frames": stats.frames, "underruns": stats.underruns, "latency_s": latency_s}
+    if recording is not None:
+        outcome["loop_back"] = _measured(recording.take(), sweeps.asked_at_s, hands, console)
+    return outcome
+
+
+def _recording(listen_to: str | None, n_hands: int) -> loop_back.Recording | nullcontext[None]:
+    if listen_to is None:
+        return nullcontext()
+    card = loop_back.find_input(int(listen_to) if listen_to.isdigit() else listen_to or None)
+    return loop_back.Recording(card, RATE_HZ, max(2, n_hands))
+
+
+def _play(
+    sink: ActuatorSink, sweeps: _Sweeps, hands: tuple[str, ...], console: Console, *, tail_s: float
+) -> float | None:
+    """Play the sweeps and, on a sink with a clock, `tail_s` more; the sink's own latency [s], which ends with it."""
     safety = SafetyLayer(ActuatorProfile(), RATE_HZ, len(hands), watchdog_s=0.5 if has_clock(sink) else None)
     sink.open(SinkFormat(RATE_HZ, hands))
     try:
-        sink.start(safety.guard(_sweeps(len(hands))))
+        sink.start(safety.guard(sweeps))
         if has_clock(sink):
-            _keep_fed(safety, hands, console)
+            _keep_fed(safety, PAUSE_S)
+            for hand in hands:
+                console.say(f"  {hand}: {SWEEP_HZ[0]:g} to {SWEEP_HZ[1]:g} Hz at {LEVEL_DB:g} dB")
+                _keep_fed(safety, SWEEP_S + PAUSE_S)
+            _keep_fed(safety, tail_s)
         else:
-            sink.pull(round(seconds * RATE_HZ))  # type: ignore[attr-defined]  # no clock
+            n_frames = round((PAUSE_S + len(hands) * (SWEEP_S + PAUSE_S)) * RATE_HZ)
+            sink.pull(n_frames)  # type: ignore[attr-defined]  # no clock
+        return sink.stats.latency_s
     finally:
         safety.release()
         sink.stop()
         sink.close()
-    stats = sink.stats
-    latency_s = getattr(stats, "latency_s", None)
-    latency = "" if latency_s is None else f", latency {1e3 * latency_s:.0f} ms"
-    console.say(f"swept {', '.join(hands)}: {stats.frames} frames, {stats.underruns} underruns{latency}")
-    return {"frames": stats.frames, "underruns": stats.underruns, "latency_s": latency_s}
 
 
-def _keep_fed(safety: SafetyLayer, hands: tuple[str, ...], console: Console) -> None:
-    for hand in hands:
-        console.say(f"  {hand}: {SWEEP_HZ[0]:g} to {SWEEP_HZ[1]:g} Hz at {LEVEL_DB:g} dB")
-        until = time.monotonic() + SWEEP_S + PAUSE_S
-        while time.monotonic() < until:
-            safety.feed()
-            time.sleep(0.02)
+def _keep_fed(safety: SafetyLayer, seconds: float) -> None:
+    until = time.monotonic() + seconds
+    while time.monotonic() < until:
+        safety.feed()
+        time.sleep(0.02)
 
 
-def _sweeps(n_hands: int) -> Fill:
-    """A logarithmic sweep on each channel in turn."""
-    position = 0
-    n_sweep, n_turn = round(SWEEP_S * RATE_HZ), round((SWEEP_S + PAUSE_S) * RATE_HZ)
-    low, high = SWEEP_HZ
-    rate = math.log(high / low)
+def _measured(
+    take: loop_back.Take, asked_at_s: list[float | None], hands: tuple[str, ...], console: Console
+) -> dict[str, Any]:
+    """Each hand's latency as the input heard it, told and as JSON values."""
+    pattern = _wave(np.arange(round(SWEEP_S * take.rate_hz)) / take.rate_hz)
+    by_hand: dict[str, Any] = {}
+    console.say(f"heard by {take.device!r}, {MEASURED}:")
+    for hand, at_s in zip(hands, asked_at_s, strict=True):
+        if at_s is None:
+            by_hand[hand] = None
+            console.say(f"  {hand}: the sink asked for no samples of it")
+            continue
+        found = loop_back.arrival(take, at_s, pattern)
+        by_hand[hand] = asdict(found)
+        console.say(f"  {hand}: {_sentence(found)}")
+    if take.gaps:
+        console.say(f"  the input lost samples {take.gaps} times; measure again on a quieter machine")
+    return {
+        "input": take.device,
+        "measured": MEASURED,
+        "found_from": loop_back.FOUND_FROM,
+        "gaps": take.gaps,
+        "hands": by_hand,
+    }
 
-    def fill(n_frames: int) -> Block:
-        nonlocal position
-        frames = np.arange(position, position + n_frames)
-        position += n_frames
+
+def _sentence(found: loop_back.Arrival) -> str:
+    if found.latency_s is None:
+        return (
+            f"not found: correlation {found.correlation:.2f}, below {loop_back.FOUND_FROM:g}; "
+            "no loop-back, the wrong input (--loop-back INPUT), or muted"
+        )
+    return (
+        f"{1e3 * found.latency_s:.0f} ms, or up to {1e3 * found.uncertainty_s:.0f} ms less, which is a recorded block; "
+        f"correlation {found.correlation:.2f}, {found.gain_db:+.0f} dB, input channel {found.channel}"
+    )
+
+
+class _Sweeps:
+    """Silence, then a sweep on each channel in turn; notes when the first sample of each was asked for [s, monotonic].
+
+    The silence lets a sound card come to its steady latency: it asks for the first samples all at once.
+    """
+
+    def __init__(self, n_hands: int) -> None:
+        self.asked_at_s: list[float | None] = [None] * n_hands
+        self._position = 0
+
+    def __call__(self, n_frames: int) -> Block:
+        """The next block."""
+        now = time.monotonic()
+        n_hands = len(self.asked_at_s)
+        frames = np.arange(self._position, self._position + n_frames)
+        self._position += n_frames
         block = np.zeros((n_frames, n_hands), dtype=np.float32)
         for hand in range(n_hands):
-            t = (frames - hand * n_turn) / RATE_HZ
-            inside = (t >= 0) & (t < n_sweep / RATE_HZ)
-            phase = 2 * math.pi * low * SWEEP_S / rate * np.expm1(rate * t[inside] / SWEEP_S)
-            edge = np.clip(np.minimum(t[inside], SWEEP_S - t[inside]) / 0.05, 0.0, 1.0)
-            block[inside, hand] = 10 ** (LEVEL_DB / 20) * np.sin(phase) * edge
+            begin = round((PAUSE_S + hand * (SWEEP_S + PAUSE_S)) * RATE_HZ)
+            if self._position > begin and self.asked_at_s[hand] is None:
+                self.asked_at_s[hand] = now
+            block[:, hand] = _wave((frames - begin) / RATE_HZ)
         return block
 
-    return fill
+
+def _wave(t_s: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A logarithmic sweep from t = 0 to SWEEP_S, with soft edges and silence around it."""
+    low, high = SWEEP_HZ
+    rate = math.log(high / low)
+    t = np.clip(t_s, 0.0, SWEEP_S)
+    phase = 2 * math.pi * low * SWEEP_S / rate * np.expm1(rate * t / SWEEP_S)
+    edge = np.clip(np.minimum(t, SWEEP_S - t) / 0.05, 0.0, 1.0)
+    wave: NDArray[np.float64] = 10 ** (LEVEL_DB / 20) * np.sin(phase) * edge
+    return wave
 
 
 def _spec(text: str) -> object:

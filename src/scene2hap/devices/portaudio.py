@@ -22,7 +22,7 @@ _open_streams = 0
 
 @dataclass(frozen=True)
 class Card:
-    """An output device: PortAudio's index, its name and host interface, and what it can do."""
+    """An output or an input: PortAudio's index, its name and host interface, and what it can do."""
 
     index: int
     name: str
@@ -43,15 +43,17 @@ def require_sounddevice() -> None:
 
 def cards() -> list[Card]:
     """Every output device that PortAudio knows. Raises: DeviceError: there is no PortAudio."""
-    with _LOCK:
-        sd = _sounddevice()
-        interfaces = [str(item["name"]) for item in sd.query_hostapis()]
-        return [
-            Card(i, item["name"], interfaces[item["hostapi"]], item["max_output_channels"],
-                 round(item["default_samplerate"]))
-            for i, item in enumerate(sd.query_devices())
-            if item["max_output_channels"] > 0
-        ]  # fmt: skip
+    return _devices("max_output_channels")
+
+
+def inputs() -> list[Card]:
+    """Every input that PortAudio knows, with its channels. Raises: MissingExtra; DeviceError: there is no PortAudio."""
+    return _devices("max_input_channels")
+
+
+def default_input() -> int:
+    """Index of the system's choice; negative where it has none."""
+    return int(_sounddevice().default.device[0])
 
 
 def find_card(device: str | int | None) -> Card:
@@ -60,10 +62,10 @@ def find_card(device: str | int | None) -> Card:
     Raises: DeviceNotFound; DeviceError: there is no PortAudio.
     """
     with _LOCK:
-        found = _match(device, cards())
+        found = _match(device)
         if found is None and _open_streams == 0:
             _restart()
-            found = _match(device, cards())
+            found = _match(device)
         if found is None:
             known = "; ".join(map(str, cards())) or "none"
             wanted = "no default output" if device is None else f"no output {device!r}"
@@ -91,18 +93,30 @@ def open_stream(
     play: Callable[..., None],
 ) -> Any:
     """A started `sounddevice.OutputStream`. Raises: DeviceError."""
-    global _open_streams
     with _LOCK:
         sd = _sounddevice()
         with _translated(card):
-            stream = sd.OutputStream(rate_hz, block_frames, card.index, n_channels, "float32", latency, callback=play)
-            try:
-                stream.start()
-            except sd.PortAudioError:
-                stream.close(ignore_errors=True)
-                raise
-        _open_streams += 1
-        return stream
+            return _started(
+                sd.OutputStream(rate_hz, block_frames, card.index, n_channels, "float32", latency, callback=play)
+            )
+
+
+def open_recording(
+    card: Card, n_channels: int, rate_hz: int, block_frames: int, hear: Callable[..., None]
+) -> tuple[Any, int]:
+    """A started `sounddevice.InputStream`, and its rate [Hz]: the card's own where it does not take the one wanted.
+
+    Raises: DeviceError.
+    """
+    with _LOCK:
+        sd = _sounddevice()
+        try:
+            sd.check_input_settings(card.index, n_channels, "float32", samplerate=rate_hz)
+        except (sd.PortAudioError, ValueError):
+            rate_hz = card.rate_hz
+        with _translated(card):
+            stream = sd.InputStream(rate_hz, block_frames, card.index, n_channels, "float32", "low", callback=hear)
+            return _started(stream), rate_hz
 
 
 def is_active(stream: Any) -> bool:
@@ -137,15 +151,40 @@ def _restart() -> None:
     sd._initialize()
 
 
-def _match(device: str | int | None, known: list[Card]) -> Card | None:
-    if device is None:
-        index = int(_sounddevice().default.device[1])
-        return next((card for card in known if card.index == index), None)
+def named(device: str | int, known: list[Card]) -> Card | None:
+    """The device of an index, or the first whose name is, or else contains, `device`."""
     if isinstance(device, int):
         return next((card for card in known if card.index == device), None)
     wanted = device.casefold()
     exact = [card for card in known if card.name.casefold() == wanted]
     return next(iter(exact or [card for card in known if wanted in card.name.casefold()]), None)
+
+
+def _match(device: str | int | None) -> Card | None:
+    return named(int(_sounddevice().default.device[1]) if device is None else device, cards())
+
+
+def _devices(channels: str) -> list[Card]:
+    with _LOCK:
+        sd = _sounddevice()
+        interfaces = [str(item["name"]) for item in sd.query_hostapis()]
+        return [
+            Card(i, item["name"], interfaces[item["hostapi"]], item[channels], round(item["default_samplerate"]))
+            for i, item in enumerate(sd.query_devices())
+            if item[channels] > 0
+        ]
+
+
+def _started(stream: Any) -> Any:
+    """Counted, so that nobody who misses a device starts PortAudio anew under it."""
+    global _open_streams
+    try:
+        stream.start()
+    except _sounddevice().PortAudioError:
+        stream.close(ignore_errors=True)
+        raise
+    _open_streams += 1
+    return stream
 
 
 def _sounddevice() -> Any:

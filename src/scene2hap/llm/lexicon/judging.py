@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -23,6 +24,10 @@ _LARGEST_M = 1e5  # the bound of ObjectAnswer; only a scene in a wrong unit has 
 _THINNEST_M = 1e-3  # a plate measured below this is taken as modelled without thickness
 _MINIATURE_MATERIAL = "plastic"  # assumed for all of them
 _MINIATURE_THICKNESS_M = 2e-3  # assumed
+
+# Of the table's nouns those that are spoken with a vowel first: not "ufo", "ukulele", "uniform", "urinal", "usb stick"
+# and "utensil rack", but "hourglass" and what is spelt out.
+_VOWEL_FIRST = re.compile(r"[aeio]|u(?!fo|k|ni|ri|sb|t)|hour|led\b|mri\b|x-ray")
 
 
 @dataclass(frozen=True)
@@ -107,7 +112,7 @@ def _as_miniature(item: Measured, reading: NameReading, row: ObjectRow, why: str
         size_reason=size_reason,
         usage="Played with, or stands there as decoration.",
         vibrates=False,
-        vibration_reason=f"a {category} has no working mechanism.",
+        vibration_reason=f"{_a(category)} has no working mechanism.",
         states=[],
         confidence=reading.confidence * _MINIATURE_TRUST,
     )
@@ -124,7 +129,7 @@ def _miniature(reading: NameReading, row: ObjectRow, size_m: tuple[float, float,
 
 
 def _category_reason(name: str, reading: NameReading, row: ObjectRow) -> str:
-    reason = f"{reading.head!r} in the name {name!r} names a {row.noun}."
+    reason = f"{reading.head!r} in the name {name!r} names {_a(row.noun)}."
     if reading.unread:
         reason += f" Not understood: {', '.join(map(repr, reading.unread))}."
     return reason
@@ -135,7 +140,7 @@ def _thickness(item: Measured, plausible_m: float, category: str) -> tuple[float
     if measured >= _THINNEST_M and "zero-thickness" not in item.flags:
         return measured, "as measured."
     return plausible_m, (
-        f"measured thickness of {measured:g} m replaced by {plausible_m:g} m, which is assumed for a {category}."
+        f"measured thickness of {measured:g} m replaced by {plausible_m:g} m, which is assumed for {_a(category)}."
     )
 
 
@@ -160,12 +165,17 @@ def _states(row: ObjectRow, neighbour_names: Sequence[str]) -> tuple[list[StateA
         return [_state(state, noun) for state, noun in heated], f"it touches the {heated[0][1]}, which can heat it."
     if row.states and not neighbour_names:
         waiting = [_state(state, state.needs_contact[0]) for state in row.states]
-        return waiting, f"it touches nothing here; on a {row.states[0].needs_contact[0]} its content is heated."
+        return waiting, f"it touches nothing here; on {_a(row.states[0].needs_contact[0])} its content is heated."
     if row.states:
         heaters = ", ".join(row.states[0].needs_contact)
-        return [], f"a {row.noun} is still by itself; it would be heard only on one of: {heaters}; it touches none."
-    return [], f"a {row.noun} has no mechanism, sound or heated content of its own; being shaken does not count."
+        return [], f"{_a(row.noun)} is still by itself; it would be heard only on one of: {heaters}; it touches none."
+    return [], f"{_a(row.noun)} has no mechanism, sound or heated content of its own; being shaken does not count."
 
 
 def _state(state: StateRow, needs_contact: str | None) -> StateAnswer:
     return StateAnswer(name=state.name, intensity=state.intensity, needs_contact=needs_contact)
+
+
+def _a(noun: str) -> str:
+    """The noun with its article."""
+    return f"{'an' if _VOWEL_FIRST.match(noun) else 'a'} {noun}"

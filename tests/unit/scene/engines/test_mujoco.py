@@ -1,26 +1,18 @@
-"""MuJoCo models as snapshots, held against MuJoCo's own numbers."""
+"""MuJoCo models as snapshots, held against MuJoCo's own numbers: places, planes and contacts."""
 
 from __future__ import annotations
 
-import io
 import sys
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from PIL import Image
 
-from scene2hap import ContactGraph, SceneSnapshot
+from mujoco_scenes import RESTING, load, mujoco, scene_of
+from scene2hap import ContactGraph
 from scene2hap.errors import MissingExtra, SceneError
 from scene2hap.scene.engines.mujoco import poses, snapshot
-
-mujoco = pytest.importorskip("mujoco", reason="needs the extra mujoco")
-
-# A tetrahedron with a corner at the origin of its file; compiling moves it to its own centre of mass.
-TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nvt 0.25 0.75\nvt 0.75 0.75\nvt 0.25 0.25\n" + "".join(
-    f"f {a}/1 {b}/2 {c}/3\n" for a, b, c in [(1, 3, 2), (1, 2, 4), (1, 4, 3), (2, 3, 4)]
-)
 
 ALL_SHAPES = """
 <mujoco model="shapes">
@@ -51,17 +43,6 @@ ALL_SHAPES = """
 """
 
 
-def load(xml: str, assets: dict[str, bytes] | None = None) -> tuple[Any, Any]:
-    model = mujoco.MjModel.from_xml_string(xml, {"wedge.obj": TETRAHEDRON.encode(), **(assets or {})})
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    return model, data
-
-
-def scene_of(body: str, assets: dict[str, bytes] | None = None, **options: Any) -> SceneSnapshot:
-    return snapshot(*load(f"<mujoco>{body}</mujoco>", assets), **options)
-
-
 def geom_bounds(model: Any, data: Any, geom: int) -> NDArray[np.float64]:
     """Lowest and highest corner (2, 3) in the world from MuJoCo's pose of the geom, by the support of each shape."""
     kind, size = mujoco.mjtGeom(int(model.geom_type[geom])), model.geom_size[geom]
@@ -85,13 +66,6 @@ def geom_bounds(model: Any, data: Any, geom: int) -> NDArray[np.float64]:
 
 def union(bounds: list[NDArray[np.float64]]) -> NDArray[np.float64]:
     return np.array([np.min([low for low, _ in bounds], axis=0), np.max([high for _, high in bounds], axis=0)])
-
-
-def names(scene: SceneSnapshot) -> dict[str, str]:
-    return {item.id: item.name for item in scene.objects}
-
-
-# -- where things are ------------------------------------------------------------------------------------------------
 
 
 def test_every_shape_is_where_mujoco_has_it() -> None:
@@ -180,9 +154,6 @@ def test_a_height_field_is_a_terrain() -> None:
     np.testing.assert_allclose(vertices[vertices[:, 2].argmax()], expected, atol=1e-9)
 
 
-# -- planes ----------------------------------------------------------------------------------------------------------
-
-
 def test_a_plane_is_a_sheet_without_thickness() -> None:
     floor = scene_of('<worldbody><geom name="floor" type="plane" size="3 2 1"/></worldbody>').object("floor")
     assert floor.size_m == pytest.approx((6, 4, 0))
@@ -209,105 +180,6 @@ def test_things_on_a_plane_touch_it() -> None:
     assert ContactGraph(scene).neighbours("crate") == ("floor",)
 
 
-# -- what is an object, and what it is called ------------------------------------------------------------------------
-
-
-def test_doors_and_knobs_are_objects_and_bodies_without_geoms_are_looked_through() -> None:
-    scene = scene_of(
-        '<worldbody><body name="room"><body name="cabinet"><geom size="1"/>'
-        '<body name="door"><joint/><geom size="0.5"/><body name="knob"><geom size="0.1"/></body></body></body>'
-        '<body name="shelf"><geom size="1"/></body></body></worldbody>'
-    )
-    assert names(scene) == {name: name for name in ("cabinet", "door", "knob", "shelf")}
-
-
-def test_a_wrapper_lends_its_name_to_the_only_thing_in_it() -> None:
-    scene = scene_of(
-        '<worldbody><body name="microwave"><body name="microroot"><geom size="1"/>'
-        '<body name="microdoor"><joint/><geom size="0.5"/></body></body></body>'
-        '<body name="kitchen"><body name="table"><geom size="1"/></body></body>'
-        '<body name="rail"><body name="slider"><joint/><geom size="1"/></body></body></worldbody>'
-    )
-    # Not of places, and not if the thing moves in its wrapper.
-    assert names(scene) == {
-        "microroot": "microwave", "microdoor": "microdoor", "table": "table", "slider": "slider"
-    }  # fmt: skip
-
-
-def test_what_has_no_name_is_told_by_where_it_is() -> None:
-    xml = (
-        '<asset><mesh name="wedge" file="wedge.obj"/></asset>'
-        '<worldbody><geom type="plane" size="1 1 1"/><geom name="wall" type="box" size="1 1 1"/>'
-        '<body><geom name="top" size="1"/><body/><body><geom size="1"/></body></body>'
-        '<body name="cup"><geom size="1"/><body><geom type="mesh" mesh="wedge"/></body></body></worldbody>'
-    )
-    scene = scene_of(xml)
-    assert names(scene) == {
-        "world/body1": "top",
-        "world/body1/body2": "world/body1/body2",
-        "cup": "cup",
-        "cup/body1": "wedge",
-        "world/geom1": "world/geom1",
-        "wall": "wall",
-    }
-    again = scene_of(xml)
-    assert names(again) == names(scene)
-    assert [item.geometry for item in again.objects] == [item.geometry for item in scene.objects]
-
-
-def test_a_body_and_a_geom_of_one_name_are_told_apart() -> None:
-    scene = scene_of('<worldbody><geom name="a" size="1"/><body name="a"><geom size="2"/></body></worldbody>')
-    assert {item.id: round(item.bounds_m[1, 0]) for item in scene.objects} == {"a": 2, "a#2": 1}
-
-
-def test_geoms_that_cannot_collide_are_the_looks_of_a_body() -> None:
-    body = (
-        '<worldbody><body name="drawer">'
-        '<geom size="1" group="1" contype="0" conaffinity="0"/><geom size="2" group="4" contype="0" conaffinity="1"/>'
-        '<geom size="3" group="2" contype="0" conaffinity="0" rgba="1 1 1 0"/></body>'
-        '<body name="block"><geom size="2" group="4"/></body></worldbody>'
-    )
-
-    def radii(**options: Any) -> dict[str, int]:
-        return {item.id: round(item.bounds_m[1, 0]) for item in scene_of(body, **options).objects}
-
-    assert radii() == {"drawer": 1, "block": 2}
-    assert radii(geom_groups={4}) == {"drawer": 2, "block": 2}
-    assert radii(geom_groups=[1, 2]) == {"drawer": 3}
-    with pytest.raises(SceneError, match="no geom is in geom_groups {0}"):
-        radii(geom_groups=(0,))
-    with pytest.raises(SceneError, match="geom_groups is 4; it must be a set of group numbers"):
-        radii(geom_groups=4)
-
-
-def test_of_the_worlds_geoms_hidden_walls_are_left_out() -> None:
-    scene = scene_of(
-        '<worldbody><geom name="floor" size="1"/><geom name="hidden" size="1" group="3"/>'
-        '<geom name="poster" size="1" group="3" contype="0" conaffinity="0"/></worldbody>'
-    )
-    assert {item.id for item in scene.objects} == {"floor", "poster"}
-
-
-def test_copies_share_a_mesh() -> None:
-    thing = '<geom type="cylinder" size="0.1 0.2" pos="0 0 0.2"/><geom type="box" size="0.2 0.2 0.01"/>'
-    scene = scene_of(
-        f'<worldbody><body name="a" pos="1 2 3">{thing}</body><body name="b" euler="10 20 30">{thing}</body>'
-        f'<body name="c"><geom type="box" size="0.2 0.2 0.01" rgba="1 0 0 1"/></body></worldbody>'
-    )
-    a, b, c = scene.objects
-    assert a.geometry is b.geometry
-    assert a.instance_key == b.instance_key != c.instance_key
-
-
-# -- contacts --------------------------------------------------------------------------------------------------------
-
-RESTING = (
-    '<mujoco><worldbody><geom name="floor" type="plane" size="2 2 1"/>'
-    '<body name="ball" pos="0.5 0 0.199"><freejoint/><geom size="0.2"/></body>'
-    '<body name="still" pos="-1 0 0.2"><geom size="0.2"/></body></worldbody></mujoco>'
-)
-
-
 def test_the_engines_contacts_are_taken_when_asked_for() -> None:
     scene = snapshot(*load(RESTING), contacts="engine")
     assert scene.contacts is not None
@@ -329,74 +201,6 @@ def test_contacts_are_found_from_geometry_otherwise() -> None:
 def test_contacts_of_what_is_not_drawn_are_left_out() -> None:
     hidden = RESTING.replace('type="plane"', 'type="plane" group="3"')
     assert snapshot(*load(hidden), contacts="engine").contacts == ()
-
-
-# -- looks -----------------------------------------------------------------------------------------------------------
-
-
-def png(pixels: list[list[tuple[int, int, int]]]) -> bytes:
-    stream = io.BytesIO()
-    Image.fromarray(np.array(pixels, dtype=np.uint8)).save(stream, "png")
-    return stream.getvalue()
-
-
-def test_colours_are_the_geoms_own_or_their_materials() -> None:
-    scene = scene_of(
-        '<asset><material name="red" rgba="2 0 0 1"/></asset><worldbody>'
-        '<body name="a"><geom size="1" material="red"/>'
-        '<geom size="1" pos="3 0 0" material="red" rgba="0 1 0 1"/></body>'
-        '<body name="b"><geom size="1"/></body></worldbody>'
-    )
-    a, b = (item.appearance for item in scene.objects)
-    assert a is not None
-    assert b is not None
-    assert [material.color_rgba for material in a.materials] == [(1, 0, 0, 1), (0, 1, 0, 1)]
-    assert np.bincount(a.face_material).tolist() == [len(b.face_material)] * 2
-    assert b.materials[0].color_rgba == (0.5, 0.5, 0.5, 1)
-
-
-def test_a_texture_lies_on_a_mesh_as_its_file_says() -> None:
-    quarters = [[(255, 0, 0), (0, 255, 0)], [(0, 0, 255), (255, 255, 255)]]
-    scene = scene_of(
-        '<asset><mesh name="wedge" file="wedge.obj"/><mesh name="other" file="wedge.obj" scale="-1 1 1"/>'
-        '<texture name="t" type="2d" file="t.png"/>'
-        '<material name="m" texture="t" rgba="1 0.5 1 1"/></asset><worldbody>'
-        '<body name="a"><geom type="mesh" mesh="other" material="m"/>'
-        '<geom type="mesh" mesh="wedge" material="m"/></body></worldbody>',
-        {"t.png": png(quarters)},
-    )
-    look = scene.object("a").appearance
-    assert look is not None
-    assert look.uv is not None
-    (material,) = look.materials
-    assert material.color_rgba == (1, 0.5, 1, 1)
-    assert material.texture is not None
-    np.testing.assert_array_equal(material.texture, quarters)
-    # In an OBJ file v goes up: (0.25, 0.75) is the upper left quarter, then upper right, then lower left.
-    corners = {tuple(pair) for pair in look.uv.reshape(-1, 2).tolist()}
-    assert corners == {(0.25, 0.25), (0.75, 0.25), (0.25, 0.75)}
-    # The vertex at the file's origin is always a face's first corner: red.
-    mesh = scene.object("a").geometry.mesh
-    at_origin = np.isclose(mesh.vertices_m[mesh.faces], 0, atol=1e-6).all(axis=-1)
-    assert at_origin.sum() == 6
-    np.testing.assert_allclose(look.uv[at_origin], [(0.25, 0.25)] * 6)
-
-
-def test_without_texture_coordinates_a_texture_is_its_mean_colour() -> None:
-    halves = [[(255, 0, 0)] * 2, [(0, 0, 255)] * 2]
-    scene = scene_of(
-        '<asset><texture name="t" type="2d" file="t.png"/><material name="m" texture="t" rgba="1 1 0.5 1"/></asset>'
-        '<worldbody><body name="a"><geom type="box" size="1 1 1" material="m"/></body></worldbody>',
-        {"t.png": png(halves)},
-    )
-    look = scene.object("a").appearance
-    assert look is not None
-    assert look.uv is None
-    assert look.materials[0].texture is None
-    assert look.materials[0].color_rgba == pytest.approx((0.5, 0, 0.25, 1))
-
-
-# -- what cannot be read ---------------------------------------------------------------------------------------------
 
 
 def test_a_missing_engine_names_its_extra(monkeypatch: pytest.MonkeyPatch) -> None:

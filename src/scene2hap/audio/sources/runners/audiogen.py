@@ -9,7 +9,7 @@ from __future__ import annotations
 import sys
 from typing import Any
 
-from contract import main  # type: ignore[import-not-found,unused-ignore]
+from contract import main  # type: ignore[import-not-found,unused-ignore]  # beside this file, which is a program
 
 LICENCE = "CC-BY-NC-4.0"
 ADDRESS = "https://huggingface.co/facebook/audiogen-medium"
@@ -17,8 +17,8 @@ ADDRESS = "https://huggingface.co/facebook/audiogen-medium"
 
 def generate(request: Any, arguments: Any) -> tuple[int, Any]:
     """Takes at 16 kHz, mono. The model has no seed of its own: torch's decides."""
-    import torch  # type: ignore[import-not-found,unused-ignore]
-    from audiocraft.models import AudioGen  # type: ignore[import-not-found,import-untyped,unused-ignore]
+    import torch  # type: ignore[import-not-found,unused-ignore]  # only where the model is
+    from audiocraft.models import AudioGen  # type: ignore[import-not-found,import-untyped,unused-ignore]  # the same
 
     torch.manual_seed(request.seed % 2**63)
     model = AudioGen.get_pretrained(arguments.model, device=arguments.device or None)

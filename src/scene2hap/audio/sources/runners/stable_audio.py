@@ -10,7 +10,7 @@ from __future__ import annotations
 import sys
 from typing import Any
 
-from contract import main  # type: ignore[import-not-found,unused-ignore]
+from contract import main  # type: ignore[import-not-found,unused-ignore]  # beside this file, which is a program
 
 LICENCE = "Stability AI Community License"
 ADDRESS = "https://stability.ai/license"
@@ -19,7 +19,7 @@ STEPS = 8
 
 def generate(request: Any, arguments: Any) -> tuple[int, Any]:
     """Takes at 44.1 kHz, stereo."""
-    import stable_audio_3  # type: ignore[import-not-found,unused-ignore]
+    import stable_audio_3  # type: ignore[import-not-found,unused-ignore]  # only where the model is
 
     # The class was called StableAudioPipeline at first.
     kind = getattr(stable_audio_3, "StableAudioModel", None) or stable_audio_3.StableAudioPipeline

@@ -11,6 +11,7 @@ import warnings
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Credit
@@ -149,10 +150,10 @@ class TextToAudio:
 
     def _kept(self, key: str) -> list[AudioClip] | None:
         """What an earlier run made of the same request; None where any of it is missing."""
-        entry = self._store.document(f"{key}/{_ENTRY}")
+        entry: Any = self._store.document(f"{key}/{_ENTRY}")
         try:
-            names = [str(name) for name in entry["files"]]  # type: ignore[index]
-            credits_ = [Credit(**{field: str(text) for field, text in row.items()}) for row in entry["credits"]]  # type: ignore[index]
+            names = [str(name) for name in entry["files"]]
+            credits_ = [Credit(**{field: str(text) for field, text in row.items()}) for row in entry["credits"]]
         except (TypeError, KeyError, AttributeError):
             return None
         if not names or len(names) != len(credits_) or not all(name == Path(name).name for name in names):

@@ -1,0 +1,123 @@
+"""What the service can do wrong."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from freesound_asking import Time, catalogue, describe, failed, freesound, preview
+from freesound_server import Page, host, hum, refused, result, results
+from scene2hap.errors import BackendUnavailable, BadAnswer
+
+
+@pytest.mark.parametrize(
+    ("page", "said"),
+    [
+        (refused(401, "Invalid token."), "answered 401: Invalid token. Check the token in FREESOUND_TOKEN"),
+        (refused(403), "what the token in FREESOUND_TOKEN is allowed"),
+        (refused(404), "Check base_url"),
+        (refused(400, "Invalid filter."), "answered 400: Invalid filter."),
+        (refused(429, "Request was throttled: limit rate (2000/day)"), "Bake again tomorrow"),
+        (refused(429, "limit rate (60/minute)", retry_after="3600"), "answered 429"),
+    ],
+    ids=["401", "403", "404", "400", "day", "an-hour"],
+)
+def test_what_no_retry_mends_is_asked_once(tmp_path: Path, page: Page, said: str) -> None:
+    error, api, time = failed(tmp_path, page)
+    assert said in str(error)
+    assert isinstance(error, BackendUnavailable)
+    assert not error.retryable
+    assert (len(api.asked), time.slept) == (1, [])
+
+
+@pytest.mark.parametrize("status", [500, 502, 503])
+def test_a_service_that_stumbles_is_asked_again_twice(tmp_path: Path, status: int) -> None:
+    error, api, time = failed(tmp_path, Page(b"<html>oops", status))
+    assert f"answered {status}: nothing more" in str(error)
+    assert (len(api.asked), time.slept) == (3, [0.5, 1.0])
+    with host(Page(hum())) as cdn, host(refused(status), results(result(1, preview(cdn)))) as api:
+        assert len(freesound(api, tmp_path).find(describe())) == 1
+
+
+def test_too_many_a_minute_waits_a_minute(tmp_path: Path) -> None:
+    time = Time()
+    with host(Page(hum())) as cdn:
+        throttled = refused(429, "Request was throttled: limit rate (60/minute)")
+        with host(throttled, results(result(1, preview(cdn)))) as api:
+            assert len(freesound(api, tmp_path, time).find(describe())) == 1
+    assert time.slept == [60.0]
+
+
+@pytest.mark.parametrize(
+    "page",
+    [
+        Page(b"<html>welcome to the hotel's network</html>"),
+        Page(b"[]"),
+        Page({"results": "none"}),
+        Page({"count": 3}),
+        Page({"results": [{"id": "x"}, 3, None]}),
+        Page(b'{"results": ' + b"[" * 100_000),
+        Page(b"\xff\xfe\x00"),
+    ],
+    ids=["html", "list", "text", "count", "no-sounds", "nested", "bytes"],
+)
+def test_an_answer_that_is_none_is_a_bad_answer(tmp_path: Path, page: Page) -> None:
+    error, api, _ = failed(tmp_path, page)
+    assert isinstance(error, BadAnswer)
+    assert len(api.asked) == 1
+    assert not list((tmp_path / "cache").rglob("*")), "nothing of it is kept"
+
+
+@pytest.mark.parametrize("manner", ["hang", "drip"])
+def test_a_server_that_stalls_is_given_up_in_time(tmp_path: Path, manner: str) -> None:
+    error, api, _ = failed(tmp_path, Page(manner=manner), timeout_s=0.2)
+    assert "did not answer within 0.2 s" in str(error)
+    assert len(api.asked) == 3
+
+
+def test_an_endless_answer_is_cut_off(tmp_path: Path) -> None:
+    error, api, _ = failed(tmp_path, Page(manner="endless"))
+    assert "sends more than 2000000 bytes" in str(error)
+    assert len(api.asked) == 1
+
+
+def test_a_connection_that_drops_and_a_host_that_is_away(tmp_path: Path) -> None:
+    error, api, _ = failed(tmp_path, Page(manner="drop"))
+    assert "cannot be reached" in str(error)
+    assert len(api.asked) == 3
+    with pytest.raises(BackendUnavailable, match="cannot be reached"):
+        freesound(api, tmp_path).find(describe())
+
+
+def test_a_service_that_failed_is_left_alone_for_a_while(tmp_path: Path) -> None:
+    time = Time()
+    with host(refused(503)) as api:
+        source = freesound(api, tmp_path, time)
+        for _ in range(4):
+            with pytest.raises(BackendUnavailable):
+                source.find(describe())
+        assert len(api.asked) == 3
+        api.answer = [results()]
+        time.now_s += 121.0
+        assert source.find(describe()) == []
+
+
+def test_a_refused_token_is_not_sent_twice_but_a_refused_query_ends_alone(tmp_path: Path) -> None:
+    for status, calls in ((401, 1), (400, 3)):
+        with host(refused(status)) as api:
+            source = freesound(api, tmp_path)
+            for _ in range(3):
+                with pytest.raises(BackendUnavailable):
+                    source.find(describe())
+        assert len(api.asked) == calls
+
+
+def test_it_works_inside_a_running_event_loop(tmp_path: Path) -> None:
+    import asyncio
+
+    async def find() -> int:
+        return len(freesound(api, tmp_path).find(describe()))
+
+    with catalogue({}) as (api, _):
+        assert asyncio.run(find()) == 1

@@ -1,0 +1,31 @@
+"""The sentences of the lexicon's reasons."""
+
+import re
+
+from scene2hap.llm.lexicon.judging import Measured, judge
+from scene2hap.llm.lexicon.table import table
+
+# How they are spoken decides: a you-niform, an em-ar-eye scanner, an our-glass.
+SPOKEN_WITH_A_CONSONANT = {"ufo", "ukulele", "uniform", "urinal", "usb stick", "utensil rack"}
+SPOKEN_WITH_A_VOWEL = {"hourglass", "led strip", "mri scanner", "x-ray machine"}
+
+
+def test_every_noun_of_the_table_has_its_article() -> None:
+    nouns = {row.noun for row in table()}
+    assert nouns >= SPOKEN_WITH_A_CONSONANT | SPOKEN_WITH_A_VOWEL
+    for noun in nouns:
+        vowel = noun in SPOKEN_WITH_A_VOWEL or (noun[0] in "aeiou" and noun not in SPOKEN_WITH_A_CONSONANT)
+        right, wrong = ("an", "a") if vowel else ("a", "an")
+        answer = judge(Measured(noun.replace(" ", "_"), (0.0, 0.0, 0.0)))
+        assert f" names {right} {noun}." in answer.category_reason
+        assert not re.search(rf"\b{wrong} {re.escape(noun)}\b", str(answer)), answer
+
+
+def test_an_article_in_the_other_reasons() -> None:
+    airplane = judge(Measured("toy_airplane", (0.1, 0.1, 0.0)))
+    assert "names an airplane." in airplane.category_reason
+    assert airplane.vibration_reason == "a toy airplane has no working mechanism."
+    assert "assumed for a toy airplane." in airplane.size_reason
+    umbrella = judge(Measured("umbrella", (0.5, 0.5, 0.0)))
+    assert "assumed for an umbrella." in umbrella.size_reason
+    assert umbrella.vibration_reason.startswith("an umbrella has no mechanism")

@@ -1,0 +1,102 @@
+"""What is an object in a MuJoCo model, and what it is called."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from mujoco_scenes import scene_of
+from scene2hap import SceneSnapshot
+from scene2hap.errors import SceneError
+
+
+def names(scene: SceneSnapshot) -> dict[str, str]:
+    return {item.id: item.name for item in scene.objects}
+
+
+def test_doors_and_knobs_are_objects_and_bodies_without_geoms_are_looked_through() -> None:
+    scene = scene_of(
+        '<worldbody><body name="room"><body name="cabinet"><geom size="1"/>'
+        '<body name="door"><joint/><geom size="0.5"/><body name="knob"><geom size="0.1"/></body></body></body>'
+        '<body name="shelf"><geom size="1"/></body></body></worldbody>'
+    )
+    assert names(scene) == {name: name for name in ("cabinet", "door", "knob", "shelf")}
+
+
+def test_a_wrapper_lends_its_name_to_the_only_thing_in_it() -> None:
+    scene = scene_of(
+        '<worldbody><body name="microwave"><body name="microroot"><geom size="1"/>'
+        '<body name="microdoor"><joint/><geom size="0.5"/></body></body></body>'
+        '<body name="kitchen"><body name="table"><geom size="1"/></body></body>'
+        '<body name="rail"><body name="slider"><joint/><geom size="1"/></body></body></worldbody>'
+    )
+    # Not of places, and not if the thing moves in its wrapper.
+    assert names(scene) == {
+        "microroot": "microwave", "microdoor": "microdoor", "table": "table", "slider": "slider"
+    }  # fmt: skip
+
+
+def test_what_has_no_name_is_told_by_where_it_is() -> None:
+    xml = (
+        '<asset><mesh name="wedge" file="wedge.obj"/></asset>'
+        '<worldbody><geom type="plane" size="1 1 1"/><geom name="wall" type="box" size="1 1 1"/>'
+        '<body><geom name="top" size="1"/><body/><body><geom size="1"/></body></body>'
+        '<body name="cup"><geom size="1"/><body><geom type="mesh" mesh="wedge"/></body></body></worldbody>'
+    )
+    scene = scene_of(xml)
+    assert names(scene) == {
+        "world/body1": "top",
+        "world/body1/body2": "world/body1/body2",
+        "cup": "cup",
+        "cup/body1": "wedge",
+        "world/geom1": "world/geom1",
+        "wall": "wall",
+    }
+    again = scene_of(xml)
+    assert names(again) == names(scene)
+    assert [item.geometry for item in again.objects] == [item.geometry for item in scene.objects]
+
+
+def test_a_body_and_a_geom_of_one_name_are_told_apart() -> None:
+    scene = scene_of('<worldbody><geom name="a" size="1"/><body name="a"><geom size="2"/></body></worldbody>')
+    assert {item.id: round(item.bounds_m[1, 0]) for item in scene.objects} == {"a": 2, "a#2": 1}
+
+
+def test_geoms_that_cannot_collide_are_the_looks_of_a_body() -> None:
+    body = (
+        '<worldbody><body name="drawer">'
+        '<geom size="1" group="1" contype="0" conaffinity="0"/><geom size="2" group="4" contype="0" conaffinity="1"/>'
+        '<geom size="3" group="2" contype="0" conaffinity="0" rgba="1 1 1 0"/></body>'
+        '<body name="block"><geom size="2" group="4"/></body></worldbody>'
+    )
+
+    def radii(**options: Any) -> dict[str, int]:
+        return {item.id: round(item.bounds_m[1, 0]) for item in scene_of(body, **options).objects}
+
+    assert radii() == {"drawer": 1, "block": 2}
+    assert radii(geom_groups={4}) == {"drawer": 2, "block": 2}
+    assert radii(geom_groups=[1, 2]) == {"drawer": 3}
+    with pytest.raises(SceneError, match="no geom is in geom_groups {0}"):
+        radii(geom_groups=(0,))
+    with pytest.raises(SceneError, match="geom_groups is 4; it must be a set of group numbers"):
+        radii(geom_groups=4)
+
+
+def test_of_the_worlds_geoms_hidden_walls_are_left_out() -> None:
+    scene = scene_of(
+        '<worldbody><geom name="floor" size="1"/><geom name="hidden" size="1" group="3"/>'
+        '<geom name="poster" size="1" group="3" contype="0" conaffinity="0"/></worldbody>'
+    )
+    assert {item.id for item in scene.objects} == {"floor", "poster"}
+
+
+def test_copies_share_a_mesh() -> None:
+    thing = '<geom type="cylinder" size="0.1 0.2" pos="0 0 0.2"/><geom type="box" size="0.2 0.2 0.01"/>'
+    scene = scene_of(
+        f'<worldbody><body name="a" pos="1 2 3">{thing}</body><body name="b" euler="10 20 30">{thing}</body>'
+        f'<body name="c"><geom type="box" size="0.2 0.2 0.01" rgba="1 0 0 1"/></body></worldbody>'
+    )
+    a, b, c = scene.objects
+    assert a.geometry is b.geometry
+    assert a.instance_key == b.instance_key != c.instance_key
