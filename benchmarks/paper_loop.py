@@ -3,19 +3,22 @@
 OMP_NUM_THREADS=1 python benchmarks/paper_loop.py [n_frames]
 
 The plain loop, once per frame: compare all bounding boxes with all, draw a networkx graph, follow all paths from every
-touch to every source depth first up to two contacts, one exponential (of 20 bands) per path. Both see the same frames
-of the same room (`busy_room`), in turns; times are medians, of the processor's time, so that other programs disturb
-them little.
+touch to every source depth first up to two contacts, one exponential (of 20 bands) per path. Ours is
+`HapticSession.update` as a game calls it; beside it stand its parts alone (graph, paths, gains). All see the same
+frames of the same room (`busy_room`), in turns; times are medians, of the processor's time, so that other programs
+disturb them little.
 """
 
 from __future__ import annotations
 
 import gc
 import math
+import os
 import platform
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from itertools import pairwise
 
 import networkx as nx
@@ -23,12 +26,13 @@ import numpy as np
 from busy_room import BusyRoom, busy_room
 
 from scene2hap import Bands, HapticSession, Plate, Pose, Touch
-from scene2hap.contact.body import Body
 from scene2hap.contact.crowd import Crowd
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.propagation.band_rms import BandRms
 from scene2hap.propagation.exponential_plate import band_rms
 from scene2hap.propagation.live_paths import LivePaths
+from scene2hap.session.audibility import Audibility
+from scene2hap.session.playback import Playback
 
 Clock = Callable[[], float]
 
@@ -139,51 +143,81 @@ def frames_of(room: BusyRoom, n_frames: int) -> list[tuple[dict[str, Pose], list
 
 
 def compared(n_objects: int, kind: str, n_frames: int) -> None:
-    """Medians, in turns; and the 99th percentile over the median, ours alone."""
+    """Medians, in turns; and the 99th percentile over the median of the session alone, which collects garbage."""
     room = busy_room(n_objects, kind)
     plain, ours, session = PaperLoop(room), OurLoop(room), session_of(room)
     frames = frames_of(room, n_frames)
     few = n_frames if n_objects < 500 else min(n_frames, 60)
-    steps = [lambda i, loop=loop: loop.update(*frames[i]) for loop in (plain, ours, session)]
-    slow, fast, whole = np.median(times_of(steps, few, time.thread_time), axis=1)
+    steps = [lambda i, loop=loop: loop.update(*frames[i]) for loop in (plain, session, ours)]
+    slow, whole, parts = np.median(times_of(steps, few, time.thread_time), axis=1)
     alone = times_of([steps[1]], n_frames, time.thread_time)[0]
     print(
-        f"| {n_objects} | {kind} | {1e3 * slow:.3f} | {1e3 * fast:.4f} | {slow / fast:.1f} | {1e3 * whole:.4f} | "
-        f"{slow / whole:.1f} | {np.percentile(alone, 99) / np.median(alone):.2f} |"
+        f"| {n_objects} | {kind} | {1e3 * slow:.3f} | {1e3 * whole:.4f} | {slow / whole:.1f} | "
+        f"{np.percentile(alone, 99) / np.median(alone):.2f} | {1e3 * parts:.4f} | {slow / parts:.1f} |"
     )
+
+
+class Stopwatch:
+    """The processor's time in methods of classes, without what belongs to watched methods that they call."""
+
+    def __init__(self) -> None:
+        self.spent: dict[str, float] = {}
+        self._inner: list[float] = []
+        many = 2000
+        start = time.thread_time()
+        for _ in range(many):
+            time.thread_time()
+        self._clock_s = (time.thread_time() - start) / many
+
+    @contextmanager
+    def watch(self, **methods: tuple[type, str]) -> Iterator[None]:
+        """Watch methods, each by a name."""
+        kept = [(owner, method, getattr(owner, method)) for owner, method in methods.values()]
+        for name, (owner, method, call) in zip(methods, kept, strict=True):
+            self.spent[name] = 0.0
+            setattr(owner, method, self._watched(name, call))
+        try:
+            yield
+        finally:
+            for owner, method, call in kept:
+                setattr(owner, method, call)
+
+    def _watched(self, name: str, call: Callable[..., object]) -> Callable[..., object]:
+        def watched(*args: object, **named: object) -> object:
+            self._inner.append(0.0)
+            start = time.thread_time()
+            found = call(*args, **named)
+            taken = time.thread_time() - start
+            self.spent[name] += taken - self._clock_s - self._inner.pop()
+            if self._inner:
+                self._inner[-1] += taken + self._clock_s  # it reads the clock twice, once within what it takes
+            return found
+
+        return watched
 
 
 def split(n_objects: int, kind: str, n_frames: int) -> None:
-    """Where the time of our frame goes, as means of the processor's time."""
-    room = busy_room(n_objects, kind)
-    loop, spent = OurLoop(room), dict.fromkeys(("broad", "update", "paths", "gains"), 0.0)
-    put = Crowd.put
-
-    def timed_put(self: Crowd, bodies: Sequence[Body]) -> dict[str, set[str]]:
-        start = time.thread_time()
-        found = put(self, bodies)
-        spent["broad"] += time.thread_time() - start
-        return found
-
-    Crowd.put = timed_put
-    try:
-        for moved, touches in frames_of(room, n_frames):
-            marks = [time.thread_time()]
-            loop.graph.update(moved)
-            marks.append(time.thread_time())
-            costs = loop.lengths(touches)
-            marks.append(time.thread_time())
-            loop.felt(costs)
-            marks.append(time.thread_time())
-            for name, taken in zip(("update", "paths", "gains"), np.diff(marks), strict=True):
-                spent[name] += taken
-    finally:
-        Crowd.put = put
-    each = {name: 1e6 * taken / (n_frames + 20) for name, taken in spent.items()}
-    print(
-        f"| {n_objects} | {kind} | {each['broad']:.1f} | {each['update'] - each['broad']:.1f} | {each['paths']:.1f} | "
-        f"{each['gains']:.1f} |"
-    )
+    """Where the time of a session's update goes, as means of the processor's time."""
+    room, watch = busy_room(n_objects, kind), Stopwatch()
+    session, frames = session_of(room), frames_of(room, n_frames)
+    for moved, touches in frames[:20]:
+        session.update(moved, touches)
+    methods = {
+        "broad": (Crowd, "put"),
+        "narrow": (ContactGraph, "update"),
+        "paths": (LivePaths, "costs"),
+        "gains": (BandRms, "__call__"),
+        "worth": (Audibility, "worth_mixing"),
+        "mixer": (Playback, "set_gains"),
+        "rest": (HapticSession, "update"),
+    }
+    with watch.watch(**methods):
+        for moved, touches in frames[20:]:
+            session.update(moved, touches)
+    each = {name: 1e6 * taken / n_frames for name, taken in watch.spent.items()}
+    columns = [each[name] for name in ("broad", "narrow", "paths", "gains")]
+    columns += [each["worth"] + each["mixer"], each["rest"]]
+    print(f"| {n_objects} | {kind} | " + " | ".join(f"{taken:.0f}" for taken in columns) + " |")
 
 
 def at_rest(n_objects: int, n_updates: int) -> None:
@@ -204,36 +238,42 @@ def at_rest(n_objects: int, n_updates: int) -> None:
         [lambda i: loop.update({}, frames[i]), lambda i: session.update({}, frames[i])], n_updates, time.thread_time
     )
     print(
-        f"\nAt rest, five fresh touches, {n_objects} objects: {1 / np.median(ours):.0f} updates/s, "
-        f"through HapticSession {1 / np.median(whole):.0f}."
+        f"\nAt rest, five fresh touches, {n_objects} objects: through HapticSession {1 / np.median(whole):.0f} "
+        f"updates/s, parts {1 / np.median(ours):.0f}."
     )
 
 
 def growth(n_frames: int) -> None:
-    print("\n| objects | contacts, 5 movers [µs] | with paths and gains [µs] |\n|---|---|---|")
+    print("\n| objects | contacts, 5 movers [µs] | HapticSession [µs] |\n|---|---|---|")
     rooms = {n: busy_room(n) for n in (100, 1000, 10000)}
-    loops = {n: OurLoop(room) for n, room in rooms.items()}
-    frames = {n: frames_of(room, 2 * n_frames) for n, room in rooms.items()}
+    sessions = {n: session_of(room) for n, room in rooms.items()}
+    graphs = {n: ContactGraph(room.scene) for n, room in rooms.items()}
+    frames = {n: frames_of(room, n_frames) for n, room in rooms.items()}
     gc.freeze()
-    whole = times_of([lambda i, n=n: loops[n].update(*frames[n][i]) for n in rooms], n_frames, time.thread_time)
-    part = times_of(
-        [lambda i, n=n: loops[n].graph.update(frames[n][i + n_frames][0]) for n in rooms], n_frames, time.thread_time
-    )
+    whole = times_of([lambda i, n=n: sessions[n].update(*frames[n][i]) for n in rooms], n_frames, time.thread_time)
+    part = times_of([lambda i, n=n: graphs[n].update(frames[n][i][0]) for n in rooms], n_frames, time.thread_time)
     for row, n in enumerate(rooms):
         print(f"| {n} | {1e6 * np.median(part[row]):.1f} | {1e6 * np.median(whole[row]):.1f} |")
 
 
 def main() -> None:
     n_frames = int(sys.argv[1]) if len(sys.argv) > 1 else 400
-    print(f"Python {platform.python_version()}, numpy {np.__version__}, {platform.machine()}, gc {gc.isenabled()}\n")
     print(
-        "| objects | meshes | plain loop [ms] | parts [ms] | ratio | HapticSession [ms] | ratio | parts p99 / median |"
+        f"Python {platform.python_version()}, numpy {np.__version__}, {platform.machine()}, gc {gc.isenabled()}, ",
+        end="",
     )
-    print("|---|---|---|---|---|---|---|---|")
+    print(f"load {os.getloadavg()[0]:.1f}\n")
+    print(
+        "| objects | meshes | plain loop [ms] | HapticSession [ms] | ratio | p99 / median | parts [ms] | ratio |\n"
+        "|---|---|---|---|---|---|---|---|"
+    )
     cases = [(n_objects, kind) for kind in ("box", "mesh") for n_objects in (50, 1000)]
     for case in cases:
         compared(*case, n_frames)
-    print("\n| objects | meshes | broad [µs] | narrow [µs] | paths [µs] | gains [µs] |\n|---|---|---|---|---|---|")
+    print(
+        "\n| objects | meshes | broad [µs] | narrow [µs] | paths [µs] | gains [µs] | mix [µs] | rest [µs] |\n"
+        "|---|---|---|---|---|---|---|---|"
+    )
     for case in cases:
         split(*case, n_frames)
     at_rest(50, n_frames)

@@ -35,15 +35,16 @@ class BandRms:
 
     def __call__(self, length: NDArray[np.float64]) -> NDArray[np.float64]:
         """Gains (n, n_bands) [-] for lengths (n,), >= 0, may be infinite."""
-        if length.size and length.min() >= self._least:
+        # Looked through one by one, which for a few numbers is quicker than as an array.
+        least, each = self._least, length.tolist()
+        if min(each, default=math.inf) >= least:
             return self._by_difference(length)
-        small = length < self._least
-        gains = self._by_difference(np.where(small, 1.0, length))
-        at_source = length == 0  # what touches a source feels all of it, and does so often
-        gains[at_source] = 1.0
-        small &= ~at_source
-        if small.any():
+        gains = self._by_difference(np.array([x if x >= least else 1.0 for x in each]))
+        small = [i for i, x in enumerate(each) if 0 < x < least]
+        if small:
             gains[small] = self._exact(length[small])
+        # What touches a source feels all of it, and does so often.
+        gains[[i for i, x in enumerate(each) if x == 0]] = 1.0
         return gains
 
     def _by_difference(self, length: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,11 +22,17 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
+from scene2hap.propagation.band_rms import BandRms
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_thin
+from scene2hap.propagation.live_law import GammaAt, GammaOver, LiveLaw
+from scene2hap.propagation.live_paths import LivePaths
 from scene2hap.propagation.paths import Arrivals, cheapest_arrivals
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.points import arrivals_at, as_points
-from scene2hap.propagation.protocol import ContactNetwork, Excitation
+from scene2hap.propagation.protocol import Body, ContactNetwork, Excitation
+
+if TYPE_CHECKING:
+    from scene2hap.contact.graph import ContactGraph
 
 REFERENCE_HZ = 250.0
 """Where the loss of a contact of weight w is exactly w; at other frequencies it follows the law like any distance."""
@@ -90,26 +96,48 @@ class ExponentialPlate:
 
         Raises: ModelDomainError, warns: ThinPlateWarning, for an object outside the domain, if so configured.
         """
-        top_hz = max(bands.edges_hz, default=max((self._frequency_hz(item) for item in excitations), default=0.0))
-        for object_id, body in network.bodies.items():
-            if isinstance(body, Plate):
-                check_thin(object_id, body, top_hz, self.outside_domain)
-        price = {
-            object_id: body.wavenumber_per_root_omega if isinstance(body, Plate) else 0.0
-            for object_id, body in network.bodies.items()
-        }
-        loss = self.interface_loss_db * math.log(10) / 20
-        crossing = [
-            (loss - math.log(contact.weight)) / math.sqrt(2 * math.pi * REFERENCE_HZ)
-            if contact.weight > 0
-            else math.inf
-            for contact in network.contacts
-        ]
+        price = self._prices(network.bodies, excitations, bands)
+        crossing = [self._crossing_cost(contact.weight) for contact in network.contacts]
         source_ids = tuple(excitation.source_id for excitation in excitations)
         arrivals = cheapest_arrivals(price, network.contacts, crossing, source_ids, self.max_hops)
         dominant = np.array([self._frequency_hz(item) for item in excitations])
-        floor = 0.0 if self.floor_db is None else 10 ** (self.floor_db / 20)
-        return ExponentialField(source_ids, arrivals, price, bands, dominant, floor)
+        return ExponentialField(source_ids, arrivals, price, bands, dominant, self._floor)
+
+    def live(
+        self, graph: ContactGraph, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands
+    ) -> LiveLaw:
+        """The same law over a graph that changes while one asks; see `LiveModel`.
+
+        Raises, warns: as `prepare`, but of all bodies at once.
+        """
+        source_ids = tuple(excitation.source_id for excitation in excitations)
+        prices = self._prices(bodies, excitations, bands)
+        paths = LivePaths(graph, prices, self._crossing_cost, source_ids, self.max_hops)
+        gamma: GammaAt | GammaOver
+        if bands.kind == "dominant":
+            gamma = GammaAt(np.array([self._frequency_hz(item) for item in excitations]))
+        else:
+            widths_hz = bands.widths_hz()
+            gamma = GammaOver(BandRms(bands.edges_hz, lambda length: band_rms(length, widths_hz)))
+        return LiveLaw(paths, source_ids, gamma, self._floor)
+
+    def _prices(self, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands) -> dict[str, float]:
+        """What a metre through each body costs, after a look at whether the law's theory holds for it."""
+        top_hz = max(bands.edges_hz, default=max((self._frequency_hz(item) for item in excitations), default=0.0))
+        prices = {}
+        for object_id, body in bodies.items():
+            if isinstance(body, Plate):
+                check_thin(object_id, body, top_hz, self.outside_domain)
+            prices[object_id] = body.wavenumber_per_root_omega if isinstance(body, Plate) else 0.0
+        return prices
+
+    def _crossing_cost(self, weight: float) -> float:
+        loss = self.interface_loss_db * math.log(10) / 20
+        return (loss - math.log(weight)) / math.sqrt(2 * math.pi * REFERENCE_HZ) if weight > 0 else math.inf
+
+    @property
+    def _floor(self) -> float:
+        return 0.0 if self.floor_db is None else 10 ** (self.floor_db / 20)
 
     def _frequency_hz(self, excitation: Excitation) -> float:
         return excitation.frequency_raw_hz if self.frequency == "raw" else excitation.frequency_tactile_hz

@@ -2,25 +2,43 @@
 
 `cheapest_arrivals` searches a whole scene; a frame of a game asks for two touches, and moves a few contacts. Over at
 most two contacts a way is source, at most one object between, touched object, so that what arrives is put together from
-the few junctions on it when asked for; what a junction that did not move contributes is kept from frame to frame.
+the few junctions on it when asked for; what a junction that did not move contributes is kept from frame to frame. Over
+more contacts one searches outward from the touch while things move, and once for all touches when they have come to
+rest.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from functools import lru_cache
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
+from scene2hap.propagation.outward import cheapest_outward
+from scene2hap.propagation.paths import Arrivals, cheapest_over
 
-from scene2hap.contact.graph import ContactGraph
-from scene2hap.contact.junction import Junction
-from scene2hap.contact.profile import Triple
-from scene2hap.propagation.paths import Arrivals, cheapest_arrivals
+if TYPE_CHECKING:
+    from scene2hap.contact.graph import ContactGraph
+    from scene2hap.contact.junction import Junction
+
+Triple = tuple[float, float, float]
+
+_MOST_WEIGHTS = 1024
+_SELDOM = 20  # From here on one search of the whole scene is cheaper than one outward from each touch.
 
 _Entries = list[tuple[Triple, float]]
-_Gathered = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.intp], list[int]]
+
+
+class _Crossing(dict[float, float]):
+    """What a contact of each weight costs, worked out when it is first met."""
+
+    def __init__(self, cost: Callable[[float], float]) -> None:
+        self._cost = cost
+
+    def __missing__(self, weight: float) -> float:
+        if len(self) >= _MOST_WEIGHTS:
+            self.clear()
+        found = self[weight] = self._cost(weight)
+        return found
 
 
 class _Way:
@@ -41,8 +59,7 @@ class LivePaths:
 
     Parameters: graph : read whenever asked, never copied; price_per_m : what a metre through an object costs, >= 0, no
     entry where it carries nothing on; crossing_cost : what a contact of some weight costs; max_hops : contacts that a
-    way may cross, None for any number. Ways of more than two contacts are searched anew for the whole scene whenever a
-    contact changed.
+    way may cross, None for any number.
     """
 
     def __init__(
@@ -56,111 +73,129 @@ class LivePaths:
         self._graph = graph
         self._beside = graph.beside
         self._price_per_m = price_per_m
-        self._crossing_cost = lru_cache(maxsize=1024)(crossing_cost)
+        self._crossing = _Crossing(crossing_cost)
         self._source_ids = tuple(source_ids)
+        self._row = {source_id: row for row, source_id in enumerate(source_ids)}
         self._max_hops = max_hops
-        self._plans: dict[str, tuple[int, list[_Way]]] = {}
-        self._gathered: dict[str, tuple[int, _Gathered | None]] = {}
+        self._plans: dict[str, tuple[int, dict[tuple[int, str], _Way]]] = {}
+        self._entries: dict[str, tuple[int, list[tuple[int, _Entries]]]] = {}
         self._arrivals: tuple[int, dict[str, Arrivals]] = (-1, {})
+        self._asked_of, self._n_asked = -1, 0
 
     def costs(self, object_id: str, point_m: Triple) -> list[float]:
         """Price of the cheapest way from each source to a point of an object: 0 on the source itself, inf for none."""
         if object_id not in self._price_per_m or object_id not in self._beside:
-            return [0.0 if source_id == object_id else math.inf for source_id in self._source_ids]
-        # A few dozen entries: plain numbers are faster than numpy's calls.
-        if self._max_hops not in (1, 2):
-            return self._by_array(object_id, point_m, self._graph.version)
-        price, dist = self._price_per_m[object_id], math.dist
+            found = [math.inf] * len(self._source_ids)
+        elif self._max_hops in (1, 2):
+            found = self._cheapest(self._short(object_id), object_id, point_m)
+        elif self._is_outward_quicker():
+            prices, crossing, row = self._price_per_m, self._crossing, self._row
+            found = cheapest_outward(object_id, point_m, self._beside, prices, crossing, row)
+        else:
+            found = self._cheapest(self._searched(object_id), object_id, point_m)
+        if object_id in self._row:
+            found[self._row[object_id]] = 0.0
+        return found
+
+    def _cheapest(self, ways: Iterable[tuple[int, _Entries]], object_id: str, point_m: Triple) -> list[float]:
         found = [math.inf] * len(self._source_ids)
+        price, dist = self._price_per_m[object_id], math.dist
+        for row, entries in ways:
+            # A few dozen entries: plain numbers are faster than numpy's calls.
+            least = min([cost + price * dist(place, point_m) for place, cost in entries])
+            if least < found[row]:
+                found[row] = least
+        return found
+
+    def _is_outward_quicker(self) -> bool:
+        """Whether too little was asked since a contact changed for a search of the whole scene to be worth it."""
+        if self._max_hops is not None:
+            return False
+        if self._asked_of != self._graph.version:
+            self._asked_of, self._n_asked = self._graph.version, 0
+        self._n_asked += 1
+        return self._n_asked <= _SELDOM
+
+    def _short(self, object_id: str) -> Iterator[tuple[int, _Entries]]:
+        """Ways of at most two contacts, as they are now."""
         for way in self._plan(object_id):
             # A junction that moved is another object: what follows from it is told anew.
             if way.first is not way.out[way.via] or (way.second is not None and way.second is not way.into[way.via]):
                 self._tell(way, object_id)
-            least = min([cost + price * dist(place, point_m) for place, cost in way.entries])
-            if least < found[way.row]:
-                found[way.row] = least
-        if object_id in self._source_ids:
-            found[self._source_ids.index(object_id)] = 0.0
-        return found
+            yield way.row, way.entries
 
-    def _by_array(self, object_id: str, point_m: Triple, version: int) -> list[float]:
-        at, gathered = self._gathered.get(object_id, (-1, None))
+    def _searched(self, object_id: str) -> list[tuple[int, _Entries]]:
+        """Ways over any number of contacts: for each source that comes, where it comes in."""
+        version = self._graph.version
+        at, known = self._entries.get(object_id, (-1, []))
         if at != version:
-            gathered = self._gather(object_id, version)
-            self._gathered[object_id] = (version, gathered)
-        found = [math.inf] * len(self._source_ids)
-        if gathered is not None:
-            points, costs, starts, rows = gathered
-            apart = points - point_m
-            lengths = np.sqrt(np.einsum("ij,ij->i", apart, apart))
-            lengths *= self._price_per_m[object_id]
-            lengths += costs
-            for row, least in zip(rows, np.minimum.reduceat(lengths, starts).tolist(), strict=True):
-                found[row] = least
-        if object_id in self._source_ids:
-            found[self._source_ids.index(object_id)] = 0.0
+            arrived = self._arrivals_at(version).get(object_id)
+            known = [] if arrived is None else self._gather(object_id, arrived)
+            self._entries[object_id] = (version, known)
+        return known
+
+    def _gather(self, object_id: str, arrived: Arrivals) -> list[tuple[int, _Entries]]:
+        places = [(x, y, z) for x, y, z in arrived.points_m.tolist()]
+        price, found = self._price_per_m[object_id], []
+        for row, costs in enumerate(arrived.costs.tolist()):
+            entries = [(place, cost) for place, cost in zip(places, costs, strict=True) if cost < math.inf]
+            if entries:
+                found.append((row, _worth_entering(entries, price)))
         return found
 
-    def _gather(self, object_id: str, version: int) -> _Gathered | None:
-        """All ways to an object as one list: where they come in (n, 3), what they cost up to there (n,), where each
-        source's begin, and which sources these are."""
-        points: list[Triple] = []
-        costs: list[float] = []
-        starts, rows = [], []
-        for row, source_id in enumerate(self._source_ids):
-            if source_id != object_id:
-                entries = [entry for entry in self._searched(row, object_id, version) if entry[1] < math.inf]
-            else:
-                entries = []
-            if entries:
-                starts.append(len(points))
-                rows.append(row)
-                points += [place for place, _ in entries]
-                costs += [cost for _, cost in entries]
-        return (np.array(points), np.array(costs), np.array(starts), rows) if rows else None
-
-    def _searched(self, row: int, object_id: str, version: int) -> _Entries:
+    def _arrivals_at(self, version: int) -> dict[str, Arrivals]:
         if self._arrivals[0] != version:
-            contacts = self._graph.contacts
-            crossing = [self._crossing_cost(contact.weight) for contact in contacts]
-            found = cheapest_arrivals(self._price_per_m, contacts, crossing, self._source_ids, self._max_hops)
+            junctions = sorted(self._graph.junctions.items())
+            pairs = [pair for pair, junction in junctions for _ in junction.points_m]
+            points = [place for _, junction in junctions for place in junction.points_m]
+            crossing = [self._crossing[weight] for _, junction in junctions for weight in junction.weights]
+            found = cheapest_over(self._price_per_m, pairs, points, crossing, self._source_ids, self._max_hops)
             self._arrivals = (version, found)
-        arrived = self._arrivals[1].get(object_id)
-        if arrived is None:
-            return []
-        points = [(x, y, z) for x, y, z in arrived.points_m.tolist()]
-        return list(zip(points, arrived.costs[row].tolist(), strict=True))
+        return self._arrivals[1]
 
-    def _plan(self, object_id: str) -> list[_Way]:
+    def _plan(self, object_id: str) -> Iterable[_Way]:
         """All ways of at most two contacts into an object; other ones only once a contact has come or gone."""
         topology = self._graph.topology
-        known = self._plans.get(object_id)
-        if known is not None and known[0] == topology:
-            return known[1]
+        at, known = self._plans.get(object_id, (-1, {}))
+        if at == topology:
+            return known.values()
         into = self._beside.get(object_id, {})
-        plan = []
+        plan: dict[tuple[int, str], _Way] = {}
         for row, source_id in enumerate(self._source_ids):
             out = self._beside.get(source_id)
             if not out or source_id == object_id:
                 continue
-            if object_id in out:
-                plan.append(_Way(row, object_id, out, into))
+            vias = [object_id] if object_id in out else []
             if self._max_hops == 2:
                 fewer, more = (out, into) if len(out) <= len(into) else (into, out)
-                plan += [_Way(row, via, out, into) for via in fewer if via in more and via in self._price_per_m]
+                vias += [via for via in fewer if via in more and via in self._price_per_m]
+            for via in vias:
+                way = known.get((row, via))
+                # The graph may have dropped what it kept of an object that touched nothing for a while.
+                is_same = way is not None and way.out is out and way.into is into
+                plan[row, via] = way if way is not None and is_same else _Way(row, via, out, into)
         self._plans[object_id] = (topology, plan)
-        return plan
+        return plan.values()
 
     def _tell(self, way: _Way, object_id: str) -> None:
         """Tell the entries of a way over its junctions as they are now."""
         first = way.out[way.via]
         second = None if way.via == object_id else way.into[way.via]
-        crossing = self._crossing_cost
-        entries = [(place, crossing(weight)) for place, weight in zip(first.points_m, first.weights, strict=True)]
+        crossing = self._crossing
+        entries = [(place, crossing[weight]) for place, weight in zip(first.points_m, first.weights, strict=True)]
         if second is not None:
             price, dist = self._price_per_m[way.via], math.dist
             entries = [
-                (there, crossing(weight) + min([cost + price * dist(here, there) for here, cost in entries]))
+                (there, crossing[weight] + min([cost + price * dist(here, there) for here, cost in entries]))
                 for there, weight in zip(second.points_m, second.weights, strict=True)
             ]
         way.first, way.second, way.entries = first, second, entries
+
+
+def _worth_entering(entries: _Entries, price: float) -> _Entries:
+    """The entries without those that are reached more cheaply through the object from another one."""
+    worthy: _Entries = []
+    for place, cost in sorted(entries, key=lambda entry: entry[1]):
+        if all(other + price * math.dist(there, place) > cost for there, other in worthy):
+            worthy.append((place, cost))
+    return worthy

@@ -46,16 +46,29 @@ def cheapest_arrivals(
     (it may be a source); crossing_cost : what each contact costs, >= 0; max_hops : contacts that a way may cross,
     None for any number.
     """
+    pairs = [(contact.a, contact.b) for contact in contacts]
+    points_m = [contact.point_m for contact in contacts]
+    return cheapest_over(price_per_m, pairs, points_m, crossing_cost, source_ids, max_hops)
+
+
+def cheapest_over(
+    price_per_m: Mapping[str, float],
+    pairs: Sequence[tuple[str, str]],
+    points_m: Sequence[tuple[float, float, float]],
+    crossing_cost: Sequence[float],
+    source_ids: Sequence[str],
+    max_hops: int | None,
+) -> dict[str, Arrivals]:
+    """The same for contacts that are told as the two objects of each, and where [m]."""
     # A contact has two sides, numbered 2 i on its object a and 2 i + 1 on b: side ^ 1 is the one across.
+    owner = [object_id for pair in pairs for object_id in pair]
     sides_of: dict[str, list[int]] = defaultdict(list)
-    for i, contact in enumerate(contacts):
-        sides_of[contact.a].append(2 * i)
-        sides_of[contact.b].append(2 * i + 1)
+    for side, object_id in enumerate(owner):
+        sides_of[object_id].append(side)
     sides = {object_id: np.array(own) for object_id, own in sides_of.items()}
-    owner = [object_id for contact in contacts for object_id in (contact.a, contact.b)]
-    points = np.array([contact.point_m for contact in contacts], dtype=np.float64).reshape(-1, 3)
+    points = np.array(points_m, dtype=np.float64).reshape(-1, 3)
     crossing = np.asarray(crossing_cost, dtype=np.float64)
-    costs = np.full((len(source_ids), 2 * len(contacts)), np.inf)
+    costs = np.full((len(source_ids), 2 * len(pairs)), np.inf)
     for row, source_id in enumerate(source_ids):
         if source_id in sides:
             out = sides[source_id]

@@ -41,25 +41,24 @@ class Audibility:
     def __init__(self, rows: Sequence[LoopRow], bands: Bands, skip: SkipConfig, counts: Counts) -> None:
         self._skip, self._counts = skip, counts
         peaks = np.array([_known(row, bands) for row in rows], dtype=np.float32).reshape(len(rows), 2, bands.n_bands)
-        self._felt, self._plain = peaks[:, 0].copy(), peaks[:, 1].copy()
-        self._least = np.float32(10 ** (-BELOW_THRESHOLD_DB / 20) / max(1, len(rows)))
+        self._felt = peaks[:, 0, :, None].copy()
+        with np.errstate(divide="ignore", over="ignore"):
+            self._least_gain = np.float32(SILENT) / peaks[:, 1]
+        self._least_felt = np.float32(10 ** (-BELOW_THRESHOLD_DB / 20) / max(1, len(rows)))
 
     def worth_mixing(self, gains: NDArray[np.float32]) -> NDArray[np.float32]:
         """Gains (n_hands, n_sources, n_bands), 0 where nothing is lost by it."""
         if self._skip.below_threshold:
-            felt = np.add.reduce(gains * self._felt, axis=2)
-            is_out = felt < self._least
-            n_out = int(np.count_nonzero(is_out) - (felt.size - np.count_nonzero(felt)))
+            felt = (gains[:, :, None] @ self._felt)[:, :, 0]
+            is_out = felt < self._least_felt
+            n_out = int(np.count_nonzero(is_out)) - (felt.size - int(np.count_nonzero(felt)))
             if n_out:
                 self._counts.below_threshold += n_out
-                gains = gains * ~is_out[:, :, None]
-        if self._skip.silent_bands:
-            left = gains * self._plain
-            is_out = left < SILENT
-            n_out = int(np.count_nonzero(is_out) - (left.size - np.count_nonzero(left)))
-            if n_out:
-                self._counts.silent_bands += n_out
                 gains = gains * ~is_out
+        if self._skip.silent_bands:
+            loud = gains * (gains >= self._least_gain)
+            self._counts.silent_bands += int(np.count_nonzero(gains)) - int(np.count_nonzero(loud))
+            gains = loud
         return gains
 
 

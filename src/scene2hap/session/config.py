@@ -52,8 +52,9 @@ class SessionConfig(Settings):
 
     propagation : a kind, a mapping with `kind` and settings, or a model; `scene2hap.propagation.MODELS` lists kinds.
     bands : bands in which gains are told: Bands, "dominant" (the paper's) or "third-octaves" (20 from 10 to 1000 Hz).
-    prepare : "background": a worker prepares the model while the last field plays on, and `update` never waits (but for
-        `ExponentialPlate`, prepared in place); "blocking": `update` waits, so that output depends on input alone.
+    prepare : "background": a worker prepares the model while the last field plays on, and `update` never waits;
+        "blocking": `update` waits, so that output depends on input alone. A model with a live field, as
+        `ExponentialPlate`, needs neither.
     gain_limit_db : cap on what one source may gain at a hand by propagation, None for no cap.
     tactile_rate_hz : rate at which loops are mixed, or the sample rate where that is lower; the mixed hands are
         resampled once. At least 2.5 times the highest band edge.

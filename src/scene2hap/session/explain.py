@@ -109,7 +109,7 @@ class Explainer:
         column = self._sources.ids.index(source_id)
 
         def gain_at(object_id: str, point_m: Point) -> float:
-            return float(self._gains.of([Touch("", object_id, point_m)], self._stage.poses)[0, column, band])
+            return float(self._gains.of([[Touch("", object_id, point_m)]])[0, column, band])
 
         touch = max(touches, key=lambda touch: gain_at(touch.object_id, touch.point_m))
         on, point_m = touch.object_id, touch.point_m

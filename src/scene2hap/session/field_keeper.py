@@ -17,9 +17,11 @@ from queue import Empty, SimpleQueue
 
 from scene2hap.errors import Scene2HapError
 from scene2hap.haptics import Bands
-from scene2hap.propagation.exponential_plate import ExponentialPlate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation, PropagationField, PropagationModel
 from scene2hap.scene.pose import Pose
+from scene2hap.session.last_field import LastField
+from scene2hap.session.reach import Reach
+from scene2hap.session.stage import Stage
 
 
 @dataclass(eq=False)
@@ -80,8 +82,8 @@ class _Desk:
 class FieldKeeper:
     """The field in use, and how it is kept up to date.
 
-    Parameters: is_background : whether a worker prepares. The first field is always waited for; and `ExponentialPlate`
-    costs less than to ask a worker.
+    Parameters: is_background : whether a worker prepares; the first field is always waited for; skips_unreachable : do
+    not tell the model of what no source reaches.
     Raises: what the model raises of the first situation; later, only if it is prepared in place.
     """
 
@@ -89,15 +91,17 @@ class FieldKeeper:
         self,
         model: PropagationModel,
         bands: Bands,
-        is_background: bool,
-        network: Callable[[], ContactNetwork],
+        stage: Stage,
         excitations: Sequence[Excitation],
-        poses: Mapping[str, Pose],
+        *,
+        is_background: bool,
+        skips_unreachable: bool,
     ) -> None:
         self._desk = _Desk(model, bands)
-        self._is_background = is_background and not isinstance(model, ExponentialPlate)
+        self._stage = stage
+        self._is_background, self._skips_unreachable = is_background, skips_unreachable
         self._worker: threading.Thread | None = None
-        self._asked = Situation(0, network, excitations, poses, time.monotonic())
+        self._asked = self._situation(0, excitations)
         self._n_answered = 0
         self.in_use = Prepared(self._desk.prepare(self._asked), self._asked)
         self.n_prepared, self.n_failed, self.last_failure = 1, 0, ""
@@ -114,19 +118,22 @@ class FieldKeeper:
         outdated = self.in_use.situation.outdated_at_s
         return 0.0 if outdated is None else time.monotonic() - outdated
 
-    def ask(
-        self, network: Callable[[], ContactNetwork], excitations: Sequence[Excitation], poses: Mapping[str, Pose]
-    ) -> None:
-        """Have a field prepared for a new situation."""
-        now = time.monotonic()
-        before, self._asked = self._asked, Situation(self._asked.number + 1, network, excitations, poses, now)
-        before.outdated_at_s = now
+    def ask(self, excitations: Sequence[Excitation]) -> None:
+        """Have a field prepared for things as they are now."""
+        before, self._asked = self._asked, self._situation(self._asked.number + 1, excitations)
+        before.outdated_at_s = self._asked.asked_at_s
         if self._is_background:
             self._start()
             self._desk.orders.put(self._asked)
         else:
             self._n_answered = self._asked.number
             self._use(self._asked, self._desk.prepare(self._asked))
+
+    def hearing(self, source_ids: tuple[str, ...], reach: Reach) -> LastField:
+        """The field in use, for these sources and what hangs together now."""
+        in_use, now = self.in_use, self._stage.graph.pose
+        n_bands = self._desk.bands.n_bands
+        return LastField(in_use.field, in_use.situation.poses, now, source_ids, n_bands, reach, lambda: self.is_current)
 
     def take(self) -> bool:
         """Take the newest field that is ready into use; false if it is already."""
@@ -153,6 +160,11 @@ class FieldKeeper:
             if rest_s is not None and rest_s <= 0:
                 return False
             self._desk.has_answered.wait(rest_s)
+
+    def _situation(self, number: int, excitations: Sequence[Excitation]) -> Situation:
+        now, stage = time.monotonic(), self._stage
+        source_ids = [item.source_id for item in excitations] if self._skips_unreachable else None
+        return Situation(number, stage.network(source_ids), excitations, stage.poses, now)
 
     def _use(self, situation: Situation, found: PropagationField) -> None:
         self.in_use = Prepared(found, situation)

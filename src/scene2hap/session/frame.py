@@ -49,11 +49,11 @@ class HapticFrame:
 class SkipCounts:
     """How often each kind of work was left out; see `SkipConfig`.
 
-    Parameters: unreachable_objects : objects that the model was not told of, summed over preparations;
-    unreachable_touches : touches that it was not asked about; changes_out_of_reach : contact changes after which
-    nothing had to be prepared; below_threshold : sources left out at a hand; silent_bands : gains left out at a hand;
-    rows_not_mixed : bands of loops, times cells of 3 ms, that no gain let through; idle_hands : hands that touched
-    nothing; unchanged_frames : updates that brought nothing new.
+    Parameters: unreachable_objects : objects that the model was not told of, or that a live field has no way to, summed
+    over preparations and changes; unreachable_touches : touches that it was not asked about; changes_out_of_reach :
+    contact changes after which nothing had to be prepared; below_threshold : sources left out at a hand; silent_bands :
+    gains left out at a hand; rows_not_mixed : bands of loops, times cells of 3 ms, that no gain let through;
+    idle_hands : hands that touched nothing; unchanged_frames : updates that brought nothing new.
     """
 
     unreachable_objects: int = 0
@@ -70,7 +70,8 @@ class SkipCounts:
 class SessionStats:
     """What a session has done so far.
 
-    Parameters: fields_prepared : fields taken into use; bodiless : objects that carry no vibration, since their
+    Parameters: fields_prepared : fields taken into use, and changes of contacts that a live field went along with;
+    gains_capped : gains of a source at a hand above the limit; bodiless : objects that carry no vibration, since their
     material is unknown; field_age_s : for how long the field in use has been out of date, 0 while it is not [s];
     field_latency_s : time from the change that the field in use tells of to its use [s]; fields_failed : preparations
     that the model refused, the last field playing on, and last_failure what it said.

@@ -1,8 +1,9 @@
 """A scene under hands.
 
 `render` belongs to the audio thread, everything else to the game's. `update` keeps the contact graph, has the
-propagation field prepared when a contact changed, and turns touches into gains; `render` mixes the sources' loops with
-them. Nothing here reaches a network, `update` never waits for a model, and `render` never waits for `update`.
+propagation field prepared when a contact changed unless it follows by itself, and turns touches into gains; `render`
+mixes the sources' loops with them. Nothing here reaches a network, `update` never waits for a model, and `render` never
+waits for `update`.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot, unknow
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.explain import Explanation
 from scene2hap.session.frame import HapticFrame, SessionStats, Touch, unknown_hand
-from scene2hap.session.listening import Listening
+from scene2hap.session.listening import Felt, Listening
 from scene2hap.session.output import Output
 from scene2hap.session.playback import Playback
 from scene2hap.session.sources import Sources
@@ -86,7 +87,7 @@ class HapticSession:
         Raises: UnknownObject: a touched or moved object is not in the scene; SessionError: an unknown hand, or a
         position before that of the last update.
         """
-        felt = [(self._hand_index(touch), touch) for touch in touches]
+        felt = self._by_hand(touches)
         stamp = self._stamp(at_sample)
         if moved or contacts is not None:
             self._listening.follow(self._stage.graph.update(moved or {}, contacts=contacts))
@@ -259,12 +260,16 @@ class HapticSession:
         self.hands = hands
         self._listening.levels_changed()
 
-    def _hand_index(self, touch: Touch) -> int:
-        if touch.hand not in self.hands:
-            raise SessionError(unknown_hand(touch.hand, self.hands))
-        if touch.object_id not in self._stage.objects:
-            raise UnknownObject(unknown_object(touch.object_id, self._stage.objects))
-        return self.hands.index(touch.hand)
+    def _by_hand(self, touches: Sequence[Touch]) -> Felt:
+        by_hand: dict[str, list[Touch]] = {}
+        for touch in touches:
+            if touch.object_id not in self._stage.objects:
+                raise UnknownObject(unknown_object(touch.object_id, self._stage.objects))
+            by_hand.setdefault(touch.hand, []).append(touch)
+        for hand in by_hand:
+            if hand not in self.hands:
+                raise SessionError(unknown_hand(hand, self.hands))
+        return {i: by_hand[hand] for i, hand in enumerate(self.hands) if hand in by_hand}
 
 
 def _distinct(hands: Sequence[str]) -> tuple[str, ...]:

@@ -1,56 +1,168 @@
-"""Which sources can reach which objects at all: those that hang together over contacts."""
+"""Which sources can reach which objects at all: those that hang together over contacts.
+
+The groups are kept as contacts come and go. A contact that comes joins two of them. When contacts go, one searches from
+both sides of each in turn, so that the smaller part is what is walked through: a mug that is lifted off a table in a
+furnished house costs a mug, not a house.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Sequence
+from collections import deque
+from collections.abc import Collection, Container, Iterable, Mapping, Sequence
 from functools import cached_property
+from itertools import chain
 
-import numpy as np
-from numpy.typing import NDArray
-
+from scene2hap.contact.graph import ContactChange
 from scene2hap.contact.junction import Pair
-from scene2hap.scene.snapshot import Contact
+
+Beside = Mapping[str, Collection[str]]
+
+
+class _Group:
+    """Objects that hang together, at least two."""
+
+    def __init__(self, members: set[str], column: Mapping[str, int]) -> None:
+        self.members = members
+        self._column = column
+
+    @cached_property
+    def strangers(self) -> list[int] | None:
+        """Which sources are not among them; None if none is."""
+        strangers = [i for source_id, i in self._column.items() if source_id not in self.members]
+        return strangers if len(strangers) < len(self._column) else None
+
+    def members_changed(self) -> None:
+        """Look for sources anew when asked next."""
+        self.__dict__.pop("strangers", None)
+
+
+class _Search:
+    """A walk from an end of a contact that went."""
+
+    __slots__ = ("seen", "waiting")
+
+    def __init__(self, start: str) -> None:
+        self.seen, self.waiting = {start}, deque([start])
 
 
 class Reach:
     """The groups of objects that hang together, and the sources in each.
 
-    Parameters: pairs : who touches whom, with whatever weight, since that may change; carriers : ids of all that may
-    pass vibration on, sources included.
+    Parameters: beside : what each object touches, with whatever weight, since that may change; read anew by `follow`;
+    carriers : ids of all that may pass vibration on, sources included.
     """
 
-    def __init__(self, pairs: Iterable[Pair], carriers: Container[str], source_ids: Sequence[str]) -> None:
-        leader: dict[str, str] = {}
+    def __init__(self, beside: Beside, carriers: Container[str], source_ids: Sequence[str]) -> None:
+        self._beside, self._carriers = beside, carriers
+        self._column = {source_id: column for column, source_id in enumerate(source_ids)}
+        self._group: dict[str, _Group] = {}
+        for x, others in beside.items():
+            for y in others:
+                self._join(x, y)
 
-        def find(x: str) -> str:
-            while (above := leader.setdefault(x, x)) != x:
-                leader[x] = leader[above]
-                x = above
-            return x
+    def follow(self, change: ContactChange) -> None:
+        """Take in contacts that came and went; `beside` is as it is after."""
+        for a, b in change.appeared:
+            self._join(a, b)
+        ends: dict[_Group, set[str]] = {}
+        for x in chain.from_iterable(change.vanished):
+            if x in self._group:
+                ends.setdefault(self._group[x], set()).add(x)
+        for group, starts in ends.items():
+            self._part(group, starts)
 
-        for a, b in pairs:
-            if a in carriers and b in carriers:
-                leader[find(a)] = find(b)
-        self._group = {x: find(x) for x in leader}
-        self._sources: dict[str, NDArray[np.bool_]] = {}
-        for column, source_id in enumerate(source_ids):
-            if source_id in self._group:
-                reached = self._sources.setdefault(self._group[source_id], np.zeros(len(source_ids), dtype=np.bool_))
-                reached[column] = True
+    def has(self, object_id: str) -> bool:
+        """Whether a source reaches an object over contacts."""
+        group = self._group.get(object_id)
+        return group is not None and group.strangers is not None
 
-    def sources(self, object_id: str) -> NDArray[np.bool_] | None:
-        """Which sources (n_sources,) hang together with an object, itself included; None if none does."""
-        return self._sources.get(self._group.get(object_id, ""))
+    def strangers(self, object_id: str) -> Sequence[int]:
+        """The columns of the sources that do not hang together with an object."""
+        group = self._group.get(object_id)
+        strangers = None if group is None else group.strangers
+        return range(len(self._column)) if strangers is None else strangers
 
-    def any_of(self, object_ids: Iterable[str]) -> bool:
-        """Whether a source reaches one of these over contacts."""
-        return any(self._group.get(x, "") in self._sources for x in object_ids)
+    def concerns(self, change: ContactChange) -> bool:
+        """Whether a source reaches an object of these contacts."""
+        for pairs in (change.shifted, change.appeared, change.vanished):
+            for a, b in pairs:
+                if self.has(a) or self.has(b):
+                    return True
+        return False
 
-    def within(self, contacts: Iterable[Contact]) -> tuple[Contact, ...]:
-        """The contacts of objects that a source reaches."""
-        return tuple(contact for contact in contacts if self._group.get(contact.a, "") in self._sources)
-
-    @cached_property
-    def objects(self) -> frozenset[str]:
+    @property
+    def objects(self) -> set[str]:
         """All that a source reaches over contacts, sources in contact included."""
-        return frozenset(x for x, group in self._group.items() if group in self._sources)
+        return set().union(*(group.members for group in self._groups_with_sources()))
+
+    def n_of(self, objects: Container[str]) -> int:
+        """How many of these they are, where all but sources are among these."""
+        n_all = sum(len(group.members) for group in self._groups_with_sources())
+        return n_all - sum(x in self._group and x not in objects for x in self._column)
+
+    def _groups_with_sources(self) -> set[_Group]:
+        return {self._group[source_id] for source_id in self._column if source_id in self._group}
+
+    def _join(self, a: str, b: str) -> None:
+        if a not in self._carriers or b not in self._carriers:
+            return
+        one, two = self._group.get(a), self._group.get(b)
+        if one is not None and one is two:
+            return
+        ours, theirs = ({x} if group is None else group.members for x, group in ((a, one), (b, two)))
+        if len(ours) < len(theirs):
+            one, two, ours, theirs = two, one, theirs, ours
+        ours |= theirs
+        if one is None:
+            one = _Group(ours, self._column)
+            self._group.update(dict.fromkeys(ours, one))
+        else:
+            one.members_changed()
+            self._group.update(dict.fromkeys(theirs, one))
+
+    def _part(self, group: _Group, starts: Iterable[str]) -> None:
+        """Search from all starts in turn; searches that meet go on as one, and what one that ends has seen is a group.
+
+        Each part of the former group has a start, so that the last search, which need not be led to its end, has the
+        rest.
+        """
+        owner = {start: _Search(start) for start in sorted(starts, key=self._degree)}
+        searches = deque(owner.values())
+        while len(searches) > 1:
+            search = searches[0]
+            searches.rotate(-1)
+            for y in self._beside.get(search.waiting.popleft(), ()):
+                if y not in self._carriers or y in search.seen:
+                    continue
+                other = owner.get(y)
+                if other is None:
+                    owner[y] = search
+                    search.seen.add(y)
+                    search.waiting.append(y)
+                else:
+                    search.seen |= other.seen
+                    search.waiting += other.waiting
+                    owner.update(dict.fromkeys(other.seen, search))
+                    searches.remove(other)
+            if not search.waiting and len(searches) > 1:
+                searches.remove(search)
+                group.members -= search.seen
+                group.members_changed()
+                self._group.update(dict.fromkeys(search.seen, _Group(search.seen, self._column)))
+                self._forget_if_alone(search.seen)
+        self._forget_if_alone(group.members)
+
+    def _forget_if_alone(self, members: set[str]) -> None:
+        if len(members) == 1:
+            del self._group[next(iter(members))]
+
+    def _degree(self, object_id: str) -> int:
+        return len(self._beside.get(object_id, ()))
+
+
+def reached_over(pairs: Iterable[Pair], carriers: Container[str], source_ids: Sequence[str]) -> set[str]:
+    """All that a source reaches over contacts of these pairs."""
+    beside: dict[str, list[str]] = {}
+    for a, b in pairs:
+        beside.setdefault(a, []).append(b)
+    return Reach(beside, carriers, source_ids).objects

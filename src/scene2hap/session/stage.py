@@ -7,12 +7,13 @@ from typing import TypeVar
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.contact.graph import ContactChange, ContactGraph
+from scene2hap.contact.junction import Junction, Pair
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.propagation.protocol import Body, ContactNetwork
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import SceneObject, SceneSnapshot
+from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot
 from scene2hap.session.network import PlatePoses, body_of
-from scene2hap.session.reach import Reach
+from scene2hap.session.reach import Reach, reached_over
 
 Thing = TypeVar("Thing")
 
@@ -27,6 +28,7 @@ class Stage:
         bodies = ((object_id, body_of(bundle.objects.get(object_id))) for object_id in self.objects)
         self.bodies: Mapping[str, Body] = {object_id: body for object_id, body in bodies if body is not None}
         self.graph = ContactGraph(scene)
+        self._spelling = _Spelling()
 
     @property
     def snapshot(self) -> SceneSnapshot:
@@ -68,23 +70,41 @@ class Stage:
 
     def reach(self, source_ids: Sequence[str]) -> Reach:
         """Which of the sources reach what, as things are."""
-        return Reach(self.graph.junctions, {*self.bodies, *source_ids}, source_ids)
+        return Reach(self.graph.beside, {*self.bodies, *source_ids}, source_ids)
 
-    def network(self, reach: Reach | None) -> Callable[[], ContactNetwork]:
+    def network(self, source_ids: Sequence[str] | None) -> Callable[[], ContactNetwork]:
         """What a model is told of this moment: everything, or only what a source reaches; put together when called.
 
         That may be in another thread, and later: spelling out contacts costs more than an update may take.
         """
         objects, bodies, poses, junctions = self.objects, self.bodies, self.poses, dict(self.graph.junctions)
+        spelling = self._spelling
 
         def put_together() -> ContactNetwork:
-            contacts = [contact for pair in sorted(junctions) for contact in junctions[pair].contacts(pair)]
-            if reach is None:
-                return ContactNetwork(bodies, contacts, PlatePoses(objects, bodies, poses))
-            reached = {object_id: body for object_id, body in bodies.items() if object_id in reach.objects}
-            return ContactNetwork(reached, reach.within(contacts), PlatePoses(objects, reached, poses))
+            if source_ids is None:
+                return ContactNetwork(bodies, spelling.of(junctions), PlatePoses(objects, bodies, poses))
+            reached = reached_over(junctions, {*bodies, *source_ids}, source_ids)
+            among = {object_id: body for object_id, body in bodies.items() if object_id in reached}
+            within = {pair: one for pair, one in junctions.items() if pair[0] in reached}
+            return ContactNetwork(among, spelling.of(within), PlatePoses(objects, among, poses))
 
         return put_together
+
+
+class _Spelling:
+    """Contacts spelled out; those of a junction that is still the same are remembered."""
+
+    def __init__(self) -> None:
+        self._known: dict[Pair, tuple[Junction, tuple[Contact, ...]]] = {}
+
+    def of(self, junctions: Mapping[Pair, Junction]) -> tuple[Contact, ...]:
+        """All contacts, sorted by pair."""
+        before, known = self._known, {}
+        for pair in sorted(junctions):
+            junction, last = junctions[pair], before.get(pair)
+            known[pair] = last if last is not None and last[0] is junction else (junction, junction.contacts(pair))
+        self._known = known
+        return tuple(contact for _, contacts in known.values() for contact in contacts)
 
 
 def _with(mapping: Mapping[str, Thing], key: str, value: Thing | None) -> dict[str, Thing]:

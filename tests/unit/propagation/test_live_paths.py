@@ -95,3 +95,26 @@ def test_leaving_out_what_leads_nowhere_new_loses_no_way() -> None:
         best = arrivals_at(arrivals, prices, ["t000"], "floor", [point])[0, 0]
         assert best == pytest.approx(truth[tuple(point)], abs=1e-12)
         assert cost >= best - 1e-12
+
+
+def test_ways_over_any_number_of_contacts_are_the_same_asked_seldom_and_often() -> None:
+    rng = np.random.default_rng(8)
+    names = [f"x{i}" for i in range(12)]
+    graph = ContactGraph(scene(*(box(name, (0.1, 0.1, 0.1), (i, 0, 0)) for i, name in enumerate(names))))
+    # One is made of nothing that anybody knows, and another rigid.
+    prices = {name: float(rng.uniform(0.05, 1.0)) for name in names[:-1]} | {"x3": 0.0}
+    sources = ("x0", "x4", "x11")
+    paths = LivePaths(graph, prices, crossing, sources, None)
+    reached = 0
+    for _ in range(30):
+        pairs = {tuple(sorted(rng.choice(names, 2, replace=False).tolist())) for _ in range(12)}
+        weights = [0.3, 1.0, 1.0]
+        given = [Contact(a, b, tuple(rng.uniform(0, 1, 3)), weight=w) for a, b in sorted(pairs) for w in weights]
+        graph.update({}, contacts=given)
+        arrivals = cheapest_arrivals(prices, given, [crossing(one.weight) for one in given], sources, None)
+        for touched in (*names, *names, *names):
+            point = tuple(rng.uniform(0, 1, 3).tolist())
+            expected = arrivals_at(arrivals, prices, sources, touched, [point])[0]
+            np.testing.assert_allclose(paths.costs(touched, point), expected, rtol=1e-12)
+            reached += int(np.isfinite(expected).sum())
+    assert reached > 500

@@ -94,7 +94,7 @@ def test_blocking_waits_in_update() -> None:
     assert set(model.threads) == {threading.get_ident()}
 
 
-def test_exponential_plate_is_prepared_in_place() -> None:
+def test_exponential_plate_follows_at_once() -> None:
     s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE})
     before = s.update(touches=[ON_TABLE]).gain("left", "phone")
     assert s.update(shifted(0.3), [ON_TABLE]).gain("left", "phone") > before

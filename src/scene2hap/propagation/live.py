@@ -1,0 +1,57 @@
+"""Fields that follow the contacts by themselves.
+
+Most models prepare a field for one moment, in a worker, and are asked of it while things move on (`protocol`). A model
+whose answer is put together from a few contacts may offer a live field besides: it reads the contact graph as it is
+when asked, so that there is nothing to prepare and nothing that could be out of date. Sessions take it where a model
+offers one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.haptics import Bands
+from scene2hap.propagation.protocol import Body, Excitation
+
+if TYPE_CHECKING:
+    from scene2hap.contact.graph import ContactGraph
+
+TouchedPoint = tuple[str, tuple[float, float, float]]
+"""An object, and a point in the world on or near it [m]."""
+
+
+class LiveField(Protocol):
+    """What arrives now."""
+
+    @property
+    def source_ids(self) -> tuple[str, ...]:
+        """The sources, in the order of the answer's second axis."""
+        ...
+
+    @property
+    def most(self) -> float:
+        """What no answer exceeds [-]; infinity if nothing is known of it, or where an answer might be no number."""
+        ...
+
+    def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> NDArray[np.float64]:
+        """Largest response over each source's free vibration at the points that a hand touches.
+
+        Parameters: hands : the touched points of each; a hand that touches nothing feels nothing.
+        Returns: a new array (n_hands, n_sources, n_bands) float64 [-], >= 0; 1 on the source itself.
+        """
+        ...
+
+
+@runtime_checkable
+class LiveModel(Protocol):
+    """Offers live fields."""
+
+    def live(
+        self, graph: ContactGraph, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands
+    ) -> LiveField:
+        """A field over a graph that is read at every question, and changes between them; the bodies stay."""
+        ...

@@ -1,0 +1,78 @@
+"""The paper's law over a contact graph that changes while one asks.
+
+    Gamma = exp(-L sqrt(omega)),  L the price of the cheapest way (`live_paths`)
+
+falls with L, so that the nearest of a hand's touches is the loudest: prices are compared first, and what is felt is
+worked out once for each hand and source.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.propagation.band_rms import BandRms
+from scene2hap.propagation.live import TouchedPoint
+from scene2hap.propagation.live_paths import LivePaths
+
+Floats = NDArray[np.float64]
+Prices = list[list[float]]
+
+
+class LiveLaw:
+    """A live field of the paper's law.
+
+    Parameters: gamma : attenuation (n, n_sources, n_bands) [-] for n prices of each source; floor : least attenuation
+    wherever a source arrives at all [-].
+    """
+
+    most = 1.0
+
+    def __init__(
+        self, paths: LivePaths, source_ids: tuple[str, ...], gamma: Callable[[Prices], Floats], floor: float
+    ) -> None:
+        self.source_ids = source_ids
+        self._paths, self._gamma, self._floor = paths, gamma, floor
+
+    def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> Floats:
+        """See `LiveField`."""
+        prices = [self._nearest(touched) for touched in hands]
+        gamma = self._gamma(prices)
+        return np.maximum(gamma, self._floor * np.isfinite(prices)[:, :, None]) if self._floor else gamma
+
+    def _nearest(self, touched: Sequence[TouchedPoint]) -> list[float]:
+        costs = self._paths.costs
+        nearest = costs(*touched[0]) if touched else [math.inf] * len(self.source_ids)
+        for object_id, point_m in touched[1:]:
+            nearest = list(map(min, nearest, costs(object_id, point_m)))
+        return nearest
+
+
+class GammaAt:
+    """exp(-L sqrt(omega)) at one frequency [Hz] for each source, which is its only band."""
+
+    def __init__(self, frequencies_hz: Floats) -> None:
+        self._minus_root_omega = -np.sqrt(2 * math.pi * frequencies_hz)
+
+    def __call__(self, prices: Prices) -> Floats:
+        """Attenuation (n, n_sources, 1) [-]."""
+        gamma = np.array(prices)
+        gamma *= self._minus_root_omega
+        np.exp(gamma, out=gamma)
+        return gamma[:, :, None]
+
+
+class GammaOver:
+    """The root mean square of exp(-L sqrt(omega)) over bands."""
+
+    def __init__(self, bands: BandRms) -> None:
+        self._bands = bands
+
+    def __call__(self, prices: Prices) -> Floats:
+        """Attenuation (n, n_sources, n_bands) [-]."""
+        length = np.array(prices)
+        gamma = self._bands(length.ravel())
+        return gamma.reshape(*length.shape, gamma.shape[1])

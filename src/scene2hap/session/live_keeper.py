@@ -1,0 +1,49 @@
+"""Stands where a `FieldKeeper` stands for models whose fields follow the contacts by themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from scene2hap.haptics import Bands
+from scene2hap.propagation.live import LiveField, LiveModel
+from scene2hap.propagation.protocol import Body, Excitation
+from scene2hap.session.reach import Reach
+from scene2hap.session.stage import Stage
+
+
+class LiveKeeper:
+    """A live field, and another one when sources or objects come and go; nothing is ever out of date.
+
+    Raises: what the model raises.
+    """
+
+    is_current = True
+    age_s = latency_s = 0.0
+    n_failed = 0
+    last_failure = ""
+
+    def __init__(self, model: LiveModel, bands: Bands, stage: Stage, excitations: Sequence[Excitation]) -> None:
+        self._model, self._bands, self._stage = model, bands, stage
+        self.n_prepared = 0
+        self._cast: tuple[Mapping[str, Body], Sequence[Excitation]] | None = None
+        self.ask(excitations)
+
+    def ask(self, excitations: Sequence[Excitation]) -> None:
+        """Go on with what there is now."""
+        self.n_prepared += 1
+        bodies = self._stage.bodies
+        if self._cast is None or self._cast[0] is not bodies or self._cast[1] is not excitations:
+            self._cast = (bodies, excitations)
+            self.in_use: LiveField = self._model.live(self._stage.graph, bodies, excitations, self._bands)
+
+    def hearing(self, source_ids: tuple[str, ...], reach: Reach) -> LiveField:
+        """What tells of these sources now."""
+        return self.in_use
+
+    def take(self) -> bool:
+        """False: there is never another field."""
+        return False
+
+    def wait(self, timeout_s: float | None = None) -> bool:
+        """True: nothing is being prepared."""
+        return True

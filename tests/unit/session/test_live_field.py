@@ -1,0 +1,116 @@
+"""Models whose fields follow the contacts by themselves: the session asks them of now, and prepares nothing."""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+
+from scene2hap import Bands, ExponentialPlate, HapticSession, Pose, Touch
+from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
+
+ON_TABLE = Touch("left", "table", (0.8, 0.72, 0.4))
+
+
+class OnlyPrepared:
+    """The paper's law without its live field."""
+
+    def __init__(self, **settings: Any) -> None:
+        self._law = ExponentialPlate(**settings)
+
+    def prepare(self, network: Any, excitations: Any, bands: Bands) -> Any:
+        return self._law.prepare(network, excitations, bands)
+
+
+@pytest.mark.parametrize("settings", [{}, {"max_hops": 1}, {"max_hops": 2, "interface_loss_db": 3.0, "floor_db": -60}])
+@pytest.mark.parametrize("bands", [Bands.dominant(), Bands.third_octaves(10, 1000)], ids=["dominant", "octaves"])
+def test_a_live_field_says_what_a_prepared_one_does(settings: dict[str, Any], bands: Bands) -> None:
+    rng = np.random.default_rng(4)
+    models = (ExponentialPlate(**settings), OnlyPrepared(**settings))
+    both = [
+        HapticSession(
+            *table_with_two_phones(),
+            {"sample_rate_hz": RATE, "bands": bands, "propagation": model, "prepare": "blocking"},
+        )
+        for model in models
+    ]
+    fan = box("fan", (0.1, 0.2, 0.1), (0.8, 0.82, 0.6))
+    plate = haptics("steel", (0.1, 0.1, 0.004), "on")
+    for step in range(40):
+        x, lift = rng.uniform(0.1, 1.2), 0.4 * (step % 7 == 3)
+        moved = {"phone": Pose((x, 0.725 + lift, 0.4))}
+        if step % 5 == 4:
+            moved["cup"] = Pose((0.8, 0.77 if step % 2 else 2.0, 0.2))
+        touches = [
+            Touch(hand, name, (float(rng.uniform(0, 1.6)), 0.72, float(rng.uniform(0, 0.8))))
+            for hand in ("left", "right")
+            for name in rng.choice(["table", "phone", "cup", "block"], rng.integers(0, 3), replace=False).tolist()
+        ]
+        if step == 20:
+            for s in both:
+                s.add(fan, plate, {"on": tone_loop(60)})
+        if step == 30:
+            for s in both:
+                s.remove("alarm")
+        live, prepared = (s.update(moved, touches).gains for s in both)
+        np.testing.assert_allclose(live, prepared, rtol=1e-6, atol=1e-12)
+    ours, theirs = (s.stats for s in both)
+    assert ours.fields_prepared == theirs.fields_prepared
+    assert ours.skipped == theirs.skipped
+
+
+def test_what_is_added_without_a_contact_carries_once_it_has_one() -> None:
+    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE})
+    s.update(touches=[ON_TABLE])
+    s.add(box("tray", (0.3, 0.02, 0.3), (0.8, 2.0, 0.4)), haptics("steel", (0.3, 0.3, 0.02)))
+    on_tray = [Touch("left", "tray", (0.8, 0.74, 0.4))]
+    assert not s.update(touches=on_tray).gains.any()
+    assert s.update({"tray": Pose((0.8, 0.73, 0.4))}, on_tray).gain("left", "phone") > 0
+
+
+class Guest:
+    """A live model of somebody else's, whose field says whatever it is told to."""
+
+    def __init__(self, answer: float) -> None:
+        self.answer, self.n_fields = answer, 0
+        self.asked: list[Any] = []
+
+    def prepare(self, network: Any, excitations: Any, bands: Bands) -> Any:
+        raise AssertionError("a model with a live field is never asked to prepare one")
+
+    def live(self, graph: Any, bodies: Any, excitations: Any, bands: Bands) -> "Guest":
+        self.n_fields += 1
+        self.graph, self.n_bands = graph, bands.n_bands
+        self.source_ids = tuple(item.source_id for item in excitations)
+        self.most = math.inf
+        return self
+
+    def strongest(self, hands: Sequence[Sequence[Any]]) -> np.ndarray:
+        self.asked.append([list(hand) for hand in hands])
+        return np.full((len(hands), len(self.source_ids), self.n_bands), self.answer)
+
+
+def test_a_guest_may_offer_one() -> None:
+    model = Guest(0.25)
+    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": model})
+    frame = s.update({"phone": Pose((0.3, 0.725, 0.4))}, [ON_TABLE, Touch("left", "alarm", (1.5, 0.73, 0.4))])
+    assert model.asked == [[[("table", ON_TABLE.point_m), ("alarm", (1.5, 0.73, 0.4))]]]
+    assert frame.gain("left", "phone") == 0.25
+    assert frame.gain("left", "alarm") == 1.0
+    assert frame.gain("right", "phone") == 0.0
+    assert ("phone", "table") in model.graph.junctions
+    # A change of contacts asks for no other field, other sources do.
+    assert model.n_fields == 1
+    s.remove("alarm")
+    assert s.update(touches=[ON_TABLE]).sources == ("phone",)
+    assert model.n_fields == 2
+    assert s.wait_prepared(0.0)
+    assert s.stats.field_age_s == 0
+
+
+@pytest.mark.parametrize(("answer", "told"), [(3.0, 1.0), (math.nan, 0.0), (-1.0, 0.0)])
+def test_a_guests_nonsense_reaches_no_hand(answer: float, told: float) -> None:
+    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": Guest(answer)})
+    assert s.update(touches=[ON_TABLE]).gain("left", "phone") == told
+    assert s.stats.gains_capped == (2 if answer > 1 else 0)
