@@ -31,6 +31,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import (
+    AutoFidelity,
     Bands,
     Contact,
     ContactNetwork,
@@ -56,6 +57,8 @@ MODELS = {
     "infinite": InfinitePlate(),
     "modal": ModalPlate(),
     "modal, no loss": ModalPlate(loss_floor=0.0),
+    "auto": AutoFidelity(),
+    "auto, no loss": AutoFidelity(loss_floor=0.0),
     "mass-spring-damper": MassSpringDamper(8),
     "mass-spring-damper, no loss": MassSpringDamper(8, loss_floor=0.0),
 }
@@ -114,6 +117,7 @@ def _reason(error: Scene2HapError) -> str:
         ("cells of a lattice", "waves shorter than the lattice"),
         ("nodes", "too many nodes"),
         ("functions in one eigenproblem", "too many modes"),
+        ("frequencies to resolve", "too little loss for bands"),
         ("does not move", "driven on a held edge"),
     ):
         if sign in text:
@@ -298,8 +302,8 @@ def main() -> int:
 nu -0.99 to 0.499, loss 0 to 2, density 1e-3 to 1e9 kg/m3 and sides up to 1000:1, driven anywhere, also exactly on a
 resonance and without loss; and {arguments.scenes} scenes of up to seven bodies, their masses up to 1e12 apart, with up
 to thirty contacts on one point. Bad means NaN, infinity, a floating-point warning, a foreign exception, an unclear
-refusal or more than {arguments.seconds:g} s of processor time. Since a band is sampled at about 1 / loss frequencies,
-scenes without a floor of loss are asked at the sources' own frequencies alone.
+refusal or more than {arguments.seconds:g} s of processor time. A third of the scenes are asked in two bands, which are
+sampled at about 1 / loss frequencies; one without a floor of loss is refused if they are too many.
 
 | model | answered | refused | bad | slowest, s |
 |---|---|---|---|---|"""

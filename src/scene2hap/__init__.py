@@ -19,6 +19,7 @@ _HOME = {
     "scene2hap.scene.load": ("load_scene",),
     "scene2hap.scene.capture": ("capture_images",),
     "scene2hap.scene.pose": ("Pose",),
+    "scene2hap.scene.pose_table": ("PoseTable",),
     "scene2hap.scene.snapshot": ("Box", "Contact", "DominantSurface", "SceneObject", "SceneSnapshot", "TriMesh"),
     "scene2hap.materials": ("Material",),
     "scene2hap.haptics": ("ActuatorProfile", "Bands", "ObjectHaptics", "SourceState", "VibrationDescription"),
@@ -189,6 +190,7 @@ if TYPE_CHECKING:
     from scene2hap.scene.capture import capture_images as capture_images
     from scene2hap.scene.load import load_scene as load_scene
     from scene2hap.scene.pose import Pose as Pose
+    from scene2hap.scene.pose_table import PoseTable as PoseTable
     from scene2hap.scene.snapshot import (
         Box as Box,
     )

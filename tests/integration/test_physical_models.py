@@ -10,7 +10,7 @@ from scene2hap.demo import kitchen_path
 from scene2hap.propagation.domain import ThinPlateWarning
 from scenes import table_with_two_phones
 
-PHYSICAL = ["infinite_plate", "modal_plate"]
+PHYSICAL = ["infinite_plate", "modal_plate", "auto"]
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +21,12 @@ def demo():  # type: ignore[no-untyped-def]
 
 @pytest.mark.parametrize(
     ("kind", "bands"),
-    [("infinite_plate", "dominant"), ("modal_plate", "dominant"), ("modal_plate", Bands((40.0, 80.0, 160.0)))],
+    [
+        ("infinite_plate", "dominant"),
+        ("modal_plate", "dominant"),
+        ("modal_plate", Bands((40.0, 80.0, 160.0))),
+        ("auto", "dominant"),
+    ],
 )
 def test_the_demo_kitchen(demo, kind: str, bands: str | Bands) -> None:  # type: ignore[no-untyped-def]
     scene, bundle = demo

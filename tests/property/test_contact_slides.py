@@ -65,3 +65,22 @@ def test_every_step_of_a_slide_ends_where_building_from_nothing_does(
         assert graph.contacts == fresh.contacts
         assert change.appeared == pairs(fresh) - before
         assert change.vanished == before - pairs(fresh)
+
+
+@given(st.integers(0, 10**6))
+@settings(derandomize=True, deadline=None, max_examples=4)
+def test_small_steps_in_a_row_end_where_building_from_nothing_does(seed: int) -> None:
+    """A game's frames: some millimetres each, some things turning, one lifted and put down again now and then."""
+    rng = np.random.default_rng(seed)
+    things = {item.id: item for item in THINGS}
+    graph = ContactGraph(scene(*things.values()))
+    lifted = dict.fromkeys(NAMES, 0.0)
+    for _ in range(40):
+        moved = rng.choice(NAMES, rng.integers(1, 4), replace=False).tolist()
+        for name in moved:
+            x, z = rng.normal(scale=0.006, size=2).tolist()
+            lift = rng.choice([0.0, 0.2, 0.0012]) - lifted[name] if rng.random() < 0.15 else 0.0
+            lifted[name] += lift
+            things[name] = stepped(things[name], (x, float(lift), z, 0.02 if rng.random() < 0.4 else 0.0))
+        graph.update({name: things[name].pose for name in moved})
+        assert graph.contacts == ContactGraph(scene(*things.values())).contacts

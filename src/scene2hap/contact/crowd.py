@@ -17,13 +17,14 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes, box_pairs
 from scene2hap.contact.profile import Triple
 
-SKIN_M = 0.04
-"""How far a thing may move before its neighbours are looked for anew (assumed: a hand's way in two or three frames)."""
+SKIN_M = 0.06
+"""How far a thing may move before its neighbours are looked for anew (assumed: a hand's way in four or five frames)."""
 
 # From so many bodies at once on, sorting all is cheaper than asking for each.
 _MANY = 16
 _NOWHERE = (np.inf, -np.inf)
-_Room = tuple[Triple, Triple]
+Room = tuple[Triple, Triple]
+"""Lowest and highest corners [m] of a box around a body, which it has not left."""
 
 
 class Crowd:
@@ -39,8 +40,12 @@ class Crowd:
         self._ids: list[str] = []
         self._rows: dict[str, int] = {}
         self._free: list[int] = []
-        self._rooms: dict[str, _Room] = {}
+        self._rooms: dict[str, Room] = {}
         self.near: dict[str, set[str]] = {}
+
+    def room(self, object_id: str) -> Room:
+        """Where a body may move without another list."""
+        return self._rooms[object_id]
 
     def take_out(self, object_id: str) -> set[str]:
         """Forget a body; who were its neighbours."""

@@ -6,19 +6,17 @@ alone, so that moving step by step ends exactly where building from nothing does
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import NamedTuple
-
-import numpy as np
+from collections.abc import Iterable, Mapping, Sequence
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.broad import Floats
+from scene2hap.contact.bond import NO_BOND, NO_WAY, Bond, Plan, direction, strength, triple
 from scene2hap.contact.crowd import Crowd
+from scene2hap.contact.cuboid_meeting import gaps_of, points_of
+from scene2hap.contact.glide import Drift, Glide
 from scene2hap.contact.junction import Junction, Pair, pair_of
-from scene2hap.contact.level import Aside, rest_points
-from scene2hap.contact.narrow import ROUNDING_M
 from scene2hap.contact.profile import Triple
 from scene2hap.contact.support import (
+    PATCH_SHARE,
     TOUCH_M,
     Support,
     fall_reach_m,
@@ -28,58 +26,72 @@ from scene2hap.contact.support import (
     supports,
     weight,
 )
-from scene2hap.contact.tie import UNCLEAR, Tie, apart_by, slide
+from scene2hap.contact.tie import UNCLEAR, WITHIN_M, Tie, apart_by, slide
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import SceneObject
 
-# A patch holds what is this much farther apart than the nearest points, as a share of the tolerance (assumed): the feet
-# of a chair are never quite level.
-_PATCH_SHARE = 0.25
-_CLEAR_M = 1e-4  # The way between surfaces nearer than this has no direction to speak of (assumed).
-_NO_WAY = (0.0, 0.0, 0.0)
+_SLACK_M = PATCH_SHARE * TOUCH_M
 _ONES = (1.0,) * 4
+_VAIN = 15  # A glide that was refused so often is drawn anew.
 
 
 class ContactFinder:
-    """The contacts between bodies.
+    """The contacts between things, with tolerances that follow them as `contact.support` does.
 
-    Parameters: up_axis : 1 or 2, the world axis that points up; tolerance_m : gap at which any two cease to touch [m],
-    or None to follow the objects as `contact.support` does.
+    Parameters: up_axis : 1 or 2, the world axis that points up.
     """
 
-    def __init__(self, up_axis: int, tolerance_m: float | None) -> None:
+    def __init__(self, up_axis: int) -> None:
         self._up_axis = up_axis
-        self._infers = tolerance_m is None
-        self._tolerance_m = TOUCH_M if tolerance_m is None else tolerance_m
-        self._within_m = max(self._tolerance_m, ROUNDING_M)
         self._bodies: dict[str, Body] = {}
         self._crowd = Crowd(up_axis, self._margins_m)
         self._ties: dict[str, dict[str, Tie]] = {}
-        self._held: dict[str, dict[str, _Bond]] = {}
+        self._held: dict[str, dict[str, Bond]] = {}
         # Those that nothing wholly supports, so that larger things near them may bear on how they hang.
         self._loose: set[str] = set()
+        self._glides: dict[str, Glide | Drift] = {}
 
-    def body(self, object_id: str) -> Body:
-        """The body of that id, where it is now."""
-        return self._bodies[object_id]
-
-    def replace(self, placed: Sequence[Body], gone: Iterable[str] = ()) -> dict[Pair, Junction | None]:
-        """Take in bodies that are new or elsewhere and forget others.
+    def replace(
+        self, moved: Mapping[str, Pose], added: Sequence[SceneObject] = (), gone: Iterable[str] = ()
+    ) -> dict[Pair, Junction | None]:
+        """Take things out, in, and elsewhere.
 
         Returns where the pairs touch that may have changed, None for those that do not touch.
         """
+        bodies, glides = self._bodies, self._glides
+        found: dict[Pair, Junction | None] = {}
+        placed = []
+        for x, pose in moved.items():
+            glide = glides.get(x)
+            if glide is not None and glide.on not in moved:
+                if glide.step(pose, found):
+                    continue
+                glide.refused += 1
+            placed.append(bodies[x].at(pose))
+        if placed or added or gone:
+            placed += [Body.of(item, self._up_axis) for item in added]
+            self._take_in(placed, gone, found)
+        return found
+
+    def _take_in(self, placed: Sequence[Body], gone: Iterable[str], found: dict[Pair, Junction | None]) -> None:
+        """The long way."""
+        bodies = self._bodies
         dirty: set[Pair] = set()
         unsure: set[str] = set()
         for x in gone:
-            del self._bodies[x]
+            del bodies[x]
             for y in self._crowd.take_out(x):
                 self._part(x, y, dirty, unsure)
             self._ties.pop(x, None)
             self._held.pop(x, None)
+            self._glides.pop(x, None)
             self._loose.discard(x)
         for body in placed:
-            self._bodies[body.id] = body
+            bodies[body.id] = body
         left = self._crowd.put(placed)
+        for x in left:
+            self._stop_around(x)
         seen: set[str] = set()
-        found: dict[Pair, Junction | None] = {}
         for body in placed:
             x = body.id
             if x not in left and self._slide(body, found):
@@ -88,20 +100,22 @@ class ContactFinder:
                 self._part(x, y, dirty, unsure)
             self._look_around(body, seen, dirty, unsure)
             seen.add(x)
-        if self._infers:
-            unsure.update(seen)
-            for x in unsure:
-                if x in self._bodies:
-                    self._hold_anew(x, dirty)
-        for pair in dirty:
-            found[pair] = self._junction(pair)
-        return found
+        self._tell_cuboids_apart(seen)
+        unsure.update(seen)
+        for x in unsure:
+            if x in bodies:
+                self._hold_anew(x, dirty)
+        found.update(self._junctions(dirty))
+        for x in seen:
+            if not self._ties[x]:
+                room, near = self._crowd.room, self._crowd.near[x]
+                reach_m = sum(self._margins_m(bodies[x]))
+                others = [(room(z), max(reach_m, sum(self._margins_m(bodies[z])))) for z in near]
+                self._glides[x] = Drift(bodies[x], room(x), others)
 
     def _margins_m(self, body: Body) -> tuple[float, float]:
         """How far a body may touch or hang from others, and how much farther it may fall."""
-        if not self._infers:
-            return self._within_m, 0.0
-        return max(self._tolerance_m, hang_reach_m(body.size_m)), fall_reach_m(body.size_m)
+        return max(TOUCH_M, hang_reach_m(body.size_m)), fall_reach_m(body.size_m)
 
     def _part(self, x: str, y: str, dirty: set[Pair], unsure: set[str]) -> None:
         """Note that two are neighbours no more."""
@@ -109,8 +123,19 @@ class ContactFinder:
         tie = mine.pop(y, None) if mine else None
         if tie is not None:
             self._ties[y].pop(x, None)
+            self._stop(x, y)
             dirty.add(pair_of(x, y))
             unsure.add(y)
+
+    def _stop(self, x: str, y: str) -> None:
+        """What was sure of how two slide is so no longer."""
+        self._glides.pop(x, None)
+        self._glides.pop(y, None)
+
+    def _stop_around(self, x: str) -> None:
+        self._glides.pop(x, None)
+        for y in self._crowd.near[x]:
+            self._glides.pop(y, None)
 
     def _slide(self, body: Body, found: dict[Pair, Junction | None]) -> bool:
         """The short way for what stays on its only support with nothing else near enough to matter.
@@ -119,7 +144,7 @@ class ContactFinder:
         """
         x, bodies = body.id, self._bodies
         ties = self._ties.get(x)
-        if ties is None or len(ties) != 1 or x in self._loose or not self._infers:
+        if ties is None or len(ties) != 1 or x in self._loose:
             return False
         ((y, tie),) = ties.items()
         support, is_a = bodies[y], x == tie.a.id
@@ -135,11 +160,18 @@ class ContactFinder:
         tie.slide(body, rest, is_a)
         n = len(points)
         found[(x, y) if is_a else (y, x)] = Junction(points, _ONES[:n], bond.normals[:n])
+        glide = self._glides.get(x)
+        if not isinstance(glide, Glide) or glide.refused > _VAIN:
+            room, near = self._crowd.room, self._crowd.near[x]
+            others = [room(z) for z in near if z != y]
+            self._glides[x] = Glide(body, tie, bond.normal, room(x), others, TOUCH_M)
+        else:
+            glide.resume(body)
         return True
 
     def _stands_alone(self, body: Body, support: str) -> bool:
         """Whether all neighbours but its support are beside a body, and none may hang from it."""
-        bodies, loose, margin_m, size_m = self._bodies, self._loose, self._within_m, body.size_m
+        bodies, loose, margin_m, size_m = self._bodies, self._loose, TOUCH_M, body.size_m
         (x0, x1, x2), (x3, x4, x5) = body.low, body.high
         flat = 3 - self._up_axis
         if flat == 1:
@@ -157,7 +189,8 @@ class ContactFinder:
 
     def _look_around(self, body: Body, seen: set[str], dirty: set[Pair], unsure: set[str]) -> None:
         """Tie a body that moved to what is now near enough to matter."""
-        x, bodies, loose, infers, within_m = body.id, self._bodies, self._loose, self._infers, self._within_m
+        x, bodies, loose, within_m = body.id, self._bodies, self._loose, TOUCH_M
+        self._glides.pop(x, None)
         ties = self._ties.get(x)
         if ties is None:
             ties = self._ties[x] = {}
@@ -181,21 +214,33 @@ class ContactFinder:
                 continue
             if y in seen:
                 continue
-            tie = Tie.between(body, other, infers) if x < y else Tie.between(other, body, infers)
+            tie = Tie.between(body, other) if x < y else Tie.between(other, body)
             if tie.rest_a is None and tie.rest_b is None and apart_by(body, other, within_m):
                 if old is not None:
                     del ties[y], self._ties[y][x]
+                    self._stop(x, y)
                     dirty.add(pair_of(x, y))
             else:
                 ties[y] = tie
                 self._ties.setdefault(y, {})[x] = tie
+                self._stop(x, y)
                 dirty.add(pair_of(x, y))
             if tie.rest(y) is not None or (old is not None and old.rest(y) is not None) or y in loose:
                 unsure.add(y)
 
+    def _tell_cuboids_apart(self, moved: Iterable[str]) -> None:
+        """Find out all at once how far leaning cuboids are from what moved."""
+        ties = {id(tie): tie for x in moved for tie in self._ties[x].values() if tie.asks_apart}
+        for tie, gap in zip(ties.values(), gaps_of([(t.a, t.b) for t in ties.values()], WITHIN_M), strict=True):
+            tie.tell_apart(gap)
+
     def _hold_anew(self, x: str, dirty: set[Pair]) -> None:
         """Find out what holds a body; the pairs in which another than before does are dirty."""
+        was_loose = x in self._loose
         before, now = self._held.get(x), self._holders(x)
+        self._glides.pop(x, None)
+        if was_loose != (x in self._loose):
+            self._stop_around(x)
         if now:
             self._held[x] = now
         elif before:
@@ -203,7 +248,7 @@ class ContactFinder:
         for y in (before or {}).keys() | now.keys():
             dirty.add(pair_of(x, y))
 
-    def _holders(self, x: str) -> dict[str, _Bond]:
+    def _holders(self, x: str) -> dict[str, Bond]:
         """What holds a body, by support and, as far as that is wanting, by hanging."""
         body = self._bodies[x]
         below: dict[str, Support] | None = {}
@@ -220,17 +265,17 @@ class ContactFinder:
             sign = 1.0 if x < y else -1.0
             normal = (0.0, -sign, 0.0) if self._up_axis == 1 else (0.0, 0.0, -sign)
             way = (normal[0] * support.fall_m, normal[1] * support.fall_m, normal[2] * support.fall_m)
-            bonds[y] = _Bond(support.weight, way, normal, y in rests, x)
+            bonds[y] = Bond(support.weight, way, normal, y in rests, x)
         supported = max((bond.weight for bond in bonds.values()), default=0.0)
         if supported < 1:
             self._loose.add(x)
             for y, bond in self._hanging(body, supported).items():
-                bonds[y] = max(bonds.get(y, _NO_BOND), bond, key=_strength)
+                bonds[y] = max(bonds.get(y, NO_BOND), bond, key=strength)
         else:
             self._loose.discard(x)
         return bonds
 
-    def _hanging(self, body: Body, supported: float) -> dict[str, _Bond]:
+    def _hanging(self, body: Body, supported: float) -> dict[str, Bond]:
         """What holds a body sideways, as far as nothing supports it."""
         x, reach_m = body.id, hang_reach_m(body.size_m)
         ways: dict[str, tuple[float, Triple]] = {}
@@ -248,97 +293,57 @@ class ContactFinder:
                 ways[y] = way
         shares = hangs({y: distance for y, (distance, _) in ways.items()}, reach_m)
         return {
-            y: _Bond((1 - supported) * share, ways[y][1], _direction(*ways[y]), False, x) for y, share in shares.items()
+            y: Bond((1 - supported) * share, ways[y][1], direction(*ways[y]), False, x) for y, share in shares.items()
         }
 
     def _apart(self, tie: Tie, within_m: float) -> tuple[float, Triple] | None:
         """How far two are apart and which way, if it is at most `within_m`."""
-        side = self._aside(tie, within_m)
+        side = tie.aside(within_m, _SLACK_M)
         if side is not None:
             return (side.distance_m, side.way_m) if side.points else None
         gap = tie.gap(within_m)
-        return None if gap is None else (gap.distance_m, _triple(gap.way_m))
-
-    def _aside(self, tie: Tie, within_m: float) -> Aside | None:
-        # A stated tolerance knows no up, and its contacts go along with any motion.
-        return tie.aside(within_m, _PATCH_SHARE * self._tolerance_m) if self._infers else None
+        return None if gap is None else (gap.distance_m, triple(gap.way_m))
 
     def _tie(self, x: str, y: str) -> Tie:
         tie = self._ties[x].get(y)
         if tie is None:
             a, b = pair_of(x, y)
-            tie = self._ties[x][y] = self._ties.setdefault(y, {})[x] = Tie.between(
-                self._bodies[a], self._bodies[b], True
-            )
+            self._stop(x, y)
+            tie = self._ties[x][y] = self._ties.setdefault(y, {})[x] = Tie.between(self._bodies[a], self._bodies[b])
         return tie
 
-    def _junction(self, pair: Pair) -> Junction | None:
-        """The contacts of a pair by its strongest bond: a held by b, b held by a, or mere touch."""
+    def _junctions(self, pairs: Iterable[Pair]) -> dict[Pair, Junction | None]:
+        """Where these pairs touch; points of cuboids are found all at once."""
+        plans = {pair: self._plan(pair) for pair in pairs}
+        ask = [plan for plan in plans.values() if plan is not None and plan.rest is None and plan.tie.are_cuboids]
+        ask = [plan for plan in ask if plan.side is None]
+        couples = [(plan.tie.a, plan.tie.b) for plan in ask]
+        points = points_of(couples, [plan.bond.way_m for plan in ask], [plan.within_m for plan in ask])
+        for plan, several in zip(ask, points, strict=True):
+            plan.tie.tell_points(plan.bond.way_m, plan.within_m, several)
+        return {pair: None if plan is None else plan.junction() for pair, plan in plans.items()}
+
+    def _plan(self, pair: Pair) -> Plan | None:
+        """How a pair touches by its strongest bond: a held by b, b held by a, or mere touch."""
         a, b = pair
         tie = self._ties.get(a, {}).get(b)
         if tie is None:
             return None
-        slack_m = _PATCH_SHARE * self._tolerance_m
-        bond, is_touch = _NO_BOND, False
+        slack_m = _SLACK_M
+        bond, is_touch = NO_BOND, False
         for x, y in ((a, b), (b, a)):
             held = self._held.get(x)
             one = held.get(y) if held else None
-            if one is not None and _strength(one) > _strength(bond):
+            if one is not None and strength(one) > strength(bond):
                 bond = one
-        if bond.weight < 1 and not apart_by(tie.a, tie.b, self._within_m):
-            apart = self._apart(tie, self._tolerance_m)
+        if bond.weight < 1 and not apart_by(tie.a, tie.b, TOUCH_M):
+            apart = self._apart(tie, TOUCH_M)
             if apart is not None:
-                share = weight(apart[0], self._tolerance_m)
+                share = weight(apart[0], TOUCH_M)
                 if share > bond.weight:
-                    bond, is_touch = _Bond(share, _NO_WAY, _direction(*apart), False, a), True
+                    bond, is_touch = Bond(share, NO_WAY, direction(*apart), False, a), True
                     slack_m += apart[0]
         if bond.weight <= 0:
             return None
-        points = self._points(tie, bond, slack_m, is_touch)
-        return Junction(points, (bond.weight,) * len(points), (bond.normal,) * len(points)) if points else None
-
-    def _points(self, tie: Tie, bond: _Bond, slack_m: float, is_touch: bool) -> tuple[Triple, ...]:
-        if bond.lies:
-            x, y = (tie.a, tie.b) if bond.faller == tie.a.id else (tie.b, tie.a)
-            rest = tie.rest(bond.faller)
-            assert rest is not None
-            return rest_points(x, y, rest)
-        if is_touch and (side := self._aside(tie, self._tolerance_m)) is not None:
-            return side.points
-        patch = tie.patch(np.array(bond.way_m), slack_m)
-        points = (tie.a.pose.to_world(patch.on_a_m) + tie.b.pose.to_world(patch.on_b_m)) / 2
-        return tuple((x, y, z) for x, y, z in points.tolist())
-
-
-class _Bond(NamedTuple):
-    """How much two objects are in contact, the way [m] that takes the pair's `a` to its `b`, and the normal; whether
-    the faller `lies` on the other with a level sole."""
-
-    weight: float
-    way_m: Triple
-    normal: Triple | None
-    lies: bool
-    faller: str
-
-    @property
-    def normals(self) -> tuple[Triple | None, ...]:
-        return (self.normal,) * 4
-
-
-_NO_BOND = _Bond(0.0, _NO_WAY, None, False, "")
-
-
-def _strength(bond: _Bond) -> tuple[float, bool]:
-    return (bond.weight, bond.normal is not None)
-
-
-def _direction(distance_m: float, way_m: Triple) -> Triple | None:
-    if distance_m < _CLEAR_M:
-        return None
-    x, y, z = (np.array(way_m) / np.linalg.norm(way_m)).tolist()
-    return (x, y, z)
-
-
-def _triple(way: Floats) -> Triple:
-    x, y, z = way.tolist()
-    return (x, y, z)
+        side = tie.aside(TOUCH_M, _SLACK_M) if is_touch else None
+        return Plan(tie, bond, slack_m, tie.rest(bond.faller) if bond.lies else None, side)

@@ -6,17 +6,18 @@ which follows the objects unless one is stated (`contact.support`).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, cast
 
 from scene2hap import checks
-from scene2hap.contact.body import Body
 from scene2hap.contact.finder import ContactFinder
 from scene2hap.contact.junction import ContactArrays, Junction, Pair, junctions_of, pair_of
+from scene2hap.contact.touch_finder import TouchFinder
 from scene2hap.errors import SceneError, UnknownObject
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.pose_table import PoseTable
 from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot, unknown_object
 
 if TYPE_CHECKING:
@@ -42,6 +43,8 @@ class ContactChange:
 
 NO_CHANGE = ContactChange()
 
+_MANY_LATE = 8  # So many tables of poses wait at most before they are read.
+
 
 class ContactGraph:
     """The contacts of a scene, kept up to date as its objects move.
@@ -65,17 +68,21 @@ class ContactGraph:
         if tolerance_m is not None:
             hint = "Leave it out to follow the objects."
             tolerance_m = checks.number("tolerance_m", tolerance_m, "m", at_least=0.0, error=SceneError, hint=hint)
-        self._up_axis = {"y": 1, "z": 2}[scene.up_axis]
-        self._poses = {item.id: item.pose for item in scene.objects}
+        self._known_poses = {item.id: item.pose for item in scene.objects}
         self._poses_lent = False
+        # Tables of poses that came later than the known ones.
+        self._late: list[PoseTable] = []
         self._junctions: dict[Pair, Junction] = {}
         self._beside: dict[str, dict[str, Junction]] = {}
         self._version = self._topology = 0
         self._views: dict[str, object] = {}
-        self._finder: ContactFinder | None = None
+        # Whether the junctions are those of an earlier moment, and whether somebody holds them, so that they never are.
+        self._is_behind = self._junctions_lent = False
+        self._finder: ContactFinder | TouchFinder | None = None
         if scene.contacts is None:
-            self._finder = ContactFinder(self._up_axis, tolerance_m)
-            self._settle(self._finder.replace([Body.of(item, self._up_axis) for item in scene.objects]))
+            up_axis = {"y": 1, "z": 2}[scene.up_axis]
+            self._finder = ContactFinder(up_axis) if tolerance_m is None else TouchFinder(tolerance_m)
+            self._replace({}, scene.objects)
         else:
             self._settle(junctions_of(scene.contacts))
 
@@ -84,7 +91,8 @@ class ContactGraph:
         """All contacts, a < b, sorted by pair; points in world coordinates [m]."""
         found = self._views.get("contacts")
         if found is None:
-            found = tuple(one for pair in sorted(self._junctions) for one in self._junctions[pair].contacts(pair))
+            junctions = self._told()
+            found = tuple(one for pair in sorted(junctions) for one in junctions[pair].contacts(pair))
             self._views["contacts"] = found
         return cast("tuple[Contact, ...]", found)
 
@@ -93,7 +101,10 @@ class ContactGraph:
         """All contacts as arrays, sorted by pair."""
         found = self._views.get("arrays")
         if found is None:
-            found = self._views["arrays"] = ContactArrays.of(self._poses, self._junctions)
+            ids = tuple(self._known_poses)
+            finder = self._finder
+            found = finder.arrays(ids) if isinstance(finder, TouchFinder) else ContactArrays.of(ids, self._junctions)
+            self._views["arrays"] = found
         return cast("ContactArrays", found)
 
     @property
@@ -105,19 +116,22 @@ class ContactGraph:
         if found is None:
             drawn: networkx.Graph[str] = networkx.Graph()
             drawn.add_nodes_from(sorted(self._poses))
-            pairs = sorted(self._junctions)
-            drawn.add_edges_from((*pair, {"contacts": list(self._junctions[pair].contacts(pair))}) for pair in pairs)
+            junctions = self._told()
+            drawn.add_edges_from((*x, {"contacts": list(junctions[x].contacts(x))}) for x in sorted(junctions))
             found = self._views["graph"] = drawn
         return cast("networkx.Graph[str]", found)
 
     @property
     def junctions(self) -> Mapping[Pair, Junction]:
         """Where the pairs touch; read-only, and changed by later updates. A junction itself never changes."""
-        return self._junctions
+        self._junctions_lent = True
+        return self._told()
 
     @property
     def beside(self) -> Mapping[str, Mapping[str, Junction]]:
         """For each object that touches any: the others, and where; read-only, and changed by later updates."""
+        self._junctions_lent = True
+        self._told()
         return self._beside
 
     @property
@@ -133,11 +147,12 @@ class ContactGraph:
     @property
     def poses(self) -> Mapping[str, Pose]:
         """Where every object is; read-only, and left as it is by later updates."""
+        poses = self._poses
         self._poses_lent = True
-        return MappingProxyType(self._poses)
+        return MappingProxyType(poses)
 
     def __contains__(self, object_id: object) -> bool:
-        return object_id in self._poses
+        return object_id in self._known_poses
 
     def pose(self, object_id: str) -> Pose:
         """Where an object is. Raises: UnknownObject."""
@@ -152,6 +167,7 @@ class ContactGraph:
         import numpy as np
 
         pose_a, pose_b = self.pose(a), self.pose(b)
+        self._told()
         junction = self._beside.get(a, {}).get(b)
         points = np.array(junction.points_m if junction else ()).reshape(-1, 3)
         return pose_a.to_own(points), pose_b.to_own(points)
@@ -161,7 +177,8 @@ class ContactGraph:
 
         Raises: UnknownObject: the id is not in the scene.
         """
-        _demand(object_id, self._poses)
+        _demand(object_id, self._known_poses)
+        self._told()
         return tuple(sorted(self._beside.get(object_id, ())))
 
     def update(
@@ -182,6 +199,8 @@ class ContactGraph:
         """
         if added or removed or contacts is not None:
             return self._rebuild(moved, added, removed, contacts)
+        if isinstance(moved, PoseTable) and isinstance(self._finder, TouchFinder):
+            return self._take(moved)
         stale = {}
         poses = self._poses
         for x, pose in moved.items():
@@ -195,12 +214,32 @@ class ContactGraph:
         if not stale:
             return NO_CHANGE
         if self._poses_lent:
-            self._poses, self._poses_lent = dict(self._poses), False
-        self._poses.update(stale)
+            self._known_poses, self._poses_lent = dict(poses), False
+        self._known_poses.update(stale)
         if self._finder is None:
             return self._settle({pair: None for x in stale for pair in self._pairs_of(x)})
-        body = self._finder.body
-        return self._settle(self._finder.replace([body(x).at(pose) for x, pose in stale.items()]))
+        return self._replace(stale)
+
+    def _take(self, table: PoseTable) -> ContactChange:
+        """An update of poses alone, which stay in their table until someone asks for them."""
+        if not (self._late and self._late[-1].ids is table.ids):
+            for x in table:
+                _demand(x, self._known_poses)
+            if len(self._late) == _MANY_LATE:
+                _ = self._poses
+            self._late.append(table)
+        self._late[-1] = table
+        return self._replace(table)
+
+    @property
+    def _poses(self) -> dict[str, Pose]:
+        if self._late:
+            if self._poses_lent:
+                self._known_poses, self._poses_lent = dict(self._known_poses), False
+            for table in self._late:
+                self._known_poses.update(table)
+            self._late.clear()
+        return self._known_poses
 
     def _rebuild(
         self,
@@ -226,24 +265,49 @@ class ContactGraph:
             _demand(contact.a, poses)
             _demand(contact.b, poses)
 
-        before, self._poses, self._poses_lent = self._poses, poses, False
+        before, self._known_poses, self._poses_lent = self._poses, poses, False
         if contacts is not None:
+            self._told()
             self._finder = None
             return self._settle({**dict.fromkeys(self._junctions), **junctions_of(contacts)})
         stale = {x for x in before if poses.get(x) != before[x]} | {*removed, *(item.id for item in added)}
         if self._finder is None:
             return self._settle({pair: None for x in stale for pair in self._pairs_of(x)})
-        new = {item.id: Body.of(item, self._up_axis) for item in added}
-        placed = {x: new[x] if x in new else self._finder.body(x) for x in stale & poses.keys()}
-        bodies = [body.at(poses[x]) for x, body in sorted(placed.items())]
-        gone = stale & before.keys() & {*removed}
-        return self._settle(self._finder.replace(bodies, gone))
+        new = {item.id for item in added}
+        elsewhere = {x: poses[x] for x in stale & poses.keys() if x not in new}
+        items = [replace(item, pose=poses[item.id]) for item in added]
+        return self._replace(elsewhere, items, stale & before.keys() & {*removed})
+
+    def _replace(
+        self, moved: Mapping[str, Pose], added: Sequence[SceneObject] = (), gone: Iterable[str] = ()
+    ) -> ContactChange:
+        """Let the finder look anew, and tell what that changes."""
+        finder = self._finder
+        if isinstance(finder, ContactFinder):
+            return self._settle(finder.replace(moved, added, gone))
+        assert finder is not None
+        changes = finder.replace(moved, added, gone)
+        self._is_behind = True
+        if self._junctions_lent:
+            self._told()
+        return self._noted(*changes)
+
+    def _told(self) -> dict[Pair, Junction]:
+        """The junctions, as they are now."""
+        if self._is_behind:
+            self._is_behind = False
+            now = cast("TouchFinder", self._finder).junctions()
+            self._apply({**dict.fromkeys(self._junctions), **now})
+        return self._junctions
 
     def _pairs_of(self, object_id: str) -> list[Pair]:
         return [pair_of(object_id, other) for other in self._beside.get(object_id, ())]
 
     def _settle(self, found: Mapping[Pair, Junction | None]) -> ContactChange:
         """Take over where these pairs touch, None for nowhere, and tell what that changes."""
+        return self._noted(*self._apply(found))
+
+    def _apply(self, found: Mapping[Pair, Junction | None]) -> tuple[list[Pair], list[Pair], list[Pair]]:
         appeared: list[Pair] = []
         vanished: list[Pair] = []
         shifted: list[Pair] = []
@@ -263,6 +327,9 @@ class ContactGraph:
                 beside.setdefault(a, {})[b] = beside.setdefault(b, {})[a] = junction
             else:
                 beside[a][b] = beside[b][a] = junction
+        return appeared, vanished, shifted
+
+    def _noted(self, appeared: list[Pair], vanished: list[Pair], shifted: list[Pair]) -> ContactChange:
         if self._views:
             self._views.clear()
         if not (appeared or vanished or shifted):

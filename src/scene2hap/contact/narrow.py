@@ -10,15 +10,16 @@ objects rigidly changes nothing but the last bits.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.contact.body import Body, boxes_of
+from scene2hap.contact.body import Shape, boxes_of
 from scene2hap.contact.broad import Boxes, Floats, Indices, box_pairs
 from scene2hap.contact.spread import spread
 from scene2hap.contact.triangles import Meetings, closest_points, meetings, plane_gap
+from scene2hap.scene.pose import Pose
 
 Marks = NDArray[np.bool_]
 
@@ -51,10 +52,26 @@ class Patch(NamedTuple):
     on_b_m: Floats
 
 
-class Meeting:
-    """Two bodies in the frame of the larger, the host; the other is the guest."""
+class Placed(Protocol):
+    """A shape at a place: as much of a `Body` as is needed to ask for distances."""
 
-    def __init__(self, a: Body, b: Body) -> None:
+    @property
+    def shape(self) -> Shape:
+        """Its triangles."""
+
+    @property
+    def pose(self) -> Pose:
+        """Where it is."""
+
+    @property
+    def size_m(self) -> float:
+        """Diagonal of its own bounding box."""
+
+
+class Meeting:
+    """Two things in the frame of the larger, the host; the other is the guest."""
+
+    def __init__(self, a: Placed, b: Placed) -> None:
         self.a, self.b = a, b
         self.guest_is_a = a.size_m < b.size_m
         self.guest, self.host = (a, b) if self.guest_is_a else (b, a)

@@ -16,6 +16,8 @@ MAX_POINTS = 4
 
 _SPREAD_M = 0.005  # Points of a pair nearer than this are one (assumed: the width of a chair's foot).
 _TIE_M = 1e-6  # Lengths this near are equal, so that rounding does not choose between the corners of a square.
+# Weighs coordinates so that no two corners of a plain shape are equally far along it.
+_ASKEW = (0.6180339887, 0.2879190313)
 
 
 def spread(points: NDArray[np.float64]) -> list[int]:
@@ -60,3 +62,36 @@ def _first_of_few(points: Sequence[tuple[float, float]], apart: Sequence[float])
         limit = min(points[row][axis] for row in rows) + _TIE_M
         rows = [row for row in rows if points[row][axis] <= limit]
     return rows[0]
+
+
+def spread_each(points: NDArray[np.float64], counts: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+    """The same for many sets at once: points (3, k, n) [m], of which those count that are marked (k, n).
+
+    Rows (`MAX_POINTS`, n) of the points taken, and which of these rows are any. The middle is that of the box around
+    the points, since a sum would depend on how many sets there are.
+    """
+    columns = np.arange(points.shape[2])
+    low, high = np.where(counts, points, np.inf).min(axis=1), np.where(counts, points, -np.inf).max(axis=1)
+    some = counts.any(axis=0)
+    middle = np.where(some, low, 0.0) / 2 + np.where(some, high, 0.0) / 2
+    key = points[0] + _ASKEW[0] * points[1] + _ASKEW[1] * points[2]
+    rows, kept = np.zeros((MAX_POINTS, len(columns)), dtype=np.intp), np.zeros((MAX_POINTS, len(columns)), dtype=bool)
+    # What does not count is nearer than everything.
+    apart = np.where(counts, _distances(points, middle), -1.0)
+    farthest, more = apart.max(axis=0), some
+    for k in range(MAX_POINTS):
+        rows[k] = np.where(apart >= farthest - _TIE_M, key, np.inf).argmin(axis=0)
+        kept[k] = more
+        if k + 1 == MAX_POINTS or not more.any():
+            break
+        away = _distances(points, points[:, rows[k], columns])
+        apart = np.minimum(apart, away) if k else np.where(counts, away, -1.0)
+        farthest = apart.max(axis=0)
+        more = more & (farthest > _SPREAD_M)
+    return rows, kept
+
+
+def _distances(points: NDArray[np.float64], places: NDArray[np.float64]) -> NDArray[np.float64]:
+    x, y, z = points - places[:, None]
+    lengths: NDArray[np.float64] = np.sqrt(x * x + y * y + z * z)
+    return lengths

@@ -100,6 +100,35 @@ class Stance:
             return (low[0], least, low[2]), (high[0], most, high[2])
         return (low[0], low[1], least), (high[0], high[1], most)
 
+    def turned(self, rotation_xyzw: tuple[float, float, float, float]) -> Stance | None:
+        """The same shape turned otherwise, if that leaves its level faces level; the same as made from nothing."""
+        x, y, z, w = rotation_xyzw
+        before = self.rotation_xyzw
+        if self.up_axis != 1 or x != 0.0 or z != 0.0 or before[0] != 0.0 or before[2] != 0.0 or self.footing is None:
+            turned = Stance(self._shape, rotation_xyzw, self.up_axis)
+            return turned if turned.profile is self.profile else None
+        # About the vertical, nothing changes upwards, and half of the products are 0.
+        assert self.profile.sole is not None
+        turned = Stance.__new__(Stance)
+        turned.rotation_xyzw, turned._shape, turned.profile, turned.is_block = (
+            rotation_xyzw,
+            self._shape,
+            self.profile,
+            self.is_block,
+        )
+        turned.up_axis, turned.v_axis, turned._tray, turned._outline, turned._heading = 1, 2, None, (), None
+        a, c = 1 - 2 * (y * y), 2 * (y * w)
+        turned.rows = ((a, 0.0, c), self.rows[1], (-c, 0.0, a))
+        (mx, _, mz), (hx, _, hz) = self._shape.middle, self._shape.half
+        u, v, over, across = a * mx + c * mz, a * mz - c * mx, abs(a), abs(c)
+        x, z = over * hx + across * hz, across * hx + over * hz
+        turned.low, turned.high = (u - x, self.low[1], v - z), (u + x, self.high[1], v + z)
+        x, _, z = self.profile.sole.middle_m
+        points = tuple([(a * x + c * z, a * z - c * x) for x, _, z in self.profile.sole.points_m])
+        _, height, _, radius, is_filled = self.footing
+        turned._footing = Footing(points, height, (a * x + c * z, a * z - c * x), radius, is_filled)
+        return turned
+
     @property
     def footing(self) -> Footing | None:
         """What it stands on, if that is level."""

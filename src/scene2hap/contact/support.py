@@ -30,11 +30,18 @@ from scene2hap.contact.triangles import height_range
 TOUCH_M = 0.004
 """Gap at which any two surfaces cease to touch (tuned: cups with a saucer between stand 6 mm over the table)."""
 
+PATCH_SHARE = 0.25
+"""A patch holds what is this much farther apart than the nearest points, as a share of the tolerance (assumed): the
+feet of a chair are never quite level."""
+
+CLEAR_M = 1e-4
+"""The way between surfaces nearer than this has no direction to speak of (assumed)."""
+
 # Tuned on resting things in scenes made by others: a sofa hovers 57 mm and a chair of 0.45 m 45 mm; a tablet of 0.23 m
 # hovers 37 mm. These are to weigh 1, as gaps do up to 2/3 of the reach. Small things, which hands lift, get less.
 _FALL_REACH_M, _FALL_REACH_SIZES = 0.090, 0.25
 # Tuned likewise: a television of 1.5 m hangs 49 mm off its wall, a shelf board 12 mm.
-_HANG_REACH_M, _HANG_REACH_SIZES = 0.075, 0.05
+HANG_REACH_M, _HANG_REACH_SIZES = 0.075, 0.05
 
 _HIDDEN_M = 0.002  # What lies this much below something else is hidden by it (assumed: the thinnest carpet).
 _HOLDING = 0.5  # Least cosine of a slope that holds a thing (assumed): a wall's triangles hold nothing.
@@ -54,6 +61,17 @@ def weight(gap_m: float, tolerance_m: float) -> float:
     return 1.0 if x <= 0 else 0.0 if x >= 1 else 0.5 * (1 + math.cos(math.pi * x))
 
 
+def weights(gaps_m: Floats, tolerance_m: float) -> Floats:
+    """The same for many gaps (n,)."""
+    if tolerance_m == 0.0:
+        return np.where(gaps_m <= 0.0, 1.0, 0.0)
+    found = np.where(3 * gaps_m / tolerance_m - 2 <= 0, 1.0, 0.0)
+    # Few are so far apart, and numpy's cosine may end otherwise in the last bit.
+    for row in np.flatnonzero(found == 0.0).tolist():
+        found[row] = weight(float(gaps_m[row]), tolerance_m)
+    return found
+
+
 def fall_reach_m(size_m: float) -> float:
     """How far a thing of that diagonal may hover over its support [m]."""
     return min(_FALL_REACH_M, _FALL_REACH_SIZES * size_m)
@@ -61,24 +79,24 @@ def fall_reach_m(size_m: float) -> float:
 
 def hang_reach_m(size_m: float) -> float:
     """How far a thing of that diagonal may stand off what it hangs from [m]; less than its `fall_reach_m`."""
-    return min(_HANG_REACH_M, _HANG_REACH_SIZES * size_m)
+    return min(HANG_REACH_M, _HANG_REACH_SIZES * size_m)
 
 
-def falls(meeting: Meeting, faller: Body) -> Floats | None:
-    """How far each triangle (m,) of `faller`, one of the two that meet, may fall before it meets the other [m].
+def falls(meeting: Meeting, faller: Body, other: Body) -> Floats | None:
+    """How far each triangle (m,) of `faller`, one of the two that meet, may fall before it meets `other` [m].
 
     Only the bottom falls, all within `fall_reach_m` of the lowest point; the rest is inf, as is what meets nothing
     within that reach. Down to -`TOUCH_M` where a triangle is sunk in a little, 0 where it is sunk in deeper, up to the
     reach. None where nothing falls onto the other.
     """
-    other = meeting.b if faller is meeting.a else meeting.a
     if not is_over(faller, other):
         return None
     reach_m = fall_reach_m(faller.size_m)
     bottom = faller.lows_m <= faller.lowest_m + reach_m
     holding = other.slopes >= _HOLDING
 
-    up, is_guest = meeting.host.up, faller is meeting.guest
+    is_guest = meeting.guest is faller
+    up = (other if is_guest else faller).up
     way = (-reach_m if is_guest else reach_m) * up
     only = (bottom, holding) if is_guest else (holding, bottom)
     least = np.full(len(faller.lows_m), np.inf)

@@ -9,14 +9,21 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from scene2hap.contact.body import Body
+from scene2hap.contact.cuboid_meeting import gaps_of, points_of
 from scene2hap.contact.level import Aside, Rest, aside, rest_on
-from scene2hap.contact.narrow import Gap, Meeting, Patch
+from scene2hap.contact.narrow import Gap, Meeting
 from scene2hap.contact.profile import Floats, Triple
-from scene2hap.contact.support import TOUCH_M, fall_reach_m, falls, is_over
+from scene2hap.contact.support import HANG_REACH_M, TOUCH_M, fall_reach_m, falls, is_over
 
 # Above this a fall is surely none of a thing that stands in another: tops and soles may be 0.2 mm uneven each.
-_SURE_M = -TOUCH_M + 0.001
+SURE_M = -TOUCH_M + 0.001
+
+WITHIN_M = max(TOUCH_M, HANG_REACH_M)
+"""Nobody asks for longer distances."""
+_APART = "apart"
 
 UNCLEAR = Rest(math.nan, False)
 """Stands for a fall that only triangles can tell."""
@@ -34,10 +41,10 @@ class Tie:
         self._facts: dict[object, Any] | None = None
 
     @classmethod
-    def between(cls, a: Body, b: Body, infers: bool) -> Tie:
-        """What is known of two bodies; without `infers` nothing falls."""
-        rest_a = _rest(a, b) if infers else None
-        return cls(a, b, rest_a, _rest(b, a) if infers and rest_a is None else None)
+    def between(cls, a: Body, b: Body) -> Tie:
+        """What is known of two bodies."""
+        rest_a = _rest(a, b)
+        return cls(a, b, rest_a, _rest(b, a) if rest_a is None else None)
 
     def rest(self, x: str) -> Rest | None:
         """How x, one of the two, may lie on the other."""
@@ -45,15 +52,20 @@ class Tie:
 
     def slide(self, body: Body, rest: Rest, is_a: bool) -> None:
         """Take in that one has moved, and how it lies on the other now."""
-        self._meeting_made = self._facts = None
+        self.forget()
         if is_a:
             self.a, self.rest_a = body, rest
         else:
             self.b, self.rest_b = body, rest
 
+    def forget(self) -> None:
+        """One has moved: what triangles told holds no longer."""
+        self._meeting_made = self._facts = None
+
     def falls(self, x: str) -> Floats | None:
         """How far the triangles of x are to fall; see `support.falls`."""
-        found: Floats | None = self._once(x, lambda: falls(self._meeting, self.a if x == self.a.id else self.b))
+        faller, other = (self.a, self.b) if x == self.a.id else (self.b, self.a)
+        found: Floats | None = self._once(x, lambda: falls(self._meeting, faller, other))
         return found
 
     def aside(self, within_m: float, slack_m: float) -> Aside | None:
@@ -63,15 +75,46 @@ class Tie:
         found: Aside | None = self._once((within_m, slack_m), lambda: aside(self.a, self.b, within_m, slack_m))
         return found
 
+    @property
+    def are_cuboids(self) -> bool:
+        """Whether both are cuboids, leaning or not."""
+        return self.a.shape.is_cuboid and self.b.shape.is_cuboid
+
+    @property
+    def asks_apart(self) -> bool:
+        """Whether how far they are apart is still to be found out, and a matter of leaning cuboids."""
+        known = self._facts is not None and _APART in self._facts
+        return not known and self.are_cuboids and not (self.a.stance.is_block and self.b.stance.is_block)
+
+    def tell_apart(self, gap: Gap | None) -> None:
+        """Take in how far two cuboids are apart, None if by more than `WITHIN_M`."""
+        self._once(_APART, lambda: gap)
+
     def gap(self, within_m: float) -> Gap | None:
-        """How far their triangles are apart; see `Meeting.gap`."""
+        """How far their surfaces are apart; see `Meeting.gap`."""
+        if self.are_cuboids and within_m <= WITHIN_M:
+            near: Gap | None = self._once(_APART, lambda: gaps_of([(self.a, self.b)], WITHIN_M)[0])
+            return near if near is not None and near.distance_m <= within_m else None
         found: Gap | None = self._once(within_m, lambda: self._meeting.gap(within_m))
         return found
 
-    def patch(self, way_m: Floats, within_m: float) -> Patch:
-        """Where their triangles meet; see `Meeting.patch`."""
-        found: Patch = self._once((*way_m.tolist(), within_m), lambda: self._meeting.patch(way_m, within_m))
+    def points(self, way_m: Triple, within_m: float) -> tuple[Triple, ...]:
+        """Points half way between their surfaces where these are at most `within_m` apart once a has gone `way_m`."""
+        find = self._points_of_cuboids if self.are_cuboids else self._points_of_triangles
+        found: tuple[Triple, ...] = self._once((*way_m, within_m), lambda: find(way_m, within_m))
         return found
+
+    def tell_points(self, way_m: Triple, within_m: float, points: tuple[Triple, ...]) -> None:
+        """Take in what `points` is to answer."""
+        self._once((*way_m, within_m), lambda: points)
+
+    def _points_of_cuboids(self, way_m: Triple, within_m: float) -> tuple[Triple, ...]:
+        return points_of([(self.a, self.b)], [way_m], [within_m])[0]
+
+    def _points_of_triangles(self, way_m: Triple, within_m: float) -> tuple[Triple, ...]:
+        patch = self._meeting.patch(np.array(way_m), within_m)
+        points = (self.a.pose.to_world(patch.on_a_m) + self.b.pose.to_world(patch.on_b_m)) / 2
+        return tuple((x, y, z) for x, y, z in points.tolist())
 
     def _once(self, key: object, find: Callable[[], object]) -> Any:
         facts = self._facts
@@ -126,7 +169,7 @@ def slide(x: Body, y: Body) -> tuple[Rest, tuple[Triple, ...]] | None:
     px, py, v_axis = x.position_m, y.position_m, x.stance.v_axis
     u, v, h, over = px[0], px[v_axis], px[up], py[up]
     fall_m = h + sole_height - over - tray.height
-    if not _SURE_M < fall_m < 2 / 3 * fall_reach_m(x.size_m) or x.low[up] + x.high[up] <= y.low[up] + y.high[up]:
+    if not SURE_M < fall_m < 2 / 3 * fall_reach_m(x.size_m) or x.low[up] + x.high[up] <= y.low[up] + y.high[up]:
         return None
     cu, cv = mu + (u - py[0]), mv + (v - py[v_axis])
     for nu, nv, offset in tray.edges:

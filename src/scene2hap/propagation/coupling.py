@@ -68,6 +68,9 @@ class Joint:
     damping_n_s_m: float = 0.0
 
     def __post_init__(self) -> None:
+        given = (self.stiffness_n_m, self.loss_factor, self.damping_n_s_m)
+        if all(type(x) is float and x >= 0 for x in given) and max(given[1:]) < math.inf:
+            return  # a scene has hundreds, nearly all of them good
         if math.isnan(self.stiffness_n_m) or self.stiffness_n_m < 0:
             raise ModelDomainError(f"stiffness_n_m is {self.stiffness_n_m}; it must be at least 0, or infinite [N/m].")
         checks.number("loss_factor", self.loss_factor, "-", at_least=0.0, error=ModelDomainError)
@@ -78,9 +81,21 @@ def compliances_m_n(joints: Sequence[Joint], frequencies_hz: NDArray[np.float64]
     """Z (n_joints, n_frequencies) [m/N]; 0 if rigid, and very large for a spring that is not there."""
     k, eta, c = np.array([(one.stiffness_n_m, one.loss_factor, one.damping_n_s_m) for one in joints]).T[:, :, None]
     is_rigid = np.isinf(k)
-    dynamic = np.where(is_rigid, 1.0, k) * (1 + 1j * eta) + 2j * np.pi * c * frequencies_hz
+    dynamic = np.where(is_rigid, 1.0, k) * (1 + 1j * eta)
+    if c.any():
+        dynamic = dynamic + 2j * np.pi * c * frequencies_hz
     compliances: NDArray[np.complex128] = np.where(is_rigid, 0.0, 1 / np.where(dynamic == 0, 1e-200, dynamic))
-    return compliances
+    return np.broadcast_to(compliances, (len(joints), len(frequencies_hz)))
+
+
+@dataclass(frozen=True, eq=False)
+class Ends:
+    """The joints of one body: points_m (n, 2) [m] where they are on it, rows (n,) which they are, and signs (n,), +1
+    where it is their a, -1 where their b."""
+
+    points_m: NDArray[np.float64]
+    rows: NDArray[np.intp]
+    signs: NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +103,7 @@ class JointForces:
     """The forces g in all joints, for each source.
 
     bodies, joints, source_ids : as given; frequencies_hz : (n_f,) [Hz]; forces : (n_f, n_joints, n_sources) [N/m], on
-    b from a, per unit of the source's free deflection.
+    b from a, per unit of the source's free deflection; ends : as of `ends_of`.
     """
 
     bodies: Mapping[str, ElasticBody]
@@ -96,6 +111,7 @@ class JointForces:
     source_ids: tuple[str, ...]
     frequencies_hz: NDArray[np.float64]
     forces: NDArray[np.complex128]
+    ends: Mapping[str, Ends]
 
     def deflection(self, body_id: str, points_m: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Deflection of a body per free deflection of each source, its own free motion included.
@@ -103,12 +119,12 @@ class JointForces:
         Parameters: points_m : (n_points, 2) [m], in the body's own coordinates.
         Returns: (n_frequencies, n_points, n_sources) complex128 [-].
         """
-        at, rows, signs = ends_of(self.joints).get(body_id, ([], [], []))
         shape = (len(self.frequencies_hz), len(points_m), len(self.source_ids))
         moved = np.zeros(shape, dtype=np.complex128)
-        if rows:
-            receptance = self.bodies[body_id].receptance(points_m, np.array(at), self.frequencies_hz)
-            moved -= receptance @ (np.array(signs)[:, None] * self.forces[:, rows])
+        ends = self.ends.get(body_id)
+        if ends is not None:
+            receptance = self.bodies[body_id].receptance(points_m, ends.points_m, self.frequencies_hz)
+            moved -= receptance @ (ends.signs[:, None] * self.forces[:, ends.rows])
         if body_id in self.source_ids:
             moved[:, :, self.source_ids.index(body_id)] += 1.0
         return moved
@@ -134,28 +150,20 @@ def couple(
                 f"{', '.join(map(repr, sorted(bodies)))}."
             )
     ends = ends_of(joints)
-    receptances = {}
-    for body_id, (at, _, _) in ends.items():
-        points = np.array(at)
-        receptances[body_id] = bodies[body_id].receptance(points, points, frequencies_hz)
+    receptances = {
+        body_id: bodies[body_id].receptance(own.points_m, own.points_m, frequencies_hz) for body_id, own in ends.items()
+    }
     forces = solve_joints(receptances, ends, joints, source_ids, frequencies_hz)
-    return JointForces(bodies, tuple(joints), tuple(source_ids), frequencies_hz, forces)
-
-
-Ends = tuple[list[tuple[float, float]], list[int], list[float]]
-"""Of one body: the points of its joints, which joints they are, and +1 where it is their a, -1 where their b."""
+    return JointForces(bodies, tuple(joints), tuple(source_ids), frequencies_hz, forces, ends)
 
 
 def ends_of(joints: Sequence[Joint]) -> dict[str, Ends]:
     """The joints of every body that has any."""
-    ends: dict[str, Ends] = {}
+    found: dict[str, list[tuple[tuple[float, float], int, float]]] = {}
     for row, joint in enumerate(joints):
-        for body_id, point, sign in ((joint.a, joint.point_a_m, 1.0), (joint.b, joint.point_b_m, -1.0)):
-            at, rows, signs = ends.setdefault(body_id, ([], [], []))
-            at.append(point)
-            rows.append(row)
-            signs.append(sign)
-    return ends
+        found.setdefault(joint.a, []).append((joint.point_a_m, row, 1.0))
+        found.setdefault(joint.b, []).append((joint.point_b_m, row, -1.0))
+    return {body_id: Ends(*map(np.array, zip(*several, strict=True))) for body_id, several in found.items()}
 
 
 def solve_joints(
@@ -170,10 +178,7 @@ def solve_joints(
         return np.zeros((len(frequencies_hz), 0, len(source_ids)), dtype=np.complex128)
     free = np.zeros((len(joints), len(source_ids)))
     for column, source_id in enumerate(source_ids):
-        _, rows, signs = ends.get(source_id, ([], [], []))
-        free[rows, column] = signs
-    elements = [
-        Element(np.array(rows), np.array(signs), receptances[body_id].transpose(1, 2, 0))
-        for body_id, (_, rows, signs) in ends.items()
-    ]
+        if source_id in ends:
+            free[ends[source_id].rows, column] = ends[source_id].signs
+    elements = [Element(own.rows, own.signs, receptances[body_id].transpose(1, 2, 0)) for body_id, own in ends.items()]
     return solve(elements, compliances_m_n(joints, frequencies_hz), free).transpose(2, 0, 1)

@@ -4,9 +4,8 @@
 
 Every joint belongs to two bodies. The two whose union has the fewest joints are joined first: the joints that they
 share are eliminated, and what is left is one body with the joints of both. A room needs fronts as wide as its floor has
-contacts, however many there are in all. Narrow fronts are eliminated row by row, in products of vectors over all
-frequencies; wide ones by LAPACK, frequency by frequency. A resonance of a part may cost digits: frequencies at which a
-row grows by it are solved again, whole and with pivoting.
+contacts, however many there are in all; `vector_fronts` and `fronts` eliminate them. A resonance of a part may cost
+digits: frequencies at which a row grows by it are solved again, whole and with pivoting.
 
 Letters: A (n, n) symmetric, g forces, b free deflections, Z (n,) compliance of the joints; all at each frequency.
 Source: Duff, Reid, The multifrontal solution of indefinite sparse symmetric linear equations, ACM TOMS 9 (1983) 302,
@@ -15,48 +14,73 @@ whose elements are our bodies.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from heapq import heapify, heappop, heappush
-from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.propagation.fronts import Complex, Rows, by_lapack, whole
+from scene2hap.propagation.vector_fronts import Step, by_vectors, numbers_held, schedule
+from scene2hap.propagation.workspace import ROOM, Workspace, workspace
+
 WORST_GROWTH = 1e4
 """Largest part of a row that may be taken from another: it costs four digits of fifteen."""
-_SLACK = 1e-13
+SLACK = 1e-13
 """Compliance added to each joint, as a part of what its two bodies yield there: it keeps four rigid feet under a rigid
 body, whose forces statics cannot tell apart, from dividing by zero, and is nine digits below anything else."""
 _NARROW = 16
 """Widest front for vectors. Tuned: between 12 and 24 both ways take the same time."""
 _FRONT = 170_000
 """Complex numbers of a front at the frequencies that are solved together, 3 MB."""
-
-Complex: TypeAlias = NDArray[np.complex128]
-Rows: TypeAlias = NDArray[np.intp]
+_FEWEST = 128
+"""Frequencies of narrow fronts that are solved together at least, in memory of their own if need be: fewer cost more to
+call for than to solve."""
+_JOINING = 3000
+"""Products that cost as much as a front costs by itself, where fronts are eliminated by LAPACK. Measured."""
 
 
 @dataclass(frozen=True, eq=False)
 class Element:
     """A body as its joints see it: which they are (n_own,), +1 or -1 where it is their first or second body, and its
-    receptance there (n_own, n_own, n_f)."""
+    receptance there (n_own, n_own, n_f), in another order `at` if that is given."""
 
     rows: Rows
     signs: NDArray[np.float64]
     receptance: Complex
+    at: Rows | None = None
 
-    def matrix(self, part: slice | Rows) -> Complex:
-        """Its part of A at some frequencies."""
-        signed: Complex = np.multiply.outer(self.signs, self.signs)[:, :, None] * self.receptance[:, :, part]
-        return signed
+    def sorted_by(self, order: Rows) -> Element:
+        """The same with its rows in rising order (n,)."""
+        at = np.argsort(order[self.rows])
+        if (at == np.arange(len(at))).all():
+            return self
+        return Element(self.rows[at], self.signs[at], self.receptance, at if self.at is None else self.at[at])
+
+    def yielding(self) -> Complex:
+        """What it yields at each joint by itself (n_own, n_f)."""
+        at = np.arange(len(self.rows)) if self.at is None else self.at
+        own: Complex = self.receptance[at, at]
+        return own
+
+    def matrix(self, part: slice | Rows, room: Workspace) -> Complex:
+        """Its part of A at some frequencies, a copy."""
+        signs = np.multiply.outer(self.signs, self.signs)[:, :, None]
+        own = self.receptance[:, :, part]
+        if self.at is not None:
+            own = own[self.at[:, None], self.at]
+        return np.multiply(signs, own, out=room.array(*own.shape))
 
 
 @dataclass(frozen=True, eq=False)
 class Joining:
     """Two elements become one, which is numbered after all others.
 
-    rows : joints of both, the `n_shared` that are eliminated first; at : where the rows of each are among them.
+    parts : the one with more rows first; rows : joints of both in the order of elimination, the `n_shared` that are
+    eliminated first; at : where the rows of each are among them, rising.
     """
 
     parts: tuple[int, int]
@@ -71,25 +95,76 @@ def solve(elements: Sequence[Element], compliance: Complex, free: NDArray[np.flo
     Every row 0..n-1 must belong to exactly two elements.
     """
     n, n_f = compliance.shape
-    plan = joinings([element.rows for element in elements])
+    plan = joinings(tuple(tuple(element.rows.tolist()) for element in elements))
+    order = np.empty(n, dtype=np.intp)
+    order[[row for joining in plan for row in joining.rows[: joining.n_shared].tolist()]] = np.arange(n)
+    elements = [element.sorted_by(order) for element in elements]
+    rows_of = [element.rows for element in elements]
+    yielding = compliance + _slack(elements, compliance.shape)
     forces = np.empty((n, free.shape[1], n_f), dtype=np.complex128)
     widest = max((len(joining.rows) for joining in plan), default=1)
-    step = max(16, _FRONT // widest**2)
-    for begin in range(0, n_f, step):
-        part = slice(begin, begin + step)
-        matrices = [element.matrix(part) for element in elements]
-        way = _by_vectors if widest <= _NARROW else _by_lapack
-        forces[:, :, part], growth = way(plan, matrices, compliance[:, part], free)
-        bad = begin + np.flatnonzero(~(growth <= WORST_GROWTH))  # also what is not a number
-        if len(bad):
-            forces[:, :, bad] = _whole(elements, compliance, free, bad)
+    steps: Sequence[Step] = ()
+    if widest <= _NARROW:
+        moving: list[list[int]] = [[] for _ in range(n)]
+        for row, source in np.argwhere(free).tolist():
+            moving[row].append(source)
+        steps = schedule(plan, len(elements), tuple(map(tuple, moving)))
+        at_once = max(_FEWEST, ROOM // numbers_held(steps, [len(rows) for rows in rows_of]))
+    else:
+        at_once = max(16, _FRONT // (n if _is_one(n, plan) else widest) ** 2)
+    n_parts = math.ceil(n_f / at_once)
+    for part in (slice(n_f * i // n_parts, n_f * (i + 1) // n_parts) for i in range(n_parts)):
+        room = workspace()
+        matrices = _matrices(elements, yielding, part, room)
+        if steps:
+            growth = by_vectors(steps, matrices, free, forces[:, :, part], room)
+        elif _is_one(n, plan):
+            forces[:, :, part] = whole(matrices, rows_of, free)
+            continue
+        else:
+            growth = by_lapack(plan, matrices, free, forces[:, :, part])
+        bad = part.start + np.flatnonzero(~(growth <= WORST_GROWTH))  # also what is not a number
+        for some in np.array_split(bad, math.ceil(len(bad) * n**2 / _FRONT)) if len(bad) else ():
+            forces[:, :, some] = whole(_matrices(elements, yielding, some, workspace()), rows_of, free)
     return forces
 
 
-def joinings(rows_of: Sequence[Rows]) -> list[Joining]:
-    """The order in which elements are joined, by their rows alone: narrow fronts first."""
-    live = {key: set(rows.tolist()) for key, rows in enumerate(rows_of)}
-    ordered = {key: rows.tolist() for key, rows in enumerate(rows_of)}
+def _is_one(n: int, plan: Sequence[Joining]) -> bool:
+    """Whether the whole system of n joints costs less than its fronts."""
+    fronts = sum(2 * joining.n_shared * len(joining.rows) ** 2 + _JOINING for joining in plan)
+    return n**3 / 3 < fronts
+
+
+def _slack(elements: Sequence[Element], shape: tuple[int, ...]) -> NDArray[np.float64]:
+    own = np.zeros(shape, dtype=np.complex128)
+    for element in elements:
+        own[element.rows] += element.yielding()
+    slack: NDArray[np.float64] = np.abs(own)
+    slack *= SLACK
+    slack += 1e-200
+    return slack
+
+
+def _matrices(elements: Sequence[Element], yielding: Complex, part: slice | Rows, room: Workspace) -> list[Complex]:
+    """The part of A of every element; that of joints is counted as their first one's."""
+    known: set[int] = set()
+    matrices = []
+    for element in elements:
+        matrix = element.matrix(part, room)
+        new = [i for i, row in enumerate(element.rows.tolist()) if row not in known]
+        if new:
+            rows = element.rows[new]
+            matrix[new, new] += yielding[rows, part] if isinstance(part, slice) else yielding[rows[:, None], part]
+            known.update(rows.tolist())
+        matrices.append(matrix)
+    return matrices
+
+
+@lru_cache(maxsize=16)
+def joinings(rows_of: tuple[tuple[int, ...], ...]) -> tuple[Joining, ...]:
+    """The order in which elements are joined, by their rows alone: narrow fronts first. Remembered, since things that
+    move seldom change what touches what."""
+    live = {key: set(rows) for key, rows in enumerate(rows_of)}
     owners: dict[int, set[int]] = {}
     for key, own in live.items():
         for row in own:
@@ -101,103 +176,31 @@ def joinings(rows_of: Sequence[Rows]) -> list[Joining]:
 
     waiting = list({front for key in live for front in fronts_with(key)})
     heapify(waiting)
-    plan: list[Joining] = []
+    pairs: list[tuple[int, int]] = []
+    rows = dict(live)
     while waiting:
         _, first, second = heappop(waiting)
         if first not in live or second not in live:
             continue
         a, b = live.pop(first), live.pop(second)
-        shared, rest = sorted(a & b), sorted(a ^ b)
-        place = {row: i for i, row in enumerate([*shared, *rest])}
-        at_a, at_b = (np.array([place[row] for row in ordered.pop(part)], dtype=np.intp) for part in (first, second))
-        key = len(rows_of) + len(plan)
-        plan.append(Joining((first, second), np.array([*shared, *rest], dtype=np.intp), len(shared), (at_a, at_b)))
-        live[key], ordered[key] = set(rest), rest
-        for row in rest:
+        key = len(rows_of) + len(pairs)
+        pairs.append((first, second) if len(a) >= len(b) else (second, first))
+        live[key] = rows[key] = a ^ b
+        for row in live[key]:
             owners[row] = (owners[row] - {first, second}) | {key}
         for front in fronts_with(key):
             heappush(waiting, front)
-    return plan
+    return _in_order(pairs, rows)
 
 
-def _by_vectors(
-    plan: Sequence[Joining], matrices: list[Complex], compliance: Complex, free: NDArray[np.float64]
-) -> tuple[Complex, NDArray[np.float64]]:
-    """Forces, and the largest part of a row that was taken from another at each frequency (n_f,)."""
-    n_f = compliance.shape[1]
-    x = np.broadcast_to(free[:, :, None].astype(np.complex128), (*free.shape, n_f)).copy()
-    growth = np.zeros(n_f)
-    widest = max((len(joining.rows) for joining in plan), default=0)
-    space = np.empty((widest, widest, n_f), dtype=np.complex128)  # fresh memory would cost more than the product
-    live = dict(enumerate(matrices))
-    done: list[tuple[int, Rows, Complex, Complex]] = []
-    with np.errstate(all="ignore"):  # a pivot may vanish; growth tells
-        for number, joining in enumerate(plan, start=len(matrices)):
-            rows, n = joining.rows, joining.n_shared
-            front = np.zeros((len(rows), len(rows), n_f), dtype=np.complex128)
-            for part, at in zip(joining.parts, joining.at, strict=True):
-                front[at[:, None], at] += live.pop(part)
-            _yield_more(front, compliance[rows[:n]])
-            for i in range(n):
-                others, pivot, across = rows[i + 1 :], front[i, i], front[i, i + 1 :]
-                scaled = across / pivot
-                change = np.multiply(scaled[:, None], across, out=space[: len(across), : len(across)])
-                front[i + 1 :, i + 1 :] -= change
-                x[others] -= scaled[:, None] * x[rows[i]]
-                growth = np.maximum(growth, np.abs(scaled).max(axis=0, initial=0.0))
-                done.append((int(rows[i]), others, pivot.copy(), scaled))
-            live[number] = front[n:, n:]
-        for row, others, pivot, scaled in reversed(done):
-            x[row] /= pivot
-            x[row] -= (scaled[:, None] * x[others]).sum(axis=0)
-    return x, growth
-
-
-def _by_lapack(
-    plan: Sequence[Joining], matrices: list[Complex], compliance: Complex, free: NDArray[np.float64]
-) -> tuple[Complex, NDArray[np.float64]]:
-    """As `_by_vectors`, with frequencies first: a batch of small matrices."""
-    n_f = compliance.shape[1]
-    x = np.broadcast_to(free.astype(np.complex128), (n_f, *free.shape)).copy()
-    growth = np.zeros(n_f)
-    live = {number: matrix.transpose(2, 0, 1) for number, matrix in enumerate(matrices)}
-    done: list[tuple[Rows, Rows, Complex]] = []
-    with np.errstate(all="ignore"):
-        for number, joining in enumerate(plan, start=len(matrices)):
-            own, others = np.split(joining.rows, [joining.n_shared])
-            front = np.zeros((n_f, len(joining.rows), len(joining.rows)), dtype=np.complex128)
-            for part, at in zip(joining.parts, joining.at, strict=True):
-                front[:, at[:, None], at] += live.pop(part)
-            n = len(own)
-            _yield_more(front.transpose(1, 2, 0), compliance[own])
-            solved = np.linalg.solve(front[:, :n, :n], np.concatenate([front[:, :n, n:], x[:, own]], axis=2))
-            across = np.asarray(solved[:, :, : len(others)], dtype=np.complex128)
-            x[:, own] = solved[:, :, len(others) :]
-            growth = np.maximum(growth, np.abs(across).max(axis=(1, 2), initial=0.0))
-            live[number] = front[:, n:, n:] - front[:, n:, :n] @ across
-            x[:, others] -= front[:, n:, :n] @ x[:, own]
-            done.append((own, others, across))
-        for own, others, across in reversed(done):
-            x[:, own] -= across @ x[:, others]
-    return x.transpose(1, 2, 0), growth
-
-
-def _whole(elements: Sequence[Element], compliance: Complex, free: NDArray[np.float64], at: Rows) -> Complex:
-    """Forces at a few frequencies, by LAPACK and with pivoting."""
-    n = len(compliance)
-    forces = np.empty((n, free.shape[1], len(at)), dtype=np.complex128)
-    matrices = [element.matrix(at) for element in elements]
-    for i, frequency in enumerate(at):
-        system = np.zeros((n, n, 1), dtype=np.complex128)
-        for element, matrix in zip(elements, matrices, strict=True):
-            system[element.rows[:, None], element.rows, 0] += matrix[:, :, i]
-        _yield_more(system, compliance[:, frequency, None])
-        forces[:, :, i] = np.linalg.solve(system[:, :, 0], free)
-    return forces
-
-
-def _yield_more(front: Complex, compliance: Complex) -> None:
-    """Add the compliance of joints (n, n_f) to the diagonal of their rows, the first of a front."""
-    diagonal = np.arange(len(compliance))
-    yielding = front[diagonal, diagonal]
-    front[diagonal, diagonal] = yielding + compliance + (_SLACK * np.abs(yielding) + 1e-200)
+def _in_order(pairs: Sequence[tuple[int, int]], rows: Mapping[int, set[int]]) -> tuple[Joining, ...]:
+    """Joinings whose rows are in the order in which they are eliminated, so that those that remain are the last."""
+    shared = [sorted(rows[a] & rows[b]) for a, b in pairs]
+    order = {row: i for i, row in enumerate(row for several in shared for row in several)}
+    plan = []
+    for (a, b), several in zip(pairs, shared, strict=True):
+        both = sorted(rows[a] | rows[b], key=order.__getitem__)
+        place = {row: i for i, row in enumerate(both)}
+        at_a, at_b = (np.array(sorted(place[row] for row in rows[part]), dtype=np.intp) for part in (a, b))
+        plan.append(Joining((a, b), np.array(both, dtype=np.intp), len(several), (at_a, at_b)))
+    return tuple(plan)

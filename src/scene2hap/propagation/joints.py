@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
-
-import numpy as np
+from functools import cache, lru_cache
 
 from scene2hap.materials import Material
 from scene2hap.propagation.contact_law import ContactLaw
 from scene2hap.propagation.coupling import Joint
-from scene2hap.propagation.protocol import ContactNetwork
+from scene2hap.propagation.protocol import Body, ContactNetwork
+from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import Contact
 
 SAME_POINT_M = 1e-6
@@ -35,15 +35,18 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
         for object_id in pair:
             touching[object_id] += contacts
     places = {
-        object_id: iter(network.on_body(object_id, [one.point_m for one in contacts]).tolist())
+        object_id: iter(_on_body(network, object_id, tuple([one.point_m for one in contacts])))
         for object_id, contacts in touching.items()
     }
+    stiffness = cache(law.stiffness)  # of few kinds
     joints: list[Joint] = []
     for (a, b), contacts in pairs.items():
         materials = (_material(network, a), _material(network, b))
-        joints += _merged(
-            _joint(a, b, next(places[a]), next(places[b]), contact, materials, law) for contact in contacts
-        )
+        found = []
+        for contact in contacts:
+            k, loss = stiffness(*materials, contact.area_m2)
+            found.append(Joint(a, b, next(places[a]), next(places[b]), contact.weight * k, loss))
+        joints += _merged(found)
     joints.sort(key=lambda joint: (joint.a, joint.b))
     return joints
 
@@ -71,25 +74,30 @@ def reached(joints: Sequence[Joint], source_ids: Iterable[str]) -> list[tuple[li
     return groups
 
 
-def _joint(
-    a: str,
-    b: str,
-    at_a: Sequence[float],
-    at_b: Sequence[float],
-    contact: Contact,
-    materials: tuple[Material | None, Material | None],
-    law: ContactLaw,
-) -> Joint:
-    stiffness, loss = law.stiffness(*materials, contact.area_m2)
-    return Joint(a, b, (at_a[0], at_a[1]), (at_b[0], at_b[1]), contact.weight * stiffness, loss)
+@lru_cache(maxsize=4096)
+def _remembered(
+    body: Body | None, pose: Pose | None, points_m: tuple[tuple[float, float, float], ...]
+) -> tuple[tuple[float, float], ...]:
+    network = ContactNetwork({} if body is None else {"": body}, (), {} if pose is None else {"": pose})
+    return tuple([(x, y) for x, y in network.on_body("", points_m).tolist()])
 
 
-def _merged(joints: Iterable[Joint]) -> list[Joint]:
+def _on_body(
+    network: ContactNetwork, object_id: str, points_m: tuple[tuple[float, float, float], ...]
+) -> tuple[tuple[float, float], ...]:
+    """As `ContactNetwork.on_body`; most things stay where they were."""
+    return _remembered(network.bodies.get(object_id), network.poses.get(object_id), points_m)
+
+
+def _merged(joints: Sequence[Joint]) -> list[Joint]:
+    if len(joints) == 1:
+        return list(joints)
     kept: list[Joint] = []
     for joint in joints:
+        own = (*joint.point_a_m, *joint.point_b_m)
         for i, other in enumerate(kept):
-            apart = np.subtract((*joint.point_a_m, *joint.point_b_m), (*other.point_a_m, *other.point_b_m))
-            if np.abs(apart).max() <= SAME_POINT_M:
+            apart = zip(own, (*other.point_a_m, *other.point_b_m), strict=True)
+            if all(abs(one - two) <= SAME_POINT_M for one, two in apart):
                 kept[i] = replace(other, stiffness_n_m=other.stiffness_n_m + joint.stiffness_n_m)
                 break
         else:

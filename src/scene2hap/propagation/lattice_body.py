@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from scene2hap.propagation.lattice_modes import TERMS, lattice_modes
 from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.reached import Response
 from scene2hap.propagation.recall import Recall
 
 
@@ -45,6 +46,21 @@ class LatticeBody:
         terms = np.concatenate([resonant, (look @ stiffer).reshape(*resonant.shape[:2], TERMS)], axis=2)
         flat = terms.reshape(-1, terms.shape[2]) @ self._spectra(frequencies_hz)
         return flat.view(np.complex128).reshape(*terms.shape[:2], -1).transpose(2, 0, 1)
+
+    def under(
+        self, forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]
+    ) -> Response:
+        """See `Foldable`."""
+        shares, stiffer = self._from_forces(forces_m)
+        spectrum, n = self._spectra(frequencies_hz).view(np.complex128), shares.shape[1]
+        summed = self.modes.shapes @ (spectrum[:n] * (shares.T @ forces))
+        summed += stiffer @ (forces[:, None] * spectrum[n:]).reshape(-1, forces.shape[1])
+
+        def response(points_m: NDArray[np.float64]) -> NDArray[np.complex128]:
+            answer: NDArray[np.complex128] = np.asarray(self.modes.lattice.interpolation(points_m) @ summed)
+            return answer
+
+        return response
 
     def _pushed(self, forces_m: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Share of every mode in every force (n_forces, n_modes); the series at the nodes (n_nodes, n_forces TERMS)."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -12,10 +13,14 @@ from scene2hap.propagation.infinite_plate import InfiniteBody
 from scene2hap.propagation.modes import FINE, MARGIN, Fineness, largest_block
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.plate_terms import PlateTerms
+from scene2hap.propagation.reached import Response, folded
 from scene2hap.propagation.recall import Recall
 
 MOST_FUNCTIONS = 1100
 """Size of the largest eigenproblem for a scene, some 0.4 s: a hundred modes without symmetry, four hundred with."""
+MOST_REMEMBERED = 65_536
+"""Complex numbers of a receptance among contacts that is remembered, 1 MB: things that stay where they are need not be
+summed again when others move."""
 NO_RETURN = 3.0
 """A wave that has fallen by this exponent (26 dB), exp(-eta k L / 4) on a way of the shorter side L, meets no edge
 that matters."""
@@ -63,6 +68,21 @@ class SplitBody:
         answer[~is_low] = self.above.receptance(points_m, forces_m, frequencies_hz[~is_low])
         return answer
 
+    def under(
+        self, forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]
+    ) -> Response:
+        """See `Foldable`."""
+        is_low = frequencies_hz <= self.limit_hz
+        low = folded(self.below, forces_m, frequencies_hz[is_low], forces[:, is_low])
+        high = folded(self.above, forces_m, frequencies_hz[~is_low], forces[:, ~is_low])
+
+        def response(points_m: NDArray[np.float64]) -> NDArray[np.complex128]:
+            answer = np.empty((len(points_m), len(is_low)), dtype=np.complex128)
+            answer[:, is_low], answer[:, ~is_low] = low(points_m), high(points_m)
+            return answer
+
+        return response
+
 
 class ModalBody:
     """An `ElasticBody` by modes, for frequencies up to `max_frequency_hz`."""
@@ -73,26 +93,49 @@ class ModalBody:
         self.terms = PlateTerms(plate, max_frequency_hz, fineness)
         self._at_forces = Recall(self.terms.of_forces)
         self._among_forces = Recall(self._symmetric)
-        self._spectra = Recall(self._spectrum, room=4)
+        self._coupled = Recall(self._between, room=2)
+        self._sums = Recall(lambda frequencies_hz: self.terms.sums(*self._damped(frequencies_hz)), room=4)
 
     def receptance(
         self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
     ) -> NDArray[np.complex128]:
         """See `ElasticBody`."""
-        terms = self._among_forces(forces_m) if points_m is forces_m else self._at_forces(forces_m)(points_m)
+        if points_m is not forces_m:
+            return self._summed(self._at_forces(forces_m)(points_m), frequencies_hz)
+        if len(points_m) ** 2 * len(frequencies_hz) <= MOST_REMEMBERED:
+            return self._coupled(points_m, frequencies_hz)
+        return self._between(points_m, frequencies_hz)
+
+    def pieces(
+        self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
+    ) -> Iterator[tuple[slice, NDArray[np.complex128]]]:
+        """See `Piecewise`."""
+        terms = self._at_forces(forces_m)(points_m)
+        for part, sums in self._sums(frequencies_hz).pieces(terms.reshape(-1, terms.shape[2])):
+            yield part, sums.T.copy().reshape(-1, *terms.shape[:2])
+
+    def under(
+        self, forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]
+    ) -> Response:
+        """See `Foldable`."""
+        q, scale = self._damped(frequencies_hz)
+        response = self._at_forces(forces_m).under(self.terms.spectrum(q) * scale, forces)
+        return lambda points_m: response(points_m).view(np.complex128)
+
+    def _between(self, points_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]) -> NDArray[np.complex128]:
+        return self._summed(self._among_forces(points_m), frequencies_hz)
+
+    def _summed(self, terms: NDArray[np.float64], frequencies_hz: NDArray[np.float64]) -> NDArray[np.complex128]:
         n_points, n_forces, n_terms = terms.shape
-        flat = (terms.reshape(-1, n_terms) @ self._spectra(frequencies_hz)).view(np.complex128)
-        return flat.reshape(n_points, n_forces, -1).transpose(2, 0, 1)
+        flat: NDArray[np.complex128] = self._sums(frequencies_hz)(terms.reshape(-1, n_terms))
+        return flat.reshape(n_points, n_forces, len(frequencies_hz)).transpose(2, 0, 1)
 
     def _symmetric(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
         terms = self._at_forces(points_m)(points_m)
         return (terms + terms.transpose(1, 0, 2)) / 2  # to the last bit, which rounding is not
 
-    def _spectrum(self, frequencies_hz: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Real and imaginary part, by turns, of each term at each frequency (n_terms, 2 n_frequencies) [m^2/N]."""
+    def _damped(self, frequencies_hz: NDArray[np.float64]) -> tuple[NDArray[np.complex128], complex]:
+        """q (n_frequencies,) [m^-4], and 1 / D_c [1/(N m)]."""
         loss = complex(1, self.loss_factor)
         q: NDArray[np.complex128] = (self.plate.wavenumber_rad_m(frequencies_hz) ** 4 / loss).astype(np.complex128)
-        spectrum = self.terms.spectrum(q)
-        spectrum /= self.plate.bending_stiffness_nm * loss
-        real: NDArray[np.float64] = spectrum.view(np.float64)
-        return real
+        return q, 1 / (self.plate.bending_stiffness_nm * loss)

@@ -15,6 +15,7 @@ Letters: D [N m], k [rad/m], K [rad/m] cut-off of the basis, r [m], c complex.
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 from typing import TypeVar
 
@@ -60,7 +61,8 @@ class NearField:
         r = np.hypot(points_m[:, :1, None] - self._x, points_m[:, 1:, None] - self._y)
         share = np.interp(np.sqrt(cut2)[:, :, None] * r, *_table(), right=0.0) @ self._weights
         near: NDArray[Number] = np.arctanh(k2 / cut2[:, :, None])
-        near *= share[:, :, None] / (4 * np.pi * k2)
+        near *= share[:, :, None]
+        near /= 4 * np.pi * k2
         return near
 
 
@@ -84,21 +86,26 @@ def cutoff_squared(modes: PlateModes, points_m: NDArray[np.float64]) -> NDArray[
 
     Parameters: points_m : (n_points, 2) [m]. Returns: (n_points,) float64 [m^-2], very large at the edges.
     """
-    size, per_size = _extent(modes.plate, modes.terms)
-    xi = np.clip(2 * points_m / size - 1, -1.0, 1.0)
-    kx, ky = (per_size / np.sqrt(np.maximum(1 - xi**2, 1e-30))).T
-    corner = np.arctan2(ky, kx)
-    half = np.sin(2 * corner) / 2
-    squared: NDArray[np.float64] = np.pi / ((corner + half) / kx**2 + (np.pi / 2 - corner + half) / ky**2)
-    return squared
+    extent = _extent(modes.plate, modes.terms)
+    return np.array([_cutoff_squared(x, y, *extent) for x, y in points_m.tolist()])
+
+
+def _cutoff_squared(x_m: float, y_m: float, per_length: float, per_width: float, kx: float, ky: float) -> float:
+    # One number at a time: a hand asks for one point, where an array costs as much as ten points do.
+    xi, eta = x_m * per_length - 1, y_m * per_width - 1
+    kx /= math.sqrt(max(1 - xi * xi, 1e-30))
+    ky /= math.sqrt(max(1 - eta * eta, 1e-30))
+    corner, half = math.atan2(ky, kx), kx * ky / (kx * kx + ky * ky)
+    return math.pi / ((corner + half) / (kx * kx) + (math.pi / 2 - corner + half) / (ky * ky))
 
 
 @lru_cache(maxsize=1024)
-def _extent(plate: Plate, terms: tuple[int, int]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Length and width (2,) [m], and what waves a basis of so many terms follows in the middle of each (2,) [rad/m]."""
-    size = np.array([plate.length_m, plate.width_m])
-    held = np.array([sum("FSC".index(edge) for edge in pair) for pair in (plate.edges[:2], plate.edges[2:])])
-    return size, (np.array(terms) + held - 2) * 2 / size
+def _extent(plate: Plate, terms: tuple[int, int]) -> tuple[float, float, float, float]:
+    """2 over length and width [1/m], and what waves a basis of so many terms follows in the middle of each [rad/m]."""
+    along, across = (sum("FSC".index(edge) for edge in pair) for pair in (plate.edges[:2], plate.edges[2:]))
+    per_length, per_width = 2 / plate.length_m, 2 / plate.width_m
+    kx, ky = (terms[0] + along - 2) * per_length, (terms[1] + across - 2) * per_width
+    return per_length, per_width, kx, ky
 
 
 def beyond_cutoff(a: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from itertools import pairwise, product
 
 import numpy as np
@@ -23,6 +24,7 @@ from numpy.typing import NDArray
 
 from scene2hap.propagation.modes import FINE, MARGIN, Fineness, modes_up_to
 from scene2hap.propagation.near_field import NearField
+from scene2hap.propagation.octaves import OctaveSums
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.ritz import axis_basis
 
@@ -31,55 +33,121 @@ N_NODES = 4
 Floats = NDArray[np.float64]
 
 
+@dataclass(frozen=True, eq=False)
+class Pushed:
+    """A plate under forces at given points.
+
+    modes : (n_products, n_modes), phi : (n_forces, n_modes) shapes, in cosines and at the forces; rest : (n_products,
+    n_forces N_NODES), what is stiffer; near : what lies beyond the basis; k2 : (N_NODES,) [m^-2].
+    """
+
+    plate: PlateTerms
+    modes: Floats
+    phi: Floats
+    rest: Floats
+    near: NearField
+    k2: Floats
+
+    def __call__(self, points_m: Floats) -> Floats:
+        """The shape of each term at points (n_points, 2) [m], per force (n_points, n_forces, n_terms)."""
+        (n_forces, n_modes), n_points = self.phi.shape, len(points_m)
+        cosines = self.plate.cosines(points_m)
+        terms = np.empty((n_points, n_forces, n_modes + N_NODES))
+        np.multiply((cosines @ self.modes)[:, None], self.phi, out=terms[:, :, :n_modes])
+        rest = (cosines @ self.rest).reshape(n_points, n_forces, N_NODES)
+        np.add(rest, self.near(points_m, self.k2), out=terms[:, :, n_modes:])
+        return terms
+
+    def under(self, spectrum: NDArray[np.complex128], forces: NDArray[np.complex128]) -> Callable[[Floats], Floats]:
+        """Sum over all forces at few frequencies, thought out but for the point.
+
+        Parameters: spectrum : (n_terms, n_f), forces : (n_forces, n_f). Returns: a function from points (n_points, 2)
+        [m] to real and imaginary part, by turns (n_points, 2 n_f).
+        """
+        n_modes, n_f = self.phi.shape[1], forces.shape[1]
+        modal = self.modes @ (spectrum[:n_modes] * (self.phi.T @ forces))
+        by_node = (forces[:, None] * spectrum[n_modes:]).reshape(len(forces) * N_NODES, n_f)
+        smooth = np.ascontiguousarray(modal + self.rest @ by_node).view(np.float64)
+        beyond = by_node.view(np.float64)
+
+        def response(points_m: Floats) -> Floats:
+            near = self.near(points_m, self.k2).reshape(len(points_m), len(beyond))
+            found: Floats = self.plate.cosines(points_m) @ smooth
+            found += near @ beyond
+            return found
+
+        return response
+
+
 class PlateTerms:
     """The terms of one plate, for frequencies up to `max_frequency_hz`: first its modes, then the rest."""
 
     def __init__(self, plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> None:
         self.modes = modes_up_to(plate, MARGIN * max_frequency_hz, fineness)
-        k4 = float(plate.wavenumber_rad_m(max_frequency_hz)) ** 4
-        self._nodes = k4 / 2 * (1 - np.cos(np.pi * (np.arange(N_NODES) + 0.5) / N_NODES))
+        top = float(plate.wavenumber_rad_m(max_frequency_hz)) ** 4
+        self._nodes = top / 2 * (1 - np.cos(np.pi * (np.arange(N_NODES) + 0.5) / N_NODES))
         n_x, n_y = self.modes.terms
-        self._x = axis_basis(plate.edges[:2], plate.length_m, n_x)
-        self._y = axis_basis(plate.edges[2:], plate.width_m, n_y)
-        self._k4 = np.concatenate([block.k4 for block in self.modes.blocks])
-        self._phi = self._spread([block.vectors for block in self.modes.blocks])
+        self._axes = (
+            axis_basis(plate.edges[:2], plate.length_m, n_x),
+            axis_basis(plate.edges[2:], plate.width_m, n_y),
+        )
+        self._per_size = 2 / np.array([plate.length_m, plate.width_m])
+        self._orders = np.arange(max(len(axis.family.chebyshev) for axis in self._axes))
+        k4 = np.concatenate([block.k4 for block in self.modes.blocks])
+        order = np.argsort(k4, kind="stable")
+        self._k4 = k4[order]
+        self._phi = self._in_cosines(self._spread([block.vectors for block in self.modes.blocks])[:, order])
+
+    @property
+    def n_modes(self) -> int:
+        """How many of the terms are modes; `N_NODES` follow them."""
+        return len(self._k4)
 
     def spectrum(self, q: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Each term at each frequency (n_terms, n_frequencies): 1 / (k_n^4 - q) [m^4], then l_i(q) [-]."""
+        return np.concatenate([1 / (self._k4[:, None] - q), self._between(q)])
+
+    def sums(self, q: NDArray[np.complex128], scale: complex) -> OctaveSums:
+        """What adds up terms at many frequencies, times `scale`."""
+        return OctaveSums(self._k4, self._between(q), q, scale)
+
+    def _between(self, q: NDArray[np.complex128]) -> NDArray[np.complex128]:
         apart = self._nodes[:, None] - self._nodes
         is_other = apart != 0
         factors = (q - self._nodes[:, None]) / np.where(is_other, apart, 1.0)[:, :, None]
-        between = np.where(is_other[:, :, None], factors, 1.0).prod(axis=1)
-        return np.concatenate([1 / (self._k4[:, None] - q), between])
+        between: NDArray[np.complex128] = np.where(is_other[:, :, None], factors, 1.0).prod(axis=1)
+        return between
 
-    def of_forces(self, forces_m: Floats) -> Callable[[Floats], Floats]:
-        """What forces at points (n_forces, 2) [m] do: the shape of each term at other points.
-
-        Returns: a function from points (n_points, 2) [m] to (n_points, n_forces, n_terms).
-        """
-        near = NearField(self.modes, forces_m)
-        basis_at_forces = self._basis(forces_m)
-        phi = basis_at_forces @ self._phi
-        by_axes = basis_at_forces.reshape(-1, *self.modes.terms)
+    def of_forces(self, forces_m: Floats) -> Pushed:
+        """What forces at points (n_forces, 2) [m] do."""
+        phi = self.cosines(forces_m) @ self._phi
+        by_axes = self._basis(forces_m).reshape(-1, *self.modes.terms)
         stiff = []
         for block, (along, across) in zip(self.modes.blocks, self._places(), strict=True):
             forces = by_axes[:, along, across].reshape(len(forces_m), -1).T
             stiff.append(block.beyond(forces, self._nodes).reshape(forces.shape[0], -1))
-        # One column per force and node: how the rest of the spectrum answers to it, in the basis.
-        rest = self._spread(stiff, side_by_side=False)
-        k2 = np.sqrt(self._nodes)
+        # One column per force and node: how the rest of the spectrum answers to it.
+        rest = self._in_cosines(self._spread(stiff, side_by_side=False))
+        return Pushed(self, self._phi, phi, rest, NearField(self.modes, forces_m), np.sqrt(self._nodes))
 
-        def terms(points_m: Floats) -> Floats:
-            basis = self._basis(points_m)
-            resonant = (basis @ self._phi)[:, None] * phi
-            static = (basis @ rest).reshape(len(points_m), len(forces_m), N_NODES) + near(points_m, k2)
-            return np.concatenate([resonant, static], axis=2)
+    def cosines(self, points_m: Floats) -> Floats:
+        """Products of Chebyshev polynomials of both axes at points (n_points, n_products), as cosines."""
+        angles = np.arccos(np.clip(points_m * self._per_size - 1, -1.0, 1.0))
+        values = np.cos(angles[:, :, None] * self._orders)
+        n_x, n_y = (len(axis.family.chebyshev) for axis in self._axes)
+        return (values[:, 0, :n_x, None] * values[:, 1, None, :n_y]).reshape(len(points_m), -1)
 
-        return terms
+    def _in_cosines(self, columns: Floats) -> Floats:
+        """Columns told in products of the axes' functions, told in those of `cosines`: a hand asks for one point at a
+        time, and few calls take less time than few products."""
+        x, y = (axis.family.chebyshev * math.sqrt(2 / axis.length_m) for axis in self._axes)
+        along = x @ columns.reshape(x.shape[1], -1)
+        both = y @ along.reshape(len(x), y.shape[1], -1)
+        return both.reshape(len(x) * len(y), -1 if both.size else columns.shape[1])
 
     def _basis(self, points_m: Floats) -> Floats:
         """All products of the two axes' functions at points (n_points, n_x n_y) [1/m]."""
-        x, y = self._x.values(points_m[:, 0]), self._y.values(points_m[:, 1])
+        x, y = (axis.values(at) for axis, at in zip(self._axes, points_m.T, strict=True))
         return (x[:, :, None] * y[:, None, :]).reshape(len(points_m), -1)
 
     def _spread(self, by_block: list[Floats], *, side_by_side: bool = True) -> Floats:

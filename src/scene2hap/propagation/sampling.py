@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,36 +51,37 @@ class Sampling:
         if bands.kind == "dominant":
             own = np.array([item.frequency_tactile_hz for item in excitations])
             return cls(own, None, np.ones(len(own)))
-        low, high = bands.widths_hz().T
-        wanted = np.ceil(density * (high - low) / (SPACING * max(loss_factor, 1e-300) * low))
-        if wanted.sum() > MOST:
-            raise ModelDomainError(
-                f"a loss factor of {loss_factor:.3g} takes {wanted.sum():.3g} frequencies to resolve its resonances in "
-                f"these bands; at most {MOST:,} are solved. Give a loss_floor (0.01 suits assembled objects) or "
-                "Bands.dominant()."
-            )
-        counts = np.maximum(wanted, np.ceil(LEAST * density)).astype(np.intp)
-        middles = [
-            begin + (end - begin) * (np.arange(n) + 0.5) / n for begin, end, n in zip(low, high, counts, strict=True)
-        ]
-        weights = [np.concatenate([END_WEIGHTS, np.ones(n - 6), END_WEIGHTS[::-1]]) / n for n in counts]
-        starts = np.concatenate([[0], np.cumsum(counts)[:-1]]).astype(np.intp)
-        return cls(np.concatenate(middles), starts, np.concatenate(weights))
+        return _of_bands(bands, loss_factor, density)
 
     def columns(self, sources: NDArray[np.intp]) -> NDArray[np.intp] | None:
         """Which frequency is that of each source (n_sources,), None if all are everyone's."""
         return sources if self.starts is None else None
 
     def gains(self, response: NDArray[np.complex128]) -> NDArray[np.float64]:
-        """Rms over each band (..., n_bands) of a response (..., n_frequencies)."""
+        """Rms over each band (n_bands, ...) of a response (n_frequencies, ...)."""
         if self.starts is None:
             raise ValueError("one frequency per source makes no bands")
-        # Real and imaginary parts by turns, so that neither has to be picked out.
-        squares = np.square(np.ascontiguousarray(response).view(np.float64))
-        squares *= self._weights_twice
-        gains: NDArray[np.float64] = np.sqrt(np.add.reduceat(squares, 2 * self.starts, axis=-1))
+        squares = np.square(response.real)
+        squares += np.square(response.imag)
+        squares *= self.weights.reshape(-1, *[1] * (squares.ndim - 1))
+        gains: NDArray[np.float64] = np.sqrt(np.add.reduceat(squares, self.starts, axis=0))
         return gains
 
-    @cached_property
-    def _weights_twice(self) -> NDArray[np.float64]:
-        return np.repeat(self.weights, 2)
+
+@lru_cache(maxsize=16)
+def _of_bands(bands: Bands, loss_factor: float, density: float) -> Sampling:
+    low, high = bands.widths_hz().T
+    wanted = np.ceil(density * (high - low) / (SPACING * max(loss_factor, 1e-300) * low))
+    if wanted.sum() > MOST:
+        raise ModelDomainError(
+            f"a loss factor of {loss_factor:.3g} takes {wanted.sum():.3g} frequencies to resolve its resonances in "
+            f"these bands; at most {MOST:,} are solved. Give a loss_floor (0.01 suits assembled objects) or "
+            "Bands.dominant()."
+        )
+    counts = np.maximum(wanted, np.ceil(LEAST * density)).astype(np.intp)
+    middles = [
+        begin + (end - begin) * (np.arange(n) + 0.5) / n for begin, end, n in zip(low, high, counts, strict=True)
+    ]
+    weights = [np.concatenate([END_WEIGHTS, np.ones(n - 6), END_WEIGHTS[::-1]]) / n for n in counts]
+    starts = np.concatenate([[0], np.cumsum(counts)[:-1]]).astype(np.intp)
+    return Sampling(np.concatenate(middles), starts, np.concatenate(weights))

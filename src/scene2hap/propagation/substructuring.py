@@ -12,7 +12,7 @@ Compact bodies move as a whole; so does every source. Objects that no source can
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -21,12 +21,13 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.contact_law import ContactLaw
-from scene2hap.propagation.coupling import ElasticBody, Joint, couple, ends_of
+from scene2hap.propagation.coupling import ElasticBody, Joint, couple
 from scene2hap.propagation.domain import OutsideDomain, check_thin
 from scene2hap.propagation.joints import joints_of, reached
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
+from scene2hap.propagation.reached import Reached
 from scene2hap.propagation.rigid import RigidMotion, is_compact
 from scene2hap.propagation.sampling import Sampling
 
@@ -128,47 +129,8 @@ def _solved(
     if own is not None:
         forces = np.take_along_axis(forces, own[None, :, None], axis=2)[:, :, 0]
     return {
-        x: Reached(bodies[x], np.array(at), np.array(rows), np.array(signs), forces, columns)
-        for x, (at, rows, signs) in ends_of(joints).items()
+        x: Reached(bodies[x], ends.points_m, ends.rows, ends.signs, forces, columns) for x, ends in solved.ends.items()
     }
-
-
-@dataclass(eq=False)
-class Reached:
-    """An object that some sources reach.
-
-    points_m : (n_joints, 2) [m]; rows, signs : (n_joints,) where its joints are in the forces of its group and which
-    way they pull; forces : (n_all_joints, n_sources, n_frequencies), or without the last axis, each source at its own
-    frequency [N/m]; columns : (n_sources,) which of all sources these are.
-    """
-
-    body: ElasticBody
-    points_m: NDArray[np.float64]
-    rows: NDArray[np.intp]
-    signs: NDArray[np.float64]
-    forces: NDArray[np.complex128]
-    columns: NDArray[np.intp]
-    _own: NDArray[np.complex128] | None = field(default=None, repr=False)
-
-    @property
-    def own_forces(self) -> NDArray[np.complex128]:
-        """Forces that act on this object at its joints; taken out of its group's when first asked for."""
-        if self._own is None:
-            signs = self.signs.reshape(-1, *[1] * (self.forces.ndim - 1))
-            self._own = np.ascontiguousarray(-signs * self.forces[self.rows])
-        return self._own
-
-    def gains(self, points_m: NDArray[np.float64], sampling: Sampling) -> NDArray[np.float64]:
-        """Gains (n_points, n_sources, n_bands) [-] at points (n_points, 2) [m]."""
-        receptance = self.body.receptance(points_m, self.points_m, sampling.frequencies_hz).transpose(1, 2, 0)
-        own = sampling.columns(self.columns)
-        if own is not None:
-            moved: NDArray[np.complex128] = np.einsum("pcs,cs->ps", receptance[:, :, own], self.own_forces)
-            magnitudes: NDArray[np.float64] = np.abs(moved)[:, :, None]
-            return magnitudes
-        # Not einsum, which is four times slower with complex numbers.
-        moved = (receptance[:, :, None] * self.own_forces).sum(axis=1)
-        return sampling.gains(moved)
 
 
 @dataclass(frozen=True, eq=False)

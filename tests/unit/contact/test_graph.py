@@ -139,9 +139,9 @@ def test_what_does_not_move_is_not_looked_at(monkeypatch: pytest.MonkeyPatch) ->
         met.append({self.a.id, self.b.id})
         return near(self, *args, **kwargs)  # type: ignore[arg-type]
 
-    def tied(a: Body, b: Body, infers: bool) -> finder.Tie:
+    def tied(a: Body, b: Body) -> finder.Tie:
         met.append({a.id, b.id})
-        return tie(a, b, infers)
+        return tie(a, b)
 
     monkeypatch.setattr(narrow.Meeting, "near", watched)
     monkeypatch.setattr(finder.Tie, "between", tied)

@@ -31,7 +31,7 @@ def test_a_block_falls_onto_another_as_its_triangles_do(
     upper = block("upper", (0.3, 0.1, 0.2), (at[0], 0.25 + gap, at[1]), turn_x)
     rest = rest_on(upper, lower)
     assert rest is not None
-    told = falls(Meeting(upper, lower), upper)
+    told = falls(Meeting(upper, lower), upper, lower)
     least = math.inf if told is None else float(told.min())
     # Rims that overlap by a tenth of a millimetre may or may not count.
     if math.isinf(rest.fall_m) != math.isinf(least):

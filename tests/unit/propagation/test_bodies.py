@@ -87,8 +87,8 @@ def test_frequencies_of_bands() -> None:
         assert low < inside.min() < inside.max() < high
         assert np.diff(inside).max() <= 0.55 * 0.01 * low * (1 + 1e-9)
         assert inside.mean() == pytest.approx((low + high) / 2)
-    flat = sampling.gains(np.full((2, len(sampling.frequencies_hz)), 0.6 + 0.8j))
-    np.testing.assert_allclose(flat, np.ones((2, 20)))
+    flat = sampling.gains(np.full((len(sampling.frequencies_hz), 2), 0.6 + 0.8j))
+    np.testing.assert_allclose(flat, np.ones((20, 2)))
     assert len(Sampling.of(bands, source, math.inf).frequencies_hz) == 20 * 8
     assert Sampling.of(Bands.dominant(), source, 0.01).frequencies_hz.tolist() == [44.0, 55.0]
 

@@ -5,6 +5,7 @@ import pytest
 
 from scene2hap.propagation import elimination
 from scene2hap.propagation.elimination import Element, joinings, solve
+from scene2hap.propagation.workspace import ROOM, workspace
 
 N_F = 40
 
@@ -25,7 +26,7 @@ def whole(elements: list[Element], compliance: np.ndarray, free: np.ndarray) -> 
     n = len(compliance)
     system = np.zeros((N_F, n, n), dtype=np.complex128)
     for element in elements:
-        system[:, element.rows[:, None], element.rows] += element.matrix(slice(None)).transpose(2, 0, 1)
+        system[:, element.rows[:, None], element.rows] += element.matrix(slice(None), workspace()).transpose(2, 0, 1)
     system[:, np.arange(n), np.arange(n)] += compliance.T
     return np.linalg.solve(system, np.broadcast_to(free, (N_F, *free.shape)))
 
@@ -74,8 +75,43 @@ def test_every_joint_is_eliminated_once_and_fronts_stay_narrow() -> None:
     pairs = [(1 + i // 5, 9 + i) for i in range(40) for _ in range(4)] + [
         (0, 1 + i) for i in range(8) for _ in range(4)
     ]
-    rows_of = [np.array([row for row, pair in enumerate(pairs) if body in pair]) for body in range(49)]
+    rows_of = tuple(tuple(row for row, pair in enumerate(pairs) if body in pair) for body in range(49))
     plan = joinings(rows_of)
     eliminated = [row for joining in plan for row in joining.rows[: joining.n_shared].tolist()]
     assert sorted(eliminated) == list(range(len(pairs)))
     assert max(len(joining.rows) for joining in plan) <= 32
+
+
+@pytest.mark.parametrize("shape", PAIRS)
+def test_sources_that_move_some_rows_only(shape: str) -> None:
+    """Fronts carry the columns of sources among their bodies alone; answers know nothing of it."""
+    rng = np.random.default_rng(7)
+    pairs = PAIRS[shape]
+    elements, n = room(rng, pairs), len(pairs)
+    compliance = 4 + rng.normal(size=(n, N_F)) + 1j * rng.normal(size=(n, N_F))
+    free = np.zeros((n, 4))  # the last moves nothing
+    for column, body in enumerate((0, pairs[-1][1], pairs[n // 2][0])):
+        free[elements[body].rows, column] = elements[body].signs
+    expected = whole(elements, compliance, free)
+    found = solve(elements, compliance, free).transpose(2, 0, 1)
+    assert (np.abs(found - expected) <= 1e-9 * np.abs(expected).max(axis=(1, 2), keepdims=True)).all()
+    assert not found[:, :, 3].any()
+
+
+def test_answers_do_not_depend_on_how_many_frequencies_are_solved_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(2)
+    elements = room(rng, PAIRS["ring"])
+    compliance = 4 + rng.normal(size=(9, N_F)) + 1j * rng.normal(size=(9, N_F))
+    free = np.sign(rng.normal(size=(9, 2)))
+    at_once = solve(elements, compliance, free)
+    monkeypatch.setattr(elimination, "ROOM", 1)
+    monkeypatch.setattr(elimination, "_FEWEST", 7)
+    np.testing.assert_allclose(solve(elements, compliance, free), at_once, rtol=1e-12)
+
+
+def test_memory_is_given_out_again_and_never_twice() -> None:
+    room_ = workspace()
+    first, second = room_.array(3, 4), room_.array(5)
+    assert not np.shares_memory(first, second)
+    assert room_.array(ROOM).size == ROOM  # of its own
+    assert np.shares_memory(workspace().array(12), first)

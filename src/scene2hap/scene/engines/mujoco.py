@@ -18,7 +18,7 @@ skins are left out. Nothing here steps or changes the simulation.
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -35,7 +35,7 @@ from scene2hap.scene.engines.mjcf_files import check_files
 from scene2hap.scene.engines.mujoco_geoms import GeomReader, authored_pose, colours_rgba
 from scene2hap.scene.engines.objects import ObjectMaker
 from scene2hap.scene.grouping import Group, group_objects, unique_ids
-from scene2hap.scene.pose import Pose
+from scene2hap.scene.pose_table import PoseTable
 from scene2hap.scene.snapshot import Contact, SceneSnapshot, with_relative_heights
 from scene2hap.scene.tree import AuthoredNode, Piece
 
@@ -74,7 +74,7 @@ def snapshot(
     placed = _poses(model, data, items, unit_m)
     reader, maker = GeomReader(model), ObjectMaker("z", unit_m)
     objects = []
-    for item in items:
+    for item in items.all:
         group = _group(mujoco, model, item, tuple(map(reader.piece, item.geoms)))
         label = group.name or _name_of_geoms(mujoco, model, item) or item.id
         objects.append(maker.make(item.id, label, group, placed[item.id]))
@@ -86,7 +86,7 @@ def snapshot(
     return SceneSnapshot(title, "z", with_relative_heights(objects, "z"), told)
 
 
-def poses(model: Any, data: Any, *, geom_groups: Collection[int] | None = None, unit_m: float = 1.0) -> dict[str, Pose]:
+def poses(model: Any, data: Any, *, geom_groups: Collection[int] | None = None, unit_m: float = 1.0) -> PoseTable:
     """Where every object of the last `snapshot` with the same arguments is now, for `HapticSession.update`."""
     return _poses(model, data, _layout(_engine(model, data), model, geom_groups), unit_m)
 
@@ -144,17 +144,27 @@ class _Item:
     geoms: tuple[int, ...]
 
 
-_layouts: WeakKeyDictionary[Any, dict[frozenset[int] | None, list[_Item]]] = WeakKeyDictionary()
+class _Items:
+    """All objects to be, and how their poses are read."""
+
+    def __init__(self, items: Sequence[_Item]) -> None:
+        self.all = tuple(items)
+        self.ids = tuple(item.id for item in items)
+        self.bodies = np.array([item.body for item in items], dtype=np.intp)
+        self.of_world = np.flatnonzero(self.bodies == _WORLD).tolist()
 
 
-def _layout(mujoco: Any, model: Any, geom_groups: Collection[int] | None, *, anew: bool = False) -> list[_Item]:
+_layouts: WeakKeyDictionary[Any, dict[frozenset[int] | None, _Items]] = WeakKeyDictionary()
+
+
+def _layout(mujoco: Any, model: Any, geom_groups: Collection[int] | None, *, anew: bool = False) -> _Items:
     """The items of a model; told anew for a snapshot, and as they were then for the frames that follow it."""
     if geom_groups is not None and (isinstance(geom_groups, str) or not isinstance(geom_groups, Collection)):
         raise SceneError(f"geom_groups is {geom_groups!r}; it must be a set of group numbers, such as {{1}}.")
     known = _layouts.setdefault(model, {})
     groups = None if geom_groups is None else frozenset(geom_groups)
     if anew or groups not in known:
-        known[groups] = _items(mujoco, model, groups)
+        known[groups] = _Items(_items(mujoco, model, groups))
     return known[groups]
 
 
@@ -230,26 +240,20 @@ def _name_of_geoms(mujoco: Any, model: Any, item: _Item) -> str:
 # -- where they are, and what they touch -----------------------------------------------------------------------------
 
 
-def _poses(model: Any, data: Any, items: list[_Item], unit_m: float) -> dict[str, Pose]:
+def _poses(model: Any, data: Any, items: _Items, unit_m: float) -> PoseTable:
     if model.nbody > 1 and not data.xquat[1:].any():
         raise SceneError("data holds no poses yet; call mujoco.mj_forward(model, data) first.")
-    positions = (data.xpos * unit_m).tolist()
-    rotations = data.xquat[:, [1, 2, 3, 0]].tolist()
-    found = {}
-    for item in items:
-        if item.body == _WORLD:
-            still = authored_pose(model, item.geoms[0])
-            x, y, z = still.position_m
-            found[item.id] = Pose((x * unit_m, y * unit_m, z * unit_m), still.rotation_xyzw)
-        else:
-            found[item.id] = Pose(positions[item.body], rotations[item.body])
-    return found
+    positions, rotations = data.xpos[items.bodies], data.xquat[items.bodies][:, [1, 2, 3, 0]]
+    for row in items.of_world:
+        still = authored_pose(model, items.all[row].geoms[0])
+        positions[row], rotations[row] = still.position_m, still.rotation_xyzw
+    return PoseTable(items.ids, positions * unit_m, rotations)
 
 
-def _contacts(model: Any, data: Any, items: list[_Item], unit_m: float) -> tuple[Contact, ...]:
+def _contacts(model: Any, data: Any, items: _Items, unit_m: float) -> tuple[Contact, ...]:
     """The engine's contacts between objects; those with what is not drawn are left out."""
-    of_body = {item.body: item.id for item in items if item.body != _WORLD}
-    of_geom = {item.geoms[0]: item.id for item in items if item.body == _WORLD}
+    of_body = {item.body: item.id for item in items.all if item.body != _WORLD}
+    of_geom = {item.geoms[0]: item.id for item in items.all if item.body == _WORLD}
     found = []
     for contact in data.contact:
         if contact.exclude == _IN_GAP:

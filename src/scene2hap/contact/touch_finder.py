@@ -1,0 +1,269 @@
+"""Contacts at a stated tolerance: any two surfaces within it touch, whatever lies on what.
+
+All that is known of things is kept in columns of arrays, and a frame goes through numpy in one sweep however many
+things move: boxes, pairs of boxes that meet, cuboids (`cuboids`), points (`cuboid_patch`). Only what is no cuboid goes
+through its triangles, pair by pair.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from scene2hap.contact.body import Shape, shape_of
+from scene2hap.contact.broad import Boxes, Indices, box_pairs
+from scene2hap.contact.cuboid_patch import patches
+from scene2hap.contact.cuboids import Marks, Pairs, dot, gaps, times
+from scene2hap.contact.junction import ContactArrays, Junction, Pair
+from scene2hap.contact.narrow import ROUNDING_M, Meeting
+from scene2hap.contact.profile import Triple
+from scene2hap.contact.spread import MAX_POINTS
+from scene2hap.contact.support import CLEAR_M, PATCH_SHARE, weight, weights
+from scene2hap.contact.touches import Difference, PairNames, Touches, difference
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.pose_table import PoseTable
+from scene2hap.scene.snapshot import SceneObject
+
+# Up to so many pairs of boxes, comparing all is cheaper than sorting.
+_FEW = 1 << 18
+
+
+class Placed(NamedTuple):
+    """A shape at a place."""
+
+    shape: Shape
+    pose: Pose
+    size_m: float
+
+
+class TouchFinder:
+    """The contacts between things.
+
+    Parameters: tolerance_m : gap at which any two cease to touch [m].
+    """
+
+    def __init__(self, tolerance_m: float) -> None:
+        self._tolerance_m = tolerance_m
+        self._within_m = max(tolerance_m, ROUNDING_M)
+        self._ids: list[str] = []
+        self._shapes: list[Shape] = []
+        self._column: dict[str, int] = {}
+        self._free: list[int] = []
+        self._columns_of: tuple[tuple[str, ...], Indices] = ((), np.empty(0, dtype=np.intp))
+        # Positions and rotations as given; turned axes (9), middles (3) and half edges (3); boxes around; size and rank
+        # of the id.
+        self._position, self._rotation = np.zeros((3, 0)), np.zeros((4, 0))
+        self._own_middle, self._place = np.zeros((3, 0)), np.zeros((15, 0))
+        self._low, self._high = np.zeros((3, 0)), np.zeros((3, 0))
+        self._size, self._rank = np.zeros(0), np.zeros(0, dtype=np.intp)
+        self._is_cuboid = np.zeros(0, dtype=bool)
+        self._touches = Touches.none()
+        self._names = PairNames(self._ids.__getitem__)
+
+    def junctions(self) -> dict[Pair, Junction]:
+        """Where things touch, pair by pair."""
+        touches = self._touches
+        return dict(zip(self._names.of(touches.codes.tolist()), touches.junctions(), strict=True))
+
+    def arrays(self, ids: tuple[str, ...]) -> ContactArrays:
+        """The same point by point, sorted by pair, in rows of these ids."""
+        row = np.zeros(len(self._ids), dtype=np.intp)
+        row[[self._column[x] for x in ids]] = np.arange(len(ids))
+        first, second = self._touches.columns()
+        order = np.lexsort((self._rank[second], self._rank[first]))
+        touches, first, second = self._touches.rows(order), row[first[order]], row[second[order]]
+        n = touches.counts
+        normals = np.where(touches.normals.any(axis=1, keepdims=True), touches.normals, np.nan)
+        return ContactArrays(
+            ids,
+            np.repeat(first, n),
+            np.repeat(second, n),
+            touches.points_m[np.arange(MAX_POINTS) < n[:, None]],
+            np.repeat(touches.weights, n),
+            np.repeat(normals, n, axis=0),
+        )
+
+    def replace(
+        self, moved: Mapping[str, Pose], added: Sequence[SceneObject] = (), gone: Iterable[str] = ()
+    ) -> tuple[list[Pair], list[Pair], list[Pair]]:
+        """Take things out, in, and elsewhere; the pairs that have come to touch, ceased to, and touch otherwise."""
+        left = [self._column.pop(x) for x in gone]
+        self._low[:, left], self._high[:, left] = np.inf, -np.inf
+        came = [self._enter(item) for item in added]
+        if left or came:
+            self._columns_of = ((), np.empty(0, dtype=np.intp))
+            self._rank_ids()
+        columns = self._move(moved)
+        if came:
+            columns = np.unique(np.concatenate([columns, np.array(came, dtype=np.intp)]))
+        self._turn_boxes(columns)
+        changed = self._look(columns, left)
+        names = self._names.of
+        told = (names(changed.appeared), names(changed.vanished), names(changed.shifted))
+        if left:
+            self._free += left
+            self._names.forget()
+        return told
+
+    def _enter(self, item: SceneObject) -> int:
+        """A column for a new thing."""
+        column = self._free.pop() if self._free else len(self._ids)
+        if column == len(self._ids):
+            self._ids.append(item.id)
+            self._shapes.append(shape_of(item.geometry.mesh))
+            if column == self._size.shape[0]:
+                self._widen()
+        shape = shape_of(item.geometry.mesh)
+        self._ids[column], self._shapes[column], self._column[item.id] = item.id, shape, column
+        self._position[:, column], self._rotation[:, column] = item.pose.position_m, item.pose.rotation_xyzw
+        self._own_middle[:, column], self._place[12:, column] = shape.middle, shape.half
+        self._size[column], self._is_cuboid[column] = shape.size_m, shape.is_cuboid
+        return column
+
+    def _widen(self) -> None:
+        for name in (
+            *("_position", "_rotation", "_own_middle", "_place"),
+            *("_low", "_high", "_size", "_rank", "_is_cuboid"),
+        ):
+            array = getattr(self, name)
+            more = np.zeros((*array.shape[:-1], max(64, array.shape[-1])), dtype=array.dtype)
+            setattr(self, name, np.concatenate([array, more], axis=-1))
+
+    def _rank_ids(self) -> None:
+        for rank, x in enumerate(sorted(self._column)):
+            self._rank[self._column[x]] = rank
+
+    def _move(self, moved: Mapping[str, Pose]) -> Indices:
+        """Take in poses; the columns of what is elsewhere than before."""
+        if isinstance(moved, PoseTable):
+            if self._columns_of[0] is not moved.ids:
+                self._columns_of = (moved.ids, np.array([self._column[x] for x in moved], dtype=np.intp))
+            columns, position, rotation = self._columns_of[1], moved.positions_m.T, moved.rotations_xyzw.T
+        else:
+            columns = np.array([self._column[x] for x in moved], dtype=np.intp)
+            position = np.array([pose.position_m for pose in moved.values()]).reshape(-1, 3).T
+            rotation = np.array([pose.rotation_xyzw for pose in moved.values()]).reshape(-1, 4).T
+        here = (self._position[:, columns] == position).all(axis=0) & (self._rotation[:, columns] == rotation).all(0)
+        if here.any():
+            columns, position, rotation = columns[~here], position[:, ~here], rotation[:, ~here]
+        self._position[:, columns], self._rotation[:, columns] = position, rotation
+        return columns
+
+    def _turn_boxes(self, columns: Indices) -> None:
+        x, y, z, w = self._rotation[:, columns]
+        xx, yy, zz, xy, xz, yz, wx, wy, wz = x * x, y * y, z * z, x * y, x * z, y * z, x * w, y * w, z * w
+        place = np.empty((12, len(columns)))
+        place[0], place[1], place[2] = 1 - 2 * (yy + zz), 2 * (xy - wz), 2 * (xz + wy)
+        place[3], place[4], place[5] = 2 * (xy + wz), 1 - 2 * (xx + zz), 2 * (yz - wx)
+        place[6], place[7], place[8] = 2 * (xz - wy), 2 * (yz + wx), 1 - 2 * (xx + yy)
+        turn = place[:9].reshape(3, 3, -1)
+        middle = self._position[:, columns] + times(turn, self._own_middle[:, None, columns])[:, 0]
+        wide = times(np.abs(turn), self._place[12:, None, columns])[:, 0]
+        place[9:] = middle
+        self._place[:12, columns] = place
+        self._low[:, columns], self._high[:, columns] = middle - wide, middle + wide
+
+    def _look(self, columns: Indices, left: Sequence[int]) -> Difference:
+        """The pairs of all that moved or left."""
+        stirred = np.zeros(len(self._ids), dtype=bool)
+        stirred[columns] = True
+        i, j = self._meeting(columns, stirred)
+        # The larger of two is the host; of equals the one with the lower id.
+        swap = (self._size[i] < self._size[j]) | ((self._size[i] == self._size[j]) & (self._rank[i] > self._rank[j]))
+        host, guest = np.where(swap, j, i), np.where(swap, i, j)
+        blocks = self._is_cuboid[host] & self._is_cuboid[guest]
+        if blocks.all():
+            now = self._of_cuboids(host, guest)
+        else:
+            now = self._of_cuboids(host[blocks], guest[blocks])
+            now = now.with_more(self._of_triangles(host[~blocks], guest[~blocks]))
+        stirred[left] = True
+        first, second = self._touches.columns()
+        again = stirred[first] | stirred[second]
+        before = self._touches.rows(again)
+        self._touches = self._touches.rows(~again).with_more(now)
+        return difference(before, now)
+
+    def _meeting(self, columns: Indices, stirred: Marks) -> tuple[Indices, Indices]:
+        """Columns of the pairs whose boxes meet and of which the first moved, each pair once."""
+        n, within_m = len(self._ids), self._within_m
+        low, high = self._low[:, columns] - within_m, self._high[:, columns] + within_m
+        if n * len(columns) <= _FEW:
+            meets = low[0, :, None] <= self._high[0, :n]
+            for axis in range(3):
+                if axis:
+                    meets &= low[axis, :, None] <= self._high[axis, :n]
+                meets &= high[axis, :, None] >= self._low[axis, :n]
+            i, j = np.nonzero(meets)
+        else:
+            every = Boxes(self._low[:, :n].T, self._high[:, :n].T)
+            parts = list(box_pairs(Boxes(low.T, high.T), every))
+            i, j = (np.concatenate(side) for side in zip(*parts, strict=True)) if parts else (columns[:0],) * 2
+        i = columns[i]
+        once = (i < j) | ((i > j) & ~stirred[j])
+        return i[once], j[once]
+
+    def _of_cuboids(self, host: Indices, guest: Indices) -> Touches:
+        """Where cuboids touch."""
+        one, other = self._place.take(host, axis=1), self._place.take(guest, axis=1)
+        axes = one[:9].reshape(3, 3, -1)
+        turn = dot(axes[:, :, None], other[:9].reshape(3, 3, -1)[:, None])
+        shift = dot(axes, (other[9:12] - one[9:12])[:, None])
+        pairs = Pairs.of(turn, shift, one[12:], other[12:])
+        rows, near = gaps(pairs, self._within_m)
+        gap_m = np.where(near.distance_m > ROUNDING_M, near.distance_m, 0.0)
+        shares = weights(gap_m, self._tolerance_m)
+        some = shares > 0
+        if not some.all():
+            rows, near, gap_m, shares = rows[some], near.rows(np.flatnonzero(some)), gap_m[some], shares[some]
+        if not len(rows):
+            return Touches.none()
+        reach_m = near.distance_m + PATCH_SHARE * self._tolerance_m
+        spots = patches(pairs.rows(rows), near, reach_m, self._tolerance_m)
+        host, guest, one = host[rows], guest[rows], one.take(rows, axis=1)
+        axes = one[:9].reshape(3, 3, -1)
+        points = one[9:12, None] + times(axes, spots.points_m)
+        in_order = self._rank[host] < self._rank[guest]
+        first, second = np.where(in_order, host, guest), np.where(in_order, guest, host)
+        # `way_m` may differ from the gap where two faces are as near.
+        lengths = np.sqrt(dot(near.way_m, near.way_m))
+        away = np.where(gap_m < CLEAR_M, 0.0, np.where(in_order, 1.0, -1.0)) / np.where(lengths > 0, lengths, 1.0)
+        normals = times(axes, (near.way_m * away)[:, None])[:, 0]
+        return Touches.of(first, second, points, spots.counts, (shares, normals))
+
+    def _of_triangles(self, host: Indices, guest: Indices) -> Touches:
+        """Where things touch of which one at least is no cuboid."""
+        found = Touches.none()
+        for x, y in zip(host.tolist(), guest.tolist(), strict=True):
+            a, b = (x, y) if self._rank[x] < self._rank[y] else (y, x)
+            junction = self._of_two(self._placed(a), self._placed(b))
+            if junction is not None:
+                points, counts = np.zeros((3, MAX_POINTS, 1)), np.zeros((MAX_POINTS, 1), dtype=bool)
+                n = len(junction.points_m)
+                points[:, :n, 0], counts[:n] = np.array(junction.points_m).T, True
+                normal = np.array(junction.normals[0] or (0.0, 0.0, 0.0))[:, None]
+                more = (np.array(junction.weights[:1]), normal)
+                found = found.with_more(Touches.of(np.array([a]), np.array([b]), points, counts, more))
+        return found
+
+    def _of_two(self, a: Placed, b: Placed) -> Junction | None:
+        """Where the triangles of two things touch."""
+        meeting = Meeting(a, b)
+        gap = meeting.gap(self._tolerance_m)
+        share = 0.0 if gap is None else weight(gap.distance_m, self._tolerance_m)
+        if gap is None or share <= 0:
+            return None
+        patch = meeting.patch(np.zeros(3), PATCH_SHARE * self._tolerance_m + gap.distance_m)
+        middles = (a.pose.to_world(patch.on_a_m) + b.pose.to_world(patch.on_b_m)) / 2
+        points = tuple((x, y, z) for x, y, z in middles.tolist())
+        normal: Triple | None = None
+        if gap.distance_m >= CLEAR_M:
+            x, y, z = (gap.way_m / np.linalg.norm(gap.way_m)).tolist()
+            normal = (x, y, z)
+        return Junction(points, (share,) * len(points), (normal,) * len(points)) if points else None
+
+    def _placed(self, column: int) -> Placed:
+        (x, y, z), (a, b, c, d) = self._position[:, column].tolist(), self._rotation[:, column].tolist()
+        return Placed(self._shapes[column], Pose((x, y, z), (a, b, c, d)), float(self._size[column]))

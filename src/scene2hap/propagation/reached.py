@@ -1,0 +1,122 @@
+"""An object that sources reach, asked about touches.
+
+    u(x, f) = sum over contacts c of Y(x, x_c, f) g_c(f)
+
+In true bands that is a product of small matrices for every frequency. If each source has one frequency, all that does
+not depend on x is summed over the contacts when the object is first touched (`folded`), and a touch costs the same
+however many there are.
+
+Letters: as `coupling`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.propagation.coupling import ElasticBody
+from scene2hap.propagation.sampling import Sampling
+
+MOST_FOLDED = 64
+"""Sources that are folded: an object keeps up to some 100 kB for each. More are summed at every touch."""
+
+Response = Callable[[NDArray[np.float64]], NDArray[np.complex128]]
+"""From points (n_points, 2) [m] to deflections (n_points, n_frequencies)."""
+
+
+@runtime_checkable
+class Foldable(Protocol):
+    """A body that can sum over known forces before it knows where it is asked."""
+
+    def under(
+        self, forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]
+    ) -> Response:
+        """Deflection under forces (n_forces, n_frequencies) at points (n_forces, 2) [m]."""
+        ...
+
+
+@runtime_checkable
+class Piecewise(Protocol):
+    """A body that tells its receptance a few frequencies at a time, while they are at hand."""
+
+    def pieces(
+        self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
+    ) -> Iterator[tuple[slice, NDArray[np.complex128]]]:
+        """As `ElasticBody.receptance`, with the part of the frequencies."""
+        ...
+
+
+def pieces(
+    body: ElasticBody,
+    points_m: NDArray[np.float64],
+    forces_m: NDArray[np.float64],
+    frequencies_hz: NDArray[np.float64],
+) -> Iterator[tuple[slice, NDArray[np.complex128]]]:
+    """See `Piecewise.pieces`; a body that is none tells all at once."""
+    if isinstance(body, Piecewise):
+        return body.pieces(points_m, forces_m, frequencies_hz)
+    return iter([(slice(None), np.ascontiguousarray(body.receptance(points_m, forces_m, frequencies_hz)))])
+
+
+def folded(
+    body: ElasticBody,
+    forces_m: NDArray[np.float64],
+    frequencies_hz: NDArray[np.float64],
+    forces: NDArray[np.complex128],
+) -> Response:
+    """See `Foldable.under`; a body that is none is asked for every contact."""
+    if isinstance(body, Foldable) and len(frequencies_hz) <= MOST_FOLDED:
+        return body.under(forces_m, frequencies_hz, forces)
+
+    def response(points_m: NDArray[np.float64]) -> NDArray[np.complex128]:
+        receptance = body.receptance(points_m, forces_m, frequencies_hz)
+        summed: NDArray[np.complex128] = np.einsum("fpc,cf->pf", receptance, forces)
+        return summed
+
+    return response
+
+
+@dataclass(eq=False)
+class Reached:
+    """An object that some sources reach.
+
+    points_m : (n_joints, 2) [m]; rows, signs : (n_joints,) where its joints are in the forces of its group and which
+    way they pull; forces : (n_all_joints, n_sources, n_frequencies), or without the last axis, each source at its own
+    frequency [N/m]; columns : (n_sources,) which of all sources these are.
+    """
+
+    body: ElasticBody
+    points_m: NDArray[np.float64]
+    rows: NDArray[np.intp]
+    signs: NDArray[np.float64]
+    forces: NDArray[np.complex128]
+    columns: NDArray[np.intp]
+    _own: NDArray[np.complex128] | None = field(default=None, repr=False)
+    _response: Response | None = field(default=None, repr=False)
+
+    @property
+    def own_forces(self) -> NDArray[np.complex128]:
+        """Forces that act on this object at its joints ([n_frequencies,] n_joints, n_sources); taken out of its
+        group's when first asked for."""
+        if self._own is None:
+            taken = self.forces[self.rows]
+            taken *= -self.signs.reshape(-1, *[1] * (taken.ndim - 1))
+            self._own = np.ascontiguousarray(np.moveaxis(taken, 2, 0)) if taken.ndim == 3 else taken
+        return self._own
+
+    def gains(self, points_m: NDArray[np.float64], sampling: Sampling) -> NDArray[np.float64]:
+        """Gains (n_points, n_sources, n_bands) [-] at points (n_points, 2) [m]."""
+        own = sampling.columns(self.columns)
+        if own is None:
+            moved = np.empty((len(sampling.frequencies_hz), len(points_m), len(self.columns)), dtype=np.complex128)
+            for part, receptance in pieces(self.body, points_m, self.points_m, sampling.frequencies_hz):
+                moved[part] = receptance @ self.own_forces[part]
+            return sampling.gains(moved).transpose(1, 2, 0)
+        if self._response is None:
+            self._response = folded(self.body, self.points_m, sampling.frequencies_hz[own], self.own_forces)
+        magnitudes: NDArray[np.float64] = np.abs(self._response(points_m))[:, :, None]
+        return magnitudes

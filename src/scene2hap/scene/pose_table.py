@@ -1,0 +1,76 @@
+"""Poses of many things as arrays, as engines have them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from scene2hap.errors import SceneError
+from scene2hap.scene.pose import Pose
+
+_UNIT_TOLERANCE = 1e-9  # As in `Pose`: such a rotation is kept as it is.
+
+
+class PoseTable(Mapping[str, Pose]):
+    """A mapping from id to `Pose` that makes a pose only when asked for it, for `ContactGraph.update` of many things.
+
+    Parameters: ids : n ids, each once; positions_m : (n, 3) [m]; rotations_xyzw : (n, 4), quaternions in glTF order,
+    normalised if they are not. The arrays are copied. Tables of one tuple of ids are read fastest.
+    Raises: SceneError: shapes that do not fit, an id twice, a number that is not finite, a rotation of length 0.
+    """
+
+    __slots__ = ("_row", "ids", "positions_m", "rotations_xyzw")
+
+    def __init__(self, ids: Sequence[str], positions_m: ArrayLike, rotations_xyzw: ArrayLike) -> None:
+        self.ids = tuple(ids)
+        n = len(self.ids)
+        self.positions_m = self._rows("positions_m", positions_m, (n, 3))
+        rotations = self._rows("rotations_xyzw", rotations_xyzw, (n, 4))
+        x, y, z, w = rotations.T
+        lengths = np.sqrt(x * x + y * y + z * z + w * w)
+        off = np.abs(lengths - 1.0) > _UNIT_TOLERANCE
+        if off.any():
+            if (lengths < 1e-12).any():
+                thing = self.ids[int(np.argmin(lengths))]
+                raise SceneError(f"rotations_xyzw of {thing!r} has length 0. Use (0, 0, 0, 1) for no rotation.")
+            rotations /= np.where(off, lengths, 1.0)[:, None]
+        self.rotations_xyzw = rotations
+        self._row: dict[str, int] | None = None
+
+    @property
+    def row(self) -> Mapping[str, int]:
+        """The row of each id."""
+        if self._row is None:
+            self._row = {object_id: row for row, object_id in enumerate(self.ids)}
+            if len(self._row) < len(self.ids):
+                twice = next(x for k, x in enumerate(self.ids) if self._row[x] != k)
+                raise SceneError(f"id {twice!r} is twice in a PoseTable; give each thing one pose.")
+        return self._row
+
+    def __getitem__(self, object_id: str) -> Pose:
+        row = self.row[object_id]
+        (x, y, z), (a, b, c, d) = self.positions_m[row].tolist(), self.rotations_xyzw[row].tolist()
+        return Pose((x, y, z), (a, b, c, d))
+
+    def __contains__(self, object_id: object) -> bool:
+        return object_id in self.row
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.row)
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+    def _rows(self, name: str, values: ArrayLike, shape: tuple[int, int]) -> NDArray[np.float64]:
+        try:
+            rows = np.array(values, dtype=np.float64, order="C")
+        except (TypeError, ValueError) as error:
+            raise SceneError(f"{name} is no table of numbers; give {shape[0]} rows of {shape[1]}.") from error
+        if rows.shape != shape:
+            raise SceneError(f"{name} has shape {rows.shape}; it must be {shape}, one row for each id.")
+        if not np.isfinite(rows).all():
+            row = int(np.argwhere(~np.isfinite(rows))[0, 0])
+            raise SceneError(f"{name} of {self.ids[row]!r} is {rows[row].tolist()}; it must be finite.")
+        return rows

@@ -1,0 +1,122 @@
+"""What a touch sums once and for all, against the sum over contacts and modes that it stands for."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from scene2hap import Bands, Contact, ContactNetwork, Excitation, Material, ModalPlate, Plate, Pose, materials
+from scene2hap.propagation import modal_body, reached
+from scene2hap.propagation.lattice_body import lattice_body
+from scene2hap.propagation.modal_body import ModalBody, SplitBody
+from scene2hap.propagation.octaves import OctaveSums
+from scene2hap.propagation.reached import folded, pieces
+
+STEEL = Plate(0.65, 0.42, 0.002, materials.lookup("steel"))
+RUG = Plate(2.0, 1.5, 0.01, Material("rug", 300.0, 2e6, 0.3, 0.3), "CFFF")
+F_HZ = np.geomspace(11.0, 990.0, 200)
+
+
+def bodies() -> dict[str, object]:
+    return {
+        "steel": ModalPlate().elastic_body(STEEL, 1000.0),
+        "rug": ModalPlate().elastic_body(RUG, 1000.0),
+        "lattice": lattice_body(Plate(0.6, 0.5, 0.01, materials.lookup("oak")), 8, 1000.0, 0.02),
+    }
+
+
+@pytest.mark.parametrize("name", ["steel", "rug", "lattice"])
+def test_folded_forces_are_the_sum_over_contacts(name: str) -> None:
+    body = bodies()[name]
+    if name == "rug":
+        assert isinstance(body, SplitBody)
+    rng = np.random.default_rng(5)
+    f = rng.uniform(10.0, 1000.0, 6)  # in no order, as sources have them
+    at, points = rng.uniform(0.0, 0.4, (9, 2)), rng.uniform(0.0, 0.42, (5, 2))
+    forces = rng.normal(size=(9, 6)) + 1j * rng.normal(size=(9, 6))
+    expected = np.einsum("fpc,cf->pf", body.receptance(points, at, f), forces)  # type: ignore[attr-defined]
+    found = folded(body, at, f, forces)(points)  # type: ignore[arg-type]
+    np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("name", ["steel", "rug"])
+def test_pieces_are_the_receptance(name: str) -> None:
+    body = bodies()[name]
+    at, points = np.array([[0.1, 0.2], [0.3, 0.05]]), np.array([[0.2, 0.2], [0.0, 0.4], [0.4, 0.1]])
+    expected = body.receptance(points, at, F_HZ)  # type: ignore[attr-defined]
+    found = np.full_like(expected, np.nan)
+    for part, own in pieces(body, points, at, F_HZ):  # type: ignore[arg-type]
+        assert own.flags.c_contiguous
+        found[part] = own
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
+
+
+@settings(derandomize=True, deadline=None, max_examples=40)
+@given(
+    loss=st.floats(1e-4, 2.0),
+    n_modes=st.integers(0, 120),
+    n_f=st.integers(0, 300),
+    is_rising=st.booleans(),
+    seed=st.integers(0, 99),
+)
+def test_sums_by_octaves_are_sums_over_all_modes(
+    loss: float, n_modes: int, n_f: int, is_rising: bool, seed: int
+) -> None:
+    rng = np.random.default_rng(seed)
+    k4 = np.sort(rng.uniform(0.0, 15.0, n_modes)) ** 4  # modal density as of plates: k^2 grows with their number
+    f = np.sort(10 ** rng.uniform(-2.0, 0.0, n_f)) if is_rising else 10 ** rng.uniform(-2.0, 0.0, n_f)
+    q = (10 * np.sqrt(f)) ** 4 / complex(1.0, loss)
+    others = rng.normal(size=(3, n_f)) + 1j * rng.normal(size=(3, n_f))
+    terms = rng.normal(size=(4, n_modes + 3))
+    plain = np.concatenate([1 / (k4[:, None] - q), others])
+    found = OctaveSums(k4, others, q, 0.5 + 0.25j)(terms)
+    size = np.abs(terms) @ np.abs(plain)
+    assert (np.abs(found - terms @ plain * (0.5 + 0.25j)) <= 2e-12 * size).all()
+
+
+def test_octaves_save_products_where_losses_are_small() -> None:
+    k4 = np.linspace(0.0, 15.0, 120) ** 4
+    q = (10 * np.sqrt(np.geomspace(0.01, 1.0, 500))) ** 4 / (1 + 0.01j)
+    sums = OctaveSums(k4, np.zeros((0, 500), dtype=np.complex128), q, 1.0)
+    products = sum(len(one.spectra) * (one.end - one.begin) for one in sums._octaves)
+    assert products < 0.6 * 120 * 500
+
+
+def scene(shift_m: float = 0.0) -> ContactNetwork:
+    oak, glass = materials.lookup("oak"), materials.lookup("glass")
+    plates = {"top": Plate(0.9, 0.5, 0.02, oak), "tray": Plate(0.4, 0.3, 0.004, glass), "shelf": STEEL}
+    feet = [("tray", 0.1 + x, 0.1 + y) for x in (0.0, 0.2) for y in (0.0, 0.15)]
+    contacts = [Contact(name, "top", (x + shift_m, y, 0.0)) for name, x, y in feet]
+    contacts += [Contact("shelf", "top", (0.6, 0.1, 0.0)), Contact("shelf", "tray", (0.35, 0.3, 0.0))]
+    for i, where in enumerate(("top", "shelf", "tray")):
+        contacts += [
+            Contact(f"s{i}", where, (0.2 + 0.1 * i + x, 0.2 + y, 0.0)) for x in (0.0, 0.05) for y in (0.0, 0.04)
+        ]
+    return ContactNetwork(plates, contacts, {"tray": Pose((0.05 + shift_m, 0.05, 0.0))})
+
+
+SOURCES = [Excitation(f"s{i}", 100.0, 90.0 + 70.0 * i, 0.2) for i in range(3)]
+
+
+@pytest.mark.parametrize("bands", [Bands.dominant(), Bands.third_octaves()])
+def test_a_scene_in_which_one_thing_moved_is_as_if_seen_for_the_first_time(bands: Bands) -> None:
+    model, points = ModalPlate(), [(0.31, 0.22, 0.0), (0.12, 0.4, 0.0)]
+    for shift_m in (0.0, 0.02, 0.04):
+        field = model.prepare(scene(shift_m), SOURCES, bands)
+    modal_body.modal_body.cache_clear()
+    fresh = model.prepare(scene(0.04), SOURCES, bands)
+    for object_id in ("top", "tray", "shelf"):
+        np.testing.assert_allclose(
+            field.attenuation(object_id, points), fresh.attenuation(object_id, points), rtol=1e-12
+        )
+
+
+def test_more_sources_than_are_folded_are_summed(monkeypatch: pytest.MonkeyPatch) -> None:
+    field, points = ModalPlate().prepare(scene(), SOURCES, Bands.dominant()), [(0.31, 0.22, 0.0), (0.12, 0.4, 0.0)]
+    few = field.attenuation("top", points)
+    monkeypatch.setattr(reached, "MOST_FOLDED", 2)
+    monkeypatch.setattr(ModalBody, "under", None)
+    many = ModalPlate().prepare(scene(), SOURCES, Bands.dominant()).attenuation("top", points)
+    np.testing.assert_allclose(many, few, rtol=1e-12)
