@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import multiprocessing
+import pickle
+import tempfile
 from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from itertools import chain, groupby
+from pathlib import Path
 
 from scene2hap.errors import ConfigError
 from scene2hap.scene.capture.config import CaptureConfig
@@ -72,12 +76,15 @@ def _shared(studio: Studio, wanted: list[Shot], others: int) -> Iterator[Shot]:
     """Take pictures in this process, which need not start, and in others."""
     # Spawned processes are the same on every system, and inherit no thread that holds a lock.
     context = multiprocessing.get_context("spawn")
-    setting = (studio.stage, studio.config, studio.factory, studio.below)
     # An object's pictures go together: its search tree is built in one process.
     portions = deque(list(group) for _, group in groupby(wanted, key=lambda shot: (shot.kind, shot.subject)))
     given: set[Future[list[tuple[Shot, bytes]]]] = set()
     try:
-        with ProcessPoolExecutor(others, mp_context=context, initializer=_set_up, initargs=setting) as pool:
+        # A file, since a pipe would keep this process waiting until the others have started and read it.
+        with (
+            _written((studio.stage, studio.config, studio.factory, studio.below)) as setting,
+            ProcessPoolExecutor(others, mp_context=context, initializer=_set_up, initargs=(setting,)) as pool,
+        ):
             while portions or given:
                 while portions and len(given) < _AHEAD * others:
                     given.add(pool.submit(_take, portions.popleft()))
@@ -97,8 +104,18 @@ def _shared(studio: Studio, wanted: list[Shot], others: int) -> Iterator[Shot]:
 _photographer: Photographer | None = None
 
 
-def _set_up(stage: Stage, config: CaptureConfig, factory: RendererFactory, below: tuple[int | None, ...]) -> None:
+@contextmanager
+def _written(setting: tuple[Stage, CaptureConfig, RendererFactory, tuple[int | None, ...]]) -> Iterator[Path]:
+    """A file with what the other processes need, while it is needed."""
+    with tempfile.TemporaryDirectory(prefix="scene2hap-") as folder:
+        path = Path(folder) / "stage.pickle"
+        path.write_bytes(pickle.dumps(setting, pickle.HIGHEST_PROTOCOL))
+        yield path
+
+
+def _set_up(setting: Path) -> None:
     global _photographer
+    stage, config, factory, below = pickle.loads(setting.read_bytes())
     _photographer = Photographer(stage, factory(stage, config.antialias), config, below)
 
 

@@ -21,10 +21,13 @@ from scene2hap.scene.capture.views import Camera
 
 Ints = NDArray[np.int64]
 Bytes = NDArray[np.uint8]
+Floats = NDArray[np.float64]
 
 # Actors are told by digits of this base plus one, as zero is the background. Textures multiply by 255 / 256 and round
 # down, so that a digit that passes through one starts out larger by one.
 _BASE = 250
+
+_MOST_DIRECTIONS = 72
 
 
 class Panda3DRenderer:
@@ -52,6 +55,7 @@ class Panda3DRenderer:
         self._codes = np.full((len(order), 4), 255, np.uint8)
         self._codes[:, :2] = digits + palette.is_cutout[material, None]
         self._opacity = (digits[:, 1] + palette.is_patterned[material]).astype(np.uint8)
+        self._lit_along: dict[bytes, Bytes] = {}
         self._screen = Screen(float(np.linalg.norm(np.ptp(stage.box_m, axis=0))))
         self._painted = {row: self._look(row) for row in np.flatnonzero(palette.is_patterned).tolist()}
         self._holed = {row: self._look(row, only_holes=True) for row in np.flatnonzero(palette.is_cutout).tolist()}
@@ -74,16 +78,25 @@ class Panda3DRenderer:
     def draw(self, camera: Camera, selection: Selection) -> tuple[Pixels, Ids]:
         """The picture, and the ids as `identify` tells them."""
         triangles = self._shown(camera, selection)
-        brightness = light(self._normals[triangles], camera.axes[2], self._stage.up)
-        colors = np.empty((len(triangles), 4), np.uint8)
-        colors[:, :3] = self._paint[triangles] * brightness[:, None]
-        colors[:, 3] = self._opacity[triangles]
         groups = _groups(self._paint_row[triangles], self._painted)
+        colors = self._lit(camera.axes[2])[triangles]
         image = self._screen.draw(camera, self._corners[triangles], colors, groups, BACKGROUND_RGB)
         ids = _opacity(image) - 1 if len(self._stage.actors) <= _BASE else self.identify(camera, selection)
         # Pillow is five times faster than numpy in leaving out every fourth byte.
         picture = Image.frombuffer("RGB", image.shape[:2], image, "raw", "BGRX", 0, 1)
         return np.array(picture), ids
+
+    def _lit(self, forward: Floats) -> Bytes:
+        """Colours of all triangles (n, 4), seen along `forward`; pictures of all objects share few directions."""
+        key = forward.tobytes()
+        if key not in self._lit_along:
+            if len(self._lit_along) >= _MOST_DIRECTIONS:
+                self._lit_along.clear()
+            colors = np.empty((len(self._paint), 4), np.uint8)
+            colors[:, :3] = self._paint * light(self._normals, forward, self._stage.up)[:, None]
+            colors[:, 3] = self._opacity
+            self._lit_along[key] = colors
+        return self._lit_along[key]
 
     def _shown(self, camera: Camera, selection: Selection) -> Ints:
         """Triangles that the selection shows and that can colour a pixel, in the order of drawing."""
