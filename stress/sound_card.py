@@ -1,9 +1,10 @@
 """Campaigns on a real sound server with a null sink, judged by recordings of its monitor.
 
-python stress/sound_card.py [takes] [latency] [watchdog] [hitches] [unplug] [--takes 10] [--seconds 30] [--cycles 200]
-    [--undisturbed] [--freeze]
+python stress/sound_card.py [takes] [low] [latency] [watchdog] [hitches] [unplug] [--takes 10] [--seconds 30]
+    [--cycles 200] [--undisturbed] [--freeze]
 
 takes    : 30 s at the default latency while another thread updates at 1 kHz and allocates, ten times.
+low      : a take, and times as below, at "low" latency with 64, 128 and 256 frames at a time.
 latency  : time from an update to the first frame that the monitor hears, for several latencies.
 watchdog : the game's thread dies; time until the monitor hears exact zeros, against watchdog + fade + latency.
 hitches  : a game of 30 frames per second with a hitch of 60 ms every tenth frame, 20 s.
@@ -32,7 +33,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 from scene2hap.devices.protocol import SinkEvent
 from scene2hap.devices.soundcard import SoundCardSink
 from sound_server import DEVICE, RATE, SoundServer, missing
-from sound_takes import TONES_HZ, TOUCHES, Game, judge, session_on, take, undisturbed
+from sound_takes import TONES_HZ, TOUCHES, Game, Verdict, judge, session_on, take, undisturbed
 
 
 def main() -> None:
@@ -60,22 +61,34 @@ def takes(arguments: argparse.Namespace) -> None:
     for number in range(arguments.takes):
         with SoundServer() as server:
             verdict = take(server, arguments.seconds)
-        off_hz = max(abs(f - tone) for f, tone in zip(verdict.frequency_hz, TONES_HZ, strict=True))
         broken += verdict.residual > 1e-3
-        print(
-            f"take {number + 1}: {verdict.seconds:.1f} s, correlation {min(verdict.correlation):.5f}, tones off by "
-            f"{off_hz:.1e} Hz, residual {verdict.residual:.1e}, underruns {verdict.underruns}, "
-            f"load {os.getloadavg()[0]:.1f}",
-            flush=True,
-        )
+        tell(f"take {number + 1}", verdict)
     print(f"{broken} of {arguments.takes} takes with a discontinuity")
 
 
-def onsets_s(server: SoundServer, latency: float | str, n: int) -> list[float]:
+def tell(name: str, verdict: Verdict) -> None:
+    off_hz = max(abs(f - tone) for f, tone in zip(verdict.frequency_hz, TONES_HZ, strict=True))
+    print(
+        f"{name}: {verdict.seconds:.1f} s, correlation {min(verdict.correlation):.5f}, tones off by {off_hz:.1e} Hz, "
+        f"residual {verdict.residual:.1e}, underruns {verdict.underruns}, load {os.getloadavg()[0]:.1f}",
+        flush=True,
+    )
+
+
+def low(arguments: argparse.Namespace) -> None:
+    for frames in (64, 128, 256):
+        with SoundServer() as server:
+            tell(f"{frames} frames", take(server, arguments.seconds, latency="low", block_frames=frames))
+        with SoundServer() as server:
+            times = onsets_s(server, "low", 10, block_frames=frames)
+        print(f"  update to monitor median {1e3 * np.median(times):.0f}, largest {1e3 * max(times):.0f} ms")
+
+
+def onsets_s(server: SoundServer, latency: float | str, n: int, **settings: int) -> list[float]:
     """Times from the first update with a touch to the first frame that the monitor hears."""
     found = []
     for _ in range(n):
-        sink = SoundCardSink(DEVICE, latency=latency)
+        sink = SoundCardSink(DEVICE, latency=latency, **settings)
         recorder = server.record(is_timed=True)
         with session_on(sink, watchdog_s=1.0) as session:
             assert sink.wait_connected(10.0)
@@ -204,7 +217,7 @@ def memory_mb() -> float:
     return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
 
 
-CAMPAIGNS = {"takes": takes, "latency": latency, "watchdog": watchdog, "hitches": hitches, "unplug": unplug}
+CAMPAIGNS = {"takes": takes, "low": low, "latency": latency, "watchdog": watchdog, "hitches": hitches, "unplug": unplug}
 
 if __name__ == "__main__":
     main()

@@ -11,6 +11,7 @@ from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing import get_context
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -104,9 +105,9 @@ def undisturbed() -> Iterator[bool]:
         os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
 
 
-def take(server: SoundServer, seconds: float, *, latency: float | str = 0.1) -> Verdict:
-    """Play while a busy game updates at 1 kHz, and judge what was heard."""
-    sink = SoundCardSink(DEVICE, latency=latency)
+def take(server: SoundServer, seconds: float, **settings: Any) -> Verdict:
+    """Play while a busy game updates at 1 kHz, and judge what was heard; settings are the sink's."""
+    sink = SoundCardSink(DEVICE, **settings)
     recorder = server.record()
     with session_on(sink) as session:
         assert sink.wait_connected(10.0)

@@ -63,8 +63,9 @@ class SoundCardSink(LiveSink):
         None for 1, 2, ... Channels that no hand has stay silent.
     latency : of the device's buffer [s], or "low" or "high" for what its driver suggests.
     sample_rate_hz : of the device; None for the session's where the device takes it, else the device's own.
+    block_frames : frames that the device asks for at a time; fewer let "low" be lower, and cost more calls.
     on_event : an EventCallback or None.
-    Raises: ConfigError: a channel or latency that cannot be; MissingExtra: sounddevice is not installed.
+    Raises: ConfigError: a channel, latency or block that cannot be; MissingExtra: sounddevice is not installed.
     """
 
     def __init__(
@@ -74,10 +75,12 @@ class SoundCardSink(LiveSink):
         channels: Mapping[str, int] | Sequence[int] | None = None,
         latency: float | str = DEFAULT_LATENCY_S,
         sample_rate_hz: int | None = None,
+        block_frames: int = BLOCK_FRAMES,
         on_event: EventCallback | None = None,
     ) -> None:
         portaudio.require_sounddevice()
-        self._card_line = _CardLine(device, _checked_channels(channels), _checked_latency(latency), sample_rate_hz)
+        channels, latency = _checked_channels(channels), _checked_latency(latency)
+        self._card_line = _CardLine(device, channels, latency, sample_rate_hz, _checked_block(block_frames))
         name = "the default sound card" if device is None else f"sound card {device!r}"
         super().__init__(self._card_line, name, on_event=on_event)
 
@@ -109,8 +112,10 @@ class _CardLine:
         channels: Mapping[str, int] | tuple[int, ...] | None,
         latency: float | str,
         rate_hz: int | None,
+        block_frames: int,
     ) -> None:
         self._wanted_device = device
+        self._block_frames = block_frames
         self._channels = channels
         self._latency = latency
         self._rate_hz = rate_hz
@@ -178,7 +183,7 @@ class _CardLine:
             if status.output_underflow:
                 self._flags += 1
 
-        self._stream = portaudio.open_stream(card, n_channels, rate_hz, self._latency, BLOCK_FRAMES, callback)
+        self._stream = portaudio.open_stream(card, n_channels, rate_hz, self._latency, self._block_frames, callback)
         self._ahead = min(rate_hz, round((self._stream.latency + AHEAD_S) * rate_hz))
         self._chunk = round(min(CHUNK_S * rate_hz, self._ahead / 8))
         self._pace = CATCHING_UP * rate_hz
@@ -259,3 +264,9 @@ def _checked_latency(latency: float | str) -> float | str:
             raise ConfigError(f"latency is {latency!r}; it must be seconds, 'low' or 'high'.")
         return latency
     return checks.number("latency", latency, "s", above=0.0, at_most=1.0, error=ConfigError)
+
+
+def _checked_block(frames: int) -> int:
+    if isinstance(frames, bool) or not isinstance(frames, int) or not 16 <= frames <= 8192:
+        raise ConfigError(f"block_frames is {frames!r}; it must be a whole number of 16 to 8192 frames.")
+    return frames

@@ -44,6 +44,12 @@ def test_latencies_that_cannot_be(latency: object) -> None:
         SoundCardSink(latency=latency)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("frames", [0, 8, 10_000, 64.0, True, None])
+def test_blocks_that_cannot_be(frames: object) -> None:
+    with pytest.raises(ConfigError, match="block_frames is .* 16 to 8192 frames"):
+        SoundCardSink(block_frames=frames)  # type: ignore[arg-type]
+
+
 def test_without_sounddevice_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("scene2hap.devices.portaudio.find_spec", lambda name: None)
     with pytest.raises(MissingExtra, match=r"pip install 'scene2hap\[soundcard\]'"):
