@@ -13,6 +13,7 @@ import argparse
 import contextlib
 import os
 import select
+import signal
 import threading
 import time
 from collections import deque
@@ -242,10 +243,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     heard: list[Samples] = []
     keep = heard.append if chosen.wav else None
     device = ReferenceDevice(chosen.rate, chosen.channels, on_output=keep)
+    stop = threading.Event()
+    # Told by name, since a program that is started in the background of a shell is born deaf to Ctrl-C.
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: stop.set())
     try:
-        wire = _wire(chosen.port, chosen.baud)
-        with contextlib.suppress(KeyboardInterrupt):
-            serve(device, wire, threading.Event())
+        serve(device, _wire(chosen.port, chosen.baud), stop)
     except OSError as cause:
         print(f"error: {cause}")
         return 1
