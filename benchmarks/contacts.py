@@ -23,6 +23,7 @@ TABLE = {
     "aws_house_living": ("aws_house_living.glb", None, "tuned"),
     "composed_kitchen_kaykit": ("composed_kitchen_kaykit.glb", None, "tuned"),
     "aws_house_bedroom": ("aws_house_bedroom.glb", None, "reported"),
+    "composed_bathroom_kenney": ("composed_bathroom_kenney.glb", None, "reported"),
     "sketchfab_kitchen": ("scene.gltf", 0.01, "reported"),
     "messy_japanese_room": ("room.glb", 0.1, "kept"),
 }

@@ -9,12 +9,15 @@ import numpy as np
 
 from scene2hap.contact.broad import Boxes, Floats
 from scene2hap.contact.profile import Profile, Triple, profile_of, triples
+from scene2hap.contact.rays import first_hits
 from scene2hap.contact.stance import Stance
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject, TriMesh
 
 # Directions that one shape is asked for; past this, things tumble and old ones are forgotten.
 _MAX_PROFILES = 64
+# Rays by which a side of the own box is seen, along each of its edges.
+_N_RAYS = 8
 
 
 class Shape:
@@ -56,6 +59,25 @@ class Shape:
                     return False
                 on_side |= side
         return bool(on_side.all())
+
+    @cached_property
+    def sides(self) -> Floats:
+        """What is seen of the shape from the six sides of its own box, the lower three first: points (6, 64, 3) [m] on
+        a grid, nan where nothing is."""
+        edges = self.high - self.low
+        grid = (np.arange(_N_RAYS) + 0.5) / _N_RAYS
+        sides = np.empty((2, 3, _N_RAYS**2, 3))
+        for axis in range(3):
+            share = np.zeros((_N_RAYS**2, 3))
+            share[:, (axis + 1) % 3], share[:, (axis + 2) % 3] = np.repeat(grid, _N_RAYS), np.tile(grid, _N_RAYS)
+            for end in (0, 1):
+                share[:, axis] = end
+                # From a little outside, where a level side is surely met.
+                way = np.where(np.arange(3) == axis, (1.02 - 2.04 * end) * edges, 0.0)[None]
+                start = self.low + share * edges - way / 102
+                hits = first_hits(start, np.repeat(way, len(start), axis=0), self.triangles, self.boxes)
+                sides[end, axis] = start + np.where(np.isfinite(hits), hits, np.nan)[:, None] * way
+        return sides.reshape(6, -1, 3)
 
     def profile(self, up: Triple) -> Profile:
         """The level faces for the own direction `up`, which is rounded by the caller."""

@@ -21,17 +21,18 @@ import numpy as np
 from scene2hap.contact.cuboids import (
     AXES,
     FLUSH_M,
-    LAST,
     MIDDLES,
-    NEXT,
     Ends,
     Floats,
     Gaps,
+    Indices,
     Marks,
     Pairs,
     all_ends,
+    dot,
     ends_of,
     nearest_axis,
+    picked,
 )
 from scene2hap.contact.spread import spread_each
 
@@ -40,7 +41,17 @@ _TIE, _RIM_M, _RIM = 1e-6, 1e-9, 1e-9
 # The corners of a rectangle and its sides' middles, in half edges, against the clock.
 _RING = np.array([[1.0, -1.0, -1.0, 1.0], [1.0, 1.0, -1.0, -1.0]])[..., None]
 _ENDS = np.array([-1.0, 1.0])[:, None, None]
-_ROWS = np.arange(3)[:, None]
+# Rows of a table of `Pairs`, with the shift as seen from the guest below it, in which a pair is seen from face k of the
+# host (0-2) or the guest (3-5), axis k last; and rows (u, v, w) of the other's axes (p, q, h) by which of them is w.
+_ORDERS = [[1, 2, 0], [2, 0, 1], [0, 1, 2]]
+_SEEN_ROWS = np.array(
+    [[3 * p + q for p in ps for q in range(3)] + [m + p for m in (9, 12) for p in ps] + [15, 16, 17] for ps in _ORDERS]
+    + [
+        [3 * q + p for p in ps for q in range(3)] + [m + p for m in (18, 15) for p in ps] + [12, 13, 14]
+        for ps in _ORDERS
+    ]
+).T
+_WAY_ROWS = np.array([[3 * p + q for q in qs for p in range(3)] for qs in _ORDERS]).T
 
 
 class Spots(NamedTuple):
@@ -51,15 +62,21 @@ class Spots(NamedTuple):
 
     def packed(self) -> Spots:
         """The same in as few rows as they need."""
-        if not len(self.counts):
+        k, n = self.counts.shape
+        if not k:
             return self
-        slot, column = np.nonzero(self.counts)
-        place = self.counts.cumsum(axis=0)
-        n_each = place[-1]
+        # Along one axis, numpy counts and takes faster than along two.
+        n_each = np.count_nonzero(self.counts, axis=0)
         counts = np.arange(n_each.max(initial=0))[:, None] < n_each
-        points = np.zeros((3, *counts.shape))
-        points[:, place[slot, column] - 1, column] = self.points_m[:, slot, column]
-        return Spots(points, counts)
+        rows = np.zeros((n, len(counts)), dtype=np.intp)
+        rows[counts.T] = np.flatnonzero(self.counts.T) - np.repeat(np.arange(0, k * n, k), n_each)
+        return Spots(self.taken(rows.T), counts)
+
+    def taken(self, rows: Indices) -> Floats:
+        """The points (3, m, n) of each pair in rows (m, n) of its own."""
+        n = rows.shape[1]
+        points: Floats = self.points_m.reshape(3, -1).take(rows * n + np.arange(n), axis=1)
+        return points
 
 
 def patches(pairs: Pairs, gaps: Gaps, reach_m: Floats, sunk_m: float) -> Spots:
@@ -79,69 +96,87 @@ def patches(pairs: Pairs, gaps: Gaps, reach_m: Floats, sunk_m: float) -> Spots:
     for applies, spots in ways:
         rows = np.flatnonzero(applies & open_)
         if len(rows):
-            part = spots(pairs.rows(rows), gaps.rows(rows), reach_m[rows]).packed()
+            part = spots(pairs.rows(rows), gaps.rows(rows), reach_m[rows])
             if len(part.counts):
                 parts.append((rows, part))
                 open_[rows] = ~part.counts[0]
-    most = max([len(part.counts) for _, part in parts], default=1)
-    every = Spots(np.zeros((3, most, len(inside))), np.zeros((most, len(inside)), dtype=bool))
-    for rows, part in parts:
-        every.points_m[:, : len(part.counts), rows], every.counts[: len(part.counts), rows] = part
+    every = _beside(parts, len(inside))
     chosen, counts = spread_each(*every)
-    return Spots(every.points_m[:, chosen, np.arange(len(inside))], counts)
+    return Spots(every.taken(chosen), counts)
+
+
+def _beside(parts: Sequence[tuple[Indices, Spots]], n: int) -> Spots:
+    """The spots of n pairs from those of several sets of them, given with their rows; each row has some in one set."""
+    most = max((len(part.counts) for _, part in parts), default=1)
+    every = Spots(np.zeros((3, most, n)), np.zeros((most, n), dtype=bool))
+    for rows, (points, counts) in parts:
+        k = len(counts)
+        if len(rows) == n:
+            every.points_m[:, :k], every.counts[:k] = points, counts
+            continue
+        some = np.flatnonzero(counts[0])
+        rows = rows[some]
+        every.points_m[:, :k, rows], every.counts[:k, rows] = points[..., some], counts[:, some]
+    return every
 
 
 def _face_spots(pairs: Pairs, gaps: Gaps, reach_m: Floats) -> Spots:
     """The corners of what the nearest faces share, seen from one along its normal."""
-    columns = np.arange(len(gaps.distance_m))
     from_guest = gaps.on_guest.max(axis=0) > gaps.on_host.max(axis=0) + _TIE
-    seen = Pairs(np.where(from_guest, pairs.swapped().table, pairs.table))
-    turn, shift, a, b = seen.turn, seen.shift, seen.a, seen.b
     k = nearest_axis(-np.where(from_guest, gaps.on_guest, gaps.on_host))
-    order = np.stack([NEXT[k], LAST[k], k])
-    side = np.where(shift[k, columns] < 0, -1.0, 1.0)
-    turn, shift, a = turn[order[:, None], _ROWS, columns], shift[order, columns], a[order, columns]
+    # Of the other way round, all but the shift is in the same table.
+    table = np.concatenate([pairs.table, -dot(pairs.turn, pairs.shift[:, None])])
+    seen = picked(table, _SEEN_ROWS.take(k + 3 * from_guest, axis=1))
+    turn, shift, a, b = seen[:9].reshape(3, 3, -1), seen[9:12], seen[12:15], seen[15:]
+    side = np.where(shift[2] < 0, -1.0, 1.0)
     turn[2] *= side
     shift[2] = shift[2] * side - a[2]
     j = nearest_axis(-np.abs(turn[2]))
-    u, v, w = (turn[:, row, columns] * b[row, columns] for row in (NEXT[j], LAST[j], j))
+    u, v, w = picked((turn * b).reshape(9, -1), _WAY_ROWS.take(j, axis=1)).reshape(3, 3, -1)
     middle = shift - np.where(w[2] < 0, -1.0, 1.0) * w
-    shared = _shared(middle, u, v, a)
-    points, counts = Spots(shared.points_m, shared.counts & (shared.points_m[2] <= reach_m)).packed()
+    with np.errstate(divide="ignore", invalid="ignore"):
+        shared = _shared(middle, u, v, a)
+        near = shared.counts & (shared.points_m[2] <= reach_m)
+    points, counts = Spots(shared.points_m, near).packed()
     points[2] = side * (points[2] / 2 + a[2])
-    placed = np.empty_like(points)
-    placed[order[:, None], np.arange(len(counts))[:, None], columns] = points
+    placed = np.where(k == 0, points[[2, 0, 1]], np.where(k == 1, points[[1, 2, 0]], points))
     return Spots(np.where(from_guest, pairs.to_host(placed), placed), counts)
 
 
 def _shared(middle: Floats, u: Floats, v: Floats, half: Floats) -> Spots:
     """The corners, as (p, q, h), of a parallelogram, given by its middle and half sides (3, n), cut to a rectangle of
     half edges `half` about the origin: up to eight of 24."""
-    corners = middle[:, None] + _RING[0] * u[:, None] + _RING[1] * v[:, None]
-    wide = half[:2, None] + _RIM_M
-    parts = [(corners, (np.abs(corners[:2]) <= wide).all(axis=0))]
-    tips = np.stack([_RING[0] * half[0], _RING[1] * half[1]])
+    n = middle.shape[1]
+    found = Spots(np.empty((3, 24, n)), np.empty((24, n), dtype=bool))
+    points, counts = found
+    points[:, :4] = middle[:, None] + _RING[0] * u[:, None] + _RING[1] * v[:, None]
+    (np.abs(points[:2, :4]) <= half[:2, None] + _RIM_M).all(axis=0, out=counts[:4])
+    tips = _RING * half[:2, None]
+    points[:2, 4:8] = tips
     dp, dq = tips - middle[:2, None]
     area = u[0] * v[1] - u[1] * v[0]
     alpha, beta = (dp * v[1] - dq * v[0]) / area, (u[0] * dq - u[1] * dp) / area
-    height = middle[2] + alpha * u[2] + beta * v[2]
-    parts.append((np.stack([*tips, height]), (np.abs(alpha) <= 1 + _RIM) & (np.abs(beta) <= 1 + _RIM)))
+    points[2, 4:8] = middle[2] + alpha * u[2] + beta * v[2]
+    counts[4:8] = (np.abs(alpha) <= 1 + _RIM) & (np.abs(beta) <= 1 + _RIM)
     # The parallelogram's four sides, each with the two lines p = +-half and the two lines q = +-half.
-    start = np.stack([middle - v, middle + v, middle - u, middle + u], axis=1)
-    along = np.stack([u, u, v, v], axis=1)
-    share = (_ENDS * half[:2, None, None] - start[:2, None]) / np.where(along[:2] == 0, np.nan, along[:2])[:, None]
+    start, along = np.empty((2, 3, 4, n))
+    start[:, 0], start[:, 1], start[:, 2], start[:, 3] = middle - v, middle + v, middle - u, middle + u
+    along[:, :2], along[:, 2:] = u[:, None], v[:, None]
+    # A side along a line meets it nowhere: there the share is no number, and nothing that follows counts.
+    share = (_ENDS * half[:2, None, None] - start[:2, None]) / along[:2, None]
     other = start[1::-1, None] + share * along[1::-1, None]
     meets = (np.abs(share) <= 1) & (np.abs(other) <= half[1::-1, None, None])
-    crossings = start[:, None, None] + np.where(meets, share, 0.0) * along[:, None, None]
-    n = middle.shape[1]
-    parts.append((crossings.reshape(3, 16, n), meets.reshape(16, n)))
-    return _joined([Spots(*part) for part in parts])
+    counts[8:] = meets.reshape(16, n)
+    crossings = points[:, 8:].reshape(3, 2, 2, 4, n)
+    np.multiply(share, along[:, None, None], out=crossings)
+    crossings += start[:, None, None]
+    return found
 
 
 def _cut_spots(pairs: Pairs, gaps: Gaps, reach_m: Floats) -> Spots:
     """Where edges of either run through faces of the other."""
     back = _crossings(pairs.swapped())
-    return _joined([_crossings(pairs), Spots(pairs.to_host(back.points_m), back.counts)])
+    return _joined([_crossings(pairs), Spots(pairs.to_host(back.points_m), back.counts)]).packed()
 
 
 def _crossings(pairs: Pairs) -> Spots:
@@ -168,20 +203,26 @@ def _inner_spots(pairs: Pairs, gaps: Gaps, reach_m: Floats) -> Spots:
     height = corners[k, :, columns].T
     face = side * pairs.a[k, columns]
     corners[k[None], np.arange(8)[:, None], columns] = (height + face) / 2
-    return Spots(corners, side * (face - height) <= reach_m)
+    return Spots(corners, side * (face - height) <= reach_m).packed()
 
 
 def _end_spots(pairs: Pairs, gaps: Gaps, reach_m: Floats) -> Spots:
     """The nearest corners and edges."""
-    ends, unsure = ends_of(pairs, gaps.edges)
+    known = gaps.ends if (gaps.kept >= 0).all() else None
+    ends = known.rows(gaps.kept) if known is not None else _ends(pairs, gaps.edges)
+    near = ends.distance_m <= np.maximum(reach_m, ends.distance_m.min(axis=0))
+    return Spots((ends.on_host + ends.on_guest) / 2, near).packed()
+
+
+def _ends(pairs: Pairs, edges: Indices) -> Ends:
+    ends, unsure = ends_of(pairs, edges)
     if unsure.any():
         # For some, all edges; for the others more that do not count.
         every = all_ends(pairs)
         every.distance_m[16:, ~unsure] = np.inf
         ends = ends.joined(Ends(*(part[..., 16:, :] for part in every)))
         ends.distance_m[16, unsure] = np.inf
-    near = ends.distance_m <= np.maximum(reach_m, ends.distance_m.min(axis=0))
-    return Spots((ends.on_host + ends.on_guest) / 2, near)
+    return ends
 
 
 def _joined(parts: Sequence[Spots]) -> Spots:

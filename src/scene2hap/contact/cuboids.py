@@ -25,6 +25,7 @@ Marks = NDArray[np.bool_]
 NEXT, LAST = np.array([1, 2, 0]), np.array([2, 0, 1])
 SIGNS = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)]).T
 """The corners (3, 8) of a cuboid in half edges."""
+_BOTH = np.array([[-1.0], [1.0]])
 # Twelve edges: their axis, and their middles (3, 12) in half edges.
 AXES = np.repeat(np.arange(3), 4)
 MIDDLES = np.zeros((3, 12))
@@ -35,11 +36,35 @@ for _edge in range(12):
 _PARALLEL = 1e-12
 # Cosine below which a normal of two edges may be one of a face as well, of which any edge could be meant.
 _ASKEW = 1e-6
-_ROWS = np.arange(3)[:, None]
+# For each pair of axes, 3 i + j, the rows of a table of `Pairs` with i first of the host's axes and j of the guest's.
+_ORDERS = [[k, (k + 1) % 3, (k + 2) % 3] for k in range(3)]
+_EDGE_ROWS = np.array(
+    [
+        [
+            *(3 * p + q for q in columns for p in rows),
+            *(9 + p for p in rows),
+            *(12 + p for p in rows),
+            *(15 + q for q in columns),
+        ]
+        for rows in _ORDERS
+        for columns in _ORDERS
+    ]
+).T
+# The rows with the next or the last axis in place of each: of the host's, of the guest's, of shift and half edges.
+_TURN = np.arange(9).reshape(3, 3)
+_CROSS_ROWS = np.concatenate(
+    [_TURN[NEXT].ravel(), _TURN[LAST].ravel(), _TURN[:, NEXT].ravel(), _TURN[:, LAST].ravel()]
+    + [first + axes for first in (9, 12, 15) for axes in (NEXT, LAST)]
+)
+# Of `_EDGE_ROWS`, the half edges across i and across j.
+_ACROSS = np.array([13, 14, 16, 17])
 FLUSH_M = 1e-9
 """What is inside another but for rounding is inside."""
 # A corner as near as the faces' planes are apart has no nearer rival.
 _SETTLED_M = 1e-12
+# Where edges part a pair this much better than faces, they may be where it meets (a guess that costs time where it is
+# wrong, and decides nothing).
+_SURELY_M = 1e-3
 
 
 class Pairs:
@@ -70,7 +95,7 @@ class Pairs:
 
     def guest_corners(self) -> Floats:
         """(3, 8, n) [m]."""
-        return self.to_host(SIGNS[..., None] * self.b[:, None])
+        return _corners(self.turn, self.shift, self.b)
 
 
 class Ends(NamedTuple):
@@ -79,6 +104,10 @@ class Ends(NamedTuple):
     distance_m: Floats
     on_host: Floats
     on_guest: Floats
+
+    def rows(self, rows: Indices) -> Ends:
+        """Those of some of the pairs."""
+        return Ends(*(part.take(rows, axis=-1) for part in self))
 
     def joined(self, more: Ends) -> Ends:
         """These and more of the same pairs."""
@@ -94,13 +123,14 @@ class Gaps:
 
     `distance_m` (n,) of the surfaces, 0 where they cut each other, and `way_m` (3, n) there, from host to guest;
     `least_m` (n,), how far planes between the two are apart at most, negative by how deep they are sunk in; `edges`
-    (n,), as told by `edge_clearance`; `on_host`, `on_guest` and `inner` (3, n), as told by `clearance`.
+    (n,), as told by `edge_clearance`; `on_host`, `on_guest` and `inner` (3, n), as told by `clearance`. Of some pairs
+    the `ends` are known already: `kept` (n,) is their column there, -1 for none.
     """
 
-    __slots__ = ("distance_m", "inner", "least_m", "on_guest", "on_host", "table", "way_m")
+    __slots__ = ("distance_m", "ends", "inner", "kept", "least_m", "on_guest", "on_host", "table", "way_m")
 
-    def __init__(self, table: Floats) -> None:
-        self.table = table
+    def __init__(self, table: Floats, kept: Indices, ends: Ends | None = None) -> None:
+        self.table, self.kept, self.ends = table, kept, ends
         self.distance_m, self.least_m, self.way_m = table[0], table[1], table[3:6]
         self.on_host, self.on_guest, self.inner = table[6:9], table[9:12], table[12:]
 
@@ -112,7 +142,16 @@ class Gaps:
 
     def rows(self, rows: Indices) -> Gaps:
         """Those of some of the pairs."""
-        return self if len(rows) == self.table.shape[1] else Gaps(self.table.take(rows, axis=1))
+        if len(rows) == self.table.shape[1]:
+            return self
+        return Gaps(self.table.take(rows, axis=1), self.kept.take(rows), self.ends)
+
+
+def picked(table: Floats, rows: Indices) -> Floats:
+    """Of each column of a table (m, n) its own rows (k, n); numpy's own way, an index per axis, is slower."""
+    n = table.shape[1]
+    found: Floats = table.ravel().take(rows * n + np.arange(n))
+    return found
 
 
 def dot(x: Floats, y: Floats) -> Floats:
@@ -146,16 +185,21 @@ def clearance(pairs: Pairs) -> Floats:
 def edge_clearance(pairs: Pairs) -> tuple[Floats, Indices]:
     """How far pairs are apart along the nine normals of two edges (n,) [m], the most of them, and of which edges it is:
     three times the host's axis and the guest's."""
-    turn, shift, a, b = pairs.turn, pairs.shift, pairs.a, pairs.b
-    reach = np.abs(turn)
-    on_next, on_last = turn[NEXT], turn[LAST]
-    apart = np.abs(shift[LAST][:, None] * on_next - shift[NEXT][:, None] * on_last)
-    apart -= a[NEXT][:, None] * reach[LAST] + a[LAST][:, None] * reach[NEXT]
-    apart -= b[NEXT] * reach[:, LAST] + b[LAST] * reach[:, NEXT]
+    table, n = pairs.table.take(_CROSS_ROWS, axis=0), pairs.table.shape[1]
+    turns, reaches = table[:36].reshape(4, 3, 3, n), np.abs(table[:36]).reshape(4, 3, 3, n)
+    on_next, on_last = turns[:2]
+    (shift_next, shift_last), (a_next, a_last) = table[36:48].reshape(2, 2, 3, 1, n)
+    b_next, b_last = table[48:].reshape(2, 3, n)
+    apart = np.abs(shift_last * on_next - shift_next * on_last)
+    apart -= a_next * reaches[1] + a_last * reaches[0]
+    apart -= b_next * reaches[3] + b_last * reaches[2]
     sine2 = on_next * on_next + on_last * on_last
     skew = sine2 > _PARALLEL
-    apart /= np.sqrt(np.where(skew, sine2, 1.0))
-    apart = np.where(skew, apart, -np.inf).reshape(9, -1)
+    if skew.all():
+        apart /= np.sqrt(sine2)
+    else:
+        apart = np.where(skew, apart / np.sqrt(np.where(skew, sine2, 1.0)), -np.inf)
+    apart = apart.reshape(9, -1)
     edges = apart.argmax(axis=0)
     return apart[edges, np.arange(len(edges))], edges
 
@@ -166,7 +210,7 @@ def gaps(pairs: Pairs, within_m: float) -> tuple[Indices, Gaps]:
     flat, inner = clear[:6].max(axis=0), clear[6:].min(axis=0)
     rows = np.flatnonzero((flat <= within_m) & (inner <= within_m))
     pairs, flat, inner = pairs.rows(rows), flat[rows], inner[rows]
-    found = Gaps(np.zeros((15, len(rows))))
+    found = Gaps(np.zeros((15, len(rows))), np.full(len(rows), -1))
     found.table[6:] = clear.take(rows, axis=1)
     of_edges, edges = edge_clearance(pairs)
     found.table[2] = edges
@@ -176,9 +220,13 @@ def gaps(pairs: Pairs, within_m: float) -> tuple[Indices, Gaps]:
     if len(inside):
         distance[inside] = np.maximum(inner[inside], 0.0)
         way[:, inside] = _way_inside(pairs.shift[:, inside], found.inner[:, inside])
-    apart = np.flatnonzero((least > 0) & (least <= within_m))
-    if len(apart):
-        distance[apart], way[:, apart] = _apart(pairs.rows(apart), flat[apart], edges[apart])
+    # Of those that cut each other with edges first, where these are will be asked for as well.
+    asked = np.flatnonzero((least <= within_m) & ((least > 0) | (of_edges > flat + _SURELY_M)))
+    if len(asked):
+        apart = least[asked] > 0
+        lengths, ways, kept, found.ends = _apart(pairs.rows(asked), flat[asked], edges[asked])
+        distance[asked], way[:, asked] = np.where(apart, lengths, distance[asked]), np.where(apart, ways, way[:, asked])
+        found.kept[asked[kept]] = np.arange(len(kept))
     near = np.flatnonzero((distance <= within_m) & (least <= within_m))
     return rows[near], found.rows(near)
 
@@ -195,17 +243,20 @@ def all_ends(pairs: Pairs) -> Ends:
     return _corner_ends(pairs).joined(_all_edge_ends(pairs))
 
 
-def _apart(pairs: Pairs, flat_m: Floats, edges: Indices) -> tuple[Floats, Floats]:
-    """Distances (n,) and ways (3, n) of pairs that are apart."""
-    distance, way = _nearest(_corner_ends(pairs))
+def _apart(pairs: Pairs, flat_m: Floats, edges: Indices) -> tuple[Floats, Floats, Indices, Ends | None]:
+    """Distances (n,) and ways (3, n) of pairs that are apart; and of those rows of which all had to be looked at, the
+    ends."""
+    corners = _corner_ends(pairs)
+    distance, way = _nearest(corners)
     open_ = np.flatnonzero(distance > flat_m + _SETTLED_M)
-    if len(open_):
-        ends, unsure = _edge_ends(pairs.rows(open_), edges[open_])
-        _shorten(distance, way, open_, ends)
-        open_ = open_[unsure]
-    if len(open_):
-        _shorten(distance, way, open_, _all_edge_ends(pairs.rows(open_)))
-    return distance, way
+    if not len(open_):
+        return distance, way, open_, None
+    ends, unsure = _edge_ends(pairs.rows(open_), edges[open_])
+    _shorten(distance, way, open_, ends)
+    if unsure.any():
+        _shorten(distance, way, open_[unsure], _all_edge_ends(pairs.rows(open_[unsure])))
+        open_, ends = open_[~unsure], ends.rows(np.flatnonzero(~unsure))
+    return distance, way, open_, corners.rows(open_).joined(ends)
 
 
 def _shorten(distance: Floats, way: Floats, rows: Indices, ends: Ends) -> None:
@@ -215,19 +266,31 @@ def _shorten(distance: Floats, way: Floats, rows: Indices, ends: Ends) -> None:
 
 
 def _nearest(ends: Ends) -> tuple[Floats, Floats]:
-    k = ends.distance_m.argmin(axis=0)
-    columns = np.arange(len(k))
-    return ends.distance_m[k, columns], (ends.on_guest - ends.on_host)[:, k, columns]
+    columns = np.arange(ends.distance_m.shape[1])
+    place = ends.distance_m.argmin(axis=0) * len(columns) + columns
+    on_guest, on_host = (part.reshape(3, -1).take(place, axis=1) for part in (ends.on_guest, ends.on_host))
+    return ends.distance_m.ravel().take(place), on_guest - on_host
+
+
+def _corners(turn: Floats, shift: Floats, half: Floats) -> Floats:
+    """The corners (3, 8, n), in the order of `SIGNS`, of cuboids with these axes, middles and half edges."""
+    x, y, z = (turn * half).transpose(1, 0, 2)[..., None, :] * _BOTH
+    across = x[:, :, None] + y[:, None]
+    corners = across[:, :, :, None] + z[:, None, None]
+    placed: Floats = shift[:, None] + corners.reshape(3, 8, -1)
+    return placed
 
 
 def _corner_ends(pairs: Pairs) -> Ends:
     """Each corner and the other's nearest point, 16 in all; corners inside the other have distance 0."""
-    corners = pairs.guest_corners()
-    on_host = _clamped(corners, pairs.a)
-    own = pairs.swapped().guest_corners()
-    tips = np.broadcast_to(SIGNS[..., None] * pairs.a[:, None], own.shape)
-    on_guest = pairs.to_host(_clamped(own, pairs.b))
-    return Ends(_lengths(corners - on_host), on_host, corners).joined(Ends(_lengths(on_guest - tips), tips, on_guest))
+    turn, shift, a, b = pairs.turn, pairs.shift, pairs.a, pairs.b
+    on_host, on_guest = np.empty((2, 3, 16, shift.shape[1]))
+    on_guest[:, :8] = _corners(turn, shift, b)
+    on_host[:, :8] = _clamped(on_guest[:, :8], a)
+    on_host[:, 8:] = SIGNS[..., None] * a[:, None]
+    own = _corners(turn.transpose(1, 0, 2), -dot(turn, shift[:, None]), a)
+    on_guest[:, 8:] = pairs.to_host(_clamped(own, b))
+    return Ends(_lengths(on_guest - on_host), on_host, on_guest)
 
 
 def _edge_ends(pairs: Pairs, edges: Indices) -> tuple[Ends, Marks]:
@@ -236,29 +299,30 @@ def _edge_ends(pairs: Pairs, edges: Indices) -> tuple[Ends, Marks]:
 
     Of two that are nearest each other along edges, these are the ones: their common normal parts the two farthest.
     """
-    columns, (i, j) = np.arange(len(edges)), np.divmod(edges, 3)
-    order = np.stack([i, NEXT[i], LAST[i]])
-    turn, shift, a = pairs.turn[order[:, None], _ROWS, columns], pairs.shift[order, columns], pairs.a[order, columns]
-    along, half = turn[:, j, columns], pairs.b[j, columns]
+    rows = _EDGE_ROWS.take(edges, axis=1)
+    table = picked(pairs.table, rows)
+    axes, shift, a, b = table[:9].reshape(3, 3, -1), table[9:12], table[12:15], table[15:]
+    along, others = axes[0], axes[1:]
     sine2 = along[1] * along[1] + along[2] * along[2]
     side = np.where(shift[2] * along[1] < shift[1] * along[2], -1.0, 1.0) / np.sqrt(sine2)
-    n1, n2 = -side * along[2], side * along[1]
-    on_host = np.stack([np.zeros_like(n1), np.where(n1 < 0, -a[1], a[1]), np.where(n2 < 0, -a[2], a[2])])
-    on_guest, least = shift, np.minimum(np.abs(n1), np.abs(n2))
-    for axis in (NEXT[j], LAST[j]):
-        other = turn[:, axis, columns]
-        lean = n1 * other[1] + n2 * other[2]
-        on_guest = on_guest - np.where(lean < 0, -1.0, 1.0) * pairs.b[axis, columns] * other
-        least = np.minimum(least, np.abs(lean))
+    leans = np.empty((4, len(edges)))
+    n1, n2 = np.multiply(-side, along[2], out=leans[0]), np.multiply(side, along[1], out=leans[1])
+    leans[2:] = n1 * others[:, 1] + n2 * others[:, 2]
+    halves = table.take(_ACROSS, axis=0)
+    ends = np.where(leans < 0, -halves, halves)
+    on_host = np.zeros_like(shift)
+    on_host[1:] = ends[:2]
+    on_guest = shift - ends[2] * others[0] - ends[3] * others[1]
     between = on_guest - on_host
     on_a, on_b, cosine = between[0], dot(between, along), along[0]
     s, u = (on_a - cosine * on_b) / sine2, (cosine * on_a - on_b) / sine2
     on_host[0] = s
     on_guest = on_guest + u * along
-    meets = (np.abs(s) <= a[0]) & (np.abs(u) <= half)
+    meets = (np.abs(s) <= a[0]) & (np.abs(u) <= b[0])
     distance = np.where(meets, _lengths(on_guest - on_host), np.inf)
+    least = np.abs(leans).min(axis=0)
     placed = np.empty((2, *on_host.shape))
-    placed[:, order, columns] = on_host, on_guest
+    placed[:, rows[9:12] - 9, np.arange(len(edges))] = on_host, on_guest
     return Ends(distance[None], placed[0][:, None], placed[1][:, None]), least < _ASKEW
 
 

@@ -324,7 +324,7 @@ class ContactFinder:
         return {pair: None if plan is None else plan.junction() for pair, plan in plans.items()}
 
     def _plan(self, pair: Pair) -> Plan | None:
-        """How a pair touches by its strongest bond: a held by b, b held by a, or mere touch."""
+        """How a pair touches by its strongest bond: a by b, b by a, mere touch, or one is built into the other."""
         a, b = pair
         tie = self._ties.get(a, {}).get(b)
         if tie is None:
@@ -343,6 +343,10 @@ class ContactFinder:
                 if share > bond.weight:
                     bond, is_touch = Bond(share, NO_WAY, direction(*apart), False, a), True
                     slack_m += apart[0]
+        if bond.weight < 1:
+            share, play_m = tie.enclosed()
+            if share > bond.weight:
+                bond, is_touch, slack_m = Bond(share, NO_WAY, None, False, a), False, _SLACK_M + play_m
         if bond.weight <= 0:
             return None
         side = tie.aside(TOUCH_M, _SLACK_M) if is_touch else None

@@ -70,7 +70,7 @@ def spread_each(points: NDArray[np.float64], counts: NDArray[np.bool_]) -> tuple
     Rows (`MAX_POINTS`, n) of the points taken, and which of these rows are any. The middle is that of the box around
     the points, since a sum would depend on how many sets there are.
     """
-    columns = np.arange(points.shape[2])
+    columns, every = np.arange(points.shape[2]), points.reshape(3, -1)
     low, high = np.where(counts, points, np.inf).min(axis=1), np.where(counts, points, -np.inf).max(axis=1)
     some = counts.any(axis=0)
     middle = np.where(some, low, 0.0) / 2 + np.where(some, high, 0.0) / 2
@@ -84,7 +84,7 @@ def spread_each(points: NDArray[np.float64], counts: NDArray[np.bool_]) -> tuple
         kept[k] = more
         if k + 1 == MAX_POINTS or not more.any():
             break
-        away = _distances(points, points[:, rows[k], columns])
+        away = _distances(points, every.take(rows[k] * len(columns) + columns, axis=1))
         apart = np.minimum(apart, away) if k else np.where(counts, away, -1.0)
         farthest = apart.max(axis=0)
         more = more & (farthest > _SPREAD_M)
@@ -92,6 +92,9 @@ def spread_each(points: NDArray[np.float64], counts: NDArray[np.bool_]) -> tuple
 
 
 def _distances(points: NDArray[np.float64], places: NDArray[np.float64]) -> NDArray[np.float64]:
-    x, y, z = points - places[:, None]
-    lengths: NDArray[np.float64] = np.sqrt(x * x + y * y + z * z)
-    return lengths
+    away = points - places[:, None]
+    away *= away
+    lengths: NDArray[np.float64] = away[0]
+    lengths += away[1]
+    lengths += away[2]
+    return np.sqrt(lengths, out=lengths)

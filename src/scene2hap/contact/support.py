@@ -65,10 +65,10 @@ def weights(gaps_m: Floats, tolerance_m: float) -> Floats:
     """The same for many gaps (n,)."""
     if tolerance_m == 0.0:
         return np.where(gaps_m <= 0.0, 1.0, 0.0)
-    found = np.where(3 * gaps_m / tolerance_m - 2 <= 0, 1.0, 0.0)
+    x = 3 * gaps_m / tolerance_m - 2
+    found, rows = np.ones(len(x)), np.flatnonzero(x > 0)
     # Few are so far apart, and numpy's cosine may end otherwise in the last bit.
-    for row in np.flatnonzero(found == 0.0).tolist():
-        found[row] = weight(float(gaps_m[row]), tolerance_m)
+    found[rows] = [0.0 if one >= 1 else 0.5 * (1 + math.cos(math.pi * one)) for one in x[rows].tolist()]
     return found
 
 

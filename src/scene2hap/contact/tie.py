@@ -13,6 +13,7 @@ import numpy as np
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.cuboid_meeting import gaps_of, points_of
+from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.level import Aside, Rest, aside, rest_on
 from scene2hap.contact.narrow import Gap, Meeting
 from scene2hap.contact.profile import Floats, Triple
@@ -96,6 +97,11 @@ class Tie:
             near: Gap | None = self._once(_APART, lambda: gaps_of([(self.a, self.b)], WITHIN_M)[0])
             return near if near is not None and near.distance_m <= within_m else None
         found: Gap | None = self._once(within_m, lambda: self._meeting.gap(within_m))
+        return found
+
+    def enclosed(self) -> tuple[float, float]:
+        """How much of a contact it is that one is built into the other, and with how much play; see `enclosure`."""
+        found: tuple[float, float] = self._once("enclosed", lambda: enclosed(self.a, self.b))
         return found
 
     def points(self, way_m: Triple, within_m: float) -> tuple[Triple, ...]:

@@ -26,6 +26,11 @@ from scene2hap.scene.pose import Pose
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.scene.snapshot import SceneObject
 
+# The products of a quaternion's components (x, y, z, w): the squares, then what its rotation has beside the diagonal.
+_LEFT, _RIGHT = np.array([[0, 1, 2, 0, 0, 0, 1, 0, 1, 2, 1, 2, 0, 1, 0], [0, 1, 2, 1, 2, 1, 2, 2, 2, 3, 3, 3, 3, 3, 3]])
+_DIAGONAL = np.array([[1, 0, 0], [2, 2, 1]])
+_BESIDE = np.array([1, 2, 3, 5, 6, 7])
+_SIGNS = np.array([-1.0, 1.0, 1.0, -1.0, -1.0, 1.0])[:, None]
 # Up to so many pairs of boxes, comparing all is cheaper than sorting.
 _FEW = 1 << 18
 
@@ -90,7 +95,8 @@ class TouchFinder:
     ) -> tuple[list[Pair], list[Pair], list[Pair]]:
         """Take things out, in, and elsewhere; the pairs that have come to touch, ceased to, and touch otherwise."""
         left = [self._column.pop(x) for x in gone]
-        self._low[:, left], self._high[:, left] = np.inf, -np.inf
+        if left:
+            self._low[:, left], self._high[:, left] = np.inf, -np.inf
         came = [self._enter(item) for item in added]
         if left or came:
             self._columns_of = ((), np.empty(0, dtype=np.intp))
@@ -152,12 +158,11 @@ class TouchFinder:
         return columns
 
     def _turn_boxes(self, columns: Indices) -> None:
-        x, y, z, w = self._rotation[:, columns]
-        xx, yy, zz, xy, xz, yz, wx, wy, wz = x * x, y * y, z * z, x * y, x * z, y * z, x * w, y * w, z * w
+        q = self._rotation.take(columns, axis=1)
+        products = q.take(_LEFT, axis=0) * q.take(_RIGHT, axis=0)
         place = np.empty((12, len(columns)))
-        place[0], place[1], place[2] = 1 - 2 * (yy + zz), 2 * (xy - wz), 2 * (xz + wy)
-        place[3], place[4], place[5] = 2 * (xy + wz), 1 - 2 * (xx + zz), 2 * (yz - wx)
-        place[6], place[7], place[8] = 2 * (xz - wy), 2 * (yz + wx), 1 - 2 * (xx + yy)
+        place[0:9:4] = 1 - 2 * (products[_DIAGONAL[0]] + products[_DIAGONAL[1]])
+        place[_BESIDE] = 2 * (products[3:9] + products[9:] * _SIGNS)
         turn = place[:9].reshape(3, 3, -1)
         middle = self._position[:, columns] + times(turn, self._own_middle[:, None, columns])[:, 0]
         wide = times(np.abs(turn), self._place[12:, None, columns])[:, 0]
@@ -182,8 +187,10 @@ class TouchFinder:
         stirred[left] = True
         first, second = self._touches.columns()
         again = stirred[first] | stirred[second]
-        before = self._touches.rows(again)
-        self._touches = self._touches.rows(~again).with_more(now)
+        before, others = self._touches, Touches.none()
+        if not again.all():
+            before, others = before.rows(again), before.rows(~again)
+        self._touches = others.with_more(now)
         return difference(before, now)
 
     def _meeting(self, columns: Indices, stirred: Marks) -> tuple[Indices, Indices]:
@@ -196,7 +203,9 @@ class TouchFinder:
                 if axis:
                     meets &= low[axis, :, None] <= self._high[axis, :n]
                 meets &= high[axis, :, None] >= self._low[axis, :n]
-            i, j = np.nonzero(meets)
+            # Faster than asking numpy for both, or for a division.
+            i = np.repeat(np.arange(len(columns)), np.count_nonzero(meets, axis=1))
+            j = np.flatnonzero(meets) - i * n
         else:
             every = Boxes(self._low[:, :n].T, self._high[:, :n].T)
             parts = list(box_pairs(Boxes(low.T, high.T), every))

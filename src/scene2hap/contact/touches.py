@@ -50,14 +50,25 @@ class Touches(NamedTuple):
 
     def rows(self, rows: Indices | Marks) -> Touches:
         """Some of them."""
-        return Touches(self.codes[rows], self.points_m[rows], self.counts[rows], self.weights[rows], self.normals[rows])
+        if rows.dtype == np.bool_:
+            rows = np.flatnonzero(rows)
+        codes, points, counts, weights, normals = self
+        return Touches(
+            codes.take(rows),
+            points.take(rows, axis=0),
+            counts.take(rows),
+            weights.take(rows),
+            normals.take(rows, axis=0),
+        )
 
     def with_more(self, more: Touches) -> Touches:
         """These and others."""
         if not len(self.codes) or not len(more.codes):
             return self if len(self.codes) else more
         codes, points, counts, weights, normals = (np.concatenate(columns) for columns in zip(self, more, strict=True))
-        joined = Touches(codes.astype(np.int64), points, counts.astype(np.intp), weights, normals)
+        joined = Touches(
+            codes.astype(np.int64, copy=False), points, counts.astype(np.intp, copy=False), weights, normals
+        )
         return joined.rows(np.argsort(joined.codes))
 
     def columns(self) -> tuple[Indices, Indices]:
@@ -85,15 +96,24 @@ class Difference(NamedTuple):
 
 def difference(before: Touches, now: Touches) -> Difference:
     """What has changed."""
+    if len(before.codes) == len(now.codes) and (before.codes == now.codes).all():
+        return Difference([], [], now.codes[~_same(before, now)].tolist())
     place = np.searchsorted(before.codes, now.codes)
     place[place == len(before.codes)] = 0
     known = before.codes[place] == now.codes if len(before.codes) else np.zeros(len(now.codes), dtype=bool)
     then, still = before.rows(place[known]), now.rows(known)
-    same = (then.points_m == still.points_m).all(axis=(1, 2)) & (then.normals == still.normals).all(axis=1)
-    same &= (then.counts == still.counts) & (then.weights == still.weights)
     gone = np.ones(len(before.codes), dtype=bool)
     gone[place[known]] = False
-    return Difference(now.codes[~known].tolist(), before.codes[gone].tolist(), still.codes[~same].tolist())
+    return Difference(
+        now.codes[~known].tolist(), before.codes[gone].tolist(), still.codes[~_same(then, still)].tolist()
+    )
+
+
+def _same(then: Touches, now: Touches) -> Marks:
+    """Which of the same pairs touch as before."""
+    same: Marks = (then.points_m == now.points_m).all(axis=(1, 2)) & (then.normals == now.normals).all(axis=1)
+    same &= (then.counts == now.counts) & (then.weights == now.weights)
+    return same
 
 
 class PairNames:

@@ -12,7 +12,7 @@ from scipy.optimize import lsq_linear
 from contact_scenes import box
 from scene2hap.contact.body import Body
 from scene2hap.contact.cuboid_patch import patches
-from scene2hap.contact.cuboids import Pairs, gaps
+from scene2hap.contact.cuboids import Gaps, Pairs, gaps
 from scene2hap.contact.narrow import Meeting
 from scene2hap.contact.spread import spread_each
 from scene2hap.scene.pose import Pose
@@ -97,6 +97,21 @@ def test_a_pair_is_told_the_same_alone_to_the_last_bit(plain: bool, seed: int) -
         counts = spots.counts[:, place]
         assert spot.counts[:, 0].tolist() == counts.tolist()
         assert spot.points_m[:, counts, 0].tolist() == spots.points_m[:, counts, place].tolist()
+
+
+@pytest.mark.parametrize("plain", [False, True])
+@given(seed=SEEDS)
+@settings(derandomize=True, deadline=None, max_examples=4)
+def test_ends_that_are_kept_give_the_points_that_looking_anew_does(plain: bool, seed: int) -> None:
+    every = pairs_of(cases(seed, 40, plain))
+    rows, found = gaps(every, 0.1)
+    # One at a time, so that each has all its ends known or none.
+    for place, row in enumerate(rows.tolist()):
+        one, known = every.rows(np.array([row])), found.rows(np.array([place]))
+        anew = Gaps(known.table, np.full(1, -1))
+        told, again = (patches(one, gap, gap.distance_m + SLACK_M, SUNK_M) for gap in (known, anew))
+        assert told.counts.tolist() == again.counts.tolist()
+        assert told.points_m[:, told.counts[:, 0]].tolist() == again.points_m[:, told.counts[:, 0]].tolist()
 
 
 def off_surface(point: Floats, half: Floats) -> float:
