@@ -29,7 +29,7 @@ class BandRms:
         u = np.sqrt(edges)
         self._exact = exact
         b = 2 * math.sqrt(2 * math.pi) * u
-        self._edges = b[:, None]
+        self._minus_edges = -b[:, None]
         self._scale = np.sqrt(2 / np.diff(edges) / (8 * math.pi))[:, None]
         self._least = math.sqrt(_LEAST / float((b[:-1] * np.diff(b)).min()))
 
@@ -49,12 +49,13 @@ class BandRms:
 
     def _by_difference(self, length: NDArray[np.float64]) -> NDArray[np.float64]:
         # Bands first: what belongs to one edge lies side by side, so that neighbours are subtracted in one stride.
-        x = self._edges * length
-        np.minimum(x, _MOST, out=x)
-        g = np.exp(-x)
-        x += 1
-        g *= x
-        gains: NDArray[np.float64] = np.sqrt(g[:-1] - g[1:])
+        minus_x = self._minus_edges * length
+        np.maximum(minus_x, -_MOST, out=minus_x)
+        minus_g = np.exp(minus_x)
+        minus_x -= 1
+        minus_g *= minus_x
+        gains: NDArray[np.float64] = minus_g[1:] - minus_g[:-1]
+        np.sqrt(gains, out=gains)
         gains *= self._scale
         gains /= length
         return gains.T

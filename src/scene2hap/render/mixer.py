@@ -8,13 +8,15 @@ tactile sample, so at most one tactile sample later. What is felt lags the clock
 A stepped gain would put sidebands into the tactile band, so every change is spread over a raised cosine; changes that
 overlap add up (`scene2hap.render.tactile_mix`). See Kaaresoja 2014 and Okamoto 2009 for the time budget.
 
-Threads: `set_gains` (game) appends to a deque and `render` (audio) pops from it; neither waits for the other. `render`
+Threads: `set_gains` (game) appends to a deque and `render` (audio) pops from it; neither waits for the other, and what
+is set again for the same frame takes the place of what waits, so that nothing piles up if nobody renders. `render`
 does not give the interpreter lock away in its midst for 20 bands or fewer, so that a game's Python cannot cut in.
 """
 
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,6 +40,14 @@ class MixerStats:
     changes_merged: int = 0
 
 
+@dataclass(eq=False, slots=True)
+class _Change:
+    """Gains that wait for their frame."""
+
+    at_frame: int
+    gains: Gains
+
+
 class Mixer:
     """The running mix of `n_hands` outputs.
 
@@ -56,6 +66,7 @@ class Mixer:
         checks.number("ramp_s", ramp_s, "s", above=0.0, error=ConfigError)
         self._shape = (n_hands, bank.n_rows)
         self._n_bands = bank.n_bands
+        self._all_loops = range(len(bank))
         self._is_skipping = skip_silent
         self._tactile_rate_hz, self._sample_rate_hz = bank.sample_rate_hz, sample_rate_hz
         self._upsampler = Upsampler(bank.sample_rate_hz, sample_rate_hz, n_hands)
@@ -63,7 +74,8 @@ class Mixer:
         self._scratch = np.zeros_like(self._outputs)
         ramp = max(1, round(ramp_s * bank.sample_rate_hz))
         self._mix = TactileMix(bank, n_hands, ramp, self._upsampler.cell, is_skipping=skip_silent)
-        self._incoming: deque[tuple[int, Gains]] = deque()
+        self._incoming: deque[_Change] = deque()
+        self._latest: _Change | None = None
         self._position = 0
         self._tick = 0
         self._cell_begin = -CELL
@@ -90,9 +102,41 @@ class Mixer:
 
         Raises: SessionError: another shape, or gains that are not finite; the audio thread could not tell anyone.
         """
-        if gains.shape != self._shape or not np.isfinite(gains).all():
-            raise SessionError(f"gains has shape {gains.shape}; it must be finite numbers of shape {self._shape}.")
-        self._incoming.append((at_frame, Gains.of(gains, self._n_bands, self._is_skipping)))
+        loops = self._all_loops
+        self._send(gains, self._shape, (self._shape[0], len(loops), self._n_bands), loops, at_frame)
+
+    def set_loops(self, gains: NDArray[np.float32], loops: Sequence[int], at_frame: int) -> None:
+        """Move to gains (n_hands, n_loops, n_bands) of some loops, and to 0 for all others; else as `set_gains`."""
+        shape = (self._shape[0], len(loops), self._n_bands)
+        self._send(gains, shape, shape, loops, at_frame)
+
+    def _send(
+        self,
+        gains: NDArray[np.float32],
+        wanted: tuple[int, ...],
+        by_loop: tuple[int, int, int],
+        loops: Sequence[int],
+        at_frame: int,
+    ) -> None:
+        told = None
+        if gains.shape == wanted:
+            told = Gains.of(gains.reshape(by_loop), loops, None if self._is_skipping else self._all_loops)
+        if told is None:
+            raise SessionError(f"gains has shape {gains.shape}; it must be finite numbers of shape {wanted}.")
+        latest = self._latest
+        if latest is not None and latest.at_frame == at_frame:
+            # Of gains that begin at one sample the newest alone count.
+            latest.gains = told
+            if self._is_waiting(latest):
+                return
+        self._latest = _Change(at_frame, told)
+        self._incoming.append(self._latest)
+
+    def _is_waiting(self, change: _Change) -> bool:
+        try:
+            return self._incoming[-1] is change
+        except IndexError:
+            return False
 
     def render(self, n_frames: int) -> NDArray[np.float32]:
         """The next samples (n_frames, n_hands) float32 in [-1, 1]."""
@@ -126,11 +170,12 @@ class Mixer:
     def _take_gains(self, end: int) -> None:
         """Start the gains whose time comes before a tactile sample, none of them in what is rendered."""
         while self._incoming:
-            at_frame, gains = self._incoming[0]
-            tick = max(-(-at_frame * self._tactile_rate_hz // self._sample_rate_hz), self._tick)
+            change = self._incoming[0]
+            tick = max(-(-change.at_frame * self._tactile_rate_hz // self._sample_rate_hz), self._tick)
             if tick >= end:
                 break
+            # Whoever sees it waiting may still replace its gains, so that these are read last.
             self._incoming.popleft()
-            self._mix.start(gains, tick)
+            self._mix.start(change.gains, tick)
             self._tick = tick
         self._tick = max(self._tick, end)

@@ -17,6 +17,8 @@ Symbols: t tactile sample, G gains (slots * hands, rows), L loops (rows, CELL), 
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
@@ -36,18 +38,31 @@ _SMALL_PRODUCT = 2**18
 
 @dataclass(frozen=True, eq=False)
 class Gains:
-    """Where the mix is going: values (n_hands, n_rows), and the loops that they let through."""
+    """Where the mix is going.
+
+    values : (n_hands, n_loops, n_bands) of some loops, 0 for all others; loops : which these are; heard : which are
+    mixed.
+    """
 
     values: Block
-    loops: tuple[int, ...]
+    loops: Sequence[int]
+    heard: Sequence[int]
 
     @classmethod
-    def of(cls, values: Block, n_bands: int, is_skipping: bool) -> Gains:
-        """A copy of gains, looked through on the thread that sets them."""
+    def of(cls, values: Block, loops: Sequence[int], heard: Sequence[int] | None = None) -> Gains | None:
+        """A copy of gains, looked through on the thread that sets them; None if they are not finite.
+
+        Parameters: heard : all that they let through if None. What lets less than 1e-22 through counts as 0, since the
+        squares of single precision end there.
+        """
         own = np.array(values, dtype=np.float32, order="C")
-        n_loops = own.shape[1] // n_bands
-        audible = own.reshape(len(own), n_loops, n_bands).any(axis=(0, 2))
-        return cls(own, tuple(np.flatnonzero(audible).tolist()) if is_skipping else tuple(range(n_loops)))
+        powers = np.einsum("hlb,hlb->l", own, own).tolist()
+        # A square may be infinite where its root is not.
+        if not math.isfinite(sum(powers)) and not np.isfinite(own).all():
+            return None
+        if heard is None:
+            heard = [loop for loop, power in zip(loops, powers, strict=True) if power]
+        return cls(own, loops, heard)
 
 
 class _Held(NamedTuple):
@@ -81,7 +96,12 @@ class TactileMix:
         n_slots = min(MOST_SLOTS, -(-1000 * (ramp + CELL) // bank.sample_rate_hz) + 2)
         n_rows = bank.n_rows
         self.x = x
-        self._G = np.zeros((n_rows, n_slots * n_hands), dtype=np.float32)
+        # Behind the places of loops in use there is one for gains of loops that are not.
+        self._G = np.zeros((n_rows + bank.n_bands, n_slots * n_hands), dtype=np.float32)
+        self._columns = list(self._G.T)
+        self._rows_at = np.arange(len(self._G), dtype=np.intp).reshape(-1, bank.n_bands)
+        self._rows = np.zeros((len(bank), bank.n_bands), dtype=np.intp)
+        self._rows_are_of: Sequence[int] | None = None
         self._L = np.zeros((n_rows, CELL), dtype=np.float32)
         self._places = list(self._L.reshape(len(bank), bank.n_bands, CELL))
         self._P = np.zeros((n_slots, n_hands, CELL), dtype=np.float32)
@@ -89,13 +109,14 @@ class TactileMix:
         self._weights = np.zeros((n_slots, CELL), dtype=np.float32)
         self._weighted = np.zeros((n_slots, CELL), dtype=np.float32)
         self._sum = np.zeros(CELL, dtype=np.float32)
-        silence = Gains.of(np.zeros((n_hands, n_rows), dtype=np.float32), bank.n_bands, is_skipping)
+        every = range(len(bank))
+        silence = Gains(np.zeros((n_hands, 0, bank.n_bands), dtype=np.float32), (), () if is_skipping else every)
         self._free = list(range(n_slots - 1, 0, -1))
         self._held = [_Held(silence, 0, 0, 0)]
         self._waiting: Gains | None = None
         self._loops: list[int] = []
         self._users = [0] * len(bank)
-        self._rows = np.zeros(n_rows, dtype=np.intp)
+        self._place_of = [len(bank)] * len(bank)
         self._begin = self._from = 0
         self._is_stale = False
         self._arrange()
@@ -110,7 +131,7 @@ class TactileMix:
             self._free.append(ended.slot)
             self._leave(ended.gains)
         self.n_cells += 1
-        self.n_rows_mixed += len(self._used)
+        self.n_rows_mixed += len(self._loops) * self._bank.n_bands
         self._read(0)
         if self._waiting is not None and self._free:
             gains, self._waiting = self._waiting, None
@@ -122,7 +143,7 @@ class TactileMix:
             self.n_merged += self._waiting is not None
             self._waiting = gains
             return
-        is_more = not all(map(self._users.__getitem__, gains.loops))
+        is_more = not all(map(self._users.__getitem__, gains.heard))
         if is_more:
             # With more rows a product may round in another way; what comes before this sample keeps to the old one.
             self.compute()
@@ -134,8 +155,10 @@ class TactileMix:
         held = _Held(gains, self._free.pop(), tick, tick + self._ramp - 1)
         self._held.append(held)
         column = held.slot * self._n_hands
-        for hand, values in enumerate(gains.values):
-            self._G_used[column + hand] = values[self._used]
+        rows, n_rows = self._rows_of(gains.loops), len(self._loops) * self._bank.n_bands
+        for values, own in zip(gains.values, self._columns[column : column + self._n_hands], strict=True):
+            own[:n_rows] = 0.0
+            own[rows] = values.reshape(-1)
         self._is_stale = True
 
     def compute(self) -> bool:
@@ -173,10 +196,19 @@ class TactileMix:
     def _arrange(self) -> None:
         """Make the views of the rows in use, once rather than for every product."""
         n = len(self._loops) * self._bank.n_bands
-        self._used, self._G_used = self._rows[:n], self._G[:n].T
+        self._rows_are_of = None
         at_once = max(1, _SMALL_PRODUCT // (self._G.shape[1] * CELL))
         spans = [slice(begin, min(begin + at_once, n)) for begin in range(0, n, at_once)]
         self._parts = [(self._L[span].T, self._G[span].T) for span in spans]
+
+    def _rows_of(self, loops: Sequence[int]) -> NDArray[np.intp]:
+        """Where the bands of loops are in G; found again only when loops came or went."""
+        rows = self._rows[: len(loops)]
+        if self._rows_are_of is not loops:
+            # "clip" has nothing to clip, and lets numpy do without a buffer.
+            self._rows_at.take([self._place_of[loop] for loop in loops], axis=0, out=rows, mode="clip")
+            self._rows_are_of = loops
+        return rows.reshape(-1)
 
     def _read(self, first: int) -> None:
         """Read the loops in use, from one of them on."""
@@ -186,13 +218,13 @@ class TactileMix:
     def _use(self, gains: Gains) -> None:
         n_bands = self._bank.n_bands
         is_new = False
-        for loop in gains.loops:
+        for loop in gains.heard:
             self._users[loop] += 1
             if self._users[loop] == 1:
                 is_new = True
+                self._place_of[loop] = len(self._loops)
                 place = len(self._loops) * n_bands
                 self._loops.append(loop)
-                self._rows[place : place + n_bands] = np.arange(loop * n_bands, (loop + 1) * n_bands)
                 self._G[place : place + n_bands] = 0.0
         if is_new:
             self._arrange()
@@ -200,15 +232,15 @@ class TactileMix:
     def _leave(self, gains: Gains) -> None:
         n_bands = self._bank.n_bands
         is_less = False
-        for loop in gains.loops:
+        for loop in gains.heard:
             self._users[loop] -= 1
             if self._users[loop] == 0:
                 is_less = True
                 # The last loop takes the place, so that those in use stay together.
-                place, last = self._loops.index(loop) * n_bands, (len(self._loops) - 1) * n_bands
-                self._rows[place : place + n_bands] = self._rows[last : last + n_bands]
+                at, moved = self._place_of[loop], self._loops.pop()
+                self._loops[at : at + 1] = [moved] if moved != loop else []
+                self._place_of[moved], self._place_of[loop] = at, len(self._users)
+                place, last = at * n_bands, len(self._loops) * n_bands
                 self._G[place : place + n_bands] = self._G[last : last + n_bands]
-                self._loops[place // n_bands] = self._loops[-1]
-                self._loops.pop()
         if is_less:
             self._arrange()

@@ -50,15 +50,17 @@ class Audibility:
         """Gains (n_hands, n_sources, n_bands), 0 where nothing is lost by it."""
         if self._skip.below_threshold:
             felt = (gains[:, :, None] @ self._felt)[:, :, 0]
-            is_out = felt < self._least_felt
-            n_out = int(np.count_nonzero(is_out)) - (felt.size - int(np.count_nonzero(felt)))
+            is_felt = felt >= self._least_felt
+            n_out = int(np.count_nonzero(felt)) - int(np.count_nonzero(is_felt))
             if n_out:
                 self._counts.below_threshold += n_out
-                gains = gains * ~is_out
+                gains = gains * is_felt
         if self._skip.silent_bands:
-            loud = gains * (gains >= self._least_gain)
-            self._counts.silent_bands += int(np.count_nonzero(gains)) - int(np.count_nonzero(loud))
-            gains = loud
+            is_loud = gains >= self._least_gain
+            n_silent = int(np.count_nonzero(gains)) - int(np.count_nonzero(is_loud))
+            if n_silent:
+                self._counts.silent_bands += n_silent
+                gains = gains * is_loud
         return gains
 
 

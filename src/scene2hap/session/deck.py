@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,32 +33,30 @@ class Deck:
             ramp_s=max(config.control_period_s, MIN_RAMP_S),
             skip_silent=config.skip.silent_bands,
         )
-        self._gains = np.zeros((len(hands), len(bank), config.bands.n_bands), dtype=np.float32)
-        self._place: tuple[Any, ...] = ()
-        self._last_told = b""
-        self._last_where: tuple[list[int], list[int]] | None = None
+        self._nothing = np.zeros((len(hands), 0, config.bands.n_bands), dtype=np.float32)
+        # Where it goes, and in which slots; what that follows from, to tell whether anything is new.
+        self._gains, self._slots = self._nothing, list[int]()
+        self._told: tuple[bytes, list[int], list[int]] | None = None
 
     def move_to(self, gains: NDArray[np.float32], slots: list[int], hands: list[int], at_frame: int) -> None:
         """Move to gains (n_hands, n_slots, n_bands) of some slots for some of its hands, and to 0 for the rest."""
-        told, where = gains.tobytes(), (slots, hands)
-        if where != self._last_where:
-            self._gains.fill(0.0)
-            self._place = np.ix_(hands, slots) if len(hands) < len(self.hands) else (slice(None), _compact(slots))
-        elif told == self._last_told:
+        told = (gains.tobytes(), slots, hands)
+        if told == self._told:
             return
-        self._gains[self._place] = gains
-        self._send(at_frame)
-        self._last_told, self._last_where = told, where
+        if len(hands) < len(self.hands):
+            some, gains = gains, np.zeros((len(self.hands), *gains.shape[1:]), dtype=np.float32)
+            gains[hands] = some
+        self._send(gains, slots, at_frame)
+        self._told = told
 
     def fade(self, slots: list[int], at_frame: int) -> None:
         """Move to 0 for some slots alone."""
-        self._gains[:, slots] = 0.0
-        self._send(at_frame)
+        kept = [i for i, slot in enumerate(self._slots) if slot not in slots]
+        self._send(self._gains[:, kept], [self._slots[i] for i in kept], at_frame)
 
     def silence(self, at_frame: int) -> None:
         """Move to 0."""
-        self._gains.fill(0.0)
-        self._send(at_frame)
+        self._send(self._nothing, [], at_frame)
 
     def render(self, position: int, n_frames: int) -> Block:
         """Samples (n_frames, n_hands) from a frame of the session's clock on, which only goes forward."""
@@ -73,13 +70,6 @@ class Deck:
         silence = np.zeros((n_waiting, len(self.hands)), dtype=np.float32)
         return np.concatenate([silence, self.mixer.render(n_frames - n_waiting)])
 
-    def _send(self, at_frame: int) -> None:
-        # The mixer takes a copy.
-        self.mixer.set_gains(self._gains.reshape(len(self.hands), -1), at_frame - self._begin)
-        self._last_where = None
-
-
-def _compact(slots: list[int]) -> slice | list[int]:
-    """Slots in a row as a slice, which numpy is quicker with."""
-    first, n = slots[0] if slots else 0, len(slots)
-    return slice(first, first + n) if slots == list(range(first, first + n)) else slots
+    def _send(self, gains: NDArray[np.float32], slots: list[int], at_frame: int) -> None:
+        self.mixer.set_loops(gains, slots, at_frame - self._begin)
+        self._gains, self._slots, self._told = gains, slots, None

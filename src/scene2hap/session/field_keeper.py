@@ -1,39 +1,48 @@
 """Keeps a propagation field at hand: the newest that is ready, while a worker prepares the next.
 
+What hangs together with what hands touch is prepared first, and everything once nothing changes any more.
+
 Threads: all methods belong to the game's thread. The worker gets what is to be prepared by a queue, skips what is no
 longer the newest, and leaves its answer in one slot; neither ever waits for the other. It ends with the keeper.
 """
 
 from __future__ import annotations
 
+import contextlib
 import threading
 import time
 import warnings
 import weakref
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from queue import Empty, SimpleQueue
 
 from scene2hap.errors import Scene2HapError
 from scene2hap.haptics import Bands
-from scene2hap.propagation.protocol import ContactNetwork, Excitation, PropagationField, PropagationModel
+from scene2hap.propagation.live import TouchedPoint
+from scene2hap.propagation.protocol import Excitation, PropagationField, PropagationModel
 from scene2hap.scene.pose import Pose
 from scene2hap.session.last_field import LastField
+from scene2hap.session.noted_field import NotedField
 from scene2hap.session.reach import Reach
-from scene2hap.session.stage import Stage
+from scene2hap.session.stage import Stage, Told
+
+AT_REST_S = 0.05
+"""Time without a change after which everything is prepared, and not only what hands can feel."""
 
 
 @dataclass(eq=False)
 class Situation:
     """What a field is prepared for.
 
-    Parameters: network : puts together what the model is told, in whatever thread; poses : of all objects then;
-    asked_at_s, outdated_at_s : when it began and ended to be how things are, by `time.monotonic` [s].
+    Parameters: network : puts together what the model is told, of what hangs together with some objects or of
+    everything for none, in whatever thread; poses : of all objects then; asked_at_s, outdated_at_s : when it began and
+    ended to be how things are, by `time.monotonic` [s].
     """
 
     number: int
-    network: Callable[[], ContactNetwork]
+    network: Callable[[Collection[str]], Told]
     excitations: Sequence[Excitation]
     poses: Mapping[str, Pose]
     asked_at_s: float
@@ -42,10 +51,11 @@ class Situation:
 
 @dataclass(frozen=True, eq=False)
 class Prepared:
-    """A field and the situation that it tells of."""
+    """A field, the situation that it tells of, and the objects of which it may say something, None for all."""
 
     field: PropagationField
     situation: Situation
+    covers: Collection[str] | None = None
 
 
 @dataclass(eq=False)
@@ -55,19 +65,48 @@ class _Desk:
     model: PropagationModel
     bands: Bands
     orders: SimpleQueue[Situation | None] = field(default_factory=SimpleQueue)
-    answers: deque[tuple[Situation, PropagationField | Exception]] = field(default_factory=lambda: deque(maxlen=1))
+    answers: deque[Prepared | tuple[Situation, Exception]] = field(default_factory=lambda: deque(maxlen=1))
     has_answered: threading.Event = field(default_factory=threading.Event)
+    touched: Sequence[TouchedPoint] = ()
 
-    def prepare(self, situation: Situation) -> PropagationField:
-        return self.model.prepare(situation.network(), situation.excitations, self.bands)
+    def prepare(self, situation: Situation, near: Collection[str] = ()) -> Prepared:
+        network, covers = situation.network(near)
+        return Prepared(self.model.prepare(network, situation.excitations, self.bands), situation, covers)
 
     def work(self) -> None:
-        while (order := self._newest(self.orders.get())) is not None:
+        order = self._newest(self.orders.get())
+        while order is not None:
+            is_whole = self._answer(order, {object_id for object_id, _ in self.touched})
             try:
-                self.answers.append((order, self.prepare(order)))
-            except Exception as problem:
-                self.answers.append((order, problem))
-            self.has_answered.set()
+                following = self.orders.get(timeout=None if is_whole else AT_REST_S)
+            except Empty:
+                self._answer(order, ())
+                following = self.orders.get()
+            order = self._newest(following)
+
+    def _answer(self, order: Situation, near: Collection[str]) -> bool:
+        """Prepare what is near some objects, or everything for none; true if it came to everything."""
+        is_whole = True
+        try:
+            prepared = self.prepare(order, near)
+            self._touch(prepared.field)
+            self.answers.append(prepared)
+            is_whole = prepared.covers is None
+        except Exception as problem:
+            self.answers.append((order, problem))
+        self.has_answered.set()
+        return is_whole
+
+    def note(self, touched: Sequence[TouchedPoint]) -> None:
+        """Remember what hands touch now."""
+        self.touched = touched
+
+    def _touch(self, found: PropagationField) -> None:
+        """Ask a field what will be asked first, so that what it works out then is not left to the game's thread."""
+        for object_id, point_m in self.touched:
+            # Whatever it refuses, it refuses where it is asked in earnest.
+            with contextlib.suppress(Exception):
+                found.attenuation(object_id, [point_m])
 
     def _newest(self, order: Situation | None) -> Situation | None:
         """The last of what waits; None, the end, is always the last."""
@@ -103,7 +142,7 @@ class FieldKeeper:
         self._worker: threading.Thread | None = None
         self._asked = self._situation(0, excitations)
         self._n_answered = 0
-        self.in_use = Prepared(self._desk.prepare(self._asked), self._asked)
+        self.in_use = self._whole = self._desk.prepare(self._asked)
         self.n_prepared, self.n_failed, self.last_failure = 1, 0, ""
         self.latency_s = 0.0
 
@@ -126,27 +165,31 @@ class FieldKeeper:
             self._start()
             self._desk.orders.put(self._asked)
         else:
-            self._n_answered = self._asked.number
-            self._use(self._asked, self._desk.prepare(self._asked))
+            self._use(self._desk.prepare(self._asked))
 
-    def hearing(self, source_ids: tuple[str, ...], reach: Reach) -> LastField:
+    def hearing(self, source_ids: tuple[str, ...], reach: Reach) -> NotedField:
         """The field in use, for these sources and what hangs together now."""
-        in_use, now = self.in_use, self._stage.graph.pose
-        n_bands = self._desk.bands.n_bands
-        return LastField(in_use.field, in_use.situation.poses, now, source_ids, n_bands, reach, lambda: self.is_current)
+        now, n_bands = self._stage.graph.pose, self._desk.bands.n_bands
+
+        def last(one: Prepared) -> LastField:
+            then = one.situation.poses
+            return LastField(one.field, then, now, source_ids, n_bands, reach, lambda: one.situation is self._asked)
+
+        return NotedField(last(self.in_use), self.in_use.covers, last(self._whole), self._desk.note)
 
     def take(self) -> bool:
         """Take the newest field that is ready into use; false if it is already."""
         try:
-            situation, found = self._desk.answers.pop()
+            answer = self._desk.answers.pop()
         except IndexError:
             return False
+        if isinstance(answer, Prepared):
+            self._use(answer)
+            return True
+        situation, problem = answer
         self._n_answered = situation.number
-        if isinstance(found, Exception):
-            self._note(found)
-            return False
-        self._use(situation, found)
-        return True
+        self._note(problem)
+        return False
 
     def wait(self, timeout_s: float | None = None) -> bool:
         """Wait until nothing is being prepared; false after the timeout [s]. The field is then taken into use."""
@@ -166,11 +209,14 @@ class FieldKeeper:
         source_ids = [item.source_id for item in excitations] if self._skips_unreachable else None
         return Situation(number, stage.network(source_ids), excitations, stage.poses, now)
 
-    def _use(self, situation: Situation, found: PropagationField) -> None:
-        self.in_use = Prepared(found, situation)
-        self._n_answered = situation.number
+    def _use(self, found: Prepared) -> None:
+        situation, before = found.situation, self.in_use.situation
+        self.in_use = found
+        if found.covers is None:
+            self._whole, self._n_answered = found, situation.number
         self.n_prepared += 1
-        self.latency_s = time.monotonic() - situation.asked_at_s
+        if situation is not before:
+            self.latency_s = time.monotonic() - situation.asked_at_s
 
     def _note(self, problem: Exception) -> None:
         self.n_failed += 1

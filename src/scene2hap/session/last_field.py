@@ -67,6 +67,9 @@ class LastField:
 
     def _answers(self, touched: Sequence[TouchedPoint]) -> Gains:
         """What the field says of each touch; it is asked once for each object."""
+        if len({object_id for object_id, _ in touched}) == len(touched):
+            each = [self._field.attenuation(name, self._points_then(name, [point_m])) for name, point_m in touched]
+            return np.concatenate(each)
         rows: dict[str, list[int]] = {}
         for row, (object_id, _) in enumerate(touched):
             rows.setdefault(object_id, []).append(row)

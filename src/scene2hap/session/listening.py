@@ -40,6 +40,7 @@ class Listening:
         self._gains_of: object = None
         self._n_unreachable: int | None = None
         self._levels: NDArray[np.float64] | None = None
+        self._are_levels_even = False
         self._audibility: Audibility | None = None
         self._felt: Felt = {}
         self._frame = self.silence(())
@@ -157,7 +158,9 @@ class Listening:
         if self._gains is None or self._gains_of is not self.keeper.in_use:
             self._gains, self._gains_of = self._touch_gains(self._counts), self.keeper.in_use
         found = self._gains.of(list(felt.values()))
-        found *= self._known_levels()
+        levels = self._known_levels()
+        if not self._are_levels_even:
+            found *= levels
         if len(felt) == n_hands:
             return found.astype(np.float32)
         told = self._nothing(n_hands)
@@ -171,6 +174,7 @@ class Listening:
         """What each source's signal is multiplied with (n_sources, 1) [-]."""
         if self._levels is None:
             self._levels = self._sources.factors(self._stage.graph.neighbours, self._stage.category)[:, None]
+            self._are_levels_even = bool((self._levels == 1.0).all())
         return self._levels
 
     def _worth_mixing(self, told: NDArray[np.float32], touching: list[int]) -> NDArray[np.float32]:

@@ -23,17 +23,27 @@ def body_of(haptics: ObjectHaptics | None) -> Plate | None:
     return Plate(*haptics.estimated_size_m, haptics.material)
 
 
+Corners = dict[str, tuple[Pose, SceneObject, Body, Pose]]
+"""By object: where it was, what it was and was made of, and where the corner of its plate was then."""
+
+
 class PlatePoses(Mapping[str, Pose]):
     """Where the corner of each object's plate is, worked out when first asked for.
 
-    A model asks for a few of many, and in its own thread.
+    A model asks for a few of many, and in its own thread. `corners` outlives one moment: what did not move since is
+    not worked out again. Threads may share it, since each entry says what it holds for.
     """
 
     def __init__(
-        self, objects: Mapping[str, SceneObject], bodies: Mapping[str, Body], poses: Mapping[str, Pose]
+        self,
+        objects: Mapping[str, SceneObject],
+        bodies: Mapping[str, Body],
+        poses: Mapping[str, Pose],
+        corners: Corners | None = None,
     ) -> None:
         self._objects, self._bodies, self._poses = objects, bodies, poses
         self._known: dict[str, Pose] = {}
+        self._corners = {} if corners is None else corners
 
     def __getitem__(self, object_id: str) -> Pose:
         found = self._known.get(object_id)
@@ -41,8 +51,11 @@ class PlatePoses(Mapping[str, Pose]):
             body = self._bodies[object_id]
             if not isinstance(body, Plate):
                 raise KeyError(object_id)
-            corner = _corner(self._objects[object_id].surface, body.length_m, body.width_m)
-            found = self._known[object_id] = self._poses[object_id].compose(corner)
+            pose, item, last = self._poses[object_id], self._objects[object_id], self._corners.get(object_id)
+            if last is None or last[0] is not pose or last[1] is not item or last[2] is not body:
+                corner = _corner(item.surface, body.length_m, body.width_m)
+                last = self._corners[object_id] = (pose, item, body, pose.compose(corner))
+            found = self._known[object_id] = last[3]
         return found
 
     def __contains__(self, object_id: object) -> bool:

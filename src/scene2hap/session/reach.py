@@ -95,6 +95,11 @@ class Reach:
         """All that a source reaches over contacts, sources in contact included."""
         return set().union(*(group.members for group in self._groups_with_sources()))
 
+    def objects_near(self, object_ids: Iterable[str]) -> set[str]:
+        """What hangs together with any of these and a source."""
+        near = {self._group[x] for x in object_ids if x in self._group}
+        return set().union(*(group.members for group in near if group.strangers is not None))
+
     def n_of(self, objects: Container[str]) -> int:
         """How many of these they are, where all but sources are among these."""
         n_all = sum(len(group.members) for group in self._groups_with_sources())
@@ -160,9 +165,9 @@ class Reach:
         return len(self._beside.get(object_id, ()))
 
 
-def reached_over(pairs: Iterable[Pair], carriers: Container[str], source_ids: Sequence[str]) -> set[str]:
-    """All that a source reaches over contacts of these pairs."""
+def reach_over(pairs: Iterable[Pair], carriers: Container[str], source_ids: Sequence[str]) -> Reach:
+    """What hangs together over contacts of these pairs."""
     beside: dict[str, list[str]] = {}
     for a, b in pairs:
         beside.setdefault(a, []).append(b)
-    return Reach(beside, carriers, source_ids).objects
+    return Reach(beside, carriers, source_ids)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import TypeVar
+from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import NamedTuple, TypeVar
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.contact.graph import ContactChange, ContactGraph
@@ -12,10 +12,17 @@ from scene2hap.haptics import ObjectHaptics
 from scene2hap.propagation.protocol import Body, ContactNetwork
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot
-from scene2hap.session.network import PlatePoses, body_of
-from scene2hap.session.reach import Reach, reached_over
+from scene2hap.session.network import Corners, PlatePoses, body_of
+from scene2hap.session.reach import Reach, reach_over
 
 Thing = TypeVar("Thing")
+
+
+class Told(NamedTuple):
+    """What a model is told; `covers` are the objects of which it may say something, None for all."""
+
+    network: ContactNetwork
+    covers: Collection[str] | None = None
 
 
 class Stage:
@@ -29,6 +36,7 @@ class Stage:
         self.bodies: Mapping[str, Body] = {object_id: body for object_id, body in bodies if body is not None}
         self.graph = ContactGraph(scene)
         self._spelling = _Spelling()
+        self._corners: Corners = {}
 
     @property
     def snapshot(self) -> SceneSnapshot:
@@ -66,27 +74,34 @@ class Stage:
         self.objects = _with(self.objects, object_id, None)
         self.haptics = _with(self.haptics, object_id, None)
         self.bodies = _with(self.bodies, object_id, None)
+        # Another thread may still fill the former one.
+        self._corners = _with(self._corners, object_id, None)
         return change
 
     def reach(self, source_ids: Sequence[str]) -> Reach:
         """Which of the sources reach what, as things are."""
         return Reach(self.graph.beside, {*self.bodies, *source_ids}, source_ids)
 
-    def network(self, source_ids: Sequence[str] | None) -> Callable[[], ContactNetwork]:
+    def network(self, source_ids: Sequence[str] | None) -> Callable[[Collection[str]], Told]:
         """What a model is told of this moment: everything, or only what a source reaches; put together when called.
 
+        Called with some objects, it tells only of what hangs together with them, if a source does.
         That may be in another thread, and later: spelling out contacts costs more than an update may take.
         """
         objects, bodies, poses, junctions = self.objects, self.bodies, self.poses, dict(self.graph.junctions)
-        spelling = self._spelling
+        spelling, corners = self._spelling, self._corners
 
-        def put_together() -> ContactNetwork:
+        def put_together(near: Collection[str]) -> Told:
             if source_ids is None:
-                return ContactNetwork(bodies, spelling.of(junctions), PlatePoses(objects, bodies, poses))
-            reached = reached_over(junctions, {*bodies, *source_ids}, source_ids)
+                everywhere = PlatePoses(objects, bodies, poses, corners)
+                return Told(ContactNetwork(bodies, spelling.of(junctions), everywhere))
+            reach = reach_over(junctions, {*bodies, *source_ids}, source_ids)
+            everything = reach.objects
+            reached = reach.objects_near(near) or everything
             among = {object_id: body for object_id, body in bodies.items() if object_id in reached}
             within = {pair: one for pair, one in junctions.items() if pair[0] in reached}
-            return ContactNetwork(among, spelling.of(within), PlatePoses(objects, among, poses))
+            network = ContactNetwork(among, spelling.of(within), PlatePoses(objects, among, poses, corners))
+            return Told(network, None if len(reached) == len(everything) else reached)
 
         return put_together
 

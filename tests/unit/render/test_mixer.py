@@ -243,6 +243,35 @@ def test_gains_are_copied_when_they_are_set() -> None:
     assert np.isfinite(mixer.render(1000)).all()
 
 
+def test_gains_that_are_set_again_for_a_frame_do_not_pile_up() -> None:
+    mixer, direct = new_mixer(), new_mixer()
+    gains = [np.full((2, len(TONES)), 0.01 * (i % 50), dtype=np.float32) for i in range(1000)]
+    for some in gains:
+        mixer.set_gains(some, 100)
+    direct.set_gains(gains[-1], 100)
+    np.testing.assert_array_equal(mixer.render(2000), direct.render(2000))
+    assert mixer.stats.changes_merged == 0
+
+
+def test_some_loops_are_set_and_all_others_fall_silent() -> None:
+    mixer, direct = new_mixer(), new_mixer()
+    for some in ([3, 0], [2], [], [1, 4, 2]):
+        gains = np.random.default_rng(len(some)).uniform(0.1, 0.5, (2, len(some), 1)).astype(np.float32)
+        whole = np.zeros((2, len(TONES)), dtype=np.float32)
+        whole[:, some] = gains[:, :, 0]
+        mixer.set_loops(gains, some, mixer.position)
+        direct.set_gains(whole, direct.position)
+        np.testing.assert_allclose(mixer.render(300), direct.render(300), atol=1e-6)
+    with pytest.raises(SessionError, match=r"shape \(2, 2, 1\); it must be finite numbers of shape \(2, 1, 1\)"):
+        mixer.set_loops(np.zeros((2, 2, 1), dtype=np.float32), [1], mixer.position)
+
+
+def test_gains_whose_square_is_no_number_are_played() -> None:
+    mixer = new_mixer()
+    mixer.set_gains(np.full((2, len(TONES)), 1e30, dtype=np.float32), 0)
+    assert np.isfinite(mixer.render(1000)).all()
+
+
 @pytest.mark.parametrize("bad", [np.zeros((1, len(TONES))), np.full((2, len(TONES)), np.nan)])
 def test_gains_that_cannot_be_played_are_refused_where_they_are_set(bad: NDArray[np.float64]) -> None:
     with pytest.raises(SessionError, match=r"must be finite numbers of shape \(2, 5\)"):

@@ -34,9 +34,11 @@ class Gated:
         self.threads: list[int] = []
         self.fields: list[Field] = []
         self.problem: Exception | None = None
+        self.told: list[set[str]] = []
 
     def prepare(self, network: Any, excitations: Any, bands: Bands) -> Field:
         self.threads.append(threading.get_ident())
+        self.told.append(set(network.bodies))
         if self.fields:
             self.entered.release()
             assert self.gate.wait(SECONDS)
@@ -84,6 +86,28 @@ def test_only_the_newest_situation_is_prepared() -> None:
     assert s.wait_prepared(SECONDS)
     assert len(model.fields) == 3
     assert s.stats.fields_prepared <= 3
+
+
+def test_what_hands_touch_is_prepared_first_and_then_everything() -> None:
+    s, model = gated()
+    model.gate.set()
+    s.add(box("shelf", (1.0, 0.02, 0.4), (9.0, 1.0, 0.4)), haptics("oak", (1.0, 0.4, 0.02)))
+    s.add(
+        box("fan", (0.1, 0.2, 0.1), (9.0, 1.11, 0.4)), haptics("plastic", (0.2, 0.1, 0.1), "on"), {"on": tone_loop(90)}
+    )
+    assert s.wait_prepared(SECONDS)
+    everything = model.told[-1]
+    assert {"table", "phone", "shelf", "fan"} <= everything
+    s.update(touches=[ON_TABLE])
+    n_before, n_fields = len(model.told), s.stats.fields_prepared
+    on_shelf = Touch("right", "shelf", (8.7, 1.01, 0.4))
+    s.update(shifted(0.2), [ON_TABLE])
+    assert s.wait_prepared(SECONDS)
+    assert model.told[n_before:] == [everything - {"shelf", "fan"}, everything]
+    # It was asked, in the worker's thread, what hands would ask.
+    assert [0.8, 0.72, 0.4] in model.fields[-1].asked
+    assert s.stats.fields_prepared > n_fields
+    assert s.update(touches=[ON_TABLE, on_shelf]).gain("right", "fan") > 0.0
 
 
 def test_blocking_waits_in_update() -> None:

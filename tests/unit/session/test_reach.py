@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from scene2hap.contact.graph import ContactChange
-from scene2hap.session.reach import Reach, reached_over
+from scene2hap.session.reach import Reach, reach_over
 
 NAMES = [f"x{i:02d}" for i in range(24)]
 SOURCES = ("x00", "x07", "x13", "elsewhere")
@@ -31,7 +31,8 @@ def check(reach: Reach, pairs: set[tuple[str, str]]) -> None:
         assert reach.has(name) == (len(strangers) < len(SOURCES))
         if reach.has(name):
             reached |= together
-    assert reach.objects == reached == reached_over(pairs, CARRIERS, SOURCES)
+        assert reach.objects_near([name]) == (together if reach.has(name) else set())
+    assert reach.objects == reached == reach_over(pairs, CARRIERS, SOURCES).objects
     assert reach.n_of(set(NAMES)) == len(reached & set(NAMES))
 
 
