@@ -70,42 +70,44 @@ def played(server: SoundServer, seconds: float) -> NDArray[np.float32]:
 
 
 def report(heard: NDArray[np.float32]) -> None:
-    """Hold each period against the mix; where it differs, find how far it has slipped."""
+    """Hold each period against the mix; where it differs, find how far both hands have slipped together.
+
+    A hand alone would not tell: its tone fits again after every wave. Hands that drift apart fit no common place.
+    """
     steady = heard[int(np.flatnonzero(np.abs(heard).max(axis=1) > 1e-3)[0]) + SETTLING :]
     safe = safe_period()
     at = shift_of(steady[:PERIOD], safe)
-    first, worst, slips, broken = at, 0.0, [], 0
+    worst, slips, broken, apart = 0.0, [], 0, 0
     for number in range(len(steady) // PERIOD):
         block = steady[number * PERIOD : (number + 1) * PERIOD].astype(np.float64)
         error = residual(block, safe, at)
         if error <= _LOUDEST_ERROR:
-            worst = max(worst, error)
+            worst, apart = max(worst, error), 0
             continue
         broken += 1
+        # The period in which frames went missing fits no place; the next one tells.
         now = shift_of(block, safe)
-        # The period in which frames went missing fits neither place; the next one tells.
-        if now != at and residual(block, safe, now) <= _LOUDEST_ERROR:
-            slips.append((number * PERIOD / RATE, now[0] - at[0], now[1] - at[1]))
-            at = now
+        if residual(block, safe, now) <= _LOUDEST_ERROR:
+            slips.append((number * PERIOD / RATE, (now - at) % PERIOD))
+            at, apart = now, 0
+        else:
+            apart += 1
     print(f"{len(steady) / RATE / 60:.1f} min in periods of {PERIOD / RATE} s: {broken} are not the mix,")
     print(f"all others equal it within {worst:.1e}")
-    for at_s, left, right in slips:
-        print(f"  after {at_s:.1f} s slipped by {left} frames on the left hand, {right} on the right")
-    drift = (at[0] - first[0]) - (at[1] - first[1])
-    print(f"drift between the hands: {drift} frames")
+    for at_s, frames in slips:
+        print(f"  after {at_s:.1f} s both hands slipped by {frames} frames (modulo {PERIOD})")
+    print(f"periods at the end that fit no place common to both hands: {apart}")
 
 
-def shift_of(block: NDArray[np.floating], safe: NDArray[np.float64]) -> tuple[int, int]:
-    """Frames by which the period is turned in each channel of a block (PERIOD, 2)."""
+def shift_of(block: NDArray[np.floating], safe: NDArray[np.float64]) -> int:
+    """Frames by which the period is turned in a block (PERIOD, 2)."""
     spectrum = np.fft.fft(block, axis=0) * np.conj(np.fft.fft(safe, axis=0))
-    left, right = np.argmax(np.fft.ifft(spectrum, axis=0).real, axis=0)
-    return int(left), int(right)
+    return int(np.argmax(np.fft.ifft(spectrum, axis=0).real.sum(axis=1)))
 
 
-def residual(block: NDArray[np.float64], safe: NDArray[np.float64], shift: tuple[int, int]) -> float:
+def residual(block: NDArray[np.float64], safe: NDArray[np.float64], shift: int) -> float:
     """The largest difference of a block from the turned period."""
-    turned = np.stack([np.roll(safe[:, hand], shift[hand]) for hand in range(2)], axis=1)
-    return float(np.abs(block - turned).max())
+    return float(np.abs(block - np.roll(safe, shift, axis=0)).max())
 
 
 def memory_mb() -> float:
