@@ -12,6 +12,7 @@ import platform
 import time
 import warnings
 from collections.abc import Callable
+from functools import partial
 from importlib.metadata import version
 
 import numpy as np
@@ -103,7 +104,7 @@ def preparing(model: PropagationModel) -> tuple[float, float]:
         cold.append(seconds(lambda: model.prepare(network, excitations, THIRDS)))
         poses = {**network.poses, "0007": Pose((0.01 * k, 0.02, 0.0))}
         moved = ContactNetwork(network.bodies, network.contacts, poses)
-        warm.append(seconds(lambda moved=moved: model.prepare(moved, excitations, THIRDS)))  # type: ignore[misc]
+        warm.append(seconds(partial(model.prepare, moved, excitations, THIRDS)))
     return float(np.median(cold)), float(np.median(warm))
 
 
@@ -116,7 +117,7 @@ def touching(
     best = dict.fromkeys(fields, np.inf)
     for _ in range(9):
         for name, field in fields.items():
-            best[name] = min(best[name], seconds(lambda field=field: field.attenuation(object_id, [point_m]), 50))  # type: ignore[misc]
+            best[name] = min(best[name], seconds(partial(field.attenuation, object_id, [point_m]), 50))
     return best
 
 

@@ -209,7 +209,7 @@ def scenes(number: int, tallies: dict[str, Tally], limit_s: float) -> None:
     touch = np.array([[rng.random(), rng.random(), 0.0] for _ in range(2)])
     for name, model in MODELS.items():
 
-        def everywhere(model: ModalPlate = model) -> NDArray[np.float64]:  # type: ignore[assignment]
+        def everywhere(model: ModalPlate = model) -> NDArray[np.float64]:  # type: ignore[assignment]  # any of MODELS
             prepared = model.prepare(network, excitations, bands)
             gains = np.array([prepared.attenuation(object_id, touch) for object_id in network.bodies])
             assert gains.shape == (len(network.bodies), 2, len(excitations), bands.n_bands)
