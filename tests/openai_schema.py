@@ -26,6 +26,7 @@ def require_schema() -> None:
 
 @cache
 def _spec() -> dict[str, Any]:
+    require_schema()
     found: dict[str, Any] = json.loads(SCHEMA.read_text(encoding="utf-8"))
     return found
 
