@@ -9,7 +9,7 @@ The difference of two values of g loses digits where b is small; there the calle
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,10 @@ from numpy.typing import NDArray
 _MOST = 700.0  # Beyond this exp(-x) is no normal number, which processors handle slowly.
 # Least x dx of a band for which the difference keeps 12 digits: it is about x dx exp(-x), with an error of 2e-16.
 _LEAST = 1e-3
+
+
+# Up to so many lengths, plain numbers are quicker than calls of numpy, each of which costs as much as 30 of them.
+_FEW = 4
 
 
 class BandRms:
@@ -29,23 +33,42 @@ class BandRms:
         u = np.sqrt(edges)
         self._exact = exact
         b = 2 * math.sqrt(2 * math.pi) * u
-        self._minus_edges = -b[:, None]
-        self._scale = np.sqrt(2 / np.diff(edges) / (8 * math.pi))[:, None]
+        scale = np.sqrt(2 / np.diff(edges) / (8 * math.pi))
+        self._minus_b, self._scales = (-b).tolist(), scale.tolist()
+        self._minus_edges, self._scale = -b[:, None], scale[:, None]
         self._least = math.sqrt(_LEAST / float((b[:-1] * np.diff(b)).min()))
+        self._ones, self._zeros = [1.0] * len(self._scales), [0.0] * len(self._scales)
 
-    def __call__(self, length: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Gains (n, n_bands) [-] for lengths (n,), >= 0, may be infinite."""
+    def __call__(self, lengths: Sequence[float]) -> NDArray[np.float64]:
+        """Gains (n, n_bands) [-] for n lengths, >= 0, may be infinite."""
+        if 0 < len(lengths) <= _FEW:
+            return np.array([self._row(length) for length in lengths])
         # Looked through one by one, which for a few numbers is quicker than as an array.
-        least, each = self._least, length.tolist()
-        if min(each, default=math.inf) >= least:
-            return self._by_difference(length)
-        gains = self._by_difference(np.array([x if x >= least else 1.0 for x in each]))
-        small = [i for i, x in enumerate(each) if 0 < x < least]
+        least = self._least
+        if min(lengths, default=math.inf) >= least:
+            return self._by_difference(np.array(lengths))
+        gains = self._by_difference(np.array([x if x >= least else 1.0 for x in lengths]))
+        small = [i for i, x in enumerate(lengths) if 0 < x < least]
         if small:
-            gains[small] = self._exact(length[small])
+            gains[small] = self._exact(np.array([lengths[i] for i in small]))
         # What touches a source feels all of it, and does so often.
-        gains[[i for i, x in enumerate(each) if x == 0]] = 1.0
+        gains[[i for i, x in enumerate(lengths) if x == 0]] = 1.0
         return gains
+
+    def _row(self, length: float) -> list[float]:
+        """The gains for one length."""
+        if length >= self._least:
+            if length == math.inf:
+                return self._zeros
+            exp, sqrt = math.exp, math.sqrt
+            minus_x = [b * length for b in self._minus_b]
+            minus_g = [(x - 1.0) * exp(x) for x in minus_x]
+            return [
+                sqrt(after - before) * scale / length
+                for before, after, scale in zip(minus_g, minus_g[1:], self._scales, strict=False)
+            ]
+        row: list[float] = self._ones if length == 0 else self._exact(np.array([length]))[0].tolist()
+        return row
 
     def _by_difference(self, length: NDArray[np.float64]) -> NDArray[np.float64]:
         # Bands first: what belongs to one edge lies side by side, so that neighbours are subtracted in one stride.

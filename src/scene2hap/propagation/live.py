@@ -24,6 +24,10 @@ TouchedPoint = tuple[str, tuple[float, float, float]]
 """An object, and a point in the world on or near it [m]."""
 
 
+Prices = list[list[float]]
+"""For each hand, what the cheapest way from each source costs: 0 on the source itself, infinite where none leads."""
+
+
 class LiveField(Protocol):
     """What arrives now."""
 
@@ -43,6 +47,20 @@ class LiveField(Protocol):
         Parameters: hands : the touched points of each; a hand that touches nothing feels nothing.
         Returns: a new array (n_hands, n_sources, n_bands) float64 [-], >= 0; 1 on the source itself.
         """
+        ...
+
+
+@runtime_checkable
+class PricedField(LiveField, Protocol):
+    """A live field whose answers fall as a price rises, so that what is too faint to matter is known by its price
+    alone, before anything is worked out. `strongest(hands)` is `at(prices(hands))`."""
+
+    def prices(self, hands: Sequence[Sequence[TouchedPoint]]) -> Prices:
+        """The price of each source at each hand; one that feels it at several points has the least of them."""
+        ...
+
+    def at(self, prices: Prices, columns: Sequence[int] | None = None) -> NDArray[np.float64]:
+        """The response at such prices, of the sources in some columns alone; else as `strongest`."""
         ...
 
 

@@ -9,38 +9,50 @@ worked out once for each hand and source.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.propagation.band_rms import BandRms
-from scene2hap.propagation.live import TouchedPoint
+from scene2hap.propagation.live import Prices, TouchedPoint
 from scene2hap.propagation.live_paths import LivePaths
 
 Floats = NDArray[np.float64]
-Prices = list[list[float]]
+
+
+class Gamma(Protocol):
+    """What arrives by the price of the way."""
+
+    def __call__(self, prices: Prices, columns: Sequence[int] | None) -> Floats:
+        """Attenuation (n, n_columns, n_bands) [-] for n prices of each of some sources, None for all in order."""
+        ...
 
 
 class LiveLaw:
     """A live field of the paper's law.
 
-    Parameters: gamma : attenuation (n, n_sources, n_bands) [-] for n prices of each source; floor : least attenuation
-    wherever a source arrives at all [-].
+    Parameters: floor : least attenuation wherever a source arrives at all [-].
     """
 
     most = 1.0
 
-    def __init__(
-        self, paths: LivePaths, source_ids: tuple[str, ...], gamma: Callable[[Prices], Floats], floor: float
-    ) -> None:
+    def __init__(self, paths: LivePaths, source_ids: tuple[str, ...], gamma: Gamma, floor: float) -> None:
         self.source_ids = source_ids
         self._paths, self._gamma, self._floor = paths, gamma, floor
 
     def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> Floats:
         """See `LiveField`."""
-        prices = [self._nearest(touched) for touched in hands]
-        gamma = self._gamma(prices)
+        return self.at(self.prices(hands))
+
+    def prices(self, hands: Sequence[Sequence[TouchedPoint]]) -> Prices:
+        """See `PricedField`."""
+        return [self._nearest(touched) for touched in hands]
+
+    def at(self, prices: Prices, columns: Sequence[int] | None = None) -> Floats:
+        """See `PricedField`."""
+        gamma = self._gamma(prices, columns)
         return np.maximum(gamma, self._floor * np.isfinite(prices)[:, :, None]) if self._floor else gamma
 
     def _nearest(self, touched: Sequence[TouchedPoint]) -> list[float]:
@@ -57,10 +69,10 @@ class GammaAt:
     def __init__(self, frequencies_hz: Floats) -> None:
         self._minus_root_omega = -np.sqrt(2 * math.pi * frequencies_hz)
 
-    def __call__(self, prices: Prices) -> Floats:
-        """Attenuation (n, n_sources, 1) [-]."""
+    def __call__(self, prices: Prices, columns: Sequence[int] | None) -> Floats:
+        """See `Gamma`; one band."""
         gamma = np.array(prices)
-        gamma *= self._minus_root_omega
+        gamma *= self._minus_root_omega if columns is None else self._minus_root_omega.take(columns)
         np.exp(gamma, out=gamma)
         return gamma[:, :, None]
 
@@ -71,8 +83,7 @@ class GammaOver:
     def __init__(self, bands: BandRms) -> None:
         self._bands = bands
 
-    def __call__(self, prices: Prices) -> Floats:
-        """Attenuation (n, n_sources, n_bands) [-]."""
-        length = np.array(prices)
-        gamma = self._bands(length.ravel())
-        return gamma.reshape(*length.shape, gamma.shape[1])
+    def __call__(self, prices: Prices, columns: Sequence[int] | None) -> Floats:
+        """See `Gamma`; the same for all sources."""
+        gamma = self._bands([price for row in prices for price in row])
+        return gamma.reshape(len(prices), len(prices[0]) if prices else 0, gamma.shape[1])

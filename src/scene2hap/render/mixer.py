@@ -103,12 +103,14 @@ class Mixer:
         Raises: SessionError: another shape, or gains that are not finite; the audio thread could not tell anyone.
         """
         loops = self._all_loops
-        self._send(gains, self._shape, (self._shape[0], len(loops), self._n_bands), loops, at_frame)
+        shape = (self._shape[0], len(loops), self._n_bands)
+        self._send(gains, self._shape, shape, loops, None if self._is_skipping else loops, at_frame)
 
     def set_loops(self, gains: NDArray[np.float32], loops: Sequence[int], at_frame: int) -> None:
-        """Move to gains (n_hands, n_loops, n_bands) of some loops, and to 0 for all others; else as `set_gains`."""
+        """Move to gains (n_hands, n_loops, n_bands) of some loops, which are mixed, and to 0 for all others; else as
+        `set_gains`."""
         shape = (self._shape[0], len(loops), self._n_bands)
-        self._send(gains, shape, shape, loops, at_frame)
+        self._send(gains, shape, shape, loops, loops if self._is_skipping else self._all_loops, at_frame)
 
     def _send(
         self,
@@ -116,11 +118,12 @@ class Mixer:
         wanted: tuple[int, ...],
         by_loop: tuple[int, int, int],
         loops: Sequence[int],
+        heard: Sequence[int] | None,
         at_frame: int,
     ) -> None:
         told = None
         if gains.shape == wanted:
-            told = Gains.of(gains.reshape(by_loop), loops, None if self._is_skipping else self._all_loops)
+            told = Gains.of(gains.reshape(by_loop), loops, heard)
         if told is None:
             raise SessionError(f"gains has shape {gains.shape}; it must be finite numbers of shape {wanted}.")
         latest = self._latest

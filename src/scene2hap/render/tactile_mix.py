@@ -40,8 +40,8 @@ _SMALL_PRODUCT = 2**18
 class Gains:
     """Where the mix is going.
 
-    values : (n_hands, n_loops, n_bands) of some loops, 0 for all others; loops : which these are; heard : which are
-    mixed.
+    values : (n_hands, n_loops, n_bands) of some loops, 0 for all others; loops : which these are; heard : which loops
+    are mixed.
     """
 
     values: Block
@@ -52,16 +52,15 @@ class Gains:
     def of(cls, values: Block, loops: Sequence[int], heard: Sequence[int] | None = None) -> Gains | None:
         """A copy of gains, looked through on the thread that sets them; None if they are not finite.
 
-        Parameters: heard : all that they let through if None. What lets less than 1e-22 through counts as 0, since the
-        squares of single precision end there.
+        Parameters: heard : all that they let through if None.
         """
         own = np.array(values, dtype=np.float32, order="C")
-        powers = np.einsum("hlb,hlb->l", own, own).tolist()
         # A square may be infinite where its root is not.
-        if not math.isfinite(sum(powers)) and not np.isfinite(own).all():
+        if not math.isfinite(np.vdot(own, own)) and not np.isfinite(own).all():
             return None
         if heard is None:
-            heard = [loop for loop, power in zip(loops, powers, strict=True) if power]
+            is_heard: list[bool] = np.any(own, axis=(0, 2)).tolist()
+            heard = [loop for loop, lets_through in zip(loops, is_heard, strict=True) if lets_through]
         return cls(own, loops, heard)
 
 

@@ -44,23 +44,36 @@ class Audibility:
         self._felt = peaks[:, 0, :, None].copy()
         with np.errstate(divide="ignore", over="ignore"):
             self._least_gain = np.float32(SILENT) / peaks[:, 1]
-        self._least_felt = np.float32(10 ** (-BELOW_THRESHOLD_DB / 20) / max(1, len(rows)))
+        self._columns: Sequence[int] | None = None
+        self._least_of_columns = self._least_gain
+        self.least_felt = np.float32(10 ** (-BELOW_THRESHOLD_DB / 20) / max(1, len(rows)))
+
+    def felt(self, gains: NDArray[np.float32]) -> NDArray[np.float32]:
+        """What no moment of each source exceeds at gains (n, n_sources, n_bands), in thresholds (n, n_sources)."""
+        felt: NDArray[np.float32] = (gains[:, :, None] @ self._felt)[:, :, 0, 0]
+        return felt
 
     def worth_mixing(self, gains: NDArray[np.float32]) -> NDArray[np.float32]:
         """Gains (n_hands, n_sources, n_bands), 0 where nothing is lost by it."""
         if self._skip.below_threshold:
-            felt = (gains[:, :, None] @ self._felt)[:, :, 0]
-            is_felt = felt >= self._least_felt
+            felt = self.felt(gains)
+            is_felt = felt >= self.least_felt
             n_out = int(np.count_nonzero(felt)) - int(np.count_nonzero(is_felt))
             if n_out:
                 self._counts.below_threshold += n_out
-                gains = gains * is_felt
-        if self._skip.silent_bands:
-            is_loud = gains >= self._least_gain
-            n_silent = int(np.count_nonzero(gains)) - int(np.count_nonzero(is_loud))
-            if n_silent:
-                self._counts.silent_bands += n_silent
-                gains = gains * is_loud
+                gains = gains * is_felt[:, :, None]
+        return self.loud(gains) if self._skip.silent_bands else gains
+
+    def loud(self, gains: NDArray[np.float32], columns: Sequence[int] | None = None) -> NDArray[np.float32]:
+        """Gains of the sources in some columns, None for all, 0 in bands of which next to nothing is left."""
+        if columns != self._columns:
+            self._columns = columns
+            self._least_of_columns = self._least_gain if columns is None else self._least_gain[columns]
+        is_loud = gains >= self._least_of_columns
+        n_silent = int(np.count_nonzero(gains)) - int(np.count_nonzero(is_loud))
+        if n_silent:
+            self._counts.silent_bands += n_silent
+            gains = gains * is_loud
         return gains
 
 

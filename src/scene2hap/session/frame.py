@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,13 +25,32 @@ class Touch:
         object.__setattr__(self, "point_m", point)
 
 
-@dataclass(frozen=True, eq=False)
-class HapticFrame:
-    """What one update decided: gains (n_hands, n_sources, n_bands) float32 [-]."""
+Gains = NDArray[np.float32]
 
-    gains: NDArray[np.float32]
-    hands: tuple[str, ...]
-    sources: tuple[str, ...]
+
+class HapticFrame:
+    """What one update decided.
+
+    Parameters: gains : (n_hands, n_sources, n_bands) float32 [-], or what works them out.
+    """
+
+    __slots__ = ("_gains", "_work_out", "hands", "sources")
+
+    def __init__(self, gains: Gains | Callable[[], Gains], hands: tuple[str, ...], sources: tuple[str, ...]) -> None:
+        self.hands, self.sources = hands, sources
+        self._gains: Gains | None = None if callable(gains) else gains
+        self._work_out: Callable[[], Gains] | None = gains if callable(gains) else None
+
+    @property
+    def gains(self) -> Gains:
+        """Gains (n_hands, n_sources, n_bands) float32 [-] of all sources, those too faint to be mixed included.
+
+        Worked out when first asked for, and of that update whatever came after it: most games never ask.
+        """
+        if self._gains is None:
+            assert self._work_out is not None
+            self._gains, self._work_out = self._work_out(), None
+        return self._gains
 
     def gain(self, hand: str, source_id: str) -> float:
         """The loudest band's gain of a source at a hand [-].

@@ -23,7 +23,8 @@ from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot, unknow
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.explain import Explanation
 from scene2hap.session.frame import HapticFrame, SessionStats, Touch, unknown_hand
-from scene2hap.session.listening import Felt, Listening
+from scene2hap.session.hearing import Felt
+from scene2hap.session.listening import Listening
 from scene2hap.session.output import Output
 from scene2hap.session.playback import Playback
 from scene2hap.session.sources import Sources
@@ -91,9 +92,9 @@ class HapticSession:
         stamp = self._stamp(at_sample)
         if moved or contacts is not None:
             self._listening.follow(self._stage.graph.update(moved or {}, contacts=contacts))
-        frame, mixed = self._listening.frame(self.hands, felt, moved or (), is_paused=self._playback.is_paused)
-        if mixed is not None:
-            self._playback.set_gains(mixed, self._sources.active_rows(), stamp)
+        frame, heard = self._listening.frame(self.hands, felt, moved or (), is_paused=self._playback.is_paused)
+        if heard is not None:
+            self._playback.set_gains(heard.mixed, self._sources.active_rows(), stamp, heard.columns)
         self._updates += 1
         self._output.feed(frame)
         return frame

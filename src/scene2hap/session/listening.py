@@ -8,22 +8,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.contact.graph import ContactChange
-from scene2hap.propagation.live import LiveModel
+from scene2hap.propagation.live import LiveField, LiveModel, PricedField
 from scene2hap.propagation.protocol import Excitation
 from scene2hap.session.audibility import Audibility
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.counts import Counts
 from scene2hap.session.explain import Explainer, Explanation
 from scene2hap.session.field_keeper import FieldKeeper
-from scene2hap.session.frame import HapticFrame, SessionStats, Touch
+from scene2hap.session.frame import HapticFrame, SessionStats
+from scene2hap.session.hearing import Felt, Heard, Hearing, HearingAll, HearingNear, Loudness
+from scene2hap.session.horizon import Horizon
 from scene2hap.session.live_keeper import LiveKeeper
 from scene2hap.session.network import excitations_of
 from scene2hap.session.sources import Sources
 from scene2hap.session.stage import Stage
 from scene2hap.session.touch_gains import TouchGains
-
-Felt = dict[int, list[Touch]]
-"""The touches of each hand that touches anything, by its number, rising."""
 
 
 class Listening:
@@ -36,12 +35,12 @@ class Listening:
         self._config, self._stage, self._sources = config, stage, sources
         self._counts = Counts()
         self._excitations: Sequence[Excitation] | None = None
-        self._gains: TouchGains | None = None
-        self._gains_of: object = None
+        self._hearing: Hearing | None = None
+        self._hearing_of: object = None
         self._n_unreachable: int | None = None
-        self._levels: NDArray[np.float64] | None = None
-        self._are_levels_even = False
+        self._levels, self._are_levels_known = np.empty(0), False
         self._audibility: Audibility | None = None
+        self._horizon: tuple[PricedField, Horizon] | None = None
         self._felt: Felt = {}
         self._frame = self.silence(())
         self._is_fresh = False
@@ -53,12 +52,12 @@ class Listening:
         """Take in a change of contacts, after objects came or went; `is_other_cast` if sources did."""
         matters = is_other_cast or not self._config.skip.unreachable or self._reach.concerns(change)
         if is_other_cast:
-            self._audibility = self._excitations = None
+            self._forget_cast()
         if is_other_cast or self._bodies is not self._stage.bodies:
             self._look_around()
         elif change.appeared or change.vanished:
             self._reach.follow(change)
-            self._n_unreachable = self._levels = None
+            self._n_unreachable, self._are_levels_known = None, False
         if not change and not is_other_cast:
             return
         self._is_fresh = False
@@ -69,16 +68,15 @@ class Listening:
 
     def levels_changed(self, is_other_state: bool = False) -> None:
         """Forget levels; another state vibrates at another frequency, so that the field is another too."""
-        self._levels = None
-        self._is_fresh = False
+        self._are_levels_known = self._is_fresh = False
         if is_other_state:
-            self._audibility = self._excitations = None
+            self._forget_cast()
             self._ask()
 
     def frame(
         self, hands: tuple[str, ...], felt: Felt, moved: Collection[str], *, is_paused: bool
-    ) -> tuple[HapticFrame, NDArray[np.float32] | None]:
-        """What the hands are given, and what of it is worth mixing: None if nothing has changed."""
+    ) -> tuple[HapticFrame, Heard | None]:
+        """What the hands are given, and what of it is to be mixed: None if nothing has changed."""
         if self.keeper.take():
             self._is_fresh = False
         if self._is_unchanged(felt, moved):
@@ -88,9 +86,9 @@ class Listening:
         if is_paused:
             self._frame = self.silence(hands)
             return self._frame, None
-        told = self._told(len(hands), felt)
-        self._frame = HapticFrame(told, hands, self._sources.ids)
-        return self._frame, self._worth_mixing(told, list(felt))
+        heard = self._hear(len(hands), felt)
+        self._frame = HapticFrame(heard.told, hands, self._sources.ids)
+        return self._frame, heard
 
     def silence(self, hands: tuple[str, ...]) -> HapticFrame:
         """A frame in which no hand is given anything."""
@@ -107,8 +105,9 @@ class Listening:
         """Each source that a hand felt at the last frame, and its way there."""
         felt = (touch for touches in self._felt.values() for touch in touches)
         touches = [touch for touch in felt if touch.hand == hand and touch.object_id in self._stage.objects]
-        levels = dict(zip(self._sources.ids, self._known_levels()[:, 0].tolist(), strict=True))
-        explainer = Explainer(self._stage, self._sources, self._config.propagation, self._touch_gains(Counts()), levels)
+        levels = dict(zip(self._sources.ids, self._known_levels().tolist(), strict=True))
+        gains = self._touch_gains(self.keeper.hearing(self._sources.ids, self._reach), Counts())
+        explainer = Explainer(self._stage, self._sources, self._config.propagation, gains, levels)
         return explainer.explain(hand, touches, self._frame, self.keeper.is_current)
 
     def stats(self, updates: int, rows_not_mixed: int) -> SessionStats:
@@ -129,7 +128,12 @@ class Listening:
     def _look_around(self) -> None:
         """Find out anew what hangs together."""
         self._bodies, self._reach = self._stage.bodies, self._stage.reach(self._sources.ids)
-        self._gains = self._levels = self._n_unreachable = None
+        self._hearing = self._n_unreachable = None
+        self._are_levels_known = False
+
+    def _forget_cast(self) -> None:
+        """Other sources, or other states of them, vibrate."""
+        self._audibility = self._excitations = self._hearing = None
 
     def _ask(self) -> None:
         self.keeper.ask(self._known_excitations())
@@ -152,50 +156,49 @@ class Listening:
         # A field that is not of this moment is asked about where the object was then.
         return not moved or not any(touch.object_id in moved for touches in felt.values() for touch in touches)
 
-    def _told(self, n_hands: int, felt: Felt) -> NDArray[np.float32]:
+    def _hear(self, n_hands: int, felt: Felt) -> Heard:
         if not felt:
-            return self._nothing(n_hands)
-        if self._gains is None or self._gains_of is not self.keeper.in_use:
-            self._gains, self._gains_of = self._touch_gains(self._counts), self.keeper.in_use
-        found = self._gains.of(list(felt.values()))
-        levels = self._known_levels()
-        if not self._are_levels_even:
-            found *= levels
-        if len(felt) == n_hands:
-            return found.astype(np.float32)
-        told = self._nothing(n_hands)
-        told[list(felt)] = found
-        return told
+            silence = self._nothing(n_hands)
+            if self._config.skip.idle_hands:
+                self._counts.idle_hands += n_hands
+            return Heard(silence, silence)
+        self._known_levels()
+        if self._hearing is None or self._hearing_of is not self.keeper.in_use:
+            self._hearing, self._hearing_of = self._new_hearing(), self.keeper.in_use
+        return self._hearing.hear(n_hands, felt)
+
+    def _new_hearing(self) -> Hearing:
+        skip, counts = self._config.skip, self._counts
+        if self._audibility is None:
+            self._audibility = Audibility(self._sources.active_rows(), self._config.bands, skip, counts)
+            self._horizon = None
+        field = self.keeper.hearing(self._sources.ids, self._reach)
+        gains, loudness = self._touch_gains(field, counts), Loudness(self._known_levels(), self._audibility)
+        is_near = isinstance(field, PricedField) and skip.below_threshold and skip.idle_hands
+        if not is_near or gains.may_be_capped:
+            return HearingAll(gains, loudness, skip, counts)
+        assert isinstance(field, PricedField)
+        if self._horizon is None or self._horizon[0] is not field:
+            self._horizon = (field, Horizon(field, self._audibility))
+        horizon = self._horizon[1]
+        return HearingNear(gains, field, horizon, loudness, counts, skips_silent_bands=skip.silent_bands)
 
     def _nothing(self, n_hands: int) -> NDArray[np.float32]:
         return np.zeros((n_hands, len(self._sources.ids), self._config.bands.n_bands), dtype=np.float32)
 
     def _known_levels(self) -> NDArray[np.float64]:
-        """What each source's signal is multiplied with (n_sources, 1) [-]."""
-        if self._levels is None:
-            self._levels = self._sources.factors(self._stage.graph.neighbours, self._stage.category)[:, None]
-            self._are_levels_even = bool((self._levels == 1.0).all())
+        """What each source's signal is multiplied with (n_sources,) [-]."""
+        if not self._are_levels_known:
+            levels = self._sources.factors(self._stage.graph.neighbours, self._stage.category)
+            if not np.array_equal(levels, self._levels):
+                self._levels, self._hearing = levels, None
+            self._are_levels_known = True
         return self._levels
 
-    def _worth_mixing(self, told: NDArray[np.float32], touching: list[int]) -> NDArray[np.float32]:
-        skip = self._config.skip
-        is_partly_idle = skip.idle_hands and len(touching) < len(told)
-        if is_partly_idle:
-            self._counts.idle_hands += len(told) - len(touching)
-        if not (skip.below_threshold or skip.silent_bands) or (is_partly_idle and not touching):
-            return told
-        if self._audibility is None:
-            self._audibility = Audibility(self._sources.active_rows(), self._config.bands, skip, self._counts)
-        if not is_partly_idle:
-            return self._audibility.worth_mixing(told)
-        mixed = np.zeros_like(told)
-        mixed[touching] = self._audibility.worth_mixing(told[touching])
-        return mixed
-
-    def _touch_gains(self, counts: Counts) -> TouchGains:
+    def _touch_gains(self, field: LiveField, counts: Counts) -> TouchGains:
         config = self._config
         return TouchGains(
-            self.keeper.hearing(self._sources.ids, self._reach),
+            field,
             self._reach,
             counts,
             skips_unreachable=config.skip.unreachable,

@@ -66,7 +66,7 @@ class Playback:
         self._next_hand = n_hands
         self._places: dict[LoopRow, _Place] = {}
         self._retired: list[_Place] = []
-        self._routes: tuple[Sequence[LoopRow], list[_Route]] | None = None
+        self._routes: tuple[Sequence[LoopRow], Sequence[int] | None, list[_Route]] | None = None
         self._banks = [self._new_bank(len(rows))]
         self._decks = [Deck(config, self._banks[0], tuple(self._hands), 0)]
         self._plan = self._new_plan()
@@ -96,18 +96,26 @@ class Playback:
         loop = place.bank.slots[place.slot]
         return loop.position_s(0, self._position, self._config.sample_rate_hz) if loop is not None else 0.0
 
-    def set_gains(self, gains: NDArray[np.float32], active: Sequence[LoopRow], at_frame: int) -> None:
-        """Move to gains (n_hands, n_sources, n_bands) of the active rows, one per source, and to 0 for all others."""
+    def set_gains(
+        self,
+        gains: NDArray[np.float32],
+        active: Sequence[LoopRow],
+        at_frame: int,
+        columns: Sequence[int] | None = None,
+    ) -> None:
+        """Move to gains (n_hands, n_columns, n_bands) of some of the active rows, None for all, and to 0 for others."""
         if self._paused_from is not None:
             return
-        if self._routes is None or self._routes[0] is not active:
-            self._routes = (active, [self._route(active, *heard) for heard in self._plan.decks])
-        for deck, own, slots, outputs, channels in self._routes[1]:
+        routes = self._routes
+        if routes is None or routes[0] is not active or routes[1] != columns:
+            rows = active if columns is None else [active[x] for x in columns]
+            routes = self._routes = (active, columns, [self._route(rows, *heard) for heard in self._plan.decks])
+        for deck, own, slots, outputs, channels in routes[2]:
             told = gains if own is None else gains[:, own]
             deck.move_to(told if channels is None else told[channels], slots, outputs, at_frame)
 
-    def _route(self, active: Sequence[LoopRow], deck: Deck, outputs: Indices, channels: Indices) -> _Route:
-        places = [self._places[row] for row in active]
+    def _route(self, rows: Sequence[LoopRow], deck: Deck, outputs: Indices, channels: Indices) -> _Route:
+        places = [self._places[row] for row in rows]
         # Decks of one bank share its slots.
         own = [i for i, place in enumerate(places) if place.bank.slots is deck.bank.slots]
         slots = [places[i].slot for i in own]

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.live import LiveField, TouchedPoint
+from scene2hap.propagation.live import LiveField, PricedField, Prices, TouchedPoint
 from scene2hap.session.config import MAX_GAIN_DB
 from scene2hap.session.counts import Counts
 from scene2hap.session.frame import Touch
@@ -33,6 +33,20 @@ class TouchGains:
         self._is_counting = limit is not None
         self._limit = GREATEST if limit is None else min(limit, GREATEST)
         self._may_exceed = self._limit < max(1.0, field.most)
+
+    @property
+    def may_be_capped(self) -> bool:
+        """Whether the field may say more than the limit."""
+        return self._may_exceed
+
+    def prices(self, field: PricedField, hands: Sequence[Sequence[Touch]]) -> Prices:
+        """The price of each source at each hand, where the field tells it; 0 on a source."""
+        prices = field.prices([self._asked(touches) for touches in hands])
+        for row, touches in zip(prices, hands, strict=True):
+            for touch in touches:
+                if touch.object_id in self._own:
+                    row[self._own[touch.object_id]] = 0.0
+        return prices
 
     def of(self, hands: Sequence[Sequence[Touch]]) -> NDArray[np.float64]:
         """Gains (n_hands, n_sources, n_bands) [-], the largest over each hand's touches, capped; 1 on a source."""

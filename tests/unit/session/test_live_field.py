@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -57,7 +58,12 @@ def test_a_live_field_says_what_a_prepared_one_does(settings: dict[str, Any], ba
         np.testing.assert_allclose(live, prepared, rtol=1e-6, atol=1e-12)
     ours, theirs = (s.stats for s in both)
     assert ours.fields_prepared == theirs.fields_prepared
-    assert ours.skipped == theirs.skipped
+    # A horizon is drawn some per cent too far, so that a source or two more may be mixed than need be.
+    missed = theirs.skipped.below_threshold - ours.skipped.below_threshold
+    assert 0 <= missed <= 3
+    assert 0 <= ours.skipped.silent_bands - theirs.skipped.silent_bands <= missed * bands.n_bands
+    n_silent, n_below = theirs.skipped.silent_bands, theirs.skipped.below_threshold
+    assert replace(ours.skipped, below_threshold=n_below, silent_bands=n_silent) == theirs.skipped
 
 
 def test_what_is_added_without_a_contact_carries_once_it_has_one() -> None:

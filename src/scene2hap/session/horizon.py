@@ -1,0 +1,40 @@
+"""How far away each source may be for its vibration to be worth mixing, in prices of the way to it.
+
+Where what arrives falls as the price rises, so does what is felt of it, and somewhere it falls below what `audibility`
+leaves out: there is the source's horizon. A table tells for some prices what is felt of each source at its full level;
+the horizon is the first of them at which too little is, so that at most too much is mixed. Another level is another
+horizon, and a look at the same table.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.propagation.live import PricedField
+from scene2hap.session.audibility import Audibility
+
+# From 1 to less than exp(-700) for any band between 8 Hz and 1 MHz, in steps of 6 %.
+_PRICES = np.concatenate([[0.0], np.geomspace(1e-4, 100.0, 240)])
+NOWHERE = -1.0
+"""The horizon of what is not felt even where it is."""
+
+
+class Horizon:
+    """What is felt of the sources of a field, by price."""
+
+    def __init__(self, field: PricedField, audibility: Audibility) -> None:
+        n = len(field.source_ids)
+        gains = field.at([[price] * n for price in _PRICES.tolist()]).astype(np.float32)
+        # Rounding must not let it rise again.
+        self._felt = np.maximum.accumulate(audibility.felt(gains)[::-1], axis=0)[::-1]
+        self._least_felt = audibility.least_felt
+
+    def at_levels(self, levels: NDArray[np.float64]) -> list[float]:
+        """The horizon of each source at levels (n_sources,) [-]; infinite where a source is felt however far it is."""
+        is_felt = self._felt * levels >= self._least_felt
+        n_felt = np.count_nonzero(is_felt, axis=0).tolist()
+        beyond = [NOWHERE, *_PRICES[1:].tolist(), math.inf]
+        return [beyond[n] for n in n_felt]
