@@ -114,7 +114,7 @@ class OurLoop:
         return list(nearest.values())
 
     def felt(self, costs: list[list[float]]) -> np.ndarray:
-        return self.gains(np.array(costs).ravel()).reshape(len(costs), -1, BANDS.n_bands)
+        return self.gains([cost for row in costs for cost in row]).reshape(len(costs), -1, BANDS.n_bands)
 
 
 def _crossing(weight: float) -> float:

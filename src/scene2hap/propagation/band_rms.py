@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from math import exp, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,13 +61,9 @@ class BandRms:
         if length >= self._least:
             if length == math.inf:
                 return self._zeros
-            exp, sqrt = math.exp, math.sqrt
-            minus_x = [b * length for b in self._minus_b]
-            minus_g = [(x - 1.0) * exp(x) for x in minus_x]
-            return [
-                sqrt(after - before) * scale / length
-                for before, after, scale in zip(minus_g, minus_g[1:], self._scales, strict=False)
-            ]
+            minus_g = [((minus_x := b * length) - 1.0) * exp(minus_x) for b in self._minus_b]
+            edges = zip(minus_g, minus_g[1:], self._scales, strict=False)
+            return [sqrt(upper - lower) * scale / length for lower, upper, scale in edges]
         row: list[float] = self._ones if length == 0 else self._exact(np.array([length]))[0].tolist()
         return row
 

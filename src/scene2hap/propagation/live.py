@@ -55,8 +55,12 @@ class PricedField(LiveField, Protocol):
     """A live field whose answers fall as a price rises, so that what is too faint to matter is known by its price
     alone, before anything is worked out. `strongest(hands)` is `at(prices(hands))`."""
 
-    def prices(self, hands: Sequence[Sequence[TouchedPoint]]) -> Prices:
-        """The price of each source at each hand; one that feels it at several points has the least of them."""
+    def prices(self, hands: Sequence[Sequence[TouchedPoint]], limits: Sequence[float] | None = None) -> Prices:
+        """The price of each source at each hand; one that feels it at several points has the least of them.
+
+        Parameters: limits : for each source, a price above which it may as well be infinite; what is farther is not
+        looked for then.
+        """
         ...
 
     def at(self, prices: Prices, columns: Sequence[int] | None = None) -> NDArray[np.float64]:

@@ -4,28 +4,24 @@
 most two contacts a way is source, at most one object between, touched object, so that what arrives is put together from
 the few junctions on it when asked for; what a junction that did not move contributes is kept from frame to frame. Over
 more contacts one searches outward from the touch while things move, and once for all touches when they have come to
-rest.
+rest: from one source at a question, as far as anything matters, so that no question waits for the others.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from scene2hap.propagation.outward import cheapest_outward
+from scene2hap.propagation.outward import Entries, Triple, cheapest_outward, entries_around
 from scene2hap.propagation.paths import Arrivals, cheapest_over
 
 if TYPE_CHECKING:
     from scene2hap.contact.graph import ContactGraph
     from scene2hap.contact.junction import Junction
 
-Triple = tuple[float, float, float]
-
 _MOST_WEIGHTS = 1024
 _SELDOM = 20  # From here on one search of the whole scene is cheaper than one outward from each touch.
-
-_Entries = list[tuple[Triple, float]]
 
 
 class _Crossing(dict[float, float]):
@@ -43,15 +39,17 @@ class _Crossing(dict[float, float]):
 
 class _Way:
     """A way from a source (row) into an object: by its first junction `out[via]`, and, if `via` is another object, by
-    its second `into[via]`; and its entries as they were told for these, each where it comes in and at what cost."""
+    its second `into[via]`; and its entries as they were told for these, each where it comes in and at what cost, at
+    least `least`."""
 
-    __slots__ = ("entries", "first", "into", "out", "row", "second", "via")
+    __slots__ = ("entries", "first", "into", "least", "out", "row", "second", "via")
 
     def __init__(self, row: int, via: str, out: Mapping[str, Junction], into: Mapping[str, Junction]) -> None:
         self.row, self.via, self.out, self.into = row, via, out, into
         self.first: Junction | None = None
         self.second: Junction | None = None
-        self.entries: _Entries = []
+        self.entries: Entries = []
+        self.least = 0.0
 
 
 class LivePaths:
@@ -78,30 +76,39 @@ class LivePaths:
         self._row = {source_id: row for row, source_id in enumerate(source_ids)}
         self._max_hops = max_hops
         self._plans: dict[str, tuple[int, dict[tuple[int, str], _Way]]] = {}
-        self._entries: dict[str, tuple[int, list[tuple[int, _Entries]]]] = {}
+        self._entries: dict[str, tuple[int, list[tuple[int, Entries]]]] = {}
         self._arrivals: tuple[int, dict[str, Arrivals]] = (-1, {})
         self._asked_of, self._n_asked = -1, 0
+        # What comes into objects from each source, up to the limits, for the first of the sources.
+        self._around_of: tuple[int, tuple[float, ...]] = (-1, ())
+        self._around: list[dict[str, Entries]] = []
 
-    def costs(self, object_id: str, point_m: Triple) -> list[float]:
-        """Price of the cheapest way from each source to a point of an object: 0 on the source itself, inf for none."""
+    def costs(self, object_id: str, point_m: Triple, limits: Sequence[float] | None = None) -> list[float]:
+        """Price of the cheapest way from each source to a point of an object: 0 on the source itself, inf for none.
+
+        Parameters: limits : for each source, a price above which it may as well be inf.
+        """
         if object_id not in self._price_per_m or object_id not in self._beside:
             found = [math.inf] * len(self._source_ids)
         elif self._max_hops in (1, 2):
-            found = self._cheapest(self._short(object_id), object_id, point_m)
-        elif self._is_outward_quicker():
+            found = self._short(object_id, point_m, limits)
+        elif self._is_outward_quicker() or (limits is not None and not self._are_all_around(limits)):
             prices, crossing, row = self._price_per_m, self._crossing, self._row
-            found = cheapest_outward(object_id, point_m, self._beside, prices, crossing, row)
+            limit = math.inf if limits is None else max(limits, default=0.0)
+            found = cheapest_outward(object_id, point_m, self._beside, prices, crossing, row, limit)
+        elif limits is not None:
+            ways = ((row, entries[object_id]) for row, entries in enumerate(self._around) if object_id in entries)
+            found = self._cheapest(ways, object_id, point_m)
         else:
             found = self._cheapest(self._searched(object_id), object_id, point_m)
         if object_id in self._row:
             found[self._row[object_id]] = 0.0
         return found
 
-    def _cheapest(self, ways: Iterable[tuple[int, _Entries]], object_id: str, point_m: Triple) -> list[float]:
+    def _cheapest(self, ways: Iterable[tuple[int, Entries]], object_id: str, point_m: Triple) -> list[float]:
         found = [math.inf] * len(self._source_ids)
         price, dist = self._price_per_m[object_id], math.dist
         for row, entries in ways:
-            # A few dozen entries: plain numbers are faster than numpy's calls.
             least = min([cost + price * dist(place, point_m) for place, cost in entries])
             if least < found[row]:
                 found[row] = least
@@ -116,15 +123,41 @@ class LivePaths:
         self._n_asked += 1
         return self._n_asked <= _SELDOM
 
-    def _short(self, object_id: str) -> Iterator[tuple[int, _Entries]]:
-        """Ways of at most two contacts, as they are now."""
-        for way in self._plan(object_id):
-            # A junction that moved is another object: what follows from it is told anew.
-            if way.first is not way.out[way.via] or (way.second is not None and way.second is not way.into[way.via]):
-                self._tell(way, object_id)
-            yield way.row, way.entries
+    def _are_all_around(self, limits: Sequence[float]) -> bool:
+        """Search around one more source; true once all of them are done."""
+        of = (self._graph.version, tuple(limits))
+        if self._around_of != of:
+            self._around_of, self._around = of, []
+        if len(self._around) < len(self._source_ids):
+            source_id, limit = self._source_ids[len(self._around)], limits[len(self._around)]
+            found = entries_around(source_id, self._beside, self._price_per_m, self._crossing, limit)
+            self._around.append(found)
+            return False
+        return True
 
-    def _searched(self, object_id: str) -> list[tuple[int, _Entries]]:
+    def _short(self, object_id: str, point_m: Triple, limits: Sequence[float] | None) -> list[float]:
+        """Over ways of at most two contacts, as they are now; those that surely cost more than their limit left out."""
+        found = [math.inf] * len(self._source_ids)
+        price, dist = self._price_per_m[object_id], math.dist
+        for way in self._plan(object_id):
+            row, via = way.row, way.via
+            first, second = way.out[via], None if via == object_id else way.into[via]
+            # A junction that moved is another object: what follows from it is told anew.
+            if way.first is not first or way.second is not second:
+                if limits is not None and second is not None:
+                    # From where it enters alone it may be too far, whatever way led there.
+                    nearest = min([dist(place, point_m) for place in second.points_m])
+                    if price * nearest > limits[row]:
+                        continue
+                self._tell(way, first, second)
+            if limits is None or way.least <= limits[row]:
+                # A few dozen entries: plain numbers are faster than numpy's calls.
+                least = min([cost + price * dist(place, point_m) for place, cost in way.entries])
+                if least < found[row]:
+                    found[row] = least
+        return found
+
+    def _searched(self, object_id: str) -> list[tuple[int, Entries]]:
         """Ways over any number of contacts: for each source that comes, where it comes in."""
         version = self._graph.version
         at, known = self._entries.get(object_id, (-1, []))
@@ -134,7 +167,7 @@ class LivePaths:
             self._entries[object_id] = (version, known)
         return known
 
-    def _gather(self, object_id: str, arrived: Arrivals) -> list[tuple[int, _Entries]]:
+    def _gather(self, object_id: str, arrived: Arrivals) -> list[tuple[int, Entries]]:
         places = [(x, y, z) for x, y, z in arrived.points_m.tolist()]
         price, found = self._price_per_m[object_id], []
         for row, costs in enumerate(arrived.costs.tolist()):
@@ -177,10 +210,8 @@ class LivePaths:
         self._plans[object_id] = (topology, plan)
         return plan.values()
 
-    def _tell(self, way: _Way, object_id: str) -> None:
+    def _tell(self, way: _Way, first: Junction, second: Junction | None) -> None:
         """Tell the entries of a way over its junctions as they are now."""
-        first = way.out[way.via]
-        second = None if way.via == object_id else way.into[way.via]
         crossing = self._crossing
         entries = [(place, crossing[weight]) for place, weight in zip(first.points_m, first.weights, strict=True)]
         if second is not None:
@@ -190,11 +221,12 @@ class LivePaths:
                 for there, weight in zip(second.points_m, second.weights, strict=True)
             ]
         way.first, way.second, way.entries = first, second, entries
+        way.least = min([cost for _, cost in entries])
 
 
-def _worth_entering(entries: _Entries, price: float) -> _Entries:
+def _worth_entering(entries: Entries, price: float) -> Entries:
     """The entries without those that are reached more cheaply through the object from another one."""
-    worthy: _Entries = []
+    worthy: Entries = []
     for place, cost in sorted(entries, key=lambda entry: entry[1]):
         if all(other + price * math.dist(there, place) > cost for there, other in worthy):
             worthy.append((place, cost))

@@ -132,7 +132,7 @@ class PlateTerms:
 
     def cosines(self, points_m: Floats) -> Floats:
         """Products of Chebyshev polynomials of both axes at points (n_points, n_products), as cosines."""
-        angles = np.arccos(np.clip(points_m * self._per_size - 1, -1.0, 1.0))
+        angles = np.arccos(np.minimum(np.maximum(points_m * self._per_size - 1, -1.0), 1.0))
         values = np.cos(angles[:, :, None] * self._orders)
         n_x, n_y = (len(axis.family.chebyshev) for axis in self._axes)
         return (values[:, 0, :n_x, None] * values[:, 1, None, :n_y]).reshape(len(points_m), -1)

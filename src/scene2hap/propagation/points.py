@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -16,10 +17,13 @@ def as_points(points_m: ArrayLike, dimensions: int) -> NDArray[np.float64]:
 
     Raises: ModelDomainError: another shape, or a coordinate that is not finite.
     """
-    points = np.atleast_2d(np.asarray(points_m, dtype=np.float64))
+    points: NDArray[np.float64] = np.asarray(points_m, dtype=np.float64)
+    if points.ndim < 2:
+        points = points.reshape(1, -1)
     if points.ndim != 2 or points.shape[1] != dimensions:
         raise ModelDomainError(f"points have shape {points.shape}; they must be (n_points, {dimensions}) [m].")
-    if not np.isfinite(points).all():
+    # A sum is finite only if everything in it is, and asks for one pass where nearly all points are good.
+    if not math.isfinite(np.add.reduce(points, axis=None)) and not np.isfinite(points).all():
         raise ModelDomainError("points hold a coordinate that is not finite; every one must be a number [m].")
     return points
 

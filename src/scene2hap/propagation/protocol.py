@@ -60,7 +60,8 @@ class ContactNetwork:
         points, pose, body = as_points(points_m, 3), self.poses.get(object_id), self.bodies.get(object_id)
         flat = (points if pose is None else pose.to_own(points))[:, :2]
         size = (body.length_m, body.width_m) if isinstance(body, Plate) else body and body.size_m
-        return np.clip(flat, 0.0, size[:2]) if size else flat
+        # Quicker than numpy's clip, for the one point of a hand.
+        return np.minimum(np.maximum(flat, 0.0), size[:2]) if size else flat
 
 
 @runtime_checkable

@@ -43,6 +43,14 @@ def read_stl_ply(data: bytes, file_type: str, name: str) -> AuthoredScene:
     n_faces = sum(len(faces) for _, faces, _ in tables)
     if promised is not None and n_faces < int(promised[1]):
         raise SceneFormatError(f"{name!r} promises {int(promised[1])} faces and holds {n_faces}: cut short?")
+    if file_type == "stl" and not n_faces and not data.lstrip().lower().startswith(b"solid"):
+        # Where it can guess encodings, trimesh takes a binary file whose count is wrong for a text without triangles.
+        promised_stl = int.from_bytes(data[80:84], "little")
+        if promised_stl:
+            raise SceneFormatError(
+                f"{name!r} cannot be read as STL: it promises {promised_stl} triangles, which are "
+                f"{84 + 50 * promised_stl} bytes, and has {len(data)}. Export it again."
+            )
     pieces = (
         replace(Piece.checked(i, points, faces, "", name), appearance=looks)
         for i, (points, faces, looks) in enumerate(tables)

@@ -43,9 +43,11 @@ class HapticFrame:
 
     @property
     def gains(self) -> Gains:
-        """Gains (n_hands, n_sources, n_bands) float32 [-] of all sources, those too faint to be mixed included.
+        """Gains (n_hands, n_sources, n_bands) float32 [-].
 
-        Worked out when first asked for, and of that update whatever came after it: most games never ask.
+        Where the model tells prices (`propagation.live.PricedField`) they are worked out when first asked for, since
+        most games never ask: of all sources, down to -140 dB, until a contact changes; after that only of sources that
+        are felt, those that were left out of the mix being 0.
         """
         if self._gains is None:
             assert self._work_out is not None
@@ -70,7 +72,8 @@ class SkipCounts:
 
     Parameters: unreachable_objects : objects that the model was not told of, or that a live field has no way to, summed
     over preparations and changes; unreachable_touches : touches that it was not asked about; changes_out_of_reach :
-    contact changes after which nothing had to be prepared; below_threshold : sources left out at a hand; silent_bands :
+    contact changes after which nothing had to be prepared; below_threshold : sources left out at a hand that hang
+    together with what it touches; silent_bands :
     gains left out at a hand; rows_not_mixed : bands of loops, times cells of 3 ms, that no gain let through;
     idle_hands : hands that touched nothing; unchanged_frames : updates that brought nothing new.
     """

@@ -14,12 +14,13 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.live import PricedField
+from scene2hap.contact.graph import ContactGraph
+from scene2hap.propagation.live import PricedField, Prices
 from scene2hap.session.audibility import Audibility
 from scene2hap.session.config import SkipConfig
 from scene2hap.session.counts import Counts
 from scene2hap.session.frame import Gains, Touch
-from scene2hap.session.horizon import NOWHERE, Horizon
+from scene2hap.session.horizon import Horizon
 from scene2hap.session.touch_gains import TouchGains
 
 Felt = dict[int, list[Touch]]
@@ -98,35 +99,46 @@ class HearingNear:
         counts: Counts,
         *,
         skips_silent_bands: bool,
+        graph: ContactGraph,
     ) -> None:
         self._gains, self._field, self._loudness, self._counts = gains, field, loudness, counts
-        self._horizon = horizon.at_levels(loudness.levels)
-        self._skips_silent_bands = skips_silent_bands
+        levels = loudness.levels
+        self._horizon, self._arrives = horizon.felt(levels), horizon.arrives(levels)
+        self._on = frozenset(np.flatnonzero(levels).tolist())
+        self._skips_silent_bands, self._graph = skips_silent_bands, graph
 
     def hear(self, n_hands: int, felt: Felt) -> Heard:
         """See `Hearing`."""
-        counts, horizon, inf = self._counts, self._horizon, math.inf
-        counts.idle_hands += n_hands - len(felt)
-        prices = self._gains.prices(self._field, list(felt.values()))
-        worth, n_out = set[int](), 0
-        for row in prices:
-            for column, price in enumerate(row):
-                if price <= horizon[column]:
-                    worth.add(column)
-                elif price < inf and horizon[column] != NOWHERE:
-                    n_out += 1
-        counts.below_threshold += n_out
+        gains, horizon, on = self._gains, self._horizon, self._on
+        touches, n_out = list(felt.values()), 0
+        asked = [gains.asked(touched) for touched in touches]
+        prices = gains.prices(self._field, touches, asked, horizon)
+        worth = set[int]()
+        for row, touched in zip(prices, touches, strict=True):
+            near = {x for x, price in enumerate(row) if price <= horizon[x]}
+            n_out += len((gains.reached(touched) & on) - near)
+            worth |= near
+        self._counts.below_threshold += n_out
+        self._counts.idle_hands += n_hands - len(felt)
         columns = sorted(worth)
-        near = [[row[x] if row[x] <= horizon[x] else inf for x in columns] for row in prices]
-        mixed = self._loudness.applied(self._field.at(near, columns), columns)
+        each = [[row[x] if row[x] <= horizon[x] else math.inf for x in columns] for row in prices]
+        mixed = self._loudness.applied(self._field.at(each, columns), columns)
         if self._skips_silent_bands:
             mixed = self._loudness.audibility.loud(mixed, columns)
-        return Heard(self._told(n_hands, felt, prices), _among(mixed, n_hands, felt), columns)
 
-    def _told(self, n_hands: int, felt: Felt, prices: list[list[float]]) -> Callable[[], Gains]:
-        # By itself, so that who keeps a frame does not keep what it was heard with changing under it.
-        field, loudness = self._field, self._loudness
-        return lambda: _among(loudness.applied(field.at(prices)), n_hands, felt)
+        version = self._graph.version
+
+        def told() -> Gains:
+            now = self._graph.version == version
+            everything = gains.prices(self._field, touches, asked, self._arrives) if now else _without(prices, horizon)
+            return _among(self._loudness.applied(self._field.at(everything)), n_hands, felt)
+
+        return Heard(told, _among(mixed, n_hands, felt), columns)
+
+
+def _without(prices: Prices, limits: Sequence[float]) -> Prices:
+    """Infinite instead of prices beyond their limits."""
+    return [[x if x <= limit else math.inf for x, limit in zip(row, limits, strict=True)] for row in prices]
 
 
 def _among(given: Gains, n_hands: int, felt: Felt) -> Gains:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.propagation.live import PricedField
-from scene2hap.session.audibility import Audibility
+from scene2hap.session.audibility import SILENT, Audibility
 
 # From 1 to less than exp(-700) for any band between 8 Hz and 1 MHz, in steps of 6 %.
 _PRICES = np.concatenate([[0.0], np.geomspace(1e-4, 100.0, 240)])
@@ -23,18 +23,30 @@ NOWHERE = -1.0
 
 
 class Horizon:
-    """What is felt of the sources of a field, by price."""
+    """What arrives and what is felt of the sources of a field, by price."""
 
     def __init__(self, field: PricedField, audibility: Audibility) -> None:
         n = len(field.source_ids)
         gains = field.at([[price] * n for price in _PRICES.tolist()]).astype(np.float32)
-        # Rounding must not let it rise again.
-        self._felt = np.maximum.accumulate(audibility.felt(gains)[::-1], axis=0)[::-1]
-        self._least_felt = audibility.least_felt
+        self._felt, self._least_felt = _falling(audibility.felt(gains)), audibility.least_felt
+        self._arrives = _falling(gains.max(axis=2, initial=0.0))
 
-    def at_levels(self, levels: NDArray[np.float64]) -> list[float]:
+    def felt(self, levels: NDArray[np.float64]) -> list[float]:
         """The horizon of each source at levels (n_sources,) [-]; infinite where a source is felt however far it is."""
-        is_felt = self._felt * levels >= self._least_felt
-        n_felt = np.count_nonzero(is_felt, axis=0).tolist()
-        beyond = [NOWHERE, *_PRICES[1:].tolist(), math.inf]
-        return [beyond[n] for n in n_felt]
+        return _last_of(self._felt * levels >= self._least_felt)
+
+    def arrives(self, levels: NDArray[np.float64]) -> list[float]:
+        """Beyond which no band of each source comes to more than `SILENT`."""
+        return _last_of(self._arrives * levels >= SILENT)
+
+
+def _falling(table: NDArray[np.float32]) -> NDArray[np.float32]:
+    """A table by rising price; rounding must not let it rise again."""
+    falling: NDArray[np.float32] = np.maximum.accumulate(table[::-1], axis=0)[::-1]
+    return falling
+
+
+def _last_of(is_enough: NDArray[np.bool_]) -> list[float]:
+    """The first price (n_prices, n_sources) at which it is not enough."""
+    beyond = [NOWHERE, *_PRICES[1:].tolist(), math.inf]
+    return [beyond[n] for n in np.count_nonzero(is_enough, axis=0).tolist()]

@@ -83,11 +83,9 @@ class Listening:
             self._counts.unchanged_frames += 1
             return self._frame, None
         self._felt, self._is_fresh = felt, True
-        if is_paused:
-            self._frame = self.silence(hands)
-            return self._frame, None
-        heard = self._hear(len(hands), felt)
-        self._frame = HapticFrame(heard.told, hands, self._sources.ids)
+        heard = None if is_paused else self._hear(len(hands), felt)
+        told = self._nothing(len(hands)) if heard is None else heard.told
+        self._frame = HapticFrame(told, hands, self._sources.ids)
         return self._frame, heard
 
     def silence(self, hands: tuple[str, ...]) -> HapticFrame:
@@ -174,14 +172,16 @@ class Listening:
             self._horizon = None
         field = self.keeper.hearing(self._sources.ids, self._reach)
         gains, loudness = self._touch_gains(field, counts), Loudness(self._known_levels(), self._audibility)
-        is_near = isinstance(field, PricedField) and skip.below_threshold and skip.idle_hands
-        if not is_near or gains.may_be_capped:
+        wants_near = skip.below_threshold and skip.idle_hands and not gains.may_be_capped
+        # Only live fields are: asking a prepared one takes longer than hearing it.
+        if not (wants_near and isinstance(self.keeper, LiveKeeper) and isinstance(field, PricedField)):
             return HearingAll(gains, loudness, skip, counts)
-        assert isinstance(field, PricedField)
         if self._horizon is None or self._horizon[0] is not field:
             self._horizon = (field, Horizon(field, self._audibility))
         horizon = self._horizon[1]
-        return HearingNear(gains, field, horizon, loudness, counts, skips_silent_bands=skip.silent_bands)
+        return HearingNear(
+            gains, field, horizon, loudness, counts, skips_silent_bands=skip.silent_bands, graph=self._stage.graph
+        )
 
     def _nothing(self, n_hands: int) -> NDArray[np.float32]:
         return np.zeros((n_hands, len(self._sources.ids), self._config.bands.n_bands), dtype=np.float32)

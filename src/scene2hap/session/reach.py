@@ -16,6 +16,7 @@ from scene2hap.contact.graph import ContactChange
 from scene2hap.contact.junction import Pair
 
 Beside = Mapping[str, Collection[str]]
+_NONE: frozenset[int] = frozenset()
 
 
 class _Group:
@@ -26,13 +27,18 @@ class _Group:
         self._column = column
 
     @cached_property
-    def strangers(self) -> list[int] | None:
-        """Which sources are not among them; None if none is."""
-        strangers = [i for source_id, i in self._column.items() if source_id not in self.members]
-        return strangers if len(strangers) < len(self._column) else None
+    def sources(self) -> frozenset[int]:
+        """The columns of the sources among them."""
+        return frozenset(i for source_id, i in self._column.items() if source_id in self.members)
+
+    @cached_property
+    def strangers(self) -> list[int]:
+        """Those of the sources that are not."""
+        return [i for i in self._column.values() if i not in self.sources]
 
     def members_changed(self) -> None:
         """Look for sources anew when asked next."""
+        self.__dict__.pop("sources", None)
         self.__dict__.pop("strangers", None)
 
 
@@ -74,13 +80,17 @@ class Reach:
     def has(self, object_id: str) -> bool:
         """Whether a source reaches an object over contacts."""
         group = self._group.get(object_id)
-        return group is not None and group.strangers is not None
+        return group is not None and bool(group.sources)
+
+    def sources(self, object_id: str) -> frozenset[int]:
+        """The columns of the sources that hang together with an object."""
+        group = self._group.get(object_id)
+        return _NONE if group is None else group.sources
 
     def strangers(self, object_id: str) -> Sequence[int]:
         """The columns of the sources that do not hang together with an object."""
         group = self._group.get(object_id)
-        strangers = None if group is None else group.strangers
-        return range(len(self._column)) if strangers is None else strangers
+        return range(len(self._column)) if group is None else group.strangers
 
     def concerns(self, change: ContactChange) -> bool:
         """Whether a source reaches an object of these contacts."""
@@ -98,7 +108,7 @@ class Reach:
     def objects_near(self, object_ids: Iterable[str]) -> set[str]:
         """What hangs together with any of these and a source."""
         near = {self._group[x] for x in object_ids if x in self._group}
-        return set().union(*(group.members for group in near if group.strangers is not None))
+        return set().union(*(group.members for group in near if group.sources))
 
     def n_of(self, objects: Container[str]) -> int:
         """How many of these they are, where all but sources are among these."""

@@ -39,9 +39,28 @@ class TouchGains:
         """Whether the field may say more than the limit."""
         return self._may_exceed
 
-    def prices(self, field: PricedField, hands: Sequence[Sequence[Touch]]) -> Prices:
-        """The price of each source at each hand, where the field tells it; 0 on a source."""
-        prices = field.prices([self._asked(touches) for touches in hands])
+    def reached(self, touches: Sequence[Touch]) -> frozenset[int]:
+        """The columns of the sources that hang together with any of these objects."""
+        sources = self._reach.sources
+        found = sources(touches[0].object_id)
+        for touch in touches[1:]:
+            more = sources(touch.object_id)
+            if more is not found:
+                found |= more
+        return found
+
+    def prices(
+        self,
+        field: PricedField,
+        hands: Sequence[Sequence[Touch]],
+        asked: Sequence[Sequence[TouchedPoint]],
+        limits: Sequence[float],
+    ) -> Prices:
+        """The price of each source at each hand up to its limit, of a field that tells it; 0 on a source.
+
+        Parameters: asked : see `asked`, of the touches of each hand.
+        """
+        prices = field.prices(asked, limits)
         for row, touches in zip(prices, hands, strict=True):
             for touch in touches:
                 if touch.object_id in self._own:
@@ -50,7 +69,7 @@ class TouchGains:
 
     def of(self, hands: Sequence[Sequence[Touch]]) -> NDArray[np.float64]:
         """Gains (n_hands, n_sources, n_bands) [-], the largest over each hand's touches, capped; 1 on a source."""
-        gains = self._field.strongest([self._asked(touches) for touches in hands])
+        gains = self._field.strongest([self.asked(touches) for touches in hands])
         for i, touches in enumerate(hands):
             for touch in touches:
                 if touch.object_id in self._own:
@@ -63,7 +82,8 @@ class TouchGains:
         # A guest model's NaN must not reach a hand.
         return np.minimum(np.fmax(gains, 0.0, out=gains), self._limit, out=gains)
 
-    def _asked(self, touches: Sequence[Touch]) -> list[TouchedPoint]:
+    def asked(self, touches: Sequence[Touch]) -> list[TouchedPoint]:
+        """Which of a hand's touches the field is asked about; the others are counted."""
         if not self._skips_unreachable:
             return [(touch.object_id, touch.point_m) for touch in touches]
         has = self._reach.has

@@ -104,7 +104,8 @@ def test_ways_over_any_number_of_contacts_are_the_same_asked_seldom_and_often() 
     # One is made of nothing that anybody knows, and another rigid.
     prices = {name: float(rng.uniform(0.05, 1.0)) for name in names[:-1]} | {"x3": 0.0}
     sources = ("x0", "x4", "x11")
-    paths = LivePaths(graph, prices, crossing, sources, None)
+    paths, limited = (LivePaths(graph, prices, crossing, sources, None) for _ in range(2))
+    limits = [0.2, 0.5, 1.0]
     reached = 0
     for _ in range(30):
         pairs = {tuple(sorted(rng.choice(names, 2, replace=False).tolist())) for _ in range(12)}
@@ -116,5 +117,32 @@ def test_ways_over_any_number_of_contacts_are_the_same_asked_seldom_and_often() 
             point = tuple(rng.uniform(0, 1, 3).tolist())
             expected = arrivals_at(arrivals, prices, sources, touched, [point])[0]
             np.testing.assert_allclose(paths.costs(touched, point), expected, rtol=1e-12)
+            for found, true, limit in zip(limited.costs(touched, point, limits), expected, limits, strict=True):
+                assert found == pytest.approx(true, rel=1e-12) if true <= limit else found > limit
             reached += int(np.isfinite(expected).sum())
     assert reached > 500
+
+
+@pytest.mark.parametrize("max_hops", [1, 2, 3, None])
+def test_up_to_its_limit_a_price_is_what_it_is_and_beyond_it_stays_beyond(max_hops: int | None) -> None:
+    graph = room()
+    limited, free = (LivePaths(graph, PRICES, crossing, SOURCES, max_hops) for _ in range(2))
+    rng = np.random.default_rng(2)
+    n_within = n_beyond = 0
+    for step in range(6):
+        graph.update({"phone": Pose((0.2 + 0.01 * step, 0.705, 0.1)), "radio": Pose((-0.3, 0.75, 0.02 * step))})
+        limits = rng.uniform(0.0, 0.5, len(SOURCES)).tolist()
+        # Often enough that what is around each source is put together, too.
+        for _ in range(12):
+            for touched in PRICES:
+                point = tuple(rng.uniform(-1, 1, 3).tolist())
+                for found, true, limit in zip(
+                    limited.costs(touched, point, limits), free.costs(touched, point), limits, strict=True
+                ):
+                    if true <= limit:
+                        assert found == pytest.approx(true, rel=1e-12)
+                        n_within += true > 0
+                    else:
+                        assert found > limit
+                        n_beyond += true < math.inf
+    assert min(n_within, n_beyond) > 20

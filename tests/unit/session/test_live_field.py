@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from scene2hap import Bands, ExponentialPlate, HapticSession, Pose, Touch
+from scene2hap.session.audibility import SILENT
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
 
 ON_TABLE = Touch("left", "table", (0.8, 0.72, 0.4))
@@ -38,6 +39,7 @@ def test_a_live_field_says_what_a_prepared_one_does(settings: dict[str, Any], ba
     ]
     fan = box("fan", (0.1, 0.2, 0.1), (0.8, 0.82, 0.6))
     plate = haptics("steel", (0.1, 0.1, 0.004), "on")
+    worst = 0.0
     for step in range(40):
         x, lift = rng.uniform(0.1, 1.2), 0.4 * (step % 7 == 3)
         moved = {"phone": Pose((x, 0.725 + lift, 0.4))}
@@ -55,15 +57,17 @@ def test_a_live_field_says_what_a_prepared_one_does(settings: dict[str, Any], ba
             for s in both:
                 s.remove("alarm")
         live, prepared = (s.update(moved, touches).gains for s in both)
-        np.testing.assert_allclose(live, prepared, rtol=1e-6, atol=1e-12)
+        np.testing.assert_allclose(live, prepared, rtol=1e-6, atol=SILENT)
+        live, prepared = (s.render(RATE // 20) for s in both)
+        worst = max(worst, float(np.abs(live - prepared).max()))
     ours, theirs = (s.stats for s in both)
     assert ours.fields_prepared == theirs.fields_prepared
-    # A horizon is drawn some per cent too far, so that a source or two more may be mixed than need be.
-    missed = theirs.skipped.below_threshold - ours.skipped.below_threshold
-    assert 0 <= missed <= 3
-    assert 0 <= ours.skipped.silent_bands - theirs.skipped.silent_bands <= missed * bands.n_bands
-    n_silent, n_below = theirs.skipped.silent_bands, theirs.skipped.below_threshold
-    assert replace(ours.skipped, below_threshold=n_below, silent_bands=n_silent) == theirs.skipped
+    assert worst < 0.01
+    # By price, what cannot be felt is left out whether or not it would have come to anything.
+    assert ours.skipped.below_threshold > 0
+    by_price = ("below_threshold", "silent_bands", "rows_not_mixed")
+    others = {name: value for name, value in vars(theirs.skipped).items() if name in by_price}
+    assert replace(ours.skipped, **others) == theirs.skipped
 
 
 def test_what_is_added_without_a_contact_carries_once_it_has_one() -> None:
