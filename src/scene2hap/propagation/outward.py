@@ -91,7 +91,7 @@ def _walk(
             yield cost, here, place
             continue
         known = entries.setdefault(here, [])
-        if any([there_cost + price * dist(there, place) <= cost for there, there_cost in known]):
+        if any(there_cost + price * dist(there, place) <= cost for there, there_cost in known):
             continue
         yield cost, here, place
         known.append((place, cost))
