@@ -14,7 +14,7 @@ from scene2hap import InfinitePlate, Material, ModalPlate, Plate, materials, pla
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation import modes as modes_module
 from scene2hap.propagation.domain import ThinPlateWarning
-from scene2hap.propagation.near_field import beyond_cutoff
+from scene2hap.propagation.near_field import beyond_cutoff, beyond_cutoff_of_square
 
 MATERIAL = Material("test", 2500.0, 70e9, 0.22, loss_factor=0.02)
 FURNITURE = {
@@ -226,3 +226,5 @@ def test_share_beyond_the_cut_off() -> None:
     expected = [2 * np.trapezoid(j0(x / t) * t, t) for x in a]
     np.testing.assert_allclose(beyond_cutoff(a), expected, atol=2e-5)
     assert (beyond_cutoff(np.array([21.0, 1e12])) == 0).all()
+    many = np.concatenate([[0.0, 20.5, 1e30], 10 ** np.random.default_rng(0).uniform(-6, 2, 2000)])
+    np.testing.assert_allclose(beyond_cutoff_of_square(many**2), beyond_cutoff(many), atol=1e-6)

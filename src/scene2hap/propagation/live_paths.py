@@ -79,9 +79,10 @@ class LivePaths:
         self._entries: dict[str, tuple[int, list[tuple[int, Entries]]]] = {}
         self._arrivals: tuple[int, dict[str, Arrivals]] = (-1, {})
         self._asked_of, self._n_asked = -1, 0
-        # What comes into objects from each source, up to the limits, for the first of the sources.
-        self._around_of: tuple[int, tuple[float, ...]] = (-1, ())
-        self._around: list[dict[str, Entries]] = []
+        # What comes into objects from the first `_n_around` sources up to some limits, in what version of the graph.
+        self._around_of: tuple[int, Sequence[float]] = (-1, ())
+        self._around: dict[str, list[tuple[int, Entries]]] = {}
+        self._n_around = 0
 
     def costs(self, object_id: str, point_m: Triple, limits: Sequence[float] | None = None) -> list[float]:
         """Price of the cheapest way from each source to a point of an object: 0 on the source itself, inf for none.
@@ -97,8 +98,7 @@ class LivePaths:
             limit = math.inf if limits is None else max(limits, default=0.0)
             found = cheapest_outward(object_id, point_m, self._beside, prices, crossing, row, limit)
         elif limits is not None:
-            ways = ((row, entries[object_id]) for row, entries in enumerate(self._around) if object_id in entries)
-            found = self._cheapest(ways, object_id, point_m)
+            found = self._cheapest(self._around.get(object_id, ()), object_id, point_m)
         else:
             found = self._cheapest(self._searched(object_id), object_id, point_m)
         if object_id in self._row:
@@ -125,15 +125,17 @@ class LivePaths:
 
     def _are_all_around(self, limits: Sequence[float]) -> bool:
         """Search around one more source; true once all of them are done."""
-        of = (self._graph.version, tuple(limits))
-        if self._around_of != of:
-            self._around_of, self._around = of, []
-        if len(self._around) < len(self._source_ids):
-            source_id, limit = self._source_ids[len(self._around)], limits[len(self._around)]
-            found = entries_around(source_id, self._beside, self._price_per_m, self._crossing, limit)
-            self._around.append(found)
-            return False
-        return True
+        version, known = self._around_of
+        if version != self._graph.version or (known is not limits and list(known) != list(limits)):
+            self._around_of, self._around, self._n_around = (self._graph.version, limits), {}, 0
+        row = self._n_around
+        if row == len(self._source_ids):
+            return True
+        found = entries_around(self._source_ids[row], self._beside, self._price_per_m, self._crossing, limits[row])
+        for object_id, entries in found.items():
+            self._around.setdefault(object_id, []).append((row, entries))
+        self._n_around = row + 1
+        return False
 
     def _short(self, object_id: str, point_m: Triple, limits: Sequence[float] | None) -> list[float]:
         """Over ways of at most two contacts, as they are now; those that surely cost more than their limit left out."""

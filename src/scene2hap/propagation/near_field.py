@@ -34,7 +34,7 @@ plate moves 8/3.5 times as much as the inside. Exact for S, an approximation oth
 
 FAR = 20.0
 """a of g(a) beyond which it is left out: it is below 0.02 there, and edges far away would join in."""
-_N_PIECES = 256
+_N_PIECES = 4096
 
 
 class NearField:
@@ -45,7 +45,7 @@ class NearField:
 
     def __init__(self, modes: PlateModes, drive_m: NDArray[np.float64]) -> None:
         plate = modes.plate
-        self._modes = modes
+        self._extent = _extent(modes.plate, modes.terms)
         self._cut2 = cutoff_squared(modes, drive_m)
         x, x_weight = _images(drive_m[:, 0], plate.length_m, plate.edges[:2])
         y, y_weight = _images(drive_m[:, 1], plate.width_m, plate.edges[2:])
@@ -58,10 +58,15 @@ class NearField:
 
         Returns: (n_points, n_drives, n_frequencies) [m^2], as k2, symmetric in its two points.
         """
-        cut2 = np.sqrt(cutoff_squared(self._modes, points_m)[:, None] * self._cut2)
-        r = np.hypot(points_m[:, :1, None] - self._x, points_m[:, 1:, None] - self._y)
-        r *= np.sqrt(cut2)[:, :, None]
-        share = quick_beyond_cutoff(r) @ self._weights
+        extent = self._extent
+        cut2 = np.array([_cutoff_squared(x, y, *extent) for x, y in points_m.tolist()])[:, None] * self._cut2
+        np.sqrt(cut2, out=cut2)
+        a2, y2 = points_m[:, :1, None] - self._x, points_m[:, 1:, None] - self._y
+        a2 *= a2
+        y2 *= y2
+        a2 += y2
+        a2 *= cut2[:, :, None]
+        share = beyond_cutoff_of_square(a2) @ self._weights
         near: NDArray[Number] = np.arctanh(k2 / cut2[:, :, None])
         near *= share[:, :, None]
         near /= 4 * np.pi * k2
@@ -73,29 +78,30 @@ def _images(at_m: NDArray[np.float64], length_m: float, edges: str) -> tuple[NDA
     return np.stack([at_m, -at_m, 2 * length_m - at_m], axis=-1), np.array([1.0, IMAGE[edges[0]], IMAGE[edges[1]]])
 
 
-def quick_beyond_cutoff(a: NDArray[np.float64]) -> NDArray[np.float64]:
-    """g(a), true to 1e-6, in a few calls; the array that it is given is used up."""
-    t = np.sqrt(a, out=a)
+def beyond_cutoff_of_square(a2: NDArray[np.float64]) -> NDArray[np.float64]:
+    """g(a) by a^2, true to 1e-6; the array that it is given is used up.
+
+    Not by numpy's interp, which gives the interpreter's lock away: a game's thread that asks beside a worker would wait
+    5 ms for it.
+    """
+    t = np.sqrt(a2, out=a2)
+    np.sqrt(t, out=t)
     t *= _N_PIECES / math.sqrt(FAR)
     piece = np.minimum(t, _N_PIECES).astype(np.intp)
     t -= piece
-    cubic = _cubics().take(piece, axis=0)
-    g: NDArray[np.float64] = cubic[..., 0] * t
-    for power in (1, 2):
-        g += cubic[..., power]
-        g *= t
-    g += cubic[..., 3]
-    return g
+    values, steps = _table()
+    t *= steps.take(piece)
+    t += values.take(piece)
+    return t
 
 
 @lru_cache(maxsize=1)
-def _cubics() -> NDArray[np.float64]:
-    """Coefficients (n_pieces + 1, 4) of g over the root of a, in which it is smooth; a spline. The last is 0."""
-    from scipy.interpolate import CubicSpline
-
-    pieces = np.arange(_N_PIECES + 1)
-    spline = CubicSpline(pieces, beyond_cutoff(FAR * (pieces / _N_PIECES) ** 2))
-    return np.concatenate([spline.c.T, np.zeros((1, 4))])
+def _table() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """g (n_pieces + 1,) over the root of a, in which it is smooth, and the steps between; the last of both is 0."""
+    values = beyond_cutoff(FAR * (np.arange(_N_PIECES + 1) / _N_PIECES) ** 2)
+    steps = np.append(np.diff(values), 0.0)
+    values[-1] = 0.0
+    return values, steps
 
 
 def cutoff_squared(modes: PlateModes, points_m: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -57,8 +57,12 @@ class ContactNetwork:
 
         Points beside a body are taken to its nearest edge, as if a rigid leg led there; a body without size keeps them.
         """
-        points, pose, body = as_points(points_m, 3), self.poses.get(object_id), self.bodies.get(object_id)
-        flat = (points if pose is None else pose.to_own(points))[:, :2]
+        return self.nearest_on_body(object_id, as_points(points_m, 3))
+
+    def nearest_on_body(self, object_id: str, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The same of points (n_points, 3) that were looked through already."""
+        pose, body = self.poses.get(object_id), self.bodies.get(object_id)
+        flat = (points_m if pose is None else pose.to_own(points_m))[:, :2]
         size = (body.length_m, body.width_m) if isinstance(body, Plate) else body and body.size_m
         # Quicker than numpy's clip, for the one point of a hand.
         return np.minimum(np.maximum(flat, 0.0), size[:2]) if size else flat

@@ -149,7 +149,7 @@ class CoupledField:
         gains = np.zeros((len(points), len(self.source_ids), self.bands.n_bands))
         found = self.reach.get(object_id)
         if found is not None:
-            flat = self.network.on_body(object_id, points)
+            flat = self.network.nearest_on_body(object_id, points)
             for begin in range(0, len(points), POINTS_AT_ONCE):
                 part = slice(begin, begin + POINTS_AT_ONCE)
                 gains[part, found.columns] = found.gains(flat[part], self.sampling)

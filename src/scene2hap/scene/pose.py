@@ -51,16 +51,20 @@ class Pose:
             ]
         )
 
+    @cached_property
+    def _position(self) -> NDArray[np.float64]:
+        return np.array(self.position_m)
+
     def to_world(self, points_own_m: ArrayLike) -> NDArray[np.float64]:
         """Points (n, 3) [m] of the own frame, in the world."""
         points: NDArray[np.float64] = np.asarray(points_own_m, dtype=np.float64)
-        moved: NDArray[np.float64] = points @ self.rotation.T + np.asarray(self.position_m)
+        moved: NDArray[np.float64] = points @ self.rotation.T + self._position
         return moved
 
     def to_own(self, points_m: ArrayLike) -> NDArray[np.float64]:
         """Points (n, 3) [m] of the world, in the own frame."""
         points: NDArray[np.float64] = np.asarray(points_m, dtype=np.float64)
-        own: NDArray[np.float64] = (points - np.asarray(self.position_m)) @ self.rotation
+        own: NDArray[np.float64] = (points - self._position) @ self.rotation
         return own
 
     def compose(self, inner: Pose) -> Pose:

@@ -83,7 +83,8 @@ class HearingAll:
             mixed = worth(told)
         if not self._skip.silent_bands:
             return Heard(told, mixed)
-        columns: list[int] = np.flatnonzero(np.any(mixed, axis=(0, 2))).tolist()
+        greatest: list[float] = np.maximum.reduce(mixed, axis=(0, 2), initial=0.0).tolist()
+        columns = [column for column, gain in enumerate(greatest) if gain]
         return Heard(told, mixed if len(columns) == mixed.shape[1] else mixed[:, columns], columns)
 
 
