@@ -97,10 +97,11 @@ class TactileMix:
         self.x = x
         # Behind the places of loops in use there is one for gains of loops that are not.
         self._G = np.zeros((n_rows + bank.n_bands, n_slots * n_hands), dtype=np.float32)
-        self._columns = list(self._G.T)
+        self._columns = [self._G[:, first : first + n_hands].T for first in range(0, n_slots * n_hands, n_hands)]
         self._rows_at = np.arange(len(self._G), dtype=np.intp).reshape(-1, bank.n_bands)
         self._rows = np.zeros((len(bank), bank.n_bands), dtype=np.intp)
         self._rows_are_of: Sequence[int] | None = None
+        self._are_rows_all = False
         self._L = np.zeros((n_rows, CELL), dtype=np.float32)
         self._places = list(self._L.reshape(len(bank), bank.n_bands, CELL))
         self._P = np.zeros((n_slots, n_hands, CELL), dtype=np.float32)
@@ -153,11 +154,13 @@ class TactileMix:
             self._read(first_new)
         held = _Held(gains, self._free.pop(), tick, tick + self._ramp - 1)
         self._held.append(held)
-        column = held.slot * self._n_hands
         rows, n_rows = self._rows_of(gains.loops), len(self._loops) * self._bank.n_bands
-        for values, own in zip(gains.values, self._columns[column : column + self._n_hands], strict=True):
-            own[:n_rows] = 0.0
-            own[rows] = values.reshape(-1)
+        values, own = gains.values.reshape(self._n_hands, -1), self._columns[held.slot]
+        if self._are_rows_all:
+            own[:, :n_rows] = values
+        else:
+            own[:, :n_rows] = 0.0
+            own[:, rows] = values
         self._is_stale = True
 
     def compute(self) -> bool:
@@ -205,8 +208,9 @@ class TactileMix:
         rows = self._rows[: len(loops)]
         if self._rows_are_of is not loops:
             # "clip" has nothing to clip, and lets numpy do without a buffer.
-            self._rows_at.take([self._place_of[loop] for loop in loops], axis=0, out=rows, mode="clip")
-            self._rows_are_of = loops
+            places = [self._place_of[loop] for loop in loops]
+            self._rows_at.take(places, axis=0, out=rows, mode="clip")
+            self._rows_are_of, self._are_rows_all = loops, places == list(range(len(self._loops)))
         return rows.reshape(-1)
 
     def _read(self, first: int) -> None:
