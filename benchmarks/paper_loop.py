@@ -106,12 +106,10 @@ class OurLoop:
 
     def lengths(self, touches: Sequence[Touch]) -> list[list[float]]:
         """What the cheapest way from each source to each hand costs: the nearest of a hand's touches is the loudest."""
-        nearest: dict[str, list[float]] = {}
+        by_hand: dict[str, list[tuple[str, tuple[float, float, float]]]] = {}
         for touch in touches:
-            costs = self.paths.costs(touch.object_id, touch.point_m)
-            known = nearest.get(touch.hand)
-            nearest[touch.hand] = costs if known is None else list(map(min, known, costs))
-        return list(nearest.values())
+            by_hand.setdefault(touch.hand, []).append((touch.object_id, touch.point_m))
+        return [self.paths.least_costs(touched) for touched in by_hand.values()]
 
     def felt(self, costs: list[list[float]]) -> np.ndarray:
         return self.gains([cost for row in costs for cost in row]).reshape(len(costs), -1, BANDS.n_bands)
@@ -205,9 +203,9 @@ def split(n_objects: int, kind: str, n_frames: int) -> None:
     methods = {
         "broad": (Crowd, "put"),
         "narrow": (ContactGraph, "update"),
-        "paths": (LivePaths, "costs"),
+        "paths": (LivePaths, "least_costs"),
         "gains": (BandRms, "__call__"),
-        "worth": (Audibility, "worth_mixing"),
+        "worth": (Audibility, "loud"),
         "mixer": (Playback, "set_gains"),
         "rest": (HapticSession, "update"),
     }

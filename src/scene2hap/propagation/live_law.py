@@ -48,19 +48,12 @@ class LiveLaw:
 
     def prices(self, hands: Sequence[Sequence[TouchedPoint]], limits: Sequence[float] | None = None) -> Prices:
         """See `PricedField`."""
-        return [self._nearest(touched, limits) for touched in hands]
+        return [self._paths.least_costs(touched, limits) for touched in hands]
 
     def at(self, prices: Prices, columns: Sequence[int] | None = None) -> Floats:
         """See `PricedField`."""
         gamma = self._gamma(prices, columns)
         return np.maximum(gamma, self._floor * np.isfinite(prices)[:, :, None]) if self._floor else gamma
-
-    def _nearest(self, touched: Sequence[TouchedPoint], limits: Sequence[float] | None) -> list[float]:
-        costs = self._paths.costs
-        nearest = costs(*touched[0], limits) if touched else [math.inf] * len(self.source_ids)
-        for object_id, point_m in touched[1:]:
-            nearest = list(map(min, nearest, costs(object_id, point_m, limits)))
-        return nearest
 
 
 class GammaAt:

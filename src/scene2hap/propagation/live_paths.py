@@ -89,30 +89,34 @@ class LivePaths:
 
         Parameters: limits : for each source, a price above which it may as well be inf.
         """
-        if object_id not in self._price_per_m or object_id not in self._beside:
-            found = [math.inf] * len(self._source_ids)
-        elif self._max_hops in (1, 2):
-            found = self._short(object_id, point_m, limits)
-        elif self._is_outward_quicker() or (limits is not None and not self._are_all_around(limits)):
-            prices, crossing, row = self._price_per_m, self._crossing, self._row
-            limit = math.inf if limits is None else max(limits, default=0.0)
-            found = cheapest_outward(object_id, point_m, self._beside, prices, crossing, row, limit)
-        elif limits is not None:
-            found = self._cheapest(self._around.get(object_id, ()), object_id, point_m)
-        else:
-            found = self._cheapest(self._searched(object_id), object_id, point_m)
-        if object_id in self._row:
-            found[self._row[object_id]] = 0.0
+        return self.least_costs([(object_id, point_m)], limits)
+
+    def least_costs(self, touched: Iterable[tuple[str, Triple]], limits: Sequence[float] | None = None) -> list[float]:
+        """The same for the nearest of several points, each with its object; inf for no point."""
+        found = [math.inf] * len(self._source_ids)
+        for object_id, point_m in touched:
+            if object_id in self._price_per_m and object_id in self._beside:
+                self._lower(found, object_id, point_m, limits)
+            if object_id in self._row:
+                found[self._row[object_id]] = 0.0
         return found
 
-    def _cheapest(self, ways: Iterable[tuple[int, Entries]], object_id: str, point_m: Triple) -> list[float]:
-        found = [math.inf] * len(self._source_ids)
-        price, dist = self._price_per_m[object_id], math.dist
-        for row, entries in ways:
-            least = min([cost + price * dist(place, point_m) for place, cost in entries])
-            if least < found[row]:
-                found[row] = least
-        return found
+    def _lower(self, found: list[float], object_id: str, point_m: Triple, limits: Sequence[float] | None) -> None:
+        """Take in what is cheaper from another point."""
+        if self._max_hops in (1, 2):
+            self._lower_shortly(found, object_id, point_m, limits)
+        elif self._is_outward_quicker() or (limits is not None and not self._are_all_around(limits)):
+            limit = math.inf if limits is None else max(limits, default=0.0)
+            outward = cheapest_outward(
+                object_id, point_m, self._beside, self._price_per_m, self._crossing, self._row, limit
+            )
+            found[:] = [min(pair) for pair in zip(found, outward, strict=True)]
+        else:
+            ways = self._searched(object_id) if limits is None else self._around.get(object_id, ())
+            price, dist = self._price_per_m[object_id], math.dist
+            for row, entries in ways:  # the cheapest first
+                if entries[0][1] < found[row]:
+                    found[row] = min(found[row], *[cost + price * dist(place, point_m) for place, cost in entries])
 
     def _is_outward_quicker(self) -> bool:
         """Whether too little was asked since a contact changed for a search of the whole scene to be worth it."""
@@ -137,9 +141,10 @@ class LivePaths:
         self._n_around = row + 1
         return False
 
-    def _short(self, object_id: str, point_m: Triple, limits: Sequence[float] | None) -> list[float]:
+    def _lower_shortly(
+        self, found: list[float], object_id: str, point_m: Triple, limits: Sequence[float] | None
+    ) -> None:
         """Over ways of at most two contacts, as they are now; those that surely cost more than their limit left out."""
-        found = [math.inf] * len(self._source_ids)
         price, dist = self._price_per_m[object_id], math.dist
         for way in self._plan(object_id):
             row, via = way.row, way.via
@@ -152,12 +157,10 @@ class LivePaths:
                     if price * nearest > limits[row]:
                         continue
                 self._tell(way, first, second)
-            if limits is None or way.least <= limits[row]:
+            known = found[row]
+            if way.least < known and (limits is None or way.least <= limits[row]):
                 # A few dozen entries: plain numbers are faster than numpy's calls.
-                least = min([cost + price * dist(place, point_m) for place, cost in way.entries])
-                if least < found[row]:
-                    found[row] = least
-        return found
+                found[row] = min(known, *[cost + price * dist(place, point_m) for place, cost in way.entries])
 
     def _searched(self, object_id: str) -> list[tuple[int, Entries]]:
         """Ways over any number of contacts: for each source that comes, where it comes in."""
