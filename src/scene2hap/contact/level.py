@@ -131,8 +131,11 @@ def aside(x: Body, y: Body, within_m: float, slack_m: float) -> Aside | None:
     if upright > within_m:
         return _FAR
     ring_x, ring_y = _placed(x, v_axis), _placed(y, v_axis)
-    if _overlap(ring_x, ring_y):
+    gap = _gap(ring_x, ring_y, within_m)
+    if gap < -_ROUNDING_M:
         return None
+    if gap > within_m:
+        return _FAR
     near = _corners_near(ring_x, ring_y) + [(q, p) for p, q in _corners_near(ring_y, ring_x)]
     least = min(math.dist(p, q) for p, q in near)
     distance = math.hypot(least, upright)
@@ -166,12 +169,16 @@ def _corners_near(corners: Sequence[Point], ring: Sequence[Point]) -> list[tuple
     return found
 
 
-def _overlap(ring_x: Sequence[Point], ring_y: Sequence[Point]) -> bool:
+def _gap(ring_x: Sequence[Point], ring_y: Sequence[Point], enough: float) -> float:
+    """How wide a strip along an edge of either is between two outlines, below 0 where they overlap: the widest, or the
+    first that is more than enough. No more than their distance."""
+    widest = -math.inf
     for ring, other in ((ring_x, ring_y), (ring_y, ring_x)):
         for nu, nv, offset in edges_of(tuple(ring)):
-            if max(nu * u + nv * v - offset for u, v in other) <= _ROUNDING_M:
-                return False
-    return True
+            widest = max(widest, -max([nu * u + nv * v - offset for u, v in other]))
+            if widest > enough:
+                return widest
+    return widest
 
 
 def _chosen(ring: Sequence[Point], stance: Stance) -> list[Point]:
