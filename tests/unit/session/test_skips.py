@@ -76,7 +76,9 @@ def test_contacts_that_no_source_reaches(skip: Any) -> None:
     assert out_of_reach == (1 if skip else 0)
 
 
-@pytest.mark.parametrize("skip", [False, only("below_threshold")])
+@pytest.mark.parametrize(
+    "skip", [False, only("below_threshold"), {**only("below_threshold"), "idle_hands": True}], ids=["no", "all", "near"]
+)
 def test_sources_that_are_not_felt(skip: Any) -> None:
     s = session(skip)
     # 10 dB below the threshold, shared by two sources, with a decibel to either side.

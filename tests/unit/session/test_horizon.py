@@ -1,0 +1,83 @@
+"""Where a source ceases to be worth mixing, told by price before anything is worked out."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from scene2hap import Bands, ExponentialPlate, HapticSession, Pose, Touch
+from scene2hap.contact.graph import ContactGraph
+from scene2hap.session.audibility import SILENT, Audibility
+from scene2hap.session.config import SkipConfig
+from scene2hap.session.counts import Counts
+from scene2hap.session.horizon import Horizon
+from scene2hap.session.network import body_of, excitations_of
+from scene2hap.session.sources import Sources
+from scenes import RATE, table_with_two_phones
+
+ALL_BANDS = [Bands.dominant(), Bands.third_octaves(10, 1000)]
+LEVELS = np.array([1.0, 0.01])
+
+
+def ears(bands: Bands, **settings: Any) -> tuple[Any, Audibility, Horizon]:
+    """A live field of two phones, what of them can be felt, and how far."""
+    snapshot, bundle = table_with_two_phones()
+    sources = Sources()
+    for name, loops in bundle.loops.items():
+        sources.add(name, loops, None)
+    bodies = {name: body for name, known in bundle.objects.items() if (body := body_of(known)) is not None}
+    excitations = excitations_of(sources.active_rows(), bodies)
+    field = ExponentialPlate(**settings).live(ContactGraph(snapshot), bodies, excitations, bands)
+    audibility = Audibility(sources.active_rows(), bands, SkipConfig(), Counts())
+    return field, audibility, Horizon(field, audibility)
+
+
+def felt_at(field: Any, audibility: Audibility, prices: list[float], levels: np.ndarray) -> np.ndarray:
+    gains = field.at([prices]) * levels[:, None]
+    return audibility.felt(gains.astype(np.float32))[0] / audibility.least_felt
+
+
+@pytest.mark.parametrize("bands", ALL_BANDS, ids=["dominant", "octaves"])
+@pytest.mark.parametrize("levels", [np.ones(2), LEVELS])
+def test_beyond_the_horizon_nothing_is_felt_and_a_little_nearer_something_is(bands: Bands, levels: np.ndarray) -> None:
+    field, audibility, horizon = ears(bands)
+    edge = horizon.felt(levels)
+    assert (felt_at(field, audibility, edge, levels) < 1).all()
+    # The table's steps are 6 %.
+    assert (felt_at(field, audibility, [0.94 * price for price in edge], levels) >= 1).all()
+
+
+@pytest.mark.parametrize("bands", ALL_BANDS, ids=["dominant", "octaves"])
+def test_what_is_told_beyond_the_horizon_ends_where_it_comes_to_nothing(bands: Bands) -> None:
+    field, _, horizon = ears(bands)
+    edge = horizon.arrives(LEVELS)
+    gains = field.at([edge, [0.94 * price for price in edge]]).max(axis=2) * LEVELS
+    assert (gains[0] < SILENT).all()
+    assert (gains[1] >= SILENT).all()
+    assert np.greater(edge, horizon.felt(LEVELS)).all()
+
+
+def test_a_source_that_is_off_has_no_horizon_and_one_with_a_loud_floor_has_no_end() -> None:
+    _, _, horizon = ears(Bands.dominant(), floor_db=-20.0)
+    off, loud = horizon.felt(np.array([0.0, 1.0]))
+    assert off < 0
+    assert loud == math.inf
+
+
+def test_a_frame_tells_all_while_contacts_are_as_they_were_and_later_what_is_felt() -> None:
+    touch = [Touch("left", "table", (0.15, 0.72, 0.4))]
+
+    def told(*, later: bool) -> np.ndarray:
+        s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE})
+        s.set_source("alarm", gain_db=-40.0)
+        frame = s.update(touches=touch)
+        if later:
+            s.update({"phone": Pose((0.3, 0.725, 0.4))}, touch)
+            s.remove("alarm")
+        return frame.gains[0, :, 0]
+
+    now, later = told(later=False), told(later=True)
+    assert (now > 0).all()
+    assert later[0] == now[0]
+    assert later[1] == 0.0
