@@ -56,6 +56,8 @@ class UdpSink(LiveSink):
     def show(self, frame: GainFrame) -> None:
         """Take in the gains of one update; the game's thread never waits here. Nothing to do for PCM."""
         if self._osc is not None:
+            # Worked out here and now: the other thread would ask while the scene changes.
+            _ = frame.gains
             self._osc.latest = frame
 
 

@@ -26,12 +26,12 @@ from scene2hap.propagation.auto_level import peak_level_db
 from scene2hap.propagation.auto_rungs import Choice, Situation, body_of
 from scene2hap.propagation.contact_law import ContactLaw
 from scene2hap.propagation.coupling import ElasticBody, Joint
-from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, check_choice, warn_if_thick
+from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, warn_if_thick
 from scene2hap.propagation.modes import n_rigid_motions, points_on
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
 from scene2hap.propagation.sampling import SPACING
-from scene2hap.propagation.substructuring import Assembly, CoupledField, as_law, assemble
+from scene2hap.propagation.substructuring import Assembly, CoupledField, assemble, checked_law
 
 SAMPLING_SHARE = 0.2
 
@@ -66,9 +66,7 @@ class AutoFidelity:
 
     def __post_init__(self) -> None:
         checks.number("tolerance_db", self.tolerance_db, "dB", at_least=0.1, at_most=6.0, error=ConfigError)
-        checks.number("loss_floor", self.loss_floor, "-", at_least=0.0, at_most=2.0, error=ConfigError)
-        object.__setattr__(self, "contact", as_law(self.contact))
-        check_choice(self.outside_domain)
+        object.__setattr__(self, "contact", checked_law(self.contact, self.outside_domain, self.loss_floor))
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> AutoField:
         """The field of a scene; `AutoField.choices` tells each object's rung. Errors, warnings: as of `ModalPlate`."""

@@ -25,11 +25,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.haptics import Bands
 from scene2hap.propagation.contact_law import ContactLaw
-from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, check_choice, warn_if_thick
+from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, warn_if_thick
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
-from scene2hap.propagation.substructuring import CoupledField, as_law, prepare_coupled
+from scene2hap.propagation.substructuring import CoupledField, checked_law, prepare_coupled
 
 NEAREST_KR = 1e-4
 """Below this kr both terms of Pi grow without bound and their difference is 1 to 1e-8: it is then set to 1."""
@@ -81,8 +81,7 @@ class InfinitePlate:
     least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "contact", as_law(self.contact))
-        check_choice(self.outside_domain)
+        object.__setattr__(self, "contact", checked_law(self.contact, self.outside_domain))
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> CoupledField:
         """The field of a scene: all bodies coupled at their contacts, see `substructuring`.

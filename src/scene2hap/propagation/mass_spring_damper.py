@@ -28,7 +28,6 @@ from scene2hap.propagation.domain import (
     THIN_WAVELENGTHS,
     OutsideDomain,
     as_frequencies,
-    check_choice,
     driven_on_held_edge,
     warn_if_thick,
 )
@@ -39,7 +38,7 @@ from scene2hap.propagation.modes import n_rigid_motions, points_on
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
 from scene2hap.propagation.stepping import ExactStepper, NewmarkStepper, State, Stepper
-from scene2hap.propagation.substructuring import CoupledField, as_law, prepare_coupled
+from scene2hap.propagation.substructuring import CoupledField, checked_law, prepare_coupled
 
 CELLS_PER_WAVE = 6.0
 """Fewest cells in a bending wavelength; with six, the lattice turns it 9 % too slowly, (k h)^2 / 12."""
@@ -67,9 +66,7 @@ class MassSpringDamper:
         if cells != int(cells):
             raise ConfigError(f"resolution is {cells:g} cells; it must be a whole number, as 32.")
         object.__setattr__(self, "resolution", int(cells))
-        checks.number("loss_floor", self.loss_floor, "-", at_least=0.0, at_most=2.0, error=ConfigError)
-        object.__setattr__(self, "contact", as_law(self.contact))
-        check_choice(self.outside_domain)
+        object.__setattr__(self, "contact", checked_law(self.contact, self.outside_domain, self.loss_floor))
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> CoupledField:
         """The field of a scene: all lattices coupled at their contacts, see `substructuring`.

@@ -20,8 +20,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap import checks
-from scene2hap.errors import ConfigError, ModelDomainError
+from scene2hap.errors import ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.contact_law import ContactLaw
 from scene2hap.propagation.coupling import ElasticBody
@@ -29,7 +28,6 @@ from scene2hap.propagation.domain import (
     THIN_WAVELENGTHS,
     OutsideDomain,
     as_frequencies,
-    check_choice,
     driven_on_held_edge,
     warn_if_thick,
 )
@@ -39,7 +37,7 @@ from scene2hap.propagation.near_field import NearField
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
 from scene2hap.propagation.ritz import products
-from scene2hap.propagation.substructuring import CoupledField, as_law, prepare_coupled
+from scene2hap.propagation.substructuring import CoupledField, checked_law, prepare_coupled
 
 
 @dataclass(frozen=True)
@@ -60,9 +58,7 @@ class ModalPlate:
     least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
 
     def __post_init__(self) -> None:
-        checks.number("loss_floor", self.loss_floor, "-", at_least=0.0, at_most=2.0, error=ConfigError)
-        object.__setattr__(self, "contact", as_law(self.contact))
-        check_choice(self.outside_domain)
+        object.__setattr__(self, "contact", checked_law(self.contact, self.outside_domain, self.loss_floor))
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> CoupledField:
         """The field of a scene: all bodies coupled at their contacts, see `substructuring`.

@@ -18,11 +18,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap import checks
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.contact_law import ContactLaw
 from scene2hap.propagation.coupling import ElasticBody, Joint, couple
-from scene2hap.propagation.domain import OutsideDomain, check_thin
+from scene2hap.propagation.domain import OutsideDomain, check_choice, check_thin
 from scene2hap.propagation.joints import joints_of, reached
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import as_points
@@ -159,13 +160,18 @@ class CoupledField:
         return gains
 
 
-def as_law(law: ContactLaw | Mapping[str, Any]) -> ContactLaw:
-    """A contact law as it is, or from its settings, so that a table of TOML will do. Raises: ConfigError."""
-    if isinstance(law, ContactLaw):
-        return law
+def checked_law(
+    contact: ContactLaw | Mapping[str, Any], outside_domain: OutsideDomain, loss_floor: float = 0.0
+) -> ContactLaw:
+    """The settings that all models over coupled bodies share: checked, the contact law as it is or from its own
+    settings, so that a table of TOML will do. Raises: ConfigError."""
+    checks.number("loss_floor", loss_floor, "-", at_least=0.0, at_most=2.0, error=ConfigError)
+    check_choice(outside_domain)
+    if isinstance(contact, ContactLaw):
+        return contact
     try:
-        return ContactLaw(**law)
+        return ContactLaw(**contact)
     except TypeError as cause:
         raise ConfigError(
-            f"contact is {law!r}; it must be a ContactLaw or its settings tip_radius_m, preload_n and loss_floor."
+            f"contact is {contact!r}; it must be a ContactLaw or its settings tip_radius_m, preload_n and loss_floor."
         ) from cause

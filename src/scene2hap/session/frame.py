@@ -41,13 +41,16 @@ class HapticFrame:
         self._gains: Gains | None = None if callable(gains) else gains
         self._work_out: Callable[[], Gains] | None = gains if callable(gains) else None
 
+    def __repr__(self) -> str:
+        return f"HapticFrame(hands={self.hands!r}, sources={self.sources!r})"
+
     @property
     def gains(self) -> Gains:
         """Gains (n_hands, n_sources, n_bands) float32 [-].
 
         Where the model tells prices (`propagation.live.PricedField`) they are worked out when first asked for, since
         most games never ask: of all sources, down to -140 dB, until a contact changes; after that only of sources that
-        are felt, those that were left out of the mix being 0.
+        are felt, those that were left out of the mix being 0. To be asked for first in the thread that updates.
         """
         if self._gains is None:
             assert self._work_out is not None

@@ -52,6 +52,8 @@ class Output:
     def show(self, frame: HapticFrame) -> None:
         """Hand a frame to a started sink that wants gains."""
         if self._safety is not None and self._show is not None:
+            # Worked out here: a sink reads it in a thread of its own, while the scene goes on to change.
+            _ = frame.gains
             self._show(frame)
 
     def start(self, fill: Fill, hands: Sequence[str]) -> None:

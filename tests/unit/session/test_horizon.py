@@ -6,8 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scene2hap import Bands, ExponentialPlate, HapticSession, Pose, Touch
+from scene2hap import Bands, ExponentialPlate, HapticFrame, HapticSession, Pose, Touch
 from scene2hap.contact.graph import ContactGraph
+from scene2hap.devices.protocol import Fill, SinkFormat, SinkStats
 from scene2hap.session.audibility import SILENT, Audibility
 from scene2hap.session.config import SkipConfig
 from scene2hap.session.counts import Counts
@@ -81,3 +82,32 @@ def test_a_frame_tells_all_while_contacts_are_as_they_were_and_later_what_is_fel
     assert (now > 0).all()
     assert later[0] == now[0]
     assert later[1] == 0.0
+
+
+class Shown:
+    """A sink without a device that keeps the frames it is shown."""
+
+    def __init__(self) -> None:
+        self.frames: list[HapticFrame] = []
+        self.stats = SinkStats()
+
+    def open(self, format: SinkFormat) -> None: ...
+
+    def start(self, fill: Fill) -> None: ...
+
+    def stop(self) -> None: ...
+
+    def close(self) -> None: ...
+
+    def show(self, frame: HapticFrame) -> None:
+        self.frames.append(frame)
+
+
+def test_a_sink_may_read_a_frame_whenever_it_likes() -> None:
+    sink = Shown()
+    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE}, sink=sink)
+    s.set_source("alarm", gain_db=-40.0)
+    with s:
+        s.update(touches=[Touch("left", "table", (0.15, 0.72, 0.4))])
+        s.update({"phone": Pose((0.3, 0.725, 0.4))})
+    assert (sink.frames[0].gains[0] > 0).all()
