@@ -40,6 +40,10 @@ class Doors:
         self._beside, self._crossing = beside, crossing
         self._known: dict[str, dict[str, tuple[Junction, list[Door]]]] = {}
 
+    def has(self, object_id: str) -> bool:
+        """Whether an object touches any."""
+        return bool(self._beside.get(object_id))
+
     def out_of(self, object_id: str) -> Iterator[list[Door]]:
         """The doors out of an object, those into one other together."""
         known = self._known.setdefault(object_id, {})
@@ -65,7 +69,7 @@ def cheapest_outward(
     Parameters: price_per_m : as in `LivePaths`; row : where in the answer each source stands.
     """
     found = [math.inf] * len(row)
-    wanted = set(row)
+    wanted = {source_id for source_id in row if source_id == object_id or doors.has(source_id)}
     for cost, here, _ in _walk([(0.0, Door("", object_id, point_m, 0.0))], doors, price_per_m, limit):
         if here in wanted:
             found[row[here]] = cost
