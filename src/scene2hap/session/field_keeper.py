@@ -141,7 +141,7 @@ class FieldKeeper:
         self._is_background, self._skips_unreachable = is_background, skips_unreachable
         self._worker: threading.Thread | None = None
         self._asked = self._situation(0, excitations)
-        self._n_answered = 0
+        self._n_answered = self._n_ordered = 0
         self.in_use = self._whole = self._desk.prepare(self._asked)
         self.n_prepared, self.n_failed, self.last_failure = 1, 0, ""
         self.latency_s = 0.0
@@ -158,14 +158,18 @@ class FieldKeeper:
         return 0.0 if outdated is None else time.monotonic() - outdated
 
     def ask(self, excitations: Sequence[Excitation]) -> None:
-        """Have a field prepared for things as they are now."""
+        """Want a field for things as they are now: prepared here, or by the worker from the next `order` on."""
         before, self._asked = self._asked, self._situation(self._asked.number + 1, excitations)
         before.outdated_at_s = self._asked.asked_at_s
-        if self._is_background:
+        if not self._is_background:
+            self._use(self._desk.prepare(self._asked))
+
+    def order(self) -> None:
+        """Let the worker begin with what was asked for last: at the end of an update, which it would slow down."""
+        if self._is_background and self._n_ordered != self._asked.number:
+            self._n_ordered = self._asked.number
             self._start()
             self._desk.orders.put(self._asked)
-        else:
-            self._use(self._desk.prepare(self._asked))
 
     def hearing(self, source_ids: tuple[str, ...], reach: Reach) -> NotedField:
         """The field in use, for these sources and what hangs together now."""
@@ -194,6 +198,7 @@ class FieldKeeper:
     def wait(self, timeout_s: float | None = None) -> bool:
         """Wait until nothing is being prepared; false after the timeout [s]. The field is then taken into use."""
         end_s = None if timeout_s is None else time.monotonic() + timeout_s
+        self.order()
         while True:
             self._desk.has_answered.clear()
             self.take()

@@ -43,11 +43,8 @@ class LastField:
         self._field, self._then, self._now = field, then, now
         self._reach, self._is_current = reach, is_current
         self._shape = (len(source_ids), n_bands)
-        known = tuple(field.source_ids)
-        column = {source_id: i for i, source_id in enumerate(source_ids)}
-        shared = [(column[x], there) for there, x in enumerate(known) if x in column]
         # Columns of the answer, and those of the field that go there; None if they are the same.
-        self._columns = None if known == source_ids else np.array(shared, dtype=np.intp).reshape(-1, 2).T
+        self._columns = None if tuple(field.source_ids) == source_ids else _shared(source_ids, field.source_ids)
 
     def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> Gains:
         """See `LiveField`."""
@@ -94,3 +91,10 @@ class LastField:
                 np.maximum.reduce(gains[begin : begin + len(hand)], axis=0, out=row)
             begin += len(hand)
         return largest
+
+
+def _shared(ours: Sequence[str], theirs: Sequence[str]) -> NDArray[np.intp]:
+    """Where the ids that both have are in ours, and where in theirs (2, n)."""
+    column = {source_id: i for i, source_id in enumerate(ours)}
+    pairs = [(column[x], there) for there, x in enumerate(theirs) if x in column]
+    return np.array(pairs, dtype=np.intp).reshape(-1, 2).T

@@ -40,6 +40,7 @@ class Listening:
         self._n_unreachable: int | None = None
         self._levels, self._are_levels_known = np.empty(0), False
         self._audibility: Audibility | None = None
+        self._loudness: Loudness | None = None
         self._horizon: tuple[PricedField, Horizon] | None = None
         self._felt: Felt = {}
         self._frame = self.silence(())
@@ -81,11 +82,13 @@ class Listening:
             self._is_fresh = False
         if self._is_unchanged(felt, moved):
             self._counts.unchanged_frames += 1
+            self.keeper.order()
             return self._frame, None
         self._felt, self._is_fresh = felt, True
         heard = None if is_paused else self._hear(len(hands), felt)
         told = self._nothing(len(hands)) if heard is None else heard.told
         self._frame = HapticFrame(told, hands, self._sources.ids)
+        self.keeper.order()
         return self._frame, heard
 
     def silence(self, hands: tuple[str, ...]) -> HapticFrame:
@@ -131,7 +134,7 @@ class Listening:
 
     def _forget_cast(self) -> None:
         """Other sources, or other states of them, vibrate."""
-        self._audibility = self._excitations = self._hearing = None
+        self._audibility = self._excitations = self._loudness = self._hearing = None
 
     def _ask(self) -> None:
         self.keeper.ask(self._known_excitations())
@@ -171,7 +174,9 @@ class Listening:
             self._audibility = Audibility(self._sources.active_rows(), self._config.bands, skip, counts)
             self._horizon = None
         field = self.keeper.hearing(self._sources.ids, self._reach)
-        gains, loudness = self._touch_gains(field, counts), Loudness(self._known_levels(), self._audibility)
+        if self._loudness is None:
+            self._loudness = Loudness(self._levels, self._audibility)
+        gains, loudness = self._touch_gains(field, counts), self._loudness
         wants_near = skip.below_threshold and skip.idle_hands and not gains.may_be_capped
         # Only live fields are: asking a prepared one takes longer than hearing it.
         if not (wants_near and isinstance(self.keeper, LiveKeeper) and isinstance(field, PricedField)):
@@ -191,7 +196,7 @@ class Listening:
         if not self._are_levels_known:
             levels = self._sources.factors(self._stage.graph.neighbours, self._stage.category)
             if not np.array_equal(levels, self._levels):
-                self._levels, self._hearing = levels, None
+                self._levels, self._loudness, self._hearing = levels, None, None
             self._are_levels_known = True
         return self._levels
 

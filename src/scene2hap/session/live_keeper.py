@@ -36,6 +36,9 @@ class LiveKeeper:
             self._cast = (bodies, excitations)
             self.in_use: LiveField = self._model.live(self._stage.graph, bodies, excitations, self._bands)
 
+    def order(self) -> None:
+        """Nothing is left to be prepared."""
+
     def hearing(self, source_ids: tuple[str, ...], reach: Reach) -> LiveField:
         """What tells of these sources now."""
         return self.in_use

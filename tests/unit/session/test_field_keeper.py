@@ -1,6 +1,8 @@
 """Fields that a worker prepares while the last one plays on."""
 
 import threading
+import time
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -24,6 +26,19 @@ class Field:
     def attenuation(self, object_id: str, points_m: Any) -> np.ndarray:
         self.asked += np.asarray(points_m).tolist()
         return np.full((len(points_m), len(self.source_ids), 1), self.n_contacts / 10)
+
+
+class SlowField(Field):
+    """Takes its time, and notes what is going on elsewhere by then."""
+
+    def __init__(self, source_ids: tuple[str, ...], look: Callable[[], int]) -> None:
+        super().__init__(source_ids, 1)
+        self.look, self.seen = look, list[int]()
+
+    def attenuation(self, object_id: str, points_m: Any) -> np.ndarray:
+        time.sleep(0.05)
+        self.seen.append(self.look())
+        return super().attenuation(object_id, points_m)
 
 
 class Gated:
@@ -197,3 +212,21 @@ def test_a_model_that_fails_in_place_is_heard_at_once() -> None:
     model.gate.set()
     with pytest.raises(ModelDomainError, match="too thick"):
         s.update(shifted(0.2))
+
+
+def test_the_worker_begins_once_the_update_that_asks_for_it_is_over() -> None:
+    class Model(Gated):
+        def prepare(self, network: Any, excitations: Any, bands: Bands) -> Field:
+            self.threads.append(threading.get_ident())
+            field = SlowField(tuple(x.source_id for x in excitations), lambda: len(self.threads))
+            self.fields.append(field)
+            return field
+
+    model = Model()
+    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": model})
+    s.update(shifted(0.2), [ON_TABLE])
+    first = model.fields[0]
+    assert isinstance(first, SlowField)
+    assert first.seen == [1]
+    assert s.wait_prepared(SECONDS)
+    assert len(model.threads) > 1
