@@ -6,6 +6,7 @@ alone, so that moving step by step ends exactly where building from nothing does
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from scene2hap.contact.body import Body
@@ -14,7 +15,7 @@ from scene2hap.contact.crowd import Crowd
 from scene2hap.contact.cuboid_meeting import gaps_of, points_of
 from scene2hap.contact.glide import Drift, Glide
 from scene2hap.contact.junction import Junction, Pair, pair_of
-from scene2hap.contact.profile import Triple
+from scene2hap.contact.profile import Floats, Triple
 from scene2hap.contact.support import (
     PATCH_SHARE,
     TOUCH_M,
@@ -257,9 +258,7 @@ class ContactFinder:
             reach_m = fall_reach_m(body.size_m)
             below = None if UNCLEAR in rests.values() else level_supports(rests, reach_m)
             if below is None:
-                near = sorted(rests)
-                falls_m = {y: found for y in near if (found := self._ties[x][y].falls(x)) is not None}
-                below, rests = supports(falls_m, reach_m), {}
+                below, rests = supports(self._falls(body, rests), reach_m), {}
         bonds = {}
         for y, support in (below or {}).items():
             sign = 1.0 if x < y else -1.0
@@ -274,6 +273,19 @@ class ContactFinder:
         else:
             self._loose.discard(x)
         return bonds
+
+    def _falls(self, body: Body, onto: Iterable[str]) -> dict[str, Floats]:
+        """How far the triangles of a body are to fall to things below; not to what lies surely deeper than another, by
+        more than what still counts."""
+        bodies, ties, least_m = self._bodies, self._ties[body.id], math.inf
+        found: dict[str, Floats] = {}
+        for y in sorted(onto, key=lambda y: (-bodies[y].highest_m, y)):
+            if body.lowest_m - bodies[y].highest_m > least_m + TOUCH_M:
+                break
+            falls_m = ties[y].falls(body.id)
+            if falls_m is not None:
+                found[y], least_m = falls_m, min(least_m, float(falls_m.min()))
+        return dict(sorted(found.items()))
 
     def _hanging(self, body: Body, supported: float) -> dict[str, Bond]:
         """What holds a body sideways, as far as nothing supports it."""

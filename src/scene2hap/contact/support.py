@@ -16,13 +16,13 @@ All weights are smooth in the gaps and know nothing of the past: the poses alone
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.broad import Floats
+from scene2hap.contact.broad import Floats, Indices
 from scene2hap.contact.level import Rest
 from scene2hap.contact.narrow import Meeting
 from scene2hap.contact.triangles import height_range
@@ -48,6 +48,8 @@ _HOLDING = 0.5  # Least cosine of a slope that holds a thing (assumed): a wall's
 # Triangles are tried this share smaller, by at most so much: equal boxes on each other, whose rims coincide, then
 # surely lie over each other, and boxes exactly side by side surely do not.
 _INSET, _INSET_M = 1e-4, 1e-4
+# So many pairs of triangles are asked for the nearest fall first if there are many, since that may spare the others.
+_FIRST, _MANY = 64, 512
 
 
 def weight(gap_m: float, tolerance_m: float) -> float:
@@ -86,8 +88,9 @@ def falls(meeting: Meeting, faller: Body, other: Body) -> Floats | None:
     """How far each triangle (m,) of `faller`, one of the two that meet, may fall before it meets `other` [m].
 
     Only the bottom falls, all within `fall_reach_m` of the lowest point; the rest is inf, as is what meets nothing
-    within that reach. Down to -`TOUCH_M` where a triangle is sunk in a little, 0 where it is sunk in deeper, up to the
-    reach. None where nothing falls onto the other.
+    within that reach, or falls `TOUCH_M` farther than another, which has come to rest by then. Down to -`TOUCH_M` where
+    a triangle is sunk in a little, 0 where it is sunk in deeper, up to the reach. None where nothing falls onto the
+    other.
     """
     if not is_over(faller, other):
         return None
@@ -102,10 +105,25 @@ def falls(meeting: Meeting, faller: Body, other: Body) -> Floats | None:
     least = np.full(len(faller.lows_m), np.inf)
     for near in meeting.near(TOUCH_M, way, sweep=True, guest_only=only[0], host_only=only[1]):
         p, q, p_rows = (near.guest, near.host, near.guest_rows) if is_guest else (near.host, near.guest, near.host_rows)
-        low, high = height_range(_inset(p), q, up)
-        meets = (low >= -reach_m) & (low <= reach_m) & (high >= -TOUCH_M)
-        np.minimum.at(least, p_rows[meets], np.where(low >= -TOUCH_M, low, 0.0)[meets])
+        for rows, bound in _lowest_first(p @ up, q @ up):
+            rows = rows[bound <= min(reach_m, least.min() + TOUCH_M)]
+            if len(rows):
+                low, high = height_range(_inset(p[rows]), q[rows], up)
+                meets = (low >= -reach_m) & (low <= reach_m) & (high >= -TOUCH_M)
+                np.minimum.at(least, p_rows[rows[meets]], np.where(low >= -TOUCH_M, low, 0.0)[meets])
     return least if np.isfinite(least).any() else None
+
+
+def _lowest_first(heights_p: Floats, heights_q: Floats) -> Iterator[tuple[Indices, Floats]]:
+    """Rows of pairs of triangles, by the heights of their corners (n, 3) [m], in one or two parts, and how far at least
+    each p is over its q."""
+    bound = heights_p.min(axis=1) - heights_q.max(axis=1)
+    if len(bound) <= _MANY:
+        yield np.arange(len(bound)), bound
+    else:
+        order = np.argsort(bound, kind="stable")
+        for rows in (order[:_FIRST], order[_FIRST:]):
+            yield rows, bound[rows]
 
 
 class Support(NamedTuple):
