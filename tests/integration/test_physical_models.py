@@ -5,7 +5,7 @@ import warnings
 import numpy as np
 import pytest
 
-from scene2hap import Bands, HapticSession, Pose, Touch, bake, load_scene
+from scene2hap import Bands, HapticBundle, HapticSession, Pose, SceneSnapshot, Touch, bake, load_scene
 from scene2hap.demo import kitchen_path
 from scene2hap.propagation.domain import ThinPlateWarning
 from scenes import table_with_two_phones
@@ -14,7 +14,7 @@ PHYSICAL = ["infinite_plate", "modal_plate", "auto"]
 
 
 @pytest.fixture(scope="module")
-def demo():  # type: ignore[no-untyped-def]
+def demo() -> tuple[SceneSnapshot, HapticBundle]:
     scene = load_scene(kitchen_path())
     return scene, bake(scene)
 
@@ -28,7 +28,7 @@ def demo():  # type: ignore[no-untyped-def]
         ("auto", "dominant"),
     ],
 )
-def test_the_demo_kitchen(demo, kind: str, bands: str | Bands) -> None:  # type: ignore[no-untyped-def]
+def test_the_demo_kitchen(demo: tuple[SceneSnapshot, HapticBundle], kind: str, bands: str | Bands) -> None:
     scene, bundle = demo
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ThinPlateWarning)

@@ -25,6 +25,8 @@ from numpy.typing import NDArray
 from scene2hap.propagation.modes import PlateModes
 from scene2hap.propagation.plate import Plate
 
+_Extent = tuple[float, float, float, float]
+
 Number = TypeVar("Number", np.float64, np.complex128)
 
 IMAGE = {"F": 8 / 3.5 - 1, "S": -1.0, "C": -1.0}
@@ -58,8 +60,7 @@ class NearField:
 
         Returns: (n_points, n_drives, n_frequencies) [m^2], as k2, symmetric in its two points.
         """
-        extent = self._extent
-        cut2 = np.array([_cutoff_squared(x, y, *extent) for x, y in points_m.tolist()])[:, None] * self._cut2
+        cut2 = _cutoffs_squared(points_m, self._extent)[:, None] * self._cut2
         np.sqrt(cut2, out=cut2)
         a2, y2 = points_m[:, :1, None] - self._x, points_m[:, 1:, None] - self._y
         a2 *= a2
@@ -113,7 +114,10 @@ def cutoff_squared(modes: PlateModes, points_m: NDArray[np.float64]) -> NDArray[
 
     Parameters: points_m : (n_points, 2) [m]. Returns: (n_points,) float64 [m^-2], very large at the edges.
     """
-    extent = _extent(modes.plate, modes.terms)
+    return _cutoffs_squared(points_m, _extent(modes.plate, modes.terms))
+
+
+def _cutoffs_squared(points_m: NDArray[np.float64], extent: _Extent) -> NDArray[np.float64]:
     return np.array([_cutoff_squared(x, y, *extent) for x, y in points_m.tolist()])
 
 
@@ -127,7 +131,7 @@ def _cutoff_squared(x_m: float, y_m: float, per_length: float, per_width: float,
 
 
 @lru_cache(maxsize=1024)
-def _extent(plate: Plate, terms: tuple[int, int]) -> tuple[float, float, float, float]:
+def _extent(plate: Plate, terms: tuple[int, int]) -> _Extent:
     """2 over length and width [1/m], and what waves a basis of so many terms follows in the middle of each [rad/m]."""
     along, across = (sum("FSC".index(edge) for edge in pair) for pair in (plate.edges[:2], plate.edges[2:]))
     per_length, per_width = 2 / plate.length_m, 2 / plate.width_m

@@ -20,7 +20,7 @@ class TouchGains:
     """Asks a field about hands, each with its touches.
 
     Parameters: reach : what hangs together now; skips_unreachable : do not ask the field where no source reaches;
-    limit : cap on a gain, None for none.
+    limit : cap on a gain, None for none. `may_be_capped` tells whether the field may say more.
     """
 
     def __init__(
@@ -32,12 +32,7 @@ class TouchGains:
         self._skips_unreachable = skips_unreachable
         self._is_counting = limit is not None
         self._limit = GREATEST if limit is None else min(limit, GREATEST)
-        self._may_exceed = self._limit < max(1.0, field.most)
-
-    @property
-    def may_be_capped(self) -> bool:
-        """Whether the field may say more than the limit."""
-        return self._may_exceed
+        self.may_be_capped = self._limit < max(1.0, field.most)
 
     def reached(self, touches: Sequence[Touch]) -> frozenset[int]:
         """The columns of the sources that hang together with any of these objects."""
@@ -74,7 +69,7 @@ class TouchGains:
             for touch in touches:
                 if touch.object_id in self._own:
                     gains[i, self._own[touch.object_id]] = 1.0
-        return self._capped(gains) if self._may_exceed else gains
+        return self._capped(gains) if self.may_be_capped else gains
 
     def _capped(self, gains: NDArray[np.float64]) -> NDArray[np.float64]:
         if self._is_counting:
