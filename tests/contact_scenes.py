@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +46,39 @@ def chair(at_m: Triple) -> SceneObject:
     """Four legs of 40 mm at x, z = +-0.2 m, and a seat; the feet stand at the height of `at_m`."""
     legs = [((0.04, 0.45, 0.04), (x, 0.225, z)) for x in (-0.2, 0.2) for z in (-0.2, 0.2)]
     return boxes("chair", *legs, ((0.44, 0.04, 0.44), (0.0, 0.47, 0.0)), at_m=at_m)
+
+
+def quads(*corners: Sequence[Triple]) -> TriMesh:
+    """Level or upright quadrilaterals, each by its four corners in order."""
+    vertices = np.array(corners, dtype=float).reshape(-1, 3)
+    first, halves = 4 * np.arange(len(corners))[:, None, None], np.array([[0, 1, 2], [0, 2, 3]])
+    return TriMesh(vertices, (first + halves).reshape(-1, 3))
+
+
+def level(x0: float, z0: float, x1: float, z1: float, y: float) -> list[Triple]:
+    return [(x0, y, z0), (x0, y, z1), (x1, y, z1), (x1, y, z0)]
+
+
+def house(rotation_xyzw: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)) -> SceneObject:
+    """One mesh: an L-shaped floor, 3 m x 3 m without the quarter x > 0.5, z > 0.5, walls 2.4 m high around it, a podium
+    0.12 m high in a corner, a board at 0.9 m on a wall, and a ceiling."""
+    ring = [(-1.5, -1.5), (1.5, -1.5), (1.5, 0.5), (0.5, 0.5), (0.5, 1.5), (-1.5, 1.5)]
+    walls = [
+        [(a, 0.0, b), (c, 0.0, d), (c, 2.4, d), (a, 2.4, b)]
+        for (a, b), (c, d) in zip(ring, ring[1:] + ring[:1], strict=True)
+    ]
+    podium = [(-1.5, -0.7), (-0.7, -0.7), (-0.7, -1.5)]
+    risers = [[(a, 0.0, b), (c, 0.0, d), (c, 0.12, d), (a, 0.12, b)] for (a, b), (c, d) in pairwise(podium)]
+    parts = [
+        level(-1.5, -1.5, 0.5, 0.5, 0.0),
+        level(0.5, -1.5, 1.5, 0.5, 0.0),
+        level(-1.5, 0.5, 0.5, 1.5, 0.0),
+        level(-1.5, -1.5, -0.7, -0.7, 0.12),
+        level(0.9, -0.4, 1.5, 0.5, 0.9),
+        level(0.9, -0.4, 1.5, 0.5, 0.88),
+        level(-1.5, -1.5, 1.5, 1.5, 2.4),
+    ]
+    return thing("house", quads(*parts, *walls, *risers), Pose((0.0, 0.0, 0.0), rotation_xyzw))
 
 
 def floor() -> SceneObject:

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import TYPE_CHECKING
 from weakref import WeakValueDictionary
 
 import numpy as np
 
 from scene2hap.contact.broad import Boxes, Floats
-from scene2hap.contact.profile import Profile, Triple, profile_of, triples
+from scene2hap.contact.ledge import Ledges, Upright
+from scene2hap.contact.profile import Profile, Triple, profile_of, triples, uneven_m
 from scene2hap.contact.rays import first_hits
 from scene2hap.contact.stance import Stance
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject, TriMesh
+
+if TYPE_CHECKING:
+    from scene2hap.contact.clearing import Clearing
 
 # Directions that one shape is asked for; past this, things tumble and old ones are forgotten.
 _MAX_PROFILES = 64
@@ -34,6 +39,7 @@ class Shape:
         self.middle: Triple = triples((self.box.low + self.box.high) / 2)[0]
         self.half: Triple = triples((self.box.high - self.box.low) / 2)[0]
         self._profiles: dict[Triple, Profile] = {}
+        self._ledges: dict[Upright, Ledges] = {}
 
     @cached_property
     def normals(self) -> Floats:
@@ -86,6 +92,13 @@ class Shape:
             if len(self._profiles) >= _MAX_PROFILES:
                 self._profiles.clear()
             found = self._profiles[up] = profile_of(self, up)
+        return found
+
+    def ledges(self, upright: Upright) -> Ledges:
+        """The level faces where up is along an own axis."""
+        found = self._ledges.get(upright)
+        if found is None:
+            found = self._ledges[upright] = Ledges(self.triangles, self.boxes, upright, uneven_m(self))
         return found
 
     @cached_property
@@ -169,6 +182,11 @@ class Body:
         a, b, c = (self.shape.triangles @ self.up + self.pose.position_m[self.up_axis]).T
         lows: Floats = np.minimum(np.minimum(a, b), c)
         return lows
+
+    @cached_property
+    def clearings(self) -> dict[str, Clearing]:
+        """What is known, for guests by their ids, of their surroundings; see `contact.clearing`."""
+        return {}
 
     @cached_property
     def slopes(self) -> Floats:

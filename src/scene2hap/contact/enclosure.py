@@ -18,6 +18,7 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes, Floats
 from scene2hap.contact.profile import Triple
 from scene2hap.contact.rays import first_hits
+from scene2hap.contact.relative import box_in_frame, middle_m
 from scene2hap.contact.support import weight
 
 # Play on either side at which a thing ceases to be enclosed [m], at most and as a share of its diagonal. Up to 2/3 of
@@ -44,10 +45,10 @@ def enclosed(a: Body, b: Body) -> tuple[float, float]:
     guest, host = (a, b) if (a.size_m, b.id) < (b.size_m, a.id) else (b, a)
     # Of what lies by more than half in the other's box, so does the middle.
     (x, y, z), (u, v, w) = host.low, host.high
-    p, q, r = place = _middle(guest)
+    p, q, r = middle_m(guest)
     if not (x <= p <= u and y <= q <= v and z <= r <= w):
         return 0.0, math.inf
-    middle, half = _in_frame(guest, host, place)
+    middle, half = box_in_frame(guest, host)
     within = weight(1.0 - _inside(host, middle, half, 1e-9 * guest.size_m), _OUTSIDE)
     reach_m = play_reach_m(guest.size_m)
     if within <= 0:
@@ -60,24 +61,7 @@ def enclosed(a: Body, b: Body) -> tuple[float, float]:
     return within * weight(play_m, reach_m), play_m
 
 
-def _middle(body: Body) -> Triple:
-    (mx, my, mz), (x, y, z), ((a, b, c), (d, e, f), (g, h, i)) = body.shape.middle, body.position_m, body.stance.rows
-    return (x + a * mx + b * my + c * mz, y + d * mx + e * my + f * mz, z + g * mx + h * my + i * mz)
-
-
-def _in_frame(guest: Body, host: Body, place_m: Triple) -> tuple[list[float], list[float]]:
-    """Middle and half edges, along the host's axes, of the guest's box, whose middle is at a place of the world."""
-    (x, y, z), (u, v, w), (p, q, r) = place_m, host.position_m, guest.shape.half
-    edges = list(zip(*guest.stance.rows, strict=True))
-    middle, half = [], []
-    for a, b, c in zip(*host.stance.rows, strict=True):
-        one, two, three = (abs(a * d + b * e + c * f) for d, e, f in edges)
-        middle.append(a * (x - u) + b * (y - v) + c * (z - w))
-        half.append(one * p + two * q + three * r)
-    return middle, half
-
-
-def _inside(host: Body, middle: list[float], half: list[float], least_m: float) -> float:
+def _inside(host: Body, middle: Triple, half: Triple, least_m: float) -> float:
     """The share of a box that is in the host's; a sheet has no thickness to be outside with."""
     share = 1.0
     for c, h, a, b in zip(middle, half, host.shape.middle, host.shape.half, strict=True):

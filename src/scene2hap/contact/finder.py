@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.bond import NO_BOND, NO_WAY, Bond, Plan, direction, strength, triple
+from scene2hap.contact.clearing import is_clear
 from scene2hap.contact.crowd import Crowd
 from scene2hap.contact.cuboid_meeting import gaps_of, points_of
 from scene2hap.contact.glide import Drift, Glide
@@ -216,7 +217,7 @@ class ContactFinder:
             if y in seen:
                 continue
             tie = Tie.between(body, other) if x < y else Tie.between(other, body)
-            if tie.rest_a is None and tie.rest_b is None and apart_by(body, other, within_m):
+            if tie.rest_a is None and tie.rest_b is None and (apart_by(body, other, within_m) or tie.is_clear):
                 if old is not None:
                     del ties[y], self._ties[y][x]
                     self._stop(x, y)
@@ -256,9 +257,14 @@ class ContactFinder:
         rests = {y: rest for y, tie in self._ties[x].items() if (rest := tie.rest(x)) is not None}
         if rests:
             reach_m = fall_reach_m(body.size_m)
-            below = None if UNCLEAR in rests.values() else level_supports(rests, reach_m)
+            unclear = [y for y, rest in rests.items() if rest is UNCLEAR]
+            rests = {y: rest for y, rest in rests.items() if rest is not UNCLEAR}
+            least_m = min((rest.fall_m for rest in rests.values()), default=math.inf)
+            falls_m = self._falls(body, unclear, least_m) if unclear else {}
+            below = level_supports(rests, reach_m) if rests and not falls_m else None
             if below is None:
-                below, rests = supports(self._falls(body, rests), reach_m), {}
+                falls_m |= self._falls(body, rests)
+                below, rests = supports(dict(sorted(falls_m.items())), reach_m), {}
         bonds = {}
         for y, support in (below or {}).items():
             sign = 1.0 if x < y else -1.0
@@ -274,18 +280,18 @@ class ContactFinder:
             self._loose.discard(x)
         return bonds
 
-    def _falls(self, body: Body, onto: Iterable[str]) -> dict[str, Floats]:
-        """How far the triangles of a body are to fall to things below; not to what lies surely deeper than another, by
-        more than what still counts."""
-        bodies, ties, least_m = self._bodies, self._ties[body.id], math.inf
+    def _falls(self, body: Body, onto: Iterable[str], least_m: float = math.inf) -> dict[str, Floats]:
+        """How far the triangles of a body are to fall to things below; not to what lies deeper than another, be it
+        `least_m` deep, by more than what still counts."""
+        bodies, ties = self._bodies, self._ties[body.id]
         found: dict[str, Floats] = {}
         for y in sorted(onto, key=lambda y: (-bodies[y].highest_m, y)):
             if body.lowest_m - bodies[y].highest_m > least_m + TOUCH_M:
                 break
             falls_m = ties[y].falls(body.id)
-            if falls_m is not None:
-                found[y], least_m = falls_m, min(least_m, float(falls_m.min()))
-        return dict(sorted(found.items()))
+            if falls_m is not None and (first_m := float(falls_m.min())) <= least_m + TOUCH_M:
+                found[y], least_m = falls_m, min(least_m, first_m)
+        return found
 
     def _hanging(self, body: Body, supported: float) -> dict[str, Bond]:
         """What holds a body sideways, as far as nothing supports it."""
@@ -295,7 +301,7 @@ class ContactFinder:
         larger = [
             y
             for y in self._crowd.near[x]
-            if (other := bodies[y]).size_m > size_m and not apart_by(body, other, reach_m)
+            if (other := bodies[y]).size_m > size_m and not apart_by(body, other, reach_m) and not is_clear(body, other)
         ]
         if not larger:
             return {}

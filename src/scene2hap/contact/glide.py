@@ -32,7 +32,6 @@ class Glide:
     """
 
     __slots__ = (
-        "_down",
         "_fall_m",
         "_flat",
         "_is_a",
@@ -43,7 +42,7 @@ class Glide:
         "_stance",
         "_support_middle",
         "_tie",
-        "_top",
+        "_top_m",
         "_up",
         "_zone",
         "body",
@@ -61,11 +60,10 @@ class Glide:
         self.on = support.id
         self._stance, self._up, self._flat = body.stance, body.up_axis, body.stance.v_axis
         footing, tray = body.stance.footing, support.stance.tray
-        assert footing is not None
         assert tray is not None
         self._normals = (normal,) * len(footing.points)
         self._fall_m, self._most_m = math.nan, 2 / 3 * fall_reach_m(body.size_m)
-        self._down, self._top = support.position_m[self._up], tray.height
+        self._top_m = support.position_m[self._up] + tray.height
         self._support_middle = support.low[self._up] + support.high[self._up]
         u, v = support.position_m[0], support.position_m[self._flat]
         self._reach = tuple([(nu, nv, offset + nu * u + nv * v) for nu, nv, offset in tray.edges])
@@ -97,11 +95,9 @@ class Glide:
         zone_low, zone_high = self._zone
         if down < zone_low[up] or over > zone_high[up] or down + over <= self._support_middle:
             return False
-        footing = stance.footing
-        assert footing is not None
-        points, sole, (mu, mv), radius, _ = footing
+        points, sole, (mu, mv), radius, _ = stance.footing
         h, u, v = position_m[up], x, position_m[flat]
-        fall_m = h + sole - self._down - self._top
+        fall_m = h + sole - self._top_m
         if not SURE_M < fall_m < self._most_m:
             return False
         cu, cv = mu + u, mv + v
@@ -109,7 +105,7 @@ class Glide:
             if nu * cu + nv * cv - offset < radius:
                 return False
         # As in `rest_points`, to the last bit.
-        height = (h + sole + self._down + self._top) / 2
+        height = (h + sole + self._top_m) / 2
         if up == 1:
             places = tuple([(u + pu, height, v + pv) for pu, pv in points])
         else:
@@ -119,7 +115,7 @@ class Glide:
         self._stance = stance
         if fall_m != self._fall_m:
             self._fall_m = fall_m
-            tie.slide(body, Rest(fall_m, True), self._is_a)
+            tie.slide(body, Rest(fall_m, True, self._top_m), self._is_a)
         else:
             tie.forget()
         found[self.pair] = _new(Junction, (places, _ONES[: len(places)], self._normals, ()))

@@ -24,21 +24,24 @@ _ROUNDING_M = 1e-9
 
 
 class Rest(NamedTuple):
-    """How far a thing is to fall [m] to what it then lies on with all or with some of its sole."""
+    """How far a thing is to fall [m] to what it then lies on, at the height `top_m` [m], with all or with some of its
+    sole."""
 
     fall_m: float
     wholly: bool
+    top_m: float
 
 
 def rest_on(x: Body, y: Body) -> Rest | None:
     """How x lies on y, one the sole and one the top of its object; None where that cannot be told from outlines, a
     fall of inf where they are beside each other."""
     sole, tray = x.stance.footing, y.stance.tray
-    if sole is None or tray is None:
+    if tray is None:
         return None
     a, v_axis = x.up_axis, x.stance.v_axis
     px, py = x.position_m, y.position_m
-    fall_m = px[a] + sole.height - py[a] - tray.height
+    top_m = py[a] + tray.height
+    fall_m = px[a] + sole.height - top_m
     du, dv = px[0] - py[0], px[v_axis] - py[v_axis]
     cu, cv = sole.middle[0] + du, sole.middle[1] + dv
     radius = sole.radius
@@ -46,7 +49,7 @@ def rest_on(x: Body, y: Body) -> Rest | None:
         if nu * cu + nv * cv - offset < radius:
             break
     else:
-        return Rest(fall_m, True)
+        return Rest(fall_m, True, top_m)
     rim = min(_RIM * radius, _RIM_M)
     outline = [(u + du, v + dv) for u, v in x.stance.sole_outline]
     wholly = True
@@ -56,35 +59,35 @@ def rest_on(x: Body, y: Body) -> Rest | None:
             return _beside(x, y)
         wholly = wholly and min(inside) >= -_ROUNDING_M
     if wholly:
-        return Rest(fall_m, True)
+        return Rest(fall_m, True, top_m)
     if not sole.is_filled:
         return None
     for nu, nv, offset in edges_of(x.stance.sole_outline):
         offset += nu * du + nv * dv
         if max(nu * u + nv * v - offset for u, v in tray.outline) <= rim:
             return _beside(x, y)
-    return Rest(fall_m, False)
+    return Rest(fall_m, False, top_m)
 
 
 def _beside(x: Body, y: Body) -> Rest | None:
     # Only of blocks the outline is all.
-    return Rest(math.inf, False) if x.stance.is_block and y.stance.is_block else None
+    return Rest(math.inf, False, -math.inf) if x.stance.is_block and y.stance.is_block else None
 
 
 def rest_points(x: Body, y: Body, rest: Rest) -> tuple[Triple, ...]:
     """Points of the world half way between x's sole and y's top where they are over each other."""
-    sole, tray = x.stance.footing, y.stance.tray
-    assert sole is not None
-    assert tray is not None
+    sole = x.stance.footing
     a, v_axis = x.up_axis, x.stance.v_axis
     px, py = x.position_m, y.position_m
-    height = (px[a] + sole.height + py[a] + tray.height) / 2
+    height = (px[a] + sole.height + rest.top_m) / 2
     u, v = px[0], px[v_axis]
     if rest.wholly:
         if a == 1:
             return tuple([(u + pu, height, v + pv) for pu, pv in sole.points])
         level: Sequence[Point] = [(u + pu, v + pv) for pu, pv in sole.points]
     else:
+        tray = y.stance.tray
+        assert tray is not None
         ring = clipped([(u + pu - py[0], v + pv - py[v_axis]) for pu, pv in x.stance.sole_outline], tray.edges)
         level = [(pu + py[0], pv + py[v_axis]) for pu, pv in _chosen(ring, y.stance)]
     if a == 1:

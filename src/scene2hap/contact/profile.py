@@ -1,8 +1,8 @@
-"""The level faces of a shape for a way that is up: the sole that it stands on and the top that bears others.
+"""What a shape has lowest and highest for a way that is up: the sole that it stands on and the top that bears others.
 
-Most things stand on level faces on level faces, and what touches there is a matter of flat convex outlines; only the
-rest needs triangles. A sole is the lowest of a shape and a top its highest, so that wherever they are over each other,
-nothing of the two shapes is nearer.
+Most things stand on level faces, and what touches there is a matter of flat convex outlines; only the rest needs
+triangles. A sole is the lowest of a shape, level or a few corners like the feet of a stool, and a top its highest, so
+that wherever they are over each other, nothing of the two shapes is nearer.
 """
 
 from __future__ import annotations
@@ -22,14 +22,21 @@ Triple = tuple[float, float, float]
 
 # How uneven a level face may be, as a share of the shape's size and at most (assumed).
 _UNEVEN, _UNEVEN_M = 1e-4, 2e-4
+# Corners of a thing without a level sole stand with the lowest up to so much above it (assumed: a little more than the
+# slack that patches of triangles have, since feet of models are often 1 mm uneven).
+_FEET_M = 0.0012
+# A face is no sole if it takes up less than this share of what such corners do: a vase may have a crumb of a face that
+# is lowest.
+_CRUMB = 0.5
 _COVER = 1e-3  # An outline is filled when its triangles' area differs by less than this share.
 
 
 class Sole(NamedTuple):
     """What a shape stands on, in its own frame [m].
 
-    Up to four `points_m` stand for it; `outline_m` is its convex outline; `middle_m` and `radius_m` are a ball around
-    it; `is_filled` if it is all of its outline, as the feet of a chair are not.
+    Up to four `points_m` stand for it; `outline_m` is its convex outline, of one corner or two if there are no more;
+    `middle_m` and `radius_m` are a ball around it; `is_filled` if it is all of its outline, as the feet of a chair are
+    not; `is_level` if it is a face, and not a few corners.
     """
 
     points_m: tuple[Triple, ...]
@@ -37,16 +44,22 @@ class Sole(NamedTuple):
     middle_m: Triple
     radius_m: float
     is_filled: bool
+    is_level: bool
 
 
 class Profile(NamedTuple):
-    """The sole and the top's convex outline [m], None where there is none; `across` is a level direction by which an
-    upright turn can be told; `is_block` if the shape is a cuboid with level faces."""
+    """The sole and the convex outline of the top [m], None where that is not level; `across` is a level direction by
+    which an upright turn can be told; `is_block` if the shape is a cuboid with level faces."""
 
-    sole: Sole | None
+    sole: Sole
     top_m: tuple[Triple, ...] | None
     across: Triple
     is_block: bool
+
+
+def uneven_m(shape: Shape) -> float:
+    """How uneven a level face of a shape may be [m]."""
+    return min(_UNEVEN * shape.size_m, _UNEVEN_M)
 
 
 def profile_of(shape: Shape, up: tuple[float, float, float]) -> Profile:
@@ -56,11 +69,10 @@ def profile_of(shape: Shape, up: tuple[float, float, float]) -> Profile:
     e1 = np.cross(up_axis, across)
     e1 /= np.linalg.norm(e1)
     plane = np.stack([e1, np.cross(up_axis, e1)], axis=1)
-    uneven_m = min(_UNEVEN * shape.size_m, _UNEVEN_M)
-    sole, top = (_Face.at(shape, sign * up_axis, plane, uneven_m) for sign in (-1.0, 1.0))
+    sole, top = (_Face.at(shape, sign * up_axis, plane, uneven_m(shape)) for sign in (-1.0, 1.0))
     is_block = shape.is_cuboid and float(np.abs(up_axis).max()) > 1 - 1e-9
     return Profile(
-        sole=sole.as_sole() if sole else None,
+        sole=_sole(shape, sole, up_axis, plane),
         top_m=triples(top.outline_m) if top and top.is_filled else None,
         across=triples(e1[None])[0],
         is_block=is_block,
@@ -90,11 +102,22 @@ class _Face(NamedTuple):
         is_filled = any(abs(area - n * around) <= _COVER * around for n in (1, 2))
         return cls(corners, corners[rows], is_filled)
 
-    def as_sole(self) -> Sole:
-        middle = (self.outline_m.min(axis=0) + self.outline_m.max(axis=0)) / 2
-        radius = float(np.linalg.norm(self.outline_m - middle, axis=1).max())
-        points = triples(self.corners_m[spread(self.corners_m)])
-        return Sole(points, triples(self.outline_m), triples(middle[None])[0], radius, self.is_filled)
+
+def _sole(shape: Shape, face: _Face | None, up_axis: Floats, plane: Floats) -> Sole:
+    """The lowest level face, if it is not a crumb, or the lowest corners."""
+    heights = shape.corners @ up_axis
+    corners = shape.corners[heights <= heights.min() + _FEET_M]
+    rows = outline(corners @ plane)
+    around = corners[rows]
+    if face is not None and polygon_area(face.outline_m @ plane) >= _CRUMB * polygon_area(around @ plane):
+        corners, around = face.corners_m, face.outline_m
+    else:
+        face = None
+    middle = (around.min(axis=0) + around.max(axis=0)) / 2
+    radius = float(np.linalg.norm(around - middle, axis=1).max())
+    points = triples(corners[spread(corners)])
+    is_filled = face is not None and face.is_filled
+    return Sole(points, triples(around), triples(middle[None])[0], radius, is_filled, face is not None)
 
 
 def triples(points: Floats) -> tuple[Triple, ...]:
@@ -103,7 +126,8 @@ def triples(points: Floats) -> tuple[Triple, ...]:
 
 
 def outline(points: Floats) -> list[int]:
-    """Rows of the points (n, 2) on their convex outline, against the clock; none in line with its neighbours.
+    """Rows of the points (n, 2) on their convex outline, against the clock; none in line with its neighbours; a single
+    point is its own outline.
 
     Source: A. M. Andrew, Another efficient algorithm for convex hulls in two dimensions (1979).
     """
@@ -117,7 +141,7 @@ def outline(points: Floats) -> list[int]:
                 half.pop()
             half.append(row)
         halves.append(half[:-1])
-    return halves[0] + halves[1]
+    return halves[0] + halves[1] or order[:1]
 
 
 def polygon_area(corners: Floats) -> float:

@@ -6,10 +6,12 @@ level plane has coordinates (u, v), the world's two axes that are not up.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+import math
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
+from scene2hap.contact.ledge import Upright
 from scene2hap.contact.profile import Profile, Triple
 
 if TYPE_CHECKING:
@@ -21,11 +23,13 @@ Point = tuple[float, float]
 # engine's trembling by less than 3 thousandths of a degree.
 _DIGITS = 4
 _UP = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+_MOST_LEAN = 1e-3  # [rad]; more than this is no rounding.
 _UPRIGHT = 1 - 1e-12  # An own axis this near to upright: the own box has the true height.
 
 
 class Footing(NamedTuple):
-    """A sole, turned [m]: points that stand for it, its height, a circle around it, and whether its outline is full."""
+    """A sole, turned [m]: points that stand for it, its least height, a circle around it, and whether its outline is
+    full."""
 
     points: tuple[Point, ...]
     height: float
@@ -42,12 +46,20 @@ class Tray(NamedTuple):
     edges: tuple[Triple, ...]
 
 
+class Lean(NamedTuple):
+    """Which own axis points up, and how far from upright it is [rad]."""
+
+    own: Upright
+    tilt: float
+
+
 class Stance:
     """A shape with a rotation. `low` and `high` are a box around it, relative to its position [m]."""
 
     __slots__ = (
         "_footing",
         "_heading",
+        "_lean",
         "_outline",
         "_shape",
         "_tray",
@@ -83,6 +95,7 @@ class Stance:
         self._tray: Tray | None = None
         self._outline: tuple[Point, ...] = ()
         self._heading: Point | None = None
+        self._lean: Lean | Literal[False] | None = False
 
     def _bounds(self, up: Triple) -> tuple[Triple, Triple]:
         (mx, my, mz), (hx, hy, hz) = self._shape.middle, self._shape.half
@@ -104,11 +117,10 @@ class Stance:
         """The same shape turned otherwise, if that leaves its level faces level; the same as made from nothing."""
         x, y, z, w = rotation_xyzw
         before = self.rotation_xyzw
-        if self.up_axis != 1 or x != 0.0 or z != 0.0 or before[0] != 0.0 or before[2] != 0.0 or self.footing is None:
+        if self.up_axis != 1 or x != 0.0 or z != 0.0 or before[0] != 0.0 or before[2] != 0.0:
             turned = Stance(self._shape, rotation_xyzw, self.up_axis)
             return turned if turned.profile is self.profile else None
         # About the vertical, nothing changes upwards, and half of the products are 0.
-        assert self.profile.sole is not None
         turned = Stance.__new__(Stance)
         turned.rotation_xyzw, turned._shape, turned.profile, turned.is_block = (
             rotation_xyzw,
@@ -117,6 +129,7 @@ class Stance:
             self.is_block,
         )
         turned.up_axis, turned.v_axis, turned._tray, turned._outline, turned._heading = 1, 2, None, (), None
+        turned._lean = self._lean
         a, c = 1 - 2 * (y * y), 2 * (y * w)
         turned.rows = ((a, 0.0, c), self.rows[1], (-c, 0.0, a))
         (mx, _, mz), (hx, _, hz) = self._shape.middle, self._shape.half
@@ -130,13 +143,14 @@ class Stance:
         return turned
 
     @property
-    def footing(self) -> Footing | None:
-        """What it stands on, if that is level."""
-        if self._footing is None and (sole := self.profile.sole) is not None:
+    def footing(self) -> Footing:
+        """What it stands on."""
+        if self._footing is None:
+            sole = self.profile.sole
             (a, b, c), (d, e, f), (g, h, i) = self.rows[0], self.rows[self.v_axis], self.rows[self.up_axis]
             x, y, z = sole.middle_m
             middle = (a * x + b * y + c * z, d * x + e * y + f * z)
-            height = g * x + h * y + i * z
+            height = g * x + h * y + i * z if sole.is_level else self.low[self.up_axis]
             points = tuple([(a * x + b * y + c * z, d * x + e * y + f * z) for x, y, z in sole.points_m])
             self._footing = Footing(points, height, middle, sole.radius_m, sole.is_filled)
         return self._footing
@@ -144,8 +158,8 @@ class Stance:
     @property
     def sole_outline(self) -> tuple[Point, ...]:
         """The outline of what it stands on."""
-        if not self._outline and (sole := self.profile.sole) is not None:
-            self._outline = tuple([(u, v) for u, v, _ in map(self._turned, sole.outline_m)])
+        if not self._outline:
+            self._outline = tuple([(u, v) for u, v, _ in map(self._turned, self.profile.sole.outline_m)])
         return self._outline
 
     @property
@@ -156,6 +170,13 @@ class Stance:
             outline = tuple([(u, v) for u, v, _ in corners])
             self._tray = Tray(outline, sum(h for _, _, h in corners) / len(corners), edges_of(outline))
         return self._tray
+
+    @property
+    def lean(self) -> Lean | None:
+        """How the own axis that points up leans, None where all do."""
+        if self._lean is False:
+            self._lean = _lean(self.rows[self.up_axis])
+        return self._lean
 
     @property
     def heading(self) -> Point:
@@ -170,6 +191,13 @@ class Stance:
         x, y, z = point
         (a, b, c), (d, e, f), (g, h, i) = self.rows[0], self.rows[self.v_axis], self.rows[self.up_axis]
         return (a * x + b * y + c * z, d * x + e * y + f * z, g * x + h * y + i * z)
+
+
+def _lean(up: Triple) -> Lean | None:
+    axis = max(range(3), key=lambda k: abs(up[k]))
+    u, v = (k for k in range(3) if k != axis)
+    tilt = math.hypot(up[u], up[v])
+    return Lean(Upright(axis, 1 if up[axis] > 0 else -1, u, v), tilt) if tilt <= _MOST_LEAN else None
 
 
 def edges_of(outline: tuple[Point, ...]) -> tuple[Triple, ...]:

@@ -153,7 +153,7 @@ def level_supports(rests: Mapping[str, Rest], reach_m: float) -> dict[str, Suppo
     which part of the sole sees what."""
     first = min(rest.fall_m for rest in rests.values())
     found = {}
-    for name, (fall_m, _) in rests.items():
+    for name, (fall_m, *_) in rests.items():
         share = weight(fall_m, reach_m) * weight(fall_m - first, TOUCH_M)
         if share > 0 and weight(fall_m - first, _HIDDEN_M) < 1:
             if not any(rest.wholly and rest.fall_m == first for rest in rests.values()):
@@ -179,12 +179,19 @@ def _weights(gaps_m: Floats, tolerance_m: float) -> Floats:
 def is_over(x: Body, y: Body) -> bool:
     """Whether x may rest on y; never true both ways.
 
-    A thing on another lies over all of it, give or take `TOUCH_M`, or stands in it with a higher bottom. Things side by
-    side on one floor are neither.
+    A thing on another lies over all of it, give or take `TOUCH_M`, or stands in it with a higher bottom, or with one as
+    low where it is all in it, as in a room whose floor has no thickness. Things side by side on one floor are neither.
     """
     if x.lowest_m >= y.highest_m - TOUCH_M or y.lowest_m >= x.highest_m - TOUCH_M:
         return x.lowest_m + x.highest_m > y.lowest_m + y.highest_m
-    return x.lowest_m > y.lowest_m + TOUCH_M
+    if x.lowest_m > y.lowest_m + TOUCH_M:
+        return True
+    if x.lowest_m < y.lowest_m - TOUCH_M or x.highest_m > y.highest_m or x.size_m >= y.size_m:
+        return False
+    (a, b, c), (d, e, f), (g, h, i), (j, k, m) = x.low, x.high, y.low, y.high
+    if x.up_axis == 1:
+        return a >= g and d <= j and c >= i and f <= m
+    return a >= g and d <= j and b >= h and e <= k
 
 
 def _inset(triangles: Floats) -> Floats:

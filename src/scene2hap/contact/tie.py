@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from scene2hap.contact.body import Body
+from scene2hap.contact.clearing import below, is_clear
 from scene2hap.contact.cuboid_meeting import gaps_of, points_of
 from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.level import Aside, Rest, aside, rest_on
@@ -26,7 +27,7 @@ WITHIN_M = max(TOUCH_M, HANG_REACH_M)
 """Nobody asks for longer distances."""
 _APART = "apart"
 
-UNCLEAR = Rest(math.nan, False)
+UNCLEAR = Rest(math.nan, False, math.nan)
 """Stands for a fall that only triangles can tell."""
 
 
@@ -75,6 +76,11 @@ class Tie:
             return None
         found: Aside | None = self._once((within_m, slack_m), lambda: aside(self.a, self.b, within_m, slack_m))
         return found
+
+    @property
+    def is_clear(self) -> bool:
+        """Whether the larger has surely nothing near the smaller, be it in its midst."""
+        return is_clear(*roles(self.a, self.b))
 
     @property
     def are_cuboids(self) -> bool:
@@ -158,8 +164,29 @@ def _rest(x: Body, y: Body) -> Rest | None:
         return None
     rest = rest_on(x, y)
     if rest is None or rest.fall_m < -TOUCH_M:
-        return UNCLEAR
+        return _rest_amid(x, y, reach_m)
     return rest if rest.fall_m <= reach_m else None
+
+
+def _rest_amid(x: Body, y: Body, reach_m: float) -> Rest | None:
+    """The same where one has surroundings in the other."""
+    guest, host = roles(x, y)
+    known = below(guest, host)
+    if known is None:
+        return UNCLEAR
+    if known.top_m is None:
+        return None
+    up = x.up_axis
+    top_m = y.position_m[up] + known.top_m
+    fall_m = x.position_m[up] + x.stance.footing.height - top_m
+    if guest is not x or fall_m < -TOUCH_M:
+        return UNCLEAR
+    return Rest(fall_m, True, top_m) if fall_m <= reach_m else None
+
+
+def roles(x: Body, y: Body) -> tuple[Body, Body]:
+    """Of two the smaller, and the one in which it may be."""
+    return (x, y) if (x.size_m, y.id) < (y.size_m, x.id) else (y, x)
 
 
 def slide(x: Body, y: Body) -> tuple[Rest, tuple[Triple, ...]] | None:
@@ -169,12 +196,12 @@ def slide(x: Body, y: Body) -> tuple[Rest, tuple[Triple, ...]] | None:
     """
     up = x.up_axis
     sole, tray = x.stance.footing, y.stance.tray
-    if sole is None or tray is None:
+    if tray is None:
         return None
     points, sole_height, (mu, mv), radius, _ = sole
     px, py, v_axis = x.position_m, y.position_m, x.stance.v_axis
-    u, v, h, over = px[0], px[v_axis], px[up], py[up]
-    fall_m = h + sole_height - over - tray.height
+    u, v, h, top_m = px[0], px[v_axis], px[up], py[up] + tray.height
+    fall_m = h + sole_height - top_m
     if not SURE_M < fall_m < 2 / 3 * fall_reach_m(x.size_m) or x.low[up] + x.high[up] <= y.low[up] + y.high[up]:
         return None
     cu, cv = mu + (u - py[0]), mv + (v - py[v_axis])
@@ -185,7 +212,7 @@ def slide(x: Body, y: Body) -> tuple[Rest, tuple[Triple, ...]] | None:
                 return None
             break
     # The same arithmetic as in `rest_points`, so that the last bits are those of building from nothing.
-    height = (h + sole_height + over + tray.height) / 2
+    height = (h + sole_height + top_m) / 2
     if up == 1:
-        return Rest(fall_m, True), tuple([(u + pu, height, v + pv) for pu, pv in points])
-    return Rest(fall_m, True), tuple([(u + pu, v + pv, height) for pu, pv in points])
+        return Rest(fall_m, True, top_m), tuple([(u + pu, height, v + pv) for pu, pv in points])
+    return Rest(fall_m, True, top_m), tuple([(u + pu, v + pv, height) for pu, pv in points])

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from contact_scenes import box
+from contact_scenes import box, boxes
 from scene2hap.contact.body import Body
 from scene2hap.contact.level import aside, clipped, rest_on, rest_points
 from scene2hap.contact.narrow import Meeting
@@ -85,11 +85,40 @@ def test_a_clipped_square_loses_its_corner() -> None:
     assert {(round(u, 9), round(v, 9)) for u, v in ring} == {(0, 0), (1, 0), (1, 0.5), (0.5, 1), (0, 1)}
 
 
-def test_what_leans_is_no_block() -> None:
-    leaning = Body.of(box("leaning", (0.1, 0.1, 0.1), (0, 0, 0), (0.2, 0.0, 0.0, 1.0)), 1)
+def test_what_leans_stands_on_its_lowest_edge() -> None:
+    angle = 0.3
+    leaning = Body.of(
+        box("leaning", (0.1, 0.2, 0.3), (0, 0, 0), (math.sin(angle / 2), 0.0, 0.0, math.cos(angle / 2))), 1
+    )
     assert not leaning.stance.is_block
-    assert leaning.stance.footing is None
-    assert rest_on(leaning, block("floor", (1, 1, 1), (0, -0.6, 0), 0.0)) is None
+    footing = leaning.stance.footing
+    # The edge along x that is lowest once y has turned to z by the angle.
+    height, z = -0.1 * math.cos(angle) - 0.15 * math.sin(angle), -0.1 * math.sin(angle) + 0.15 * math.cos(angle)
+    assert footing.height == pytest.approx(height)
+    assert sorted(footing.points) == [pytest.approx((-0.05, z)), pytest.approx((0.05, z))]
+    floor = block("floor", (1, 1, 1), (0, -0.7, 0), 0.0)
+    rest = rest_on(leaning, floor)
+    assert rest is not None
+    assert rest.fall_m == pytest.approx(height + 0.2)
+    assert rest.wholly
+    told = falls(Meeting(leaning, floor), leaning, floor)
+    assert told is not None
+    assert rest.fall_m == pytest.approx(told.min(), abs=1e-4)  # triangles are tried a little smaller
+    # Half over an edge nothing is sure.
+    assert rest_on(leaning, block("floor", (1, 1, 1), (0.5, -0.7, 0), 0.0)) is None
+
+
+def test_feet_that_are_a_little_uneven_all_stand() -> None:
+    legs = [((0.04, 0.4, 0.04), (x, 0.2 + 0.001 * (x * z > 0), z)) for x in (-0.2, 0.2) for z in (-0.2, 0.2)]
+    stool = Body.of(boxes("stool", *legs, ((0.44, 0.04, 0.44), (0.0, 0.42, 0.0))), 1)
+    assert {(round(u, 1), round(v, 1)) for u, v in stool.stance.footing.points} == {
+        (-0.2, -0.2),
+        (-0.2, 0.2),
+        (0.2, -0.2),
+        (0.2, 0.2),
+    }
+    assert stool.stance.footing.height == pytest.approx(0.0, abs=1e-9)
+    assert not stool.stance.footing.is_filled
 
 
 def test_a_box_around_a_turned_body_holds_it() -> None:

@@ -1,0 +1,170 @@
+"""Clearings: where a thing moves and all that another has there is nothing, or a ledge for it to stand on.
+
+Rooms are one mesh of walls and floor, floors have nooks, shelves have boards below their top: the boxes of such things
+hold everything, and only triangles tell what they have where. They are asked once for the surroundings of a guest, and
+what they tell is kept with the host, in its own frame, for as long as the guest does not leave the surroundings. It
+holds for whoever is there: the poses alone decide.
+
+    u, v : the host's own axes that are level; h : the height over its position [m]
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.contact.body import Body
+from scene2hap.contact.broad import Boxes
+from scene2hap.contact.enclosure import play_reach_m
+from scene2hap.contact.ledge import Flat, Upright
+from scene2hap.contact.profile import Triple
+from scene2hap.contact.relative import box_in_frame
+from scene2hap.contact.support import TOUCH_M, fall_reach_m, hang_reach_m, is_over
+
+SKIN_M = 0.06
+"""How far beyond a guest its surroundings reach (assumed: as far as neighbours are looked for)."""
+
+_MOST_TILT_M = 5e-4  # A host may lean by so much over its whole size.
+_MANY_CORNERS = 8  # An outline of more is taken for a circle.
+# A guest is taken for this share smaller, by at most so much, so that what it is flush with is beside it.
+_INSET, _INSET_M = 1e-4, 1e-4
+_ROUNDING_M = 2e-6
+
+Room = tuple[Triple, Triple]
+"""Lowest and highest corners (u, v, h) of a box."""
+
+
+class Clearing(NamedTuple):
+    """A box, and what of the host is there: nothing, or a ledge of height `top_m`, which covers the stretch `ledge`,
+    and what is no higher."""
+
+    room: Room
+    top_m: float | None
+    ledge: Flat
+
+
+_NO_LEDGE: Flat = (math.inf, math.inf, -math.inf, -math.inf)
+
+
+def below(guest: Body, host: Body) -> Clearing | None:
+    """The clearing that a guest has for falling, or the host for falling onto it: without anything of the host, or with
+    a ledge under all of the guest's foot. None where neither is sure."""
+    lean = host.stance.lean
+    if lean is None or lean.tilt * host.size_m > _MOST_TILT_M:
+        return None
+    known, own = host.clearings.get(guest.id), lean.own
+    taken, foot = _column(guest, host, own), _foot(guest, host, own)
+    if known is not None and _holds(known.room, taken):
+        if known.top_m is None:
+            return known
+        u0, v0, u1, v1 = known.ledge
+        if taken[0][2] <= known.top_m and foot[0] >= u0 and foot[1] >= v0 and foot[2] <= u1 and foot[3] <= v1:
+            return known
+    found = _drawn(host, own, taken, foot)
+    if found is not None:
+        host.clearings[guest.id] = found
+    return found
+
+
+def is_clear(guest: Body, host: Body) -> bool:
+    """Whether a host has surely nothing so near to a guest that the two could touch, in whatever way."""
+    lean = host.stance.lean
+    if lean is None or lean.tilt * host.size_m > _MOST_TILT_M:
+        return False
+    (u0, v0, h0), (u1, v1, h1) = _column(guest, host, lean.own)
+    reach_m = max(TOUCH_M, play_reach_m(guest.size_m), hang_reach_m(guest.size_m))
+    taken = (u0 - reach_m, v0 - reach_m, h0 - reach_m), (u1 + reach_m, v1 + reach_m, h1 + reach_m)
+    known = host.clearings.get(guest.id)
+    if known is None or known.top_m is not None or not _holds(known.room, taken):
+        near = _Near(host, lean.own, taken)
+        if near.meets(taken).any():
+            return False
+        host.clearings[guest.id] = Clearing(near.cut(taken), None, _NO_LEDGE)
+    return True
+
+
+def _column(guest: Body, host: Body, own: Upright) -> Room:
+    """What a guest takes up in its host's frame and where it may fall, or the host onto it."""
+    up, h = guest.up_axis, host.position_m[guest.up_axis]
+    middle, half = box_in_frame(guest, host)
+    mu, mv, hu, hv = middle[own.u], middle[own.v], half[own.u], half[own.v]
+    inset_m = min(_INSET * guest.size_m, _INSET_M)
+    hu, hv = max(hu - inset_m, 0.0), max(hv - inset_m, 0.0)
+    low = guest.low[up] - h - fall_reach_m(guest.size_m) - TOUCH_M
+    high = guest.high[up] - h + (fall_reach_m(host.size_m) + TOUCH_M if is_over(host, guest) else 0.0)
+    return (mu - hu, mv - hv, low), (mu + hu, mv + hv, high)
+
+
+def _foot(guest: Body, host: Body, own: Upright) -> Flat:
+    """A rectangle around what a guest stands on; what is flush with a rim is within it."""
+    v_axis, rows = 3 - guest.up_axis, host.stance.rows
+    x, y = guest.position_m[0] - host.position_m[0], guest.position_m[v_axis] - host.position_m[v_axis]
+    a, b, c, d = rows[0][own.u], rows[v_axis][own.u], rows[0][own.v], rows[v_axis][own.v]
+    if len(outline := guest.stance.sole_outline) > _MANY_CORNERS:
+        _, _, (p, q), r, _ = guest.stance.footing
+        u, v, hu = a * (x + p) + b * (y + q), c * (x + p) + d * (y + q), max(r - _ROUNDING_M, 0.0)
+        return (u - hu, v - hu, u + hu, v + hu)
+    us = [a * (x + p) + b * (y + q) for p, q in outline]
+    vs = [c * (x + p) + d * (y + q) for p, q in outline]
+    u0, u1, v0, v1 = min(us), max(us), min(vs), max(vs)
+    hu, hv = min(_ROUNDING_M, (u1 - u0) / 2), min(_ROUNDING_M, (v1 - v0) / 2)
+    return (u0 + hu, v0 + hv, u1 - hu, v1 - hv)
+
+
+def _holds(room: Room, taken: Room) -> bool:
+    ((a, b, c), (d, e, f)), ((u0, v0, h0), (u1, v1, h1)) = room, taken
+    return u0 >= a and v0 >= b and h0 >= c and u1 <= d and v1 <= e and h1 <= f
+
+
+def _drawn(host: Body, own: Upright, taken: Room, foot: Flat) -> Clearing | None:
+    near = _Near(host, own, taken)
+    meets = np.flatnonzero(near.meets(taken))
+    if not len(meets):
+        return Clearing(near.cut(taken), None, _NO_LEDGE)
+    ledges = host.shape.ledges(own)
+    numbers, tops = ledges.number[near.rows], near.high[:, 2]
+    number = int(numbers[meets[tops[meets].argmax()]])
+    if number < 0:
+        return None
+    top_m = ledges.heights[number]
+    higher = (numbers != number) & (tops > top_m + _ROUNDING_M)
+    if higher[meets].any():
+        return None
+    room = (u0, v0, _), (u1, v1, _) = near.cut(taken, higher)
+    ledge = ledges.stretch(number, foot, (min(u0, foot[0]), min(v0, foot[1]), max(u1, foot[2]), max(v1, foot[3])))
+    return None if ledge is None else Clearing(room, top_m, ledge)
+
+
+class _Near:
+    """The host's triangles around a guest: their `rows`, and the corners (n, 3) of their boxes, as (u, v, h)."""
+
+    def __init__(self, host: Body, own: Upright, taken: Room) -> None:
+        self._low, self._high = np.array(taken[0]) - SKIN_M, np.array(taken[1]) + SKIN_M
+        boxes, order = host.shape.boxes, [own.u, own.v, own.axis]
+        one = np.empty((2, 1, 3))
+        one[:, 0, order] = self._low, self._high
+        if own.sign < 0:
+            one[:, 0, own.axis] = -self._high[2], -self._low[2]
+        self.rows = boxes.meeting(Boxes(one[0], one[1]))
+        self.low, self.high = boxes.low[self.rows][:, order], boxes.high[self.rows][:, order]
+        if own.sign < 0:
+            self.low[:, 2], self.high[:, 2] = -self.high[:, 2], -self.low[:, 2]
+
+    def meets(self, taken: Room) -> NDArray[np.bool_]:
+        """Which of them (n,) meet a box, touching included."""
+        meets: NDArray[np.bool_] = np.all((self.low <= taken[1]) & (self.high >= taken[0]), axis=1)
+        return meets
+
+    def cut(self, taken: Room, others: NDArray[np.bool_] | slice = slice(None)) -> Room:
+        """A box around another, not beyond the surroundings, that meets none of the others, all of which are beside."""
+        sides = np.concatenate([self.low[others] - taken[1], taken[0] - self.high[others]], axis=1)
+        widest = sides.argmax(axis=1)
+        room = sides[np.arange(len(sides)), widest]
+        # A little less, so that rounding does not matter.
+        least = np.array([0.999 * room[widest == side].min(initial=np.inf) for side in range(6)])
+        high, low = np.minimum(self._high, taken[1] + least[:3]), np.maximum(self._low, taken[0] - least[3:])
+        (a, b, c), (d, e, f) = low.tolist(), high.tolist()
+        return (a, b, c), (d, e, f)

@@ -1,0 +1,28 @@
+"""A body's own box as another sees it, in plain numbers: it is asked for often, for one pair at a time."""
+
+from __future__ import annotations
+
+from scene2hap.contact.body import Body
+from scene2hap.contact.profile import Triple
+
+
+def middle_m(body: Body) -> Triple:
+    """The middle of a body's own box in the world [m]."""
+    (mx, my, mz), (x, y, z), ((a, b, c), (d, e, f), (g, h, i)) = body.shape.middle, body.position_m, body.stance.rows
+    return (x + a * mx + b * my + c * mz, y + d * mx + e * my + f * mz, z + g * mx + h * my + i * mz)
+
+
+def box_in_frame(guest: Body, host: Body) -> tuple[Triple, Triple]:
+    """Middle and half edges [m], along the host's axes, of a box that holds the guest's own."""
+    (x, y, z), (u, v, w), (p, q, r) = middle_m(guest), host.position_m, guest.shape.half
+    x, y, z = x - u, y - v, z - w
+    (a, b, c), (d, e, f), (g, h, i) = guest.stance.rows
+    (j, k, ll), (m, n, o), (s, t, u) = host.stance.rows
+    return (
+        (j * x + m * y + s * z, k * x + n * y + t * z, ll * x + o * y + u * z),
+        (
+            abs(j * a + m * d + s * g) * p + abs(j * b + m * e + s * h) * q + abs(j * c + m * f + s * i) * r,
+            abs(k * a + n * d + t * g) * p + abs(k * b + n * e + t * h) * q + abs(k * c + n * f + t * i) * r,
+            abs(ll * a + o * d + u * g) * p + abs(ll * b + o * e + u * h) * q + abs(ll * c + o * f + u * i) * r,
+        ),
+    )

@@ -1,0 +1,153 @@
+"""What is told of a guest's surroundings, against all the triangles of its host."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from contact_scenes import box, boxes, chair, house, pairs, scene
+from scene2hap.contact import finder, tie
+from scene2hap.contact.body import Body
+from scene2hap.contact.clearing import below, is_clear
+from scene2hap.contact.graph import ContactGraph
+from scene2hap.contact.narrow import Meeting
+from scene2hap.contact.support import fall_reach_m, falls, hang_reach_m
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import SceneObject
+
+HOUSE = house()
+SHELF = boxes("shelf", *(((0.8, 0.02, 0.4), (0.0, h, 0.0)) for h in (0.01, 0.4, 0.8)))
+
+
+def turned(angle: float) -> tuple[float, float, float, float]:
+    return (0.0, math.sin(angle / 2), 0.0, math.cos(angle / 2))
+
+
+PLACES = st.tuples(
+    st.floats(-1.6, 1.6),
+    st.sampled_from([0.0, 0.0, 0.004, 0.03, 0.12, 0.13, 0.6, 0.9, 0.91, 2.1]),
+    st.floats(-1.6, 1.6),
+)
+TURNS = st.sampled_from([0.0, 0.0, 0.5, math.pi / 2, 2.0])
+SIZES = st.sampled_from([(0.1, 0.1, 0.1), (0.3, 0.2, 0.1), (0.5, 0.02, 0.5)])
+
+
+@given(PLACES, TURNS, TURNS, SIZES, st.tuples(*[st.floats(-0.05, 0.05)] * 2))
+@settings(derandomize=True, deadline=None, max_examples=400)
+def test_what_is_told_is_what_triangles_tell(
+    at: tuple[float, float, float],
+    turn: float,
+    turn_of_all: float,
+    size: tuple[float, float, float],
+    step: tuple[float, float],
+) -> None:
+    """At a place, and at another near it where what is known of the first may still hold."""
+    all_of_it = Pose((0.3, 0.1, -0.2), turned(turn_of_all))
+    host = Body.of(replace(HOUSE, pose=all_of_it), 1)
+    for dx, dz in ((0.0, 0.0), step):
+        place = Pose((at[0] + dx, at[1] + size[1] / 2, at[2] + dz), turned(turn))
+        guest = Body.of(replace(box("guest", size, (0, 0, 0)), pose=all_of_it.compose(place)), 1)
+        reach_m = fall_reach_m(guest.size_m)
+        meeting = Meeting(guest, host)
+        told = falls(meeting, guest, host)
+        known = below(guest, host)
+        if known is not None and known.top_m is None:
+            assert told is None
+        elif known is not None and known.top_m is not None:
+            fall_m = guest.position_m[1] + guest.stance.footing.height - host.position_m[1] - known.top_m
+            if -0.004 <= fall_m <= reach_m - 1e-9:
+                assert told is not None
+                assert told.min() == pytest.approx(fall_m, abs=1e-9)
+        if is_clear(guest, host):
+            assert told is None
+            assert meeting.gap(hang_reach_m(guest.size_m)) is None
+
+
+def test_most_of_a_room_is_told_without_triangles(monkeypatch: pytest.MonkeyPatch) -> None:
+    met = []
+    near = Meeting.near
+    monkeypatch.setattr(Meeting, "near", lambda self, *a, **k: met.append(self) or near(self, *a, **k))  # type: ignore[func-returns-value]
+    graph = ContactGraph(scene(HOUSE, chair((-0.2, 0.0, 0.9)), box("pan", (0.2, 0.1, 0.2), (1.2, 0.955, 0.1))))
+    assert pairs(graph) == {("chair", "house"), ("house", "pan")}
+    for k in range(30):
+        graph.update(
+            {
+                "chair": Pose((-0.2 - 0.02 * k, 0.0, 0.9 - 0.04 * k)),
+                "pan": Pose((1.2, 1.1 + 0.01 * k, 0.1 - 0.03 * k)),
+            }
+        )
+    assert pairs(graph) == {("chair", "house")}
+    assert not met
+
+
+def test_a_thing_between_boards_stands_on_the_lower() -> None:
+    graph = ContactGraph(scene(SHELF, box("pot", (0.1, 0.1, 0.1), (0.1, 0.463, 0.0))))
+    (points, _), junction = graph.patch("pot", "shelf"), graph.junctions["pot", "shelf"]
+    assert junction.weights[0] == 1.0
+    assert junction.normals[0] == (0.0, -1.0, 0.0)
+    assert {tuple(p) for p in points.round(4).tolist()} == {
+        (x, -0.0515, z) for x in (-0.05, 0.05) for z in (-0.05, 0.05)
+    }
+
+
+def test_where_a_step_is_in_the_way_nothing_is_told() -> None:
+    host = Body.of(HOUSE, 1)
+    on_podium = Body.of(box("a", (0.2, 0.1, 0.2), (-1.1, 0.17, -1.1)), 1)
+    beside = Body.of(box("b", (0.2, 0.1, 0.2), (-0.55, 0.05, -1.1)), 1)
+    across = Body.of(box("c", (0.2, 0.1, 0.2), (-0.7, 0.17, -1.1)), 1)
+    known = below(on_podium, host)
+    assert known is not None
+    assert known.top_m == pytest.approx(0.12)
+    known = below(beside, host)
+    assert known is not None
+    assert known.top_m == 0.0
+    assert below(across, host) is None
+    assert not is_clear(on_podium, host)
+
+
+def test_a_leaning_host_tells_nothing() -> None:
+    leaning = Body.of(house((0.05, 0.0, 0.0, 1.0)), 1)
+    guest = Body.of(box("a", (0.2, 0.1, 0.2), (0.0, 1.0, 0.0)), 1)
+    assert below(guest, leaning) is None
+    assert not is_clear(guest, leaning)
+
+
+NAMES = ["crate", "chair", "pot", "stick", "mat"]
+MOVES = st.dictionaries(
+    st.sampled_from(NAMES), st.tuples(PLACES, TURNS, st.sampled_from([0.0, 0.0, 0.0, 0.2])), min_size=1, max_size=4
+)
+
+
+@given(MOVES, TURNS)
+@settings(derandomize=True, deadline=None, max_examples=150)
+def test_the_contacts_of_a_room_are_those_that_triangles_alone_tell(
+    moves: dict[str, tuple[tuple[float, float, float], float, float]], turn: float
+) -> None:
+    things: list[SceneObject] = [
+        HOUSE,
+        replace(SHELF, pose=Pose((-0.3, 0.0, -0.2), turned(turn))),
+        box("crate", (0.2, 0.2, 0.2), (-1.1, 0.22, -1.1)),
+        chair((-0.2, 0.0, 0.9)),
+        box("pot", (0.12, 0.1, 0.12), (-0.3, 0.46, -0.2)),
+        box("stick", (0.02, 0.5, 0.02), (1.0, 0.26, 0.2)),
+        box("mat", (0.6, 0.01, 0.6), (0.9, 0.005, -0.9)),
+    ]
+    for k, item in enumerate(things):
+        if item.id in moves:
+            (x, y, z), about, lean = moves[item.id]
+            y += 0.0 if item.id == "chair" else float(np.ptp(item.bounds_m, axis=0)[1]) / 2
+            rotation = Pose((0, 0, 0), turned(about)).compose(Pose((0, 0, 0), (lean, 0.0, 0.0, 1.0))).rotation_xyzw
+            things[k] = replace(item, pose=Pose((x, y, z), rotation))
+    told = ContactGraph(scene(*things))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(tie, "below", lambda guest, host: None)
+        patch.setattr(tie, "is_clear", lambda guest, host: False)
+        patch.setattr(finder, "is_clear", lambda guest, host: False)
+        alone = ContactGraph(scene(*things))
+    for pair in told.junctions.keys() | alone.junctions.keys():
+        one, other = (graph.junctions[pair].weights[0] if pair in graph.junctions else 0.0 for graph in (told, alone))
+        # A leaning thing's triangles are tried a little smaller, and hover so much higher.
+        assert one == pytest.approx(other, abs=0.06), pair
