@@ -22,6 +22,7 @@ from scene2hap.contact.enclosure import play_reach_m
 from scene2hap.contact.ledge import Flat, Upright
 from scene2hap.contact.profile import Triple
 from scene2hap.contact.relative import box_in_frame
+from scene2hap.contact.stance import Tray
 from scene2hap.contact.support import TOUCH_M, fall_reach_m, hang_reach_m, is_over
 
 SKIN_M = 0.06
@@ -32,6 +33,7 @@ _MANY_CORNERS = 8  # An outline of more is taken for a circle.
 # A guest is taken for this share smaller, by at most so much, so that what it is flush with is beside it.
 _INSET, _INSET_M = 1e-4, 1e-4
 _ROUNDING_M = 2e-6
+_MOST_SKEW = 1e-5  # A host turned by more about the vertical [rad] is not in line.
 
 Room = tuple[Triple, Triple]
 """Lowest and highest corners (u, v, h) of a box."""
@@ -46,6 +48,7 @@ class Clearing(NamedTuple):
     ledge: Flat
 
 
+NOWHERE: Room = (math.inf,) * 3, (-math.inf,) * 3
 _NO_LEDGE: Flat = (math.inf, math.inf, -math.inf, -math.inf)
 
 
@@ -75,7 +78,7 @@ def is_clear(guest: Body, host: Body) -> bool:
     if lean is None or lean.tilt * host.size_m > _MOST_TILT_M:
         return False
     (u0, v0, h0), (u1, v1, h1) = _column(guest, host, lean.own)
-    reach_m = max(TOUCH_M, play_reach_m(guest.size_m), hang_reach_m(guest.size_m))
+    reach_m = _reach_m(guest)
     taken = (u0 - reach_m, v0 - reach_m, h0 - reach_m), (u1 + reach_m, v1 + reach_m, h1 + reach_m)
     known = host.clearings.get(guest.id)
     if known is None or known.top_m is not None or not _holds(known.room, taken):
@@ -84,6 +87,54 @@ def is_clear(guest: Body, host: Body) -> bool:
             return False
         host.clearings[guest.id] = Clearing(near.cut(taken), None, _NO_LEDGE)
     return True
+
+
+def tray(host: Body, known: Clearing) -> Tray:
+    """The stretch of a ledge, turned as its host is; see `stance.Tray`."""
+    assert known.top_m is not None
+    lean, rows = host.stance.lean, host.stance.rows
+    assert lean is not None
+    v_axis, own = 3 - host.up_axis, lean.own
+    a, b, c, d = rows[0][own.u], rows[v_axis][own.u], rows[0][own.v], rows[v_axis][own.v]
+    u0, v0, u1, v1 = known.ledge
+    corners = tuple([(a * u + c * v, b * u + d * v) for u, v in ((u0, v0), (u1, v0), (u1, v1), (u0, v1))])
+    return Tray(corners, known.top_m, ((a, b, u0), (c, d, v0), (-a, -b, -u1), (-c, -d, -v1)))
+
+
+def open_box(guest: Body, host: Body, *, stands: bool) -> Room:
+    """Where in the world, by lowest and highest corners (x, y, z), a guest's box may be if it stands on the host's
+    ledge, or else if it is clear of it, as far as is known; `NOWHERE` too if the host is not in line with the world."""
+    known, lean, up = host.clearings.get(guest.id), host.stance.lean, host.up_axis
+    if known is None or lean is None or stands != (known.top_m is not None) or is_over(host, guest):
+        return NOWHERE
+    rows, own = host.stance.rows, lean.own
+    along = own.u if abs(rows[0][own.u]) > abs(rows[0][own.v]) else own.v
+    across = own.u + own.v - along
+    skew = abs(rows[0][across])
+    if skew > _MOST_SKEW:
+        return NOWHERE
+    spare_m = _ROUNDING_M + (skew + lean.tilt) * host.size_m
+    reach_m = spare_m if stands else spare_m + _reach_m(guest)
+    low, high = [0.0] * 3, [0.0] * 3
+    for axis, (k, sign) in {
+        0: (along != own.u, rows[0][along]),
+        3 - up: (across != own.u, rows[3 - up][across]),
+    }.items():
+        ends = known.room[0][k], known.room[1][k]
+        if sign < 0:
+            ends = -ends[1], -ends[0]
+        low[axis], high[axis] = host.position_m[axis] + ends[0] + reach_m, host.position_m[axis] + ends[1] - reach_m
+    h = host.position_m[up]
+    low[up] = h + known.room[0][2] + fall_reach_m(guest.size_m) + TOUCH_M + reach_m
+    # Lower than this the host might be what falls.
+    low[up] = max(low[up], host.low[up] - TOUCH_M + spare_m)
+    high[up] = h + known.room[1][2] - reach_m
+    return (low[0], low[1], low[2]), (high[0], high[1], high[2])
+
+
+def _reach_m(guest: Body) -> float:
+    """How near to a guest the host may have nothing for it to be clear."""
+    return max(TOUCH_M, play_reach_m(guest.size_m), hang_reach_m(guest.size_m))
 
 
 def _column(guest: Body, host: Body, own: Upright) -> Room:

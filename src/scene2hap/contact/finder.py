@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from scene2hap.contact.body import Body
 from scene2hap.contact.bond import NO_BOND, NO_WAY, Bond, Plan, direction, strength, triple
 from scene2hap.contact.clearing import is_clear
-from scene2hap.contact.crowd import Crowd
+from scene2hap.contact.crowd import Crowd, Room
 from scene2hap.contact.cuboid_meeting import gaps_of, points_of
 from scene2hap.contact.glide import Drift, Glide
 from scene2hap.contact.junction import Junction, Pair, pair_of
@@ -110,10 +110,7 @@ class ContactFinder:
         found.update(self._junctions(dirty))
         for x in seen:
             if not self._ties[x]:
-                room, near = self._crowd.room, self._crowd.near[x]
-                reach_m = sum(self._margins_m(bodies[x]))
-                others = [(room(z), max(reach_m, sum(self._margins_m(bodies[z])))) for z in near]
-                self._glides[x] = Drift(bodies[x], room(x), others)
+                self._glides[x] = Drift.of(bodies[x], self._crowd.room(x), self._around(x))
 
     def _margins_m(self, body: Body) -> tuple[float, float]:
         """How far a body may touch or hang from others, and how much farther it may fall."""
@@ -158,18 +155,21 @@ class ContactFinder:
         slid = slide(body, support)
         if slid is None:
             return False
-        rest, points = slid
-        tie.slide(body, rest, is_a)
-        n = len(points)
-        found[(x, y) if is_a else (y, x)] = Junction(points, _ONES[:n], bond.normals[:n])
+        tie.slide(body, slid.rest, is_a)
+        n = len(slid.points)
+        found[(x, y) if is_a else (y, x)] = Junction(slid.points, _ONES[:n], bond.normals[:n])
         glide = self._glides.get(x)
-        if not isinstance(glide, Glide) or glide.refused > _VAIN:
-            room, near = self._crowd.room, self._crowd.near[x]
-            others = [room(z) for z in near if z != y]
-            self._glides[x] = Glide(body, tie, bond.normal, room(x), others, TOUCH_M)
-        else:
+        if isinstance(glide, Glide) and glide.refused <= _VAIN and glide.tray == slid.tray:
             glide.resume(body)
+        else:
+            room = self._crowd.room(x)
+            self._glides[x] = Glide.of(body, tie, slid, bond.normal, room, self._around(x))
         return True
+
+    def _around(self, x: str) -> list[tuple[Body, Room]]:
+        """The neighbours of a body, and where each may move."""
+        room, bodies = self._crowd.room, self._bodies
+        return [(bodies[z], room(z)) for z in self._crowd.near[x]]
 
     def _stands_alone(self, body: Body, support: str) -> bool:
         """Whether all neighbours but its support are beside a body, and none may hang from it."""
@@ -183,9 +183,10 @@ class ContactFinder:
             other = bodies[z]
             low, high = other.low, other.high
             if x0 > high[0] or low[0] > x3 or x2 > high[flat] or low[flat] > x5:
-                if z in loose and size_m > other.size_m:
-                    return False
-            elif z != support or (z in loose and size_m > other.size_m):
+                is_in_the_way = False
+            else:
+                is_in_the_way = z != support and (size_m >= other.size_m or not is_clear(body, other))
+            if is_in_the_way or (z in loose and size_m > other.size_m):
                 return False
         return True
 

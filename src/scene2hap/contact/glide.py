@@ -9,16 +9,18 @@ Where a step is not surely one of these, it is refused, and nothing done.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from scene2hap.contact.body import Body
+from scene2hap.contact.clearing import NOWHERE, open_box
 from scene2hap.contact.crowd import Room
 from scene2hap.contact.junction import Junction, Pair
+from scene2hap.contact.ledge import Flat
 from scene2hap.contact.level import Rest
 from scene2hap.contact.profile import Triple
-from scene2hap.contact.stance import Stance
-from scene2hap.contact.support import fall_reach_m
-from scene2hap.contact.tie import SURE_M, Tie
+from scene2hap.contact.stance import Stance, Tray
+from scene2hap.contact.support import TOUCH_M, fall_reach_m, hang_reach_m
+from scene2hap.contact.tie import SURE_M, Slide, Tie
 from scene2hap.scene.pose import Pose
 
 _new = tuple.__new__
@@ -28,7 +30,8 @@ _ONES = (1.0,) * 4
 class Glide:
     """A body that slides on another.
 
-    `on` is the other's id; `body` is changed in place as it goes along; `refused` counts its owner's vain attempts.
+    `on` is the other's id, `tray` what of it is below; `body` is changed in place as it goes; `refused` counts its
+    owner's vain attempts.
     """
 
     __slots__ = (
@@ -36,11 +39,11 @@ class Glide:
         "_flat",
         "_is_a",
         "_lane",
+        "_middle_m",
         "_most_m",
         "_normals",
         "_reach",
         "_stance",
-        "_support_middle",
         "_tie",
         "_top_m",
         "_up",
@@ -49,27 +52,57 @@ class Glide:
         "on",
         "pair",
         "refused",
+        "tray",
     )
 
     def __init__(
-        self, body: Body, tie: Tie, normal: Triple | None, zone: Room, others: Iterable[Room], margin_m: float
+        self, body: Body, tie: Tie, tray: Tray, normal: Triple | None, zone: Room, lane: Flat, middle_m: float
     ) -> None:
         self.body, self._tie, self._is_a = body, tie, body.id == tie.a.id
         support = tie.b if self._is_a else tie.a
         self.pair: Pair = (tie.a.id, tie.b.id)
         self.on = support.id
+        self.tray = tray
         self._stance, self._up, self._flat = body.stance, body.up_axis, body.stance.v_axis
-        footing, tray = body.stance.footing, support.stance.tray
-        assert tray is not None
-        self._normals = (normal,) * len(footing.points)
+        self._normals = (normal,) * len(body.stance.footing.points)
         self._fall_m, self._most_m = math.nan, 2 / 3 * fall_reach_m(body.size_m)
         self._top_m = support.position_m[self._up] + tray.height
-        self._support_middle = support.low[self._up] + support.high[self._up]
+        self._middle_m = middle_m
         u, v = support.position_m[0], support.position_m[self._flat]
         self._reach = tuple([(nu, nv, offset + nu * u + nv * v) for nu, nv, offset in tray.edges])
-        self._zone = zone
+        self._zone, self._lane = zone, lane
         self.refused = 0
-        self._lane = _lane(body, zone, others, self._flat, margin_m)
+
+    @classmethod
+    def of(
+        cls,
+        body: Body,
+        tie: Tie,
+        slide: Slide,
+        normal: Triple | None,
+        zone: Room,
+        around: Iterable[tuple[Body, Room]],
+    ) -> Glide:
+        """The glide of a body that slides so, may move in a zone, and has such neighbours, each of which may move in
+        its own. It goes nowhere unless boxes tell where."""
+        support = tie.b if body.id == tie.a.id else tie.a
+        middle_m, opens, others = support.low[body.up_axis] + support.high[body.up_axis], [zone], []
+        if slide.is_ledge:
+            least_m = slide.rest.top_m + SURE_M
+            opens.append(open_box(body, support, stands=True))
+            # As `is_over` tells, for all heights of a slide.
+            if least_m > support.low[body.up_axis] + TOUCH_M:
+                middle_m = -math.inf
+            elif least_m < support.high[body.up_axis] - TOUCH_M:
+                opens.append(NOWHERE)
+        for other, room in around:
+            if other.id != support.id:
+                if max(_sideways_m(body, room)) > TOUCH_M:
+                    others.append(room)
+                else:
+                    opens.append(open_box(body, other, stands=False))
+        zone = _common(opens)
+        return cls(body, tie, slide.tray, normal, zone, _lane(body, zone, others), middle_m)
 
     def resume(self, body: Body) -> None:
         """Go on from where another way has brought the body."""
@@ -93,7 +126,7 @@ class Glide:
             return False
         down, over = low[up], high[up]
         zone_low, zone_high = self._zone
-        if down < zone_low[up] or over > zone_high[up] or down + over <= self._support_middle:
+        if down < zone_low[up] or over > zone_high[up] or down + over <= self._middle_m:
             return False
         points, sole, (mu, mv), radius, _ = stance.footing
         h, u, v = position_m[up], x, position_m[flat]
@@ -127,9 +160,22 @@ class Drift:
 
     __slots__ = ("_high", "_low", "body", "on", "refused")
 
-    def __init__(self, body: Body, zone: Room, others: Iterable[tuple[Room, float]]) -> None:
+    def __init__(self, body: Body, free: Room) -> None:
         self.body, self.on, self.refused = body, "", 0
-        self._low, self._high = _free_box(body, zone, others)
+        self._low, self._high = free
+
+    @classmethod
+    def of(cls, body: Body, zone: Room, around: Iterable[tuple[Body, Room]]) -> Drift:
+        """The drift of a body that touches nothing, may move in a zone, and has such neighbours, each of which may move
+        in its own. It goes nowhere unless boxes tell where."""
+        opens, others, reach_m = [zone], [], _margin_m(body)
+        for other, room in around:
+            margin_m = max(reach_m, _margin_m(other))
+            if max(_gaps_m(body, room)) > margin_m:
+                others.append((room, margin_m))
+            else:
+                opens.append(open_box(body, other, stands=False))
+        return cls(body, _free_box(body, _common(opens), others))
 
     def step(self, pose: Pose, _: dict[Pair, Junction | None]) -> bool:
         """Whether the body is still far from all after a step."""
@@ -154,53 +200,59 @@ def _place(body: Body, pose: Pose, stance: Stance, low: Triple, high: Triple) ->
         body.__dict__.clear()
 
 
-_NOWHERE = ((1.0, 1.0, 1.0), (0.0, 0.0, 0.0))
+def _common(rooms: Sequence[Room]) -> Room:
+    """What of the world lies in all of these boxes, which need not meet."""
+    (a, b, c), (d, e, f) = rooms[0]
+    for (g, h, i), (j, k, m) in rooms[1:]:
+        a, b, c, d, e, f = max(a, g), max(b, h), max(c, i), min(d, j), min(e, k), min(f, m)
+    return (a, b, c), (d, e, f)
+
+
+def _sideways_m(body: Body, room: Room) -> tuple[float, float, float, float]:
+    """How far a box is beyond a body, level: towards greater u, less u, greater v, less v."""
+    flat, (low, high), near, far = body.stance.v_axis, room, body.low, body.high
+    return (low[0] - far[0], near[0] - high[0], low[flat] - far[flat], near[flat] - high[flat])
+
+
+def _gaps_m(body: Body, room: Room) -> list[float]:
+    """How far a box is beyond a body: towards greater and then towards less x, y, z."""
+    (low, high), near, far = room, body.low, body.high
+    return [low[k] - far[k] for k in range(3)] + [near[k] - high[k] for k in range(3)]
+
+
+def _margin_m(body: Body) -> float:
+    return max(TOUCH_M, hang_reach_m(body.size_m)) + fall_reach_m(body.size_m)
 
 
 def _free_box(body: Body, zone: Room, others: Iterable[tuple[Room, float]]) -> Room:
-    """Where a body is in its zone and surely farther from the zones of others than told with each."""
+    """Where a body is in its zone and surely farther from the boxes of others than told with each, as it is now."""
     low, high = list(zone[0]), list(zone[1])
-    near, far = body.low, body.high
-    for (other_low, other_high), margin_m in others:
-        gaps = [other_low[k] - far[k] for k in range(3)] + [near[k] - other_high[k] for k in range(3)]
-        widest = max(gaps)
-        if widest <= margin_m:
-            return _NOWHERE
-        side = gaps.index(widest)
+    for room, margin_m in others:
+        gaps = _gaps_m(body, room)
+        side = gaps.index(max(gaps))
         # A little more than the margin, so that rounding does not matter.
         if side < 3:
-            high[side] = min(high[side], other_low[side] - 1.001 * margin_m)
+            high[side] = min(high[side], room[0][side] - 1.001 * margin_m)
         else:
-            low[side - 3] = max(low[side - 3], other_high[side - 3] + 1.001 * margin_m)
+            low[side - 3] = max(low[side - 3], room[1][side - 3] + 1.001 * margin_m)
     return (low[0], low[1], low[2]), (high[0], high[1], high[2])
 
 
-def _lane(
-    body: Body, zone: Room, others: Iterable[Room], flat: int, margin_m: float
-) -> tuple[float, float, float, float]:
-    """Where a body is in its zone and surely beside the zones of others: least and greatest u and v, as (u0, v0, u1,
-    v1); nowhere if there is no such place."""
-    (low, high), near, far = zone, body.low, body.high
+def _lane(body: Body, zone: Room, others: Iterable[Room]) -> Flat:
+    """Where a body is in its zone and surely beside the boxes of others, as it is now."""
+    flat, (low, high) = body.stance.v_axis, zone
     u0, v0, u1, v1 = low[0], low[flat], high[0], high[flat]
-    for other_low, other_high in others:
-        gaps = (
-            other_low[0] - far[0],
-            near[0] - other_high[0],
-            other_low[flat] - far[flat],
-            near[flat] - other_high[flat],
-        )
-        widest = max(gaps)
-        if widest <= margin_m:
-            return (1.0, 1.0, 0.0, 0.0)
-        side = gaps.index(widest)
-        # A little more than the margin, so that rounding does not matter.
-        room_m = margin_m * 1.001
+    # A little more than the margin, so that rounding does not matter.
+    margin_m = 1.001 * TOUCH_M
+    for room in others:
+        gaps = _sideways_m(body, room)
+        side = gaps.index(max(gaps))
         if side == 0:
-            u1 = min(u1, other_low[0] - room_m)
+            u1 = min(u1, room[0][0] - margin_m)
         elif side == 1:
-            u0 = max(u0, other_high[0] + room_m)
+            u0 = max(u0, room[1][0] + margin_m)
         elif side == 2:
-            v1 = min(v1, other_low[flat] - room_m)
+            v1 = min(v1, room[0][flat] - margin_m)
         else:
-            v0 = max(v0, other_high[flat] + room_m)
+            v0 = max(v0, room[1][flat] + margin_m)
     return (u0, v0, u1, v1)

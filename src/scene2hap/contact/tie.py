@@ -7,17 +7,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.clearing import below, is_clear
+from scene2hap.contact.clearing import tray as clearing_tray
 from scene2hap.contact.cuboid_meeting import gaps_of, points_of
 from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.level import Aside, Rest, aside, rest_on
 from scene2hap.contact.narrow import Gap, Meeting
 from scene2hap.contact.profile import Floats, Triple
+from scene2hap.contact.stance import Tray
 from scene2hap.contact.support import HANG_REACH_M, TOUCH_M, fall_reach_m, falls, is_over
 
 # Above this a fall is surely none of a thing that stands in another: tops and soles may be 0.2 mm uneven each.
@@ -189,30 +191,52 @@ def roles(x: Body, y: Body) -> tuple[Body, Body]:
     return (x, y) if (x.size_m, y.id) < (y.size_m, x.id) else (y, x)
 
 
-def slide(x: Body, y: Body) -> tuple[Rest, tuple[Triple, ...]] | None:
-    """How and where x lies on y if it does so wholly, without doubt and with full weight; else None: `Tie` must tell.
+class Slide(NamedTuple):
+    """How and where x lies wholly on y, and on what of it."""
 
-    The same as `rest_on` and `rest_points`, in one go.
+    rest: Rest
+    points: tuple[Triple, ...]
+    tray: Tray
+    is_ledge: bool
+
+
+def slide(x: Body, y: Body) -> Slide | None:
+    """How x lies on y if it does so wholly, without doubt and with full weight; else None: `Tie` must tell.
+
+    The same as `Tie.rest` and `rest_points`, in one go.
     """
     up = x.up_axis
-    sole, tray = x.stance.footing, y.stance.tray
-    if tray is None:
-        return None
-    points, sole_height, (mu, mv), radius, _ = sole
+    points, sole_height, (mu, mv), radius, _ = x.stance.footing
     px, py, v_axis = x.position_m, y.position_m, x.stance.v_axis
-    u, v, h, top_m = px[0], px[v_axis], px[up], py[up] + tray.height
+    u, v, h, over = px[0], px[v_axis], px[up], py[up]
+    tray, is_ledge = y.stance.tray, False
+    if tray is None or h + sole_height - (over + tray.height) < -TOUCH_M:
+        tray, is_ledge = _ledge(x, y), True
+        if tray is None:
+            return None
+    top_m = over + tray.height
     fall_m = h + sole_height - top_m
-    if not SURE_M < fall_m < 2 / 3 * fall_reach_m(x.size_m) or x.low[up] + x.high[up] <= y.low[up] + y.high[up]:
+    if not SURE_M < fall_m < 2 / 3 * fall_reach_m(x.size_m) or not is_over(x, y):
         return None
-    cu, cv = mu + (u - py[0]), mv + (v - py[v_axis])
-    for nu, nv, offset in tray.edges:
-        if nu * cu + nv * cv - offset < radius:
-            rest = rest_on(x, y)
-            if rest is None or not rest.wholly:
-                return None
-            break
+    if not is_ledge:
+        cu, cv = mu + (u - py[0]), mv + (v - py[v_axis])
+        for nu, nv, offset in tray.edges:
+            if nu * cu + nv * cv - offset < radius:
+                rest = rest_on(x, y)
+                if rest is None or not rest.wholly:
+                    return None
+                break
     # The same arithmetic as in `rest_points`, so that the last bits are those of building from nothing.
     height = (h + sole_height + top_m) / 2
     if up == 1:
-        return Rest(fall_m, True, top_m), tuple([(u + pu, height, v + pv) for pu, pv in points])
-    return Rest(fall_m, True, top_m), tuple([(u + pu, v + pv, height) for pu, pv in points])
+        places = tuple([(u + pu, height, v + pv) for pu, pv in points])
+    else:
+        places = tuple([(u + pu, v + pv, height) for pu, pv in points])
+    return Slide(Rest(fall_m, True, top_m), places, tray, is_ledge)
+
+
+def _ledge(x: Body, y: Body) -> Tray | None:
+    """The ledge of y that is wholly under x."""
+    guest, host = roles(x, y)
+    known = below(guest, host) if guest is x else None
+    return None if known is None or known.top_m is None else clearing_tray(host, known)
