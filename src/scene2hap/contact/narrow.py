@@ -27,6 +27,7 @@ ROUNDING_M = 1e-9
 """Below this a gap is rounding."""
 
 _BATCH = 4096  # Triangle pairs in the kernel at once: some 10 MB.
+_FIRST = 64  # So many are asked for the least distance first, then 8 times more, since that may spare most others.
 
 
 class Gap(NamedTuple):
@@ -84,7 +85,9 @@ class Meeting:
         best = within_m = max(within_m, ROUNDING_M)
         found: tuple[Floats, Floats] | None = None
         for pairs in self.near(within_m):
-            for p, q in _nearest_first(pairs, best):
+            queue = _Queue(pairs)
+            while (rows := queue.next(best)) is not None:
+                p, q = pairs.guest[rows], pairs.host[rows]
                 near = plane_gap(p, q) <= best
                 if not near.any():
                     continue
@@ -163,12 +166,20 @@ def _along(boxes: Boxes, way: Floats, sweep: bool) -> Boxes:
     return boxes.swept(way) if sweep else Boxes(boxes.low + way, boxes.high + way)
 
 
-def _nearest_first(pairs: Near, within_m: float) -> Iterator[tuple[Floats, Floats]]:
-    """The pairs in batches, those with the nearest boxes first, so that later ones are out of reach of the best."""
-    a, b = boxes_of(pairs.guest), boxes_of(pairs.host)
-    apart = np.linalg.norm(np.maximum(np.maximum(a.low - b.high, b.low - a.high), 0.0), axis=1)
-    order = np.argsort(apart, kind="stable")
-    order = order[: int(np.searchsorted(apart[order], within_m, "right"))]
-    for start in range(0, len(order), _BATCH):
-        rows = order[start : start + _BATCH]
-        yield pairs.guest[rows], pairs.host[rows]
+class _Queue:
+    """Pairs in batches, those with the nearest boxes first and a few to begin with, so that later ones are out of reach
+    of the best."""
+
+    def __init__(self, pairs: Near) -> None:
+        a, b = boxes_of(pairs.guest), boxes_of(pairs.host)
+        apart = np.linalg.norm(np.maximum(np.maximum(a.low - b.high, b.low - a.high), 0.0), axis=1)
+        self._order = np.argsort(apart, kind="stable")
+        self._apart = apart[self._order]
+        self._start, self._n = 0, _FIRST
+
+    def next(self, within_m: float) -> Indices | None:
+        """The next rows whose boxes are within reach, None if there are no more."""
+        start = self._start
+        self._start = min(start + self._n, int(np.searchsorted(self._apart, within_m, "right")))
+        self._n = min(8 * self._n, _BATCH)
+        return self._order[start : self._start] if self._start > start else None
