@@ -44,6 +44,10 @@ class Boxes(NamedTuple):
         """The one box (1, 3) around all of them; at least one there must be."""
         return Boxes(self.low.min(axis=0, keepdims=True), self.high.max(axis=0, keepdims=True))
 
+    def common(self, other: Boxes) -> Boxes:
+        """What lies both in one of the boxes and in its counterpart, or in the other's only one; they must meet."""
+        return Boxes(np.maximum(self.low, other.low), np.minimum(self.high, other.high))
+
     def meeting(self, one: Boxes, among: NDArray[np.bool_] | None = None) -> Indices:
         """Rows of the boxes that meet the single box `one`, touching included, among those marked (n,) or all."""
         near = (self.low[:, 0] <= one.high[0, 0]) & (self.high[:, 0] >= one.low[0, 0])

@@ -79,6 +79,10 @@ class Meeting:
         host, guest = self.host.pose, self.guest.pose
         self._rotation: Floats = host.rotation.T @ guest.rotation
         self._position: Floats = host.to_own(np.asarray(guest.position_m))
+        box = self.guest.shape.box
+        middle, half = (box.low + box.high) / 2 @ self._rotation.T + self._position, (box.high - box.low) / 2
+        half = half @ np.abs(self._rotation.T)
+        self._around_guest = Boxes(middle - half, middle + half)
 
     def gap(self, within_m: float) -> Gap | None:
         """The least distance, if it is at most `within_m`."""
@@ -140,16 +144,22 @@ class Meeting:
         """
         way = np.zeros(3) if way is None else way
         guest, host = self.guest.shape, self.host.shape
-        reach = self._in_guest_frame(_along(host.box.grown(within_m), -way, sweep))
-        guest_rows = guest.boxes.meeting(reach, guest_only)
+        # By one box first: of a room, next to nothing is near a thing in it, and of that thing what is near to that.
+        around = _along(self._around_guest.grown(within_m), way, sweep)
+        host_rows = host.boxes.meeting(around, host_only)
+        if not len(host_rows):
+            return
+        resting = host.boxes.rows(host_rows)
+        reach = _along(resting.hull().common(around).grown(within_m), -way, sweep)
+        guest_rows = guest.boxes.meeting(self._in_guest_frame(reach), guest_only)
         if not len(guest_rows):
             return
         corners = guest.triangles[guest_rows] @ self._rotation.T + self._position
         moving = _along(boxes_of(corners).grown(within_m), way, sweep)
-        host_rows = host.boxes.meeting(moving.hull(), host_only)
-        if not len(host_rows):
+        closer = resting.meeting(moving.hull())
+        if not len(closer):
             return
-        resting = host.boxes.rows(host_rows)
+        host_rows, resting = host_rows[closer], resting.rows(closer)
         again = moving.meeting(resting.hull())
         for i, j in box_pairs(moving.rows(again), resting):
             if len(i):
