@@ -228,7 +228,8 @@ class ContactFinder:
                 self._ties.setdefault(y, {})[x] = tie
                 self._stop(x, y)
                 dirty.add(pair_of(x, y))
-            if tie.rest(y) is not None or (old is not None and old.rest(y) is not None) or y in loose:
+            may_hang = y in loose and body.size_m > other.size_m
+            if may_hang or tie.rest(y) is not None or (old is not None and old.rest(y) is not None):
                 unsure.add(y)
 
     def _tell_cuboids_apart(self, moved: Iterable[str]) -> None:
