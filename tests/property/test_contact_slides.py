@@ -41,6 +41,9 @@ INSIDE = [
     mug((1.2, 0.95, 0.1)),
     boxes("shelf", *(((0.6, 0.02, 0.3), (0.0, h, 0.0)) for h in (0.01, 0.4, 0.8)), at_m=(0.3, 0.002, -1.0)),
     box("pot", (0.12, 0.1, 0.12), (0.3, 0.465, -1.0)),
+    # A frame without a bottom that is pushed about with and without the ball of wool in it.
+    boxes("pen", *(((0.02, 0.2, 0.8), (x, 0.1, 0.0)) for x in (-0.4, 0.4)), at_m=(1.0, 0.0, -0.9)),
+    box("wool", (0.1, 0.1, 0.1), (1.0, 0.05, -0.9)),
     box("stick", (0.02, 0.5, 0.02), (0.2, 0.26, 0.2), (0.05, 0.0, 0.02, 1.0)),
 ]
 INSIDE[4] = replace(INSIDE[4], pose=Pose(INSIDE[4].pose.position_m, (0.0, np.sin(0.2), 0.0, np.cos(0.2))))

@@ -7,7 +7,7 @@ alone, so that moving step by step ends exactly where building from nothing does
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.bond import NO_BOND, NO_WAY, Bond, Plan, direction, strength, triple
@@ -52,9 +52,11 @@ class ContactFinder:
         # Those that nothing wholly supports, so that larger things near them may bear on how they hang.
         self._loose: set[str] = set()
         self._glides: dict[str, Glide | Drift] = {}
+        # By host, whose glides end when it moves.
+        self._guests: dict[str, set[str]] = {}
 
     def replace(
-        self, moved: Mapping[str, Pose], added: Sequence[SceneObject] = (), gone: Iterable[str] = ()
+        self, moved: Mapping[str, Pose], added: Sequence[SceneObject] = (), gone: Collection[str] = ()
     ) -> dict[Pair, Junction | None]:
         """Take things out, in, and elsewhere.
 
@@ -63,6 +65,8 @@ class ContactFinder:
         bodies, glides = self._bodies, self._glides
         found: dict[Pair, Junction | None] = {}
         placed = []
+        if self._guests:
+            self._stop_in(moved.keys() & self._guests.keys())
         for x, pose in moved.items():
             glide = glides.get(x)
             if glide is not None and glide.on not in moved:
@@ -75,11 +79,12 @@ class ContactFinder:
             self._take_in(placed, gone, found)
         return found
 
-    def _take_in(self, placed: Sequence[Body], gone: Iterable[str], found: dict[Pair, Junction | None]) -> None:
+    def _take_in(self, placed: Sequence[Body], gone: Collection[str], found: dict[Pair, Junction | None]) -> None:
         """The long way."""
         bodies = self._bodies
         dirty: set[Pair] = set()
         unsure: set[str] = set()
+        self._stop_in(self._guests.keys() & gone)
         for x in gone:
             del bodies[x]
             for y in self._crowd.take_out(x):
@@ -110,7 +115,7 @@ class ContactFinder:
         found.update(self._junctions(dirty))
         for x in seen:
             if not self._ties[x]:
-                self._glides[x] = Drift.of(bodies[x], self._crowd.room(x), self._around(x))
+                self._keep(Drift.of(bodies[x], self._crowd.room(x), self._around(x)))
 
     def _margins_m(self, body: Body) -> tuple[float, float]:
         """How far a body may touch or hang from others, and how much farther it may fall."""
@@ -162,9 +167,18 @@ class ContactFinder:
         if isinstance(glide, Glide) and glide.refused <= _VAIN and glide.tray == slid.tray:
             glide.resume(body)
         else:
-            room = self._crowd.room(x)
-            self._glides[x] = Glide.of(body, tie, slid, bond.normal, room, self._around(x))
+            self._keep(Glide.of(body, tie, slid, bond.normal, self._crowd.room(x), self._around(x)))
         return True
+
+    def _keep(self, glide: Glide | Drift) -> None:
+        self._glides[glide.body.id] = glide
+        for host in glide.hosts:
+            self._guests.setdefault(host, set()).add(glide.body.id)
+
+    def _stop_in(self, hosts: Iterable[str]) -> None:
+        for host in hosts:
+            for x in self._guests.pop(host):
+                self._glides.pop(x, None)
 
     def _around(self, x: str) -> list[tuple[Body, Room]]:
         """The neighbours of a body, and where each may move."""

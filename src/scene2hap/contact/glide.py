@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterable, Sequence
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.clearing import NOWHERE, open_box
+from scene2hap.contact.clearing import open_box
 from scene2hap.contact.crowd import Room
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.ledge import Flat
@@ -30,8 +30,8 @@ _ONES = (1.0,) * 4
 class Glide:
     """A body that slides on another.
 
-    `on` is the other's id, `tray` what of it is below; `body` is changed in place as it goes; `refused` counts its
-    owner's vain attempts.
+    `on` is the other's id, `tray` what of it is below; `hosts` are those in whose clearings it goes on, as long as they
+    stay where they are; `body` is changed in place as it goes; `refused` counts its owner's vain attempts.
     """
 
     __slots__ = (
@@ -49,6 +49,7 @@ class Glide:
         "_up",
         "_zone",
         "body",
+        "hosts",
         "on",
         "pair",
         "refused",
@@ -56,7 +57,15 @@ class Glide:
     )
 
     def __init__(
-        self, body: Body, tie: Tie, tray: Tray, normal: Triple | None, zone: Room, lane: Flat, middle_m: float
+        self,
+        body: Body,
+        tie: Tie,
+        tray: Tray,
+        normal: Triple | None,
+        zone: Room,
+        lane: Flat,
+        middle_m: float,
+        hosts: Sequence[str],
     ) -> None:
         self.body, self._tie, self._is_a = body, tie, body.id == tie.a.id
         support = tie.b if self._is_a else tie.a
@@ -71,7 +80,7 @@ class Glide:
         u, v = support.position_m[0], support.position_m[self._flat]
         self._reach = tuple([(nu, nv, offset + nu * u + nv * v) for nu, nv, offset in tray.edges])
         self._zone, self._lane = zone, lane
-        self.refused = 0
+        self.hosts, self.refused = hosts, 0
 
     @classmethod
     def of(
@@ -86,23 +95,26 @@ class Glide:
         """The glide of a body that slides so, may move in a zone, and has such neighbours, each of which may move in
         its own. It goes nowhere unless boxes tell where."""
         support = tie.b if body.id == tie.a.id else tie.a
-        middle_m, opens, others = support.low[body.up_axis] + support.high[body.up_axis], [zone], []
+        middle_m = support.low[body.up_axis] + support.high[body.up_axis]
+        opens, others, hosts = [zone], [], []
         if slide.is_ledge:
-            least_m = slide.rest.top_m + SURE_M
             opens.append(open_box(body, support, stands=True))
-            # As `is_over` tells, for all heights of a slide.
-            if least_m > support.low[body.up_axis] + TOUCH_M:
+            # As `is_over` tells, for all heights of a slide: with a higher bottom, over all of it, or all in it.
+            up, least_m = body.up_axis, slide.rest.top_m + SURE_M
+            if least_m > support.low[up] + TOUCH_M:
                 middle_m = -math.inf
-            elif least_m < support.high[body.up_axis] - TOUCH_M:
-                opens.append(NOWHERE)
+            elif least_m < support.high[up] - TOUCH_M:
+                middle_m = -math.inf
+                opens.append(_all_in(body, support))
         for other, room in around:
             if other.id != support.id:
                 if max(_sideways_m(body, room)) > TOUCH_M:
                     others.append(room)
                 else:
                     opens.append(open_box(body, other, stands=False))
+                    hosts.append(other.id)
         zone = _common(opens)
-        return cls(body, tie, slide.tray, normal, zone, _lane(body, zone, others), middle_m)
+        return cls(body, tie, slide.tray, normal, zone, _lane(body, zone, others), middle_m, hosts)
 
     def resume(self, body: Body) -> None:
         """Go on from where another way has brought the body."""
@@ -158,24 +170,25 @@ class Glide:
 class Drift:
     """A body far from all others, in the air, that touches nothing and holds nothing."""
 
-    __slots__ = ("_high", "_low", "body", "on", "refused")
+    __slots__ = ("_high", "_low", "body", "hosts", "on", "refused")
 
-    def __init__(self, body: Body, free: Room) -> None:
-        self.body, self.on, self.refused = body, "", 0
+    def __init__(self, body: Body, free: Room, hosts: Sequence[str]) -> None:
+        self.body, self.hosts, self.on, self.refused = body, hosts, "", 0
         self._low, self._high = free
 
     @classmethod
     def of(cls, body: Body, zone: Room, around: Iterable[tuple[Body, Room]]) -> Drift:
         """The drift of a body that touches nothing, may move in a zone, and has such neighbours, each of which may move
         in its own. It goes nowhere unless boxes tell where."""
-        opens, others, reach_m = [zone], [], _margin_m(body)
+        opens, others, hosts, reach_m = [zone], [], [], _margin_m(body)
         for other, room in around:
             margin_m = max(reach_m, _margin_m(other))
             if max(_gaps_m(body, room)) > margin_m:
                 others.append((room, margin_m))
             else:
                 opens.append(open_box(body, other, stands=False))
-        return cls(body, _free_box(body, _common(opens), others))
+                hosts.append(other.id)
+        return cls(body, _free_box(body, _common(opens), others), hosts)
 
     def step(self, pose: Pose, _: dict[Pair, Junction | None]) -> bool:
         """Whether the body is still far from all after a step."""
@@ -206,6 +219,14 @@ def _common(rooms: Sequence[Room]) -> Room:
     for (g, h, i), (j, k, m) in rooms[1:]:
         a, b, c, d, e, f = max(a, g), max(b, h), max(c, i), min(d, j), min(e, k), min(f, m)
     return (a, b, c), (d, e, f)
+
+
+def _all_in(body: Body, support: Body) -> Room:
+    """Where a body is all in another, with a bottom as low at least and a top that is higher than that."""
+    up, low = body.up_axis, list(support.low)
+    height_m = body.high[up] - body.low[up]
+    low[up] += max(-TOUCH_M, 1.001 * TOUCH_M - height_m)
+    return (low[0], low[1], low[2]), support.high
 
 
 def _sideways_m(body: Body, room: Room) -> tuple[float, float, float, float]:

@@ -6,7 +6,7 @@ which follows the objects unless one is stated (`contact.support`).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, cast
@@ -279,7 +279,7 @@ class ContactGraph:
         return self._replace(elsewhere, items, stale & before.keys() & {*removed})
 
     def _replace(
-        self, moved: Mapping[str, Pose], added: Sequence[SceneObject] = (), gone: Iterable[str] = ()
+        self, moved: Mapping[str, Pose], added: Sequence[SceneObject] = (), gone: Collection[str] = ()
     ) -> ContactChange:
         """Let the finder look anew, and tell what that changes."""
         finder = self._finder

@@ -151,3 +151,32 @@ def test_the_contacts_of_a_room_are_those_that_triangles_alone_tell(
         one, other = (graph.junctions[pair].weights[0] if pair in graph.junctions else 0.0 for graph in (told, alone))
         # A leaning thing's triangles are tried a little smaller, and hover so much higher.
         assert one == pytest.approx(other, abs=0.06), pair
+
+
+def pen(x: float) -> SceneObject:
+    """Two walls 0.78 m apart, one object."""
+    return boxes("pen", *(((0.02, 0.2, 0.8), (dx, 0.1, 0.0)) for dx in (-0.4, 0.4)), at_m=(x, 0.0, 0.3))
+
+
+def test_what_goes_on_in_a_clearing_notices_that_its_host_has_moved() -> None:
+    """A box slides, and one hangs in the air, between two walls, one of which then comes near."""
+    low, high = box("low", (0.1, 0.1, 0.1), (-0.19, 0.05, 0.55)), box("high", (0.1, 0.1, 0.1), (-0.19, 0.17, 0.05))
+    graph = ContactGraph(scene(HOUSE, pen(-0.5), low, high))
+    # What has moved once may move on without its neighbours being looked for.
+    graph.update({"pen": Pose((-0.501, 0.0, 0.3))})
+    shift = 0.0
+    for k in range(6):
+        shift = 0.0001 * k
+        graph.update({"low": Pose((-0.19 + shift, 0.05, 0.55)), "high": Pose((-0.19 + shift, 0.17, 0.05))})
+    assert pairs(graph) == {("house", "low"), ("house", "pen")}
+    # The wall comes from 30 to 12 mm, and the boxes go 10 mm of these.
+    places = {
+        "pen": Pose((-0.518, 0.0, 0.3)),
+        "low": Pose((-0.18 + shift, 0.05, 0.55)),
+        "high": Pose((-0.18 + shift, 0.17, 0.05)),
+    }
+    for name, pose in places.items():
+        graph.update({name: pose})
+    moved = [replace(item, pose=places[item.id]) for item in (pen(-0.5), low, high)]
+    assert graph.contacts == ContactGraph(scene(HOUSE, *moved)).contacts
+    assert pairs(graph) == {("house", "low"), ("house", "pen"), ("low", "pen"), ("high", "pen")}
