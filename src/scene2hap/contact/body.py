@@ -10,7 +10,7 @@ import numpy as np
 
 from scene2hap.contact.broad import Boxes, Floats
 from scene2hap.contact.ledge import Ledges, Upright
-from scene2hap.contact.profile import Profile, Triple, profile_of, triples, uneven_m
+from scene2hap.contact.profile import Sole, Triple, sole_of, top_of, triples, uneven_m
 from scene2hap.contact.rays import first_hits
 from scene2hap.contact.stance import Stance
 from scene2hap.scene.pose import Pose
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from scene2hap.contact.clearing import Clearing
 
 # Directions that one shape is asked for; past this, things tumble and old ones are forgotten.
-_MAX_PROFILES = 64
+_MOST_WAYS_UP = 64
 # Rays by which a side of the own box is seen, along each of its edges.
 _N_RAYS = 8
 
@@ -38,7 +38,8 @@ class Shape:
         self.size_m = float(np.linalg.norm(self.high - self.low))
         self.middle: Triple = triples((self.box.low + self.box.high) / 2)[0]
         self.half: Triple = triples((self.box.high - self.box.low) / 2)[0]
-        self._profiles: dict[Triple, Profile] = {}
+        self._soles: dict[Triple, Sole] = {}
+        self._tops: dict[Triple, tuple[Triple, ...] | None] = {}
         self._ledges: dict[Upright, Ledges] = {}
 
     @cached_property
@@ -85,14 +86,22 @@ class Shape:
                 sides[end, axis] = start + np.where(np.isfinite(hits), hits, np.nan)[:, None] * way
         return sides.reshape(6, -1, 3)
 
-    def profile(self, up: Triple) -> Profile:
-        """The level faces for the own direction `up`, which is rounded by the caller."""
-        found = self._profiles.get(up)
+    def sole(self, up: Triple) -> Sole:
+        """What it stands on for the own direction `up`, which is rounded by the caller."""
+        found = self._soles.get(up)
         if found is None:
-            if len(self._profiles) >= _MAX_PROFILES:
-                self._profiles.clear()
-            found = self._profiles[up] = profile_of(self, up)
+            if len(self._soles) >= _MOST_WAYS_UP:
+                self._soles.clear()
+            found = self._soles[up] = sole_of(self, up)
         return found
+
+    def top(self, up: Triple) -> tuple[Triple, ...] | None:
+        """The outline of what bears others, likewise, if that is level and convex."""
+        if up not in self._tops:
+            if len(self._tops) >= _MOST_WAYS_UP:
+                self._tops.clear()
+            self._tops[up] = top_of(self, up)
+        return self._tops[up]
 
     def ledges(self, upright: Upright) -> Ledges:
         """The level faces where up is along an own axis."""

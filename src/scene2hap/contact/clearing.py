@@ -128,7 +128,7 @@ def open_box(guest: Body, host: Body, *, stands: bool) -> Room:
     low[up] = h + known.room[0][2] + fall_reach_m(guest.size_m) + TOUCH_M + reach_m
     # Lower than this the host might be what falls.
     low[up] = max(low[up], host.low[up] - TOUCH_M + spare_m)
-    high[up] = h + known.room[1][2] - reach_m
+    high[up] = h + known.room[1][2] - TOUCH_M - reach_m
     return (low[0], low[1], low[2]), (high[0], high[1], high[2])
 
 
@@ -145,7 +145,8 @@ def _column(guest: Body, host: Body, own: Upright) -> Room:
     inset_m = min(_INSET * guest.size_m, _INSET_M)
     hu, hv = max(hu - inset_m, 0.0), max(hv - inset_m, 0.0)
     low = guest.low[up] - h - fall_reach_m(guest.size_m) - TOUCH_M
-    high = guest.high[up] - h + (fall_reach_m(host.size_m) + TOUCH_M if is_over(host, guest) else 0.0)
+    # What a guest is sunk in a little may be over all of it.
+    high = guest.high[up] - h + TOUCH_M + (fall_reach_m(host.size_m) if is_over(host, guest) else 0.0)
     return (mu - hu, mv - hv, low), (mu + hu, mv + hv, high)
 
 

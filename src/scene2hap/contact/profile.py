@@ -7,12 +7,13 @@ that wherever they are over each other, nothing of the two shapes is nearer.
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.contact.spread import spread
+from scene2hap.contact.spread import spread, spread_few
 
 if TYPE_CHECKING:
     from scene2hap.contact.body import Shape
@@ -28,6 +29,7 @@ _FEET_M = 0.0012
 # A face is no sole if it takes up less than this share of what such corners do: a vase may have a crumb of a face that
 # is lowest.
 _CRUMB = 0.5
+_FEW = 24  # So few points are spread sooner in plain numbers.
 _COVER = 1e-3  # An outline is filled when its triangles' area differs by less than this share.
 
 
@@ -47,77 +49,83 @@ class Sole(NamedTuple):
     is_level: bool
 
 
-class Profile(NamedTuple):
-    """The sole and the convex outline of the top [m], None where that is not level; `across` is a level direction by
-    which an upright turn can be told; `is_block` if the shape is a cuboid with level faces."""
-
-    sole: Sole
-    top_m: tuple[Triple, ...] | None
-    across: Triple
-    is_block: bool
-
-
 def uneven_m(shape: Shape) -> float:
     """How uneven a level face of a shape may be [m]."""
     return min(_UNEVEN * shape.size_m, _UNEVEN_M)
 
 
-def profile_of(shape: Shape, up: tuple[float, float, float]) -> Profile:
-    """The profile of a shape whose own direction `up` points up."""
-    up_axis = np.asarray(up) / np.linalg.norm(up)
-    across = np.eye(3)[int(np.argmin(np.abs(up_axis)))]
-    e1 = np.cross(up_axis, across)
-    e1 /= np.linalg.norm(e1)
-    plane = np.stack([e1, np.cross(up_axis, e1)], axis=1)
-    sole, top = (_Face.at(shape, sign * up_axis, plane, uneven_m(shape)) for sign in (-1.0, 1.0))
-    is_block = shape.is_cuboid and float(np.abs(up_axis).max()) > 1 - 1e-9
-    return Profile(
-        sole=_sole(shape, sole, up_axis, plane),
-        top_m=triples(top.outline_m) if top and top.is_filled else None,
-        across=triples(e1[None])[0],
-        is_block=is_block,
-    )
+def sole_of(shape: Shape, up: Triple) -> Sole:
+    """What a shape stands on when its own direction `up` points up: the lowest level face, if it is no crumb, or the
+    lowest corners."""
+    upwards, plane = _frame(up)
+    heights = shape.corners @ upwards
+    # Where normals or colours differ, meshes have several corners at one place.
+    least = heights.min()
+    feet = list(dict.fromkeys(triples(shape.corners[heights <= least + _FEET_M])))
+    if len(feet) == 1:
+        return Sole((feet[0],), (feet[0],), feet[0], 0.0, False, False)
+    corners = np.array(feet)
+    around = corners[outline(corners @ plane)]
+    has_face = np.count_nonzero(corners @ upwards <= least + uneven_m(shape)) > 2
+    face = _lowest_face(shape, upwards, plane) if has_face else None
+    if face is not None and polygon_area(face.outline_m @ plane) < _CRUMB * polygon_area(around @ plane):
+        face = None
+    if face is not None:
+        corners, around = face.corners_m, face.outline_m
+    middle = (around.min(axis=0) + around.max(axis=0)) / 2
+    radius = float(np.linalg.norm(around - middle, axis=1).max())
+    points = triples(corners[spread_few(feet) if face is None and len(feet) <= _FEW else spread(corners)])
+    is_filled = face is not None and face.is_filled
+    return Sole(points, triples(around), triples(middle[None])[0], radius, is_filled, face is not None)
+
+
+def top_of(shape: Shape, up: Triple) -> tuple[Triple, ...] | None:
+    """The convex outline [m] of the highest level face of a shape when its own direction `up` points up, if it is one
+    with an outline that it fills."""
+    upwards, plane = _frame(up)
+    face = _lowest_face(shape, -upwards, plane)
+    return triples(face.outline_m) if face is not None and face.is_filled else None
+
+
+def across(up: Triple) -> Triple:
+    """A level direction by which an upright turn can be told, when the own direction `up` points up."""
+    return triples(_frame(up)[1].T[:1])[0]
+
+
+def _frame(up: Triple) -> tuple[Floats, Floats]:
+    """The unit vector (3,) along `up`, and two across it as columns (3, 2)."""
+    length = math.hypot(*up)
+    x, y, z = (edge / length for edge in up)
+    # Across the axis that is farthest from up; spelled out, since numpy takes longer to multiply six numbers.
+    axis = min(range(3), key=lambda k: abs((x, y, z)[k]))
+    a, b, c = ((0.0, z, -y), (-z, 0.0, x), (y, -x, 0.0))[axis]
+    length = math.hypot(a, b, c)
+    a, b, c = a / length, b / length, c / length
+    return np.array([x, y, z]), np.array([[a, y * c - z * b], [b, z * a - x * c], [c, x * b - y * a]])
 
 
 class _Face(NamedTuple):
-    """The extreme level face of a shape in one direction: its corners (n, 3) and their outline (m, 3) [m]."""
+    """A level face: its corners (n, 3) and their outline (m, 3) [m]."""
 
     corners_m: Floats
     outline_m: Floats
     is_filled: bool
 
-    @classmethod
-    def at(cls, shape: Shape, outwards: Floats, plane: Floats, uneven_m: float) -> _Face | None:
-        heights = shape.triangles @ outwards
-        level = (heights >= heights.max() - uneven_m).all(axis=1)
-        a, b, c = (shape.triangles[level] @ plane).transpose(1, 0, 2)
-        u, v = b - a, c - a
-        area = float(np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum()) / 2
-        if area <= 0:
-            return None
-        corners = np.unique(shape.triangles[level].reshape(-1, 3), axis=0)
-        rows = outline(corners @ plane)
-        around = polygon_area((corners @ plane)[rows])
-        # A face drawn from both sides has its area twice.
-        is_filled = any(abs(area - n * around) <= _COVER * around for n in (1, 2))
-        return cls(corners, corners[rows], is_filled)
 
-
-def _sole(shape: Shape, face: _Face | None, up_axis: Floats, plane: Floats) -> Sole:
-    """The lowest level face, if it is not a crumb, or the lowest corners."""
-    heights = shape.corners @ up_axis
-    corners = shape.corners[heights <= heights.min() + _FEET_M]
+def _lowest_face(shape: Shape, upwards: Floats, plane: Floats) -> _Face | None:
+    heights = shape.triangles @ upwards
+    level = (heights <= heights.min() + uneven_m(shape)).all(axis=1)
+    a, b, c = (shape.triangles[level] @ plane).transpose(1, 0, 2)
+    u, v = b - a, c - a
+    area = float(np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum()) / 2
+    if area <= 0:
+        return None
+    corners = np.unique(shape.triangles[level].reshape(-1, 3), axis=0)
     rows = outline(corners @ plane)
-    around = corners[rows]
-    if face is not None and polygon_area(face.outline_m @ plane) >= _CRUMB * polygon_area(around @ plane):
-        corners, around = face.corners_m, face.outline_m
-    else:
-        face = None
-    middle = (around.min(axis=0) + around.max(axis=0)) / 2
-    radius = float(np.linalg.norm(around - middle, axis=1).max())
-    points = triples(corners[spread(corners)])
-    is_filled = face is not None and face.is_filled
-    return Sole(points, triples(around), triples(middle[None])[0], radius, is_filled, face is not None)
+    around = polygon_area((corners @ plane)[rows])
+    # A face drawn from both sides has its area twice.
+    is_filled = any(abs(area - n * around) <= _COVER * around for n in (1, 2))
+    return _Face(corners, corners[rows], is_filled)
 
 
 def triples(points: Floats) -> tuple[Triple, ...]:

@@ -33,10 +33,10 @@ def spread(points: NDArray[np.float64]) -> list[int]:
     return chosen
 
 
-def spread_few(points: Sequence[tuple[float, float]]) -> list[int]:
-    """The same for a handful of points in a plane, without numpy's cost per call."""
+def spread_few(points: Sequence[tuple[float, ...]]) -> list[int]:
+    """The same for a handful of points, in space or in a plane, without numpy's cost per call."""
     n = len(points)
-    middle = (math.fsum(p[0] for p in points) / n, math.fsum(p[1] for p in points) / n)
+    middle = [math.fsum(ends) / n for ends in zip(*points, strict=True)]
     apart = [math.dist(p, middle) for p in points]
     chosen = [_first_of_few(points, apart)]
     apart = [math.dist(p, points[chosen[0]]) for p in points]
@@ -55,10 +55,10 @@ def _first(points: NDArray[np.float64], tied: NDArray[np.bool_]) -> int:
     return int(rows[0])
 
 
-def _first_of_few(points: Sequence[tuple[float, float]], apart: Sequence[float]) -> int:
+def _first_of_few(points: Sequence[tuple[float, ...]], apart: Sequence[float]) -> int:
     limit = max(apart) - _TIE_M
     rows = [row for row, length in enumerate(apart) if length >= limit]
-    for axis in (0, 1):
+    for axis in range(len(points[0])):
         limit = min(points[row][axis] for row in rows) + _TIE_M
         rows = [row for row in rows if points[row][axis] <= limit]
     return rows[0]

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from scene2hap.contact.ledge import Upright
-from scene2hap.contact.profile import Profile, Triple
+from scene2hap.contact.profile import Triple, across
 
 if TYPE_CHECKING:
     from scene2hap.contact.body import Shape
@@ -66,11 +66,11 @@ class Stance:
         "high",
         "is_block",
         "low",
-        "profile",
         "rotation_xyzw",
         "rows",
         "up_axis",
         "v_axis",
+        "way_up",
     )
 
     def __init__(self, shape: Shape, rotation_xyzw: tuple[float, float, float, float], up_axis: int) -> None:
@@ -88,8 +88,8 @@ class Stance:
             key = _UP[up_axis]
         else:
             key = (round(up[0], _DIGITS) + 0.0, round(up[1], _DIGITS) + 0.0, round(up[2], _DIGITS) + 0.0)
-        self.profile: Profile = shape.profile(key)
-        self.is_block = self.profile.is_block
+        self.way_up: Triple = key
+        self.is_block = shape.is_cuboid and key.count(0.0) == 2
         self.low, self.high = self._bounds(up)
         self._footing: Footing | None = None
         self._tray: Tray | None = None
@@ -119,13 +119,13 @@ class Stance:
         before = self.rotation_xyzw
         if self.up_axis != 1 or x != 0.0 or z != 0.0 or before[0] != 0.0 or before[2] != 0.0:
             turned = Stance(self._shape, rotation_xyzw, self.up_axis)
-            return turned if turned.profile is self.profile else None
+            return turned if turned.way_up == self.way_up else None
         # About the vertical, nothing changes upwards, and half of the products are 0.
         turned = Stance.__new__(Stance)
-        turned.rotation_xyzw, turned._shape, turned.profile, turned.is_block = (
+        turned.rotation_xyzw, turned._shape, turned.way_up, turned.is_block = (
             rotation_xyzw,
             self._shape,
-            self.profile,
+            self.way_up,
             self.is_block,
         )
         turned.up_axis, turned.v_axis, turned._tray, turned._outline, turned._heading = 1, 2, None, (), None
@@ -136,8 +136,9 @@ class Stance:
         u, v, over, across = a * mx + c * mz, a * mz - c * mx, abs(a), abs(c)
         x, z = over * hx + across * hz, across * hx + over * hz
         turned.low, turned.high = (u - x, self.low[1], v - z), (u + x, self.high[1], v + z)
-        x, _, z = self.profile.sole.middle_m
-        points = tuple([(a * x + c * z, a * z - c * x) for x, _, z in self.profile.sole.points_m])
+        sole = self._shape.sole(self.way_up)
+        x, _, z = sole.middle_m
+        points = tuple([(a * x + c * z, a * z - c * x) for x, _, z in sole.points_m])
         _, height, _, radius, is_filled = self.footing
         turned._footing = Footing(points, height, (a * x + c * z, a * z - c * x), radius, is_filled)
         return turned
@@ -146,7 +147,7 @@ class Stance:
     def footing(self) -> Footing:
         """What it stands on."""
         if self._footing is None:
-            sole = self.profile.sole
+            sole = self._shape.sole(self.way_up)
             (a, b, c), (d, e, f), (g, h, i) = self.rows[0], self.rows[self.v_axis], self.rows[self.up_axis]
             x, y, z = sole.middle_m
             middle = (a * x + b * y + c * z, d * x + e * y + f * z)
@@ -159,14 +160,14 @@ class Stance:
     def sole_outline(self) -> tuple[Point, ...]:
         """The outline of what it stands on."""
         if not self._outline:
-            self._outline = tuple([(u, v) for u, v, _ in map(self._turned, self.profile.sole.outline_m)])
+            self._outline = tuple([(u, v) for u, v, _ in map(self._turned, self._shape.sole(self.way_up).outline_m)])
         return self._outline
 
     @property
     def tray(self) -> Tray | None:
         """What it bears others with, if that is level and convex."""
-        if self._tray is None and self.profile.top_m is not None:
-            corners = [self._turned(corner) for corner in self.profile.top_m]
+        if self._tray is None and (top_m := self._shape.top(self.way_up)) is not None:
+            corners = [self._turned(corner) for corner in top_m]
             outline = tuple([(u, v) for u, v, _ in corners])
             self._tray = Tray(outline, sum(h for _, _, h in corners) / len(corners), edges_of(outline))
         return self._tray
@@ -182,7 +183,7 @@ class Stance:
     def heading(self) -> Point:
         """A way in the level plane that turns along with the shape, of length 1."""
         if self._heading is None:
-            u, v, _ = self._turned(self.profile.across)
+            u, v, _ = self._turned(across(self.way_up))
             self._heading = (u, v)
         return self._heading
 
