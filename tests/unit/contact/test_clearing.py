@@ -93,6 +93,24 @@ def test_a_thing_between_boards_stands_on_the_lower() -> None:
     }
 
 
+def alone(*things: SceneObject) -> ContactGraph:
+    """The graph that triangles tell without any clearing."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(tie, "below", lambda guest, host: None)
+        patch.setattr(tie, "is_clear", lambda guest, host: False)
+        patch.setattr(finder, "is_clear", lambda guest, host: False)
+        return ContactGraph(scene(*things))
+
+
+@pytest.mark.parametrize("depth_m", [0.001, 0.0035, 0.015, 0.0235, 0.03, 0.05])
+def test_what_is_sunk_in_a_ledge_is_in_contact_as_triangles_tell(depth_m: float) -> None:
+    plate = box("plate", (0.1, 0.02, 0.1), (1.2, 0.91 - depth_m, 0.1))
+    told, by_triangles = ContactGraph(scene(HOUSE, plate)), alone(HOUSE, plate)
+    assert pairs(told) == pairs(by_triangles)
+    for pair, junction in told.junctions.items():
+        assert junction.weights == pytest.approx(by_triangles.junctions[pair].weights, abs=1e-6)
+
+
 def test_where_a_step_is_in_the_way_nothing_is_told() -> None:
     host = Body.of(HOUSE, 1)
     on_podium = Body.of(box("a", (0.2, 0.1, 0.2), (-1.1, 0.17, -1.1)), 1)
@@ -141,14 +159,11 @@ def test_the_contacts_of_a_room_are_those_that_triangles_alone_tell(
             y += 0.0 if item.id == "chair" else float(np.ptp(item.bounds_m, axis=0)[1]) / 2
             rotation = Pose((0, 0, 0), turned(about)).compose(Pose((0, 0, 0), (lean, 0.0, 0.0, 1.0))).rotation_xyzw
             things[k] = replace(item, pose=Pose((x, y, z), rotation))
-    told = ContactGraph(scene(*things))
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(tie, "below", lambda guest, host: None)
-        patch.setattr(tie, "is_clear", lambda guest, host: False)
-        patch.setattr(finder, "is_clear", lambda guest, host: False)
-        alone = ContactGraph(scene(*things))
-    for pair in told.junctions.keys() | alone.junctions.keys():
-        one, other = (graph.junctions[pair].weights[0] if pair in graph.junctions else 0.0 for graph in (told, alone))
+    told, by_triangles = ContactGraph(scene(*things)), alone(*things)
+    for pair in told.junctions.keys() | by_triangles.junctions.keys():
+        one, other = (
+            graph.junctions[pair].weights[0] if pair in graph.junctions else 0.0 for graph in (told, by_triangles)
+        )
         # A leaning thing's triangles are tried a little smaller, and hover so much higher.
         assert one == pytest.approx(other, abs=0.06), pair
 
