@@ -104,7 +104,8 @@ def alone(*things: SceneObject) -> ContactGraph:
 
 @pytest.mark.parametrize("depth_m", [0.001, 0.0035, 0.015, 0.0235, 0.03, 0.05])
 def test_what_is_sunk_in_a_ledge_is_in_contact_as_triangles_tell(depth_m: float) -> None:
-    plate = box("plate", (0.1, 0.02, 0.1), (1.2, 0.91 - depth_m, 0.1))
+    """A plate 20 mm thick in a podium; with its top up to 4 mm below that it is sunk in."""
+    plate = box("plate", (0.1, 0.02, 0.1), (-1.1, 0.13 - depth_m, -1.1))
     told, by_triangles = ContactGraph(scene(HOUSE, plate)), alone(HOUSE, plate)
     assert pairs(told) == pairs(by_triangles)
     for pair, junction in told.junctions.items():
