@@ -109,7 +109,9 @@ def test_what_is_sunk_in_a_ledge_is_in_contact_as_triangles_tell(depth_m: float)
     told, by_triangles = ContactGraph(scene(HOUSE, plate)), alone(HOUSE, plate)
     assert pairs(told) == pairs(by_triangles)
     for pair, junction in told.junctions.items():
-        assert junction.weights == pytest.approx(by_triangles.junctions[pair].weights, abs=1e-6)
+        other = by_triangles.junctions[pair]
+        assert junction.weights == pytest.approx(other.weights, abs=1e-6)
+        assert junction.normals[0] == pytest.approx(other.normals[0])
 
 
 def test_where_a_step_is_in_the_way_nothing_is_told() -> None:
