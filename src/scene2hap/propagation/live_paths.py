@@ -72,9 +72,9 @@ class LivePaths:
         self._beside = graph.beside
         self._price_per_m = price_per_m
         self._crossing = _Crossing(crossing_cost)
-        self._doors = Doors(self._beside, self._crossing)
         self._source_ids = tuple(source_ids)
         self._row = {source_id: row for row, source_id in enumerate(source_ids)}
+        self._doors = Doors(graph, price_per_m, self._crossing, self._row)
         self._max_hops = max_hops
         self._plans: dict[str, tuple[int, dict[tuple[int, str], _Way]]] = {}
         self._entries: dict[str, tuple[int, list[tuple[int, Entries]]]] = {}
@@ -107,8 +107,7 @@ class LivePaths:
         if self._max_hops in (1, 2):
             self._lower_shortly(found, object_id, point_m, limits)
         elif self._is_outward_quicker() or (limits is not None and not self._are_all_around(limits)):
-            limit = math.inf if limits is None else max(limits, default=0.0)
-            outward = cheapest_outward(object_id, point_m, self._doors, self._price_per_m, self._row, limit)
+            outward = cheapest_outward(object_id, point_m, self._doors, self._row, limits)
             found[:] = [min(pair) for pair in zip(found, outward, strict=True)]
         else:
             ways = self._searched(object_id) if limits is None else self._around.get(object_id, ())
@@ -134,7 +133,7 @@ class LivePaths:
         row = self._n_around
         if row == len(self._source_ids):
             return True
-        found = entries_around(self._source_ids[row], self._doors, self._price_per_m, limits[row])
+        found = entries_around(self._source_ids[row], self._doors, limits[row])
         for object_id, entries in found.items():
             self._around.setdefault(object_id, []).append((row, entries))
         self._n_around = row + 1

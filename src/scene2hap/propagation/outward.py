@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import heapq
 import math
-from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
+    from scene2hap.contact.graph import ContactGraph
     from scene2hap.contact.junction import Junction
 
 Triple = tuple[float, float, float]
@@ -30,66 +31,118 @@ class Door:
         self.out_of, self.into, self.place, self.crossing = out_of, into, place, crossing
 
 
-class Doors:
-    """The doors of a contact graph, kept as long as their junctions: a step of a walk asks for a few dozen.
+class Exit(NamedTuple):
+    """The doors out of an object into one other, through which a metre costs `price`, 0 if nothing goes on there."""
 
-    Parameters: beside : as in `LivePaths`; crossing : what a contact of each weight costs.
+    into: str
+    price: float
+    doors: list[Door]
+
+
+class Doors:
+    """The doors of a contact graph as it is, kept as long as their junctions: a step of a walk asks for a few dozen.
+
+    Parameters: price_per_m, crossing : as in `LivePaths`; ends : objects to which ways are looked for.
     """
 
-    def __init__(self, beside: Mapping[str, Mapping[str, Junction]], crossing: Mapping[float, float]) -> None:
-        self._beside, self._crossing = beside, crossing
+    def __init__(
+        self,
+        graph: ContactGraph,
+        price_per_m: Mapping[str, float],
+        crossing: Mapping[float, float],
+        ends: Collection[str],
+    ) -> None:
+        self._graph, self._beside = graph, graph.beside
+        self._crossing, self._ends = crossing, ends
+        self.price_per_m = price_per_m
         self._known: dict[str, dict[str, tuple[Junction, list[Door]]]] = {}
+        self._version = -1
+        self._exits: dict[str, list[Exit]] = {}
+        self._exits_to_ends: dict[str, list[Exit]] = {}
 
     def has(self, object_id: str) -> bool:
         """Whether an object touches any."""
         return bool(self._beside.get(object_id))
 
-    def out_of(self, object_id: str) -> Iterator[list[Door]]:
-        """The doors out of an object, those into one other together."""
+    def look_again(self) -> None:
+        """Take in what has changed; to be called before a walk."""
+        if self._version != self._graph.version:
+            self._version = self._graph.version
+            self._exits.clear()
+            self._exits_to_ends.clear()
+
+    def exits(self, object_id: str) -> list[Exit]:
+        """The ways out of an object."""
+        found = self._exits.get(object_id)
+        if found is None:
+            price, beside = self.price_per_m, self._beside.get(object_id, {})
+            found = [Exit(x, price.get(x, 0.0), self._between(object_id, x, one)) for x, one in beside.items()]
+            self._exits[object_id] = found
+        return found
+
+    def exits_to_ends(self, object_id: str) -> list[Exit]:
+        """The same without those that lead to no end, nor back more cheaply: into a cup that stands on this alone."""
+        found = self._exits_to_ends.get(object_id)
+        if found is None:
+            price, price_here = self.price_per_m, self.price_per_m.get(object_id, 0.0)
+            found = self._exits_to_ends[object_id] = [
+                x
+                for x in self.exits(object_id)
+                if x.into in self._ends
+                or (x.into in price and (len(self._beside[x.into]) > 1 or (x.price < price_here and len(x.doors) > 1)))
+            ]
+        return found
+
+    def _between(self, object_id: str, other: str, junction: Junction) -> list[Door]:
         known = self._known.setdefault(object_id, {})
-        for other, junction in self._beside.get(object_id, {}).items():
-            last = known.get(other)
-            if last is None or last[0] is not junction:
-                points = zip(junction.points_m, junction.weights, strict=True)
-                doors = [Door(object_id, other, place, self._crossing[weight]) for place, weight in points]
-                last = known[other] = (junction, doors)
-            yield last[1]
+        last = known.get(other)
+        if last is None or last[0] is not junction:
+            points = zip(junction.points_m, junction.weights, strict=True)
+            doors = [Door(object_id, other, place, self._crossing[weight]) for place, weight in points]
+            last = known[other] = (junction, doors)
+        return last[1]
 
 
 def cheapest_outward(
-    object_id: str,
-    point_m: Triple,
-    doors: Doors,
-    price_per_m: Mapping[str, float],
-    row: Mapping[str, int],
-    limit: float = math.inf,
+    object_id: str, point_m: Triple, doors: Doors, row: Mapping[str, int], limits: Sequence[float] | None = None
 ) -> list[float]:
-    """Price of the cheapest way from each source to a point of an object, inf for none up to a limit.
+    """Price of the cheapest way from each source to a point of an object, inf for none up to its limit.
 
-    Parameters: price_per_m : as in `LivePaths`; row : where in the answer each source stands.
+    Parameters: row : where in the answer each source stands, which are the `ends` of the doors; limits : for each of
+    these, None for none.
     """
+    doors.look_again()
     found = [math.inf] * len(row)
-    wanted = {source_id for source_id in row if source_id == object_id or doors.has(source_id)}
-    for cost, here, _ in _walk([(0.0, Door("", object_id, point_m, 0.0))], doors, price_per_m, limit):
-        if here in wanted:
+    limit_of = {x: math.inf if limits is None else limits[k] for x, k in row.items() if x == object_id or doors.has(x)}
+    limit = max(limit_of.values(), default=0.0)
+    starts = [(0.0, Door("", object_id, point_m, 0.0))]
+    for cost, here, _ in _walk(starts, doors.exits_to_ends, doors.price_per_m, limit):
+        if cost > limit:
+            break
+        if here in limit_of:
             found[row[here]] = cost
-            wanted.remove(here)
-            if not wanted:
+            del limit_of[here]
+            if not limit_of:
                 break
+            limit = max(limit_of.values())
     return found
 
 
-def entries_around(source_id: str, doors: Doors, price_per_m: Mapping[str, float], limit: float) -> dict[str, Entries]:
+def entries_around(source_id: str, doors: Doors, limit: float) -> dict[str, Entries]:
     """Where all objects are entered from a source, up to a limit, without what leads nowhere new; else as above."""
-    starts = [(door.crossing, door) for several in doors.out_of(source_id) for door in several]
+    doors.look_again()
+    starts = [(door.crossing, door) for out in doors.exits(source_id) for door in out.doors]
     entries: dict[str, Entries] = {}
-    for cost, here, place in _walk(starts, doors, price_per_m, limit):
+    for cost, here, place in _walk(starts, doors.exits, doors.price_per_m, limit):
         entries.setdefault(here, []).append((place, cost))
     return entries
 
 
 def _walk(
-    starts: Iterable[tuple[float, Door]], doors: Doors, price_per_m: Mapping[str, float], limit: float
+    starts: Iterable[tuple[float, Door]],
+    exits: Callable[[str], list[Exit]],
+    price_per_m: Mapping[str, float],
+    limit: float,
 ) -> Iterator[tuple[float, str, Triple]]:
     """Arrivals at points of objects, the cheapest first."""
     dist, inf = math.dist, math.inf
@@ -113,12 +166,11 @@ def _walk(
             continue
         yield cost, here, place
         known.append((place, cost))
-        for several in doors.out_of(here):
-            other = several[0].into
-            beyond, price_beyond = entries.get(other, _NOWHERE), price_per_m.get(other, 0.0)
+        for other, price_beyond, doors in exits(here):
             if other == arrived.out_of and price >= price_beyond:
                 continue  # straight on there would have been no dearer
-            for door in several:
+            beyond = entries.get(other, _NOWHERE)
+            for door in doors:
                 before = least.get(door, inf)
                 if before <= cost:
                     continue
