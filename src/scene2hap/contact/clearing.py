@@ -28,7 +28,7 @@ from scene2hap.contact.support import TOUCH_M, fall_reach_m, hang_reach_m, is_ov
 SKIN_M = 0.06
 """How far beyond a guest its surroundings reach (assumed: as far as neighbours are looked for)."""
 
-_MOST_TILT_M = 5e-4  # A host may lean by so much over its whole size.
+_MOST_TILT_M = 1e-4  # A host may lean by so much over its whole size, which is the error of a ledge's height then.
 _MANY_CORNERS = 8  # An outline of more is taken for a circle.
 # A guest is taken for this share smaller, by at most so much, so that what it is flush with is beside it.
 _INSET, _INSET_M = 1e-4, 1e-4
@@ -55,10 +55,10 @@ _NO_LEDGE: Flat = (math.inf, math.inf, -math.inf, -math.inf)
 def below(guest: Body, host: Body) -> Clearing | None:
     """The clearing that a guest has for falling, or the host for falling onto it: without anything of the host, or with
     a ledge under all of the guest's foot. None where neither is sure."""
-    lean = host.stance.lean
-    if lean is None or lean.tilt * host.size_m > _MOST_TILT_M:
+    own = _upright(host)
+    if own is None:
         return None
-    known, own = host.clearings.get(guest.id), lean.own
+    known = host.clearings.get(guest.id)
     taken, foot = _column(guest, host, own), _foot(guest, host, own)
     if known is not None and _holds(known.room, taken):
         if known.top_m is None:
@@ -74,15 +74,15 @@ def below(guest: Body, host: Body) -> Clearing | None:
 
 def is_clear(guest: Body, host: Body) -> bool:
     """Whether a host has surely nothing so near to a guest that the two could touch, in whatever way."""
-    lean = host.stance.lean
-    if lean is None or lean.tilt * host.size_m > _MOST_TILT_M:
+    own = _upright(host)
+    if own is None:
         return False
-    (u0, v0, h0), (u1, v1, h1) = _column(guest, host, lean.own)
+    (u0, v0, h0), (u1, v1, h1) = _column(guest, host, own)
     reach_m = _reach_m(guest)
     taken = (u0 - reach_m, v0 - reach_m, h0 - reach_m), (u1 + reach_m, v1 + reach_m, h1 + reach_m)
     known = host.clearings.get(guest.id)
     if known is None or known.top_m is not None or not _holds(known.room, taken):
-        near = _Near(host, lean.own, taken)
+        near = _Near(host, own, taken)
         if near.meets(taken).any():
             return False
         host.clearings[guest.id] = Clearing(near.cut(taken), None, _NO_LEDGE)
@@ -130,6 +130,11 @@ def open_box(guest: Body, host: Body, *, stands: bool) -> Room:
     low[up] = max(low[up], host.low[up] - TOUCH_M + spare_m)
     high[up] = h + known.room[1][2] - TOUCH_M - reach_m
     return (low[0], low[1], low[2]), (high[0], high[1], high[2])
+
+
+def _upright(host: Body) -> Upright | None:
+    lean = host.stance.lean
+    return lean.own if lean is not None and lean.tilt * host.size_m <= _MOST_TILT_M else None
 
 
 def _reach_m(guest: Body) -> float:
