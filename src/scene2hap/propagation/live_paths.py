@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from scene2hap.contact.junction import Junction
 
 _MOST_WEIGHTS = 1024
+_MOVING = 8  # As long as no more is asked between two changes of a contact, things move, and a search would not last.
 _SELDOM = 20  # From here on one search of the whole scene is cheaper than one outward from each touch.
 
 
@@ -106,24 +107,25 @@ class LivePaths:
         """Take in what is cheaper from another point."""
         if self._max_hops in (1, 2):
             self._lower_shortly(found, object_id, point_m, limits)
-        elif self._is_outward_quicker() or (limits is not None and not self._are_all_around(limits)):
+        elif self._max_hops is None and self._is_outward_quicker(limits):
             outward = cheapest_outward(object_id, point_m, self._doors, self._row, limits)
             found[:] = [min(pair) for pair in zip(found, outward, strict=True)]
         else:
-            ways = self._searched(object_id) if limits is None else self._around.get(object_id, ())
+            is_all = limits is None or self._max_hops is not None
+            ways = self._searched(object_id) if is_all else self._around.get(object_id, ())
             price, dist = self._price_per_m[object_id], math.dist
             for row, entries in ways:  # the cheapest first
                 if entries[0][1] < found[row]:
                     found[row] = min(found[row], *[cost + price * dist(place, point_m) for place, cost in entries])
 
-    def _is_outward_quicker(self) -> bool:
-        """Whether too little was asked since a contact changed for a search of the whole scene to be worth it."""
-        if self._max_hops is not None:
-            return False
+    def _is_outward_quicker(self, limits: Sequence[float] | None) -> bool:
+        """Whether too little was asked since a contact changed for a search from all sources to be worth it."""
         if self._asked_of != self._graph.version:
             self._asked_of, self._n_asked = self._graph.version, 0
         self._n_asked += 1
-        return self._n_asked <= _SELDOM
+        if limits is None:
+            return self._n_asked <= _SELDOM
+        return self._n_asked <= _MOVING or not self._are_all_around(limits)
 
     def _are_all_around(self, limits: Sequence[float]) -> bool:
         """Search around one more source; true once all of them are done."""

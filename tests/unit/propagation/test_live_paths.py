@@ -1,6 +1,7 @@
 """Ways asked one by one over a graph that moves, against the search of the whole scene."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -146,3 +147,14 @@ def test_up_to_its_limit_a_price_is_what_it_is_and_beyond_it_stays_beyond(max_ho
                         assert found > limit
                         n_beyond += true < math.inf
     assert min(n_within, n_beyond) > 20
+
+
+@pytest.mark.parametrize("limits", [None, [9.0]])
+def test_no_way_crosses_more_contacts_than_it_may(limits: list[float] | None) -> None:
+    names = [f"x{i}" for i in range(5)]
+    graph = ContactGraph(scene(*(box(name, (0.1, 0.1, 0.1), (i, 0, 0)) for i, name in enumerate(names))))
+    graph.update({}, contacts=[Contact(a, b, (0, 0, 0)) for a, b in pairwise(names)])
+    paths = LivePaths(graph, dict.fromkeys(names, 0.1), crossing, ["x0"], 3)
+    for _ in range(3):
+        assert paths.costs("x3", (0, 0, 0), limits) == [pytest.approx(3 * crossing(1.0))]
+        assert paths.costs("x4", (0, 0, 0), limits) == [math.inf]
