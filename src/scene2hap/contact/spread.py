@@ -24,13 +24,26 @@ def spread(points: NDArray[np.float64]) -> list[int]:
     """Rows of at most `MAX_POINTS` of the points (n, 3) [m], far from each other."""
     if not len(points):
         return []
-    apart = np.linalg.norm(points - points.mean(axis=0), axis=1)
-    chosen = [_first(points, apart >= apart.max() - _TIE_M)]
-    apart = np.linalg.norm(points - points[chosen[0]], axis=1)
+    columns = points.T.copy()
+    apart = _apart(columns, points.mean(axis=0).tolist())
+    chosen = [_first(points, apart)]
+    apart = _apart(columns, points[chosen[0]].tolist())
     while len(chosen) < MAX_POINTS and apart.max() > _SPREAD_M:
-        chosen.append(_first(points, apart >= apart.max() - _TIE_M))
-        apart = np.minimum(apart, np.linalg.norm(points - points[chosen[-1]], axis=1))
+        chosen.append(_first(points, apart))
+        apart = np.minimum(apart, _apart(columns, points[chosen[-1]].tolist()))
     return chosen
+
+
+def _apart(columns: NDArray[np.float64], place: Sequence[float]) -> NDArray[np.float64]:
+    """How far points, as columns (3, n), are from a place (n,)."""
+    squares, y, z = (column - at for column, at in zip(columns, place, strict=True))
+    squares *= squares
+    y *= y
+    z *= z
+    squares += y
+    squares += z
+    lengths: NDArray[np.float64] = np.sqrt(squares, out=squares)
+    return lengths
 
 
 def spread_few(points: Sequence[tuple[float, ...]]) -> list[int]:
@@ -46,10 +59,12 @@ def spread_few(points: Sequence[tuple[float, ...]]) -> list[int]:
     return chosen
 
 
-def _first(points: NDArray[np.float64], tied: NDArray[np.bool_]) -> int:
-    """Of the tied points the one with the least x, then y, then z, each up to rounding."""
-    rows = np.flatnonzero(tied)
+def _first(points: NDArray[np.float64], apart: NDArray[np.float64]) -> int:
+    """Of the points that are farthest apart, up to rounding, the one with the least x, then y, then z, likewise."""
+    rows = np.flatnonzero(apart >= apart.max() - _TIE_M)
     for axis in range(3):
+        if len(rows) == 1:
+            break
         values = points[rows, axis]
         rows = rows[values <= values.min() + _TIE_M]
     return int(rows[0])
