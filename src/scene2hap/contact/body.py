@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 from weakref import WeakValueDictionary
 
 import numpy as np
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 _MOST_WAYS_UP = 64
 # Rays by which a side of the own box is seen, along each of its edges.
 _N_RAYS = 8
+_Told = TypeVar("_Told")
 
 
 class Shape:
@@ -88,20 +90,11 @@ class Shape:
 
     def sole(self, up: Triple) -> Sole:
         """What it stands on for the own direction `up`, which is rounded by the caller."""
-        found = self._soles.get(up)
-        if found is None:
-            if len(self._soles) >= _MOST_WAYS_UP:
-                self._soles.clear()
-            found = self._soles[up] = sole_of(self, up)
-        return found
+        return self._known(self._soles, up, sole_of)
 
     def top(self, up: Triple) -> tuple[Triple, ...] | None:
         """The outline of what bears others, likewise, if that is level and convex."""
-        if up not in self._tops:
-            if len(self._tops) >= _MOST_WAYS_UP:
-                self._tops.clear()
-            self._tops[up] = top_of(self, up)
-        return self._tops[up]
+        return self._known(self._tops, up, top_of)
 
     def ledges(self, upright: Upright) -> Ledges:
         """The level faces where up is along an own axis."""
@@ -109,6 +102,13 @@ class Shape:
         if found is None:
             found = self._ledges[upright] = Ledges(self.triangles, self.boxes, upright, uneven_m(self))
         return found
+
+    def _known(self, known: dict[Triple, _Told], up: Triple, tell: Callable[[Shape, Triple], _Told]) -> _Told:
+        if up not in known:
+            if len(known) >= _MOST_WAYS_UP:
+                known.clear()
+            known[up] = tell(self, up)
+        return known[up]
 
     @cached_property
     def _cross(self) -> tuple[Floats, Floats]:

@@ -18,30 +18,22 @@ from numpy.typing import NDArray
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes
+from scene2hap.contact.crowd import SKIN_M, Room
 from scene2hap.contact.enclosure import play_reach_m
 from scene2hap.contact.ledge import Flat, Upright
-from scene2hap.contact.profile import Triple
 from scene2hap.contact.relative import box_in_frame
 from scene2hap.contact.stance import Tray
-from scene2hap.contact.support import TOUCH_M, fall_reach_m, hang_reach_m, is_over
-
-SKIN_M = 0.06
-"""How far beyond a guest its surroundings reach (assumed: as far as neighbours are looked for)."""
+from scene2hap.contact.support import INSET, INSET_M, TOUCH_M, fall_reach_m, hang_reach_m, is_over
 
 _MOST_TILT_M = 1e-4  # A host may lean by so much over its whole size, which is the error of a ledge's height then.
 _MANY_CORNERS = 8  # An outline of more is taken for a circle.
-# A guest is taken for this share smaller, by at most so much, so that what it is flush with is beside it.
-_INSET, _INSET_M = 1e-4, 1e-4
 _ROUNDING_M = 2e-6
 _MOST_SKEW = 1e-5  # A host turned by more about the vertical [rad] is not in line.
 
-Room = tuple[Triple, Triple]
-"""Lowest and highest corners (u, v, h) of a box."""
-
 
 class Clearing(NamedTuple):
-    """A box, and what of the host is there: nothing, or a ledge of height `top_m`, which covers the stretch `ledge`,
-    and what is no higher."""
+    """A box (u, v, h), and what of the host is there: nothing, or a ledge of height `top_m`, which covers the stretch
+    `ledge`, and what is no higher. As far beyond a guest as lists of neighbours last."""
 
     room: Room
     top_m: float | None
@@ -91,11 +83,10 @@ def is_clear(guest: Body, host: Body) -> bool:
 
 def tray(host: Body, known: Clearing) -> Tray:
     """The stretch of a ledge, turned as its host is; see `stance.Tray`."""
+    lean = host.stance.lean
     assert known.top_m is not None
-    lean, rows = host.stance.lean, host.stance.rows
     assert lean is not None
-    v_axis, own = 3 - host.up_axis, lean.own
-    a, b, c, d = rows[0][own.u], rows[v_axis][own.u], rows[0][own.v], rows[v_axis][own.v]
+    a, b, c, d = _turn(host, lean.own)
     u0, v0, u1, v1 = known.ledge
     corners = tuple([(a * u + c * v, b * u + d * v) for u, v in ((u0, v0), (u1, v0), (u1, v1), (u0, v1))])
     return Tray(corners, known.top_m, ((a, b, u0), (c, d, v0), (-a, -b, -u1), (-c, -d, -v1)))
@@ -107,19 +98,16 @@ def open_box(guest: Body, host: Body, *, stands: bool) -> Room:
     known, lean, up = host.clearings.get(guest.id), host.stance.lean, host.up_axis
     if known is None or lean is None or stands != (known.top_m is not None) or is_over(host, guest):
         return NOWHERE
-    rows, own = host.stance.rows, lean.own
-    along = own.u if abs(rows[0][own.u]) > abs(rows[0][own.v]) else own.v
-    across = own.u + own.v - along
-    skew = abs(rows[0][across])
+    a, b, c, d = _turn(host, lean.own)
+    skew = min(abs(a), abs(c))
     if skew > _MOST_SKEW:
         return NOWHERE
     spare_m = _ROUNDING_M + (skew + lean.tilt) * host.size_m
     reach_m = spare_m if stands else spare_m + _reach_m(guest)
     low, high = [0.0] * 3, [0.0] * 3
-    for axis, (k, sign) in {
-        0: (along != own.u, rows[0][along]),
-        3 - up: (across != own.u, rows[3 - up][across]),
-    }.items():
+    # Which of u and v lies along either level axis of the world, and whether it points the same way.
+    along = ((0, 0, a), (3 - up, 1, d)) if abs(a) > abs(c) else ((0, 1, c), (3 - up, 0, b))
+    for axis, k, sign in along:
         ends = known.room[0][k], known.room[1][k]
         if sign < 0:
             ends = -ends[1], -ends[0]
@@ -137,6 +125,12 @@ def _upright(host: Body) -> Upright | None:
     return lean.own if lean is not None and lean.tilt * host.size_m <= _MOST_TILT_M else None
 
 
+def _turn(host: Body, own: Upright) -> tuple[float, float, float, float]:
+    """How much of u and of v lies along the world's two level axes: a and b of u, c and d of v."""
+    first, second = host.stance.rows[0], host.stance.rows[3 - host.up_axis]
+    return first[own.u], second[own.u], first[own.v], second[own.v]
+
+
 def _reach_m(guest: Body) -> float:
     """How near to a guest the host may have nothing for it to be clear."""
     return max(TOUCH_M, play_reach_m(guest.size_m), hang_reach_m(guest.size_m))
@@ -147,7 +141,7 @@ def _column(guest: Body, host: Body, own: Upright) -> Room:
     up, h = guest.up_axis, host.position_m[guest.up_axis]
     middle, half = box_in_frame(guest, host)
     mu, mv, hu, hv = middle[own.u], middle[own.v], half[own.u], half[own.v]
-    inset_m = min(_INSET * guest.size_m, _INSET_M)
+    inset_m = min(INSET * guest.size_m, INSET_M)
     hu, hv = max(hu - inset_m, 0.0), max(hv - inset_m, 0.0)
     low = guest.low[up] - h - fall_reach_m(guest.size_m) - TOUCH_M
     # What a guest is sunk in a little may be over all of it.
@@ -157,9 +151,9 @@ def _column(guest: Body, host: Body, own: Upright) -> Room:
 
 def _foot(guest: Body, host: Body, own: Upright) -> Flat:
     """A rectangle around what a guest stands on; what is flush with a rim is within it."""
-    v_axis, rows = 3 - guest.up_axis, host.stance.rows
+    v_axis = 3 - guest.up_axis
     x, y = guest.position_m[0] - host.position_m[0], guest.position_m[v_axis] - host.position_m[v_axis]
-    a, b, c, d = rows[0][own.u], rows[v_axis][own.u], rows[0][own.v], rows[v_axis][own.v]
+    a, b, c, d = _turn(host, own)
     if len(outline := guest.stance.sole_outline) > _MANY_CORNERS:
         _, _, (p, q), r, _ = guest.stance.footing
         u, v, hu = a * (x + p) + b * (y + q), c * (x + p) + d * (y + q), max(r - _ROUNDING_M, 0.0)

@@ -18,7 +18,7 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes, Floats
 from scene2hap.contact.profile import Triple
 from scene2hap.contact.rays import first_hits
-from scene2hap.contact.relative import box_in_frame, middle_m
+from scene2hap.contact.relative import box_in_frame, middle_m, roles
 from scene2hap.contact.support import weight
 
 # Play on either side at which a thing ceases to be enclosed [m], at most and as a share of its diagonal. Up to 2/3 of
@@ -42,7 +42,7 @@ def play_reach_m(size_m: float) -> float:
 
 def enclosed(a: Body, b: Body) -> tuple[float, float]:
     """How much of a contact it is that one of two is enclosed by the other (0..1), and the greater play [m]."""
-    guest, host = (a, b) if (a.size_m, b.id) < (b.size_m, a.id) else (b, a)
+    guest, host = roles(a, b)
     # Of what lies by more than half in the other's box, so does the middle.
     (x, y, z), (u, v, w) = host.low, host.high
     p, q, r = middle_m(guest)

@@ -25,6 +25,7 @@ from scene2hap.contact.support import (
     hang_reach_m,
     hangs,
     level_supports,
+    margins_m,
     supports,
     weight,
 )
@@ -46,7 +47,7 @@ class ContactFinder:
     def __init__(self, up_axis: int) -> None:
         self._up_axis = up_axis
         self._bodies: dict[str, Body] = {}
-        self._crowd = Crowd(up_axis, self._margins_m)
+        self._crowd = Crowd(up_axis, margins_m)
         self._ties: dict[str, dict[str, Tie]] = {}
         self._held: dict[str, dict[str, Bond]] = {}
         # Those that nothing wholly supports, so that larger things near them may bear on how they hang.
@@ -116,10 +117,6 @@ class ContactFinder:
         for x in seen:
             if not self._ties[x]:
                 self._keep(Drift.of(bodies[x], self._crowd.room(x), self._around(x)))
-
-    def _margins_m(self, body: Body) -> tuple[float, float]:
-        """How far a body may touch or hang from others, and how much farther it may fall."""
-        return max(TOUCH_M, hang_reach_m(body.size_m)), fall_reach_m(body.size_m)
 
     def _part(self, x: str, y: str, dirty: set[Pair], unsure: set[str]) -> None:
         """Note that two are neighbours no more."""

@@ -19,7 +19,7 @@ from scene2hap.contact.ledge import Flat
 from scene2hap.contact.level import Rest
 from scene2hap.contact.profile import Triple
 from scene2hap.contact.stance import Stance, Tray
-from scene2hap.contact.support import TOUCH_M, fall_reach_m, hang_reach_m
+from scene2hap.contact.support import TOUCH_M, fall_reach_m, margins_m
 from scene2hap.contact.tie import SURE_M, Slide, Tie
 from scene2hap.scene.pose import Pose
 
@@ -180,9 +180,9 @@ class Drift:
     def of(cls, body: Body, zone: Room, around: Iterable[tuple[Body, Room]]) -> Drift:
         """The drift of a body that touches nothing, may move in a zone, and has such neighbours, each of which may move
         in its own. It goes nowhere unless boxes tell where."""
-        opens, others, hosts, reach_m = [zone], [], [], _margin_m(body)
+        opens, others, hosts, reach_m = [zone], [], [], sum(margins_m(body))
         for other, room in around:
-            margin_m = max(reach_m, _margin_m(other))
+            margin_m = max(reach_m, sum(margins_m(other)))
             if max(_gaps_m(body, room)) > margin_m:
                 others.append((room, margin_m))
             else:
@@ -239,10 +239,6 @@ def _gaps_m(body: Body, room: Room) -> list[float]:
     """How far a box is beyond a body: towards greater and then towards less x, y, z."""
     (low, high), near, far = room, body.low, body.high
     return [low[k] - far[k] for k in range(3)] + [near[k] - high[k] for k in range(3)]
-
-
-def _margin_m(body: Body) -> float:
-    return max(TOUCH_M, hang_reach_m(body.size_m)) + fall_reach_m(body.size_m)
 
 
 def _free_box(body: Body, zone: Room, others: Iterable[tuple[Room, float]]) -> Room:

@@ -1,4 +1,7 @@
-"""A body's own box as another sees it, in plain numbers: it is asked for often, for one pair at a time."""
+"""Two bodies: which is the guest of which, and its own box as the other sees it.
+
+In plain numbers, since it is asked for often, for one pair at a time.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +13,11 @@ def middle_m(body: Body) -> Triple:
     """The middle of a body's own box in the world [m]."""
     (mx, my, mz), (x, y, z), ((a, b, c), (d, e, f), (g, h, i)) = body.shape.middle, body.position_m, body.stance.rows
     return (x + a * mx + b * my + c * mz, y + d * mx + e * my + f * mz, z + g * mx + h * my + i * mz)
+
+
+def roles(x: Body, y: Body) -> tuple[Body, Body]:
+    """Guest and host: of two the smaller, and the one in which it may be; the ids decide between equals."""
+    return (x, y) if (x.size_m, y.id) < (y.size_m, x.id) else (y, x)
 
 
 def box_in_frame(guest: Body, host: Body) -> tuple[Triple, Triple]:

@@ -45,9 +45,9 @@ HANG_REACH_M, _HANG_REACH_SIZES = 0.075, 0.05
 
 _HIDDEN_M = 0.002  # What lies this much below something else is hidden by it (assumed: the thinnest carpet).
 _HOLDING = 0.5  # Least cosine of a slope that holds a thing (assumed): a wall's triangles hold nothing.
-# Triangles are tried this share smaller, by at most so much: equal boxes on each other, whose rims coincide, then
+# What falls is tried this share smaller, by at most so much: equal boxes on each other, whose rims coincide, then
 # surely lie over each other, and boxes exactly side by side surely do not.
-_INSET, _INSET_M = 1e-4, 1e-4
+INSET, INSET_M = 1e-4, 1e-4
 # So many pairs of triangles are asked for the nearest fall first if there are many, since that may spare the others.
 _FIRST, _MANY = 64, 512
 
@@ -82,6 +82,11 @@ def fall_reach_m(size_m: float) -> float:
 def hang_reach_m(size_m: float) -> float:
     """How far a thing of that diagonal may stand off what it hangs from [m]; less than its `fall_reach_m`."""
     return min(HANG_REACH_M, _HANG_REACH_SIZES * size_m)
+
+
+def margins_m(body: Body) -> tuple[float, float]:
+    """How far a body may touch or hang from others, and how much farther it may fall [m]."""
+    return max(TOUCH_M, hang_reach_m(body.size_m)), fall_reach_m(body.size_m)
 
 
 def falls(meeting: Meeting, faller: Body, other: Body) -> Floats | None:
@@ -197,5 +202,5 @@ def is_over(x: Body, y: Body) -> bool:
 def _inset(triangles: Floats) -> Floats:
     inwards = triangles.mean(axis=1, keepdims=True) - triangles
     extent = np.abs(inwards).reshape(-1, 9).max(axis=1)[:, None, None]
-    inset: Floats = triangles + inwards * np.minimum(_INSET, _INSET_M / np.maximum(extent, _INSET_M))
+    inset: Floats = triangles + inwards * np.minimum(INSET, INSET_M / np.maximum(extent, INSET_M))
     return inset

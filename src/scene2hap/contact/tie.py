@@ -19,6 +19,7 @@ from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.level import Aside, Rest, aside, rest_on
 from scene2hap.contact.narrow import Gap, Meeting
 from scene2hap.contact.profile import Floats, Triple
+from scene2hap.contact.relative import roles
 from scene2hap.contact.stance import Tray
 from scene2hap.contact.support import HANG_REACH_M, TOUCH_M, fall_reach_m, falls, is_over
 
@@ -184,11 +185,6 @@ def _rest_amid(x: Body, y: Body, reach_m: float) -> Rest | None:
     if guest is not x or fall_m < -TOUCH_M:
         return UNCLEAR
     return Rest(fall_m, True, top_m) if fall_m <= reach_m else None
-
-
-def roles(x: Body, y: Body) -> tuple[Body, Body]:
-    """Of two the smaller, and the one in which it may be."""
-    return (x, y) if (x.size_m, y.id) < (y.size_m, x.id) else (y, x)
 
 
 class Slide(NamedTuple):
