@@ -37,21 +37,20 @@ class Ledges:
     """The level faces of triangles (m, 3, 3) in their boxes, where up is along an own axis.
 
     Parameters: uneven_m : how much heights may differ within a face, and how far faces are apart that are two [m].
-    `top` and `bottom` (m,) are the triangles' heights; `number` (m,) tells which ledge each is part of, -1 for none;
-    `heights` are those of the ledges, rising.
+    `number` (m,) tells which ledge each triangle is part of, -1 for none; `heights` are those of the ledges, rising.
     """
 
     def __init__(self, triangles: Floats, boxes: Boxes, upright: Upright, uneven_m: float) -> None:
         axis, sign, *plane = upright
         low, high = boxes.low[:, axis], boxes.high[:, axis]
-        self.top, self.bottom = (high, low) if sign > 0 else (-low, -high)
+        top = high if sign > 0 else -low
         self.number: NDArray[np.intp] = np.full(len(triangles), -1)
-        level = np.flatnonzero(self.top - self.bottom <= uneven_m)
-        level = level[np.argsort(self.top[level], kind="stable")]
-        steps = np.diff(self.top[level]) > uneven_m
+        level = np.flatnonzero(high - low <= uneven_m)
+        level = level[np.argsort(top[level], kind="stable")]
+        steps = np.diff(top[level]) > uneven_m
         self.number[level] = np.concatenate([[0], np.cumsum(steps)])[: len(level)]
         ends = np.append(steps, True)[: len(level)]
-        self.heights: list[float] = self.top[level][ends].tolist()
+        self.heights: list[float] = top[level][ends].tolist()
         self._corners = triangles[:, :, plane]
         self._outlines: dict[int, tuple[Floats, Floats]] = {}
 
