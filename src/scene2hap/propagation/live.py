@@ -8,7 +8,7 @@ offers one.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
@@ -55,11 +55,17 @@ class PricedField(LiveField, Protocol):
     """A live field whose answers fall as a price rises, so that what is too faint to matter is known by its price
     alone, before anything is worked out. `strongest(hands)` is `at(prices(hands))`."""
 
-    def prices(self, hands: Sequence[Sequence[TouchedPoint]], limits: Sequence[float] | None = None) -> Prices:
+    def prices(
+        self,
+        hands: Sequence[Sequence[TouchedPoint]],
+        limits: Sequence[float] | None = None,
+        among: Sequence[Collection[int]] | None = None,
+    ) -> Prices:
         """The price of each source at each hand; one that feels it at several points has the least of them.
 
         Parameters: limits : for each source, a price above which it may as well be infinite; what is farther is not
-        looked for then.
+        looked for then; among : for each hand, the columns of the sources that hang together with what it touches, so
+        that no other is looked for.
         """
         ...
 

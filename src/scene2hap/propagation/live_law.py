@@ -9,7 +9,7 @@ worked out once for each hand and source.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -46,9 +46,17 @@ class LiveLaw:
         """See `LiveField`."""
         return self.at(self.prices(hands))
 
-    def prices(self, hands: Sequence[Sequence[TouchedPoint]], limits: Sequence[float] | None = None) -> Prices:
+    def prices(
+        self,
+        hands: Sequence[Sequence[TouchedPoint]],
+        limits: Sequence[float] | None = None,
+        among: Sequence[Collection[int]] | None = None,
+    ) -> Prices:
         """See `PricedField`."""
-        return [self._paths.least_costs(touched, limits) for touched in hands]
+        least_costs = self._paths.least_costs
+        if among is None:
+            return [least_costs(touched, limits) for touched in hands]
+        return [least_costs(touched, limits, rows) for touched, rows in zip(hands, among, strict=True)]
 
     def at(self, prices: Prices, columns: Sequence[int] | None = None) -> Floats:
         """See `PricedField`."""

@@ -10,7 +10,7 @@ rest: from one source at a question, as far as anything matters, so that no ques
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from scene2hap.propagation.outward import Doors, Entries, Triple, cheapest_outward, entries_around
@@ -93,22 +93,38 @@ class LivePaths:
         """
         return self.least_costs([(object_id, point_m)], limits)
 
-    def least_costs(self, touched: Iterable[tuple[str, Triple]], limits: Sequence[float] | None = None) -> list[float]:
-        """The same for the nearest of several points, each with its object; inf for no point."""
+    def least_costs(
+        self,
+        touched: Iterable[tuple[str, Triple]],
+        limits: Sequence[float] | None = None,
+        among: Collection[int] | None = None,
+    ) -> list[float]:
+        """The same for the nearest of several points, each with its object; inf for no point.
+
+        Parameters: among : the rows of the sources that hang together with any of the points, None if that is not
+        known; no other is looked for.
+        """
         found = [math.inf] * len(self._source_ids)
         for object_id, point_m in touched:
             if object_id in self._price_per_m and object_id in self._beside:
-                self._lower(found, object_id, point_m, limits)
+                self._lower(found, object_id, point_m, limits, among)
             if object_id in self._row:
                 found[self._row[object_id]] = 0.0
         return found
 
-    def _lower(self, found: list[float], object_id: str, point_m: Triple, limits: Sequence[float] | None) -> None:
+    def _lower(
+        self,
+        found: list[float],
+        object_id: str,
+        point_m: Triple,
+        limits: Sequence[float] | None,
+        among: Collection[int] | None,
+    ) -> None:
         """Take in what is cheaper from another point."""
         if self._max_hops in (1, 2):
             self._lower_shortly(found, object_id, point_m, limits)
         elif self._max_hops is None and self._is_outward_quicker(limits):
-            outward = cheapest_outward(object_id, point_m, self._doors, self._row, limits)
+            outward = cheapest_outward(object_id, point_m, self._doors, self._row, limits, among)
             found[:] = [min(pair) for pair in zip(found, outward, strict=True)]
         else:
             is_all = limits is None or self._max_hops is not None

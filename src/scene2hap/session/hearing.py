@@ -113,11 +113,12 @@ class HearingNear:
         gains, horizon, on = self._gains, self._horizon, self._on
         touches, n_out = list(felt.values()), 0
         asked = [gains.asked(touched) for touched in touches]
-        prices = gains.prices(self._field, touches, asked, horizon)
+        reached = [gains.reached(touched) for touched in touches]
+        prices = gains.prices(self._field, touches, asked, horizon, reached)
         worth = set[int]()
-        for row, touched in zip(prices, touches, strict=True):
+        for row, among in zip(prices, reached, strict=True):
             near = {x for x, price in enumerate(row) if price <= horizon[x]}
-            n_out += len((gains.reached(touched) & on) - near)
+            n_out += len((among & on) - near)
             worth |= near
         self._counts.below_threshold += n_out
         self._counts.idle_hands += n_hands - len(felt)
@@ -130,8 +131,10 @@ class HearingNear:
         version = self._graph.version
 
         def told() -> Gains:
-            now = self._graph.version == version
-            everything = gains.prices(self._field, touches, asked, self._arrives) if now else _without(prices, horizon)
+            if self._graph.version == version:
+                everything = gains.prices(self._field, touches, asked, self._arrives, reached)
+            else:
+                everything = _without(prices, horizon)
             return _among(self._loudness.applied(self._field.at(everything)), n_hands, felt)
 
         return Heard(told, _among(mixed, n_hands, felt), columns)

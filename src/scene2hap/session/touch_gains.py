@@ -50,12 +50,13 @@ class TouchGains:
         hands: Sequence[Sequence[Touch]],
         asked: Sequence[Sequence[TouchedPoint]],
         limits: Sequence[float],
+        reached: Sequence[frozenset[int]],
     ) -> Prices:
         """The price of each source at each hand up to its limit, of a field that tells it; 0 on a source.
 
-        Parameters: asked : see `asked`, of the touches of each hand.
+        Parameters: asked, reached : see there, of the touches of each hand.
         """
-        prices = field.prices(asked, limits)
+        prices = field.prices(asked, limits, reached)
         for row, touches in zip(prices, hands, strict=True):
             for touch in touches:
                 if touch.object_id in self._own:

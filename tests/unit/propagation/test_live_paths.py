@@ -9,6 +9,7 @@ import pytest
 from contact_scenes import box, scene
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.propagation.live_paths import LivePaths
+from scene2hap.propagation.outward import Doors, Exit, cheapest_outward
 from scene2hap.propagation.paths import cheapest_arrivals
 from scene2hap.propagation.points import arrivals_at
 from scene2hap.scene.pose import Pose
@@ -98,12 +99,13 @@ def test_leaving_out_what_leads_nowhere_new_loses_no_way() -> None:
         assert cost >= best - 1e-12
 
 
-def test_ways_over_any_number_of_contacts_are_the_same_asked_seldom_and_often() -> None:
+@pytest.mark.parametrize("rigid", [{}, {"x3": 0.0}])
+def test_ways_over_any_number_of_contacts_are_the_same_asked_seldom_and_often(rigid: dict[str, float]) -> None:
     rng = np.random.default_rng(8)
     names = [f"x{i}" for i in range(12)]
     graph = ContactGraph(scene(*(box(name, (0.1, 0.1, 0.1), (i, 0, 0)) for i, name in enumerate(names))))
-    # One is made of nothing that anybody knows, and another rigid.
-    prices = {name: float(rng.uniform(0.05, 1.0)) for name in names[:-1]} | {"x3": 0.0}
+    # One is made of nothing that anybody knows.
+    prices = {name: float(rng.uniform(0.05, 1.0)) for name in names[:-1]} | rigid
     sources = ("x0", "x4", "x11")
     paths, limited = (LivePaths(graph, prices, crossing, sources, None) for _ in range(2))
     limits = [0.2, 0.5, 1.0]
@@ -158,3 +160,53 @@ def test_no_way_crosses_more_contacts_than_it_may(limits: list[float] | None) ->
     for _ in range(3):
         assert paths.costs("x3", (0, 0, 0), limits) == [pytest.approx(3 * crossing(1.0))]
         assert paths.costs("x4", (0, 0, 0), limits) == [math.inf]
+
+
+class Noted(Doors):
+    """Doors that note out of what a walk went on."""
+
+    left: tuple[str, ...] = ()
+
+    def exits_to_ends(self, object_id: str) -> list[Exit]:
+        self.left += (object_id,)
+        return super().exits_to_ends(object_id)
+
+
+def floor_with_cups() -> tuple[ContactGraph, dict[str, float]]:
+    """A radio 1 m from the middle of a floor on one side, cups that carry far better on the other, and a lone fan."""
+    cups = [f"cup{i}" for i in range(9)]
+    names = ["floor", "radio", "fan", "mat", *cups]
+    graph = ContactGraph(scene(*(box(name, (0.1, 0.1, 0.1), (i, 0, 0)) for i, name in enumerate(names))))
+    feet = [(x, -0.5 + 0.1 * i, 0.0) for i in range(9) for x in (-0.8, -0.7)]
+    given = [Contact(cup, "floor", feet[2 * i + k]) for i, cup in enumerate(cups) for k in (0, 1)]
+    given += [Contact("radio", "floor", (1.0, y, 0.0)) for y in (0.0, 0.1)] + [Contact("fan", "mat", (5.0, 0.0, 0.0))]
+    graph.update({}, contacts=given)
+    return graph, {"floor": 0.3, "radio": 0.2, "mat": 0.2, "fan": 0.2} | dict.fromkeys(cups, 0.1)
+
+
+def test_a_walk_enters_nothing_that_leads_to_no_source_in_time() -> None:
+    graph, prices = floor_with_cups()
+    no_cost = {1.0: 0.0}
+    doors = Noted(graph, prices, no_cost, {"radio": 0, "fan": 1})
+    assert cheapest_outward("floor", (0, 0, 0), doors, {"radio": 0}) == [pytest.approx(0.3)]
+    assert set(doors.left) == {"floor"}
+    # For the radio, too, a limit may be too short, be it that the limit of another source is not.
+    doors.left = ()
+    found = cheapest_outward("floor", (0, 0, 0), doors, {"radio": 0, "fan": 1}, [0.05, 0.3])
+    assert found == [math.inf, math.inf]
+    assert set(doors.left) <= {"floor"}
+
+
+def test_what_does_not_hang_together_with_a_touch_is_not_looked_for() -> None:
+    graph, prices = floor_with_cups()
+    no_cost = {1.0: 0.0}
+    row = {"radio": 0, "fan": 1}
+    doors = Noted(graph, prices, no_cost, row)
+    everywhere = cheapest_outward("floor", (0, 0, 0), doors, row)
+    assert everywhere == [pytest.approx(0.3), math.inf]
+    assert {"cup0", "cup8"} < set(doors.left)
+    doors.left = ()
+    assert cheapest_outward("floor", (0, 0, 0), doors, row, None, {0}) == everywhere
+    assert set(doors.left) == {"floor"}
+    paths = LivePaths(graph, prices, crossing, ["radio", "fan"], None)
+    assert paths.least_costs([("floor", (0, 0, 0))], None, {0}) == paths.costs("floor", (0, 0, 0))
