@@ -9,11 +9,12 @@ from weakref import WeakValueDictionary
 
 import numpy as np
 
-from scene2hap.contact.broad import Boxes, Floats
+from scene2hap.contact.broad import Boxes
 from scene2hap.contact.ledge import Ledges, Upright
-from scene2hap.contact.profile import Sole, Triple, sole_of, top_of, triples, uneven_m
+from scene2hap.contact.profile import Sole, sole_of, top_of, triples, uneven_m
 from scene2hap.contact.rays import first_hits
 from scene2hap.contact.stance import Stance
+from scene2hap.contact.vectors import Floats, Triple, along, cross, dot, highest, lowest
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject, TriMesh
 
@@ -28,25 +29,26 @@ _Told = TypeVar("_Told")
 
 
 class Shape:
-    """The triangles (m, 3, 3) [m] of a mesh in its own frame, their boxes, and the corners in use (n, 3)."""
+    """The triangles of a mesh in its own frame (3, 3, m) [m], in the order of `contact.triangles`: axes, corners,
+    triangles; their boxes; and the corners in use (n, 3) [m]."""
 
     def __init__(self, triangles: Floats, corners: Floats) -> None:
         self.triangles = triangles
         self.boxes = boxes_of(triangles)
         self.corners = corners
         self.box: Boxes = self.boxes.hull()
-        self.low, self.high = self.box.low[0], self.box.high[0]
+        self.low, self.high = self.box.low[:, 0], self.box.high[:, 0]
         # Of the own bounding box, which no motion changes.
         self.size_m = float(np.linalg.norm(self.high - self.low))
-        self.middle: Triple = triples((self.box.low + self.box.high) / 2)[0]
-        self.half: Triple = triples((self.box.high - self.box.low) / 2)[0]
+        self.middle: Triple = triples((self.low + self.high)[None] / 2)[0]
+        self.half: Triple = triples((self.high - self.low)[None] / 2)[0]
         self._soles: dict[Triple, Sole] = {}
         self._tops: dict[Triple, tuple[Triple, ...] | None] = {}
         self._ledges: dict[Upright, Ledges] = {}
 
     @cached_property
     def normals(self) -> Floats:
-        """Unit normals (m, 3) of the triangles, 0 for those without area."""
+        """Unit normals (3, m) of the triangles, 0 for those without area."""
         normals, lengths = self._cross
         unit: Floats = normals / np.where(lengths > 0, lengths, 1.0)
         return unit
@@ -58,11 +60,11 @@ class Shape:
         if not (edges > 0).all():
             return False
         near = 1e-9 * float(edges.max())
-        areas = self._cross[1][:, 0] / 2
+        areas = self._cross[1] / 2
         on_side = np.zeros(len(areas), dtype=bool)
         for axis in range(3):
             for end in (self.low[axis], self.high[axis]):
-                side = (np.abs(self.triangles[:, :, axis] - end) <= near).all(axis=1)
+                side = (np.abs(self.triangles[axis] - end) <= near).all(axis=0)
                 true = edges.prod() / edges[axis]
                 if abs(areas[side].sum() - true) > 1e-6 * true:
                     return False
@@ -84,7 +86,7 @@ class Shape:
                 # From a little outside, where a level side is surely met.
                 way = np.where(np.arange(3) == axis, (1.02 - 2.04 * end) * edges, 0.0)[None]
                 start = self.low + share * edges - way / 102
-                hits = first_hits(start, np.repeat(way, len(start), axis=0), self.triangles, self.boxes)
+                hits = first_hits(start.T, np.repeat(way.T, len(start), axis=1), self.triangles, self.boxes)
                 sides[end, axis] = start + np.where(np.isfinite(hits), hits, np.nan)[:, None] * way
         return sides.reshape(6, -1, 3)
 
@@ -112,9 +114,9 @@ class Shape:
 
     @cached_property
     def _cross(self) -> tuple[Floats, Floats]:
-        a, b, c = self.triangles[:, 0], self.triangles[:, 1], self.triangles[:, 2]
-        normals = np.cross(b - a, c - a)
-        return normals, np.linalg.norm(normals, axis=1, keepdims=True)
+        a, b, c = self.triangles.transpose(1, 0, 2)
+        normals = cross(b - a, c - a)
+        return normals, np.sqrt(dot(normals, normals))
 
 
 # Instances share a mesh, and sessions come and go over one scene: a shape lives as long as some body uses it.
@@ -125,7 +127,8 @@ def shape_of(mesh: TriMesh) -> Shape:
     """The shape of a mesh, made once for equal meshes."""
     shape = _shapes.get(mesh.digest)
     if shape is None:
-        shape = Shape(mesh.vertices_m[mesh.faces], mesh.vertices_m[np.unique(mesh.faces)])
+        triangles = np.ascontiguousarray(mesh.vertices_m[mesh.faces].transpose(2, 1, 0))
+        shape = Shape(triangles, mesh.vertices_m[np.unique(mesh.faces)])
         _shapes[mesh.digest] = shape
     return shape
 
@@ -188,8 +191,8 @@ class Body:
     @cached_property
     def lows_m(self) -> Floats:
         """Height of the lowest corner of each triangle (m,)."""
-        a, b, c = (self.shape.triangles @ self.up + self.pose.position_m[self.up_axis]).T
-        lows: Floats = np.minimum(np.minimum(a, b), c)
+        lows: Floats = lowest(along(self.up, self.shape.triangles))
+        lows += self.pose.position_m[self.up_axis]
         return lows
 
     @cached_property
@@ -200,12 +203,11 @@ class Body:
     @cached_property
     def slopes(self) -> Floats:
         """How flat each triangle (m,) lies: 1 level, 0 upright or without area."""
-        slopes: Floats = np.abs(self.shape.normals @ self.up)
+        slopes: Floats = np.abs(along(self.up, self.shape.normals))
         return slopes
 
 
 def boxes_of(triangles: Floats) -> Boxes:
-    """The bounding box of each triangle (m, 3, 3)."""
-    # numpy reduces short axes slowly.
-    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
-    return Boxes(np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c))
+    """The bounding boxes of triangles (3, 3, m)."""
+    corners = triangles.transpose(1, 0, 2)
+    return Boxes(lowest(corners), highest(corners))

@@ -6,12 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap.contact.broad import Floats
 from scene2hap.contact.junction import Junction
 from scene2hap.contact.level import Aside, Rest, rest_points
-from scene2hap.contact.profile import Triple
 from scene2hap.contact.support import CLEAR_M
 from scene2hap.contact.tie import Tie
+from scene2hap.contact.vectors import Floats, Triple
 
 
 class Bond(NamedTuple):

@@ -11,10 +11,8 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Indices = NDArray[np.intp]
+from scene2hap.contact.vectors import Floats, Indices, Marks
 
 # Pairs that overlap along the sweep axis and are looked at together: some 10 MB.
 _CHUNK = 1 << 17
@@ -23,7 +21,7 @@ _FEW = 1 << 12
 
 
 class Boxes(NamedTuple):
-    """Axis-parallel boxes by their lowest and highest corners, both (n, 3) [m]."""
+    """Axis-parallel boxes by their lowest and highest corners, both (3, n) [m]."""
 
     low: Floats
     high: Floats
@@ -34,35 +32,37 @@ class Boxes(NamedTuple):
 
     def swept(self, travel_m: Floats) -> Boxes:
         """The boxes that hold these on their whole way along `travel_m` (3,)."""
-        return Boxes(self.low + np.minimum(travel_m, 0.0), self.high + np.maximum(travel_m, 0.0))
+        back, on = np.minimum(travel_m, 0.0), np.maximum(travel_m, 0.0)
+        return Boxes(self.low + back[:, None], self.high + on[:, None])
 
-    def rows(self, rows: Indices) -> Boxes:
+    def some(self, columns: Indices) -> Boxes:
         """Some of the boxes."""
-        return Boxes(self.low[rows], self.high[rows])
+        return Boxes(self.low.take(columns, axis=1), self.high.take(columns, axis=1))
 
     def hull(self) -> Boxes:
-        """The one box (1, 3) around all of them; at least one there must be."""
-        return Boxes(self.low.min(axis=0, keepdims=True), self.high.max(axis=0, keepdims=True))
+        """The one box (3, 1) around all of them; at least one there must be."""
+        return Boxes(self.low.min(axis=1, keepdims=True), self.high.max(axis=1, keepdims=True))
 
     def common(self, other: Boxes) -> Boxes:
         """What lies both in one of the boxes and in its counterpart, or in the other's only one; they must meet."""
         return Boxes(np.maximum(self.low, other.low), np.minimum(self.high, other.high))
 
-    def meeting(self, one: Boxes, among: NDArray[np.bool_] | None = None) -> Indices:
-        """Rows of the boxes that meet the single box `one`, touching included, among those marked (n,) or all."""
-        near = (self.low[:, 0] <= one.high[0, 0]) & (self.high[:, 0] >= one.low[0, 0])
-        rows = np.flatnonzero(near if among is None else near & among)
+    def meeting(self, one: Boxes, among: Marks | None = None) -> Indices:
+        """Columns of the boxes that meet the single box `one`, touching included, among those marked (n,) or all."""
+        least, most = one.low[:, 0].tolist(), one.high[:, 0].tolist()
+        near = (self.low[0] <= most[0]) & (self.high[0] >= least[0])
+        columns = np.flatnonzero(near if among is None else near & among)
         for axis in (1, 2):
-            low, high = self.low[rows, axis], self.high[rows, axis]
-            rows = rows[(low <= one.high[0, axis]) & (high >= one.low[0, axis])]
-        return rows
+            low, high = self.low[axis].take(columns), self.high[axis].take(columns)
+            columns = columns[(low <= most[axis]) & (high >= least[axis])]
+        return columns
 
 
 def box_pairs(a: Boxes, b: Boxes) -> Iterator[tuple[Indices, Indices]]:
     """All (i, j) with a[i] and b[j] meeting, touching included, in chunks; each pair once."""
-    if len(a.low) * len(b.low) <= _FEW:
-        apart = (a.low[:, None] > b.high) | (a.high[:, None] < b.low)
-        i, j = np.nonzero(~(apart[..., 0] | apart[..., 1] | apart[..., 2]))
+    if a.low.shape[1] * b.low.shape[1] <= _FEW:
+        meets = (a.low[..., None] <= b.high[:, None]) & (a.high[..., None] >= b.low[:, None])
+        i, j = np.nonzero(meets[0] & meets[1] & meets[2])
         yield i, j
     else:
         sweeps = [_Sweep(a, b, axis) for axis in range(3)]
@@ -76,7 +76,8 @@ class _Sweep:
     """
 
     def __init__(self, a: Boxes, b: Boxes, axis: int) -> None:
-        low_a, high_a, low_b, high_b = a.low[:, axis], a.high[:, axis], b.low[:, axis], b.high[:, axis]
+        low_a, high_a, low_b, high_b = a.low[axis], a.high[axis], b.low[axis], b.high[axis]
+        self.others = [other for other in range(3) if other != axis]
         self.order_a, self.order_b = np.argsort(low_a, kind="stable"), np.argsort(low_b, kind="stable")
         sorted_a, sorted_b = low_a[self.order_a], low_b[self.order_b]
         self.b_in_a = (np.searchsorted(sorted_b, low_a, "right"), np.searchsorted(sorted_b, high_a, "right"))
@@ -85,9 +86,16 @@ class _Sweep:
 
     def pairs(self, a: Boxes, b: Boxes) -> Iterator[tuple[Indices, Indices]]:
         for i, place in _expanded(*self.b_in_a):
-            yield _meeting(a, b, i, self.order_b[place])
+            yield self._meeting(a, b, i, self.order_b[place])
         for j, place in _expanded(*self.a_in_b):
-            yield _meeting(a, b, self.order_a[place], j)
+            yield self._meeting(a, b, self.order_a[place], j)
+
+    def _meeting(self, a: Boxes, b: Boxes, i: Indices, j: Indices) -> tuple[Indices, Indices]:
+        """Those of the pairs that overlap along the other axes, too."""
+        for axis in self.others:
+            meets = (a.low[axis].take(i) <= b.high[axis].take(j)) & (a.high[axis].take(i) >= b.low[axis].take(j))
+            i, j = i[meets], j[meets]
+        return i, j
 
 
 def _expanded(start: Indices, stop: Indices) -> Iterator[tuple[Indices, Indices]]:
@@ -104,9 +112,3 @@ def _expanded(start: Indices, stop: Indices) -> Iterator[tuple[Indices, Indices]
         if len(rows):
             yield rows, first + np.arange(len(rows))
         row = end
-
-
-def _meeting(a: Boxes, b: Boxes, i: Indices, j: Indices) -> tuple[Indices, Indices]:
-    meets = (a.low[i] <= b.high[j]) & (a.high[i] >= b.low[j])
-    every = meets[:, 0] & meets[:, 1] & meets[:, 2]
-    return i[every], j[every]

@@ -14,7 +14,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes
@@ -24,6 +23,7 @@ from scene2hap.contact.ledge import Flat, Upright
 from scene2hap.contact.relative import box_in_frame
 from scene2hap.contact.stance import Tray
 from scene2hap.contact.support import INSET, INSET_M, TOUCH_M, fall_reach_m, hang_reach_m, is_over
+from scene2hap.contact.vectors import Marks
 
 _MOST_TILT_M = 1e-4  # A host may lean by so much over its whole size, which is the error of a ledge's height then.
 _MANY_CORNERS = 8  # An outline of more is taken for a circle.
@@ -176,7 +176,7 @@ def _drawn(host: Body, own: Upright, taken: Room, foot: Flat) -> Clearing | None
     if not len(meets):
         return Clearing(near.cut(taken), None, _NO_LEDGE)
     ledges = host.shape.ledges(own)
-    numbers, tops = ledges.number[near.rows], near.high[:, 2]
+    numbers, tops = ledges.number[near.rows], near.high[2]
     number = int(numbers[meets[tops[meets].argmax()]])
     if number < 0:
         return None
@@ -190,32 +190,36 @@ def _drawn(host: Body, own: Upright, taken: Room, foot: Flat) -> Clearing | None
 
 
 class _Near:
-    """The host's triangles around a guest: their `rows`, and the corners (n, 3) of their boxes, as (u, v, h)."""
+    """The host's triangles around a guest: their `rows`, and the corners (3, n) of their boxes, as (u, v, h)."""
 
     def __init__(self, host: Body, own: Upright, taken: Room) -> None:
         self._low, self._high = np.array(taken[0]) - SKIN_M, np.array(taken[1]) + SKIN_M
         boxes, order = host.shape.boxes, [own.u, own.v, own.axis]
-        one = np.empty((2, 1, 3))
-        one[:, 0, order] = self._low, self._high
+        one = np.empty((2, 3, 1))
+        one[:, order, 0] = self._low, self._high
         if own.sign < 0:
-            one[:, 0, own.axis] = -self._high[2], -self._low[2]
+            one[:, own.axis, 0] = -self._high[2], -self._low[2]
         self.rows = boxes.meeting(Boxes(one[0], one[1]))
-        self.low, self.high = boxes.low[self.rows][:, order], boxes.high[self.rows][:, order]
+        near = boxes.some(self.rows)
+        self.low, self.high = near.low[order], near.high[order]
         if own.sign < 0:
-            self.low[:, 2], self.high[:, 2] = -self.high[:, 2], -self.low[:, 2]
+            self.low[2], self.high[2] = -self.high[2], -self.low[2]
 
-    def meets(self, taken: Room) -> NDArray[np.bool_]:
+    def meets(self, taken: Room) -> Marks:
         """Which of them (n,) meet a box, touching included."""
-        meets: NDArray[np.bool_] = np.all((self.low <= taken[1]) & (self.high >= taken[0]), axis=1)
+        low, high = np.array(taken)[..., None]
+        x, y, z = (self.low <= high) & (self.high >= low)
+        meets: Marks = x & y & z
         return meets
 
-    def cut(self, taken: Room, others: NDArray[np.bool_] | slice = slice(None)) -> Room:
+    def cut(self, taken: Room, others: Marks | slice = slice(None)) -> Room:
         """A box around another, not beyond the surroundings, that meets none of the others, all of which are beside."""
-        sides = np.concatenate([self.low[others] - taken[1], taken[0] - self.high[others]], axis=1)
-        widest = sides.argmax(axis=1)
-        room = sides[np.arange(len(sides)), widest]
+        low, high = np.array(taken)[..., None]
+        sides = np.concatenate([self.low[:, others] - high, low - self.high[:, others]])
+        widest = sides.argmax(axis=0)
+        room = sides[widest, np.arange(len(widest))]
         # A little less, so that rounding does not matter.
         least = np.array([0.999 * room[widest == side].min(initial=np.inf) for side in range(6)])
-        high, low = np.minimum(self._high, taken[1] + least[:3]), np.maximum(self._low, taken[0] - least[3:])
-        (a, b, c), (d, e, f) = low.tolist(), high.tolist()
+        lowest, highest = np.maximum(self._low, low[:, 0] - least[3:]), np.minimum(self._high, high[:, 0] + least[:3])
+        (a, b, c), (d, e, f) = lowest.tolist(), highest.tolist()
         return (a, b, c), (d, e, f)

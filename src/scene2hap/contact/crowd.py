@@ -15,7 +15,7 @@ import numpy as np
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes, box_pairs
-from scene2hap.contact.profile import Triple
+from scene2hap.contact.vectors import Triple
 
 SKIN_M = 0.06
 """How far a thing may move before its neighbours are looked for anew (assumed: a hand's way in four or five frames)."""
@@ -109,8 +109,8 @@ class Crowd:
             return {x: self._meeting(x) for x in ids}
         found: dict[str, set[str]] = {x: set() for x in ids}
         rows, every = np.array([self._rows[x] for x in ids]), np.array(list(self._rows.values()))
-        low, high = self._low.T, self._high.T
-        for i, j in box_pairs(Boxes(low[rows], high[rows]), Boxes(low[every], high[every])):
+        boxes = Boxes(self._low, self._high)
+        for i, j in box_pairs(boxes.some(rows), boxes.some(every)):
             for x, y in zip(rows[i].tolist(), every[j].tolist(), strict=True):
                 if x != y:
                     found[self._ids[x]].add(self._ids[y])

@@ -8,10 +8,10 @@ import numpy as np
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.cuboid_patch import patches
-from scene2hap.contact.cuboids import Floats, Pairs, dot, gaps, times
+from scene2hap.contact.cuboids import Pairs, gaps, times
 from scene2hap.contact.narrow import ROUNDING_M, Gap
-from scene2hap.contact.profile import Triple
 from scene2hap.contact.support import TOUCH_M
+from scene2hap.contact.vectors import Floats, Triple, dot
 
 Couple = tuple[Body, Body]
 

@@ -23,18 +23,15 @@ from scene2hap.contact.cuboids import (
     FLUSH_M,
     MIDDLES,
     Ends,
-    Floats,
     Gaps,
-    Indices,
-    Marks,
     Pairs,
     all_ends,
-    dot,
     ends_of,
     nearest_axis,
     picked,
 )
 from scene2hap.contact.spread import spread_each
+from scene2hap.contact.vectors import Floats, Indices, Marks, dot
 
 # Faces this much less far apart than others are as good, so that rounding does not choose; and rims this near count.
 _TIE, _RIM_M, _RIM = 1e-6, 1e-9, 1e-9

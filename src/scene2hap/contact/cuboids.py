@@ -16,11 +16,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Indices = NDArray[np.intp]
-Marks = NDArray[np.bool_]
+from scene2hap.contact.vectors import Floats, Indices, Marks, dot
 
 NEXT, LAST = np.array([1, 2, 0]), np.array([2, 0, 1])
 SIGNS = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)]).T
@@ -152,12 +149,6 @@ def picked(table: Floats, rows: Indices) -> Floats:
     n = table.shape[1]
     found: Floats = table.ravel().take(rows * n + np.arange(n))
     return found
-
-
-def dot(x: Floats, y: Floats) -> Floats:
-    """Sum over the first axis, of length 3."""
-    product: Floats = x[0] * y[0] + x[1] * y[1] + x[2] * y[2]
-    return product
 
 
 def times(turn: Floats, points: Floats) -> Floats:

@@ -15,11 +15,11 @@ import math
 import numpy as np
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.broad import Boxes, Floats
-from scene2hap.contact.profile import Triple
+from scene2hap.contact.broad import Boxes
 from scene2hap.contact.rays import first_hits
 from scene2hap.contact.relative import box_in_frame, middle_m, roles
 from scene2hap.contact.support import weight
+from scene2hap.contact.vectors import Floats, Triple
 
 # Play on either side at which a thing ceases to be enclosed [m], at most and as a share of its diagonal. Up to 2/3 of
 # it a thing is to weigh 1, as gaps do everywhere: 12.7 mm (and up to 0.8 mm more) beside drawers on ball-bearing rails,
@@ -54,7 +54,7 @@ def enclosed(a: Body, b: Body) -> tuple[float, float]:
     if within <= 0:
         return 0.0, math.inf
     # Most of what is in a room is far from its walls.
-    low, high = ([[c + sign * (h + reach_m) for c, h in zip(middle, half, strict=True)]] for sign in (-1, 1))
+    low, high = ([[c + sign * (h + reach_m)] for c, h in zip(middle, half, strict=True)] for sign in (-1, 1))
     if not len(host.shape.boxes.meeting(Boxes(np.array(low), np.array(high)))):
         return 0.0, math.inf
     play_m = _play_m(guest, host, reach_m)
@@ -79,7 +79,7 @@ def _play_m(guest: Body, host: Body, reach_m: float) -> float:
     seen = np.flatnonzero(~np.isnan(points[:, 0]))
     outwards = np.concatenate([-np.eye(3), np.eye(3)])[seen // n]
     plays = np.full(len(points), np.inf)
-    start, way = points[seen] @ turn.T + shift, reach_m * outwards @ turn.T
+    start, way = turn @ points[seen].T + shift[:, None], reach_m * turn @ outwards.T
     plays[seen] = reach_m * first_hits(start, way, host.shape.triangles, host.shape.boxes)
     side_plays: Floats = np.sort(plays.reshape(6, n), axis=1)[:, int(_SIDE_SHARE * n)]
     return float(np.maximum(side_plays[:3], side_plays[3:]).min())

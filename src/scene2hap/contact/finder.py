@@ -16,7 +16,6 @@ from scene2hap.contact.crowd import Crowd, Room
 from scene2hap.contact.cuboid_meeting import gaps_of, points_of
 from scene2hap.contact.glide import Drift, Glide
 from scene2hap.contact.junction import Junction, Pair, pair_of
-from scene2hap.contact.profile import Floats, Triple
 from scene2hap.contact.support import (
     PATCH_SHARE,
     TOUCH_M,
@@ -30,6 +29,7 @@ from scene2hap.contact.support import (
     weight,
 )
 from scene2hap.contact.tie import UNCLEAR, WITHIN_M, Tie, apart_by, slide
+from scene2hap.contact.vectors import Floats, Triple
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject
 

@@ -17,10 +17,10 @@ from scene2hap.contact.crowd import Room
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.ledge import Flat
 from scene2hap.contact.level import Rest
-from scene2hap.contact.profile import Triple
 from scene2hap.contact.stance import Stance, Tray
 from scene2hap.contact.support import TOUCH_M, fall_reach_m, margins_m
 from scene2hap.contact.tie import SURE_M, Slide, Tie
+from scene2hap.contact.vectors import Triple
 from scene2hap.scene.pose import Pose
 
 _new = tuple.__new__

@@ -14,7 +14,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.contact.broad import Boxes, Floats
+from scene2hap.contact.broad import Boxes
+from scene2hap.contact.vectors import Floats
 
 Flat = tuple[float, float, float, float]
 """A rectangle by its least u and v and its greatest."""
@@ -34,7 +35,7 @@ class Upright(NamedTuple):
 
 
 class Ledges:
-    """The level faces of triangles (m, 3, 3) in their boxes, where up is along an own axis.
+    """The level faces of triangles (3, 3, m) in their boxes, where up is along an own axis.
 
     Parameters: uneven_m : how much heights may differ within a face, and how far faces are apart that are two [m].
     `number` (m,) tells which ledge each triangle is part of, -1 for none; `heights` are those of the ledges, rising.
@@ -42,16 +43,16 @@ class Ledges:
 
     def __init__(self, triangles: Floats, boxes: Boxes, upright: Upright, uneven_m: float) -> None:
         axis, sign, *plane = upright
-        low, high = boxes.low[:, axis], boxes.high[:, axis]
+        low, high = boxes.low[axis], boxes.high[axis]
         top = high if sign > 0 else -low
-        self.number: NDArray[np.intp] = np.full(len(triangles), -1)
+        self.number: NDArray[np.intp] = np.full(triangles.shape[2], -1)
         level = np.flatnonzero(high - low <= uneven_m)
         level = level[np.argsort(top[level], kind="stable")]
         steps = np.diff(top[level]) > uneven_m
         self.number[level] = np.concatenate([[0], np.cumsum(steps)])[: len(level)]
         ends = np.append(steps, True)[: len(level)]
         self.heights: list[float] = top[level][ends].tolist()
-        self._corners = triangles[:, :, plane]
+        self._corners = triangles[plane].transpose(2, 1, 0)
         self._outlines: dict[int, tuple[Floats, Floats]] = {}
 
     def stretch(self, number: int, foot: Flat, most: Flat) -> Flat | None:

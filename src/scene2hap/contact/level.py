@@ -13,9 +13,9 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.profile import Triple
 from scene2hap.contact.spread import spread_few
 from scene2hap.contact.stance import Point, Stance, edges_of
+from scene2hap.contact.vectors import Triple
 
 # Outlines lie over each other from this overlap on, as a share of the upper one's radius, and at most: equal boxes
 # side by side, whose rims coincide, do not.

@@ -13,15 +13,13 @@ from collections.abc import Iterator
 from typing import NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.contact.body import Shape, boxes_of
-from scene2hap.contact.broad import Boxes, Floats, Indices, box_pairs
+from scene2hap.contact.broad import Boxes, box_pairs
 from scene2hap.contact.spread import spread
-from scene2hap.contact.triangles import Meetings, closest_points, meetings, plane_gap
+from scene2hap.contact.triangles import TrianglePairs
+from scene2hap.contact.vectors import Floats, Indices, Marks, dot, turned
 from scene2hap.scene.pose import Pose
-
-Marks = NDArray[np.bool_]
 
 ROUNDING_M = 1e-9
 """Below this a gap is rounding."""
@@ -38,10 +36,11 @@ class Gap(NamedTuple):
 
 
 class Near(NamedTuple):
-    """Pairs of triangles, one of the guest and one of the host: their rows (n,) and corners (n, 3, 3) [m]."""
+    """Pairs of triangles, one of the guest and one of the host: which they are (n,), and both as `triangles` has them
+    (3, 3, n) [m]."""
 
-    guest_rows: Indices
-    host_rows: Indices
+    guest_columns: Indices
+    host_columns: Indices
     guest: Floats
     host: Floats
 
@@ -78,11 +77,8 @@ class Meeting:
         self.guest, self.host = (a, b) if self.guest_is_a else (b, a)
         host, guest = self.host.pose, self.guest.pose
         self._rotation: Floats = host.rotation.T @ guest.rotation
-        self._position: Floats = host.to_own(np.asarray(guest.position_m))
-        box = self.guest.shape.box
-        middle, half = (box.low + box.high) / 2 @ self._rotation.T + self._position, (box.high - box.low) / 2
-        half = half @ np.abs(self._rotation.T)
-        self._around_guest = Boxes(middle - half, middle + half)
+        self._position: Floats = host.to_own(np.asarray(guest.position_m))[:, None]
+        self._around_guest = _turned_box(self.guest.shape.box, self._rotation, self._position)
 
     def gap(self, within_m: float) -> Gap | None:
         """The least distance, if it is at most `within_m`."""
@@ -90,15 +86,14 @@ class Meeting:
         found: tuple[Floats, Floats] | None = None
         for pairs in self.near(within_m):
             queue = _Queue(pairs)
-            while (rows := queue.next(best)) is not None:
-                p, q = pairs.guest[rows], pairs.host[rows]
-                near = plane_gap(p, q) <= best
-                if not near.any():
+            while (columns := queue.next(best)) is not None:
+                close = TrianglePairs(pairs.guest.take(columns, axis=2), pairs.host.take(columns, axis=2)).within(best)
+                if not len(close):
                     continue
-                distance, on_guest, on_host = closest_points(p[near], q[near])
+                distance, on_guest, on_host = close.closest()
                 k = int(np.argmin(distance))
                 if distance[k] < best or (found is None and distance[k] <= best):
-                    best, found = float(distance[k]), (on_guest[k], on_host[k])
+                    best, found = float(distance[k]), (on_guest[:, k], on_host[:, k])
                 if best <= ROUNDING_M:
                     return Gap(0.0, np.zeros(3))
         if found is None:
@@ -114,18 +109,22 @@ class Meeting:
         """
         within_m = max(within_m, ROUNDING_M)
         way = self.host.pose.rotation.T @ (way_m if self.guest_is_a else -way_m)
-        ends = [(np.empty((0, 3)), np.empty((0, 3)))]
+        ends = [(np.empty((3, 0)), np.empty((3, 0)))]
         for pairs in self.near(within_m, way):
-            for start in range(0, len(pairs.guest), _BATCH):
-                p, q = pairs.guest[start : start + _BATCH] + way, pairs.host[start : start + _BATCH]
-                close = plane_gap(p, q) <= within_m
-                every: Meetings = meetings(p[close], q[close])
-                hits = every.distance <= within_m
-                ends.append((every.on_p[hits] - way, every.on_q[hits]))
-        on_guest, on_host = (np.concatenate(side) for side in zip(*ends, strict=True))
+            for start in range(0, len(pairs.host_columns), _BATCH):
+                part = slice(start, start + _BATCH)
+                p, q = pairs.guest[..., part] + way[:, None, None], pairs.host[..., part]
+                close = TrianglePairs(p, q).within(within_m)
+                if not len(close):
+                    continue
+                every = close.meetings()
+                hits = np.flatnonzero(every.distance <= within_m)
+                on_p, on_q = (side.reshape(3, -1).take(hits, axis=1) for side in (every.on_p, every.on_q))
+                ends.append((on_p - way[:, None], on_q))
+        on_guest, on_host = (np.concatenate(side, axis=1) for side in zip(*ends, strict=True))
         chosen = spread((on_guest + on_host) / 2)
-        guest_own = (on_guest[chosen] - self._position) @ self._rotation
-        host_own = on_host[chosen]
+        guest_own = (self._rotation.T @ (on_guest[:, chosen] - self._position)).T
+        host_own = on_host[:, chosen].T
         return Patch(guest_own, host_own) if self.guest_is_a else Patch(host_own, guest_own)
 
     def near(
@@ -146,34 +145,37 @@ class Meeting:
         guest, host = self.guest.shape, self.host.shape
         # By one box first: of a room, next to nothing is near a thing in it, and of that thing what is near to that.
         around = _along(self._around_guest.grown(within_m), way, sweep)
-        host_rows = host.boxes.meeting(around, host_only)
-        if not len(host_rows):
+        host_columns = host.boxes.meeting(around, host_only)
+        if not len(host_columns):
             return
-        resting = host.boxes.rows(host_rows)
+        resting = host.boxes.some(host_columns)
         reach = _along(resting.hull().common(around).grown(within_m), -way, sweep)
-        guest_rows = guest.boxes.meeting(self._in_guest_frame(reach), guest_only)
-        if not len(guest_rows):
+        back = self._rotation.T
+        guest_columns = guest.boxes.meeting(_turned_box(reach, back, -(back @ self._position)), guest_only)
+        if not len(guest_columns):
             return
-        corners = guest.triangles[guest_rows] @ self._rotation.T + self._position
+        corners = turned(self._rotation, guest.triangles.take(guest_columns, axis=2))
+        corners += self._position[:, None]
         moving = _along(boxes_of(corners).grown(within_m), way, sweep)
         closer = resting.meeting(moving.hull())
         if not len(closer):
             return
-        host_rows, resting = host_rows[closer], resting.rows(closer)
+        host_columns, resting = host_columns[closer], resting.some(closer)
         again = moving.meeting(resting.hull())
-        for i, j in box_pairs(moving.rows(again), resting):
+        for i, j in box_pairs(moving.some(again), resting):
             if len(i):
-                i, j = again[i], host_rows[j]
-                yield Near(guest_rows[i], j, corners[i], host.triangles[j])
+                i, j = again[i], host_columns[j]
+                yield Near(guest_columns[i], j, corners.take(i, axis=2), host.triangles.take(j, axis=2))
 
-    def _in_guest_frame(self, box: Boxes) -> Boxes:
-        corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
-        points = (box.low + corners * (box.high - box.low) - self._position) @ self._rotation
-        return Boxes(points.min(axis=0, keepdims=True), points.max(axis=0, keepdims=True))
+
+def _turned_box(box: Boxes, rotation: Floats, position: Floats) -> Boxes:
+    """The box around a single one in another frame, in which a point is its turned self plus `position` (3, 1)."""
+    middle, half = rotation @ ((box.low + box.high) / 2) + position, np.abs(rotation) @ ((box.high - box.low) / 2)
+    return Boxes(middle - half, middle + half)
 
 
 def _along(boxes: Boxes, way: Floats, sweep: bool) -> Boxes:
-    return boxes.swept(way) if sweep else Boxes(boxes.low + way, boxes.high + way)
+    return boxes.swept(way) if sweep else Boxes(boxes.low + way[:, None], boxes.high + way[:, None])
 
 
 class _Queue:
@@ -182,13 +184,14 @@ class _Queue:
 
     def __init__(self, pairs: Near) -> None:
         a, b = boxes_of(pairs.guest), boxes_of(pairs.host)
-        apart = np.linalg.norm(np.maximum(np.maximum(a.low - b.high, b.low - a.high), 0.0), axis=1)
+        gaps = np.maximum(np.maximum(a.low - b.high, b.low - a.high), 0.0)
+        apart = np.sqrt(dot(gaps, gaps))
         self._order = np.argsort(apart, kind="stable")
         self._apart = apart[self._order]
         self._start, self._n = 0, _FIRST
 
     def next(self, within_m: float) -> Indices | None:
-        """The next rows whose boxes are within reach, None if there are no more."""
+        """The next pairs whose boxes are within reach, None if there are no more."""
         start = self._start
         self._start = min(start + self._n, int(np.searchsorted(self._apart, within_m, "right")))
         self._n = min(8 * self._n, _BATCH)

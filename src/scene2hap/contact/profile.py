@@ -7,19 +7,15 @@ that wherever they are over each other, nothing of the two shapes is nearer.
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.contact.spread import spread, spread_few
+from scene2hap.contact.vectors import Floats, Triple, along, frame_along, highest
 
 if TYPE_CHECKING:
     from scene2hap.contact.body import Shape
-
-Floats = NDArray[np.float64]
-Triple = tuple[float, float, float]
 
 # How uneven a level face may be, as a share of the shape's size and at most (assumed).
 _UNEVEN, _UNEVEN_M = 1e-4, 2e-4
@@ -74,7 +70,7 @@ def sole_of(shape: Shape, up: Triple) -> Sole:
         corners, around = face.corners_m, face.outline_m
     middle = (around.min(axis=0) + around.max(axis=0)) / 2
     radius = float(np.linalg.norm(around - middle, axis=1).max())
-    points = triples(corners[spread_few(feet) if face is None and len(feet) <= _FEW else spread(corners)])
+    points = triples(corners[spread_few(feet) if face is None and len(feet) <= _FEW else spread(corners.T)])
     is_filled = face is not None and face.is_filled
     return Sole(points, triples(around), triples(middle[None])[0], radius, is_filled, face is not None)
 
@@ -94,14 +90,8 @@ def across(up: Triple) -> Triple:
 
 def _frame(up: Triple) -> tuple[Floats, Floats]:
     """The unit vector (3,) along `up`, and two across it as columns (3, 2)."""
-    length = math.hypot(*up)
-    x, y, z = (edge / length for edge in up)
-    # Across the axis that is farthest from up; spelled out, since numpy takes longer to multiply six numbers.
-    axis = min(range(3), key=lambda k: abs((x, y, z)[k]))
-    a, b, c = ((0.0, z, -y), (-z, 0.0, x), (y, -x, 0.0))[axis]
-    length = math.hypot(a, b, c)
-    a, b, c = a / length, b / length, c / length
-    return np.array([x, y, z]), np.array([[a, y * c - z * b], [b, z * a - x * c], [c, x * b - y * a]])
+    frame = frame_along(up)
+    return frame[2], frame[:2].T.copy()
 
 
 class _Face(NamedTuple):
@@ -113,14 +103,14 @@ class _Face(NamedTuple):
 
 
 def _lowest_face(shape: Shape, upwards: Floats, plane: Floats) -> _Face | None:
-    heights = shape.triangles @ upwards
-    level = (heights <= heights.min() + uneven_m(shape)).all(axis=1)
-    a, b, c = (shape.triangles[level] @ plane).transpose(1, 0, 2)
+    heights = along(upwards, shape.triangles)
+    level = shape.triangles[..., highest(heights) <= heights.min() + uneven_m(shape)]
+    a, b, c = np.stack([along(way, level) for way in plane.T], axis=1)
     u, v = b - a, c - a
-    area = float(np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum()) / 2
+    area = float(np.abs(u[0] * v[1] - u[1] * v[0]).sum()) / 2
     if area <= 0:
         return None
-    corners = np.unique(shape.triangles[level].reshape(-1, 3), axis=0)
+    corners = np.unique(level.reshape(3, -1).T, axis=0)
     rows = outline(corners @ plane)
     around = polygon_area((corners @ plane)[rows])
     # A face drawn from both sides has its area twice.

@@ -6,7 +6,7 @@ In plain numbers, since it is asked for often, for one pair at a time.
 from __future__ import annotations
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.profile import Triple
+from scene2hap.contact.vectors import Triple
 
 
 def middle_m(body: Body) -> Triple:

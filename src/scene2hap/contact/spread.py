@@ -9,7 +9,8 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
+
+from scene2hap.contact.vectors import Floats, Indices, Marks, dot
 
 MAX_POINTS = 4
 """Contact points of one pair: the corners of a patch, few enough for a dense solve over a scene (assumed)."""
@@ -20,30 +21,23 @@ _TIE_M = 1e-6  # Lengths this near are equal, so that rounding does not choose b
 _ASKEW = (0.6180339887, 0.2879190313)
 
 
-def spread(points: NDArray[np.float64]) -> list[int]:
-    """Rows of at most `MAX_POINTS` of the points (n, 3) [m], far from each other."""
-    if not len(points):
+def spread(points: Floats) -> list[int]:
+    """Columns of at most `MAX_POINTS` of the points (3, n) [m], far from each other."""
+    if not points.size:
         return []
-    columns = points.T.copy()
-    apart = _apart(columns, points.mean(axis=0).tolist())
-    chosen = [_first(points, apart)]
-    apart = _apart(columns, points[chosen[0]].tolist())
+    chosen = [_first(points, _apart(points, points.mean(axis=1)))]
+    apart = _apart(points, points[:, chosen[0]])
     while len(chosen) < MAX_POINTS and apart.max() > _SPREAD_M:
         chosen.append(_first(points, apart))
-        apart = np.minimum(apart, _apart(columns, points[chosen[-1]].tolist()))
+        apart = np.minimum(apart, _apart(points, points[:, chosen[-1]]))
     return chosen
 
 
-def _apart(columns: NDArray[np.float64], place: Sequence[float]) -> NDArray[np.float64]:
-    """How far points, as columns (3, n), are from a place (n,)."""
-    squares, y, z = (column - at for column, at in zip(columns, place, strict=True))
-    squares *= squares
-    y *= y
-    z *= z
-    squares += y
-    squares += z
-    lengths: NDArray[np.float64] = np.sqrt(squares, out=squares)
-    return lengths
+def _apart(points: Floats, place: Floats) -> Floats:
+    """How far points (3, n) are from a place (3,)."""
+    away = points - place[:, None]
+    squares = dot(away, away)
+    return np.sqrt(squares, out=squares)
 
 
 def spread_few(points: Sequence[tuple[float, ...]]) -> list[int]:
@@ -59,27 +53,30 @@ def spread_few(points: Sequence[tuple[float, ...]]) -> list[int]:
     return chosen
 
 
-def _first(points: NDArray[np.float64], apart: NDArray[np.float64]) -> int:
+def _first(points: Floats, apart: Floats) -> int:
     """Of the points that are farthest apart, up to rounding, the one with the least x, then y, then z, likewise."""
-    rows = np.flatnonzero(apart >= apart.max() - _TIE_M)
-    for axis in range(3):
-        if len(rows) == 1:
-            break
-        values = points[rows, axis]
-        rows = rows[values <= values.min() + _TIE_M]
-    return int(rows[0])
+    columns = np.flatnonzero(apart >= apart.max() - _TIE_M)
+    if len(columns) == 1:
+        return int(columns[0])
+    return _least(columns.tolist(), points.take(columns, axis=1).tolist())
 
 
 def _first_of_few(points: Sequence[tuple[float, ...]], apart: Sequence[float]) -> int:
     limit = max(apart) - _TIE_M
     rows = [row for row, length in enumerate(apart) if length >= limit]
-    for axis in range(len(points[0])):
-        limit = min(points[row][axis] for row in rows) + _TIE_M
-        rows = [row for row in rows if points[row][axis] <= limit]
-    return rows[0]
+    return rows[0] if len(rows) == 1 else _least(rows, list(zip(*[points[row] for row in rows], strict=True)))
 
 
-def spread_each(points: NDArray[np.float64], counts: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+def _least(names: Sequence[int], axes: Sequence[Sequence[float]]) -> int:
+    """The first of the names with the least of the first coordinates, then of the second, and so on."""
+    left = list(range(len(names)))
+    for values in axes:
+        limit = min([values[k] for k in left]) + _TIE_M
+        left = [k for k in left if values[k] <= limit]
+    return names[left[0]]
+
+
+def spread_each(points: Floats, counts: Marks) -> tuple[Indices, Marks]:
     """The same for many sets at once: points (3, k, n) [m], of which those count that are marked (k, n).
 
     Rows (`MAX_POINTS`, n) of the points taken, and which of these rows are any. The middle is that of the box around
@@ -106,10 +103,10 @@ def spread_each(points: NDArray[np.float64], counts: NDArray[np.bool_]) -> tuple
     return rows, kept
 
 
-def _distances(points: NDArray[np.float64], places: NDArray[np.float64]) -> NDArray[np.float64]:
+def _distances(points: Floats, places: Floats) -> Floats:
     away = points - places[:, None]
     away *= away
-    lengths: NDArray[np.float64] = away[0]
+    lengths: Floats = away[0]
     lengths += away[1]
     lengths += away[2]
     return np.sqrt(lengths, out=lengths)

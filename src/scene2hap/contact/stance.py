@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from scene2hap.contact.ledge import Upright
-from scene2hap.contact.profile import Triple, across
+from scene2hap.contact.profile import across
+from scene2hap.contact.vectors import Triple
 
 if TYPE_CHECKING:
     from scene2hap.contact.body import Shape

@@ -22,10 +22,10 @@ from typing import NamedTuple
 import numpy as np
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.broad import Floats, Indices
 from scene2hap.contact.level import Rest
 from scene2hap.contact.narrow import Meeting
 from scene2hap.contact.triangles import height_range
+from scene2hap.contact.vectors import Floats, Indices, along, highest, lowest
 
 TOUCH_M = 0.004
 """Gap at which any two surfaces cease to touch (tuned: cups with a saucer between stand 6 mm over the table)."""
@@ -108,21 +108,24 @@ def falls(meeting: Meeting, faller: Body, other: Body) -> Floats | None:
     way = (-reach_m if is_guest else reach_m) * up
     only = (bottom, holding) if is_guest else (holding, bottom)
     least = np.full(len(faller.lows_m), np.inf)
+    x, y, z = up.tolist()
     for near in meeting.near(TOUCH_M, way, sweep=True, guest_only=only[0], host_only=only[1]):
-        p, q, p_rows = (near.guest, near.host, near.guest_rows) if is_guest else (near.host, near.guest, near.host_rows)
-        for rows, bound in _lowest_first(p @ up, q @ up):
-            rows = rows[bound <= min(reach_m, least.min() + TOUCH_M)]
-            if len(rows):
-                low, high = height_range(_inset(p[rows]), q[rows], up)
+        p, q, of_p = near.guest, near.host, near.guest_columns
+        if not is_guest:
+            p, q, of_p = q, p, near.host_columns
+        for pairs, bound in _lowest_first(along(up, p), along(up, q)):
+            pairs = pairs[bound <= min(reach_m, least.min() + TOUCH_M)]
+            if len(pairs):
+                low, high = height_range(_inset(p.take(pairs, axis=2)), q.take(pairs, axis=2), (x, y, z))
                 meets = (low >= -reach_m) & (low <= reach_m) & (high >= -TOUCH_M)
-                np.minimum.at(least, p_rows[rows[meets]], np.where(low >= -TOUCH_M, low, 0.0)[meets])
+                np.minimum.at(least, of_p[pairs[meets]], np.where(low >= -TOUCH_M, low, 0.0)[meets])
     return least if np.isfinite(least).any() else None
 
 
 def _lowest_first(heights_p: Floats, heights_q: Floats) -> Iterator[tuple[Indices, Floats]]:
-    """Rows of pairs of triangles, by the heights of their corners (n, 3) [m], in one or two parts, and how far at least
-    each p is over its q."""
-    bound = heights_p.min(axis=1) - heights_q.max(axis=1)
+    """Pairs of triangles, by the heights of their corners (3, n) [m], in one or two parts, and how far at least each p
+    is over its q."""
+    bound = lowest(heights_p) - highest(heights_q)
     if len(bound) <= _MANY:
         yield np.arange(len(bound)), bound
     else:
@@ -200,7 +203,9 @@ def is_over(x: Body, y: Body) -> bool:
 
 
 def _inset(triangles: Floats) -> Floats:
-    inwards = triangles.mean(axis=1, keepdims=True) - triangles
-    extent = np.abs(inwards).reshape(-1, 9).max(axis=1)[:, None, None]
-    inset: Floats = triangles + inwards * np.minimum(INSET, INSET_M / np.maximum(extent, INSET_M))
-    return inset
+    middles: Floats = (triangles[:, 0] + triangles[:, 1] + triangles[:, 2]) / 3
+    inwards = middles[:, None] - triangles
+    extent = np.abs(inwards).reshape(9, -1).max(axis=0)
+    inwards *= np.minimum(INSET, INSET_M / np.maximum(extent, INSET_M))
+    inwards += triangles
+    return inwards

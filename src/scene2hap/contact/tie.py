@@ -18,10 +18,10 @@ from scene2hap.contact.cuboid_meeting import gaps_of, points_of
 from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.level import Aside, Rest, aside, rest_on
 from scene2hap.contact.narrow import Gap, Meeting
-from scene2hap.contact.profile import Floats, Triple
 from scene2hap.contact.relative import roles
 from scene2hap.contact.stance import Tray
 from scene2hap.contact.support import HANG_REACH_M, TOUCH_M, fall_reach_m, falls, is_over
+from scene2hap.contact.vectors import Floats, Triple
 
 # Above this a fall is surely none of a thing that stands in another: tops and soles may be 0.2 mm uneven each.
 SURE_M = -TOUCH_M + 0.001

@@ -13,15 +13,15 @@ from typing import NamedTuple
 import numpy as np
 
 from scene2hap.contact.body import Shape, shape_of
-from scene2hap.contact.broad import Boxes, Indices, box_pairs
+from scene2hap.contact.broad import Boxes, box_pairs
 from scene2hap.contact.cuboid_patch import patches
-from scene2hap.contact.cuboids import Marks, Pairs, dot, gaps, times
+from scene2hap.contact.cuboids import Pairs, gaps, times
 from scene2hap.contact.junction import ContactArrays, Junction, Pair
 from scene2hap.contact.narrow import ROUNDING_M, Meeting
-from scene2hap.contact.profile import Triple
 from scene2hap.contact.spread import MAX_POINTS
 from scene2hap.contact.support import CLEAR_M, PATCH_SHARE, weight, weights
 from scene2hap.contact.touches import Difference, PairNames, Touches, difference
+from scene2hap.contact.vectors import Indices, Marks, Triple, dot
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.scene.snapshot import SceneObject
@@ -207,8 +207,8 @@ class TouchFinder:
             i = np.repeat(np.arange(len(columns)), np.count_nonzero(meets, axis=1))
             j = np.flatnonzero(meets) - i * n
         else:
-            every = Boxes(self._low[:, :n].T, self._high[:, :n].T)
-            parts = list(box_pairs(Boxes(low.T, high.T), every))
+            every = Boxes(self._low[:, :n], self._high[:, :n])
+            parts = list(box_pairs(Boxes(low, high), every))
             i, j = (np.concatenate(side) for side in zip(*parts, strict=True)) if parts else (columns[:0],) * 2
         i = columns[i]
         once = (i < j) | ((i > j) & ~stirred[j])

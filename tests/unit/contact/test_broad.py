@@ -9,16 +9,16 @@ from scene2hap.contact.broad import Boxes, box_pairs
 
 def random_boxes(rng: np.random.Generator, n: int) -> Boxes:
     # Whole numbers: many boxes touch exactly.
-    low = rng.integers(0, 12, size=(n, 3)).astype(float)
-    return Boxes(low, low + rng.integers(0, 4, size=(n, 3)))
+    low = rng.integers(0, 12, size=(3, n)).astype(float)
+    return Boxes(low, low + rng.integers(0, 4, size=(3, n)))
 
 
 def all_with_all(a: Boxes, b: Boxes) -> set[tuple[int, int]]:
     return {
         (i, j)
-        for i in range(len(a.low))
-        for j in range(len(b.low))
-        if (a.low[i] <= b.high[j]).all() and (b.low[j] <= a.high[i]).all()
+        for i in range(a.low.shape[1])
+        for j in range(b.low.shape[1])
+        if (a.low[:, i] <= b.high[:, j]).all() and (b.low[:, j] <= a.high[:, i]).all()
     }
 
 
@@ -47,9 +47,9 @@ def test_chunks_are_bounded() -> None:
 
 
 def test_a_swept_box_holds_its_whole_way() -> None:
-    swept = Boxes(np.zeros((1, 3)), np.ones((1, 3))).swept(np.array([2.0, -3.0, 0.0]))
-    assert swept.low.tolist() == [[0.0, -3.0, 0.0]]
-    assert swept.high.tolist() == [[3.0, 1.0, 1.0]]
+    swept = Boxes(np.zeros((3, 1)), np.ones((3, 1))).swept(np.array([2.0, -3.0, 0.0]))
+    assert swept.low.T.tolist() == [[0.0, -3.0, 0.0]]
+    assert swept.high.T.tolist() == [[3.0, 1.0, 1.0]]
 
 
 def test_meeting_tells_the_rows_among_those_marked() -> None:

@@ -151,7 +151,7 @@ def test_a_ray_tells_the_first_triangle_on_its_way() -> None:
     shape = Body.of(box("cube", (1, 1, 1), (0, 0, 0)), 1).shape
     start = np.array([[-2.0, 0.1, 0.2], [0.0, 0.0, 0.0], [-2.0, 0.7, 0.0], [0.2, 0.3, 3.0]])
     way = np.array([[3.0, 0, 0], [0, 1.0, 0], [3.0, 0, 0], [0, 0, -10.0]])
-    assert first_hits(start, way, shape.triangles, shape.boxes) == pytest.approx([0.5, 0.5, np.inf, 0.25])
+    assert first_hits(start.T, way.T, shape.triangles, shape.boxes) == pytest.approx([0.5, 0.5, np.inf, 0.25])
 
 
 def test_a_shape_is_seen_from_six_sides() -> None:

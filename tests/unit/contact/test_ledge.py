@@ -17,7 +17,9 @@ WIDE = (-5.0, -5.0, 5.0, 5.0)
 
 
 def ledges(triangles: NDArray[np.float64], upright: Upright = UP) -> Ledges:
-    return Ledges(triangles, boxes_of(triangles), upright, 2e-4)
+    """Of triangles (n, 3, 3), of rows that are corners."""
+    axes_first = triangles.transpose(2, 1, 0)
+    return Ledges(axes_first, boxes_of(axes_first), upright, 2e-4)
 
 
 def triangles_of(*corners: list[tuple[float, float, float]]) -> NDArray[np.float64]:

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.optimize import linprog, nnls
 
-from scene2hap.contact.triangles import closest_points, height_range, meetings, plane_gap
+from scene2hap.contact.triangles import TrianglePairs, height_range
 
 Floats = NDArray[np.float64]
 
@@ -16,9 +16,18 @@ COORDINATES = st.lists(st.integers(-8, 8), min_size=18, max_size=18)
 SMOOTH = st.integers(0, 10**6)
 
 
+def axes_first(triangles: object) -> Floats:
+    """Triangles (n, 3, 3), of rows that are corners, as the library has them."""
+    return np.array(triangles, dtype=float).transpose(2, 1, 0)
+
+
+def pairs(p: object, q: object) -> TrianglePairs:
+    return TrianglePairs(axes_first(p), axes_first(q))
+
+
 def one(p: object, q: object) -> tuple[float, Floats, Floats]:
-    distance, on_p, on_q = closest_points(np.array([p], dtype=float), np.array([q], dtype=float))
-    return float(distance[0]), on_p[0], on_q[0]
+    distance, on_p, on_q = pairs([p], [q]).closest()
+    return float(distance[0]), on_p[:, 0], on_q[:, 0]
 
 
 def distance_by_least_squares(p: Floats, q: Floats) -> float:
@@ -67,7 +76,7 @@ def test_no_sampled_pair_of_points_is_nearer() -> None:
     share = rng.dirichlet([0.5, 0.5, 0.5], size=400)
     samples_p, samples_q = np.einsum("kc,ncx->nkx", share, p), np.einsum("kc,ncx->nkx", share, q)
     apart = np.linalg.norm(samples_p[:, :, None] - samples_q[:, None], axis=-1).min(axis=(1, 2))
-    distance = closest_points(p, q).distance
+    distance = pairs(p, q).closest().distance
     assert (distance <= apart + 1e-12).all()
     # 400 points on a triangle of about this size are some 0.15 apart.
     assert (apart - distance < 0.3).all()
@@ -95,23 +104,30 @@ def test_distance_told_by_hand(q: list[list[float]], distance: float) -> None:
 def test_every_corner_of_two_faces_on_each_other_is_told() -> None:
     """A square's half hangs over the other's slanted edge: the common patch has the corners below."""
     q = np.array([[[0.5, 0.1, 0.0], [2.0, 0.1, 0.0], [0.5, 1.6, 0.0]]])
-    every = meetings(np.array([FLAT]), q)
-    touching = every.on_p[every.distance < 1e-9]
+    every = pairs([FLAT], q).meetings()
+    touching = every.on_p[:, every.distance < 1e-9].T
     for corner in ([0.5, 0.1, 0.0], [0.9, 0.1, 0.0], [0.5, 0.5, 0.0]):
         assert np.linalg.norm(touching - corner, axis=1).min() < 1e-9
 
 
 @given(SMOOTH)
 @settings(derandomize=True, deadline=None, max_examples=60)
-def test_plane_gap_never_exceeds_the_distance(seed: int) -> None:
+def test_what_is_left_out_is_farther_apart(seed: int) -> None:
     rng = np.random.default_rng(seed)
-    p, q = rng.integers(-3, 4, size=(2, 50, 3, 3)).astype(float)
-    assert (plane_gap(p, q) <= closest_points(p, q).distance + 1e-12).all()
+    every = pairs(*rng.integers(-3, 4, size=(2, 50, 3, 3)))
+    within_m = float(rng.uniform(0, 3))
+    near = every.within(within_m)
+    distance = every.closest().distance
+    is_left = [any((p == x).all() for x in near.p.T) for p in every.p.T]
+    assert (distance[~np.array(is_left)] > within_m - 1e-12).all()
+    # What is left answers as before.
+    again = near.closest().distance
+    assert again[again <= within_m].tolist() == distance[distance <= within_m].tolist()
 
 
-def test_plane_gap_of_parallel_faces_is_their_distance() -> None:
-    p = np.array([FLAT], dtype=float)
-    assert plane_gap(p, p + np.array([5.0, 5.0, -0.25]))[0] == pytest.approx(0.25)
+def test_parallel_faces_are_told_apart_by_their_planes() -> None:
+    faces = pairs([FLAT], [np.add(FLAT, [5.0, 5.0, -0.25])])
+    assert [len(faces.within(distance_m)) for distance_m in (0.2499, 0.2501)] == [0, 1]
 
 
 @given(SMOOTH)
@@ -128,7 +144,7 @@ def test_height_range_is_the_optimum_of_the_linear_program(seed: int) -> None:
     lowest, highest = (
         linprog(sign * height, A_eq=equal, b_eq=[0, 0, 1, 1], bounds=[(0, 1)] * 6, method="highs") for sign in (1, -1)
     )
-    low, high = height_range(p[None], q[None], up)
+    low, high = height_range(axes_first([p]), axes_first([q]), tuple(up.tolist()))
     if lowest.status == 2:
         assert (low[0], high[0]) == (np.inf, -np.inf)
     else:
@@ -138,11 +154,11 @@ def test_height_range_is_the_optimum_of_the_linear_program(seed: int) -> None:
 
 
 def test_side_by_side_is_not_over_each_other() -> None:
-    beside = np.array([FLAT], dtype=float) - np.array([1.0, 0.0, 0.5])
-    assert np.isinf(height_range(np.array([FLAT], dtype=float), beside, np.array([0.0, 0.0, 1.0]))[0][0])
+    beside = axes_first([np.subtract(FLAT, [1.0, 0.0, 0.5])])
+    assert np.isinf(height_range(axes_first([FLAT]), beside, (0.0, 0.0, 1.0))[0][0])
 
 
 def test_an_upright_triangle_stands_on_a_level_one() -> None:
-    sheet = np.array([[[0.2, 0.2, 0.03], [0.4, 0.2, 0.03], [0.3, 0.2, 1.0]]])
-    low, high = height_range(sheet, np.array([FLAT], dtype=float), np.array([0.0, 0.0, 1.0]))
+    sheet = axes_first([[[0.2, 0.2, 0.03], [0.4, 0.2, 0.03], [0.3, 0.2, 1.0]]])
+    low, high = height_range(sheet, axes_first([FLAT]), (0.0, 0.0, 1.0))
     assert (low[0], high[0]) == (pytest.approx(0.03), pytest.approx(1.0))

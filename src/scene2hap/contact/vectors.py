@@ -1,0 +1,75 @@
+"""Vectors with their axes first, (3, ...), so that numpy runs along many of them and not along three coordinates.
+
+Sums are spelled out, since numpy's own take another order when there is but one vector: an answer, to the last bit,
+must not depend on what else is asked for with it.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+Marks = NDArray[np.bool_]
+Triple = tuple[float, float, float]
+
+
+def dot(x: Floats, y: Floats) -> Floats:
+    """Sum over the first axis, of length 3."""
+    products = x * y
+    summed: Floats = products[0]
+    summed += products[1]
+    summed += products[2]
+    return summed
+
+
+def cross(x: Floats, y: Floats) -> Floats:
+    """The vectors across both."""
+    (a, b, c), (d, e, f) = x, y
+    across = np.empty(np.broadcast_shapes(x.shape, y.shape))
+    np.subtract(b * f, c * e, out=across[0])
+    np.subtract(c * d, a * f, out=across[1])
+    np.subtract(a * e, b * d, out=across[2])
+    return across
+
+
+def along(way: Floats, points: Floats) -> Floats:
+    """How far points (3, ...) lie along one way (3,)."""
+    x, y, z = way.tolist()
+    lengths: Floats = x * points[0]
+    lengths += y * points[1]
+    lengths += z * points[2]
+    return lengths
+
+
+def lowest(rows: Floats) -> Floats:
+    """The least of three rows (3, ...); numpy itself is slow along short axes."""
+    found: Floats = np.minimum(np.minimum(rows[0], rows[1]), rows[2])
+    return found
+
+
+def highest(rows: Floats) -> Floats:
+    """The greatest of three."""
+    found: Floats = np.maximum(np.maximum(rows[0], rows[1]), rows[2])
+    return found
+
+
+def frame_along(up: Triple) -> Floats:
+    """An orthonormal frame (3, 3) in rows: two directions across `up`, and that."""
+    length = math.hypot(*up)
+    x, y, z = (edge / length for edge in up)
+    # Across the axis that is farthest from up; spelled out, since numpy takes longer to multiply six numbers.
+    axis = min(range(3), key=lambda k: abs((x, y, z)[k]))
+    a, b, c = ((0.0, z, -y), (-z, 0.0, x), (y, -x, 0.0))[axis]
+    length = math.hypot(a, b, c)
+    a, b, c = a / length, b / length, c / length
+    return np.array([[a, b, c], [y * c - z * b, z * a - x * c, x * b - y * a], [x, y, z]])
+
+
+def turned(turn: Floats, points: Floats) -> Floats:
+    """All points turned by one matrix (3, 3)."""
+    found: Floats = (turn @ points.reshape(3, -1)).reshape(points.shape)
+    return found
