@@ -16,7 +16,7 @@ from scene2hap.contact.vectors import Floats, Indices, Marks
 
 # Pairs that overlap along the sweep axis and are looked at together: some 10 MB.
 _CHUNK = 1 << 17
-# So few that sorting costs more than comparing all with all.
+# So few pairs that sorting costs more than comparing all with all.
 _FEW = 1 << 12
 
 
@@ -41,7 +41,9 @@ class Boxes(NamedTuple):
 
     def hull(self) -> Boxes:
         """The one box (3, 1) around all of them; at least one there must be."""
-        return Boxes(self.low.min(axis=1, keepdims=True), self.high.max(axis=1, keepdims=True))
+        low: Floats = np.minimum.reduce(self.low, axis=1, keepdims=True)
+        high: Floats = np.maximum.reduce(self.high, axis=1, keepdims=True)
+        return Boxes(low, high)
 
     def common(self, other: Boxes) -> Boxes:
         """What lies both in one of the boxes and in its counterpart, or in the other's only one; they must meet."""
@@ -49,18 +51,19 @@ class Boxes(NamedTuple):
 
     def meeting(self, one: Boxes, among: Marks | None = None) -> Indices:
         """Columns of the boxes that meet the single box `one`, touching included, among those marked (n,) or all."""
-        least, most = one.low[:, 0].tolist(), one.high[:, 0].tolist()
-        near = (self.low[0] <= most[0]) & (self.high[0] >= least[0])
-        columns = np.flatnonzero(near if among is None else near & among)
-        for axis in (1, 2):
-            low, high = self.low[axis].take(columns), self.high[axis].take(columns)
-            columns = columns[(low <= most[axis]) & (high >= least[axis])]
-        return columns
+        x, y, z = (self.low <= one.high) & (self.high >= one.low)
+        near: Marks = x & y & z
+        return np.flatnonzero(near if among is None else near & among)
+
+
+def are_few(a: Boxes, b: Boxes) -> bool:
+    """Whether comparing all with all takes less time than leaving some out first."""
+    return len(a.low[0]) * len(b.low[0]) <= _FEW
 
 
 def box_pairs(a: Boxes, b: Boxes) -> Iterator[tuple[Indices, Indices]]:
     """All (i, j) with a[i] and b[j] meeting, touching included, in chunks; each pair once."""
-    if a.low.shape[1] * b.low.shape[1] <= _FEW:
+    if are_few(a, b):
         meets = (a.low[..., None] <= b.high[:, None]) & (a.high[..., None] >= b.low[:, None])
         i, j = np.nonzero(meets[0] & meets[1] & meets[2])
         yield i, j

@@ -15,7 +15,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from scene2hap.contact.body import Shape, boxes_of
-from scene2hap.contact.broad import Boxes, box_pairs
+from scene2hap.contact.broad import Boxes, are_few, box_pairs
 from scene2hap.contact.spread import spread
 from scene2hap.contact.triangles import TrianglePairs
 from scene2hap.contact.vectors import Floats, Indices, Marks, dot, turned
@@ -86,8 +86,8 @@ class Meeting:
         found: tuple[Floats, Floats] | None = None
         for pairs in self.near(within_m):
             queue = _Queue(pairs)
-            while (columns := queue.next(best)) is not None:
-                close = TrianglePairs(pairs.guest.take(columns, axis=2), pairs.host.take(columns, axis=2)).within(best)
+            while (some := queue.next(best)) is not None:
+                close = TrianglePairs(*some).within(best)
                 if not len(close):
                     continue
                 distance, on_guest, on_host = close.closest()
@@ -157,14 +157,16 @@ class Meeting:
         corners = turned(self._rotation, guest.triangles.take(guest_columns, axis=2))
         corners += self._position[:, None]
         moving = _along(boxes_of(corners).grown(within_m), way, sweep)
-        closer = resting.meeting(moving.hull())
-        if not len(closer):
-            return
-        host_columns, resting = host_columns[closer], resting.some(closer)
-        again = moving.meeting(resting.hull())
-        for i, j in box_pairs(moving.some(again), resting):
+        if not are_few(moving, resting):
+            closer = resting.meeting(moving.hull())
+            if not len(closer):
+                return
+            host_columns, resting = host_columns[closer], resting.some(closer)
+            again = moving.meeting(resting.hull())
+            guest_columns, moving, corners = guest_columns[again], moving.some(again), corners.take(again, axis=2)
+        for i, j in box_pairs(moving, resting):
             if len(i):
-                i, j = again[i], host_columns[j]
+                j = host_columns[j]
                 yield Near(guest_columns[i], j, corners.take(i, axis=2), host.triangles.take(j, axis=2))
 
 
@@ -183,16 +185,22 @@ class _Queue:
     of the best."""
 
     def __init__(self, pairs: Near) -> None:
-        a, b = boxes_of(pairs.guest), boxes_of(pairs.host)
-        gaps = np.maximum(np.maximum(a.low - b.high, b.low - a.high), 0.0)
-        apart = np.sqrt(dot(gaps, gaps))
-        self._order = np.argsort(apart, kind="stable")
-        self._apart = apart[self._order]
+        self._guest, self._host = pairs.guest, pairs.host
         self._start, self._n = 0, _FIRST
+        self._order, self._apart = np.arange(len(pairs.host_columns)), np.zeros(len(pairs.host_columns))
+        if len(self._order) > _FIRST:
+            a, b = boxes_of(pairs.guest), boxes_of(pairs.host)
+            gaps = np.maximum(np.maximum(a.low - b.high, b.low - a.high), 0.0)
+            apart = np.sqrt(dot(gaps, gaps))
+            self._order = np.argsort(apart, kind="stable")
+            self._apart = apart[self._order]
 
-    def next(self, within_m: float) -> Indices | None:
+    def next(self, within_m: float) -> tuple[Floats, Floats] | None:
         """The next pairs whose boxes are within reach, None if there are no more."""
         start = self._start
-        self._start = min(start + self._n, int(np.searchsorted(self._apart, within_m, "right")))
+        self._start = min(start + self._n, int(self._apart.searchsorted(within_m, "right")))
         self._n = min(8 * self._n, _BATCH)
-        return self._order[start : self._start] if self._start > start else None
+        if self._start <= start:
+            return None
+        batch = self._order[start : self._start]
+        return self._guest.take(batch, axis=2), self._host.take(batch, axis=2)
