@@ -191,9 +191,19 @@ class Body:
     @cached_property
     def lows_m(self) -> Floats:
         """Height of the lowest corner of each triangle (m,)."""
-        lows: Floats = lowest(along(self.up, self.shape.triangles))
-        lows += self.pose.position_m[self.up_axis]
-        return lows
+        return lowest(self._heights_m)
+
+    @cached_property
+    def highs_m(self) -> Floats:
+        """Height of the highest corner of each triangle (m,)."""
+        return highest(self._heights_m)
+
+    @cached_property
+    def _heights_m(self) -> Floats:
+        """Height of each corner of each triangle (3, m)."""
+        heights = along(self.up, self.shape.triangles)
+        heights += self.pose.position_m[self.up_axis]
+        return heights
 
     @cached_property
     def clearings(self) -> dict[str, Clearing]:

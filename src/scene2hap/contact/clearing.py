@@ -19,10 +19,11 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes
 from scene2hap.contact.crowd import SKIN_M, Room
 from scene2hap.contact.enclosure import play_reach_m
+from scene2hap.contact.fall import INSET, INSET_M
 from scene2hap.contact.ledge import Flat, Upright
 from scene2hap.contact.relative import box_in_frame
 from scene2hap.contact.stance import Tray
-from scene2hap.contact.support import INSET, INSET_M, TOUCH_M, fall_reach_m, hang_reach_m, is_over
+from scene2hap.contact.support import TOUCH_M, fall_reach_m, hang_reach_m, is_over
 from scene2hap.contact.vectors import Marks
 
 _MOST_TILT_M = 1e-4  # A host may lean by so much over its whole size, which is the error of a ledge's height then.

@@ -266,24 +266,13 @@ class ContactFinder:
     def _holders(self, x: str) -> dict[str, Bond]:
         """What holds a body, by support and, as far as that is wanting, by hanging."""
         body = self._bodies[x]
-        below: dict[str, Support] | None = {}
-        rests = {y: rest for y, tie in self._ties[x].items() if (rest := tie.rest(x)) is not None}
-        if rests:
-            reach_m = fall_reach_m(body.size_m)
-            unclear = [y for y, rest in rests.items() if rest is UNCLEAR]
-            rests = {y: rest for y, rest in rests.items() if rest is not UNCLEAR}
-            least_m = min((rest.fall_m for rest in rests.values()), default=math.inf)
-            falls_m = self._falls(body, unclear, least_m) if unclear else {}
-            below = level_supports(rests, reach_m) if rests and not falls_m else None
-            if below is None:
-                falls_m |= self._falls(body, rests)
-                below, rests = supports(dict(sorted(falls_m.items())), reach_m), {}
+        below, lies_on = self._below(body)
         bonds = {}
-        for y, support in (below or {}).items():
+        for y, support in below.items():
             sign = 1.0 if x < y else -1.0
             normal = (0.0, -sign, 0.0) if self._up_axis == 1 else (0.0, 0.0, -sign)
             way = (normal[0] * support.fall_m, normal[1] * support.fall_m, normal[2] * support.fall_m)
-            bonds[y] = Bond(support.weight, way, normal, y in rests, x)
+            bonds[y] = Bond(support.weight, way, normal, y in lies_on, x)
         supported = max((bond.weight for bond in bonds.values()), default=0.0)
         if supported < 1:
             self._loose.add(x)
@@ -292,6 +281,23 @@ class ContactFinder:
         else:
             self._loose.discard(x)
         return bonds
+
+    def _below(self, body: Body) -> tuple[Mapping[str, Support], Collection[str]]:
+        """What supports a body, and on which of that it lies level."""
+        ties, reach_m = self._ties[body.id], fall_reach_m(body.size_m)
+        rests = {y: rest for y, tie in ties.items() if (rest := tie.rest(body.id)) is not None}
+        unclear = [y for y, rest in rests.items() if rest is UNCLEAR]
+        if len(unclear) == len(rests) == 1:
+            # What is met first holds it, and nothing else is to be seen by other parts of the bottom.
+            fall_m = ties[unclear[0]].first_fall_m(body.id)
+            share = weight(fall_m, reach_m)
+            return ({unclear[0]: Support(share, fall_m)} if share > 0 else {}), ()
+        rests = {y: rest for y, rest in rests.items() if rest is not UNCLEAR}
+        falls_m = self._falls(body, unclear, min((rest.fall_m for rest in rests.values()), default=math.inf))
+        if rests and not falls_m and (below := level_supports(rests, reach_m)) is not None:
+            return below, rests
+        falls_m |= self._falls(body, rests)
+        return supports(dict(sorted(falls_m.items())), reach_m), ()
 
     def _falls(self, body: Body, onto: Iterable[str], least_m: float = math.inf) -> dict[str, Floats]:
         """How far the triangles of a body are to fall to things below; not to what lies deeper than another, be it

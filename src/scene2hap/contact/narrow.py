@@ -36,13 +36,28 @@ class Gap(NamedTuple):
 
 
 class Near(NamedTuple):
-    """Pairs of triangles, one of the guest and one of the host: which they are (n,), and both as `triangles` has them
-    (3, 3, n) [m]."""
+    """Pairs of triangles, one of the guest and one of the host, in the host's frame.
+
+    guest_columns, host_columns : (n,) which of their shapes' triangles; guest : some of the guest's triangles (3, 3, k)
+    [m], and `columns` (n,) which of these; host : the host's shape.
+    """
 
     guest_columns: Indices
     host_columns: Indices
     guest: Floats
-    host: Floats
+    columns: Indices
+    host: Shape
+
+    def corners(self, pairs: Indices | slice) -> tuple[Floats, Floats]:
+        """The triangles of guest and host of some pairs, both (3, 3, n) [m]."""
+        guest = self.guest.take(self.columns[pairs], axis=2)
+        return guest, self.host.triangles.take(self.host_columns[pairs], axis=2)
+
+    def apart_m(self) -> Floats:
+        """How far the boxes around the two triangles are apart (n,)."""
+        a, b = boxes_of(self.guest).some(self.columns), self.host.boxes.some(self.host_columns)
+        gaps = np.maximum(np.maximum(a.low - b.high, b.low - a.high), 0.0)
+        return np.sqrt(dot(gaps, gaps))
 
 
 class Patch(NamedTuple):
@@ -85,9 +100,9 @@ class Meeting:
         best = within_m = max(within_m, ROUNDING_M)
         found: tuple[Floats, Floats] | None = None
         for pairs in self.near(within_m):
-            queue = _Queue(pairs)
-            while (some := queue.next(best)) is not None:
-                close = TrianglePairs(*some).within(best)
+            nearest = Nearest(pairs.apart_m())
+            while (some := nearest.next(best)) is not None:
+                close = TrianglePairs(*pairs.corners(some)).within(best)
                 if not len(close):
                     continue
                 distance, on_guest, on_host = close.closest()
@@ -112,8 +127,8 @@ class Meeting:
         ends = [(np.empty((3, 0)), np.empty((3, 0)))]
         for pairs in self.near(within_m, way):
             for start in range(0, len(pairs.host_columns), _BATCH):
-                part = slice(start, start + _BATCH)
-                p, q = pairs.guest[..., part] + way[:, None, None], pairs.host[..., part]
+                p, q = pairs.corners(slice(start, start + _BATCH))
+                p += way[:, None, None]
                 close = TrianglePairs(p, q).within(within_m)
                 if not len(close):
                     continue
@@ -166,8 +181,7 @@ class Meeting:
             guest_columns, moving, corners = guest_columns[again], moving.some(again), corners.take(again, axis=2)
         for i, j in box_pairs(moving, resting):
             if len(i):
-                j = host_columns[j]
-                yield Near(guest_columns[i], j, corners.take(i, axis=2), host.triangles.take(j, axis=2))
+                yield Near(guest_columns[i], host_columns[j], corners, i, host)
 
 
 def _turned_box(box: Boxes, rotation: Floats, position: Floats) -> Boxes:
@@ -180,27 +194,24 @@ def _along(boxes: Boxes, way: Floats, sweep: bool) -> Boxes:
     return boxes.swept(way) if sweep else Boxes(boxes.low + way[:, None], boxes.high + way[:, None])
 
 
-class _Queue:
-    """Pairs in batches, those with the nearest boxes first and a few to begin with, so that later ones are out of reach
-    of the best."""
+class Nearest:
+    """Pairs in batches, a few to begin with, those first that may be nearest, so that what is found of these may leave
+    all others out of reach.
 
-    def __init__(self, pairs: Near) -> None:
-        self._guest, self._host = pairs.guest, pairs.host
-        self._start, self._n = 0, _FIRST
-        self._order, self._apart = np.arange(len(pairs.host_columns)), np.zeros(len(pairs.host_columns))
-        if len(self._order) > _FIRST:
-            a, b = boxes_of(pairs.guest), boxes_of(pairs.host)
-            gaps = np.maximum(np.maximum(a.low - b.high, b.low - a.high), 0.0)
-            apart = np.sqrt(dot(gaps, gaps))
-            self._order = np.argsort(apart, kind="stable")
-            self._apart = apart[self._order]
+    Parameters: least_m : (n,) how far the two of each pair are apart at least [m].
+    """
 
-    def next(self, within_m: float) -> tuple[Floats, Floats] | None:
-        """The next pairs whose boxes are within reach, None if there are no more."""
-        start = self._start
-        self._start = min(start + self._n, int(self._apart.searchsorted(within_m, "right")))
+    def __init__(self, least_m: Floats) -> None:
+        self._least_m, self._left = least_m, np.arange(len(least_m))
+        self._n = _FIRST
+
+    def next(self, within_m: float) -> Indices | None:
+        """The next pairs within reach, None if there are no more."""
+        left = self._left[self._least_m.take(self._left) <= within_m]
+        if len(left) > self._n:
+            order = np.argpartition(self._least_m.take(left), self._n)
+            left, self._left = left[order[: self._n]], left[order[self._n :]]
+        else:
+            self._left = left[:0]
         self._n = min(8 * self._n, _BATCH)
-        if self._start <= start:
-            return None
-        batch = self._order[start : self._start]
-        return self._guest.take(batch, axis=2), self._host.take(batch, axis=2)
+        return left if len(left) else None

@@ -16,16 +16,14 @@ All weights are smooth in the gaps and know nothing of the past: the poses alone
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.level import Rest
-from scene2hap.contact.narrow import Meeting
-from scene2hap.contact.triangles import height_range
-from scene2hap.contact.vectors import Floats, Indices, along, highest, lowest
+from scene2hap.contact.vectors import Floats
 
 TOUCH_M = 0.004
 """Gap at which any two surfaces cease to touch (tuned: cups with a saucer between stand 6 mm over the table)."""
@@ -44,12 +42,6 @@ _FALL_REACH_M, _FALL_REACH_SIZES = 0.090, 0.25
 HANG_REACH_M, _HANG_REACH_SIZES = 0.075, 0.05
 
 _HIDDEN_M = 0.002  # What lies this much below something else is hidden by it (assumed: the thinnest carpet).
-_HOLDING = 0.5  # Least cosine of a slope that holds a thing (assumed): a wall's triangles hold nothing.
-# What falls is tried this share smaller, by at most so much: equal boxes on each other, whose rims coincide, then
-# surely lie over each other, and boxes exactly side by side surely do not.
-INSET, INSET_M = 1e-4, 1e-4
-# So many pairs of triangles are asked for the nearest fall first if there are many, since that may spare the others.
-_FIRST, _MANY = 64, 512
 
 
 def weight(gap_m: float, tolerance_m: float) -> float:
@@ -87,51 +79,6 @@ def hang_reach_m(size_m: float) -> float:
 def margins_m(body: Body) -> tuple[float, float]:
     """How far a body may touch or hang from others, and how much farther it may fall [m]."""
     return max(TOUCH_M, hang_reach_m(body.size_m)), fall_reach_m(body.size_m)
-
-
-def falls(meeting: Meeting, faller: Body, other: Body) -> Floats | None:
-    """How far each triangle (m,) of `faller`, one of the two that meet, may fall before it meets `other` [m].
-
-    Only the bottom falls, all within `fall_reach_m` of the lowest point; the rest is inf, as is what meets nothing
-    within that reach, or falls `TOUCH_M` farther than another, which has come to rest by then. Down to -`TOUCH_M` where
-    a triangle is sunk in a little, 0 where it is sunk in deeper, up to the reach. None where nothing falls onto the
-    other.
-    """
-    if not is_over(faller, other):
-        return None
-    reach_m = fall_reach_m(faller.size_m)
-    bottom = faller.lows_m <= faller.lowest_m + reach_m
-    holding = other.slopes >= _HOLDING
-
-    is_guest = meeting.guest is faller
-    up = (other if is_guest else faller).up
-    way = (-reach_m if is_guest else reach_m) * up
-    only = (bottom, holding) if is_guest else (holding, bottom)
-    least = np.full(len(faller.lows_m), np.inf)
-    x, y, z = up.tolist()
-    for near in meeting.near(TOUCH_M, way, sweep=True, guest_only=only[0], host_only=only[1]):
-        p, q, of_p = near.guest, near.host, near.guest_columns
-        if not is_guest:
-            p, q, of_p = q, p, near.host_columns
-        for pairs, bound in _lowest_first(along(up, p), along(up, q)):
-            pairs = pairs[bound <= min(reach_m, least.min() + TOUCH_M)]
-            if len(pairs):
-                low, high = height_range(_inset(p.take(pairs, axis=2)), q.take(pairs, axis=2), (x, y, z))
-                meets = (low >= -reach_m) & (low <= reach_m) & (high >= -TOUCH_M)
-                np.minimum.at(least, of_p[pairs[meets]], np.where(low >= -TOUCH_M, low, 0.0)[meets])
-    return least if np.isfinite(least).any() else None
-
-
-def _lowest_first(heights_p: Floats, heights_q: Floats) -> Iterator[tuple[Indices, Floats]]:
-    """Pairs of triangles, by the heights of their corners (3, n) [m], in one or two parts, and how far at least each p
-    is over its q."""
-    bound = lowest(heights_p) - highest(heights_q)
-    if len(bound) <= _MANY:
-        yield np.arange(len(bound)), bound
-    else:
-        order = np.argsort(bound, kind="stable")
-        for rows in (order[:_FIRST], order[_FIRST:]):
-            yield rows, bound[rows]
 
 
 class Support(NamedTuple):
@@ -200,12 +147,3 @@ def is_over(x: Body, y: Body) -> bool:
     if x.up_axis == 1:
         return a >= g and d <= j and c >= i and f <= m
     return a >= g and d <= j and b >= h and e <= k
-
-
-def _inset(triangles: Floats) -> Floats:
-    middles: Floats = (triangles[:, 0] + triangles[:, 1] + triangles[:, 2]) / 3
-    inwards = middles[:, None] - triangles
-    extent = np.abs(inwards).reshape(9, -1).max(axis=0)
-    inwards *= np.minimum(INSET, INSET_M / np.maximum(extent, INSET_M))
-    inwards += triangles
-    return inwards

@@ -16,11 +16,12 @@ from scene2hap.contact.clearing import below, is_clear
 from scene2hap.contact.clearing import tray as clearing_tray
 from scene2hap.contact.cuboid_meeting import gaps_of, points_of
 from scene2hap.contact.enclosure import enclosed
+from scene2hap.contact.fall import falls, first_fall_m
 from scene2hap.contact.level import Aside, Rest, aside, rest_on
 from scene2hap.contact.narrow import Gap, Meeting
 from scene2hap.contact.relative import roles
 from scene2hap.contact.stance import Tray
-from scene2hap.contact.support import HANG_REACH_M, TOUCH_M, fall_reach_m, falls, is_over
+from scene2hap.contact.support import HANG_REACH_M, TOUCH_M, fall_reach_m, is_over
 from scene2hap.contact.vectors import Floats, Triple
 
 # Above this a fall is surely none of a thing that stands in another: tops and soles may be 0.2 mm uneven each.
@@ -67,11 +68,18 @@ class Tie:
         """One has moved: what triangles told holds no longer."""
         self._meeting_made = self._facts = None
 
-    def falls(self, x: str) -> Floats | None:
-        """How far the triangles of x are to fall; see `support.falls`."""
-        faller, other = (self.a, self.b) if x == self.a.id else (self.b, self.a)
-        found: Floats | None = self._once(x, lambda: falls(self._meeting, faller, other))
+    def first_fall_m(self, x: str) -> float:
+        """How far x is to fall by its triangles; see `fall.first_fall_m`."""
+        found: float = self._once((x, "first"), lambda: first_fall_m(self._meeting, *self._falling(x)))
         return found
+
+    def falls(self, x: str) -> Floats | None:
+        """How far each of them is to fall; see `fall.falls`."""
+        found: Floats | None = self._once(x, lambda: falls(self._meeting, *self._falling(x)))
+        return found
+
+    def _falling(self, x: str) -> tuple[Body, Body]:
+        return (self.a, self.b) if x == self.a.id else (self.b, self.a)
 
     def aside(self, within_m: float, slack_m: float) -> Aside | None:
         """How the two are beside each other, if both are blocks; see `level.aside`."""

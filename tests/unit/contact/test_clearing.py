@@ -12,9 +12,10 @@ from contact_scenes import box, boxes, chair, house, pairs, scene
 from scene2hap.contact import finder, tie
 from scene2hap.contact.body import Body
 from scene2hap.contact.clearing import below, is_clear
+from scene2hap.contact.fall import falls
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.narrow import Meeting
-from scene2hap.contact.support import fall_reach_m, falls, hang_reach_m
+from scene2hap.contact.support import fall_reach_m, hang_reach_m
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject
 

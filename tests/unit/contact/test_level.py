@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from contact_scenes import box, boxes
 from scene2hap.contact.body import Body
+from scene2hap.contact.fall import falls, first_fall_m
 from scene2hap.contact.level import aside, clipped, rest_on, rest_points
 from scene2hap.contact.narrow import Meeting
-from scene2hap.contact.support import falls
 from scene2hap.scene.pose import Pose
 
 TURNS = st.floats(-3.0, 3.0)
@@ -33,6 +33,7 @@ def test_a_block_falls_onto_another_as_its_triangles_do(
     assert rest is not None
     told = falls(Meeting(upper, lower), upper, lower)
     least = math.inf if told is None else float(told.min())
+    assert first_fall_m(Meeting(upper, lower), upper, lower) == least
     # Rims that overlap by a tenth of a millimetre may or may not count.
     if math.isinf(rest.fall_m) != math.isinf(least):
         moved = block("upper", (0.2998, 0.1, 0.1998), upper.position_m, turn_x)
