@@ -82,9 +82,8 @@ class Doors:
         """The ways out of an object."""
         found = self._exits.get(object_id)
         if found is None:
-            price, beside = self.price_per_m, self._beside.get(object_id, {})
-            found = [Exit(x, price.get(x, 0.0), self._between(object_id, x, one)) for x, one in beside.items()]
-            self._exits[object_id] = found
+            price, doors = self.price_per_m, self._doors_of(object_id)
+            found = self._exits[object_id] = [Exit(x, price.get(x, 0.0), several) for x, (_, several) in doors.items()]
         return found
 
     def exits_to_ends(self, object_id: str) -> list[Exit]:
@@ -111,14 +110,17 @@ class Doors:
             known = self._balls[object_id] = (junctions, (x, y, z), radius_m)
         return known[1:]
 
-    def _between(self, object_id: str, other: str, junction: Junction) -> list[Door]:
-        known = self._known.setdefault(object_id, {})
-        last = known.get(other)
-        if last is None or last[0] is not junction:
-            points = zip(junction.points_m, junction.weights, strict=True)
-            doors = [Door(object_id, other, place, self._crossing[weight]) for place, weight in points]
-            last = known[other] = (junction, doors)
-        return last[1]
+    def _doors_of(self, object_id: str) -> dict[str, tuple[Junction, list[Door]]]:
+        """The doors out of an object into each other, with the junctions that they are of; kept as long as these."""
+        before, now = self._known.get(object_id, {}), {}
+        for other, junction in self._beside.get(object_id, {}).items():
+            last = before.get(other)
+            if last is None or last[0] is not junction:
+                points = zip(junction.points_m, junction.weights, strict=True)
+                last = junction, [Door(object_id, other, place, self._crossing[weight]) for place, weight in points]
+            now[other] = last
+        self._known[object_id] = now
+        return now
 
 
 class _Ends:
