@@ -117,14 +117,8 @@ class Crowd:
         return found
 
     def _meeting(self, object_id: str) -> set[str]:
-        row = self._rows[object_id]
-        low, high = self._low, self._high
-        first, second = (0, 2) if self._up_axis == 1 else (0, 1)
-        meets = (low[first] <= high[first, row]) & (high[first] >= low[first, row])
-        rows = np.flatnonzero(meets)
-        for axis in (second, self._up_axis):
-            rows = rows[(low[axis][rows] <= high[axis, row]) & (high[axis][rows] >= low[axis, row])]
+        every, own = Boxes(self._low, self._high), slice(self._rows[object_id], self._rows[object_id] + 1)
         ids = self._ids
-        found = {ids[k] for k in rows.tolist()}
+        found = {ids[k] for k in every.meeting(Boxes(self._low[:, own], self._high[:, own])).tolist()}
         found.discard(object_id)
         return found

@@ -58,7 +58,9 @@ class Listening:
             self._look_around()
         elif change.appeared or change.vanished:
             self._reach.follow(change)
-            self._n_unreachable, self._are_levels_known = None, False
+            self._n_unreachable = None
+            if self._sources.need_contacts:
+                self._are_levels_known = False
         if not change and not is_other_cast:
             return
         self._is_fresh = False
