@@ -183,10 +183,26 @@ class Body:
         return self.high[self.up_axis]
 
     @property
+    def n_triangles(self) -> int:
+        """How many triangles its shape has."""
+        return len(self.shape.triangles[0, 0])
+
+    @property
     def up(self) -> Floats:
         """The world's upward axis (3,) in the own frame."""
         up: Floats = self.pose.rotation[self.up_axis]
         return up
+
+    @cached_property
+    def triangles_m(self) -> Floats:
+        """Its triangles in the world (3, 3, m) [m]."""
+        (x, y, z), position = self.shape.triangles, np.array(self.position_m)
+        axes = self.pose.rotation.T[..., None, None]
+        placed: Floats = axes[0] * x
+        placed += axes[1] * y
+        placed += axes[2] * z
+        placed += position[:, None, None]
+        return placed
 
     @cached_property
     def lows_m(self) -> Floats:

@@ -18,7 +18,7 @@ from scene2hap.contact.support import TOUCH_M, fall_reach_m, is_over
 from scene2hap.contact.triangles import height_range
 from scene2hap.contact.vectors import Floats, Indices, Triple
 
-_HOLDING = 0.5  # Least cosine of a slope that holds a thing (assumed): a wall's triangles hold nothing.
+HOLDING = 0.5  # Least cosine of a slope that holds a thing (assumed): a wall's triangles hold nothing.
 # What falls is tried this share smaller, by at most so much: equal boxes on each other, whose rims coincide, then
 # surely lie over each other, and boxes exactly side by side surely do not.
 INSET, INSET_M = 1e-4, 1e-4
@@ -65,7 +65,7 @@ class _Drop(NamedTuple):
         """How far those of the pairs fall that meet (k,), and which triangles of the faller these are."""
         guest, host = self.near.corners(pairs)
         p, q = (guest, host) if self.is_guest else (host, guest)
-        low, high = height_range(_inset(p), q, self.up)
+        low, high = height_range(inset(p), q, self.up)
         meets = np.flatnonzero((low >= -self.reach_m) & (low <= self.reach_m) & (high >= -TOUCH_M))
         falls_m = low[meets]
         return np.where(falls_m >= -TOUCH_M, falls_m, 0.0), self.columns[pairs[meets]]
@@ -75,7 +75,7 @@ def _drops(meeting: Meeting, faller: Body, other: Body) -> Iterator[_Drop]:
     if not is_over(faller, other):
         return
     reach_m, is_guest = fall_reach_m(faller.size_m), meeting.guest is faller
-    bottom, holding = faller.lows_m <= faller.lowest_m + reach_m, other.slopes >= _HOLDING
+    bottom, holding = faller.lows_m <= faller.lowest_m + reach_m, other.slopes >= HOLDING
     up = (other if is_guest else faller).up
     way = (-reach_m if is_guest else reach_m) * up
     guest_only, host_only = (bottom, holding) if is_guest else (holding, bottom)
@@ -88,7 +88,8 @@ def _drops(meeting: Meeting, faller: Body, other: Body) -> Iterator[_Drop]:
         yield _Drop(near, Nearest(least_m), of_p, is_guest, (x, y, z), reach_m)
 
 
-def _inset(triangles: Floats) -> Floats:
+def inset(triangles: Floats) -> Floats:
+    """Triangles (3, 3, n) that are a little smaller."""
     middles: Floats = (triangles[:, 0] + triangles[:, 1] + triangles[:, 2]) / 3
     inwards = middles[:, None] - triangles
     extent = np.abs(inwards).reshape(9, -1).max(axis=0)

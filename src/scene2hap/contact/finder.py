@@ -14,6 +14,7 @@ from scene2hap.contact.bond import NO_BOND, NO_WAY, Bond, Plan, direction, stren
 from scene2hap.contact.clearing import is_clear
 from scene2hap.contact.crowd import Crowd, Room
 from scene2hap.contact.cuboid_meeting import gaps_of, points_of
+from scene2hap.contact.falls_together import falls_of
 from scene2hap.contact.glide import Drift, Glide
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.support import (
@@ -110,6 +111,7 @@ class ContactFinder:
             seen.add(x)
         self._tell_cuboids_apart(seen)
         unsure.update(seen)
+        self._tell_falls(unsure)
         for x in unsure:
             if x in bodies:
                 self._hold_anew(x, dirty)
@@ -248,6 +250,12 @@ class ContactFinder:
         ties = {id(tie): tie for x in moved for tie in self._ties[x].values() if tie.asks_apart}
         for tie, gap in zip(ties.values(), gaps_of([(t.a, t.b) for t in ties.values()], WITHIN_M), strict=True):
             tie.tell_apart(gap)
+
+    def _tell_falls(self, unsure: Iterable[str]) -> None:
+        """Find out all at once how far what has few triangles is to fall."""
+        asked = [(tie, x) for x in unsure for tie in self._ties.get(x, {}).values() if tie.asks_falls(x)]
+        for (tie, x), falls_m in zip(asked, falls_of([tie.falling(x) for tie, x in asked]), strict=True):
+            tie.tell_falls(x, falls_m)
 
     def _hold_anew(self, x: str, dirty: set[Pair]) -> None:
         """Find out what holds a body; the pairs in which another than before does are dirty."""

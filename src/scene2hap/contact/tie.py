@@ -17,6 +17,7 @@ from scene2hap.contact.clearing import tray as clearing_tray
 from scene2hap.contact.cuboid_meeting import gaps_of, points_of
 from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.fall import falls, first_fall_m
+from scene2hap.contact.falls_together import are_few, falls_of
 from scene2hap.contact.level import Aside, Rest, aside, rest_on
 from scene2hap.contact.narrow import Gap, Meeting
 from scene2hap.contact.relative import roles
@@ -70,15 +71,30 @@ class Tie:
 
     def first_fall_m(self, x: str) -> float:
         """How far x is to fall by its triangles; see `fall.first_fall_m`."""
-        found: float = self._once((x, "first"), lambda: first_fall_m(self._meeting, *self._falling(x)))
+        if are_few(self.a, self.b):
+            each_m = self.falls(x)
+            return math.inf if each_m is None else float(each_m.min())
+        found: float = self._once((x, "first"), lambda: first_fall_m(self._meeting, *self.falling(x)))
         return found
 
     def falls(self, x: str) -> Floats | None:
         """How far each of them is to fall; see `fall.falls`."""
-        found: Floats | None = self._once(x, lambda: falls(self._meeting, *self._falling(x)))
+        if are_few(self.a, self.b):
+            few: Floats | None = self._once(x, lambda: falls_of([self.falling(x)])[0])
+            return few
+        found: Floats | None = self._once(x, lambda: falls(self._meeting, *self.falling(x)))
         return found
 
-    def _falling(self, x: str) -> tuple[Body, Body]:
+    def asks_falls(self, x: str) -> bool:
+        """Whether how far x is to fall is still to be found out, and a matter of few triangles."""
+        return self.rest(x) is UNCLEAR and (self._facts is None or x not in self._facts) and are_few(self.a, self.b)
+
+    def tell_falls(self, x: str, falls_m: Floats | None) -> None:
+        """Take in what `falls` is to answer."""
+        self._once(x, lambda: falls_m)
+
+    def falling(self, x: str) -> tuple[Body, Body]:
+        """x, and the other."""
         return (self.a, self.b) if x == self.a.id else (self.b, self.a)
 
     def aside(self, within_m: float, slack_m: float) -> Aside | None:

@@ -68,14 +68,19 @@ def test_what_is_told_is_what_triangles_tell(
 
 
 def test_most_of_a_room_is_told_without_triangles(monkeypatch: pytest.MonkeyPatch) -> None:
-    met = []
-    near = Meeting.near
+    met: list[object] = []
+    near, falls_of = Meeting.near, finder.falls_of
 
     def watched(self: Meeting, *args: object, **named: object) -> object:
         met.append(self)
         return near(self, *args, **named)  # type: ignore[arg-type]  # as the caller gave them
 
+    def fallen(couples: list[tuple[Body, Body]]) -> object:
+        met.extend(couples)
+        return falls_of(couples)
+
     monkeypatch.setattr(Meeting, "near", watched)
+    monkeypatch.setattr(finder, "falls_of", fallen)
     graph = ContactGraph(scene(HOUSE, chair((-0.2, 0.0, 0.9)), box("pan", (0.2, 0.1, 0.2), (1.2, 0.955, 0.1))))
     assert pairs(graph) == {("chair", "house"), ("house", "pan")}
     for k in range(30):
