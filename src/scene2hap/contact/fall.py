@@ -40,7 +40,7 @@ def falls(meeting: Meeting, faller: Body, other: Body) -> Floats | None:
 
     A triangle that falls `TOUCH_M` farther than another, which has come to rest by then, may be told as inf.
     """
-    each_m = np.full(len(faller.lows_m), np.inf)
+    each_m = np.full(faller.n_triangles, np.inf)
     for drop in _drops(meeting, faller, other):
         while (pairs := drop.nearest.next(min(drop.reach_m, each_m.min() + TOUCH_M) + ROUNDING_M)) is not None:
             falls_m, columns = drop.met(pairs)

@@ -1,7 +1,8 @@
 """How far things of few triangles fall, as crates in a heap: what `fall` tells of one couple, of many at once.
 
-All triangles of a faller are compared with all of the other, in the world; boxes that tell first which may meet would
-cost more, since numpy's cost is per call. A couple's answer, to the last bit, does not depend on the others.
+All triangles of a faller are held against all of the other, in the world: to look first for those of either that may
+matter, as `Meeting.near` does, costs more where there are few, since numpy's cost is per call. A couple's answer, to
+the last bit, does not depend on the others.
 """
 
 from __future__ import annotations

@@ -70,6 +70,9 @@ def frame_along(up: Triple) -> Floats:
 
 
 def turned(turn: Floats, points: Floats) -> Floats:
-    """All points turned by one matrix (3, 3)."""
+    """All points turned by one matrix (3, 3).
+
+    This is BLAS, which may round in another way for another number of points; not where the matrix swaps axes alone.
+    """
     found: Floats = (turn @ points.reshape(3, -1)).reshape(points.shape)
     return found
