@@ -25,7 +25,7 @@ Couple = tuple[Body, Body]
 """A faller, and what it may fall onto."""
 
 _FEW = 1 << 12  # Pairs of triangles of a couple; with more, boxes are sooner.
-_AT_ONCE = 1 << 17  # Pairs of triangles looked at together: some 10 MB.
+_AT_ONCE = 1 << 15  # Pairs of triangles looked at together: some 10 MB.
 
 
 def are_few(faller: Body, other: Body) -> bool:
