@@ -196,12 +196,8 @@ class Body:
     @cached_property
     def triangles_m(self) -> Floats:
         """Its triangles in the world (3, 3, m) [m]."""
-        (x, y, z), position = self.shape.triangles, np.array(self.position_m)
-        axes = self.pose.rotation.T[..., None, None]
-        placed: Floats = axes[0] * x
-        placed += axes[1] * y
-        placed += axes[2] * z
-        placed += position[:, None, None]
+        placed = np.stack([along(axis, self.shape.triangles) for axis in self.pose.rotation])
+        placed += np.array(self.position_m)[:, None, None]
         return placed
 
     @cached_property

@@ -16,9 +16,9 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.narrow import ROUNDING_M, Meeting, Near, Nearest
 from scene2hap.contact.support import TOUCH_M, fall_reach_m, is_over
 from scene2hap.contact.triangles import height_range
-from scene2hap.contact.vectors import Floats, Indices, Triple
+from scene2hap.contact.vectors import Floats, Indices, Marks, Triple
 
-HOLDING = 0.5  # Least cosine of a slope that holds a thing (assumed): a wall's triangles hold nothing.
+_HOLDING = 0.5  # Least cosine of a slope that holds a thing (assumed): a wall's triangles hold nothing.
 # What falls is tried this share smaller, by at most so much: equal boxes on each other, whose rims coincide, then
 # surely lie over each other, and boxes exactly side by side surely do not.
 INSET, INSET_M = 1e-4, 1e-4
@@ -65,20 +65,18 @@ class _Drop(NamedTuple):
         """How far those of the pairs fall that meet (k,), and which triangles of the faller these are."""
         guest, host = self.near.corners(pairs)
         p, q = (guest, host) if self.is_guest else (host, guest)
-        low, high = height_range(inset(p), q, self.up)
-        meets = np.flatnonzero((low >= -self.reach_m) & (low <= self.reach_m) & (high >= -TOUCH_M))
-        falls_m = low[meets]
-        return np.where(falls_m >= -TOUCH_M, falls_m, 0.0), self.columns[pairs[meets]]
+        meets, falls_m = met(p, q, self.up, self.reach_m)
+        return falls_m, self.columns[pairs[meets]]
 
 
 def _drops(meeting: Meeting, faller: Body, other: Body) -> Iterator[_Drop]:
     if not is_over(faller, other):
         return
     reach_m, is_guest = fall_reach_m(faller.size_m), meeting.guest is faller
-    bottom, holding = faller.lows_m <= faller.lowest_m + reach_m, other.slopes >= HOLDING
+    falling, bearing = falls_first(faller), holds(other)
     up = (other if is_guest else faller).up
     way = (-reach_m if is_guest else reach_m) * up
-    guest_only, host_only = (bottom, holding) if is_guest else (holding, bottom)
+    guest_only, host_only = (falling, bearing) if is_guest else (bearing, falling)
     x, y, z = up.tolist()
     for near in meeting.near(TOUCH_M, way, sweep=True, guest_only=guest_only, host_only=host_only):
         of_p, of_q = near.guest_columns, near.host_columns
@@ -88,8 +86,28 @@ def _drops(meeting: Meeting, faller: Body, other: Body) -> Iterator[_Drop]:
         yield _Drop(near, Nearest(least_m), of_p, is_guest, (x, y, z), reach_m)
 
 
-def inset(triangles: Floats) -> Floats:
-    """Triangles (3, 3, n) that are a little smaller."""
+def falls_first(faller: Body) -> Marks:
+    """Which triangles (m,) of a thing are its bottom."""
+    return faller.lows_m <= faller.lowest_m + fall_reach_m(faller.size_m)
+
+
+def holds(other: Body) -> Marks:
+    """Which triangles (m,) of a thing are level enough to hold another."""
+    return other.slopes >= _HOLDING
+
+
+def met(p: Floats, q: Floats, up: Triple, reach_m: float | Floats) -> tuple[Indices, Floats]:
+    """Which of the pairs of triangles p, that fall, and q (3, 3, n) [m] meet, and how far these fall (k,) [m].
+
+    Parameters: reach_m : how far at most, and how deep p may be sunk in, of all or of each pair (n,).
+    """
+    low, high = height_range(_inset(p), q, up)
+    meets = np.flatnonzero((low >= -reach_m) & (low <= reach_m) & (high >= -TOUCH_M))
+    falls_m = low[meets]
+    return meets, np.where(falls_m >= -TOUCH_M, falls_m, 0.0)
+
+
+def _inset(triangles: Floats) -> Floats:
     middles: Floats = (triangles[:, 0] + triangles[:, 1] + triangles[:, 2]) / 3
     inwards = middles[:, None] - triangles
     extent = np.abs(inwards).reshape(9, -1).max(axis=0)

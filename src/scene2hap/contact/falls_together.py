@@ -16,9 +16,8 @@ import numpy as np
 
 from scene2hap.contact.body import Body, boxes_of
 from scene2hap.contact.broad import Boxes
-from scene2hap.contact.fall import HOLDING, inset
+from scene2hap.contact.fall import falls_first, holds, met
 from scene2hap.contact.support import TOUCH_M, fall_reach_m, is_over
-from scene2hap.contact.triangles import height_range
 from scene2hap.contact.vectors import Floats, Indices, Marks
 
 Couple = tuple[Body, Body]
@@ -63,10 +62,9 @@ class _Pairs(NamedTuple):
     q: Indices
     couple: Indices
 
-    def where(self, marks: Marks) -> _Pairs:
-        """Those that are marked (n,)."""
-        left = np.flatnonzero(marks)
-        return _Pairs(self.p[left], self.q[left], self.couple[left])
+    def some(self, rows: Indices | Marks) -> _Pairs:
+        """Some of them."""
+        return _Pairs(self.p[rows], self.q[rows], self.couple[rows])
 
 
 def _falls(couples: Sequence[Couple]) -> list[Floats]:
@@ -78,15 +76,13 @@ def _falls(couples: Sequence[Couple]) -> list[Floats]:
     pairs = _near(bodies, couples, _all_pairs(couples, first), boxes_of(triangles))
     upwards = (0.0, 1.0, 0.0) if bodies[0].up_axis == 1 else (0.0, 0.0, 1.0)
     p, q = triangles.take(pairs.p, axis=2), triangles.take(pairs.q, axis=2)
-    low, high = height_range(inset(p), q, upwards)
-    reach_m = _reaches_m(couples).take(pairs.couple)
-    meets = (low >= -reach_m) & (low <= reach_m) & (high >= -TOUCH_M)
-    low, pairs = low[meets], pairs.where(meets)
+    meets, falls_m = met(p, q, upwards, _reaches_m(couples).take(pairs.couple))
+    pairs = pairs.some(meets)
     # The triangles of the fallers, couple by couple.
     ends = list(accumulate([faller.n_triangles for faller, _ in couples], initial=0))
     each_m = np.full(ends[-1], np.inf)
     rows = pairs.p + (np.array(ends[:-1]) - begins).take(pairs.couple)
-    np.minimum.at(each_m, rows, np.where(low >= -TOUCH_M, low, 0.0))
+    np.minimum.at(each_m, rows, falls_m)
     return np.split(each_m, ends[1:-1])
 
 
@@ -103,15 +99,14 @@ def _near(bodies: Sequence[Body], couples: Sequence[Couple], pairs: _Pairs, boxe
     """Those of the pairs of which one is part of a bottom, the other may hold it, and both may meet."""
     up = bodies[0].up_axis
     low, high = boxes
-    bottom = np.concatenate([body.lows_m <= body.lowest_m + fall_reach_m(body.size_m) for body in bodies])
-    holding = np.concatenate([body.slopes >= HOLDING for body in bodies])
-    pairs = pairs.where(bottom.take(pairs.p) & holding.take(pairs.q))
+    falling, bearing = (np.concatenate([marks(body) for body in bodies]) for marks in (falls_first, holds))
+    pairs = pairs.some(falling.take(pairs.p) & bearing.take(pairs.q))
     falls_m = low[up].take(pairs.p) - high[up].take(pairs.q)
     sunk_m = low[up].take(pairs.q) - high[up].take(pairs.p)
-    pairs = pairs.where((falls_m <= _reaches_m(couples).take(pairs.couple)) & (sunk_m <= TOUCH_M))
+    pairs = pairs.some((falls_m <= _reaches_m(couples).take(pairs.couple)) & (sunk_m <= TOUCH_M))
     for axis in (0, 3 - up):
         near, far = low[axis].take(pairs.p) <= high[axis].take(pairs.q), high[axis].take(pairs.p)
-        pairs = pairs.where(near & (far >= low[axis].take(pairs.q)))
+        pairs = pairs.some(near & (far >= low[axis].take(pairs.q)))
     return pairs
 
 

@@ -79,11 +79,12 @@ class Tie:
 
     def falls(self, x: str) -> Floats | None:
         """How far each of them is to fall; see `fall.falls`."""
-        if are_few(self.a, self.b):
-            few: Floats | None = self._once(x, lambda: falls_of([self.falling(x)])[0])
-            return few
-        found: Floats | None = self._once(x, lambda: falls(self._meeting, *self.falling(x)))
+        found: Floats | None = self._once(x, lambda: self._falls(x))
         return found
+
+    def _falls(self, x: str) -> Floats | None:
+        couple = self.falling(x)
+        return falls_of([couple])[0] if are_few(*couple) else falls(self._meeting, *couple)
 
     def asks_falls(self, x: str) -> bool:
         """Whether how far x is to fall is still to be found out, and a matter of few triangles."""
