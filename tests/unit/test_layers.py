@@ -10,7 +10,7 @@ PACKAGE = Path(__file__).parents[2] / "src" / "scene2hap"
 # Bottom to top; rooms of one row never import each other.
 LAYERS = [
     {"errors"},
-    {"checks"},
+    {"checks", "compiled"},
     {"plugins", "settings", "secret"},
     {"scene"},
     {"contact", "materials"},

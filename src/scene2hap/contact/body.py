@@ -139,7 +139,7 @@ class Body:
     `low` and `high` are a box (three numbers each [m]) that holds it; its height is exact, its sides may be wide.
     """
 
-    __slots__ = ("__dict__", "high", "id", "low", "pose", "position_m", "shape", "size_m", "stance", "up_axis")
+    __slots__ = ("__dict__", "_stance", "high", "id", "low", "pose", "position_m", "shape", "size_m", "up_axis")
 
     def __init__(self, object_id: str, shape: Shape, pose: Pose, up_axis: int) -> None:
         self.id = object_id
@@ -147,7 +147,7 @@ class Body:
         self.size_m = shape.size_m
         self.pose = pose
         self.up_axis = up_axis
-        stance = self.stance = Stance(shape, pose.rotation_xyzw, up_axis)
+        stance = self._stance = Stance(shape, pose.rotation_xyzw, up_axis)
         x, y, z = self.position_m = pose.position_m
         low, high = stance.low, stance.high
         self.low = (x + low[0], y + low[1], z + low[2])
@@ -162,15 +162,27 @@ class Body:
         """The same thing elsewhere."""
         # Every frame of a game comes by here, often.
         body = Body.__new__(Body)
-        shape, up_axis, stance = self.shape, self.up_axis, self.stance
-        body.id, body.shape, body.size_m, body.pose, body.up_axis = self.id, shape, self.size_m, pose, up_axis
-        if stance.rotation_xyzw != pose.rotation_xyzw:
-            stance = Stance(shape, pose.rotation_xyzw, up_axis)
-        body.stance = stance
+        body.id, body.shape, body.size_m, body.up_axis = self.id, self.shape, self.size_m, self.up_axis
+        body.pose, body._stance = pose, self._stance
+        stance = body.stance
         x, y, z = body.position_m = pose.position_m
         (a, b, c), (d, e, f) = stance.low, stance.high
         body.low, body.high = (x + a, y + b, z + c), (x + d, y + e, z + f)
         return body
+
+    def put(self, pose: Pose, low: Triple, high: Triple) -> None:
+        """Go elsewhere, to a box that is known already."""
+        self.pose, self.position_m, self.low, self.high = pose, pose.position_m, low, high
+        if self.__dict__:
+            self.__dict__.clear()
+
+    @property
+    def stance(self) -> Stance:
+        """Its shape as it is turned; what slides in every frame is asked for it now and then."""
+        stance, rotation_xyzw = self._stance, self.pose.rotation_xyzw
+        if stance.rotation_xyzw is not rotation_xyzw and stance.rotation_xyzw != rotation_xyzw:
+            stance = self._stance = stance.turned(rotation_xyzw)
+        return stance
 
     @property
     def lowest_m(self) -> float:

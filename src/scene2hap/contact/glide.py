@@ -17,9 +17,10 @@ from scene2hap.contact.crowd import Room
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.ledge import Flat
 from scene2hap.contact.level import Rest
-from scene2hap.contact.stance import Stance, Tray
+from scene2hap.contact.stance import Tray
 from scene2hap.contact.support import TOUCH_M, fall_reach_m, margins_m
 from scene2hap.contact.tie import SURE_M, Slide, Tie
+from scene2hap.contact.track import Bounds, Track
 from scene2hap.contact.vectors import Triple
 from scene2hap.scene.pose import Pose
 
@@ -36,18 +37,11 @@ class Glide:
 
     __slots__ = (
         "_fall_m",
-        "_flat",
         "_is_a",
-        "_lane",
-        "_middle_m",
-        "_most_m",
         "_normals",
-        "_reach",
-        "_stance",
         "_tie",
         "_top_m",
-        "_up",
-        "_zone",
+        "_track",
         "body",
         "hosts",
         "on",
@@ -57,29 +51,15 @@ class Glide:
     )
 
     def __init__(
-        self,
-        body: Body,
-        tie: Tie,
-        tray: Tray,
-        normal: Triple | None,
-        zone: Room,
-        lane: Flat,
-        middle_m: float,
-        hosts: Sequence[str],
+        self, body: Body, tie: Tie, tray: Tray, normal: Triple | None, bounds: Bounds, hosts: Sequence[str]
     ) -> None:
         self.body, self._tie, self._is_a = body, tie, body.id == tie.a.id
-        support = tie.b if self._is_a else tie.a
         self.pair: Pair = (tie.a.id, tie.b.id)
-        self.on = support.id
+        self.on = tie.b.id if self._is_a else tie.a.id
         self.tray = tray
-        self._stance, self._up, self._flat = body.stance, body.up_axis, body.stance.v_axis
         self._normals = (normal,) * len(body.stance.footing.points)
-        self._fall_m, self._most_m = math.nan, 2 / 3 * fall_reach_m(body.size_m)
-        self._top_m = support.position_m[self._up] + tray.height
-        self._middle_m = middle_m
-        u, v = support.position_m[0], support.position_m[self._flat]
-        self._reach = tuple([(nu, nv, offset + nu * u + nv * v) for nu, nv, offset in tray.edges])
-        self._zone, self._lane = zone, lane
+        self._fall_m, self._top_m = math.nan, bounds.top_m
+        self._track = Track(bounds, body.stance)
         self.hosts, self.refused = hosts, 0
 
     @classmethod
@@ -113,8 +93,18 @@ class Glide:
                 else:
                     opens.append(open_box(body, other, stands=False))
                     hosts.append(other.id)
-        zone = _common(opens)
-        return cls(body, tie, slide.tray, normal, zone, _lane(body, zone, others), middle_m, hosts)
+        zone, tray = _common(opens), slide.tray
+        up, u, v = body.up_axis, support.position_m[0], support.position_m[body.stance.v_axis]
+        bounds = Bounds(
+            _lane(body, zone, others),
+            (zone[0][up], zone[1][up]),
+            middle_m,
+            [(nu, nv, offset + nu * u + nv * v) for nu, nv, offset in tray.edges],
+            support.position_m[up] + tray.height,
+            SURE_M,
+            2 / 3 * fall_reach_m(body.size_m),
+        )
+        return cls(body, tie, tray, normal, bounds, hosts)
 
     def resume(self, body: Body) -> None:
         """Go on from where another way has brought the body."""
@@ -122,47 +112,17 @@ class Glide:
 
     def step(self, pose: Pose, found: dict[Pair, Junction | None]) -> bool:
         """Whether a step was surely a slide; then where the two touch is added to `found`."""
-        stance = self._stance
-        position_m, rotation_xyzw = pose.position_m, pose.rotation_xyzw
-        if rotation_xyzw != stance.rotation_xyzw:
-            turned = stance.turned(rotation_xyzw)
-            if turned is None:
-                return False
-            stance = turned
-        up, flat = self._up, self._flat
-        x, y, z = position_m
-        (a, b, c), (d, e, f) = stance.low, stance.high
-        low, high = (x + a, y + b, z + c), (x + d, y + e, z + f)
-        u0, v0, u1, v1 = self._lane
-        if low[0] < u0 or high[0] > u1 or low[flat] < v0 or high[flat] > v1:
+        slid = self._track.slid(pose.position_m, pose.rotation_xyzw)
+        if slid is None:
             return False
-        down, over = low[up], high[up]
-        zone_low, zone_high = self._zone
-        if down < zone_low[up] or over > zone_high[up] or down + over <= self._middle_m:
-            return False
-        points, sole, (mu, mv), radius, _ = stance.footing
-        h, u, v = position_m[up], x, position_m[flat]
-        fall_m = h + sole - self._top_m
-        if not SURE_M < fall_m < self._most_m:
-            return False
-        cu, cv = mu + u, mv + v
-        for nu, nv, offset in self._reach:
-            if nu * cu + nv * cv - offset < radius:
-                return False
-        # As in `rest_points`, to the last bit.
-        height = (h + sole + self._top_m) / 2
-        if up == 1:
-            places = tuple([(u + pu, height, v + pv) for pu, pv in points])
-        else:
-            places = tuple([(u + pu, v + pv, height) for pu, pv in points])
-        body, tie = self.body, self._tie
-        _place(body, pose, stance, low, high)
-        self._stance = stance
+        low, high, fall_m, places = slid
+        body = self.body
+        body.put(pose, low, high)
         if fall_m != self._fall_m:
             self._fall_m = fall_m
-            tie.slide(body, Rest(fall_m, True, self._top_m), self._is_a)
+            self._tie.slide(body, Rest(fall_m, True, self._top_m), self._is_a)
         else:
-            tie.forget()
+            self._tie.forget()
         found[self.pair] = _new(Junction, (places, _ONES[: len(places)], self._normals, ()))
         return True
 
@@ -195,7 +155,7 @@ class Drift:
         stance, (x, y, z) = self.body.stance, pose.position_m
         if pose.rotation_xyzw != stance.rotation_xyzw:
             turned = stance.turned(pose.rotation_xyzw)
-            if turned is None:
+            if turned.way_up != stance.way_up:
                 return False
             stance = turned
         (a, b, c), (d, e, f) = stance.low, stance.high
@@ -203,14 +163,8 @@ class Drift:
         (a, b, c), (d, e, f) = self._low, self._high
         if low[0] < a or low[1] < b or low[2] < c or high[0] > d or high[1] > e or high[2] > f:
             return False
-        _place(self.body, pose, stance, low, high)
+        self.body.put(pose, low, high)
         return True
-
-
-def _place(body: Body, pose: Pose, stance: Stance, low: Triple, high: Triple) -> None:
-    body.pose, body.position_m, body.low, body.high, body.stance = pose, pose.position_m, low, high, stance
-    if body.__dict__:
-        body.__dict__.clear()
 
 
 def _common(rooms: Sequence[Room]) -> Room:

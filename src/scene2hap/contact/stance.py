@@ -62,13 +62,13 @@ class Stance:
         "_heading",
         "_lean",
         "_outline",
-        "_shape",
         "_tray",
         "high",
         "is_block",
         "low",
         "rotation_xyzw",
         "rows",
+        "shape",
         "up_axis",
         "v_axis",
         "way_up",
@@ -76,7 +76,7 @@ class Stance:
 
     def __init__(self, shape: Shape, rotation_xyzw: tuple[float, float, float, float], up_axis: int) -> None:
         x, y, z, w = self.rotation_xyzw = rotation_xyzw
-        self._shape = shape
+        self.shape = shape
         xx, yy, zz, xy, xz, yz, wx, wy, wz = x * x, y * y, z * z, x * y, x * z, y * z, x * w, y * w, z * w
         self.rows: tuple[Triple, Triple, Triple] = (
             (1 - 2 * (yy + zz), 2 * (xy - wz), 2 * (xz + wy)),
@@ -99,7 +99,7 @@ class Stance:
         self._lean: Lean | Literal[False] | None = False
 
     def _bounds(self, up: Triple) -> tuple[Triple, Triple]:
-        (mx, my, mz), (hx, hy, hz) = self._shape.middle, self._shape.half
+        (mx, my, mz), (hx, hy, hz) = self.shape.middle, self.shape.half
         (a, b, c), (d, e, f), (g, h, i) = self.rows
         u, v, w = a * mx + b * my + c * mz, d * mx + e * my + f * mz, g * mx + h * my + i * mz
         x = abs(a) * hx + abs(b) * hy + abs(c) * hz
@@ -108,24 +108,23 @@ class Stance:
         low, high = (u - x, v - y, w - z), (u + x, v + y, w + z)
         if self.is_block or abs(up[0]) > _UPRIGHT or abs(up[1]) > _UPRIGHT or abs(up[2]) > _UPRIGHT:
             return low, high
-        heights = self._shape.corners @ np.array(up)
+        heights = self.shape.corners @ np.array(up)
         least, most = float(heights.min()), float(heights.max())
         if self.up_axis == 1:
             return (low[0], least, low[2]), (high[0], most, high[2])
         return (low[0], low[1], least), (high[0], high[1], most)
 
-    def turned(self, rotation_xyzw: tuple[float, float, float, float]) -> Stance | None:
-        """The same shape turned otherwise, if that leaves its level faces level; the same as made from nothing."""
+    def turned(self, rotation_xyzw: tuple[float, float, float, float]) -> Stance:
+        """The same shape turned otherwise; the same as made from nothing."""
         x, y, z, w = rotation_xyzw
         before = self.rotation_xyzw
         if self.up_axis != 1 or x != 0.0 or z != 0.0 or before[0] != 0.0 or before[2] != 0.0:
-            turned = Stance(self._shape, rotation_xyzw, self.up_axis)
-            return turned if turned.way_up == self.way_up else None
+            return Stance(self.shape, rotation_xyzw, self.up_axis)
         # About the vertical, nothing changes upwards, and half of the products are 0.
         turned = Stance.__new__(Stance)
-        turned.rotation_xyzw, turned._shape, turned.way_up, turned.is_block = (
+        turned.rotation_xyzw, turned.shape, turned.way_up, turned.is_block = (
             rotation_xyzw,
-            self._shape,
+            self.shape,
             self.way_up,
             self.is_block,
         )
@@ -133,11 +132,11 @@ class Stance:
         turned._lean = self._lean
         a, c = 1 - 2 * (y * y), 2 * (y * w)
         turned.rows = ((a, 0.0, c), self.rows[1], (-c, 0.0, a))
-        (mx, _, mz), (hx, _, hz) = self._shape.middle, self._shape.half
+        (mx, _, mz), (hx, _, hz) = self.shape.middle, self.shape.half
         u, v, over, across = a * mx + c * mz, a * mz - c * mx, abs(a), abs(c)
         x, z = over * hx + across * hz, across * hx + over * hz
         turned.low, turned.high = (u - x, self.low[1], v - z), (u + x, self.high[1], v + z)
-        sole = self._shape.sole(self.way_up)
+        sole = self.shape.sole(self.way_up)
         x, _, z = sole.middle_m
         points = tuple([(a * x + c * z, a * z - c * x) for x, _, z in sole.points_m])
         _, height, _, radius, is_filled = self.footing
@@ -148,7 +147,7 @@ class Stance:
     def footing(self) -> Footing:
         """What it stands on."""
         if self._footing is None:
-            sole = self._shape.sole(self.way_up)
+            sole = self.shape.sole(self.way_up)
             (a, b, c), (d, e, f), (g, h, i) = self.rows[0], self.rows[self.v_axis], self.rows[self.up_axis]
             x, y, z = sole.middle_m
             middle = (a * x + b * y + c * z, d * x + e * y + f * z)
@@ -161,13 +160,13 @@ class Stance:
     def sole_outline(self) -> tuple[Point, ...]:
         """The outline of what it stands on."""
         if not self._outline:
-            self._outline = tuple([(u, v) for u, v, _ in map(self._turned, self._shape.sole(self.way_up).outline_m)])
+            self._outline = tuple([(u, v) for u, v, _ in map(self._turned, self.shape.sole(self.way_up).outline_m)])
         return self._outline
 
     @property
     def tray(self) -> Tray | None:
         """What it bears others with, if that is level and convex."""
-        if self._tray is None and (top_m := self._shape.top(self.way_up)) is not None:
+        if self._tray is None and (top_m := self.shape.top(self.way_up)) is not None:
             corners = [self._turned(corner) for corner in top_m]
             outline = tuple([(u, v) for u, v, _ in corners])
             self._tray = Tray(outline, sum(h for _, _, h in corners) / len(corners), edges_of(outline))

@@ -10,18 +10,42 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from math import exp, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
+
+from scene2hap.compiled import compiled
 
 _MOST = 700.0  # Beyond this exp(-x) is no normal number, which processors handle slowly.
 # Least x dx of a band for which the difference keeps 12 digits: it is about x dx exp(-x), with an error of 2e-16.
 _LEAST = 1e-3
 
 
-# Up to so many lengths, plain numbers are quicker than calls of numpy, each of which costs as much as 30 of them.
-_FEW = 4
+@compiled
+class Differences:
+    """The gains by the difference, for lengths at which it loses no digits.
+
+    Parameters: edges : b / L at the edges of the bands, rising; scales : what the root of each band's difference is
+    multiplied with; least : the least length that is worked out.
+    """
+
+    def __init__(self, edges: NDArray[np.float64], scales: NDArray[np.float64], least: float) -> None:
+        # Bands first: what belongs to one edge lies side by side, so that neighbours are subtracted in one stride.
+        self._minus_edges, self._scales, self._least = -edges[:, None], scales[:, None], least
+
+    def fill(self, gains: NDArray[np.float64], lengths: Sequence[float]) -> list[int]:
+        """Fill gains (n, n_bands) for n lengths; which lengths are left out, between 0 and the least."""
+        length = np.array(lengths)
+        minus_x = self._minus_edges * np.maximum(length, self._least)
+        np.maximum(minus_x, -_MOST, out=minus_x)
+        minus_g = np.exp(minus_x)
+        minus_x -= 1
+        minus_g *= minus_x
+        found = np.sqrt(minus_g[1:] - minus_g[:-1])
+        found *= self._scales
+        found /= length
+        gains[:] = found.T
+        return []
 
 
 class BandRms:
@@ -31,51 +55,16 @@ class BandRms:
         self, edges_hz: tuple[float, ...], exact: Callable[[NDArray[np.float64]], NDArray[np.float64]]
     ) -> None:
         edges = np.array(edges_hz)
-        u = np.sqrt(edges)
         self._exact = exact
-        b = 2 * math.sqrt(2 * math.pi) * u
-        scale = np.sqrt(2 / np.diff(edges) / (8 * math.pi))
-        self._minus_b, self._scales = (-b).tolist(), scale.tolist()
-        self._minus_edges, self._scale = -b[:, None], scale[:, None]
-        self._least = math.sqrt(_LEAST / float((b[:-1] * np.diff(b)).min()))
-        self._ones, self._zeros = [1.0] * len(self._scales), [0.0] * len(self._scales)
+        b = 2 * np.sqrt(2 * math.pi * edges)
+        least = math.sqrt(_LEAST / float((b[:-1] * np.diff(b)).min()))
+        self._n_bands = len(edges) - 1
+        self._differences = Differences(b, np.sqrt(2 / np.diff(edges) / (8 * math.pi)), least)
 
     def __call__(self, lengths: Sequence[float]) -> NDArray[np.float64]:
         """Gains (n, n_bands) [-] for n lengths, >= 0, may be infinite."""
-        if 0 < len(lengths) <= _FEW:
-            return np.array([self._row(length) for length in lengths])
-        # Looked through one by one, which for a few numbers is quicker than as an array.
-        least = self._least
-        if min(lengths, default=math.inf) >= least:
-            return self._by_difference(np.array(lengths))
-        gains = self._by_difference(np.array([x if x >= least else 1.0 for x in lengths]))
-        small = [i for i, x in enumerate(lengths) if 0 < x < least]
+        gains = np.empty((len(lengths), self._n_bands))
+        small = self._differences.fill(gains, lengths)
         if small:
             gains[small] = self._exact(np.array([lengths[i] for i in small]))
-        # What touches a source feels all of it, and does so often.
-        gains[[i for i, x in enumerate(lengths) if x == 0]] = 1.0
         return gains
-
-    def _row(self, length: float) -> list[float]:
-        """The gains for one length."""
-        if length >= self._least:
-            if length == math.inf:
-                return self._zeros
-            minus_g = [((minus_x := b * length) - 1.0) * exp(minus_x) for b in self._minus_b]
-            edges = zip(minus_g, minus_g[1:], self._scales, strict=False)
-            return [sqrt(upper - lower) * scale / length for lower, upper, scale in edges]
-        row: list[float] = self._ones if length == 0 else self._exact(np.array([length]))[0].tolist()
-        return row
-
-    def _by_difference(self, length: NDArray[np.float64]) -> NDArray[np.float64]:
-        # Bands first: what belongs to one edge lies side by side, so that neighbours are subtracted in one stride.
-        minus_x = self._minus_edges * length
-        np.maximum(minus_x, -_MOST, out=minus_x)
-        minus_g = np.exp(minus_x)
-        minus_x -= 1
-        minus_g *= minus_x
-        gains: NDArray[np.float64] = minus_g[1:] - minus_g[:-1]
-        np.sqrt(gains, out=gains)
-        gains *= self._scale
-        gains /= length
-        return gains.T

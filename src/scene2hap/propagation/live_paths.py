@@ -13,12 +13,13 @@ import math
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from scene2hap.propagation.outward import Doors, Entries, Triple, cheapest_outward, entries_around
+from scene2hap.propagation.entries import Entries, Triple, is_within, least_cost
+from scene2hap.propagation.outward import Doors, cheapest_outward, entries_around
 from scene2hap.propagation.paths import Arrivals, cheapest_over
+from scene2hap.propagation.short_way import ShortWay
 
 if TYPE_CHECKING:
     from scene2hap.contact.graph import ContactGraph
-    from scene2hap.contact.junction import Junction
 
 _MOST_WEIGHTS = 1024
 _MOVING = 8  # As long as no more is asked between two changes of a contact, things move, and a search would not last.
@@ -36,21 +37,6 @@ class _Crossing(dict[float, float]):
             self.clear()
         found = self[weight] = self._cost(weight)
         return found
-
-
-class _Way:
-    """A way from a source (row) into an object: by its first junction `out[via]`, and, if `via` is another object, by
-    its second `into[via]`; and its entries as they were told for these, each where it comes in and at what cost, at
-    least `least`."""
-
-    __slots__ = ("entries", "first", "into", "least", "out", "row", "second", "via")
-
-    def __init__(self, row: int, via: str, out: Mapping[str, Junction], into: Mapping[str, Junction]) -> None:
-        self.row, self.via, self.out, self.into = row, via, out, into
-        self.first: Junction | None = None
-        self.second: Junction | None = None
-        self.entries: Entries = []
-        self.least = 0.0
 
 
 class LivePaths:
@@ -77,7 +63,7 @@ class LivePaths:
         self._row = {source_id: row for row, source_id in enumerate(source_ids)}
         self._doors = Doors(graph, price_per_m, self._crossing, self._row)
         self._max_hops = max_hops
-        self._plans: dict[str, tuple[int, dict[tuple[int, str], _Way]]] = {}
+        self._plans: dict[str, tuple[int, dict[tuple[int, str], ShortWay]]] = {}
         self._entries: dict[str, tuple[int, list[tuple[int, Entries]]]] = {}
         self._arrivals: tuple[int, dict[str, Arrivals]] = (-1, {})
         self._asked_of, self._n_asked = -1, 0
@@ -129,10 +115,10 @@ class LivePaths:
         else:
             is_all = limits is None or self._max_hops is not None
             ways = self._searched(object_id) if is_all else self._around.get(object_id, ())
-            price, dist = self._price_per_m[object_id], math.dist
+            price = self._price_per_m[object_id]
             for row, entries in ways:  # the cheapest first
                 if entries[0][1] < found[row]:
-                    found[row] = min(found[row], *[cost + price * dist(place, point_m) for place, cost in entries])
+                    found[row] = min(found[row], least_cost(entries, price, point_m))
 
     def _is_outward_quicker(self, limits: Sequence[float] | None) -> bool:
         """Whether too little was asked since a contact changed for a search from all sources to be worth it."""
@@ -161,22 +147,10 @@ class LivePaths:
         self, found: list[float], object_id: str, point_m: Triple, limits: Sequence[float] | None
     ) -> None:
         """Over ways of at most two contacts, as they are now; those that surely cost more than their limit left out."""
-        price, dist = self._price_per_m[object_id], math.dist
-        for way in self._plan(object_id):
-            row, via = way.row, way.via
-            first, second = way.out[via], None if via == object_id else way.into[via]
-            # A junction that moved is another object: what follows from it is told anew.
-            if way.first is not first or way.second is not second:
-                if limits is not None and second is not None:
-                    # From where it enters alone it may be too far, whatever way led there.
-                    nearest = min([dist(place, point_m) for place in second.points_m])
-                    if price * nearest > limits[row]:
-                        continue
-                self._tell(way, first, second)
-            known = found[row]
-            if way.least < known and (limits is None or way.least <= limits[row]):
-                # A few dozen entries: plain numbers are faster than numpy's calls.
-                found[row] = min(known, *[cost + price * dist(place, point_m) for place, cost in way.entries])
+        price = self._price_per_m[object_id]
+        for (row, _), way in self._plan(object_id).items():
+            limit = math.inf if limits is None else limits[row]
+            found[row] = way.least_cost(price, point_m, limit, found[row])
 
     def _searched(self, object_id: str) -> list[tuple[int, Entries]]:
         """Ways over any number of contacts: for each source that comes, where it comes in."""
@@ -207,14 +181,15 @@ class LivePaths:
             self._arrivals = (version, found)
         return self._arrivals[1]
 
-    def _plan(self, object_id: str) -> Iterable[_Way]:
-        """All ways of at most two contacts into an object; other ones only once a contact has come or gone."""
+    def _plan(self, object_id: str) -> Mapping[tuple[int, str], ShortWay]:
+        """All ways of at most two contacts into an object, by their sources' rows and the objects that they go through;
+        other ones only once a contact has come or gone."""
         topology = self._graph.topology
         at, known = self._plans.get(object_id, (-1, {}))
         if at == topology:
-            return known.values()
+            return known
         into = self._beside.get(object_id, {})
-        plan: dict[tuple[int, str], _Way] = {}
+        plan: dict[tuple[int, str], ShortWay] = {}
         for row, source_id in enumerate(self._source_ids):
             out = self._beside.get(source_id)
             if not out or source_id == object_id:
@@ -226,29 +201,18 @@ class LivePaths:
             for via in vias:
                 way = known.get((row, via))
                 # The graph may have dropped what it kept of an object that touched nothing for a while.
-                is_same = way is not None and way.out is out and way.into is into
-                plan[row, via] = way if way is not None and is_same else _Way(row, via, out, into)
+                if way is None or way.out is not out or way.into is not into:
+                    price = None if via == object_id else self._price_per_m[via]
+                    way = ShortWay(via, out, into, price, self._crossing)
+                plan[row, via] = way
         self._plans[object_id] = (topology, plan)
-        return plan.values()
-
-    def _tell(self, way: _Way, first: Junction, second: Junction | None) -> None:
-        """Tell the entries of a way over its junctions as they are now."""
-        crossing = self._crossing
-        entries = [(place, crossing[weight]) for place, weight in zip(first.points_m, first.weights, strict=True)]
-        if second is not None:
-            price, dist = self._price_per_m[way.via], math.dist
-            entries = [
-                (there, crossing[weight] + min([cost + price * dist(here, there) for here, cost in entries]))
-                for there, weight in zip(second.points_m, second.weights, strict=True)
-            ]
-        way.first, way.second, way.entries = first, second, entries
-        way.least = min([cost for _, cost in entries])
+        return plan
 
 
 def _worth_entering(entries: Entries, price: float) -> Entries:
     """The entries without those that are reached more cheaply through the object from another one."""
     worthy: Entries = []
     for place, cost in sorted(entries, key=lambda entry: entry[1]):
-        if all(other + price * math.dist(there, place) > cost for there, other in worthy):
+        if not is_within(worthy, price, place, cost):
             worthy.append((place, cost))
     return worthy

@@ -16,13 +16,12 @@ import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from scene2hap.propagation.entries import Entries, Triple, is_within
+
 if TYPE_CHECKING:
     from scene2hap.contact.graph import ContactGraph
     from scene2hap.contact.junction import Junction
 
-Triple = tuple[float, float, float]
-Entries = list[tuple[Triple, float]]
-"""Points at which an object is entered, each with what the way there costs."""
 _NOWHERE: Entries = []
 _ROUNDED_UP = 1 + 1e-9
 
@@ -221,7 +220,7 @@ def _walk(
             yield cost, here, place
             continue
         known = entries.setdefault(here, [])
-        if _is_within(known, place, price, cost):
+        if is_within(known, price, place, cost):
             continue
         yield cost, here, place
         if ends is not None and not ends.may_follow(place, cost):
@@ -239,21 +238,9 @@ def _walk(
                 further = cost + price * dist(place, there) + door.crossing
                 if further > limit or further >= before:
                     continue
-                if not _is_within(beyond, there, price_beyond, further):
+                if not is_within(beyond, price_beyond, there, further):
                     least[door] = further
                     n_pushed += 1
                     heapq.heappush(waiting, (further, n_pushed, door))
                     if further < at_most.get(other, 0.0):
                         at_most[other] = further
-
-
-def _is_within(entries: Entries, place: Triple, price: float, cost: float) -> bool:
-    """Whether a point of an object costs no more from one of its entries.
-
-    A straight way through an object is never longer than one by another point, so that such a one leads nowhere new.
-    """
-    dist = math.dist
-    for entered, entered_cost in entries:  # noqa: SIM110  # `any` takes twice as long
-        if entered_cost + price * dist(entered, place) <= cost:
-            return True
-    return False

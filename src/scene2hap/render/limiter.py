@@ -12,28 +12,32 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-THRESHOLD = 10 ** (-3 / 20)
+from scene2hap.compiled import compiled
 
-_REST = 1 - THRESHOLD
+THRESHOLD = 10 ** (-3 / 20)
 
 
 def soft_limit(mix: NDArray[np.float32]) -> NDArray[np.float32]:
     """The mix within [-1, 1]; float32 of any shape, changed only where |x| exceeds -3 dB re full scale."""
-    limited = np.array(mix)
-    limit_in_place(limited, np.empty_like(limited))
+    limited = np.array(mix, order="C")
+    flat = limited.reshape(1, -1)
+    limit_in_place(flat, np.empty_like(flat), THRESHOLD)
     return limited
 
 
-def limit_in_place(mix: NDArray[np.float32], scratch: NDArray[np.float32]) -> None:
-    """The same in place; scratch has the shape of the mix, so that nothing large is allocated."""
+@compiled
+def limit_in_place(mix: NDArray[np.float32], scratch: NDArray[np.float32], threshold: float) -> None:
+    """The same in place, of (n_channels, n_frames); scratch has the shape of the mix, so that nothing large is
+    allocated."""
     np.abs(mix, out=scratch)
-    if not mix.size or np.maximum.reduce(scratch, axis=None) <= THRESHOLD:
+    if not mix.size or np.maximum.reduce(scratch, axis=None) <= threshold:
         return
-    is_over = scratch > THRESHOLD
-    np.subtract(scratch, THRESHOLD, out=scratch)
-    np.divide(scratch, _REST, out=scratch)
+    rest = 1 - threshold
+    is_over = scratch > threshold
+    np.subtract(scratch, threshold, out=scratch)
+    np.divide(scratch, rest, out=scratch)
     np.tanh(scratch, out=scratch)
-    np.multiply(scratch, _REST, out=scratch)
-    np.add(scratch, THRESHOLD, out=scratch)
+    np.multiply(scratch, rest, out=scratch)
+    np.add(scratch, threshold, out=scratch)
     np.copysign(scratch, mix, out=scratch)
     np.copyto(mix, scratch, where=is_over)

@@ -14,13 +14,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.audio.bands import split_bands
 from scene2hap.audio.clip import AudioClip, Samples
+from scene2hap.compiled import compiled
 from scene2hap.haptics import Bands
 
 CELL = 24
@@ -28,18 +28,46 @@ CELL = 24
 over 24 samples are 480. An audio thread that gives the lock away may have to wait for a game's whole update."""
 
 _SPAN_S = 1.0
+_FADE = (0.5 - 0.5 * np.cos(np.pi * np.arange(1, CELL + 1) / CELL)).astype(np.float32)
+
+Block = NDArray[np.float32]
 
 
-class _Loop(NamedTuple):
-    """Samples (length + CELL, n_bands), the last CELL being the first again; they pass at numerator / denominator.
+@compiled
+class StoredLoop:
+    """A loop in bands.
 
-    Bands lie side by side, so that a cell of a loop is one stretch of memory and not one per band.
+    Parameters: samples : (length + CELL, n_bands), the last CELL being the first again; they pass at numerator /
+    denominator. Bands lie side by side, so that a cell of a loop is one stretch of memory and not one per band.
+    fade : (CELL,) by which one reading goes over into another.
     """
 
-    samples: NDArray[np.float32]
-    length: int
-    numerator: int
-    denominator: int
+    def __init__(self, samples: Block, length: int, numerator: int, denominator: int, fade: Block) -> None:
+        self._samples, self._length, self._numerator, self._denominator = samples, length, numerator, denominator
+        self._fade, self._other = fade, np.zeros((samples.shape[1], CELL), dtype=np.float32)
+
+    def fill(self, begin: int, out: Block) -> None:
+        """Write CELL samples of its bands into (n_bands, CELL), from a tactile sample of the common clock on."""
+        samples, numerator, denominator = self._samples, self._numerator, self._denominator
+        here = (2 * begin * numerator + denominator) // (2 * denominator)
+        there = (2 * (begin + CELL) * numerator + denominator) // (2 * denominator) - CELL
+        start = here % self._length
+        out[...] = samples[start : start + CELL].T
+        if there != here:
+            start = there % self._length
+            np.subtract(samples[start : start + CELL].T, out, out=self._other)
+            np.multiply(self._other, self._fade, out=self._other)
+            np.add(out, self._other, out=out)
+
+
+@compiled
+def read(loops: Sequence[StoredLoop | None], begin: int, out: Block) -> None:
+    """Write a cell of the bands of some loops, one after the other, into (n_rows, CELL), 0 for None."""
+    for loop, rows in zip(loops, out.reshape(max(1, len(loops)), -1, CELL), strict=False):
+        if loop is None:
+            rows.fill(0.0)
+        else:
+            loop.fill(begin, rows)
 
 
 class LoopBank:
@@ -51,13 +79,13 @@ class LoopBank:
     def __init__(self, loops: Sequence[AudioClip], bands: Bands, sample_rate_hz: int) -> None:
         self.sample_rate_hz = sample_rate_hz
         self.n_bands = bands.n_bands
-        self._loops = [_stored(loop, bands, sample_rate_hz) for loop in loops]
+        stored = [_stored(loop, bands, sample_rate_hz) for loop in loops]
+        self.loops = [loop for loop, _ in stored]
+        self._nbytes = sum(nbytes for _, nbytes in stored)
         self._periods = [(len(loop.samples), loop.sample_rate_hz) for loop in loops]
-        self._fade = (0.5 - 0.5 * np.cos(np.pi * np.arange(1, CELL + 1) / CELL)).astype(np.float32)
-        self._other = np.zeros((self.n_bands, CELL), dtype=np.float32)
 
     def __len__(self) -> int:
-        return len(self._loops)
+        return len(self.loops)
 
     @property
     def n_rows(self) -> int:
@@ -67,24 +95,12 @@ class LoopBank:
     @property
     def nbytes(self) -> int:
         """Memory that the loops take [byte]."""
-        return sum(loop.samples.nbytes for loop in self._loops)
+        return self._nbytes
 
-    def fill(self, loop: int, begin: int, out: NDArray[np.float32]) -> None:
-        """Write CELL samples of a loop's bands into (n_bands, CELL), from a tactile sample of the common clock on."""
-        samples, length, numerator, denominator = self._loops[loop]
-        if numerator == denominator:
-            start = begin % length
-            out[...] = samples[start : start + CELL].T
-            return
-        here = (2 * begin * numerator + denominator) // (2 * denominator)
-        there = (2 * (begin + CELL) * numerator + denominator) // (2 * denominator) - CELL
-        start = here % length
-        out[...] = samples[start : start + CELL].T
-        if there != here:
-            start = there % length
-            np.subtract(samples[start : start + CELL].T, out, out=self._other)
-            np.multiply(self._other, self._fade, out=self._other)
-            np.add(out, self._other, out=out)
+    def read(self, loops: Sequence[int], begin: int, out: Block) -> None:
+        """Write CELL samples of the bands of some loops into (n_loops * n_bands, CELL), from a tactile sample of the
+        common clock on."""
+        read([self.loops[loop] for loop in loops], begin, out)
 
     def position_s(self, loop: int, frame: int, sample_rate_hz: int) -> float:
         """Where a loop stands at a frame of a clock that runs at another rate, in time since its beginning [s]."""
@@ -92,7 +108,8 @@ class LoopBank:
         return (frame * rate_hz % (n * sample_rate_hz)) / (sample_rate_hz * rate_hz)
 
 
-def _stored(loop: AudioClip, bands: Bands, sample_rate_hz: int) -> _Loop:
+def _stored(loop: AudioClip, bands: Bands, sample_rate_hz: int) -> tuple[StoredLoop, int]:
+    """A loop as it is stored, and the memory that it takes [byte]."""
     # Over `turns` turns the loop lasts exact / unit tactile samples.
     turns = _turns(len(loop.samples), loop.sample_rate_hz, sample_rate_hz)
     exact, unit = turns * len(loop.samples) * sample_rate_hz, loop.sample_rate_hz
@@ -102,7 +119,7 @@ def _stored(loop: AudioClip, bands: Bands, sample_rate_hz: int) -> _Loop:
     samples[:length] = split.T
     samples[length:] = samples[np.arange(CELL) % length]
     common = math.gcd(length * unit, exact)
-    return _Loop(samples, length, length * unit // common, exact // common)
+    return StoredLoop(samples, length, length * unit // common, exact // common, _FADE), samples.nbytes
 
 
 def _turns(n_samples: int, sample_rate_hz: int, tactile_rate_hz: int) -> int:

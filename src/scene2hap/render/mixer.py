@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from scene2hap import checks
 from scene2hap.errors import ConfigError, SessionError
-from scene2hap.render.limiter import limit_in_place
+from scene2hap.render.limiter import THRESHOLD, limit_in_place
 from scene2hap.render.loop_bank import CELL, LoopBank
 from scene2hap.render.tactile_mix import Gains, TactileMix
 from scene2hap.render.upsampler import Upsampler
@@ -157,7 +157,7 @@ class Mixer:
             self._take_gains(self._upsampler.input_of(stop - 1) + 1)
             if self._mix.compute():
                 self._outputs = self._upsampler.outputs(self._cell_begin)
-                limit_in_place(self._outputs, self._scratch)
+                limit_in_place(self._outputs, self._scratch, THRESHOLD)
             ready = self._outputs[:, frame - self._cell_frame : stop - self._cell_frame]
             out[frame - self._position : stop - self._position] = ready.T
             frame = stop

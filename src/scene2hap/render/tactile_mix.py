@@ -20,20 +20,17 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.render.loop_bank import CELL, LoopBank
+from scene2hap.render.ramped_product import RampedProduct
 
 Block = NDArray[np.float32]
 
 MOST_SLOTS = 40
-
-_SMALL_PRODUCT = 2**18
-"""OpenBLAS starts threads for more multiplications than this, and an audio thread must not wait for them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,33 +79,17 @@ class TactileMix:
     """
 
     def __init__(self, bank: LoopBank, n_hands: int, ramp: int, x: Block, *, is_skipping: bool = True) -> None:
-        # scipy.linalg is slow to import, and whoever imports a session may not play it.
-        from scipy.linalg.blas import sgemm
-
-        self._sgemm = sgemm
         self._bank = bank
         self._n_hands = n_hands
         self._ramp = ramp
-        rise = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, ramp + 1) / ramp)
-        self._rise = np.concatenate([np.zeros(CELL), rise, np.ones(CELL)]).astype(np.float32)
-        self._rises = np.lib.stride_tricks.sliding_window_view(self._rise, CELL)
         n_slots = min(MOST_SLOTS, -(-1000 * (ramp + CELL) // bank.sample_rate_hz) + 2)
-        n_rows = bank.n_rows
         self.x = x
         # Behind the places of loops in use there is one for gains of loops that are not.
-        self._G = np.zeros((n_rows + bank.n_bands, n_slots * n_hands), dtype=np.float32)
-        self._columns = [self._G[:, first : first + n_hands].T for first in range(0, n_slots * n_hands, n_hands)]
-        self._rows_at = np.arange(len(self._G), dtype=np.intp).reshape(-1, bank.n_bands)
-        self._rows = np.zeros((len(bank), bank.n_bands), dtype=np.intp)
-        self._rows_are_of: Sequence[int] | None = None
-        self._are_rows_all = False
-        self._L = np.zeros((n_rows, CELL), dtype=np.float32)
-        self._places = list(self._L.reshape(len(bank), bank.n_bands, CELL))
-        self._P = np.zeros((n_slots, n_hands, CELL), dtype=np.float32)
-        self._P_flat = self._P.reshape(-1, CELL)
-        self._weights = np.zeros((n_slots, CELL), dtype=np.float32)
-        self._weighted = np.zeros((n_slots, CELL), dtype=np.float32)
-        self._sum = np.zeros(CELL, dtype=np.float32)
+        n_places = bank.n_rows + bank.n_bands
+        rising = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, ramp + 1) / ramp)
+        rise = np.concatenate([np.zeros(CELL), rising, np.ones(CELL)])
+        self._product = RampedProduct(bank.n_rows, n_places, n_slots, n_hands, rise.astype(np.float32))
+        self._G, self._L = self._product.gains, self._product.loops
         every = range(len(bank))
         silence = Gains(np.zeros((n_hands, 0, bank.n_bands), dtype=np.float32), (), () if is_skipping else every)
         self._free = list(range(n_slots - 1, 0, -1))
@@ -119,7 +100,6 @@ class TactileMix:
         self._place_of = [len(bank)] * len(bank)
         self._begin = self._from = 0
         self._is_stale = False
-        self._arrange()
         self.n_cells = self.n_rows_mixed = self.n_merged = 0
         self._use(silence)
 
@@ -129,7 +109,8 @@ class TactileMix:
         while len(self._held) > 1 and self._held[1].end <= begin:
             ended = self._held.pop(0)
             self._free.append(ended.slot)
-            self._leave(ended.gains)
+            if ended.gains.heard != self._held[0].gains.heard:
+                self._leave(ended.gains)
         self.n_cells += 1
         self.n_rows_mixed += len(self._loops) * self._bank.n_bands
         self._read(0)
@@ -143,24 +124,21 @@ class TactileMix:
             self.n_merged += self._waiting is not None
             self._waiting = gains
             return
-        is_more = not all(map(self._users.__getitem__, gains.heard))
-        if is_more:
-            # With more rows a product may round in another way; what comes before this sample keeps to the old one.
-            self.compute()
-            self._from = tick - self._begin
-        first_new = len(self._loops)
-        self._use(gains)
-        if is_more:
-            self._read(first_new)
+        # Gains that follow each other and let the same loops through use them once.
+        if gains.heard != self._held[-1].gains.heard:
+            is_more = not all(map(self._users.__getitem__, gains.heard))
+            if is_more:
+                # With more rows a product may round in another way; what comes before this sample keeps to the old one.
+                self.compute()
+                self._from = tick - self._begin
+            first_new = len(self._loops)
+            self._use(gains)
+            if is_more:
+                self._read(first_new)
         held = _Held(gains, self._free.pop(), tick, tick + self._ramp - 1)
         self._held.append(held)
-        rows, n_rows = self._rows_of(gains.loops), len(self._loops) * self._bank.n_bands
-        values, own = gains.values.reshape(self._n_hands, -1), self._columns[held.slot]
-        if self._are_rows_all:
-            own[:, :n_rows] = values
-        else:
-            own[:, :n_rows] = 0.0
-            own[:, rows] = values
+        places = [self._place_of[loop] for loop in gains.loops]
+        self._product.set(held.slot, gains.values, places, len(self._loops) * self._bank.n_bands)
         self._is_stale = True
 
     def compute(self) -> bool:
@@ -168,82 +146,34 @@ class TactileMix:
         if not self._is_stale:
             return False
         self._is_stale = False
-        self._multiply()
-        self._weigh()
-        for hand, x in enumerate(self.x):
-            np.multiply(self._P[:, hand], self._weights, out=self._weighted)
-            np.add.reduce(self._weighted, axis=0, out=self._sum)
-            x[self._from :] = self._sum[self._from :]
+        slots, starts = [held.slot for held in self._held], [held.start for held in self._held]
+        n_rows = len(self._loops) * self._bank.n_bands
+        self._product.mix(self.x, n_rows, slots, starts, self._begin, self._from)
         return True
-
-    def _weigh(self) -> None:
-        """How much of each slot's gains counts: how far they have risen, and those after them have not."""
-        self._weights.fill(0.0)
-        risen = self._rises[CELL + self._ramp]
-        for held, following in pairwise(self._held):
-            rising = self._rises[CELL + self._begin - following.start]
-            np.subtract(risen, rising, out=self._weights[held.slot])
-            risen = rising
-        self._weights[self._held[-1].slot] = risen
-
-    def _multiply(self) -> None:
-        """Products of the gains in all slots with the loops. scipy's BLAS keeps the interpreter's lock."""
-        if not self._parts:
-            self._P.fill(0.0)
-        kept = 0.0
-        for loops, gains in self._parts:
-            self._sgemm(1.0, loops, gains, kept, self._P_flat.T, 0, 1, 1)
-            kept = 1.0
-
-    def _arrange(self) -> None:
-        """Make the views of the rows in use, once rather than for every product."""
-        n = len(self._loops) * self._bank.n_bands
-        self._rows_are_of = None
-        at_once = max(1, _SMALL_PRODUCT // (self._G.shape[1] * CELL))
-        spans = [slice(begin, min(begin + at_once, n)) for begin in range(0, n, at_once)]
-        self._parts = [(self._L[span].T, self._G[span].T) for span in spans]
-
-    def _rows_of(self, loops: Sequence[int]) -> NDArray[np.intp]:
-        """Where the bands of loops are in G; found again only when loops came or went."""
-        rows = self._rows[: len(loops)]
-        if self._rows_are_of is not loops:
-            # "clip" has nothing to clip, and lets numpy do without a buffer.
-            places = [self._place_of[loop] for loop in loops]
-            self._rows_at.take(places, axis=0, out=rows, mode="clip")
-            self._rows_are_of, self._are_rows_all = loops, places == list(range(len(self._loops)))
-        return rows.reshape(-1)
 
     def _read(self, first: int) -> None:
         """Read the loops in use, from one of them on."""
-        for loop, part in zip(self._loops[first:], self._places[first:], strict=False):
-            self._bank.fill(loop, self._begin, part)
+        n_bands = self._bank.n_bands
+        self._bank.read(self._loops[first:], self._begin, self._L[first * n_bands : len(self._loops) * n_bands])
 
     def _use(self, gains: Gains) -> None:
         n_bands = self._bank.n_bands
-        is_new = False
         for loop in gains.heard:
             self._users[loop] += 1
             if self._users[loop] == 1:
-                is_new = True
                 self._place_of[loop] = len(self._loops)
                 place = len(self._loops) * n_bands
                 self._loops.append(loop)
                 self._G[place : place + n_bands] = 0.0
-        if is_new:
-            self._arrange()
 
     def _leave(self, gains: Gains) -> None:
         n_bands = self._bank.n_bands
-        is_less = False
         for loop in gains.heard:
             self._users[loop] -= 1
             if self._users[loop] == 0:
-                is_less = True
                 # The last loop takes the place, so that those in use stay together.
                 at, moved = self._place_of[loop], self._loops.pop()
                 self._loops[at : at + 1] = [moved] if moved != loop else []
                 self._place_of[moved], self._place_of[loop] = at, len(self._users)
                 place, last = at * n_bands, len(self._loops) * n_bands
                 self._G[place : place + n_bands] = self._G[last : last + n_bands]
-        if is_less:
-            self._arrange()

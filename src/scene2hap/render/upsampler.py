@@ -16,10 +16,12 @@ Symbols: x, X inputs, y, Y outputs, h taps, B matrix, m frame of the output, q s
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.compiled import compiled
 from scene2hap.render.loop_bank import CELL
 
 PASS_HZ = 1000.0
@@ -33,6 +35,42 @@ _MOST_KEPT = 64
 Block = NDArray[np.float32]
 
 
+@compiled
+class PolyphaseFilter:
+    """The outputs of a cell, as one product with a banded matrix.
+
+    Parameters: h : taps (n_taps * up,); n_frames : how many outputs; offsets : with which it will be asked, as far as
+    that is known.
+    """
+
+    def __init__(self, h: Block, up: int, down: int, n_frames: int, offsets: Collection[int]) -> None:
+        # scipy.linalg is slow to import, and whoever imports a session may not play it.
+        from scipy.linalg.blas import sgemm
+
+        self._sgemm = sgemm
+        self._h, self._up, self._down, self._n_frames = h, up, down, n_frames
+        self._n_taps = len(h) // up
+        self._kept = {offset: self._matrix(offset) for offset in offsets}
+
+    def fill(self, Y: Block, X: Block, offset: int) -> None:
+        """Fill Y (n_channels, n_frames) from X (n_channels, n_taps - 1 + CELL), the inputs of a cell and those before.
+
+        Parameters: offset : how far the first output lies behind the cell's first input, in units of 1 / (up f_in).
+        """
+        B = self._kept[offset] if self._kept else self._matrix(offset)
+        self._sgemm(1.0, B.T, X.T, 0.0, Y.T, 1, 0, 1)
+
+    def _matrix(self, offset: int) -> Block:
+        """Taps (n_frames, n_taps - 1 + CELL) from inputs to outputs."""
+        B = np.zeros((self._n_frames, self._n_taps - 1 + CELL), dtype=np.float32)
+        for frame, row in enumerate(B):
+            newest, phase = divmod(offset + frame * self._down, self._up)
+            # The last output of some cells belongs to the next one; it is not used.
+            if newest < CELL:
+                row[newest : newest + self._n_taps] = self._h[phase :: self._up][::-1]
+        return B
+
+
 class Upsampler:
     """A streaming converter for n_channels that takes its input in cells of CELL samples; f_out >= f_in.
 
@@ -41,22 +79,17 @@ class Upsampler:
     """
 
     def __init__(self, rate_in_hz: int, rate_out_hz: int, n_channels: int) -> None:
-        # scipy.linalg is slow to import, and whoever imports a session may not play it.
-        from scipy.linalg.blas import sgemm
-
-        self._sgemm = sgemm
         common = math.gcd(rate_in_hz, rate_out_hz)
         self._up, self._down = rate_out_hz // common, rate_in_hz // common
-        self._h = interpolation_filter(rate_in_hz, self._up)
-        self._n_taps = len(self._h) // self._up
-        self.delay_s = (len(self._h) - 1) / 2 / (rate_in_hz * self._up)
-        self._X = np.zeros((n_channels, self._n_taps - 1 + CELL), dtype=np.float32)
+        h = interpolation_filter(rate_in_hz, self._up)
+        n_taps = len(h) // self._up
+        self.delay_s = (len(h) - 1) / 2 / (rate_in_hz * self._up)
+        self._X = np.zeros((n_channels, n_taps - 1 + CELL), dtype=np.float32)
         self._Y = np.zeros((n_channels, -(-CELL * self._up // self._down)), dtype=np.float32)
-        self.cell = self._X[:, self._n_taps - 1 :]
-        # The first output of a cell lies this much after its first input, in units of 1 / (up f_in).
+        self.cell = self._X[:, n_taps - 1 :]
         n_kinds = self._down // math.gcd(self._down, CELL * self._up)
-        kinds = {self._offset(k * CELL) for k in range(n_kinds)} if n_kinds <= _MOST_KEPT else set()
-        self._kept = {offset: self._matrix(offset) for offset in kinds}
+        kinds = {self._offset(k * CELL) for k in range(n_kinds)} if n_kinds <= _MOST_KEPT else set[int]()
+        self._filter = PolyphaseFilter(h.astype(np.float32), self._up, self._down, self._Y.shape[1], kinds)
 
     def input_of(self, frame: int) -> int:
         """The newest input that an output needs."""
@@ -72,23 +105,11 @@ class Upsampler:
 
     def outputs(self, cell_begin: int) -> Block:
         """All outputs (n_channels, n_frames) whose newest input lies in the cell; a buffer that is used again."""
-        offset = self._offset(cell_begin)
-        B = self._kept[offset] if self._kept else self._matrix(offset)
-        self._sgemm(1.0, B.T, self._X.T, 0.0, self._Y.T, 1, 0, 1)
+        self._filter.fill(self._Y, self._X, self._offset(cell_begin))
         return self._Y
 
     def _offset(self, sample: int) -> int:
         return self.first_output_of(sample) * self._down - sample * self._up
-
-    def _matrix(self, offset: int) -> Block:
-        """Taps (n_frames, n_taps - 1 + CELL) from the inputs of a cell, and those before, to its outputs."""
-        B = np.zeros((self._Y.shape[1], self._X.shape[1]), dtype=np.float32)
-        for frame, row in enumerate(B):
-            newest, phase = divmod(offset + frame * self._down, self._up)
-            # The last output of some cells belongs to the next one; it is not used.
-            if newest < CELL:
-                row[newest : newest + self._n_taps] = self._h[phase :: self._up][::-1]
-        return B
 
 
 def interpolation_filter(rate_in_hz: int, up: int) -> NDArray[np.float64]:

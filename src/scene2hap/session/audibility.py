@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from scene2hap.audio.bands import split_bands
 from scene2hap.audio.levels import threshold_db
+from scene2hap.compiled import compiled
 from scene2hap.haptics import Bands
 from scene2hap.session.config import SkipConfig
 from scene2hap.session.counts import Counts
@@ -62,19 +63,25 @@ class Audibility:
             if n_out:
                 self._counts.below_threshold += n_out
                 gains = gains * is_felt[:, :, None]
-        return self.loud(gains) if self._skip.silent_bands else gains
+        return self.loud(gains.copy()) if self._skip.silent_bands else gains
 
     def loud(self, gains: NDArray[np.float32], columns: Sequence[int] | None = None) -> NDArray[np.float32]:
-        """Gains of the sources in some columns, None for all, 0 in bands of which next to nothing is left."""
+        """Gains of the sources in some columns, None for all, 0 in bands of which next to nothing is left; changes what
+        it is given."""
         if columns != self._columns:
             self._columns = columns
             self._least_of_columns = self._least_gain if columns is None else self._least_gain[columns]
-        is_loud = gains >= self._least_of_columns
-        n_silent = int(np.count_nonzero(gains)) - int(np.count_nonzero(is_loud))
-        if n_silent:
-            self._counts.silent_bands += n_silent
-            gains = gains * is_loud
+        self._counts.silent_bands += silence(gains, self._least_of_columns)
         return gains
+
+
+@compiled
+def silence(gains: NDArray[np.float32], least: NDArray[np.float32]) -> int:
+    """Set to 0 what of gains (n, m, k) is less than a least (m, k); how many were not 0 already."""
+    is_silent = ~(gains >= least)
+    n_silent = int(np.count_nonzero(gains[is_silent]))
+    gains[is_silent] = 0.0
+    return n_silent
 
 
 # Sources come and go, and what is known of their loops goes with them.

@@ -6,11 +6,10 @@ through, so that an empty one costs nothing, and may be filled while it plays.
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
+from collections.abc import Sequence
 
 from scene2hap.haptics import Bands
-from scene2hap.render.loop_bank import LoopBank
+from scene2hap.render.loop_bank import Block, LoopBank, read
 
 
 class SlotBank(LoopBank):
@@ -37,10 +36,7 @@ class SlotBank(LoopBank):
         """Memory that the loops take [byte]."""
         return sum(bank.nbytes for bank in self.slots if bank is not None)
 
-    def fill(self, loop: int, begin: int, out: NDArray[np.float32]) -> None:
+    def read(self, loops: Sequence[int], begin: int, out: Block) -> None:
         """See `LoopBank`; silence from an empty slot."""
-        bank = self.slots[loop]
-        if bank is None:
-            out.fill(0.0)
-        else:
-            bank.fill(0, begin + self._shift, out)
+        banks = [self.slots[loop] for loop in loops]
+        read([None if bank is None else bank.loops[0] for bank in banks], begin + self._shift, out)

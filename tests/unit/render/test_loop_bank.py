@@ -20,10 +20,10 @@ def tone(cycles: int, n: int, rate: int) -> AudioClip:
 
 def read(bank: LoopBank, loop: int, begin: int, n: int) -> NDArray[np.float32]:
     """Cells from a position on."""
-    out = np.zeros((bank.n_bands, -(-n // CELL) * CELL), dtype=np.float32)
-    for at in range(0, n, CELL):
-        bank.fill(loop, begin + at, out[:, at : at + CELL])
-    return out[:, :n]
+    cells = [np.zeros((bank.n_bands, CELL), dtype=np.float32) for _ in range(-(-n // CELL))]
+    for i, cell in enumerate(cells):
+        bank.read([loop], begin + i * CELL, cell)
+    return np.concatenate(cells, axis=1)[:, :n]
 
 
 def phase_of(x: NDArray[np.float32], begin: int, frequency_hz: float) -> complex:

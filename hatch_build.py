@@ -1,0 +1,70 @@
+"""Compiles the kernels, `src/scene2hap/**/_*.pyx`, where a C compiler is at hand; see docs/decisions/0012-compiled-kernels.md.
+
+Without one the package is built all the same: every kernel has a plain twin in Python. `SCENE2HAP_COMPILED` in the
+environment of the build: 0 leaves them out, 1 makes it an error that they cannot be built.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from tempfile import mkdtemp
+from typing import Any
+
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+
+# No contraction and no fast mathematics: the same digits on every machine.
+_FLAGS = ["/O2", "/fp:precise"] if sys.platform == "win32" else ["-O3", "-ffp-contract=off", "-fno-math-errno"]
+
+
+class CompiledKernels(BuildHookInterface):  # type: ignore[type-arg]
+    """Adds the compiled modules to a wheel, or puts them beside their sources for an editable one."""
+
+    _work = ""
+
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+        """Compile, before hatchling gathers the files."""
+        wish = os.environ.get("SCENE2HAP_COMPILED", "")
+        if self.target_name != "wheel" or wish == "0":
+            return
+        self._work = mkdtemp()
+        source = Path(self.root, "src")
+        try:
+            built = dict(_compiled(source, Path(self._work)))
+        except Exception as problem:  # whatever a compiler that is not there, or half there, may bring about
+            if wish == "1":
+                raise
+            self.app.display_warning(f"scene2hap is built without its compiled kernels: {problem}")
+            return
+        if version == "editable":
+            for name, path in built.items():
+                shutil.copy2(path, source / name)
+        else:
+            build_data["force_include"] |= {str(path): name for name, path in built.items()}
+            build_data["pure_python"], build_data["infer_tag"] = False, True
+
+    def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
+        """Clean up, after hatchling has packed them."""
+        shutil.rmtree(self._work, ignore_errors=True)
+
+
+def _compiled(source: Path, work: Path) -> Iterator[tuple[str, Path]]:
+    """Each compiled module: its place under `source`, and the file that was made of it in `work`."""
+    from Cython.Build import cythonize
+    from setuptools import Distribution, Extension
+
+    kernels = [
+        Extension(".".join(path.relative_to(source).with_suffix("").parts), [str(path)], extra_compile_args=_FLAGS)
+        for path in sorted(source.rglob("_*.pyx"))
+    ]
+    modules = cythonize(kernels, build_dir=str(work / "c"), language_level=3, quiet=True)
+    command = Distribution({"ext_modules": modules}).get_command_obj("build_ext")
+    command.build_lib, command.build_temp = str(work / "lib"), str(work / "o")
+    command.ensure_finalized()
+    command.run()
+    for path in sorted((work / "lib").rglob("_*")):
+        if path.is_file():
+            yield path.relative_to(work / "lib").as_posix(), path

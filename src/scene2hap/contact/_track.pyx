@@ -1,0 +1,119 @@
+"""The compiled twin of the kernel in `track`."""
+# cython: boundscheck=False, wraparound=False, cdivision=True
+
+from array import array
+
+from libc.math cimport fabs
+
+cdef enum:
+    MOST_POINTS = 4
+
+
+cdef class Track:
+    cdef object stance, rotation_xyzw
+    cdef bint is_upright
+    cdef int up, flat, n_points
+    cdef double u0, v0, u1, v1, lowest, highest, middle_m, top_m, least_m, most_m
+    cdef double[:, ::1] edges
+    # As it is turned now: box and sole around the body's origin.
+    cdef double low[3]
+    cdef double high[3]
+    cdef double sole, mu, mv, radius
+    cdef double pu[MOST_POINTS]
+    cdef double pv[MOST_POINTS]
+    # In its own frame, along the two axes that are level while it is upright: middle and half of the box, and the sole.
+    cdef double box_u, box_v, half_u, half_v, own_u, own_v
+    cdef double own_pu[MOST_POINTS]
+    cdef double own_pv[MOST_POINTS]
+
+    def __init__(self, bounds, stance):
+        lane, heights, self.middle_m, edges, self.top_m, self.least_m, self.most_m = bounds
+        self.u0, self.v0, self.u1, self.v1 = lane
+        self.lowest, self.highest = heights
+        numbers = array("d", [number for edge in edges for number in edge])
+        self.edges = memoryview(numbers).cast("B").cast("d", (len(edges), 3)) if len(edges) else None
+        self.up, self.flat = stance.up_axis, stance.v_axis
+        self.stand(stance)
+
+    cdef stand(self, stance):
+        """Take in how the body is turned."""
+        cdef int k
+        self.stance, self.rotation_xyzw = stance, stance.rotation_xyzw
+        self.is_upright = upright(self.rotation_xyzw, self.up)
+        for k in range(3):
+            self.low[k], self.high[k] = stance.low[k], stance.high[k]
+        points, self.sole, (self.mu, self.mv), self.radius, _ = stance.footing
+        self.n_points = len(points)
+        for k in range(self.n_points):
+            self.pu[k], self.pv[k] = points[k]
+        if self.is_upright:
+            shape, sole = stance.shape, stance.shape.sole(stance.way_up)
+            self.box_u, self.box_v = shape.middle[0], shape.middle[self.flat]
+            self.half_u, self.half_v = shape.half[0], shape.half[self.flat]
+            self.own_u, self.own_v = sole.middle_m[0], sole.middle_m[self.flat]
+            for k in range(self.n_points):
+                self.own_pu[k], self.own_pv[k] = sole.points_m[k][0], sole.points_m[k][self.flat]
+
+    cdef bint turn(self, rotation_xyzw) except -1:
+        """Turn the body, as `Stance` does, to the last bit; false if its level faces are not level any more."""
+        cdef double y, z, w, a, c, u, v, over, across
+        cdef int k
+        if not (self.is_upright and upright(rotation_xyzw, self.up)):
+            turned = self.stance.turned(rotation_xyzw)
+            if turned.way_up != self.stance.way_up:
+                return False
+            self.stand(turned)
+            return True
+        # About the vertical, nothing changes upwards, and half of the products are 0.
+        _, y, z, w = rotation_xyzw
+        if self.up == 1:
+            a, c = 1 - 2 * (y * y), 2 * (y * w)
+        else:
+            a, c = 1 - 2 * (z * z), -2 * (z * w)
+        u, v = a * self.box_u + c * self.box_v, a * self.box_v - c * self.box_u
+        over, across = fabs(a), fabs(c)
+        y, z = over * self.half_u + across * self.half_v, across * self.half_u + over * self.half_v
+        self.low[0], self.low[self.flat], self.high[0], self.high[self.flat] = u - y, v - z, u + y, v + z
+        self.mu, self.mv = a * self.own_u + c * self.own_v, a * self.own_v - c * self.own_u
+        for k in range(self.n_points):
+            self.pu[k] = a * self.own_pu[k] + c * self.own_pv[k]
+            self.pv[k] = a * self.own_pv[k] - c * self.own_pu[k]
+        self.rotation_xyzw = rotation_xyzw
+        return True
+
+    def slid(self, tuple position_m, tuple rotation_xyzw):
+        cdef double x, y, z, low[3], high[3], down, over, h, u, v, fall_m, cu, cv, height
+        cdef int k
+        if rotation_xyzw is not self.rotation_xyzw and rotation_xyzw != self.rotation_xyzw:
+            if not self.turn(rotation_xyzw):
+                return None
+        x, y, z = position_m
+        low[0], low[1], low[2] = x + self.low[0], y + self.low[1], z + self.low[2]
+        high[0], high[1], high[2] = x + self.high[0], y + self.high[1], z + self.high[2]
+        if low[0] < self.u0 or high[0] > self.u1 or low[self.flat] < self.v0 or high[self.flat] > self.v1:
+            return None
+        down, over = low[self.up], high[self.up]
+        if down < self.lowest or over > self.highest or down + over <= self.middle_m:
+            return None
+        h, u, v = (y, x, z) if self.up == 1 else (z, x, y)
+        fall_m = h + self.sole - self.top_m
+        if not self.least_m < fall_m < self.most_m:
+            return None
+        cu, cv = self.mu + u, self.mv + v
+        if self.edges is not None:
+            for k in range(self.edges.shape[0]):
+                if self.edges[k, 0] * cu + self.edges[k, 1] * cv - self.edges[k, 2] < self.radius:
+                    return None
+        height = (h + self.sole + self.top_m) / 2
+        if self.up == 1:
+            places = tuple([(u + self.pu[k], height, v + self.pv[k]) for k in range(self.n_points)])
+        else:
+            places = tuple([(u + self.pu[k], v + self.pv[k], height) for k in range(self.n_points)])
+        return (low[0], low[1], low[2]), (high[0], high[1], high[2]), fall_m, places
+
+
+cdef bint upright(tuple rotation_xyzw, int up) except -1:
+    """Whether a rotation is one about the vertical alone."""
+    cdef double x, y, z
+    x, y, z, _ = rotation_xyzw
+    return x == 0 and (z if up == 1 else y) == 0

@@ -1,0 +1,77 @@
+"""Where a body that slides on another may go, and where it is then: the arithmetic of a glide, in plain numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from scene2hap.compiled import compiled
+from scene2hap.contact.ledge import Flat
+from scene2hap.contact.stance import Stance
+from scene2hap.contact.vectors import Triple
+
+Rotation = tuple[float, float, float, float]
+
+
+class Bounds(NamedTuple):
+    """Where a slide is sure.
+
+    lane : where in the level plane the box of the body may be; heights : between which it may be; middle_m : twice the
+    height of its middle is above this; edges : inside of which its sole is, (n_u, n_v, offset); top_m : how high these
+    are; least_m, most_m : between which the body may be to fall there. All in the world [m].
+    """
+
+    lane: Flat
+    heights: tuple[float, float]
+    middle_m: float
+    edges: Sequence[Triple]
+    top_m: float
+    least_m: float
+    most_m: float
+
+
+Slid = tuple[Triple, Triple, float, tuple[Triple, ...]]
+"""The box of a body that slid, low and high, how far it is to fall [m], and where it touches what it slides on."""
+
+
+@compiled
+class Track:
+    """The bounds of a slide, and a body between them, turned as it was last."""
+
+    def __init__(self, bounds: Bounds, stance: Stance) -> None:
+        self._bounds, self._stance = bounds, stance
+
+    def slid(self, position_m: Triple, rotation_xyzw: Rotation) -> Slid | None:
+        """Where the body is there, None if that is not surely a slide."""
+        stance = self._stance
+        if rotation_xyzw != stance.rotation_xyzw:
+            turned = stance.turned(rotation_xyzw)
+            if turned.way_up != stance.way_up:
+                return None
+            stance = self._stance = turned
+        (u0, v0, u1, v1), (lowest, highest), middle_m, edges, top_m, least_m, most_m = self._bounds
+        up, flat = stance.up_axis, stance.v_axis
+        x, y, z = position_m
+        (a, b, c), (d, e, f) = stance.low, stance.high
+        low, high = (x + a, y + b, z + c), (x + d, y + e, z + f)
+        if low[0] < u0 or high[0] > u1 or low[flat] < v0 or high[flat] > v1:
+            return None
+        down, over = low[up], high[up]
+        if down < lowest or over > highest or down + over <= middle_m:
+            return None
+        points, sole, (mu, mv), radius, _ = stance.footing
+        h, u, v = position_m[up], x, position_m[flat]
+        fall_m = h + sole - top_m
+        if not least_m < fall_m < most_m:
+            return None
+        cu, cv = mu + u, mv + v
+        for nu, nv, offset in edges:
+            if nu * cu + nv * cv - offset < radius:
+                return None
+        # As in `rest_points`, to the last bit.
+        height = (h + sole + top_m) / 2
+        if up == 1:
+            places = tuple([(u + pu, height, v + pv) for pu, pv in points])
+        else:
+            places = tuple([(u + pu, v + pv, height) for pu, pv in points])
+        return low, high, fall_m, places

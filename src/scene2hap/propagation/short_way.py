@@ -1,0 +1,66 @@
+"""Ways over one or two contacts, put together from their junctions when asked for.
+
+What a junction that did not move contributes is kept: a junction that moved is another object.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from scene2hap.compiled import compiled
+from scene2hap.propagation.entries import Entries, Triple, least_cost, nearest_m
+
+if TYPE_CHECKING:
+    from scene2hap.contact.junction import Junction
+
+
+@compiled
+class ShortWay:
+    """A way from a source into an object by its first junction `out[via]`, and, if it goes through another object, by
+    its second `into[via]`.
+
+    Parameters: price_via_per_m : what a metre through that other object costs, None if the way goes through none;
+    crossing : what a contact of each weight costs. `entries` is where it comes in, as last told.
+    """
+
+    __slots__ = ("_crossing", "_first", "_least", "_price_via_per_m", "_second", "entries", "into", "out", "via")
+
+    def __init__(
+        self,
+        via: str,
+        out: Mapping[str, Junction],
+        into: Mapping[str, Junction],
+        price_via_per_m: float | None,
+        crossing: Mapping[float, float],
+    ) -> None:
+        self.via, self.out, self.into = via, out, into
+        self._price_via_per_m, self._crossing = price_via_per_m, crossing
+        self._first: Junction | None = None
+        self._second: Junction | None = None
+        self._least = 0.0
+        self.entries: Entries = []
+
+    def least_cost(self, price_per_m: float, point_m: Triple, limit: float, known: float) -> float:
+        """What it costs to come to a point of the object now, if that is less than what is known, and within a limit;
+        else what is known."""
+        first, second = self.out[self.via], None if self._price_via_per_m is None else self.into[self.via]
+        if self._first is not first or self._second is not second:
+            # From where it enters alone it may be too far, whatever way led there.
+            if second is not None and price_per_m * nearest_m(second.points_m, point_m) > limit:
+                return known
+            self._tell(first, second)
+        if self._least >= known or self._least > limit:
+            return known
+        return min(known, least_cost(self.entries, price_per_m, point_m))
+
+    def _tell(self, first: Junction, second: Junction | None) -> None:
+        crossing = self._crossing
+        entries = [(place, crossing[weight]) for place, weight in zip(first.points_m, first.weights, strict=True)]
+        if second is not None and self._price_via_per_m is not None:
+            entries = [
+                (there, crossing[weight] + least_cost(entries, self._price_via_per_m, there))
+                for there, weight in zip(second.points_m, second.weights, strict=True)
+            ]
+        self._first, self._second, self.entries = first, second, entries
+        self._least = min([cost for _, cost in entries])

@@ -1,0 +1,55 @@
+"""The compiled twins of the kernels in `loop_bank`."""
+# cython: boundscheck=False, wraparound=False, cdivision=True
+
+cdef enum:
+    CELL = 24  # known to the compiler
+
+
+cdef class StoredLoop:
+    cdef const float[:, ::1] samples
+    cdef const float[::1] fade
+    cdef long long length, numerator, denominator, last
+
+    def __init__(self, const float[:, ::1] samples, length, numerator, denominator, const float[::1] fade):
+        assert len(fade) == CELL
+        self.samples, self.length, self.fade = samples, length, fade
+        self.numerator, self.denominator = numerator, denominator
+        # Up to here no product is more than a number of C can hold; with loops of minutes that takes days.
+        self.last = 2**62 // (2 * max(numerator, denominator)) - CELL
+
+    def fill(self, begin, float[:, ::1] out):
+        self.write(begin, &out[0, 0])
+
+    cdef write(self, begin, float* out):
+        cdef long long here, there, b
+        cdef Py_ssize_t start, other, band, t, n_bands = self.samples.shape[1]
+        cdef const float* samples
+        if 0 <= begin <= self.last:
+            b = begin
+            here = (2 * b * self.numerator + self.denominator) // (2 * self.denominator)
+            there = (2 * (b + CELL) * self.numerator + self.denominator) // (2 * self.denominator) - CELL
+            start, other = here % self.length, there % self.length
+        else:
+            n, d = int(self.numerator), int(self.denominator)
+            start = (2 * begin * n + d) // (2 * d) % self.length
+            other = ((2 * (begin + CELL) * n + d) // (2 * d) - CELL) % self.length
+        samples = &self.samples[start, 0]
+        for band in range(n_bands):
+            for t in range(CELL):
+                out[CELL * band + t] = samples[n_bands * t + band]
+        if other != start:
+            samples = &self.samples[other, 0]
+            for band in range(n_bands):
+                for t in range(CELL):
+                    out[CELL * band + t] += (samples[n_bands * t + band] - out[CELL * band + t]) * self.fade[t]
+
+
+def read(list loops, begin, float[:, ::1] out):
+    cdef Py_ssize_t row = 0, k, n_bands = out.shape[0] // len(loops) if loops else 0
+    for loop in loops:
+        if loop is not None:
+            (<StoredLoop?>loop).write(begin, &out[row, 0])
+        else:
+            for k in range(n_bands * CELL):
+                (&out[row, 0])[k] = 0
+        row += n_bands
