@@ -1,4 +1,4 @@
-"""Compiles the kernels, `src/scene2hap/**/_*.pyx`, where a C compiler is at hand; see docs/decisions/0012-compiled-kernels.md.
+"""Compiles the kernels, `src/scene2hap/**/_*.pyx`, where a C compiler is at hand; see docs/decisions/0012.
 
 Without one the package is built all the same: every kernel has a plain twin in Python. `SCENE2HAP_COMPILED` in the
 environment of the build: 0 leaves them out, 1 makes it an error that they cannot be built.

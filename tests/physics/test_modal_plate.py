@@ -14,7 +14,7 @@ from scene2hap import InfinitePlate, Material, ModalPlate, Plate, materials, pla
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation import modes as modes_module
 from scene2hap.propagation.domain import ThinPlateWarning
-from scene2hap.propagation.near_field import beyond_cutoff, beyond_cutoff_of_square
+from scene2hap.propagation.near_field import beyond_cutoff, beyond_cutoff_of_square, table
 
 MATERIAL = Material("test", 2500.0, 70e9, 0.22, loss_factor=0.02)
 FURNITURE = {
@@ -227,4 +227,4 @@ def test_share_beyond_the_cut_off() -> None:
     np.testing.assert_allclose(beyond_cutoff(a), expected, atol=2e-5)
     assert (beyond_cutoff(np.array([21.0, 1e12])) == 0).all()
     many = np.concatenate([[0.0, 20.5, 1e30], 10 ** np.random.default_rng(0).uniform(-6, 2, 2000)])
-    np.testing.assert_allclose(beyond_cutoff_of_square(many**2), beyond_cutoff(many), atol=1e-6)
+    np.testing.assert_allclose(beyond_cutoff_of_square(many**2, *table()), beyond_cutoff(many), atol=1e-6)

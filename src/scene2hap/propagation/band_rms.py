@@ -34,9 +34,11 @@ class Differences:
         self._minus_edges, self._scales, self._least = -edges[:, None], scales[:, None], least
 
     def fill(self, gains: NDArray[np.float64], lengths: Sequence[float]) -> list[int]:
-        """Fill gains (n, n_bands) for n lengths; which lengths are left out, between 0 and the least."""
+        """Fill gains (n, n_bands) for n lengths, with 1 for those below the least; which of these are not 0."""
         length = np.array(lengths)
-        minus_x = self._minus_edges * np.maximum(length, self._least)
+        is_small = length < self._least
+        length[is_small] = self._least
+        minus_x = self._minus_edges * length
         np.maximum(minus_x, -_MOST, out=minus_x)
         minus_g = np.exp(minus_x)
         minus_x -= 1
@@ -44,8 +46,10 @@ class Differences:
         found = np.sqrt(minus_g[1:] - minus_g[:-1])
         found *= self._scales
         found /= length
+        # What touches a source feels all of it.
+        found[:, is_small] = 1.0
         gains[:] = found.T
-        return []
+        return [i for i, x in enumerate(lengths) if 0 < x < self._least]
 
 
 class BandRms:

@@ -22,9 +22,11 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.compiled import compiled
 from scene2hap.propagation.modes import PlateModes
 from scene2hap.propagation.plate import Plate
 
+Floats = NDArray[np.float64]
 _Extent = tuple[float, float, float, float]
 
 Number = TypeVar("Number", np.float64, np.complex128)
@@ -45,21 +47,51 @@ class NearField:
     Parameters: drive_m : (n_drives, 2) [m].
     """
 
-    def __init__(self, modes: PlateModes, drive_m: NDArray[np.float64]) -> None:
+    def __init__(self, modes: PlateModes, drive_m: Floats) -> None:
         plate = modes.plate
-        self._extent = _extent(modes.plate, modes.terms)
-        self._cut2 = cutoff_squared(modes, drive_m)
         x, x_weight = _images(drive_m[:, 0], plate.length_m, plate.edges[:2])
         y, y_weight = _images(drive_m[:, 1], plate.width_m, plate.edges[2:])
-        # (n_drives, 9), all pairs of an image in x and one in y
-        self._x, self._y = np.repeat(x, 3, axis=1), np.tile(y, 3)
-        self._weights = np.repeat(x_weight, 3) * np.tile(y_weight, 3)
+        cut2 = cutoff_squared(modes, drive_m)
+        self._dimples = Dimples(x, y, x_weight, y_weight, cut2, _extent(plate, modes.terms), *table())
 
-    def __call__(self, points_m: NDArray[np.float64], k2: NDArray[Number]) -> NDArray[Number]:
+    def __call__(self, points_m: Floats, k2: NDArray[Number]) -> NDArray[Number]:
         """At points (n_points, 2) [m], for k2 (n_frequencies,) k_c^2 [m^-2], complex or real, above 0, |k2| < K^2.
 
         Returns: (n_points, n_drives, n_frequencies) [m^2], as k2, symmetric in its two points.
         """
+        shares, cut2 = self._dimples.at(points_m)
+        near: NDArray[Number] = np.arctanh(k2 / cut2[:, :, None])
+        near *= shares[:, :, None]
+        near /= 4 * np.pi * k2
+        return near
+
+
+@compiled
+class Dimples:
+    """Where the near fields of forces are felt, and those of their images.
+
+    Parameters: x, y : (n_drives, 3) coordinates of the forces and of their images [m]; x_weights, y_weights : (3,) of
+    each of these; cut2 : (n_drives,) K^2 at the forces; extent : see `_extent`; values, steps : see `table`.
+    """
+
+    def __init__(
+        self,
+        x: Floats,
+        y: Floats,
+        x_weights: Floats,
+        y_weights: Floats,
+        cut2: Floats,
+        extent: _Extent,
+        values: Floats,
+        steps: Floats,
+    ) -> None:
+        # (n_drives, 9), all pairs of an image in x and one in y
+        self._x, self._y = np.repeat(x, 3, axis=1), np.tile(y, 3)
+        self._weights = np.repeat(x_weights, 3) * np.tile(y_weights, 3)
+        self._cut2, self._extent, self._values, self._steps = cut2, extent, values, steps
+
+    def at(self, points_m: Floats) -> tuple[Floats, Floats]:
+        """At points (n_points, 2) [m]: the sum of g(K r) over images, and K^2 [m^-2], both (n_points, n_drives)."""
         cut2 = _cutoffs_squared(points_m, self._extent)[:, None] * self._cut2
         np.sqrt(cut2, out=cut2)
         a2, y2 = points_m[:, :1, None] - self._x, points_m[:, 1:, None] - self._y
@@ -67,20 +99,16 @@ class NearField:
         y2 *= y2
         a2 += y2
         a2 *= cut2[:, :, None]
-        share = beyond_cutoff_of_square(a2) @ self._weights
-        near: NDArray[Number] = np.arctanh(k2 / cut2[:, :, None])
-        near *= share[:, :, None]
-        near /= 4 * np.pi * k2
-        return near
+        return beyond_cutoff_of_square(a2, self._values, self._steps) @ self._weights, cut2
 
 
-def _images(at_m: NDArray[np.float64], length_m: float, edges: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _images(at_m: Floats, length_m: float, edges: str) -> tuple[Floats, Floats]:
     """Coordinates (n_drives, 3) and their mirror images in both edges, and the weight (3,) of each."""
     return np.stack([at_m, -at_m, 2 * length_m - at_m], axis=-1), np.array([1.0, IMAGE[edges[0]], IMAGE[edges[1]]])
 
 
-def beyond_cutoff_of_square(a2: NDArray[np.float64]) -> NDArray[np.float64]:
-    """g(a) by a^2, true to 1e-6; the array that it is given is used up.
+def beyond_cutoff_of_square(a2: Floats, values: Floats, steps: Floats) -> Floats:
+    """g(a) by a^2 from a table of it, true to 1e-6; the array that it is given is used up.
 
     Not by numpy's interp, which gives the interpreter's lock away: a game's thread that asks beside a worker would wait
     5 ms for it.
@@ -90,14 +118,13 @@ def beyond_cutoff_of_square(a2: NDArray[np.float64]) -> NDArray[np.float64]:
     t *= _N_PIECES / math.sqrt(FAR)
     piece = np.minimum(t, _N_PIECES).astype(np.intp)
     t -= piece
-    values, steps = _table()
     t *= steps.take(piece)
     t += values.take(piece)
     return t
 
 
 @lru_cache(maxsize=1)
-def _table() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def table() -> tuple[Floats, Floats]:
     """g (n_pieces + 1,) over the root of a, in which it is smooth, and the steps between; the last of both is 0."""
     values = beyond_cutoff(FAR * (np.arange(_N_PIECES + 1) / _N_PIECES) ** 2)
     steps = np.append(np.diff(values), 0.0)
@@ -105,7 +132,7 @@ def _table() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return values, steps
 
 
-def cutoff_squared(modes: PlateModes, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+def cutoff_squared(modes: PlateModes, points_m: Floats) -> Floats:
     """K^2 at points: the wavenumber beyond which the basis is blind there, as the radius of an equivalent circle.
 
     Polynomials of degree below n on a length L follow waves up to n / sqrt(1 - xi^2) * 2 / L on each axis, a rectangle
@@ -117,7 +144,7 @@ def cutoff_squared(modes: PlateModes, points_m: NDArray[np.float64]) -> NDArray[
     return _cutoffs_squared(points_m, _extent(modes.plate, modes.terms))
 
 
-def _cutoffs_squared(points_m: NDArray[np.float64], extent: _Extent) -> NDArray[np.float64]:
+def _cutoffs_squared(points_m: Floats, extent: _Extent) -> Floats:
     return np.array([_cutoff_squared(x, y, *extent) for x, y in points_m.tolist()])
 
 
@@ -139,7 +166,7 @@ def _extent(plate: Plate, terms: tuple[int, int]) -> _Extent:
     return per_length, per_width, kx, ky
 
 
-def beyond_cutoff(a: NDArray[np.float64]) -> NDArray[np.float64]:
+def beyond_cutoff(a: Floats) -> Floats:
     """g(a) = 2 integral from 1 to infinity of J0(a t) / t^3 dt = J0(a) - (a J1(a) + a^2 C(a)) / 2, with C(a) the
     integral of J0(u) / u from a; set to 0 beyond `FAR`."""
     from scipy.special import it2j0y0, j0, j1
@@ -147,5 +174,5 @@ def beyond_cutoff(a: NDArray[np.float64]) -> NDArray[np.float64]:
     far = a > FAR
     a = np.clip(a, 1e-9, FAR)
     c = it2j0y0(a)[0] - np.log(a / 2) - np.euler_gamma
-    g: NDArray[np.float64] = np.where(far, 0.0, j0(a) - (a * j1(a) + a**2 * c) / 2)
+    g: Floats = np.where(far, 0.0, j0(a) - (a * j1(a) + a**2 * c) / 2)
     return g

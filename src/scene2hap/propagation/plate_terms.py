@@ -22,6 +22,7 @@ from itertools import pairwise, product
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.compiled import compiled
 from scene2hap.propagation.modes import FINE, MARGIN, Fineness, modes_up_to
 from scene2hap.propagation.near_field import NearField
 from scene2hap.propagation.octaves import OctaveSums
@@ -79,6 +80,20 @@ class Pushed:
         return response
 
 
+@compiled
+def fill_cosines(found: Floats, points_m: Floats, per_length: float, per_width: float, n_x: int, n_y: int) -> None:
+    """Fill (n_points, n_x n_y) with cos(i acos(xi)) cos(j acos(eta)), xi and eta from -1 to 1 along both sides."""
+    # Numbers one by one: a hand asks for one point, for which five calls of numpy take longer.
+    angles = np.array(
+        [
+            (math.acos(min(max(x * per_length - 1, -1.0), 1.0)), math.acos(min(max(y * per_width - 1, -1.0), 1.0)))
+            for x, y in points_m.tolist()
+        ]
+    ).reshape(-1, 2)
+    values = np.cos(angles[:, :, None] * np.arange(max(n_x, n_y)))
+    found[:] = (values[:, 0, :n_x, None] * values[:, 1, None, :n_y]).reshape(found.shape)
+
+
 class PlateTerms:
     """The terms of one plate, for frequencies up to `max_frequency_hz`: first its modes, then the rest."""
 
@@ -92,7 +107,6 @@ class PlateTerms:
             axis_basis(plate.edges[2:], plate.width_m, n_y),
         )
         self._per_size = (2 / plate.length_m, 2 / plate.width_m)
-        self._orders = np.arange(max(len(axis.family.chebyshev) for axis in self._axes))
         k4 = np.concatenate([block.k4 for block in self.modes.blocks])
         order = np.argsort(k4, kind="stable")
         self._k4 = k4[order]
@@ -132,17 +146,10 @@ class PlateTerms:
 
     def cosines(self, points_m: Floats) -> Floats:
         """Products of Chebyshev polynomials of both axes at points (n_points, n_products), as cosines."""
-        # Numbers one by one: a hand asks for one point, for which five calls of numpy take longer.
-        acos, per_length, per_width = math.acos, *self._per_size
-        angles = np.array(
-            [
-                (acos(min(max(x * per_length - 1, -1.0), 1.0)), acos(min(max(y * per_width - 1, -1.0), 1.0)))
-                for x, y in points_m.tolist()
-            ]
-        ).reshape(-1, 2)
-        values = np.cos(angles[:, :, None] * self._orders)
         n_x, n_y = (len(axis.family.chebyshev) for axis in self._axes)
-        return (values[:, 0, :n_x, None] * values[:, 1, None, :n_y]).reshape(len(points_m), -1)
+        found = np.empty((len(points_m), n_x * n_y))
+        fill_cosines(found, points_m, *self._per_size, n_x, n_y)
+        return found
 
     def _in_cosines(self, columns: Floats) -> Floats:
         """Columns told in products of the axes' functions, told in those of `cosines`: a hand asks for one point at a

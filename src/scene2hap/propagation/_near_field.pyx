@@ -1,0 +1,56 @@
+"""The compiled twin of the kernel in `near_field`."""
+# cython: boundscheck=False, wraparound=False, cdivision=True
+
+import numpy as np
+
+from libc.math cimport M_PI, atan2, fmax, sqrt
+
+cdef double FAR = 20.0  # as in `near_field`, whose table ends there
+
+
+cdef class Dimples:
+    cdef const double[:, ::1] x, y
+    cdef const double[::1] x_weights, y_weights, cut2, values, steps
+    cdef double per_length, per_width, kx, ky, per_piece
+
+    def __init__(self, x, y, x_weights, y_weights, cut2, extent, values, steps):
+        self.x, self.y = np.ascontiguousarray(x), np.ascontiguousarray(y)
+        self.x_weights, self.y_weights, self.cut2, self.values, self.steps = x_weights, y_weights, cut2, values, steps
+        self.per_length, self.per_width, self.kx, self.ky = extent
+        self.per_piece = (len(values) - 1) / sqrt(FAR)
+
+    def at(self, const double[:, :] points_m):
+        cdef Py_ssize_t n_points = points_m.shape[0], n_drives = self.cut2.shape[0], i, k
+        found = np.empty((2, n_points, n_drives))
+        cdef double[:, :, ::1] told = found
+        cdef double here2, cut
+        for i in range(n_points):
+            here2 = self.cutoff_squared(points_m[i, 0], points_m[i, 1])
+            for k in range(n_drives):
+                # K^2 between two points is the geometric mean of both.
+                cut = sqrt(here2 * self.cut2[k])
+                told[0, i, k] = self.share(points_m[i, 0], points_m[i, 1], k, cut)
+                told[1, i, k] = cut
+        return found[0], found[1]
+
+    cdef double cutoff_squared(self, double x, double y) noexcept:
+        cdef double xi = x * self.per_length - 1, eta = y * self.per_width - 1
+        cdef double kx = self.kx / sqrt(fmax(1 - xi * xi, 1e-30)), ky = self.ky / sqrt(fmax(1 - eta * eta, 1e-30))
+        cdef double corner = atan2(ky, kx), half = kx * ky / (kx * kx + ky * ky)
+        return M_PI / ((corner + half) / (kx * kx) + (M_PI / 2 - corner + half) / (ky * ky))
+
+    cdef double share(self, double x, double y, Py_ssize_t drive, double cut2) noexcept:
+        """The sum over a force and its eight images."""
+        cdef Py_ssize_t i, j, piece, last = self.values.shape[0] - 1
+        cdef double dx, dy, t, total = 0
+        for i in range(3):
+            dx = x - self.x[drive, i]
+            for j in range(3):
+                dy = y - self.y[drive, j]
+                # g is kept over the root of K r.
+                t = self.per_piece * sqrt(sqrt((dx * dx + dy * dy) * cut2))
+                if t < last:
+                    piece = <Py_ssize_t>t
+                    t = self.values[piece] + (t - piece) * self.steps[piece]
+                    total += self.x_weights[i] * self.y_weights[j] * t
+        return total

@@ -1,0 +1,251 @@
+"""One contract for both of every pair of kernels: the compiled one answers as the plain one does."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from scene2hap.compiled import KERNELS
+from scene2hap.contact.body import shape_of
+from scene2hap.contact.junction import Junction
+from scene2hap.contact.stance import Stance
+from scene2hap.contact.track import Bounds
+from scene2hap.render.loop_bank import CELL
+from scene2hap.scene.snapshot import Box, TriMesh
+
+PACKAGE = Path(__file__).parents[2] / "src" / "scene2hap"
+SOURCES = sorted(PACKAGE.rglob("_*.pyx"))
+for source in SOURCES:
+    module = ".".join(source.relative_to(PACKAGE.parent).with_suffix("").parts)
+    import_module(module.replace("._", "."))
+
+seeds = st.integers(0, 2**32 - 1)
+
+
+def both(name: str) -> tuple[Callable[..., Any], Callable[..., Any]]:
+    """A plain kernel and its compiled twin."""
+    plain, twin = KERNELS[f"scene2hap.{name}"]
+    if twin is None:
+        wish = os.environ.get("SCENE2HAP_COMPILED", "")
+        assert wish != "1", f"{name} has no compiled twin, and SCENE2HAP_COMPILED=1 demands one"
+        pytest.skip("built or run without compiled kernels; install a C compiler and build again to compare them")
+    return plain, twin
+
+
+def test_every_kernel_has_a_twin_in_the_source() -> None:
+    assert len(KERNELS) > 10
+    for name in KERNELS:
+        home, _, kernel = name.rpartition(".")
+        room, _, module = home.removeprefix("scene2hap.").rpartition(".")
+        text = (PACKAGE / room.replace(".", "/") / f"_{module}.pyx").read_text(encoding="utf-8")
+        assert f"def {kernel}(" in text or f"cdef class {kernel}:" in text, name
+
+
+def test_all_are_compared_here() -> None:
+    text = Path(__file__).read_text(encoding="utf-8")
+    assert [name for name in KERNELS if f'both("{name.removeprefix("scene2hap.")}")' not in text] == []
+
+
+def places(rng: np.random.Generator, n: int) -> list[tuple[float, float, float]]:
+    return [(x, y, z) for x, y, z in rng.normal(size=(n, 3)).tolist()]
+
+
+@given(seed=seeds, n=st.integers(0, 6))
+def test_ways_through_an_object(seed: int, n: int) -> None:
+    rng = np.random.default_rng(seed)
+    entries = list(zip(places(rng, n), rng.uniform(0, 2, n).tolist(), strict=True))
+    (point,), price = places(rng, 1), float(rng.uniform(0, 3))
+    plain, twin = both("propagation.entries.least_cost")
+    least = plain(entries, price, point)
+    assert twin(entries, price, point) == pytest.approx(least, rel=1e-14)
+    plain, twin = both("propagation.entries.is_within")
+    for cost in (0.99 * least, 1.01 * least):
+        assert twin(entries, price, point, cost) is plain(entries, price, point, cost)
+    if n:
+        plain, twin = both("propagation.entries.nearest_m")
+        nearby = tuple(place for place, _ in entries)
+        assert twin(nearby, point) == pytest.approx(plain(nearby, point), rel=1e-14)
+
+
+@given(seed=seeds, is_through=st.booleans())
+def test_short_ways_over_contacts_that_move(seed: int, is_through: bool) -> None:
+    rng = np.random.default_rng(seed)
+    crossing = {0.5: 0.3, 1.0: 0.0, 0.0: math.inf}
+
+    def junction() -> Junction:
+        n = int(rng.integers(1, 5))
+        return Junction(tuple(places(rng, n)), tuple(rng.choice([0.0, 0.5, 1.0], n).tolist()), (None,) * n)
+
+    out, into = {"via": junction()}, {"via": junction()}
+    ways = [
+        kind("via", out, into, 0.7 if is_through else None, crossing) for kind in both("propagation.short_way.ShortWay")
+    ]
+    for _ in range(6):
+        if rng.random() < 0.5:
+            (out if rng.random() < 0.5 else into)["via"] = junction()
+        (point,), price = places(rng, 1), float(rng.uniform(0, 3))
+        limit, known = rng.choice([0.5, 3.0, math.inf], 2).tolist()
+        told, compiled = (way.least_cost(price, point, limit, known) for way in ways)
+        assert compiled == pytest.approx(told, rel=1e-14)
+        assert [cost for _, cost in ways[1].entries] == pytest.approx([cost for _, cost in ways[0].entries], rel=1e-14)
+        assert [place for place, _ in ways[1].entries] == [place for place, _ in ways[0].entries]
+
+
+@given(lengths=st.lists(st.one_of(st.just(0.0), st.just(math.inf), st.floats(1e-6, 1e3)), max_size=9))
+def test_gains_of_bands(lengths: list[float]) -> None:
+    edges = np.geomspace(10.0, 80.0, 21)
+    answers = []
+    for kind in both("propagation.band_rms.Differences"):
+        gains = np.empty((len(lengths), 20))
+        left = kind(edges, np.linspace(1.0, 2.0, 20), 1e-3).fill(gains, lengths)
+        answers.append((gains, left))
+    (gains, left), (compiled, compiled_left) = answers
+    assert compiled_left == left
+    np.testing.assert_allclose(compiled, gains, rtol=1e-10, atol=1e-300)
+
+
+def turned(rng: np.random.Generator, up_axis: int) -> tuple[float, float, float, float]:
+    """A rotation about the vertical, now and then with a little tilt."""
+    angle, tilt = rng.uniform(0, 2 * math.pi), rng.choice([0.0, 0.0, 1e-7, 0.3])
+    axis = np.where(np.arange(3) == up_axis, 1.0, tilt)
+    x, y, z = (axis / np.linalg.norm(axis) * math.sin(angle / 2)).tolist()
+    return (x, y, z, math.cos(angle / 2))
+
+
+@pytest.mark.parametrize("up_axis", [1, 2])
+def test_slides_to_the_last_bit(up_axis: int) -> None:
+    kinds, box, n_slid = both("contact.track.Track"), Box((0.3, 0.2, 0.1)).mesh, 0
+    for seed in range(150):
+        rng = np.random.default_rng(seed)
+        shape = shape_of(TriMesh(box.vertices_m + rng.uniform(-0.1, 0.1, 3), box.faces))
+        first = turned(rng, up_axis)
+        stance = Stance(shape, first, up_axis)
+        edges = [(1.0, 0.0, -0.8), (-0.6, 0.8, -0.9), (0.0, -1.0, -0.7)][: int(rng.integers(0, 4))]
+        bounds = Bounds((-1.0, -1.0, 1.0, 1.0), (-0.6, 0.6), -0.5, edges, stance.low[up_axis] - 0.01, -0.03, 0.06)
+        tracks = [kind(bounds, stance) for kind in kinds]
+        for _ in range(8):
+            position = rng.uniform(-0.4, 0.4, 2).tolist()
+            position.insert(up_axis, float(rng.choice([0.0, 0.01, 0.4])))
+            rotation = first if rng.random() < 0.3 else turned(rng, up_axis)
+            told, compiled = (track.slid(tuple(position), rotation) for track in tracks)
+            assert compiled == told
+            n_slid += told is not None
+    assert n_slid > 100
+
+
+@given(seed=seeds, n=st.integers(0, 3))
+def test_silent_bands(seed: int, n: int) -> None:
+    rng = np.random.default_rng(seed)
+    least = rng.choice([0.0, 0.5, np.inf], (4, 5)).astype(np.float32)
+    gains = rng.choice([0.0, 0.4, 0.5, 0.6, np.nan], (n, 4, 5)).astype(np.float32)
+    plain, twin = both("session.audibility.silence")
+    told, compiled = gains.copy(), gains.copy()
+    assert twin(compiled, least) == plain(told, least)
+    np.testing.assert_array_equal(compiled, told)
+
+
+@given(seed=seeds, begin=st.one_of(st.integers(0, 10**6), st.integers(2**58, 2**60)))
+def test_cells_of_loops(seed: int, begin: int) -> None:
+    rng = np.random.default_rng(seed)
+    length = int(rng.integers(1, 200))
+    samples = rng.normal(size=(length + CELL, 3)).astype(np.float32)
+    fade = np.linspace(0, 1, CELL, dtype=np.float32)
+    numerator, denominator = rng.choice([(1, 1), (441, 440), (40001, 44100)])
+    cells = []
+    for loop_kind, read in zip(both("render.loop_bank.StoredLoop"), both("render.loop_bank.read"), strict=True):
+        loop = loop_kind(samples, length, int(numerator), int(denominator), fade)
+        cell = np.full((9, CELL), np.nan, dtype=np.float32)
+        read([loop, None, loop], begin, cell)
+        again = np.empty((3, CELL), dtype=np.float32)
+        loop.fill(begin, again)
+        np.testing.assert_array_equal(cell, np.concatenate([again, np.zeros_like(again), again]))
+        cells.append(cell)
+        read([], begin, np.empty((0, CELL), dtype=np.float32))
+    np.testing.assert_allclose(cells[1], cells[0], atol=1e-6)
+
+
+@given(seed=seeds)
+def test_gains_on_their_way(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    n_loops, n_bands, n_hands, n_slots, ramp = 5, 4, 2, 6, 80
+    rise = np.concatenate([np.zeros(CELL), np.linspace(0, 1, ramp), np.ones(CELL)]).astype(np.float32)
+    n_rows = n_loops * n_bands
+    products = [
+        kind(n_rows, n_rows + n_bands, n_slots, n_hands, rise) for kind in both("render.ramped_product.RampedProduct")
+    ]
+    held, begin = [(0, 0)], 0
+    for _ in range(8):
+        n_used = n_bands * int(rng.integers(0, n_loops + 1))
+        samples, is_new = rng.normal(size=(n_rows, CELL)), rng.random() < 0.7 and len(held) < n_slots
+        begin += CELL
+        if is_new:
+            held.append((len(held), begin + int(rng.integers(0, CELL))))
+        values = rng.normal(size=(n_hands, 2, n_bands)).astype(np.float32)
+        loops = rng.choice(n_loops + 1, 2, replace=False).tolist()
+        first = int(rng.choice([0, 7]))
+        mixes = []
+        for product in products:
+            product.loops[:] = samples
+            if is_new:
+                product.set(held[-1][0], values, loops, n_used)
+            x = np.zeros((n_hands, CELL), dtype=np.float32)
+            slots, starts = ([pair[k] for pair in held[-3:]] for k in (0, 1))
+            starts = [max(start, begin - ramp) for start in starts]
+            product.mix(x, n_used, slots, starts, begin, first)
+            mixes.append(x)
+        np.testing.assert_allclose(mixes[1], mixes[0], atol=1e-5)
+        assert (mixes[1][:, :first] == 0).all()
+
+
+@pytest.mark.parametrize(("up", "down"), [(6, 1), (441, 80), (1, 1)])
+def test_outputs_of_cells(up: int, down: int) -> None:
+    rng = np.random.default_rng(up)
+    h = rng.normal(size=14 * up).astype(np.float32)
+    x = rng.normal(size=(2, 13 + CELL)).astype(np.float32)
+    n_frames = -(-CELL * up // down)
+    plain, twin = (kind(h, up, down, n_frames, ()) for kind in both("render.upsampler.PolyphaseFilter"))
+    for offset in range(0, down, 7):
+        told, compiled = np.empty((2, 2, n_frames), dtype=np.float32)
+        plain.fill(told, x, offset)
+        twin.fill(compiled, x, offset)
+        np.testing.assert_allclose(compiled, told, atol=1e-5)
+
+
+@given(seed=seeds)
+def test_the_limiter(seed: int) -> None:
+    mix = np.random.default_rng(seed).normal(size=(2, 50)).astype(np.float32)
+    told, compiled = mix.copy(), mix.copy()
+    for limit, block in zip(both("render.limiter.limit_in_place"), (told, compiled), strict=True):
+        limit(block, np.empty_like(block), 0.7)
+    np.testing.assert_allclose(compiled, told, atol=1e-6)
+
+
+@given(seed=seeds)
+def test_near_fields(seed: int) -> None:
+    from scene2hap.propagation.near_field import table
+
+    rng = np.random.default_rng(seed)
+    x, y, cut2 = rng.uniform(-1, 3, (4, 3)), rng.uniform(-1, 3, (4, 3)), rng.uniform(10, 1e4, 4)
+    numbers = (x, y, rng.normal(size=3), rng.normal(size=3), cut2, (2.0, 3.0, 30.0, 20.0), *table())
+    points = np.concatenate([rng.uniform(0, [1.0, 2 / 3], (5, 2)), [[0.0, 0.0], [x[0, 0], y[0, 0]]]])
+    told, compiled = (kind(*numbers).at(points) for kind in both("propagation.near_field.Dimples"))
+    for one, other in zip(told, compiled, strict=True):
+        np.testing.assert_allclose(other, one, rtol=1e-9, atol=1e-9)
+
+
+@given(seed=seeds, n=st.integers(0, 3))
+def test_products_of_cosines(seed: int, n: int) -> None:
+    points = np.random.default_rng(seed).uniform(-0.1, 1.1, (n, 2))
+    found = [np.empty((n, 20)), np.empty((n, 20))]
+    for fill, one in zip(both("propagation.plate_terms.fill_cosines"), found, strict=True):
+        fill(one, points, 2.0, 2.0, 5, 4)
+    np.testing.assert_allclose(found[1], found[0], atol=1e-13)
