@@ -30,7 +30,8 @@ def compiled(plain: _Kernel) -> _Kernel:
 def _twin(plain: _Kernel) -> _Kernel | None:
     package, _, module = plain.__module__.rpartition(".")
     try:
-        twin: _Kernel = getattr(import_module(f"{package}._{module}"), plain.__name__)
+        twins = import_module(f"{package}._{module}")
     except ImportError:
         return None
+    twin: _Kernel | None = getattr(twins, plain.__name__, None)
     return twin

@@ -100,6 +100,27 @@ def test_short_ways_over_contacts_that_move(seed: int, is_through: bool) -> None
         assert [place for place, _ in ways[1].entries] == [place for place, _ in ways[0].entries]
 
 
+@given(seed=seeds, is_through=st.booleans())
+def test_what_short_ways_there_are(seed: int, is_through: bool) -> None:
+    rng = np.random.default_rng(seed)
+    prices, one = {"a": 1.0, "b": 2.0, "x": 0.5}, Junction(((0.0, 0.0, 0.0),), (1.0,), (None,))
+    plain, twin = both("propagation.short_way.ways_between")
+    out, into = {"x": one, "c": one}, {"c": one}
+    known: list[list[Any]] = [[], []]
+    for _ in range(4):
+        for beside, others in ((out, ["a", "b", "c", "x"]), (into, ["a", "b", "c"])):
+            other = str(rng.choice(others))
+            _ = beside.pop(other) if other in beside else beside.setdefault(other, one)
+        before = [{way.via: way for way in ways} for ways in known]
+        known = [
+            find(out, into, "x", prices, {1.0: 0.0}, ways, is_through=is_through)
+            for find, ways in zip((plain, twin), known, strict=True)
+        ]
+        assert [way.via for way in known[0]] == [way.via for way in known[1]]
+        for ways, last in zip(known, before, strict=True):
+            assert all(way is last[way.via] for way in ways if way.via in last)
+
+
 @given(lengths=st.lists(st.one_of(st.just(0.0), st.just(math.inf), st.floats(1e-6, 1e3)), max_size=9))
 def test_gains_of_bands(lengths: list[float]) -> None:
     edges = np.geomspace(10.0, 80.0, 21)
@@ -140,6 +161,20 @@ def test_slides_to_the_last_bit(up_axis: int) -> None:
             assert compiled == told
             n_slid += told is not None
     assert n_slid > 100
+
+
+@given(seed=seeds)
+def test_zones_that_meet(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    zones = [kind() for kind in both("contact.zones.Zones")]
+    for row in (*range(70), *rng.integers(0, 70, 20).tolist()):
+        low = rng.integers(0, 9, 3).astype(float)
+        high = low + rng.integers(0, 5, 3)
+        for one in zones:
+            one.put(row, tuple(low.tolist()), tuple(high.tolist()))
+        assert zones[1].meeting(row) == zones[0].meeting(row)
+    np.testing.assert_array_equal(zones[1].low, zones[0].low)
+    np.testing.assert_array_equal(zones[1].high, zones[0].high)
 
 
 @given(seed=seeds, n=st.integers(0, 3))

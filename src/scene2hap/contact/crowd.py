@@ -16,13 +16,13 @@ import numpy as np
 from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes, box_pairs
 from scene2hap.contact.vectors import Triple
+from scene2hap.contact.zones import NOWHERE, Zones
 
 SKIN_M = 0.06
 """How far a thing may move before its neighbours are looked for anew (assumed: a hand's way in four or five frames)."""
 
 # From so many bodies at once on, sorting all is cheaper than asking for each.
 _MANY = 16
-_NOWHERE = (np.inf, -np.inf)
 Room = tuple[Triple, Triple]
 """Lowest and highest corners [m] of a box around a body, which it has not left."""
 
@@ -36,7 +36,7 @@ class Crowd:
     def __init__(self, up_axis: int, margins_m: Callable[[Body], tuple[float, float]]) -> None:
         self._up_axis = up_axis
         self._margins_m = margins_m
-        self._low, self._high = (np.full((3, 64), value) for value in _NOWHERE)
+        self._zones = Zones()
         self._ids: list[str] = []
         self._rows: dict[str, int] = {}
         self._free: list[int] = []
@@ -50,7 +50,8 @@ class Crowd:
     def take_out(self, object_id: str) -> set[str]:
         """Forget a body; who were its neighbours."""
         row = self._rows.pop(object_id)
-        self._low[:, row], self._high[:, row] = _NOWHERE
+        low, high = NOWHERE
+        self._zones.put(row, (low,) * 3, (high,) * 3)
         self._free.append(row)
         del self._rooms[object_id]
         neighbours = self.near.pop(object_id)
@@ -90,26 +91,21 @@ class Crowd:
             row = self._rows[body.id] = self._free.pop() if self._free else len(self._ids)
             if row == len(self._ids):
                 self._ids.append(body.id)
-                if row >= self._low.shape[1]:
-                    self._low, self._high = (
-                        np.concatenate([array, np.full_like(array, value)], axis=1)
-                        for array, value in zip((self._low, self._high), _NOWHERE, strict=True)
-                    )
             self._ids[row] = body.id
         side, down = self._margins_m(body)
-        low = [edge - skin_m for edge in body.low]
-        high = [edge + skin_m for edge in body.high]
-        self._rooms[body.id] = ((low[0], low[1], low[2]), (high[0], high[1], high[2]))
-        low = [edge - side for edge in low]
-        low[self._up_axis] -= down
-        self._low[:, row], self._high[:, row] = low, [edge + side for edge in high]
+        (a, b, c), (d, e, f) = body.low, body.high
+        a, b, c, d, e, f = a - skin_m, b - skin_m, c - skin_m, d + skin_m, e + skin_m, f + skin_m
+        self._rooms[body.id] = ((a, b, c), (d, e, f))
+        a, b, c, d, e, f = a - side, b - side, c - side, d + side, e + side, f + side
+        low = (a, b - down, c) if self._up_axis == 1 else (a, b, c - down)
+        self._zones.put(row, low, (d, e, f))
 
     def _neighbours(self, ids: Sequence[str]) -> dict[str, set[str]]:
         if len(ids) < _MANY:
             return {x: self._meeting(x) for x in ids}
         found: dict[str, set[str]] = {x: set() for x in ids}
         rows, every = np.array([self._rows[x] for x in ids]), np.array(list(self._rows.values()))
-        boxes = Boxes(self._low, self._high)
+        boxes = Boxes(self._zones.low, self._zones.high)
         for i, j in box_pairs(boxes.some(rows), boxes.some(every)):
             for x, y in zip(rows[i].tolist(), every[j].tolist(), strict=True):
                 if x != y:
@@ -117,8 +113,5 @@ class Crowd:
         return found
 
     def _meeting(self, object_id: str) -> set[str]:
-        every, own = Boxes(self._low, self._high), slice(self._rows[object_id], self._rows[object_id] + 1)
         ids = self._ids
-        found = {ids[k] for k in every.meeting(Boxes(self._low[:, own], self._high[:, own])).tolist()}
-        found.discard(object_id)
-        return found
+        return {ids[row] for row in self._zones.meeting(self._rows[object_id])}

@@ -74,6 +74,7 @@ class ContactGraph:
         self._late: list[PoseTable] = []
         self._junctions: dict[Pair, Junction] = {}
         self._beside: dict[str, dict[str, Junction]] = {}
+        self._marks: dict[str, object] = {}
         self._version = self._topology = 0
         self._views: dict[str, object] = {}
         # Whether the junctions are those of an earlier moment, and whether somebody holds them, so that they never are.
@@ -133,6 +134,11 @@ class ContactGraph:
         self._junctions_lent = True
         self._told()
         return self._beside
+
+    @property
+    def marks(self) -> Mapping[str, object]:
+        """For each object that touched any: what is another thing whenever one has come to touch it or ceased to."""
+        return self._marks
 
     @property
     def version(self) -> int:
@@ -320,10 +326,12 @@ class ContactGraph:
             if junction is None:
                 vanished.append(pair)
                 del junctions[pair], beside[a][b], beside[b][a]
+                self._marks[a] = self._marks[b] = object()
                 continue
             (appeared if before is None else shifted).append(pair)
             junctions[pair] = junction
             if before is None:
+                self._marks[a] = self._marks[b] = object()
                 beside.setdefault(a, {})[b] = beside.setdefault(b, {})[a] = junction
             else:
                 beside[a][b] = beside[b][a] = junction

@@ -1,4 +1,4 @@
-"""The compiled twin of the kernel in `short_way`."""
+"""The compiled twins of the kernels in `short_way`."""
 
 from libc.math cimport fmin
 
@@ -39,3 +39,24 @@ cdef class ShortWay:
                 entries.append((there, cost + least_of(before, self.price_via_per_m, there)))
         self.first, self.second, self.entries = first, second, entries
         self.least = min([entry[1] for entry in entries])
+
+
+def ways_between(dict out, dict into, object_id, price_per_m, crossing, list known, *, bint is_through):
+    cdef dict fewer = into, more = out
+    found = []
+    if object_id in out:
+        found.append(way_by(object_id, out, into, None, crossing, known))
+    if is_through:
+        if len(out) <= len(into):
+            fewer, more = out, into
+        for via in fewer:
+            if via in more and via in price_per_m:
+                found.append(way_by(via, out, into, price_per_m[via], crossing, known))
+    return found
+
+
+cdef way_by(via, out, into, price_via_per_m, crossing, list known):
+    for way in known:
+        if (<ShortWay?>way).via == via:
+            return way
+    return ShortWay(via, out, into, price_via_per_m, crossing)

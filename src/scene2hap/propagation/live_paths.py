@@ -16,12 +16,14 @@ from typing import TYPE_CHECKING
 from scene2hap.propagation.entries import Entries, Triple, is_within, least_cost
 from scene2hap.propagation.outward import Doors, cheapest_outward, entries_around
 from scene2hap.propagation.paths import Arrivals, cheapest_over
-from scene2hap.propagation.short_way import ShortWay
+from scene2hap.propagation.short_way import ShortWay, ways_between
 
 if TYPE_CHECKING:
     from scene2hap.contact.graph import ContactGraph
+    from scene2hap.contact.junction import Junction
 
 _MOST_WEIGHTS = 1024
+_NOTHING: dict[str, Junction] = {}
 _MOVING = 8  # As long as no more is asked between two changes of a contact, things move, and a search would not last.
 _SELDOM = 20  # From here on one search of the whole scene is cheaper than one outward from each touch.
 
@@ -63,7 +65,7 @@ class LivePaths:
         self._row = {source_id: row for row, source_id in enumerate(source_ids)}
         self._doors = Doors(graph, price_per_m, self._crossing, self._row)
         self._max_hops = max_hops
-        self._plans: dict[str, tuple[int, dict[tuple[int, str], ShortWay]]] = {}
+        self._plans: dict[str, _Plan] = {}
         self._entries: dict[str, tuple[int, list[tuple[int, Entries]]]] = {}
         self._arrivals: tuple[int, dict[str, Arrivals]] = (-1, {})
         self._asked_of, self._n_asked = -1, 0
@@ -148,7 +150,7 @@ class LivePaths:
     ) -> None:
         """Over ways of at most two contacts, as they are now; those that surely cost more than their limit left out."""
         price = self._price_per_m[object_id]
-        for (row, _), way in self._plan(object_id).items():
+        for row, way in self._ways(object_id):
             limit = math.inf if limits is None else limits[row]
             found[row] = way.least_cost(price, point_m, limit, found[row])
 
@@ -181,32 +183,43 @@ class LivePaths:
             self._arrivals = (version, found)
         return self._arrivals[1]
 
-    def _plan(self, object_id: str) -> Mapping[tuple[int, str], ShortWay]:
-        """All ways of at most two contacts into an object, by their sources' rows and the objects that they go through;
-        other ones only once a contact has come or gone."""
-        topology = self._graph.topology
-        at, known = self._plans.get(object_id, (-1, {}))
-        if at == topology:
-            return known
-        into = self._beside.get(object_id, {})
-        plan: dict[tuple[int, str], ShortWay] = {}
+    def _ways(self, object_id: str) -> Sequence[tuple[int, ShortWay]]:
+        """All ways of at most two contacts into an object, each with its source's row."""
+        plan = self._plans.get(object_id)
+        if plan is None:
+            plan = self._plans[object_id] = _Plan(len(self._source_ids))
+        elif plan.topology == self._graph.topology:
+            return plan.ways
+        marks = self._graph.marks
+        mark, plan.topology = marks.get(object_id), self._graph.topology
+        is_stale, plan.mark = plan.mark is not mark, mark
+        beside, is_through = self._beside, self._max_hops == 2
+        into, is_new = beside.get(object_id, _NOTHING), False
         for row, source_id in enumerate(self._source_ids):
-            out = self._beside.get(source_id)
-            if not out or source_id == object_id:
-                continue
-            vias = [object_id] if object_id in out else []
-            if self._max_hops == 2:
-                fewer, more = (out, into) if len(out) <= len(into) else (into, out)
-                vias += [via for via in fewer if via in more and via in self._price_per_m]
-            for via in vias:
-                way = known.get((row, via))
-                # The graph may have dropped what it kept of an object that touched nothing for a while.
-                if way is None or way.out is not out or way.into is not into:
-                    price = None if via == object_id else self._price_per_m[via]
-                    way = ShortWay(via, out, into, price, self._crossing)
-                plan[row, via] = way
-        self._plans[object_id] = (topology, plan)
-        return plan
+            mark = marks.get(source_id)
+            if (is_stale or plan.marks[row] is not mark) and source_id != object_id:
+                plan.marks[row], is_new = mark, True
+                out, known = beside.get(source_id, _NOTHING), plan.by_row[row]
+                plan.by_row[row] = ways_between(
+                    out, into, object_id, self._price_per_m, self._crossing, known, is_through=is_through
+                )
+        if is_new:
+            plan.ways = [(row, way) for row, ways in enumerate(plan.by_row) for way in ways]
+        return plan.ways
+
+
+class _Plan:
+    """The ways of at most two contacts into an object, by the rows of their sources and in one list; in what topology
+    they are so, and the graph's marks of the object and of the sources then."""
+
+    __slots__ = ("by_row", "mark", "marks", "topology", "ways")
+
+    def __init__(self, n_sources: int) -> None:
+        self.topology = -1
+        self.mark: object = self
+        self.marks: list[object] = [None] * n_sources
+        self.by_row: list[list[ShortWay]] = [[] for _ in range(n_sources)]
+        self.ways: list[tuple[int, ShortWay]] = []
 
 
 def _worth_entering(entries: Entries, price: float) -> Entries:

@@ -5,7 +5,7 @@ What a junction that did not move contributes is kept: a junction that moved is 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from scene2hap.compiled import compiled
@@ -64,3 +64,31 @@ class ShortWay:
             ]
         self._first, self._second, self.entries = first, second, entries
         self._least = min([cost for _, cost in entries])
+
+
+@compiled
+def ways_between(
+    out: Mapping[str, Junction],
+    into: Mapping[str, Junction],
+    object_id: str,
+    price_per_m: Mapping[str, float],
+    crossing: Mapping[float, float],
+    known: Sequence[ShortWay],
+    *,
+    is_through: bool,
+) -> list[ShortWay]:
+    """The ways into an object of a source that touches what is in `out`, the same as those known where they still are.
+
+    Parameters: into : what the object touches; is_through : whether they may go through another object.
+    """
+    vias = [object_id] if object_id in out else []
+    if is_through:
+        fewer, more = (out, into) if len(out) <= len(into) else (into, out)
+        vias += [via for via in fewer if via in more and via in price_per_m]
+    before = {way.via: way for way in known}
+    return [
+        before[via]
+        if via in before
+        else ShortWay(via, out, into, None if via == object_id else price_per_m[via], crossing)
+        for via in vias
+    ]
