@@ -121,6 +121,16 @@ def test_what_short_ways_there_are(seed: int, is_through: bool) -> None:
             assert all(way is last[way.via] for way in ways if way.via in last)
 
 
+@given(seed=seeds, n=st.integers(0, 3))
+def test_what_is_within_its_horizon(seed: int, n: int) -> None:
+    rng = np.random.default_rng(seed)
+    prices = rng.choice([0.0, 1.0, 2.0, math.inf], (n, 5)).tolist()
+    horizon = rng.choice([-1.0, 0.0, 1.5, math.inf], 5).tolist()
+    sought = [frozenset(rng.choice(5, int(rng.integers(0, 5)), replace=False).tolist()) for _ in range(n)]
+    plain, twin = both("session.horizon.within")
+    assert twin(prices, horizon, sought) == plain(prices, horizon, sought)
+
+
 @given(lengths=st.lists(st.one_of(st.just(0.0), st.just(math.inf), st.floats(1e-6, 1e3)), max_size=9))
 def test_gains_of_bands(lengths: list[float]) -> None:
     edges = np.geomspace(10.0, 80.0, 21)

@@ -20,7 +20,7 @@ from scene2hap.session.audibility import Audibility
 from scene2hap.session.config import SkipConfig
 from scene2hap.session.counts import Counts
 from scene2hap.session.frame import Gains, Touch
-from scene2hap.session.horizon import Horizon
+from scene2hap.session.horizon import Horizon, within
 from scene2hap.session.touch_gains import TouchGains
 
 Felt = dict[int, list[Touch]]
@@ -111,19 +111,12 @@ class HearingNear:
     def hear(self, n_hands: int, felt: Felt) -> Heard:
         """See `Hearing`."""
         gains, horizon, on = self._gains, self._horizon, self._on
-        touches, n_out = list(felt.values()), 0
+        touches = list(felt.values())
         asked = [gains.asked(touched) for touched in touches]
-        reached = [gains.reached(touched) for touched in touches]
-        prices = gains.prices(self._field, touches, asked, horizon, reached)
-        worth = set[int]()
-        for row, among in zip(prices, reached, strict=True):
-            near = {x for x, price in enumerate(row) if price <= horizon[x]}
-            n_out += len((among & on) - near)
-            worth |= near
-        self._counts.below_threshold += n_out
+        prices = gains.prices(self._field, touches, asked, horizon)
+        columns, each, n_beyond = within(prices, horizon, [among & on for _, among in asked])
+        self._counts.below_threshold += n_beyond
         self._counts.idle_hands += n_hands - len(felt)
-        columns = sorted(worth)
-        each = [[row[x] if row[x] <= horizon[x] else math.inf for x in columns] for row in prices]
         mixed = self._loudness.applied(self._field.at(each, columns), columns)
         if self._skips_silent_bands:
             mixed = self._loudness.audibility.loud(mixed, columns)
@@ -132,7 +125,7 @@ class HearingNear:
 
         def told() -> Gains:
             if self._graph.version == version:
-                everything = gains.prices(self._field, touches, asked, self._arrives, reached)
+                everything = gains.prices(self._field, touches, asked, self._arrives)
             else:
                 everything = _without(prices, horizon)
             return _among(self._loudness.applied(self._field.at(everything)), n_hands, felt)

@@ -9,11 +9,13 @@ horizon, and a look at the same table.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence, Set
 
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.live import PricedField
+from scene2hap.compiled import compiled
+from scene2hap.propagation.live import PricedField, Prices
 from scene2hap.session.audibility import SILENT, Audibility
 
 # From 1 to less than exp(-700) for any band between 8 Hz and 1 MHz, in steps of 6 %.
@@ -38,6 +40,21 @@ class Horizon:
     def arrives(self, levels: NDArray[np.float64]) -> list[float]:
         """Beyond which no band of each source comes to more than `SILENT`."""
         return _last_of(self._arrives * levels >= SILENT)
+
+
+@compiled
+def within(
+    prices: Prices, horizon: Sequence[float], sought: Sequence[Set[int]]
+) -> tuple[list[int], list[list[float]], int]:
+    """What lies within its horizon: the columns in which any row's does, rising; the prices in these, infinite beyond;
+    and how many of those sought in each row do not."""
+    worth, n_beyond = set[int](), 0
+    for row, among in zip(prices, sought, strict=True):
+        near = {x for x, price in enumerate(row) if price <= horizon[x]}
+        n_beyond += len(among - near)
+        worth |= near
+    columns = sorted(worth)
+    return columns, [[row[x] if row[x] <= horizon[x] else math.inf for x in columns] for row in prices], n_beyond
 
 
 def _falling(table: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -13,6 +13,8 @@ from scene2hap.session.counts import Counts
 from scene2hap.session.frame import Touch
 from scene2hap.session.reach import Reach
 
+Asked = tuple[list[TouchedPoint], frozenset[int]]
+
 GREATEST = 10 ** (MAX_GAIN_DB / 20)
 
 
@@ -34,29 +36,18 @@ class TouchGains:
         self._limit = GREATEST if limit is None else min(limit, GREATEST)
         self.may_be_capped = self._limit < max(1.0, field.most)
 
-    def reached(self, touches: Sequence[Touch]) -> frozenset[int]:
-        """The columns of the sources that hang together with any of these objects."""
-        sources = self._reach.sources
-        found = sources(touches[0].object_id)
-        for touch in touches[1:]:
-            more = sources(touch.object_id)
-            if more is not found:
-                found |= more
-        return found
-
     def prices(
         self,
         field: PricedField,
         hands: Sequence[Sequence[Touch]],
-        asked: Sequence[Sequence[TouchedPoint]],
+        asked: Sequence[Asked],
         limits: Sequence[float],
-        reached: Sequence[frozenset[int]],
     ) -> Prices:
         """The price of each source at each hand up to its limit, of a field that tells it; 0 on a source.
 
-        Parameters: asked, reached : see there, of the touches of each hand.
+        Parameters: asked : see there, of the touches of each hand.
         """
-        prices = field.prices(asked, limits, reached)
+        prices = field.prices([points for points, _ in asked], limits, [among for _, among in asked])
         for row, touches in zip(prices, hands, strict=True):
             for touch in touches:
                 if touch.object_id in self._own:
@@ -65,7 +56,7 @@ class TouchGains:
 
     def of(self, hands: Sequence[Sequence[Touch]]) -> NDArray[np.float64]:
         """Gains (n_hands, n_sources, n_bands) [-], the largest over each hand's touches, capped; 1 on a source."""
-        gains = self._field.strongest([self.asked(touches) for touches in hands])
+        gains = self._field.strongest([self.asked(touches)[0] for touches in hands])
         for i, touches in enumerate(hands):
             for touch in touches:
                 if touch.object_id in self._own:
@@ -78,11 +69,16 @@ class TouchGains:
         # A guest model's NaN must not reach a hand.
         return np.minimum(np.fmax(gains, 0.0, out=gains), self._limit, out=gains)
 
-    def asked(self, touches: Sequence[Touch]) -> list[TouchedPoint]:
-        """Which of a hand's touches the field is asked about; the others are counted."""
-        if not self._skips_unreachable:
-            return [(touch.object_id, touch.point_m) for touch in touches]
-        has = self._reach.has
-        asked = [(touch.object_id, touch.point_m) for touch in touches if has(touch.object_id)]
-        self._counts.unreachable_touches += len(touches) - len(asked)
-        return asked
+    def asked(self, touches: Sequence[Touch]) -> Asked:
+        """Which of a hand's touches the field is asked about, and the columns of the sources that hang together with
+        any of the objects; the other touches are counted."""
+        points: list[TouchedPoint] = []
+        among: frozenset[int] = frozenset()
+        for touch in touches:
+            more = self._reach.sources(touch.object_id)
+            if more or not self._skips_unreachable:
+                points.append((touch.object_id, touch.point_m))
+            if more is not among:
+                among = among | more if among else more
+        self._counts.unreachable_touches += len(touches) - len(points)
+        return points, among
