@@ -19,6 +19,7 @@ from scene2hap.contact.body import shape_of
 from scene2hap.contact.junction import Junction
 from scene2hap.contact.stance import Stance
 from scene2hap.contact.track import Bounds
+from scene2hap.propagation.walk import Door, Ends, Exit
 from scene2hap.render.loop_bank import CELL
 from scene2hap.scene.snapshot import Box, TriMesh
 
@@ -119,6 +120,30 @@ def test_what_short_ways_there_are(seed: int, is_through: bool) -> None:
         assert [way.via for way in known[0]] == [way.via for way in known[1]]
         for ways, last in zip(known, before, strict=True):
             assert all(way is last[way.via] for way in ways if way.via in last)
+
+
+@given(seed=seeds, has_ends=st.booleans())
+def test_walks_over_contacts(seed: int, has_ends: bool) -> None:
+    rng = np.random.default_rng(seed)
+    ids = [f"x{i}" for i in range(8)]
+    prices = {x: float(rng.uniform(0.1, 2)) for x in ids[:-1]}
+    out: dict[str, list[Exit]] = {x: [] for x in ids}
+    for _ in range(14):
+        a, b = rng.choice(ids, 2, replace=False).tolist()
+        shared = list(zip(places(rng, 2), rng.uniform(0, 0.5, 2).tolist(), strict=True))
+        for here, there in ((a, b), (b, a)):
+            several = [Door(here, there, place, crossing) for place, crossing in shared]
+            out[here].append(Exit(there, prices.get(there, 0.0), several))
+    starts = [(0.0, Door("", "x0", places(rng, 1)[0], 0.0))]
+    limit = float(rng.choice([1.0, 4.0, math.inf]))
+    arrivals = []
+    for walk in both("propagation.walk.walked"):
+        balls = dict.fromkeys(ids[4:], ((0.0, 0.0, 0.0), 6.0))
+        ends = Ends(dict.fromkeys(balls, limit), balls, min(prices.values())) if has_ends else None
+        arrivals.append(walk(starts, out.__getitem__, prices, limit, ends))
+    plain, compiled = arrivals
+    assert [arrival[1:] for arrival in compiled] == [arrival[1:] for arrival in plain]
+    assert [cost for cost, *_ in compiled] == pytest.approx([cost for cost, *_ in plain], rel=1e-12)
 
 
 @given(seed=seeds, n=st.integers(0, 3))

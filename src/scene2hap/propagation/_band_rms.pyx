@@ -3,8 +3,7 @@
 
 from libc.math cimport exp, fmax, sqrt
 
-
-cdef double MOST = 700.0
+cdef double MOST = 700.0  # as in `band_rms`
 
 
 cdef class Differences:

@@ -36,9 +36,14 @@ def nearest_m(tuple points_m, tuple point_m):
 
 
 def is_within(list entries, double price_per_m, tuple point_m, double cost):
-    cdef double entered, x, y, z
-    cdef tuple entry
+    cdef double x, y, z
     x, y, z = point_m
+    return bool(is_entered(entries, price_per_m, x, y, z, cost))
+
+
+cdef bint is_entered(list entries, double price_per_m, double x, double y, double z, double cost) except -1:
+    cdef double entered
+    cdef tuple entry
     for entry in entries:
         entered = entry[1]
         if entered + price_per_m * distance(entry[0], x, y, z) <= cost:

@@ -5,7 +5,12 @@ from libc.math cimport acos, cos, fmax, fmin
 
 
 def fill_cosines(
-    double[:, ::1] found, const double[:, :] points_m, double per_length, double per_width, Py_ssize_t n_x, Py_ssize_t n_y
+    double[:, ::1] found,
+    const double[:, :] points_m,
+    double per_length,
+    double per_width,
+    Py_ssize_t n_x,
+    Py_ssize_t n_y,
 ):
     cdef Py_ssize_t point, i, j
     cdef double along, across, cosine

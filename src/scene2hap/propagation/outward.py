@@ -11,36 +11,16 @@ Source of the latter: P. E. Hart, N. J. Nilsson, B. Raphael, IEEE Trans. Systems
 
 from __future__ import annotations
 
-import heapq
 import math
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Collection, Mapping, Sequence
+from typing import TYPE_CHECKING
 
-from scene2hap.propagation.entries import Entries, Triple, is_within
+from scene2hap.propagation.entries import Entries, Triple
+from scene2hap.propagation.walk import Door, Ends, Exit, walked
 
 if TYPE_CHECKING:
     from scene2hap.contact.graph import ContactGraph
     from scene2hap.contact.junction import Junction
-
-_NOWHERE: Entries = []
-_ROUNDED_UP = 1 + 1e-9
-
-
-class Door:
-    """A point of a contact as one goes through it: out of what, into what, where, and what going through costs."""
-
-    __slots__ = ("crossing", "into", "out_of", "place")
-
-    def __init__(self, out_of: str, into: str, place: Triple, crossing: float) -> None:
-        self.out_of, self.into, self.place, self.crossing = out_of, into, place, crossing
-
-
-class Exit(NamedTuple):
-    """The doors out of an object into one other, through which a metre costs `price`, 0 if nothing goes on there."""
-
-    into: str
-    price: float
-    doors: list[Door]
 
 
 class Doors:
@@ -122,32 +102,6 @@ class Doors:
         return now
 
 
-class _Ends:
-    """The ends that a walk has yet to meet.
-
-    Parameters: at_most : what a way to each may cost, its limit at first, and less once a way is known.
-    """
-
-    def __init__(self, doors: Doors, at_most: dict[str, float]) -> None:
-        self.at_most = at_most
-        self._price_per_m = doors.least_price_per_m
-        self._balls = {x: doors.ball(x) for x in at_most if doors.has(x)}
-
-    def met(self, object_id: str) -> bool:
-        """Note that the walk has come to an object; true if that is an end which it had not met."""
-        self._balls.pop(object_id, None)
-        return self.at_most.pop(object_id, None) is not None
-
-    def may_follow(self, place: Triple, cost: float) -> bool:
-        """Whether a way on from a place may lead to any of them in time."""
-        price, dist, at_most = self._price_per_m, math.dist, self.at_most
-        for x, (middle, radius_m) in self._balls.items():
-            # What rounding leaves of a way that costs the same must not cut it off.
-            if cost + price * (dist(place, middle) - radius_m) <= at_most[x] * _ROUNDED_UP:
-                return True
-        return False
-
-
 def cheapest_outward(
     object_id: str,
     point_m: Triple,
@@ -163,21 +117,19 @@ def cheapest_outward(
     """
     doors.look_again()
     found = [math.inf] * len(row)
-    ends = _Ends(
-        doors,
-        {
-            x: math.inf if limits is None else limits[k]
-            for x, k in row.items()
-            if (among is None or k in among) and (x == object_id or doors.has(x))
-        },
-    )
-    limit = max(ends.at_most.values(), default=0.0)
+    at_most = {
+        x: math.inf if limits is None else limits[k]
+        for x, k in row.items()
+        if (among is None or k in among) and (x == object_id or doors.has(x))
+    }
+    ends = Ends(at_most, {x: doors.ball(x) for x in at_most if doors.has(x)}, doors.least_price_per_m)
+    limit = max(at_most.values(), default=0.0)
     starts = [(0.0, Door("", object_id, point_m, 0.0))]
-    for cost, here, _ in _walk(starts, doors.exits_to_ends, doors.price_per_m, limit, ends):
-        if ends.met(here):
+    met: set[str] = set()
+    for cost, here, _ in walked(starts, doors.exits_to_ends, doors.price_per_m, limit, ends):
+        if here in row and here not in met:
+            met.add(here)
             found[row[here]] = cost
-            if not ends.at_most:
-                break
     return found
 
 
@@ -186,61 +138,6 @@ def entries_around(source_id: str, doors: Doors, limit: float) -> dict[str, Entr
     doors.look_again()
     starts = [(door.crossing, door) for out in doors.exits(source_id) for door in out.doors]
     entries: dict[str, Entries] = {}
-    for cost, here, place in _walk(starts, doors.exits, doors.price_per_m, limit):
+    for cost, here, place in walked(starts, doors.exits, doors.price_per_m, limit):
         entries.setdefault(here, []).append((place, cost))
     return entries
-
-
-def _walk(
-    starts: Iterable[tuple[float, Door]],
-    exits: Callable[[str], list[Exit]],
-    price_per_m: Mapping[str, float],
-    limit: float,
-    ends: _Ends | None = None,
-) -> Iterator[tuple[float, str, Triple]]:
-    """Arrivals at points of objects up to a limit, the cheapest first.
-
-    With `ends`, no way goes on from where it comes to none of them in time.
-    """
-    dist, inf = math.dist, math.inf
-    at_most = {} if ends is None else ends.at_most
-    entries: dict[str, Entries] = {}
-    # The number keeps doors of one cost apart.
-    waiting = [(cost, n, door) for n, (cost, door) in enumerate(starts) if cost <= limit]
-    heapq.heapify(waiting)
-    least = {door: cost for cost, _, door in waiting}
-    n_pushed = len(waiting)
-    while waiting:
-        cost, _, arrived = heapq.heappop(waiting)
-        if cost > least[arrived]:
-            continue
-        here, place = arrived.into, arrived.place
-        price = price_per_m.get(here)
-        if price is None:
-            yield cost, here, place
-            continue
-        known = entries.setdefault(here, [])
-        if is_within(known, price, place, cost):
-            continue
-        yield cost, here, place
-        if ends is not None and not ends.may_follow(place, cost):
-            continue
-        known.append((place, cost))
-        for other, price_beyond, doors in exits(here):
-            if other == arrived.out_of and price >= price_beyond:
-                continue  # straight on there would have been no dearer
-            beyond = entries.get(other, _NOWHERE)
-            for door in doors:
-                before = least.get(door, inf)
-                if before <= cost:
-                    continue
-                there = door.place
-                further = cost + price * dist(place, there) + door.crossing
-                if further > limit or further >= before:
-                    continue
-                if not is_within(beyond, price_beyond, there, further):
-                    least[door] = further
-                    n_pushed += 1
-                    heapq.heappush(waiting, (further, n_pushed, door))
-                    if further < at_most.get(other, 0.0):
-                        at_most[other] = further

@@ -21,7 +21,9 @@ cdef class RampedProduct:
     # The slots whose products are still to be found.
     cdef set stale
 
-    def __init__(self, Py_ssize_t n_rows, Py_ssize_t n_places, Py_ssize_t n_slots, Py_ssize_t n_hands, const float[::1] rise):
+    def __init__(
+        self, Py_ssize_t n_rows, Py_ssize_t n_places, Py_ssize_t n_slots, Py_ssize_t n_hands, const float[::1] rise
+    ):
         self.n_hands, self.rise, self.begin, self.stale = n_hands, rise, None, set()
         self.loops = np.zeros((n_rows, CELL), dtype=np.float32)
         # The gains of a hand in a slot side by side, for they are read in a row.
