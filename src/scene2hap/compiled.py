@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from importlib import import_module
+from importlib.util import find_spec
 from typing import Any, TypeVar
 
 _Kernel = TypeVar("_Kernel", bound=Callable[..., Any])
@@ -25,6 +26,11 @@ def compiled(plain: _Kernel) -> _Kernel:
     twin = _twin(plain) if _IS_WANTED else None
     KERNELS[f"{plain.__module__}.{plain.__qualname__}"] = (plain, twin)
     return plain if twin is None else twin
+
+
+def are_in_use() -> bool:
+    """Whether kernels were compiled when the package was built, and are wanted."""
+    return _IS_WANTED and find_spec("scene2hap.contact._track") is not None
 
 
 def _twin(plain: _Kernel) -> _Kernel | None:

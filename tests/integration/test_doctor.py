@@ -3,6 +3,7 @@
 import json
 import os
 import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -33,6 +34,20 @@ def test_it_tells_every_extra(capsys: pytest.CaptureFixture[str]) -> None:
     told = json.loads(capsys.readouterr().out)
     assert {"dae", "mujoco", "panda3d", "pictures", "serial", "soundcard"} <= {row["extra"] for row in told["extras"]}
     assert set(told) >= {"sound_cards", "serial_ports", "python"}
+
+
+@pytest.mark.parametrize(("wish", "kernels"), [("0", "plain"), ("", "compiled")])
+def test_it_tells_whether_kernels_are_compiled(wish: str, kernels: str) -> None:
+    import scene2hap.contact
+
+    package = Path(scene2hap.contact.__file__).parent
+    if kernels == "compiled" and not (list(package.glob("_track.*.so")) + list(package.glob("_track.*.pyd"))):
+        pytest.skip("built without a C compiler; install one and build again")
+    command = [sys.executable, "-m", "scene2hap", "doctor", "--json"]
+    run = subprocess.run(
+        command, env={**os.environ, "SCENE2HAP_COMPILED": wish}, capture_output=True, text=True, check=True
+    )
+    assert json.loads(run.stdout)["kernels"] == kernels
 
 
 def test_a_missing_package_is_told_with_its_command(monkeypatch: pytest.MonkeyPatch) -> None:

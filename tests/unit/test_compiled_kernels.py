@@ -198,6 +198,32 @@ def test_slides_to_the_last_bit(up_axis: int) -> None:
     assert n_slid > 100
 
 
+def triangles(rng: np.random.Generator, n: int) -> np.ndarray:
+    """Triangles (3, 3, n), some on a coarse grid, so that they are level, parallel, in touch or without area."""
+    found = rng.uniform(-1, 1, (3, 3, n))
+    coarse = rng.random(n) < 0.7
+    found[..., coarse] = rng.integers(-1, 2, (3, 3, int(coarse.sum())))
+    return found
+
+
+@given(seed=seeds, n=st.integers(0, 20))
+def test_triangles_to_the_last_bit(seed: int, n: int) -> None:
+    rng = np.random.default_rng(seed)
+    p, q = triangles(rng, n), triangles(rng, n)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        plain, twin = both("contact.triangles.clearances")
+        np.testing.assert_array_equal(twin(p, q), plain(p, q))
+        told = [[np.empty((21, n)), np.empty((3, 21, n)), np.empty((3, 21, n))] for _ in range(2)]
+        for fill, meetings in zip(both("contact.triangles.fill_meetings"), told, strict=True):
+            fill(*meetings, p, q)
+        for one, other in zip(*told, strict=True):
+            np.testing.assert_array_equal(other, one)
+        heights = np.empty((2, 2, n))
+        for fill, (low, high) in zip(both("contact.triangles.fill_heights"), heights, strict=True):
+            fill(low, high, p, q)
+        np.testing.assert_array_equal(heights[1], heights[0])
+
+
 @given(seed=seeds)
 def test_zones_that_meet(seed: int) -> None:
     rng = np.random.default_rng(seed)

@@ -18,7 +18,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap.contact.vectors import Floats, Indices, Marks, Triple, cross, dot, frame_along, highest, lowest, turned
+from scene2hap.compiled import compiled
+from scene2hap.contact.vectors import Floats, Marks, Triple, cross, dot, frame_along, highest, lowest, turned
 
 # Squared sine below which edges are parallel and corners in line: the rest of their answer would be rounding noise.
 _PARALLEL = 1e-12
@@ -39,36 +40,24 @@ class Meetings(NamedTuple):
 class TrianglePairs:
     """Triangles p and q (3, 3, n), pair by pair."""
 
-    __slots__ = ("_faces", "p", "q")
+    __slots__ = ("p", "q")
 
     def __init__(self, p: Floats, q: Floats) -> None:
         self.p, self.q = p, q
-        # Both directions at once, p's corners at q's faces and q's at p's: numpy's cost is per call on few triangles.
-        self._faces = _Faces.of(np.concatenate([q, p], axis=2), np.concatenate([p, q], axis=2))
 
     def __len__(self) -> int:
         return len(self.p[0, 0])
 
     def within(self, distance_m: float) -> TrianglePairs:
         """Those that may be so near: a triangle that stays farther on one side of the other's plane surely is not."""
-        n, clear = len(self), self._faces.clear_of_plane()
-        near = np.flatnonzero(np.maximum(clear[:n], clear[n:]) <= distance_m)
-        if len(near) == n:
-            return self
-        some = TrianglePairs.__new__(TrianglePairs)
-        some.p, some.q = self.p.take(near, axis=2), self.q.take(near, axis=2)
-        some._faces = self._faces.some(np.concatenate([near, near + n]))
-        return some
+        near = np.flatnonzero(clearances(self.p, self.q) <= distance_m)
+        return self if len(near) == len(self) else TrianglePairs(self.p.take(near, axis=2), self.q.take(near, axis=2))
 
     def meetings(self) -> Meetings:
         """The 21 local meetings of each pair: nine of edges, six of vertices with faces, six of edges through faces."""
         n = len(self)
         every = Meetings(np.empty((_N_MEETINGS, n)), np.empty((3, _N_MEETINGS, n)), np.empty((3, _N_MEETINGS, n)))
-        _fill(every, 0, _edges_with_edges(self.p, self.q))
-        for first, both in ((9, self._faces.meet_vertices()), (15, self._faces.meet_edges())):
-            distance, points, feet = both
-            _fill(every, first, Meetings(distance[:, :n], points[..., :n], feet[..., :n]))
-            _fill(every, first + 3, Meetings(distance[:, n:], feet[..., n:], points[..., n:]))
+        fill_meetings(every.distance, every.on_p, every.on_q, self.p, self.q)
         return every
 
     def closest(self) -> Meetings:
@@ -90,16 +79,41 @@ def height_range(p: Floats, q: Floats, up: Triple) -> tuple[Floats, Floats]:
     on the shadow's corners: vertices of either triangle or crossings of edges.
     """
     n = p.shape[2]
-    both = turned(frame_along(up), np.concatenate([p, q, p], axis=2))
-    p, q = both[..., :n], both[..., n : 2 * n]
+    both = turned(frame_along(up), np.concatenate([p, q], axis=2))
+    low, high = np.empty(n), np.empty(n)
+    fill_heights(low, high, both[..., :n], both[..., n:])
+    return low, high
+
+
+@compiled
+def clearances(p: Floats, q: Floats) -> Floats:
+    """How far (n,) [m] one of each pair (3, 3, n) stays on one side of the other's plane, 0 if neither does."""
+    return np.maximum(_Faces.of(q, p).clear_of_plane(), _Faces.of(p, q).clear_of_plane())
+
+
+@compiled
+def fill_meetings(distance: Floats, on_p: Floats, on_q: Floats, p: Floats, q: Floats) -> None:
+    """Fill the parts of `Meetings`, (21, n), (3, 21, n) and (3, 21, n), of pairs (3, 3, n)."""
+    every, n = Meetings(distance, on_p, on_q), p.shape[2]
+    _fill(every, 0, _edges_with_edges(p, q))
+    # Both directions at once, p's corners at q's faces and q's at p's: numpy's cost is per call on few triangles.
+    faces = _Faces.of(np.concatenate([q, p], axis=2), np.concatenate([p, q], axis=2))
+    for first, (apart, points, feet) in ((9, faces.meet_vertices()), (15, faces.meet_edges())):
+        _fill(every, first, Meetings(apart[:, :n], points[..., :n], feet[..., :n]))
+        _fill(every, first + 3, Meetings(apart[:, n:], feet[..., n:], points[..., n:]))
+
+
+@compiled
+def fill_heights(low: Floats, high: Floats, p: Floats, q: Floats) -> None:
+    """Fill the least and the greatest height (n,) of p over q (3, 3, n) along the third axis."""
+    n = p.shape[2]
     heights = np.empty((15, n))
-    over = _over(both[..., : 2 * n], both[..., n:])
+    over = _over(np.concatenate([p, q], axis=2), np.concatenate([q, p], axis=2))
     heights[:3] = over[:, :n]
     np.negative(over[:, n:], out=heights[3:6])
     heights[6:] = _over_crossings(p, q)
-    low: Floats = np.fmin.reduce(heights, axis=0, initial=np.inf)
-    high: Floats = np.fmax.reduce(heights, axis=0, initial=-np.inf)
-    return low, high
+    np.fmin.reduce(heights, axis=0, initial=np.inf, out=low)
+    np.fmax.reduce(heights, axis=0, initial=-np.inf, out=high)
 
 
 class _Faces(NamedTuple):
@@ -132,10 +146,6 @@ class _Faces(NamedTuple):
         height = dot(corners - origin[:, None], normal[:, None])
         height /= area2
         return cls(origin, u, v, normal, dots, area2, corners, height)
-
-    def some(self, columns: Indices) -> _Faces:
-        """Some of them."""
-        return _Faces(*[array.take(columns, axis=-1) for array in self])
 
     def clear_of_plane(self) -> Floats:
         """How far (n,) [m] the others stay on one side, 0 if they do not."""
