@@ -213,9 +213,13 @@ def test_triangles_to_the_last_bit(seed: int, n: int) -> None:
     with np.errstate(invalid="ignore", divide="ignore"):
         plain, twin = both("contact.triangles.clearances")
         np.testing.assert_array_equal(twin(p, q), plain(p, q))
-        told = [[np.empty((21, n)), np.empty((3, 21, n)), np.empty((3, 21, n))] for _ in range(2)]
-        for fill, meetings in zip(both("contact.triangles.fill_meetings"), told, strict=True):
+        told = [[np.empty(n), np.empty((3, n)), np.empty((3, n))] for _ in range(2)]
+        for fill, meetings in zip(both("contact.triangles.fill_closest"), told, strict=True):
             fill(*meetings, p, q)
+        plain, twin = both("contact.triangles.near_ends")
+        for distance_m in (0.0, 0.3, 2.0):
+            told[0] += plain(p, q, distance_m)
+            told[1] += twin(p, q, distance_m)
         for one, other in zip(*told, strict=True):
             np.testing.assert_array_equal(other, one)
         heights = np.empty((2, 2, n))

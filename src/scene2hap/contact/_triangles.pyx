@@ -100,38 +100,32 @@ def clearances(const double[:, :, :] p, const double[:, :, :] q):
     return told
 
 
-def fill_meetings(
-    double[:, ::1] distance,
-    double[:, :, ::1] on_p,
-    double[:, :, ::1] on_q,
-    const double[:, :, :] p,
-    const double[:, :, :] q,
-):
-    cdef Py_ssize_t k
-    cdef Triangle one, other
-    for k in range(p.shape[2]):
-        take(&one, p, k)
-        take(&other, q, k)
-        meet_edges(distance, on_p, on_q, k, &one, &other)
-        meet_face(distance, on_p, on_q, k, 9, &other, &one)
-        meet_face(distance, on_q, on_p, k, 12, &one, &other)
+cdef struct Meetings:
+    double distance[21]
+    double on_p[21][3]
+    double on_q[21][3]
 
 
-cdef void meet_edges(
-    double[:, ::1] distance, double[:, :, ::1] on_p, double[:, :, ::1] on_q, Py_ssize_t k, Triangle* p, Triangle* q
-) noexcept:
+cdef void meet(Meetings* every, const Triangle* p, const Triangle* q) noexcept:
+    meet_edges(every, p, q)
+    meet_face(every.distance, every.on_p, every.on_q, 9, q, p)
+    meet_face(every.distance, every.on_q, every.on_p, 12, p, q)
+
+
+cdef void meet_edges(Meetings* every, const Triangle* p, const Triangle* q) noexcept:
     """Nearest points of all nine pairs of edges."""
     cdef double d[3]
     cdef double g[3]
     cdef double r[3]
     cdef double gap[3]
-    cdef double a, b, c, e, f, ae, sine2, s, t, x, y
+    cdef double a, b, c, e, f, ae, sine2, s, t
     cdef bint is_skew
-    cdef int i, j, axis
+    cdef int i, j, axis, row
     for i in range(3):
         less(d, p.corners[(i + 1) % 3], p.corners[i])
         a = dot(d, d)
         for j in range(3):
+            row = 3 * i + j
             less(g, q.corners[(j + 1) % 3], q.corners[j])
             less(r, p.corners[i], q.corners[j])
             b, e, c, f = dot(d, g), dot(g, g), dot(d, r), dot(g, r)
@@ -143,42 +137,80 @@ cdef void meet_edges(
             if not (is_skew and 0 < t < 1):
                 s = cut((b * t - c) / (a if a > 0 else 1.0))
             for axis in range(3):
-                x, y = s * d[axis] + p.corners[i][axis], t * g[axis] + q.corners[j][axis]
-                on_p[axis, 3 * i + j, k], on_q[axis, 3 * i + j, k] = x, y
-                gap[axis] = x - y
-            distance[3 * i + j, k] = sqrt(dot(gap, gap))
+                every.on_p[row][axis] = s * d[axis] + p.corners[i][axis]
+                every.on_q[row][axis] = t * g[axis] + q.corners[j][axis]
+            less(gap, every.on_p[row], every.on_q[row])
+            every.distance[row] = sqrt(dot(gap, gap))
 
 
 cdef void meet_face(
-    double[:, ::1] distance,
-    double[:, :, ::1] on_other,
-    double[:, :, ::1] on_own,
-    Py_ssize_t k,
-    int first,
-    Triangle* own,
-    Triangle* other,
+    double* distance, double[3]* on_other, double[3]* on_own, int first, const Triangle* own, const Triangle* other
 ) noexcept:
     """The other's corners with their feet inside a face, and six rows on, where its edges run through that."""
     cdef Face face
-    cdef double root, in_plane, start, end, s, point[3]
+    cdef double root, in_plane, start, end, s
+    cdef double* point
     cdef bint crosses
-    cdef int i, axis
+    cdef int i, axis, row
     look(&face, own, other)
     root = sqrt(face.area2)
     in_plane = IN_PLANE_M / root
     for i in range(3):
+        row = first + i
         start, end = face.height[i], face.height[(i + 1) % 3]
         for axis in range(3):
-            on_other[axis, first + i, k] = other.corners[i][axis]
-            on_own[axis, first + i, k] = other.corners[i][axis] - start * face.normal[axis]
-        is_over = is_inside(&face, own.corners[0], other.corners[i])
-        distance[first + i, k] = fabs(start) * root if is_over else INFINITY
+            on_other[row][axis] = other.corners[i][axis]
+            on_own[row][axis] = other.corners[i][axis] - start * face.normal[axis]
+        distance[row] = fabs(start) * root if is_inside(&face, own.corners[0], other.corners[i]) else INFINITY
+        row += 6
         crosses = start * end < 0 and fabs(start) > in_plane and fabs(end) > in_plane
         s = start / (start - end if crosses else 1.0)
+        point = on_other[row]
         for axis in range(3):
             point[axis] = (other.corners[(i + 1) % 3][axis] - other.corners[i][axis]) * s + other.corners[i][axis]
-            on_other[axis, first + 6 + i, k] = on_own[axis, first + 6 + i, k] = point[axis]
-        distance[first + 6 + i, k] = 0.0 if crosses and is_inside(&face, own.corners[0], point) else INFINITY
+            on_own[row][axis] = point[axis]
+        distance[row] = 0.0 if crosses and is_inside(&face, own.corners[0], point) else INFINITY
+
+
+def fill_closest(
+    double[::1] distance, double[:, ::1] on_p, double[:, ::1] on_q, const double[:, :, :] p, const double[:, :, :] q
+):
+    cdef Py_ssize_t k
+    cdef Triangle one, other
+    cdef Meetings every
+    cdef int row, nearest, axis
+    for k in range(p.shape[2]):
+        take(&one, p, k)
+        take(&other, q, k)
+        meet(&every, &one, &other)
+        nearest = 0
+        for row in range(1, 21):
+            if every.distance[row] < every.distance[nearest]:
+                nearest = row
+        distance[k] = every.distance[nearest]
+        for axis in range(3):
+            on_p[axis, k], on_q[axis, k] = every.on_p[nearest][axis], every.on_q[nearest][axis]
+
+
+def near_ends(const double[:, :, :] p, const double[:, :, :] q, double distance_m):
+    cdef Py_ssize_t k, n = p.shape[2]
+    cdef Triangle one, other
+    cdef Meetings every
+    cdef int row
+    # By meeting, since that is their order; few come so near.
+    found = [[] for _ in range(21)]
+    for k in range(n):
+        take(&one, p, k)
+        take(&other, q, k)
+        meet(&every, &one, &other)
+        for row in range(21):
+            if every.distance[row] <= distance_m:
+                (<list>found[row]).append((
+                    every.on_p[row][0], every.on_p[row][1], every.on_p[row][2],
+                    every.on_q[row][0], every.on_q[row][1], every.on_q[row][2],
+                ))
+    ends = np.array([end for ends in found for end in ends]).reshape(-1, 6).T
+    return np.ascontiguousarray(ends[:3]), np.ascontiguousarray(ends[3:])
 
 
 def fill_heights(double[::1] low, double[::1] high, const double[:, :, :] p, const double[:, :, :] q):
@@ -195,7 +227,7 @@ def fill_heights(double[::1] low, double[::1] high, const double[:, :, :] p, con
         low[k], high[k] = least, most
 
 
-cdef void measure_corners(double* least, double* most, Triangle* p, Triangle* q, double sign) noexcept:
+cdef void measure_corners(double* least, double* most, const Triangle* p, const Triangle* q, double sign) noexcept:
     """Heights of p's corners over q, where they are over it."""
     cdef double u[3]
     cdef double v[3]
@@ -215,7 +247,7 @@ cdef void measure_corners(double* least, double* most, Triangle* p, Triangle* q,
             least[0], most[0] = fmin(least[0], height), fmax(most[0], height)
 
 
-cdef void measure_crossings(double* least, double* most, Triangle* p, Triangle* q) noexcept:
+cdef void measure_crossings(double* least, double* most, const Triangle* p, const Triangle* q) noexcept:
     """Heights of p's edges over q's, where they cross."""
     cdef double d[3]
     cdef double g[3]

@@ -132,9 +132,7 @@ class Meeting:
                 close = TrianglePairs(p, q).within(within_m)
                 if not len(close):
                     continue
-                every = close.meetings()
-                hits = np.flatnonzero(every.distance <= within_m)
-                on_p, on_q = (side.reshape(3, -1).take(hits, axis=1) for side in (every.on_p, every.on_q))
+                on_p, on_q = close.near(within_m)
                 ends.append((on_p - way[:, None], on_q))
         on_guest, on_host = (np.concatenate(side, axis=1) for side in zip(*ends, strict=True))
         chosen = spread((on_guest + on_host) / 2)

@@ -53,23 +53,33 @@ class TrianglePairs:
         near = np.flatnonzero(clearances(self.p, self.q) <= distance_m)
         return self if len(near) == len(self) else TrianglePairs(self.p.take(near, axis=2), self.q.take(near, axis=2))
 
-    def meetings(self) -> Meetings:
-        """The 21 local meetings of each pair: nine of edges, six of vertices with faces, six of edges through faces."""
-        n = len(self)
-        every = Meetings(np.empty((_N_MEETINGS, n)), np.empty((3, _N_MEETINGS, n)), np.empty((3, _N_MEETINGS, n)))
-        fill_meetings(every.distance, every.on_p, every.on_q, self.p, self.q)
-        return every
-
     def closest(self) -> Meetings:
         """Distance (n,) [m] of each pair, 0 where they cut each other, and a nearest point (3, n) on either.
 
         Where several points are equally near, as on parallel faces, one of them.
         """
-        every, columns = self.meetings(), np.arange(len(self))
-        nearest = np.argmin(every.distance, axis=0)
-        return Meetings(
-            every.distance[nearest, columns], every.on_p[:, nearest, columns], every.on_q[:, nearest, columns]
-        )
+        n = len(self)
+        found = Meetings(np.empty(n), np.empty((3, n)), np.empty((3, n)))
+        fill_closest(*found, self.p, self.q)
+        return found
+
+    def near(self, distance_m: float) -> tuple[Floats, Floats]:
+        """All ends (3, m) [m] of meetings of any pair at which the two come so near: those on p, and those on q."""
+        return near_ends(self.p, self.q, distance_m)
+
+
+def meetings(p: Floats, q: Floats) -> Meetings:
+    """The 21 local meetings of each pair (3, 3, n): nine of edges, six of vertices with faces, six of edges through
+    faces."""
+    n = p.shape[2]
+    every = Meetings(np.empty((_N_MEETINGS, n)), np.empty((3, _N_MEETINGS, n)), np.empty((3, _N_MEETINGS, n)))
+    _fill(every, 0, _edges_with_edges(p, q))
+    # Both directions at once, p's corners at q's faces and q's at p's: numpy's cost is per call on few triangles.
+    faces = _Faces.of(np.concatenate([q, p], axis=2), np.concatenate([p, q], axis=2))
+    for first, (distance, points, feet) in ((9, faces.meet_vertices()), (15, faces.meet_edges())):
+        _fill(every, first, Meetings(distance[:, :n], points[..., :n], feet[..., :n]))
+        _fill(every, first + 3, Meetings(distance[:, n:], feet[..., n:], points[..., n:]))
+    return every
 
 
 def height_range(p: Floats, q: Floats, up: Triple) -> tuple[Floats, Floats]:
@@ -92,15 +102,21 @@ def clearances(p: Floats, q: Floats) -> Floats:
 
 
 @compiled
-def fill_meetings(distance: Floats, on_p: Floats, on_q: Floats, p: Floats, q: Floats) -> None:
-    """Fill the parts of `Meetings`, (21, n), (3, 21, n) and (3, 21, n), of pairs (3, 3, n)."""
-    every, n = Meetings(distance, on_p, on_q), p.shape[2]
-    _fill(every, 0, _edges_with_edges(p, q))
-    # Both directions at once, p's corners at q's faces and q's at p's: numpy's cost is per call on few triangles.
-    faces = _Faces.of(np.concatenate([q, p], axis=2), np.concatenate([p, q], axis=2))
-    for first, (apart, points, feet) in ((9, faces.meet_vertices()), (15, faces.meet_edges())):
-        _fill(every, first, Meetings(apart[:, :n], points[..., :n], feet[..., :n]))
-        _fill(every, first + 3, Meetings(apart[:, n:], feet[..., n:], points[..., n:]))
+def fill_closest(distance: Floats, on_p: Floats, on_q: Floats, p: Floats, q: Floats) -> None:
+    """Fill (n,), (3, n) and (3, n) with the nearest meeting of each pair (3, 3, n), the first of equals."""
+    every, columns = meetings(p, q), np.arange(len(distance))
+    nearest = np.argmin(every.distance, axis=0)
+    distance[:] = every.distance[nearest, columns]
+    on_p[:], on_q[:] = every.on_p[:, nearest, columns], every.on_q[:, nearest, columns]
+
+
+@compiled
+def near_ends(p: Floats, q: Floats, distance_m: float) -> tuple[Floats, Floats]:
+    """The ends (3, m) of all meetings of pairs (3, 3, n) that are so near, in the order of meetings, then of pairs."""
+    every = meetings(p, q)
+    hits = np.flatnonzero(every.distance <= distance_m)
+    on_p, on_q = (side.reshape(3, -1).take(hits, axis=1) for side in (every.on_p, every.on_q))
+    return on_p, on_q
 
 
 @compiled

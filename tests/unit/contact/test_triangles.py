@@ -104,8 +104,7 @@ def test_distance_told_by_hand(q: list[list[float]], distance: float) -> None:
 def test_every_corner_of_two_faces_on_each_other_is_told() -> None:
     """A square's half hangs over the other's slanted edge: the common patch has the corners below."""
     q = np.array([[[0.5, 0.1, 0.0], [2.0, 0.1, 0.0], [0.5, 1.6, 0.0]]])
-    every = pairs([FLAT], q).meetings()
-    touching = every.on_p[:, every.distance < 1e-9].T
+    touching = pairs([FLAT], q).near(1e-9)[0].T
     for corner in ([0.5, 0.1, 0.0], [0.9, 0.1, 0.0], [0.5, 0.5, 0.0]):
         assert np.linalg.norm(touching - corner, axis=1).min() < 1e-9
 

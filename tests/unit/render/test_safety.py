@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -108,6 +108,7 @@ def test_steps_and_deaths_at_any_rate(
     st.lists(st.integers(0, 5000), min_size=1, max_size=6).filter(any),
     st.sampled_from(list(BUDGETS.values())),
 )
+@example(0, [0, 1], Budget(max_amplitude=0.5, max_rms=0.15))
 def test_any_blocks_give_the_same_bits(seed: int, blocks: list[int], budget: Budget) -> None:
     draw = np.random.default_rng(seed)
     loudness = np.repeat(draw.uniform(0, 1.5, 13), 1000)[:, None]
