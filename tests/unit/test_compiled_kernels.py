@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scene2hap.compiled import KERNELS
@@ -30,6 +30,7 @@ for source in SOURCES:
     import_module(module.replace("._", "."))
 
 seeds = st.integers(0, 2**32 - 1)
+steady = settings(derandomize=True, deadline=None, max_examples=60)
 
 
 def both(name: str) -> tuple[Callable[..., Any], Callable[..., Any]]:
@@ -60,6 +61,7 @@ def places(rng: np.random.Generator, n: int) -> list[tuple[float, float, float]]
     return [(x, y, z) for x, y, z in rng.normal(size=(n, 3)).tolist()]
 
 
+@steady
 @given(seed=seeds, n=st.integers(0, 6))
 def test_ways_through_an_object(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
@@ -77,6 +79,7 @@ def test_ways_through_an_object(seed: int, n: int) -> None:
         assert twin(nearby, point) == pytest.approx(plain(nearby, point), rel=1e-14)
 
 
+@steady
 @given(seed=seeds, is_through=st.booleans())
 def test_short_ways_over_contacts_that_move(seed: int, is_through: bool) -> None:
     rng = np.random.default_rng(seed)
@@ -101,6 +104,7 @@ def test_short_ways_over_contacts_that_move(seed: int, is_through: bool) -> None
         assert [place for place, _ in ways[1].entries] == [place for place, _ in ways[0].entries]
 
 
+@steady
 @given(seed=seeds, is_through=st.booleans())
 def test_what_short_ways_there_are(seed: int, is_through: bool) -> None:
     rng = np.random.default_rng(seed)
@@ -122,6 +126,7 @@ def test_what_short_ways_there_are(seed: int, is_through: bool) -> None:
             assert all(way is last[way.via] for way in ways if way.via in last)
 
 
+@steady
 @given(seed=seeds, has_ends=st.booleans())
 def test_walks_over_contacts(seed: int, has_ends: bool) -> None:
     rng = np.random.default_rng(seed)
@@ -146,6 +151,7 @@ def test_walks_over_contacts(seed: int, has_ends: bool) -> None:
     assert [cost for cost, *_ in compiled] == pytest.approx([cost for cost, *_ in plain], rel=1e-12)
 
 
+@steady
 @given(seed=seeds, n=st.integers(0, 3))
 def test_what_is_within_its_horizon(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
@@ -156,6 +162,7 @@ def test_what_is_within_its_horizon(seed: int, n: int) -> None:
     assert twin(prices, horizon, sought) == plain(prices, horizon, sought)
 
 
+@steady
 @given(lengths=st.lists(st.one_of(st.just(0.0), st.just(math.inf), st.floats(1e-6, 1e3)), max_size=9))
 def test_gains_of_bands(lengths: list[float]) -> None:
     edges = np.geomspace(10.0, 80.0, 21)
@@ -206,6 +213,7 @@ def triangles(rng: np.random.Generator, n: int) -> np.ndarray:
     return found
 
 
+@steady
 @given(seed=seeds, n=st.integers(0, 20))
 def test_triangles_to_the_last_bit(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
@@ -228,6 +236,7 @@ def test_triangles_to_the_last_bit(seed: int, n: int) -> None:
         np.testing.assert_array_equal(heights[1], heights[0])
 
 
+@steady
 @given(seed=seeds)
 def test_zones_that_meet(seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -242,6 +251,7 @@ def test_zones_that_meet(seed: int) -> None:
     np.testing.assert_array_equal(zones[1].high, zones[0].high)
 
 
+@steady
 @given(seed=seeds, n=st.integers(0, 3))
 def test_silent_bands(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
@@ -253,6 +263,7 @@ def test_silent_bands(seed: int, n: int) -> None:
     np.testing.assert_array_equal(compiled, told)
 
 
+@steady
 @given(seed=seeds, begin=st.one_of(st.integers(0, 10**6), st.integers(2**58, 2**60)))
 def test_cells_of_loops(seed: int, begin: int) -> None:
     rng = np.random.default_rng(seed)
@@ -273,6 +284,7 @@ def test_cells_of_loops(seed: int, begin: int) -> None:
     np.testing.assert_allclose(cells[1], cells[0], atol=1e-6)
 
 
+@steady
 @given(seed=seeds)
 def test_gains_on_their_way(seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -320,6 +332,7 @@ def test_outputs_of_cells(up: int, down: int) -> None:
         np.testing.assert_allclose(compiled, told, atol=1e-5)
 
 
+@steady
 @given(seed=seeds)
 def test_the_limiter(seed: int) -> None:
     mix = np.random.default_rng(seed).normal(size=(2, 50)).astype(np.float32)
@@ -329,6 +342,7 @@ def test_the_limiter(seed: int) -> None:
     np.testing.assert_allclose(compiled, told, atol=1e-6)
 
 
+@steady
 @given(seed=seeds)
 def test_near_fields(seed: int) -> None:
     from scene2hap.propagation.near_field import table
@@ -337,11 +351,14 @@ def test_near_fields(seed: int) -> None:
     x, y, cut2 = rng.uniform(-1, 3, (4, 3)), rng.uniform(-1, 3, (4, 3)), rng.uniform(10, 1e4, 4)
     numbers = (x, y, rng.normal(size=3), rng.normal(size=3), cut2, (2.0, 3.0, 30.0, 20.0), *table())
     points = np.concatenate([rng.uniform(0, [1.0, 2 / 3], (5, 2)), [[0.0, 0.0], [x[0, 0], y[0, 0]]]])
-    told, compiled = (kind(*numbers).at(points) for kind in both("propagation.near_field.Dimples"))
+    plain, twin = (kind(*numbers) for kind in both("propagation.near_field.Dimples"))
+    k2 = rng.uniform(0.1, 5.0, 4)
+    told, compiled = ((*dimples.at(points), dimples.near(points, k2)) for dimples in (plain, twin))
     for one, other in zip(told, compiled, strict=True):
         np.testing.assert_allclose(other, one, rtol=1e-9, atol=1e-9)
 
 
+@steady
 @given(seed=seeds, n=st.integers(0, 3))
 def test_products_of_cosines(seed: int, n: int) -> None:
     points = np.random.default_rng(seed).uniform(-0.1, 1.1, (n, 2))

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from libc.math cimport M_PI, atan2, fmax, sqrt
+from libc.math cimport M_PI, atan2, atanh, fmax, sqrt
 
 cdef double FAR = 20.0  # as in `near_field`, whose table ends there
 
@@ -32,6 +32,20 @@ cdef class Dimples:
                 told[0, i, k] = self.share(points_m[i, 0], points_m[i, 1], k, cut)
                 told[1, i, k] = cut
         return found[0], found[1]
+
+    def near(self, const double[:, :] points_m, const double[::1] k2):
+        cdef Py_ssize_t n_points = points_m.shape[0], n_drives = self.cut2.shape[0], n_k2 = k2.shape[0], i, drive, k
+        found = np.empty((n_points, n_drives, n_k2))
+        cdef double[:, :, ::1] told = found
+        cdef double here2, cut, share
+        for i in range(n_points):
+            here2 = self.cutoff_squared(points_m[i, 0], points_m[i, 1])
+            for drive in range(n_drives):
+                cut = sqrt(here2 * self.cut2[drive])
+                share = self.share(points_m[i, 0], points_m[i, 1], drive, cut)
+                for k in range(n_k2):
+                    told[i, drive, k] = atanh(k2[k] / cut) * share / (4 * M_PI * k2[k])
+        return found
 
     cdef double cutoff_squared(self, double x, double y) noexcept:
         cdef double xi = x * self.per_length - 1, eta = y * self.per_width - 1

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TypeVar
+from typing import TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,11 +59,17 @@ class NearField:
 
         Returns: (n_points, n_drives, n_frequencies) [m^2], as k2, symmetric in its two points.
         """
-        shares, cut2 = self._dimples.at(points_m)
-        near: NDArray[Number] = np.arctanh(k2 / cut2[:, :, None])
-        near *= shares[:, :, None]
-        near /= 4 * np.pi * k2
-        return near
+        if np.isrealobj(k2):
+            return cast("NDArray[Number]", self._dimples.near(points_m, k2))
+        return _beyond(k2, *self._dimples.at(points_m))
+
+
+def _beyond(k2: NDArray[Number], shares: Floats, cut2: Floats) -> NDArray[Number]:
+    """The near field (n_points, n_drives, n_frequencies) of dimples, shares and K^2 (n_points, n_drives)."""
+    near: NDArray[Number] = np.arctanh(k2 / cut2[:, :, None])
+    near *= shares[:, :, None]
+    near /= 4 * np.pi * k2
+    return near
 
 
 @compiled
@@ -100,6 +106,10 @@ class Dimples:
         a2 += y2
         a2 *= cut2[:, :, None]
         return beyond_cutoff_of_square(a2, self._values, self._steps) @ self._weights, cut2
+
+    def near(self, points_m: Floats, k2: Floats) -> Floats:
+        """See `NearField`, for real k2."""
+        return _beyond(k2, *self.at(points_m))
 
 
 def _images(at_m: Floats, length_m: float, edges: str) -> tuple[Floats, Floats]:

@@ -154,9 +154,8 @@ class CoupledField:
             for begin in range(0, len(points), POINTS_AT_ONCE):
                 part = slice(begin, begin + POINTS_AT_ONCE)
                 gains[part, found.columns] = found.gains(flat[part], self.sampling)
-        for column, source_id in enumerate(self.source_ids):
-            if source_id == object_id:
-                gains[:, column] = 1.0
+        if object_id in self.source_ids:
+            gains[:, self.source_ids.index(object_id)] = 1.0
         return gains
 
 
