@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TypeVar, cast
+from typing import Any, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,7 +60,8 @@ class NearField:
         Returns: (n_points, n_drives, n_frequencies) [m^2], as k2, symmetric in its two points.
         """
         if np.isrealobj(k2):
-            return cast("NDArray[Number]", self._dimples.near(points_m, k2))
+            near: NDArray[Number] = cast("Any", self._dimples.near(points_m, k2.real))
+            return near
         return _beyond(k2, *self._dimples.at(points_m))
 
 
