@@ -21,6 +21,7 @@ from scene2hap.contact.stance import Stance
 from scene2hap.contact.track import Bounds
 from scene2hap.propagation.walk import Door, Ends, Exit
 from scene2hap.render.loop_bank import CELL
+from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import Box, TriMesh
 
 PACKAGE = Path(__file__).parents[2] / "src" / "scene2hap"
@@ -366,3 +367,13 @@ def test_products_of_cosines(seed: int, n: int) -> None:
     for fill, one in zip(both("propagation.plate_terms.fill_cosines"), found, strict=True):
         fill(one, points, 2.0, 2.0, 5, 4)
     np.testing.assert_allclose(found[1], found[0], atol=1e-13)
+
+
+@steady
+@given(seed=seeds, n=st.integers(0, 4))
+def test_points_in_a_rectangle(seed: int, n: int) -> None:
+    rng = np.random.default_rng(seed)
+    pose = Pose(tuple(rng.normal(size=3).tolist()), tuple(rng.normal(size=4).tolist()))
+    points = rng.normal(size=(n, 3))
+    plain, twin = both("propagation.points.in_rectangle")
+    np.testing.assert_allclose(twin(points, pose, 0.8, 0.5), plain(points, pose, 0.8, 0.5), atol=1e-14)

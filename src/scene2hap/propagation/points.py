@@ -8,8 +8,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap.compiled import compiled
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.paths import Arrivals
+from scene2hap.scene.pose import Pose
 
 
 def as_points(points_m: ArrayLike, dimensions: int) -> NDArray[np.float64]:
@@ -26,6 +28,14 @@ def as_points(points_m: ArrayLike, dimensions: int) -> NDArray[np.float64]:
     if not math.isfinite(np.vdot(points, points)) and not np.isfinite(points).all():
         raise ModelDomainError("points hold a coordinate that is not finite; every one must be a number [m].")
     return points
+
+
+@compiled
+def in_rectangle(points_m: NDArray[np.float64], pose: Pose, length_m: float, width_m: float) -> NDArray[np.float64]:
+    """World points (n, 3) in the frame of a rectangle (n, 2) [m], from its corner at `pose` along length and width;
+    those beside it at its nearest edge."""
+    flat = pose.to_own(points_m)[:, :2]
+    return np.minimum(np.maximum(flat, 0.0), (length_m, width_m))
 
 
 def arrivals_at(

@@ -124,11 +124,8 @@ class Sources:
     def _list(self) -> None:
         self.ids = tuple(self._sources)
         self._active_rows = tuple(source.row for source in self._sources.values())
-
-    @property
-    def need_contacts(self) -> bool:
-        """Whether any of them vibrates only while it touches something."""
-        return any(source.needs.get(source.state) is not None for source in self._sources.values())
+        # Whether any of them vibrates only while it touches something.
+        self.need_contacts = any(source.needs.get(source.state) is not None for source in self._sources.values())
 
     def factors(
         self, neighbours: Callable[[str], Iterable[str]], category: Callable[[str], str]
