@@ -20,7 +20,7 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 _FLAGS = ["/O2", "/fp:precise"] if sys.platform == "win32" else ["-O3", "-ffp-contract=off", "-fno-math-errno"]
 
 
-class CompiledKernels(BuildHookInterface):  # type: ignore[type-arg]
+class CompiledKernels(BuildHookInterface):  # type: ignore[type-arg]  # hatchling's own examples give none
     """Adds the compiled modules to a wheel, or puts them beside their sources for an editable one."""
 
     _work = ""

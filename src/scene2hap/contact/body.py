@@ -170,9 +170,11 @@ class Body:
         body.low, body.high = (x + a, y + b, z + c), (x + d, y + e, z + f)
         return body
 
-    def put(self, pose: Pose, low: Triple, high: Triple) -> None:
-        """Go elsewhere, to a box that is known already."""
+    def put(self, pose: Pose, low: Triple, high: Triple, stance: Stance | None = None) -> None:
+        """Go elsewhere, to a box that is known already, turned in a way that may be."""
         self.pose, self.position_m, self.low, self.high = pose, pose.position_m, low, high
+        if stance is not None:
+            self._stance = stance
         if self.__dict__:
             self.__dict__.clear()
 

@@ -248,16 +248,12 @@ class ContactFinder:
     def _tell_cuboids_apart(self, moved: Iterable[str]) -> None:
         """Find out all at once how far leaning cuboids are from what moved."""
         ties = {id(tie): tie for x in moved for tie in self._ties[x].values() if tie.asks_apart}
-        if not ties:
-            return
         for tie, gap in zip(ties.values(), gaps_of([(t.a, t.b) for t in ties.values()], WITHIN_M), strict=True):
             tie.tell_apart(gap)
 
     def _tell_falls(self, unsure: Iterable[str]) -> None:
         """Find out all at once how far what has few triangles is to fall."""
         asked = [(tie, x) for x in unsure for tie in self._ties.get(x, {}).values() if tie.asks_falls(x)]
-        if not asked:
-            return
         for (tie, x), falls_m in zip(asked, falls_of([tie.falling(x) for tie, x in asked]), strict=True):
             tie.tell_falls(x, falls_m)
 
@@ -366,11 +362,10 @@ class ContactFinder:
         plans = {pair: self._plan(pair) for pair in pairs}
         ask = [plan for plan in plans.values() if plan is not None and plan.rest is None and plan.tie.are_cuboids]
         ask = [plan for plan in ask if plan.side is None]
-        if ask:
-            couples = [(plan.tie.a, plan.tie.b) for plan in ask]
-            points = points_of(couples, [plan.bond.way_m for plan in ask], [plan.within_m for plan in ask])
-            for plan, several in zip(ask, points, strict=True):
-                plan.tie.tell_points(plan.bond.way_m, plan.within_m, several)
+        couples = [(plan.tie.a, plan.tie.b) for plan in ask]
+        points = points_of(couples, [plan.bond.way_m for plan in ask], [plan.within_m for plan in ask])
+        for plan, several in zip(ask, points, strict=True):
+            plan.tie.tell_points(plan.bond.way_m, plan.within_m, several)
         return {pair: None if plan is None else plan.junction() for pair, plan in plans.items()}
 
     def _plan(self, pair: Pair) -> Plan | None:

@@ -163,7 +163,7 @@ class Drift:
         (a, b, c), (d, e, f) = self._low, self._high
         if low[0] < a or low[1] < b or low[2] < c or high[0] > d or high[1] > e or high[2] > f:
             return False
-        self.body.put(pose, low, high)
+        self.body.put(pose, low, high, stance)
         return True
 
 
