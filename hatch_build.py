@@ -63,6 +63,7 @@ def _compiled(source: Path, work: Path) -> Iterator[tuple[str, Path]]:
     modules = cythonize(kernels, build_dir=str(work / "c"), language_level=3, quiet=True)
     command = Distribution({"ext_modules": modules}).get_command_obj("build_ext")
     command.build_lib, command.build_temp = str(work / "lib"), str(work / "o")
+    command.parallel = os.cpu_count()
     command.ensure_finalized()
     command.run()
     for path in sorted((work / "lib").rglob("_*")):
