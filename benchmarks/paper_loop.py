@@ -29,7 +29,6 @@ from scene2hap import Bands, HapticSession, Plate, Pose, Touch
 from scene2hap.contact.crowd import Crowd
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.propagation.band_rms import BandRms
-from scene2hap.propagation.exponential_plate import band_rms
 from scene2hap.propagation.live_paths import LivePaths
 from scene2hap.session.audibility import Audibility
 from scene2hap.session.playback import Playback
@@ -98,7 +97,7 @@ class OurLoop:
         }
         self.sources = list(room.bundle.loops)
         self.paths = LivePaths(self.graph, price, _crossing, self.sources, N_HOPS)
-        self.gains = BandRms(BANDS.edges_hz, lambda length: band_rms(length, BANDS.widths_hz()))
+        self.gains = BandRms(BANDS.edges_hz)
 
     def update(self, moved: dict[str, Pose], touches: Sequence[Touch]) -> np.ndarray:
         self.graph.update(moved)

@@ -6,8 +6,10 @@ which follows the objects unless one is stated (`contact.support`).
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from types import MappingProxyType
 from typing import TYPE_CHECKING, cast
 
@@ -44,6 +46,7 @@ class ContactChange:
 NO_CHANGE = ContactChange()
 
 _MANY_LATE = 8  # So many tables of poses wait at most before they are read.
+_MANY_TURNS = 16  # For so many topologies it is known what changed.
 
 
 class ContactGraph:
@@ -74,8 +77,9 @@ class ContactGraph:
         self._late: list[PoseTable] = []
         self._junctions: dict[Pair, Junction] = {}
         self._beside: dict[str, dict[str, Junction]] = {}
-        self._marks: dict[str, object] = {}
         self._version = self._topology = 0
+        # The pairs of the last topologies that came to touch or ceased to.
+        self._turns: deque[list[Pair]] = deque(maxlen=_MANY_TURNS)
         self._views: dict[str, object] = {}
         # Whether the junctions are those of an earlier moment, and whether somebody holds them, so that they never are.
         self._is_behind = self._junctions_lent = False
@@ -136,11 +140,6 @@ class ContactGraph:
         return self._beside
 
     @property
-    def marks(self) -> Mapping[str, object]:
-        """For each object that touched any: what is another thing whenever one has come to touch it or ceased to."""
-        return self._marks
-
-    @property
     def version(self) -> int:
         """A number that is another after every update that changed a contact."""
         return self._version
@@ -149,6 +148,13 @@ class ContactGraph:
     def topology(self) -> int:
         """A number that is another after every update by which a pair came to touch or ceased to."""
         return self._topology
+
+    def turned_since(self, topology: int) -> list[Pair] | None:
+        """The pairs that have come to touch or ceased to since then, None if that is too long ago to know."""
+        n_turns = self._topology - topology
+        if n_turns > len(self._turns):
+            return None
+        return [pair for turn in islice(reversed(self._turns), n_turns) for pair in turn]
 
     @property
     def poses(self) -> Mapping[str, Pose]:
@@ -326,12 +332,10 @@ class ContactGraph:
             if junction is None:
                 vanished.append(pair)
                 del junctions[pair], beside[a][b], beside[b][a]
-                self._marks[a] = self._marks[b] = object()
                 continue
             (appeared if before is None else shifted).append(pair)
             junctions[pair] = junction
             if before is None:
-                self._marks[a] = self._marks[b] = object()
                 beside.setdefault(a, {})[b] = beside.setdefault(b, {})[a] = junction
             else:
                 beside[a][b] = beside[b][a] = junction
@@ -345,6 +349,7 @@ class ContactGraph:
         self._version += 1
         if appeared or vanished:
             self._topology += 1
+            self._turns.append(appeared + vanished)
         return ContactChange(frozenset(appeared), frozenset(vanished), frozenset(shifted))
 
 

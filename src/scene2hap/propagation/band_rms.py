@@ -1,15 +1,16 @@
-"""The root mean square of exp(-L sqrt(2 pi f)) over bands that share their edges, for a few L at a time.
+"""The root mean square of exp(-L sqrt(2 pi f)) over bands of frequency.
 
     mean square = 2 / (f2 - f1) * integral from u1 to u2 of u exp(-b u) du,  u = sqrt(f),  b = 2 L sqrt(2 pi)
                 = 2 / ((f2 - f1) b^2) * (g(b u1) - g(b u2)),                 g(x) = (1 + x) exp(-x)
 
-The difference of two values of g loses digits where b is small; there the caller's slower formula is taken.
+The difference of two values of g loses digits where b is small; there it is written with functions of b (u2 - u1) that
+stay exact as that goes to 0, which takes longer.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,54 +22,56 @@ _MOST = 700.0  # Beyond this exp(-x) is no normal number, which processors handl
 _LEAST = 1e-3
 
 
-@compiled
-class Differences:
-    """The gains by the difference, for lengths at which it loses no digits.
+def band_rms(length: NDArray[np.float64], edges_hz: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The gains of any bands, to all digits.
 
-    Parameters: edges : b / L at the edges of the bands, rising; scales : what the root of each band's difference is
-    multiplied with; least : the least length that is worked out.
+    Parameters: length : (...) float64, >= 0, may be infinite; edges_hz : (n_bands, 2) [Hz].
+    Returns: (..., n_bands) float64 [-], in [0, 1].
     """
+    b = 2 * math.sqrt(2 * math.pi) * np.minimum(length, 1e6)[..., None]  # beyond 1e6 nothing is left of exp(-b u)
+    u1, u2 = np.sqrt(edges_hz[:, 0]), np.sqrt(edges_hz[:, 1])
+    width = u2 - u1
+    x = b * width
+    safe = np.where(x < 1e-2, 1.0, x)
+    first = np.where(x < 1e-2, 1 - x / 2 + x**2 / 6 - x**3 / 24 + x**4 / 120, -np.expm1(-safe) / safe)
+    second = np.where(
+        x < 1e-2, 1 / 2 - x / 3 + x**2 / 8 - x**3 / 30 + x**4 / 144, (-np.expm1(-safe) - safe * np.exp(-safe)) / safe**2
+    )
+    mean_square = 2 * np.exp(-b * u1) * (u1 * width * first + width**2 * second) / (u2**2 - u1**2)
+    gains: NDArray[np.float64] = np.sqrt(np.clip(mean_square, 0.0, 1.0))
+    gains[length == 0] = 1.0  # to the last bit: the source itself
+    return gains
 
-    def __init__(self, edges: NDArray[np.float64], scales: NDArray[np.float64], least: float) -> None:
+
+@compiled
+class BandRms:
+    """The gains of neighbouring bands between these rising edges [Hz], for a few lengths at a time: by the difference,
+    where that keeps 12 digits."""
+
+    def __init__(self, edges_hz: Sequence[float]) -> None:
+        edges = np.array(edges_hz)
+        self._bands_hz = np.stack([edges[:-1], edges[1:]], axis=1)
+        b = 2 * np.sqrt(2 * math.pi * edges)
+        self._least = math.sqrt(_LEAST / float((b[:-1] * np.diff(b)).min()))
         # Bands first: what belongs to one edge lies side by side, so that neighbours are subtracted in one stride.
-        self._minus_edges, self._scales, self._least = -edges[:, None], scales[:, None], least
+        self._minus_edges = -b[:, None]
+        self._scales = np.sqrt(2 / np.diff(edges) / (8 * math.pi))[:, None]
 
-    def fill(self, gains: NDArray[np.float64], lengths: Sequence[float]) -> list[int]:
-        """Fill gains (n, n_bands) for n lengths, with 1 for those below the least; which of these are not 0."""
+    def __call__(self, lengths: Sequence[float]) -> NDArray[np.float64]:
+        """Gains (n, n_bands) [-] for n lengths, >= 0, may be infinite."""
         length = np.array(lengths)
-        is_small = length < self._least
-        length[is_small] = self._least
-        minus_x = self._minus_edges * length
+        small = np.flatnonzero(length < self._least)
+        by_difference = length.copy()
+        by_difference[small] = self._least
+        minus_x = self._minus_edges * by_difference
         np.maximum(minus_x, -_MOST, out=minus_x)
         minus_g = np.exp(minus_x)
         minus_x -= 1
         minus_g *= minus_x
         found = np.sqrt(minus_g[1:] - minus_g[:-1])
         found *= self._scales
-        found /= length
-        # What touches a source feels all of it.
-        found[:, is_small] = 1.0
-        gains[:] = found.T
-        return [i for i, x in enumerate(lengths) if 0 < x < self._least]
-
-
-class BandRms:
-    """The gains of neighbouring bands between these rising edges [Hz]; `exact` is asked where digits would be lost."""
-
-    def __init__(
-        self, edges_hz: tuple[float, ...], exact: Callable[[NDArray[np.float64]], NDArray[np.float64]]
-    ) -> None:
-        edges = np.array(edges_hz)
-        self._exact = exact
-        b = 2 * np.sqrt(2 * math.pi * edges)
-        least = math.sqrt(_LEAST / float((b[:-1] * np.diff(b)).min()))
-        self._n_bands = len(edges) - 1
-        self._differences = Differences(b, np.sqrt(2 / np.diff(edges) / (8 * math.pi)), least)
-
-    def __call__(self, lengths: Sequence[float]) -> NDArray[np.float64]:
-        """Gains (n, n_bands) [-] for n lengths, >= 0, may be infinite."""
-        gains = np.empty((len(lengths), self._n_bands))
-        small = self._differences.fill(gains, lengths)
-        if small:
-            gains[small] = self._exact(np.array([lengths[i] for i in small]))
+        found /= by_difference
+        gains: NDArray[np.float64] = np.ascontiguousarray(found.T)
+        if small.size:
+            gains[small] = band_rms(length[small], self._bands_hz)
         return gains

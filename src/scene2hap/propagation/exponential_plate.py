@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
-from scene2hap.propagation.band_rms import BandRms
+from scene2hap.propagation.band_rms import BandRms, band_rms
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_thin
 from scene2hap.propagation.live_law import GammaAt, GammaOver, LiveLaw
 from scene2hap.propagation.live_paths import LivePaths
@@ -117,8 +117,7 @@ class ExponentialPlate:
         if bands.kind == "dominant":
             gamma = GammaAt(np.array([self._frequency_hz(item) for item in excitations]))
         else:
-            widths_hz = bands.widths_hz()
-            gamma = GammaOver(BandRms(bands.edges_hz, lambda length: band_rms(length, widths_hz)))
+            gamma = GammaOver(BandRms(bands.edges_hz))
         return LiveLaw(paths, source_ids, gamma, self._floor)
 
     def _prices(self, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands) -> dict[str, float]:
@@ -162,27 +161,3 @@ class ExponentialField:
         else:
             gamma = band_rms(length, self.bands.widths_hz())
         return np.maximum(gamma, self.floor * np.isfinite(length)[:, :, None]) if self.floor else gamma
-
-
-def band_rms(length: NDArray[np.float64], edges_hz: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Root mean square of exp(-L sqrt(2 pi f)) over bands of frequency.
-
-    mean square = 2 / (f2 - f1) * integral from u1 to u2 of u exp(-b u) du,  u = sqrt(f),  b = 2 L sqrt(2 pi),
-    in closed form, written with functions of x = b (u2 - u1) that stay exact as x goes to 0.
-
-    Parameters: length : (...) float64, >= 0, may be infinite; edges_hz : (n_bands, 2) [Hz].
-    Returns: (..., n_bands) float64 [-], in [0, 1].
-    """
-    b = 2 * math.sqrt(2 * math.pi) * np.minimum(length, 1e6)[..., None]  # beyond 1e6 nothing is left of exp(-b u)
-    u1, u2 = np.sqrt(edges_hz[:, 0]), np.sqrt(edges_hz[:, 1])
-    width = u2 - u1
-    x = b * width
-    safe = np.where(x < 1e-2, 1.0, x)
-    first = np.where(x < 1e-2, 1 - x / 2 + x**2 / 6 - x**3 / 24 + x**4 / 120, -np.expm1(-safe) / safe)
-    second = np.where(
-        x < 1e-2, 1 / 2 - x / 3 + x**2 / 8 - x**3 / 30 + x**4 / 144, (-np.expm1(-safe) - safe * np.exp(-safe)) / safe**2
-    )
-    mean_square = 2 * np.exp(-b * u1) * (u1 * width * first + width**2 * second) / (u2**2 - u1**2)
-    gains: NDArray[np.float64] = np.sqrt(np.clip(mean_square, 0.0, 1.0))
-    gains[length == 0] = 1.0  # to the last bit: the source itself
-    return gains

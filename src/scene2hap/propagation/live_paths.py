@@ -190,34 +190,43 @@ class LivePaths:
             plan = self._plans[object_id] = _Plan(len(self._source_ids))
         elif plan.topology == self._graph.topology:
             return plan.ways
-        marks = self._graph.marks
-        mark, plan.topology = marks.get(object_id), self._graph.topology
-        is_stale, plan.mark = plan.mark is not mark, mark
-        beside, is_through = self._beside, self._max_hops == 2
-        into, is_new = beside.get(object_id, _NOTHING), False
-        for row, source_id in enumerate(self._source_ids):
-            mark = marks.get(source_id)
-            if (is_stale or plan.marks[row] is not mark) and source_id != object_id:
-                plan.marks[row], is_new = mark, True
-                out, known = beside.get(source_id, _NOTHING), plan.by_row[row]
+        if stale := self._stale_rows(object_id, plan.topology):
+            beside, is_through = self._beside, self._max_hops == 2
+            into = beside.get(object_id, _NOTHING)
+            for row in stale:
+                out, known = beside.get(self._source_ids[row], _NOTHING), plan.by_row[row]
                 plan.by_row[row] = ways_between(
                     out, into, object_id, self._price_per_m, self._crossing, known, is_through=is_through
                 )
-        if is_new:
             plan.ways = [(row, way) for row, ways in enumerate(plan.by_row) for way in ways]
+        plan.topology = self._graph.topology
         return plan.ways
+
+    def _stale_rows(self, object_id: str, topology: int) -> set[int]:
+        """The rows of the sources, but of the object itself, that may have other ways into it than then: those that a
+        contact came to or went from, and those beside what came to the object or went from it."""
+        own, beside = self._row, self._beside
+        turned = self._graph.turned_since(topology)
+        if turned is None:
+            rows = set(own.values())
+        else:
+            rows = {own[x] for pair in turned for x in pair if x in own}
+            for a, b in turned:
+                if object_id in (a, b):
+                    via = b if a == object_id else a
+                    rows.update([row for x, row in own.items() if via in beside.get(x, _NOTHING)])
+        rows.discard(own.get(object_id, -1))
+        return rows
 
 
 class _Plan:
-    """The ways of at most two contacts into an object, by the rows of their sources and in one list; in what topology
-    they are so, and the graph's marks of the object and of the sources then."""
+    """The ways of at most two contacts into an object, by the rows of their sources and in one list, and in what
+    topology they are so."""
 
-    __slots__ = ("by_row", "mark", "marks", "topology", "ways")
+    __slots__ = ("by_row", "topology", "ways")
 
     def __init__(self, n_sources: int) -> None:
         self.topology = -1
-        self.mark: object = self
-        self.marks: list[object] = [None] * n_sources
         self.by_row: list[list[ShortWay]] = [[] for _ in range(n_sources)]
         self.ways: list[tuple[int, ShortWay]] = []
 

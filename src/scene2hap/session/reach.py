@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Collection, Container, Iterable, Mapping, Sequence
-from functools import cached_property
 from itertools import chain
 
 from scene2hap.contact.graph import ContactChange
@@ -20,26 +19,12 @@ _NONE: frozenset[int] = frozenset()
 
 
 class _Group:
-    """Objects that hang together, at least two."""
+    """Objects that hang together, at least two, and the columns of the sources among them."""
 
-    def __init__(self, members: set[str], column: Mapping[str, int]) -> None:
-        self.members = members
-        self._column = column
+    __slots__ = ("members", "sources")
 
-    @cached_property
-    def sources(self) -> frozenset[int]:
-        """The columns of the sources among them."""
-        return frozenset(i for source_id, i in self._column.items() if source_id in self.members)
-
-    @cached_property
-    def strangers(self) -> list[int]:
-        """Those of the sources that are not."""
-        return [i for i in self._column.values() if i not in self.sources]
-
-    def members_changed(self) -> None:
-        """Look for sources anew when asked next."""
-        self.__dict__.pop("sources", None)
-        self.__dict__.pop("strangers", None)
+    def __init__(self, members: set[str], sources: frozenset[int]) -> None:
+        self.members, self.sources = members, sources
 
 
 class _Search:
@@ -75,6 +60,9 @@ class Reach:
             if x in self._group:
                 ends.setdefault(self._group[x], set()).add(x)
         for group, starts in ends.items():
+            for x in [x for x in starts if not self._beside.get(x)]:
+                starts.discard(x)
+                self._split_off(group, {x})
             self._part(group, starts)
 
     def has(self, object_id: str) -> bool:
@@ -90,7 +78,8 @@ class Reach:
     def strangers(self, object_id: str) -> Sequence[int]:
         """The columns of the sources that do not hang together with an object."""
         group = self._group.get(object_id)
-        return range(len(self._column)) if group is None else group.strangers
+        columns = range(len(self._column))
+        return columns if group is None else [i for i in columns if i not in group.sources]
 
     def concerns(self, change: ContactChange) -> bool:
         """Whether a source reaches an object of these contacts."""
@@ -127,13 +116,13 @@ class Reach:
         ours, theirs = ({x} if group is None else group.members for x, group in ((a, one), (b, two)))
         if len(ours) < len(theirs):
             one, two, ours, theirs = two, one, theirs, ours
-        ours |= theirs
+        sources = self._sources_in(theirs) if two is None else two.sources
         if one is None:
-            one = _Group(ours, self._column)
+            one = _Group(ours, self._sources_in(ours))
             self._group.update(dict.fromkeys(ours, one))
-        else:
-            one.members_changed()
-            self._group.update(dict.fromkeys(theirs, one))
+        ours |= theirs
+        one.sources |= sources
+        self._group.update(dict.fromkeys(theirs, one))
 
     def _part(self, group: _Group, starts: Iterable[str]) -> None:
         """Search from all starts in turn; searches that meet go on as one, and what one that ends has seen is a group.
@@ -161,11 +150,20 @@ class Reach:
                     searches.remove(other)
             if not search.waiting and len(searches) > 1:
                 searches.remove(search)
-                group.members -= search.seen
-                group.members_changed()
-                self._group.update(dict.fromkeys(search.seen, _Group(search.seen, self._column)))
-                self._forget_if_alone(search.seen)
+                self._split_off(group, search.seen)
         self._forget_if_alone(group.members)
+
+    def _split_off(self, group: _Group, members: set[str]) -> None:
+        group.members -= members
+        sources = self._sources_in(members)
+        group.sources -= sources
+        self._group.update(dict.fromkeys(members, _Group(members, sources)))
+        self._forget_if_alone(members)
+
+    def _sources_in(self, members: Collection[str]) -> frozenset[int]:
+        column = self._column
+        fewer, more = (members, column) if len(members) < len(column) else (column, members)
+        return frozenset([column[x] for x in fewer if x in more])
 
     def _forget_if_alone(self, members: set[str]) -> None:
         if len(members) == 1:

@@ -3,11 +3,10 @@ import pytest
 from scipy.integrate import quad
 
 from scene2hap.haptics import Bands
-from scene2hap.propagation.band_rms import BandRms
-from scene2hap.propagation.exponential_plate import band_rms
+from scene2hap.propagation.band_rms import BandRms, band_rms
 
 BANDS = Bands.third_octaves(10, 1000)
-GAINS = BandRms(BANDS.edges_hz, lambda length: band_rms(length, BANDS.widths_hz()))
+GAINS = BandRms(BANDS.edges_hz)
 
 
 def test_gains_are_the_mean_square_over_each_band() -> None:
