@@ -128,7 +128,8 @@ class ContactFinder:
             self._ties[y].pop(x, None)
             self._stop(x, y)
             dirty.add(pair_of(x, y))
-            unsure.add(y)
+            if tie.rest(y) is not None or y in self._loose:
+                unsure.add(y)
 
     def _stop(self, x: str, y: str) -> None:
         """What was sure of how two slide is so no longer."""
@@ -274,7 +275,7 @@ class ContactFinder:
     def _holders(self, x: str) -> dict[str, Bond]:
         """What holds a body, by support and, as far as that is wanting, by hanging."""
         body = self._bodies[x]
-        below, lies_on = self._below(body)
+        below, lies_on = self._below(body) if self._ties[x] else ({}, ())
         bonds = {}
         for y, support in below.items():
             sign = 1.0 if x < y else -1.0
