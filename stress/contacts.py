@@ -37,6 +37,7 @@ def without_clearings() -> Iterator[None]:
         mock.patch("scene2hap.contact.tie.below", return_value=None),
         mock.patch("scene2hap.contact.tie.is_clear", return_value=False),
         mock.patch("scene2hap.contact.finder.is_clear", return_value=False),
+        mock.patch("scene2hap.contact.holding.is_clear", return_value=False),
     ):
         yield
 

@@ -6,35 +6,22 @@ alone, so that moving step by step ends exactly where building from nothing does
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.bond import NO_BOND, NO_WAY, Bond, Plan, direction, strength, triple
+from scene2hap.contact.bond import Bond
 from scene2hap.contact.clearing import is_clear
 from scene2hap.contact.crowd import Crowd, Room
-from scene2hap.contact.cuboid_meeting import gaps_of, points_of
+from scene2hap.contact.cuboid_meeting import gaps_of
 from scene2hap.contact.falls_together import falls_of
 from scene2hap.contact.glide import Drift, Glide
+from scene2hap.contact.holding import Holding
 from scene2hap.contact.junction import Junction, Pair, pair_of
-from scene2hap.contact.support import (
-    PATCH_SHARE,
-    TOUCH_M,
-    Support,
-    fall_reach_m,
-    hang_reach_m,
-    hangs,
-    level_supports,
-    margins_m,
-    supports,
-    weight,
-)
-from scene2hap.contact.tie import UNCLEAR, WITHIN_M, Tie, apart_by, slide
-from scene2hap.contact.vectors import Floats, Triple
+from scene2hap.contact.support import TOUCH_M, Support, margins_m
+from scene2hap.contact.tie import WITHIN_M, Slide, Tie, apart_by, slide
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject
 
-_SLACK_M = PATCH_SHARE * TOUCH_M
 _ONES = (1.0,) * 4
 _VAIN = 15  # A glide that was refused so often is drawn anew.
 
@@ -47,13 +34,10 @@ class ContactFinder:
 
     def __init__(self, up_axis: int) -> None:
         self._up_axis = up_axis
-        self._bodies: dict[str, Body] = {}
         self._crowd = Crowd(up_axis, margins_m)
-        self._ties: dict[str, dict[str, Tie]] = {}
-        self._held: dict[str, dict[str, Bond]] = {}
-        # Those that nothing wholly supports, so that larger things near them may bear on how they hang.
-        self._loose: set[str] = set()
         self._glides: dict[str, Glide | Drift] = {}
+        holding = self._holding = Holding(up_axis, self._crowd.near, self._glides)
+        self._bodies, self._ties, self._held, self._loose = holding.bodies, holding.ties, holding.held, holding.loose
         # By host, whose glides end when it moves.
         self._guests: dict[str, set[str]] = {}
 
@@ -103,10 +87,10 @@ class ContactFinder:
         seen: set[str] = set()
         for body in placed:
             x = body.id
-            if x not in left and self._slide(body, found):
-                continue
             for y in left.get(x, ()):
                 self._part(x, y, dirty, unsure)
+            if self._slide(body, found):
+                continue
             self._look_around(body, seen, dirty, unsure)
             seen.add(x)
         self._tell_cuboids_apart(seen)
@@ -115,7 +99,7 @@ class ContactFinder:
         for x in unsure:
             if x in bodies:
                 self._hold_anew(x, dirty)
-        found.update(self._junctions(dirty))
+        found.update(self._holding.junctions(dirty))
         for x in seen:
             if not self._ties[x]:
                 self._keep(Drift.of(bodies[x], self._crowd.room(x), self._around(x)))
@@ -148,26 +132,48 @@ class ContactFinder:
         """
         x, bodies = body.id, self._bodies
         ties = self._ties.get(x)
-        if ties is None or len(ties) != 1 or x in self._loose:
+        if ties is None or len(ties) > 1:
             return False
+        if not ties:
+            return self._land(body, found)
         ((y, tie),) = ties.items()
         support, is_a = bodies[y], x == tie.a.id
-        if (tie.b if is_a else tie.a) is not support or not self._stands_alone(body, y):
+        if x in self._loose or (tie.b if is_a else tie.a) is not support:
             return False
-        bond = self._held[x].get(y)
-        if bond is None or not bond.lies or bond.weight != 1.0:
+        held = self._held.get(x)
+        bond = held.get(y) if held and len(held) == 1 else None
+        if bond is None or not bond.lies or bond.weight != 1.0 or not self._lets_alone(body, y):
             return False
         slid = slide(body, support)
         if slid is None:
             return False
         tie.slide(body, slid.rest, is_a)
-        n = len(slid.points)
-        found[(x, y) if is_a else (y, x)] = Junction(slid.points, _ONES[:n], bond.normals[:n])
+        found[tie.a.id, tie.b.id] = _lies(slid, bond)
         glide = self._glides.get(x)
         if isinstance(glide, Glide) and glide.refused <= _VAIN and glide.tray == slid.tray:
             glide.resume(body)
         else:
             self._keep(Glide.of(body, tie, slid, bond.normal, self._crowd.room(x), self._around(x)))
+        return True
+
+    def _land(self, body: Body, found: dict[Pair, Junction | None]) -> bool:
+        """The short way for what touched nothing, and comes to lie on one thing alone; else as `_slide`."""
+        x, bodies = body.id, self._bodies
+        amid = self._amid(body)
+        if not amid:
+            return False
+        y = min(amid, key=lambda z: bodies[z].size_m)
+        slid = slide(body, bodies[y])
+        if slid is None or (len(amid) > 1 and not self._lets_alone(body, y)):
+            return False
+        one, other = (body, bodies[y]) if x < y else (bodies[y], body)
+        tie = Tie(one, other, slid.rest if one is body else None, slid.rest if other is body else None)
+        self._ties[x][y] = self._ties.setdefault(y, {})[x] = tie
+        self._loose.discard(x)
+        self._stop_around(x)
+        bond = self._holding.support(x, y, Support(1.0, slid.rest.fall_m), lies=True)
+        self._held[x] = {y: bond}
+        found[one.id, other.id] = _lies(slid, bond)
         return True
 
     def _keep(self, glide: Glide | Drift) -> None:
@@ -185,9 +191,16 @@ class ContactFinder:
         room, bodies = self._crowd.room, self._bodies
         return [(bodies[z], room(z)) for z in self._crowd.near[x]]
 
-    def _stands_alone(self, body: Body, support: str) -> bool:
-        """Whether all neighbours but its support are beside a body, and none may hang from it."""
-        bodies, loose, margin_m, size_m = self._bodies, self._loose, TOUCH_M, body.size_m
+    def _lets_alone(self, body: Body, support: str) -> bool:
+        """Whether all neighbours but its support are beside a body or around it, and none may hang from it."""
+        amid, bodies, size_m = self._amid(body), self._bodies, body.size_m
+        return amid is not None and all(
+            z == support or (size_m < bodies[z].size_m and is_clear(body, bodies[z])) for z in amid
+        )
+
+    def _amid(self, body: Body) -> list[str] | None:
+        """The neighbours that a body is not beside; None if one may hang from it."""
+        bodies, loose, margin_m, size_m, amid = self._bodies, self._loose, TOUCH_M, body.size_m, []
         (x0, x1, x2), (x3, x4, x5) = body.low, body.high
         flat = 3 - self._up_axis
         if flat == 1:
@@ -196,13 +209,11 @@ class ContactFinder:
         for z in self._crowd.near[body.id]:
             other = bodies[z]
             low, high = other.low, other.high
-            if x0 > high[0] or low[0] > x3 or x2 > high[flat] or low[flat] > x5:
-                is_in_the_way = False
-            else:
-                is_in_the_way = z != support and (size_m >= other.size_m or not is_clear(body, other))
-            if is_in_the_way or (z in loose and size_m > other.size_m):
-                return False
-        return True
+            if not (x0 > high[0] or low[0] > x3 or x2 > high[flat] or low[flat] > x5):
+                amid.append(z)
+            if z in loose and size_m > other.size_m:
+                return None
+        return amid
 
     def _look_around(self, body: Body, seen: set[str], dirty: set[Pair], unsure: set[str]) -> None:
         """Tie a body that moved to what is now near enough to matter."""
@@ -261,7 +272,7 @@ class ContactFinder:
     def _hold_anew(self, x: str, dirty: set[Pair]) -> None:
         """Find out what holds a body; the pairs in which another than before does are dirty."""
         was_loose = x in self._loose
-        before, now = self._held.get(x), self._holders(x)
+        before, now = self._held.get(x), self._holding.holders(x)
         self._glides.pop(x, None)
         if was_loose != (x in self._loose):
             self._stop_around(x)
@@ -272,128 +283,8 @@ class ContactFinder:
         for y in (before or {}).keys() | now.keys():
             dirty.add(pair_of(x, y))
 
-    def _holders(self, x: str) -> dict[str, Bond]:
-        """What holds a body, by support and, as far as that is wanting, by hanging."""
-        body = self._bodies[x]
-        below, lies_on = self._below(body) if self._ties[x] else ({}, ())
-        bonds = {}
-        for y, support in below.items():
-            sign = 1.0 if x < y else -1.0
-            normal = (0.0, -sign, 0.0) if self._up_axis == 1 else (0.0, 0.0, -sign)
-            way = (normal[0] * support.fall_m, normal[1] * support.fall_m, normal[2] * support.fall_m)
-            bonds[y] = Bond(support.weight, way, normal, y in lies_on, x)
-        supported = max((bond.weight for bond in bonds.values()), default=0.0)
-        if supported < 1:
-            self._loose.add(x)
-            for y, bond in self._hanging(body, supported).items():
-                bonds[y] = max(bonds.get(y, NO_BOND), bond, key=strength)
-        else:
-            self._loose.discard(x)
-        return bonds
 
-    def _below(self, body: Body) -> tuple[Mapping[str, Support], Collection[str]]:
-        """What supports a body, and on which of that it lies level."""
-        ties, reach_m = self._ties[body.id], fall_reach_m(body.size_m)
-        rests = {y: rest for y, tie in ties.items() if (rest := tie.rest(body.id)) is not None}
-        unclear = [y for y, rest in rests.items() if rest is UNCLEAR]
-        if len(unclear) == len(rests) == 1:
-            # What is met first holds it, and nothing else is to be seen by other parts of the bottom.
-            fall_m = ties[unclear[0]].first_fall_m(body.id)
-            share = weight(fall_m, reach_m)
-            return ({unclear[0]: Support(share, fall_m)} if share > 0 else {}), ()
-        rests = {y: rest for y, rest in rests.items() if rest is not UNCLEAR}
-        falls_m = self._falls(body, unclear, min((rest.fall_m for rest in rests.values()), default=math.inf))
-        if rests and not falls_m and (below := level_supports(rests, reach_m)) is not None:
-            return below, rests
-        falls_m |= self._falls(body, rests)
-        return supports(dict(sorted(falls_m.items())), reach_m), ()
-
-    def _falls(self, body: Body, onto: Iterable[str], least_m: float = math.inf) -> dict[str, Floats]:
-        """How far the triangles of a body are to fall to things below; not to what lies deeper than another, be it
-        `least_m` deep, by more than what still counts."""
-        bodies, ties = self._bodies, self._ties[body.id]
-        found: dict[str, Floats] = {}
-        for y in sorted(onto, key=lambda y: (-bodies[y].highest_m, y)):
-            if body.lowest_m - bodies[y].highest_m > least_m + TOUCH_M:
-                break
-            falls_m = ties[y].falls(body.id)
-            if falls_m is not None and (first_m := float(falls_m.min())) <= least_m + TOUCH_M:
-                found[y], least_m = falls_m, min(least_m, first_m)
-        return found
-
-    def _hanging(self, body: Body, supported: float) -> dict[str, Bond]:
-        """What holds a body sideways, as far as nothing supports it."""
-        x, reach_m = body.id, hang_reach_m(body.size_m)
-        ways: dict[str, tuple[float, Triple]] = {}
-        bodies, size_m = self._bodies, body.size_m
-        larger = [
-            y
-            for y in self._crowd.near[x]
-            if (other := bodies[y]).size_m > size_m and not apart_by(body, other, reach_m) and not is_clear(body, other)
-        ]
-        if not larger:
-            return {}
-        for y in sorted(larger):
-            way = self._apart(self._tie(x, y), reach_m)
-            if way is not None:
-                ways[y] = way
-        shares = hangs({y: distance for y, (distance, _) in ways.items()}, reach_m)
-        return {
-            y: Bond((1 - supported) * share, ways[y][1], direction(*ways[y]), False, x) for y, share in shares.items()
-        }
-
-    def _apart(self, tie: Tie, within_m: float) -> tuple[float, Triple] | None:
-        """How far two are apart and which way, if it is at most `within_m`."""
-        side = tie.aside(within_m, _SLACK_M)
-        if side is not None:
-            return (side.distance_m, side.way_m) if side.points else None
-        gap = tie.gap(within_m)
-        return None if gap is None else (gap.distance_m, triple(gap.way_m))
-
-    def _tie(self, x: str, y: str) -> Tie:
-        tie = self._ties[x].get(y)
-        if tie is None:
-            a, b = pair_of(x, y)
-            self._stop(x, y)
-            tie = self._ties[x][y] = self._ties.setdefault(y, {})[x] = Tie.between(self._bodies[a], self._bodies[b])
-        return tie
-
-    def _junctions(self, pairs: Iterable[Pair]) -> dict[Pair, Junction | None]:
-        """Where these pairs touch; points of cuboids are found all at once."""
-        plans = {pair: self._plan(pair) for pair in pairs}
-        ask = [plan for plan in plans.values() if plan is not None and plan.rest is None and plan.tie.are_cuboids]
-        ask = [plan for plan in ask if plan.side is None]
-        couples = [(plan.tie.a, plan.tie.b) for plan in ask]
-        points = points_of(couples, [plan.bond.way_m for plan in ask], [plan.within_m for plan in ask])
-        for plan, several in zip(ask, points, strict=True):
-            plan.tie.tell_points(plan.bond.way_m, plan.within_m, several)
-        return {pair: None if plan is None else plan.junction() for pair, plan in plans.items()}
-
-    def _plan(self, pair: Pair) -> Plan | None:
-        """How a pair touches by its strongest bond: a by b, b by a, mere touch, or one is built into the other."""
-        a, b = pair
-        tie = self._ties.get(a, {}).get(b)
-        if tie is None:
-            return None
-        slack_m = _SLACK_M
-        bond, is_touch = NO_BOND, False
-        for x, y in ((a, b), (b, a)):
-            held = self._held.get(x)
-            one = held.get(y) if held else None
-            if one is not None and strength(one) > strength(bond):
-                bond = one
-        if bond.weight < 1 and not apart_by(tie.a, tie.b, TOUCH_M):
-            apart = self._apart(tie, TOUCH_M)
-            if apart is not None:
-                share = weight(apart[0], TOUCH_M)
-                if share > bond.weight:
-                    bond, is_touch = Bond(share, NO_WAY, direction(*apart), False, a), True
-                    slack_m += apart[0]
-        if bond.weight < 1:
-            share, play_m = tie.enclosed()
-            if share > bond.weight:
-                bond, is_touch, slack_m = Bond(share, NO_WAY, None, False, a), False, _SLACK_M + play_m
-        if bond.weight <= 0:
-            return None
-        side = tie.aside(TOUCH_M, _SLACK_M) if is_touch else None
-        return Plan(tie, bond, slack_m, tie.rest(bond.faller) if bond.lies else None, side)
+def _lies(slid: Slide, bond: Bond) -> Junction:
+    """Where a body lies wholly on another."""
+    n = len(slid.points)
+    return Junction(slid.points, _ONES[:n], bond.normals[:n])

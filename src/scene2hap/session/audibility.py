@@ -45,8 +45,6 @@ class Audibility:
         self._felt = peaks[:, 0, :, None].copy()
         with np.errstate(divide="ignore", over="ignore"):
             self._least_gain = np.float32(SILENT) / peaks[:, 1]
-        self._columns: Sequence[int] | None = None
-        self._least_of_columns = self._least_gain
         self.least_felt = np.float32(10 ** (-BELOW_THRESHOLD_DB / 20) / max(1, len(rows)))
 
     def felt(self, gains: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -68,17 +66,15 @@ class Audibility:
     def loud(self, gains: NDArray[np.float32], columns: Sequence[int] | None = None) -> NDArray[np.float32]:
         """Gains of the sources in some columns, None for all, 0 in bands of which next to nothing is left; changes what
         it is given."""
-        if columns != self._columns:
-            self._columns = columns
-            self._least_of_columns = self._least_gain if columns is None else self._least_gain[columns]
-        self._counts.silent_bands += silence(gains, self._least_of_columns)
+        self._counts.silent_bands += silence(gains, self._least_gain, columns)
         return gains
 
 
 @compiled
-def silence(gains: NDArray[np.float32], least: NDArray[np.float32]) -> int:
-    """Set to 0 what of gains (n, m, k) is less than a least (m, k); how many were not 0 already."""
-    is_silent = ~(gains >= least)
+def silence(gains: NDArray[np.float32], least: NDArray[np.float32], columns: Sequence[int] | None) -> int:
+    """Set to 0 what of gains (n, n_columns, k) is less than a least (m, k) in some columns of m, None for all; how many
+    were not 0 already."""
+    is_silent = ~(gains >= (least if columns is None else least[columns]))
     n_silent = int(np.count_nonzero(gains[is_silent]))
     gains[is_silent] = 0.0
     return n_silent

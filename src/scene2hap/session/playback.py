@@ -28,6 +28,7 @@ SPARE_SLOTS = 16
 
 Indices = NDArray[np.intp]
 
+_MOST_ROUTES = 64
 
 _Route = tuple[Deck, list[int] | None, list[int], list[int], Indices | None]
 """A deck, which sources it plays and in which slots, on which of its outputs, and of which channels; None for all."""
@@ -66,7 +67,9 @@ class Playback:
         self._next_hand = n_hands
         self._places: dict[LoopRow, _Place] = {}
         self._retired: list[_Place] = []
-        self._routes: tuple[Sequence[LoopRow], Sequence[int] | None, list[_Route]] | None = None
+        # By columns of the active rows.
+        self._routes: dict[tuple[int, ...] | None, list[_Route]] = {}
+        self._active: Sequence[LoopRow] = ()
         self._banks = [self._new_bank(len(rows))]
         self._decks = [Deck(config, self._banks[0], tuple(self._hands), 0)]
         self._plan = self._new_plan()
@@ -106,13 +109,21 @@ class Playback:
         """Move to gains (n_hands, n_columns, n_bands) of some of the active rows, None for all, and to 0 for others."""
         if self._paused_from is not None:
             return
-        routes = self._routes
-        if routes is None or routes[0] is not active or routes[1] != columns:
-            rows = active if columns is None else [active[x] for x in columns]
-            routes = self._routes = (active, columns, [self._route(rows, *heard) for heard in self._plan.decks])
-        for deck, own, slots, outputs, channels in routes[2]:
+        for deck, own, slots, outputs, channels in self._routes_of(active, columns):
             told = gains if own is None else gains[:, own]
             deck.move_to(told if channels is None else told[channels], slots, outputs, at_frame)
+
+    def _routes_of(self, active: Sequence[LoopRow], columns: Sequence[int] | None) -> list[_Route]:
+        """How some of the active rows go; the same few come again and again as a source is lifted and put down."""
+        if self._active is not active or len(self._routes) >= _MOST_ROUTES:
+            self._active = active
+            self._routes.clear()
+        key = None if columns is None else tuple(columns)
+        routes = self._routes.get(key)
+        if routes is None:
+            rows = active if columns is None else [active[x] for x in columns]
+            routes = self._routes[key] = [self._route(rows, *heard) for heard in self._plan.decks]
+        return routes
 
     def _route(self, rows: Sequence[LoopRow], deck: Deck, outputs: Indices, channels: Indices) -> _Route:
         places = [self._places[row] for row in rows]
@@ -124,7 +135,7 @@ class Playback:
 
     def change_rows(self, rows: Sequence[LoopRow], at_frame: int) -> None:
         """Go on with other rows; what is not among them any more is faded out."""
-        self._routes = None
+        self._routes.clear()
         wanted = set(rows)
         gone = [self._places.pop(row) for row in list(self._places) if row not in wanted]
         for place in gone:
@@ -188,7 +199,7 @@ class Playback:
         return mix
 
     def _new_plan(self) -> _Plan:
-        self._routes = None
+        self._routes.clear()
         decks = []
         for deck in self._decks:
             heard = [(i, self._hands.index(hand)) for i, hand in enumerate(deck.hands) if hand in self._hands]

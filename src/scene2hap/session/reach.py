@@ -57,13 +57,16 @@ class Reach:
             self._join(a, b)
         ends: dict[_Group, set[str]] = {}
         for x in chain.from_iterable(change.vanished):
-            if x in self._group:
-                ends.setdefault(self._group[x], set()).add(x)
+            group = self._group.get(x)
+            if group is None:
+                continue
+            if self._beside.get(x):
+                ends.setdefault(group, set()).add(x)
+            else:
+                self._leave(group, x)
         for group, starts in ends.items():
-            for x in [x for x in starts if not self._beside.get(x)]:
-                starts.discard(x)
-                self._split_off(group, {x})
-            self._part(group, starts)
+            if len(starts) > 1:
+                self._part(group, starts)
 
     def has(self, object_id: str) -> bool:
         """Whether a source reaches an object over contacts."""
@@ -101,8 +104,15 @@ class Reach:
 
     def n_of(self, objects: Container[str]) -> int:
         """How many of these they are, where all but sources are among these."""
-        n_all = sum(len(group.members) for group in self._groups_with_sources())
-        return n_all - sum(x in self._group and x not in objects for x in self._column)
+        n, counted = 0, set[_Group]()
+        for source_id in self._column:
+            group = self._group.get(source_id)
+            if group is not None:
+                n -= source_id not in objects
+                if group not in counted:
+                    counted.add(group)
+                    n += len(group.members)
+        return n
 
     def _groups_with_sources(self) -> set[_Group]:
         return {self._group[source_id] for source_id in self._column if source_id in self._group}
@@ -150,15 +160,20 @@ class Reach:
                     searches.remove(other)
             if not search.waiting and len(searches) > 1:
                 searches.remove(search)
-                self._split_off(group, search.seen)
+                group.members -= search.seen
+                sources = self._sources_in(search.seen)
+                group.sources -= sources
+                self._group.update(dict.fromkeys(search.seen, _Group(search.seen, sources)))
+                self._forget_if_alone(search.seen)
         self._forget_if_alone(group.members)
 
-    def _split_off(self, group: _Group, members: set[str]) -> None:
-        group.members -= members
-        sources = self._sources_in(members)
-        group.sources -= sources
-        self._group.update(dict.fromkeys(members, _Group(members, sources)))
-        self._forget_if_alone(members)
+    def _leave(self, group: _Group, x: str) -> None:
+        """What touches nothing any more is in no group."""
+        del self._group[x]
+        group.members.discard(x)
+        if x in self._column:
+            group.sources -= {self._column[x]}
+        self._forget_if_alone(group.members)
 
     def _sources_in(self, members: Collection[str]) -> frozenset[int]:
         column = self._column

@@ -1,0 +1,178 @@
+"""What holds each body, and how pairs touch by that: it lies on another, hangs from it, or touches it.
+
+Asked for one body or pair at a time; all that is asked depends on ties alone.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Iterable, Mapping, MutableMapping
+from typing import Any
+
+from scene2hap.contact.body import Body
+from scene2hap.contact.bond import NO_BOND, NO_WAY, Bond, Plan, direction, strength, triple
+from scene2hap.contact.clearing import is_clear
+from scene2hap.contact.cuboid_meeting import points_of
+from scene2hap.contact.junction import Junction, Pair, pair_of
+from scene2hap.contact.support import (
+    PATCH_SHARE,
+    TOUCH_M,
+    Support,
+    fall_reach_m,
+    hang_reach_m,
+    hangs,
+    level_supports,
+    supports,
+    weight,
+)
+from scene2hap.contact.tie import UNCLEAR, Tie, apart_by
+from scene2hap.contact.vectors import Floats, Triple
+
+_SLACK_M = PATCH_SHARE * TOUCH_M
+
+
+class Holding:
+    """Bodies, the ties between them and what holds each of them, all by id, as their owner keeps them.
+
+    Parameters: near : the neighbours of each body; glides : what is sure of how bodies move, dropped for two that are
+    tied here.
+    """
+
+    def __init__(self, up_axis: int, near: Mapping[str, Collection[str]], glides: MutableMapping[str, Any]) -> None:
+        self._up_axis, self._near, self._glides = up_axis, near, glides
+        self.bodies: dict[str, Body] = {}
+        self.ties: dict[str, dict[str, Tie]] = {}
+        self.held: dict[str, dict[str, Bond]] = {}
+        # Those that nothing wholly supports, so that larger things near them may bear on how they hang.
+        self.loose: set[str] = set()
+
+    def holders(self, x: str) -> dict[str, Bond]:
+        """What holds a body, by support and, as far as that is wanting, by hanging."""
+        body = self.bodies[x]
+        below, lies_on = self._below(body) if self.ties[x] else ({}, ())
+        bonds = {}
+        for y, support in below.items():
+            bonds[y] = self.support(x, y, support, lies=y in lies_on)
+        supported = max((bond.weight for bond in bonds.values()), default=0.0)
+        if supported < 1:
+            self.loose.add(x)
+            for y, bond in self._hanging(body, supported).items():
+                bonds[y] = max(bonds.get(y, NO_BOND), bond, key=strength)
+        else:
+            self.loose.discard(x)
+        return bonds
+
+    def support(self, x: str, y: str, support: Support, *, lies: bool) -> Bond:
+        """The bond by which y supports x."""
+        sign = 1.0 if x < y else -1.0
+        normal = (0.0, -sign, 0.0) if self._up_axis == 1 else (0.0, 0.0, -sign)
+        way = (normal[0] * support.fall_m, normal[1] * support.fall_m, normal[2] * support.fall_m)
+        return Bond(support.weight, way, normal, lies, x)
+
+    def _below(self, body: Body) -> tuple[Mapping[str, Support], Collection[str]]:
+        """What supports a body, and on which of that it lies level."""
+        ties, reach_m = self.ties[body.id], fall_reach_m(body.size_m)
+        rests = {y: rest for y, tie in ties.items() if (rest := tie.rest(body.id)) is not None}
+        unclear = [y for y, rest in rests.items() if rest is UNCLEAR]
+        if len(unclear) == len(rests) == 1:
+            # What is met first holds it, and nothing else is to be seen by other parts of the bottom.
+            fall_m = ties[unclear[0]].first_fall_m(body.id)
+            share = weight(fall_m, reach_m)
+            return ({unclear[0]: Support(share, fall_m)} if share > 0 else {}), ()
+        rests = {y: rest for y, rest in rests.items() if rest is not UNCLEAR}
+        falls_m = self._falls(body, unclear, min((rest.fall_m for rest in rests.values()), default=math.inf))
+        if rests and not falls_m and (below := level_supports(rests, reach_m)) is not None:
+            return below, rests
+        falls_m |= self._falls(body, rests)
+        return supports(dict(sorted(falls_m.items())), reach_m), ()
+
+    def _falls(self, body: Body, onto: Iterable[str], least_m: float = math.inf) -> dict[str, Floats]:
+        """How far the triangles of a body are to fall to things below; not to what lies deeper than another, be it
+        `least_m` deep, by more than what still counts."""
+        bodies, ties = self.bodies, self.ties[body.id]
+        found: dict[str, Floats] = {}
+        for y in sorted(onto, key=lambda y: (-bodies[y].highest_m, y)):
+            if body.lowest_m - bodies[y].highest_m > least_m + TOUCH_M:
+                break
+            falls_m = ties[y].falls(body.id)
+            if falls_m is not None and (first_m := float(falls_m.min())) <= least_m + TOUCH_M:
+                found[y], least_m = falls_m, min(least_m, first_m)
+        return found
+
+    def _hanging(self, body: Body, supported: float) -> dict[str, Bond]:
+        """What holds a body sideways, as far as nothing supports it."""
+        x, reach_m = body.id, hang_reach_m(body.size_m)
+        ways: dict[str, tuple[float, Triple]] = {}
+        bodies, size_m = self.bodies, body.size_m
+        larger = [
+            y
+            for y in self._near[x]
+            if (other := bodies[y]).size_m > size_m and not apart_by(body, other, reach_m) and not is_clear(body, other)
+        ]
+        if not larger:
+            return {}
+        for y in sorted(larger):
+            way = self._apart(self._tie(x, y), reach_m)
+            if way is not None:
+                ways[y] = way
+        shares = hangs({y: distance for y, (distance, _) in ways.items()}, reach_m)
+        return {
+            y: Bond((1 - supported) * share, ways[y][1], direction(*ways[y]), False, x) for y, share in shares.items()
+        }
+
+    def _apart(self, tie: Tie, within_m: float) -> tuple[float, Triple] | None:
+        """How far two are apart and which way, if it is at most `within_m`."""
+        side = tie.aside(within_m, _SLACK_M)
+        if side is not None:
+            return (side.distance_m, side.way_m) if side.points else None
+        gap = tie.gap(within_m)
+        return None if gap is None else (gap.distance_m, triple(gap.way_m))
+
+    def _tie(self, x: str, y: str) -> Tie:
+        tie = self.ties[x].get(y)
+        if tie is None:
+            a, b = pair_of(x, y)
+            self._glides.pop(x, None)
+            self._glides.pop(y, None)
+            tie = self.ties[x][y] = self.ties.setdefault(y, {})[x] = Tie.between(self.bodies[a], self.bodies[b])
+        return tie
+
+    def junctions(self, pairs: Iterable[Pair]) -> dict[Pair, Junction | None]:
+        """Where these pairs touch; points of cuboids are found all at once."""
+        plans = {pair: self._plan(pair) for pair in pairs}
+        ask = [plan for plan in plans.values() if plan is not None and plan.rest is None and plan.tie.are_cuboids]
+        ask = [plan for plan in ask if plan.side is None]
+        couples = [(plan.tie.a, plan.tie.b) for plan in ask]
+        points = points_of(couples, [plan.bond.way_m for plan in ask], [plan.within_m for plan in ask])
+        for plan, several in zip(ask, points, strict=True):
+            plan.tie.tell_points(plan.bond.way_m, plan.within_m, several)
+        return {pair: None if plan is None else plan.junction() for pair, plan in plans.items()}
+
+    def _plan(self, pair: Pair) -> Plan | None:
+        """How a pair touches by its strongest bond: a by b, b by a, mere touch, or one is built into the other."""
+        a, b = pair
+        tie = self.ties.get(a, {}).get(b)
+        if tie is None:
+            return None
+        slack_m = _SLACK_M
+        bond, is_touch = NO_BOND, False
+        for x, y in ((a, b), (b, a)):
+            held = self.held.get(x)
+            one = held.get(y) if held else None
+            if one is not None and strength(one) > strength(bond):
+                bond = one
+        if bond.weight < 1 and not apart_by(tie.a, tie.b, TOUCH_M):
+            apart = self._apart(tie, TOUCH_M)
+            if apart is not None:
+                share = weight(apart[0], TOUCH_M)
+                if share > bond.weight:
+                    bond, is_touch = Bond(share, NO_WAY, direction(*apart), False, a), True
+                    slack_m += apart[0]
+        if bond.weight < 1:
+            share, play_m = tie.enclosed()
+            if share > bond.weight:
+                bond, is_touch, slack_m = Bond(share, NO_WAY, None, False, a), False, _SLACK_M + play_m
+        if bond.weight <= 0:
+            return None
+        side = tie.aside(TOUCH_M, _SLACK_M) if is_touch else None
+        return Plan(tie, bond, slack_m, tie.rest(bond.faller) if bond.lies else None, side)
