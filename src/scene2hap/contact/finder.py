@@ -93,8 +93,10 @@ class ContactFinder:
                 continue
             self._look_around(body, seen, dirty, unsure)
             seen.add(x)
-        self._tell_cuboids_apart(seen)
         unsure.update(seen)
+        if not (unsure or dirty):
+            return
+        self._tell_cuboids_apart(seen)
         self._tell_falls(unsure)
         for x in unsure:
             if x in bodies:

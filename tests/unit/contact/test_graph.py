@@ -154,7 +154,7 @@ def test_what_does_not_move_is_not_looked_at(monkeypatch: pytest.MonkeyPatch) ->
     assert all(pair == {"cup", "table"} for pair in met)
     # Over the table's edge the foot of a tilted thing is not all over the table, so that triangles must tell.
     graph.update({"cup": Pose((0.5, 0.77, 0.1), (0.1, 0.0, 0.0, 1.0))})
-    assert len(met) > 2
+    assert len(met) >= 2  # tied, and its triangles asked
     assert all(pair == {"cup", "table"} for pair in met)
 
 
