@@ -246,6 +246,24 @@ def test_zones_that_meet(seed: int) -> None:
 
 
 @steady
+@given(seed=seeds)
+def test_outlines_beside_each_other_to_the_last_bit(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    outlines = []
+    for n in rng.integers(3, 9, 2):
+        angles = np.sort(rng.uniform(0, 2 * math.pi, n))
+        ring = np.stack([np.cos(angles), np.sin(angles)], axis=1) + rng.choice([0.0, 1.0, 2.0, 2.001], 2)
+        if rng.random() < 0.5:
+            # Squares side by side, as things on a grid are: several ways are equally short.
+            ring = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]) + rng.choice([0.0, 1.0, 1.25], 2)
+        outlines.append([(u, v) for u, v in ring.tolist()])
+    plain, twin = both("contact.outlines.facing")
+    for rise_m in (0.0, 0.1):
+        given = (*outlines, rise_m, float(rng.choice([0.1, 0.5, 4.0])), 0.01)
+        assert twin(*given) == plain(*given)
+
+
+@steady
 @given(seed=seeds, n=st.integers(0, 3))
 def test_silent_bands(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
-
-import numpy as np
 
 from scene2hap.contact.junction import Junction
 from scene2hap.contact.level import Aside, Rest, rest_points
@@ -65,8 +64,9 @@ def direction(distance_m: float, way_m: Triple) -> Triple | None:
     """The normal along the way between two surfaces, if that has a direction."""
     if distance_m < CLEAR_M:
         return None
-    x, y, z = (np.array(way_m) / np.linalg.norm(way_m)).tolist()
-    return (x, y, z)
+    x, y, z = way_m
+    length = math.sqrt(x * x + y * y + z * z)
+    return (x / length, y / length, z / length)
 
 
 def triple(way: Floats) -> Triple:

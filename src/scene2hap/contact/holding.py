@@ -15,7 +15,7 @@ from scene2hap.contact.clearing import is_clear
 from scene2hap.contact.cuboid_meeting import points_of
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.support import (
-    PATCH_SHARE,
+    SLACK_M,
     TOUCH_M,
     Support,
     fall_reach_m,
@@ -27,8 +27,6 @@ from scene2hap.contact.support import (
 )
 from scene2hap.contact.tie import UNCLEAR, Tie, apart_by
 from scene2hap.contact.vectors import Floats, Triple
-
-_SLACK_M = PATCH_SHARE * TOUCH_M
 
 
 class Holding:
@@ -122,7 +120,7 @@ class Holding:
 
     def _apart(self, tie: Tie, within_m: float) -> tuple[float, Triple] | None:
         """How far two are apart and which way, if it is at most `within_m`."""
-        side = tie.aside(within_m, _SLACK_M)
+        side = tie.aside(within_m, SLACK_M)
         if side is not None:
             return (side.distance_m, side.way_m) if side.points else None
         gap = tie.gap(within_m)
@@ -154,7 +152,7 @@ class Holding:
         tie = self.ties.get(a, {}).get(b)
         if tie is None:
             return None
-        slack_m = _SLACK_M
+        slack_m = SLACK_M
         bond, is_touch = NO_BOND, False
         for x, y in ((a, b), (b, a)):
             held = self.held.get(x)
@@ -171,8 +169,8 @@ class Holding:
         if bond.weight < 1:
             share, play_m = tie.enclosed()
             if share > bond.weight:
-                bond, is_touch, slack_m = Bond(share, NO_WAY, None, False, a), False, _SLACK_M + play_m
+                bond, is_touch, slack_m = Bond(share, NO_WAY, None, False, a), False, SLACK_M + play_m
         if bond.weight <= 0:
             return None
-        side = tie.aside(TOUCH_M, _SLACK_M) if is_touch else None
+        side = tie.aside(TOUCH_M, SLACK_M) if is_touch else None
         return Plan(tie, bond, slack_m, tie.rest(bond.faller) if bond.lies else None, side)

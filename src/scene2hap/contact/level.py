@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from scene2hap.contact.body import Body
+from scene2hap.contact.outlines import facing
 from scene2hap.contact.spread import spread_few
 from scene2hap.contact.stance import Point, Stance, edges_of
 from scene2hap.contact.vectors import Triple
@@ -133,55 +134,24 @@ def aside(x: Body, y: Body, within_m: float, slack_m: float) -> Aside | None:
     upright = max(below - above, 0.0)
     if upright > within_m:
         return _FAR
-    ring_x, ring_y = _placed(x, v_axis), _placed(y, v_axis)
-    gap = _gap(ring_x, ring_y, within_m)
-    if gap < -_ROUNDING_M:
+    found = facing(_placed(x, v_axis), _placed(y, v_axis), upright, within_m, slack_m)
+    if found is None:
         return None
-    if gap > within_m:
+    distance, (du, dv), middles = found
+    if not middles:
         return _FAR
-    near = _corners_near(ring_x, ring_y) + [(q, p) for p, q in _corners_near(ring_y, ring_x)]
-    least = min(math.dist(p, q) for p, q in near)
-    distance = math.hypot(least, upright)
-    if distance > within_m:
-        return _FAR
-    ends = [(p, q) for p, q in near if math.hypot(math.dist(p, q), upright) <= distance + slack_m]
-    middles = [((p[0] + q[0]) / 2, (p[1] + q[1]) / 2) for p, q in ends]
     origin = (y.position_m[0], y.position_m[v_axis])
     own = _own([(u - origin[0], v - origin[1]) for u, v in middles], y.stance)
     far = [middles[k] for k in spread_few(own)][:2]
     heights = (below, above) if above - below > 2 * _ROUNDING_M else ((below + above) / 2,)
-    p, q = min(zip([math.dist(*pair) for pair in near], near, strict=True))[1]
     rise = 0.0 if upright == 0 else upright if y.low[a] >= x.high[a] else -upright
     points = tuple(_point(a, *middle, height) for height in heights for middle in far)
-    return Aside(distance, _point(a, q[0] - p[0], q[1] - p[1], rise), points)
+    return Aside(distance, _point(a, du, dv, rise), points)
 
 
 def _placed(x: Body, v_axis: int) -> list[Point]:
     u, v = x.position_m[0], x.position_m[v_axis]
     return [(u + pu, v + pv) for pu, pv in x.stance.sole_outline]
-
-
-def _corners_near(corners: Sequence[Point], ring: Sequence[Point]) -> list[tuple[Point, Point]]:
-    """For each corner and each edge of the ring, the corner and the edge's point nearest to it."""
-    found = []
-    for u, v in corners:
-        for (u1, v1), (u2, v2) in zip(ring, [*ring[1:], ring[0]], strict=True):
-            eu, ev = u2 - u1, v2 - v1
-            t = min(max(((u - u1) * eu + (v - v1) * ev) / (eu * eu + ev * ev), 0.0), 1.0)
-            found.append(((u, v), (u1 + t * eu, v1 + t * ev)))
-    return found
-
-
-def _gap(ring_x: Sequence[Point], ring_y: Sequence[Point], enough: float) -> float:
-    """How wide a strip along an edge of either is between two outlines, below 0 where they overlap: the widest, or the
-    first that is more than enough. No more than their distance."""
-    widest = -math.inf
-    for ring, other in ((ring_x, ring_y), (ring_y, ring_x)):
-        for nu, nv, offset in edges_of(tuple(ring)):
-            widest = max(widest, -max([nu * u + nv * v - offset for u, v in other]))
-            if widest > enough:
-                return widest
-    return widest
 
 
 def _chosen(ring: Sequence[Point], stance: Stance) -> list[Point]:

@@ -207,7 +207,7 @@ def edges_of(outline: tuple[Point, ...]) -> tuple[Triple, ...]:
     edges = []
     for (u1, v1), (u2, v2) in zip(outline, outline[1:] + outline[:1], strict=True):
         nu, nv = v1 - v2, u2 - u1
-        length = (nu * nu + nv * nv) ** 0.5
+        length = math.sqrt(nu * nu + nv * nv)
         if length == 0:
             continue
         nu, nv = nu / length, nv / length

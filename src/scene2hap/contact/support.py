@@ -31,6 +31,7 @@ TOUCH_M = 0.004
 PATCH_SHARE = 0.25
 """A patch holds what is this much farther apart than the nearest points, as a share of the tolerance (assumed): the
 feet of a chair are never quite level."""
+SLACK_M = PATCH_SHARE * TOUCH_M
 
 CLEAR_M = 1e-4
 """The way between surfaces nearer than this has no direction to speak of (assumed)."""

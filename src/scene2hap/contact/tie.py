@@ -22,7 +22,7 @@ from scene2hap.contact.level import Aside, Rest, aside, rest_on
 from scene2hap.contact.narrow import Gap, Meeting
 from scene2hap.contact.relative import roles
 from scene2hap.contact.stance import Tray
-from scene2hap.contact.support import HANG_REACH_M, TOUCH_M, fall_reach_m, is_over
+from scene2hap.contact.support import HANG_REACH_M, SLACK_M, TOUCH_M, fall_reach_m, is_over
 from scene2hap.contact.vectors import Floats, Triple
 
 # Above this a fall is surely none of a thing that stands in another: tops and soles may be 0.2 mm uneven each.
@@ -107,7 +107,10 @@ class Tie:
 
     @property
     def is_clear(self) -> bool:
-        """Whether the larger has surely nothing near the smaller, be it in its midst."""
+        """Whether the two have surely nothing near each other, be the smaller amid the larger."""
+        side = self.aside(TOUCH_M, SLACK_M)
+        if side is not None:
+            return not side.points
         return is_clear(*roles(self.a, self.b))
 
     @property
