@@ -277,6 +277,30 @@ def test_silent_bands(seed: int, n: int) -> None:
 
 
 @steady
+@given(seed=seeds, n=st.integers(0, 3))
+def test_what_is_left_out(seed: int, n: int) -> None:
+    rng = np.random.default_rng(seed)
+    gains = (rng.random((n, 4, 5)) * rng.choice([0.0, 1.0, 3.0], (n, 4, 1))).astype(np.float32)
+    peaks = (rng.random((4, 5)) * rng.choice([0.0, 1.0], (4, 1))).astype(np.float32)
+    told, compiled = gains.copy(), gains.copy()
+    plain, twin = both("session.audibility.leave_out")
+    assert twin(compiled, peaks, 0.7) == plain(told, peaks, 0.7)
+    np.testing.assert_array_equal(compiled, told)
+    plain, twin = both("session.audibility.sounding")
+    assert twin(told) == plain(told)
+
+
+@steady
+@given(seed=seeds, n=st.integers(0, 3))
+def test_caps(seed: int, n: int) -> None:
+    gains = np.random.default_rng(seed).choice([-1.0, -0.0, 0.0, 0.5, 2.0, 3.0, np.nan, np.inf], (n, 4, 5))
+    told, compiled = gains.copy(), gains.copy()
+    plain, twin = both("session.touch_gains.cap")
+    assert twin(compiled, 2.0) == plain(told, 2.0)
+    np.testing.assert_array_equal(compiled, told)
+
+
+@steady
 @given(seed=seeds, begin=st.one_of(st.integers(0, 10**6), st.integers(2**58, 2**60)))
 def test_cells_of_loops(seed: int, begin: int) -> None:
     rng = np.random.default_rng(seed)

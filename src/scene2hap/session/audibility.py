@@ -53,21 +53,33 @@ class Audibility:
         return felt
 
     def worth_mixing(self, gains: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Gains (n_hands, n_sources, n_bands), 0 where nothing is lost by it."""
+        """A copy of gains (n_hands, n_sources, n_bands), 0 where nothing is lost by it."""
+        worthy = gains.copy()
         if self._skip.below_threshold:
-            felt = self.felt(gains)
-            is_felt = felt >= self.least_felt
-            n_out = int(np.count_nonzero(felt)) - int(np.count_nonzero(is_felt))
-            if n_out:
-                self._counts.below_threshold += n_out
-                gains = gains * is_felt[:, :, None]
-        return self.loud(gains.copy()) if self._skip.silent_bands else gains
+            self._counts.below_threshold += leave_out(worthy, self._felt[:, :, 0], float(self.least_felt))
+        return self.loud(worthy) if self._skip.silent_bands else worthy
 
     def loud(self, gains: NDArray[np.float32], columns: Sequence[int] | None = None) -> NDArray[np.float32]:
         """Gains of the sources in some columns, None for all, 0 in bands of which next to nothing is left; changes what
         it is given."""
         self._counts.silent_bands += silence(gains, self._least_gain, columns)
         return gains
+
+
+@compiled
+def leave_out(gains: NDArray[np.float32], peaks: NDArray[np.float32], least: float) -> int:
+    """Set to 0 the sources of gains (n, m, k) whose peaks (m, k), so weighted, add up to less; how many were not."""
+    felt = np.einsum("nmk,mk->nm", gains.astype(np.float64), peaks.astype(np.float64))
+    is_left_out = felt < least
+    gains[is_left_out] = 0.0
+    return int(np.count_nonzero(felt[is_left_out]))
+
+
+@compiled
+def sounding(gains: NDArray[np.float32]) -> list[int]:
+    """The columns m in which any of gains (n, m, k) is not 0."""
+    found: list[int] = np.flatnonzero(gains.any(axis=(0, 2))).tolist()
+    return found
 
 
 @compiled

@@ -68,6 +68,8 @@ class _Desk:
     answers: deque[Prepared | tuple[Situation, Exception]] = field(default_factory=lambda: deque(maxlen=1))
     has_answered: threading.Event = field(default_factory=threading.Event)
     touched: Sequence[TouchedPoint] = ()
+    # Fields that are in use no more: giving back their memory is left to the worker, too.
+    spent: deque[Prepared] = field(default_factory=lambda: deque(maxlen=4))
 
     def prepare(self, situation: Situation, near: Collection[str] = ()) -> Prepared:
         network, covers = situation.network(near)
@@ -76,6 +78,7 @@ class _Desk:
     def work(self) -> None:
         order = self._newest(self.orders.get())
         while order is not None:
+            self.spent.clear()
             is_whole = self._answer(order, {object_id for object_id, _ in self.touched})
             try:
                 following = self.orders.get(timeout=None if is_whole else AT_REST_S)
@@ -216,6 +219,8 @@ class FieldKeeper:
 
     def _use(self, found: Prepared) -> None:
         situation, before = found.situation, self.in_use.situation
+        if self._is_background:
+            self._desk.spent.append(self.in_use)
         self.in_use = found
         if found.covers is None:
             self._whole, self._n_answered = found, situation.number

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.propagation.live import PricedField, Prices
-from scene2hap.session.audibility import Audibility
+from scene2hap.session.audibility import Audibility, sounding
 from scene2hap.session.config import SkipConfig
 from scene2hap.session.counts import Counts
 from scene2hap.session.frame import Gains, Touch
@@ -83,8 +83,7 @@ class HearingAll:
             mixed = worth(told)
         if not self._skip.silent_bands:
             return Heard(told, mixed)
-        greatest: list[float] = np.maximum.reduce(mixed, axis=(0, 2), initial=0.0).tolist()
-        columns = [column for column, gain in enumerate(greatest) if gain]
+        columns = sounding(mixed)
         return Heard(told, mixed if len(columns) == mixed.shape[1] else mixed[:, columns], columns)
 
 

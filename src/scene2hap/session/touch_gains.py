@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.compiled import compiled
 from scene2hap.propagation.live import LiveField, PricedField, Prices, TouchedPoint
 from scene2hap.session.config import MAX_GAIN_DB
 from scene2hap.session.counts import Counts
@@ -56,18 +57,17 @@ class TouchGains:
 
     def of(self, hands: Sequence[Sequence[Touch]]) -> NDArray[np.float64]:
         """Gains (n_hands, n_sources, n_bands) [-], the largest over each hand's touches, capped; 1 on a source."""
-        gains = self._field.strongest([self.asked(touches)[0] for touches in hands])
+        found = self._field.strongest([self.asked(touches)[0] for touches in hands])
+        gains: NDArray[np.float64] = np.asarray(found, dtype=np.float64)
         for i, touches in enumerate(hands):
             for touch in touches:
                 if touch.object_id in self._own:
                     gains[i, self._own[touch.object_id]] = 1.0
-        return self._capped(gains) if self.may_be_capped else gains
-
-    def _capped(self, gains: NDArray[np.float64]) -> NDArray[np.float64]:
-        if self._is_counting:
-            self._counts.gains_capped += int(np.count_nonzero(gains > self._limit))
-        # A guest model's NaN must not reach a hand.
-        return np.minimum(np.fmax(gains, 0.0, out=gains), self._limit, out=gains)
+        if self.may_be_capped:
+            n_capped = cap(gains, self._limit)
+            if self._is_counting:
+                self._counts.gains_capped += n_capped
+        return gains
 
     def asked(self, touches: Sequence[Touch]) -> Asked:
         """Which of a hand's touches the field is asked about, and the columns of the sources that hang together with
@@ -82,3 +82,11 @@ class TouchGains:
                 among = among | more if among else more
         self._counts.unreachable_touches += len(touches) - len(points)
         return points, among
+
+
+@compiled
+def cap(gains: NDArray[np.float64], limit: float) -> int:
+    """Bring gains (n, m, k) between 0 and a limit; how many were above. A guest model's NaN must not reach a hand."""
+    n_above = int(np.count_nonzero(gains > limit))
+    np.minimum(np.fmax(gains, 0.0, out=gains), limit, out=gains)
+    return n_above
