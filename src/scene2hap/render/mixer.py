@@ -24,8 +24,8 @@ from numpy.typing import NDArray
 
 from scene2hap import checks
 from scene2hap.errors import ConfigError, SessionError
-from scene2hap.render.limiter import THRESHOLD, limit_in_place
-from scene2hap.render.loop_bank import CELL, LoopBank
+from scene2hap.render.loop_bank import LoopBank
+from scene2hap.render.playhead import Change, Playhead
 from scene2hap.render.tactile_mix import Gains, TactileMix
 from scene2hap.render.upsampler import Upsampler
 
@@ -38,14 +38,6 @@ class MixerStats:
     rows_mixed: int = 0
     rows_skipped: int = 0
     changes_merged: int = 0
-
-
-@dataclass(eq=False, slots=True)
-class _Change:
-    """Gains that wait for their frame."""
-
-    at_frame: int
-    gains: Gains
 
 
 class Mixer:
@@ -68,28 +60,23 @@ class Mixer:
         self._n_bands = bank.n_bands
         self._all_loops = range(len(bank))
         self._is_skipping = skip_silent
-        self._tactile_rate_hz, self._sample_rate_hz = bank.sample_rate_hz, sample_rate_hz
-        self._upsampler = Upsampler(bank.sample_rate_hz, sample_rate_hz, n_hands)
-        self._outputs = self._upsampler.outputs(0)
-        self._scratch = np.zeros_like(self._outputs)
+        upsampler = Upsampler(bank.sample_rate_hz, sample_rate_hz, n_hands)
+        self._delay_s = upsampler.delay_s
         ramp = max(1, round(ramp_s * bank.sample_rate_hz))
-        self._mix = TactileMix(bank, n_hands, ramp, self._upsampler.cell, is_skipping=skip_silent)
-        self._incoming: deque[_Change] = deque()
-        self._latest: _Change | None = None
-        self._position = 0
-        self._tick = 0
-        self._cell_begin = -CELL
-        self._cell_frame = self._cell_end_frame = 0
+        self._mix = TactileMix(bank, n_hands, ramp, upsampler.cell, is_skipping=skip_silent)
+        self._incoming: deque[Change] = deque()
+        self._latest: Change | None = None
+        self._playhead = Playhead(self._mix, upsampler, self._incoming, (bank.sample_rate_hz, sample_rate_hz))
 
     @property
     def position(self) -> int:
         """The frame that the next `render` begins with."""
-        return self._position
+        return self._playhead.position
 
     @property
     def delay_s(self) -> float:
         """How long after its frame on the clock a sample is felt [s]; the same for all frequencies."""
-        return self._upsampler.delay_s
+        return self._delay_s
 
     @property
     def stats(self) -> MixerStats:
@@ -132,10 +119,10 @@ class Mixer:
             latest.gains = told
             if self._is_waiting(latest):
                 return
-        self._latest = _Change(at_frame, told)
+        self._latest = Change(at_frame, told)
         self._incoming.append(self._latest)
 
-    def _is_waiting(self, change: _Change) -> bool:
+    def _is_waiting(self, change: Change) -> bool:
         try:
             return self._incoming[-1] is change
         except IndexError:
@@ -149,36 +136,4 @@ class Mixer:
 
     def render_into(self, out: NDArray[np.float32]) -> None:
         """Write the next samples into a block (n_frames, n_hands) float32."""
-        frame, end = self._position, self._position + len(out)
-        while frame < end:
-            if frame == self._cell_end_frame:
-                self._enter_cell()
-            stop = min(end, self._cell_end_frame)
-            self._take_gains(self._upsampler.input_of(stop - 1) + 1)
-            if self._mix.compute():
-                self._outputs = self._upsampler.outputs(self._cell_begin)
-                limit_in_place(self._outputs, self._scratch, THRESHOLD)
-            ready = self._outputs[:, frame - self._cell_frame : stop - self._cell_frame]
-            out[frame - self._position : stop - self._position] = ready.T
-            frame = stop
-        self._position = end
-
-    def _enter_cell(self) -> None:
-        self._cell_begin += CELL
-        self._cell_frame = self._cell_end_frame
-        self._cell_end_frame = self._upsampler.first_output_of(self._cell_begin + CELL)
-        self._upsampler.next_cell()
-        self._mix.enter(self._cell_begin)
-
-    def _take_gains(self, end: int) -> None:
-        """Start the gains whose time comes before a tactile sample, none of them in what is rendered."""
-        while self._incoming:
-            change = self._incoming[0]
-            tick = max(-(-change.at_frame * self._tactile_rate_hz // self._sample_rate_hz), self._tick)
-            if tick >= end:
-                break
-            # Whoever sees it waiting may still replace its gains, so that these are read last.
-            self._incoming.popleft()
-            self._mix.start(change.gains, tick)
-            self._tick = tick
-        self._tick = max(self._tick, end)
+        self._playhead.render_into(out)
