@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections import deque
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
@@ -14,13 +15,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from scene2hap.audio.clip import AudioClip
 from scene2hap.compiled import KERNELS
 from scene2hap.contact.body import shape_of
 from scene2hap.contact.junction import Junction
 from scene2hap.contact.stance import Stance
 from scene2hap.contact.track import Bounds
+from scene2hap.haptics import Bands
 from scene2hap.propagation.walk import Door, Ends, Exit
-from scene2hap.render.loop_bank import CELL
+from scene2hap.render.loop_bank import CELL, LoopBank
+from scene2hap.render.playhead import Change
+from scene2hap.render.tactile_mix import Gains
+from scene2hap.render.upsampler import Upsampler
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import Box, TriMesh
 
@@ -353,6 +359,44 @@ def test_gains_on_their_way(seed: int) -> None:
             mixes.append(x)
         np.testing.assert_allclose(mixes[1], mixes[0], atol=1e-5)
         assert (mixes[1][:, :first] == 0).all()
+
+
+def clips(rng: np.random.Generator, n: int) -> list[AudioClip]:
+    return [AudioClip(rng.uniform(-0.4, 0.4, int(rng.integers(300, 900))).astype(np.float32), 8000) for _ in range(n)]
+
+
+@pytest.mark.parametrize("rate_hz", [48000, 44100, 8000])
+@pytest.mark.parametrize("is_skipping", [True, False])
+def test_mixes_that_gains_come_to(rate_hz: int, is_skipping: bool) -> None:
+    rng = np.random.default_rng(rate_hz)
+    bank, incoming, playheads, mixes = LoopBank(clips(rng, 4), Bands.dominant(), 8000), [], [], []
+    for mix_kind, kind in zip(both("render.tactile_mix.TactileMix"), both("render.playhead.Playhead"), strict=True):
+        upsampler = Upsampler(8000, rate_hz, 2)
+        # Few slots, so that some gains have to wait for one.
+        mixes.append(mix_kind(bank, 2, 12, upsampler.cell, is_skipping=is_skipping))
+        incoming.append(deque[Change]())
+        playheads.append(kind(mixes[-1], upsampler, incoming[-1], (8000, rate_hz)))
+    for _ in range(300):
+        for _ in range(int(rng.choice([0, 1, 3]))):
+            loops = sorted(rng.choice(4, int(rng.integers(0, 5)), replace=False).tolist())
+            values = rng.uniform(0, 1.2, (2, len(loops), 1)).astype(np.float32)
+            gains = Gains.of(values, loops, loops if is_skipping else range(4))
+            assert gains is not None
+            at_frame = playheads[0].position + int(rng.choice([-50, 0, 20, 300, 10**25]))
+            for queue in incoming:
+                if queue and queue[-1].at_frame > 10**20:
+                    queue.pop()
+                queue.append(Change(at_frame, gains))
+        told = np.full((int(rng.integers(0, 300)), 2), np.nan, dtype=np.float32)
+        compiled = np.full_like(told, np.nan)
+        playheads[0].render_into(told)
+        playheads[1].render_into(compiled)
+        np.testing.assert_allclose(compiled, told, atol=2e-6)
+    counts = [(mix.n_cells, mix.n_rows_mixed, mix.n_merged) for mix in mixes]
+    assert counts[0] == counts[1]
+    assert counts[0][0] > 100
+    assert counts[0][2] > 0
+    assert playheads[0].position == playheads[1].position
 
 
 @pytest.mark.parametrize(("up", "down"), [(6, 1), (441, 80), (1, 1)])

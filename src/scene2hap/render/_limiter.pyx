@@ -10,9 +10,13 @@ ctypedef fused Sample:
 
 def limit_in_place(Sample[:, ::1] mix, scratch, double threshold):
     cdef Py_ssize_t i, k
-    cdef double size, rest = 1 - threshold
     for i in range(mix.shape[0]):
         for k in range(mix.shape[1]):
-            size = fabs(mix[i, k])
-            if size > threshold:
-                mix[i, k] = <Sample>copysign(threshold + rest * tanh((size - threshold) / rest), mix[i, k])
+            if fabs(mix[i, k]) > threshold:
+                mix[i, k] = <Sample>limited(mix[i, k], threshold)
+
+
+cdef double limited(double x, double threshold) noexcept:
+    """What becomes of a sample beyond the threshold."""
+    cdef double rest = 1 - threshold
+    return copysign(threshold + rest * tanh((fabs(x) - threshold) / rest), x)

@@ -3,17 +3,27 @@
 
 import numpy as np
 
+from scene2hap.render import loop_bank
+
+cdef enum:
+    CELL = 24  # known to the compiler
+
+assert CELL == loop_bank.CELL
+
 
 cdef class PolyphaseFilter:
-    cdef float[:, ::1] taps
-    cdef Py_ssize_t up, down, n_taps
-
     def __init__(self, h, Py_ssize_t up, Py_ssize_t down, n_frames, offsets):
         self.up, self.down, self.n_taps = up, down, len(h) // up
         # Each phase in the order of its inputs.
         self.taps = np.ascontiguousarray(h.reshape(-1, up)[::-1].T, dtype=np.float32)
 
-    def fill(self, float[:, ::1] Y, const float[:, ::1] X, Py_ssize_t offset):
+    cpdef advance(self, float[:, ::1] X):
+        cdef Py_ssize_t channel, k
+        for channel in range(X.shape[0]):
+            for k in range(X.shape[1] - CELL):
+                X[channel, k] = X[channel, k + CELL]
+
+    cpdef fill(self, float[:, ::1] Y, const float[:, ::1] X, Py_ssize_t offset):
         cdef Py_ssize_t up = self.up, down = self.down, n_taps = self.n_taps, n_frames = Y.shape[1]
         cdef Py_ssize_t channel, frame, phase, k, n_inputs = X.shape[1]
         cdef const float* taps = &self.taps[0, 0]

@@ -25,6 +25,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.compiled import compiled
 from scene2hap.render.loop_bank import CELL, LoopBank
 from scene2hap.render.ramped_product import RampedProduct
 
@@ -61,6 +62,17 @@ class Gains:
         return cls(own, loops, heard)
 
 
+def slots_for(ramp: int, sample_rate_hz: int) -> int:
+    """In how many slots gains are on the way, if they come once per millisecond."""
+    return min(MOST_SLOTS, -(-1000 * (ramp + CELL) // sample_rate_hz) + 2)
+
+
+def rise_over(ramp: int) -> Block:
+    """What of gains counts, as `RampedProduct` wants it."""
+    rising = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, ramp + 1) / ramp)
+    return np.concatenate([np.zeros(CELL), rising, np.ones(CELL)]).astype(np.float32)
+
+
 class _Held(NamedTuple):
     """Gains in a slot; their ramp begins at `start` and is over at `end`."""
 
@@ -70,6 +82,7 @@ class _Held(NamedTuple):
     end: int
 
 
+@compiled
 class TactileMix:
     """The mix of `n_hands`, cell by cell, into `x` (n_hands, CELL).
 
@@ -82,13 +95,11 @@ class TactileMix:
         self._bank = bank
         self._n_hands = n_hands
         self._ramp = ramp
-        n_slots = min(MOST_SLOTS, -(-1000 * (ramp + CELL) // bank.sample_rate_hz) + 2)
+        n_slots = slots_for(ramp, bank.sample_rate_hz)
         self.x = x
         # Behind the places of loops in use there is one for gains of loops that are not.
         n_places = bank.n_rows + bank.n_bands
-        rising = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, ramp + 1) / ramp)
-        rise = np.concatenate([np.zeros(CELL), rising, np.ones(CELL)])
-        self._product = RampedProduct(bank.n_rows, n_places, n_slots, n_hands, rise.astype(np.float32))
+        self._product = RampedProduct(bank.n_rows, n_places, n_slots, n_hands, rise_over(ramp))
         self._G, self._L = self._product.gains, self._product.loops
         every = range(len(bank))
         silence = Gains(np.zeros((n_hands, 0, bank.n_bands), dtype=np.float32), (), () if is_skipping else every)

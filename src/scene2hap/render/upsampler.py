@@ -52,6 +52,10 @@ class PolyphaseFilter:
         self._n_taps = len(h) // up
         self._kept = {offset: self._matrix(offset) for offset in offsets}
 
+    def advance(self, X: Block) -> None:
+        """Keep of X, the inputs of a cell and those before, what the outputs of the next one reach back to."""
+        X[:, :-CELL] = X[:, CELL:]
+
     def fill(self, Y: Block, X: Block, offset: int) -> None:
         """Fill Y (n_channels, n_frames) from X (n_channels, n_taps - 1 + CELL), the inputs of a cell and those before.
 
@@ -74,42 +78,42 @@ class PolyphaseFilter:
 class Upsampler:
     """A streaming converter for n_channels that takes its input in cells of CELL samples; f_out >= f_in.
 
-    `cell` (n_channels, CELL) is where input belongs; `delay_s` is how long a signal takes through. With equal rates
-    samples pass untouched and without delay.
+    `cell` (n_channels, CELL) is where input belongs, the end of all `inputs`; `delay_s` is how long a signal takes
+    through; `up` / `down` is the ratio of the rates. With equal rates samples pass untouched and without delay.
     """
 
     def __init__(self, rate_in_hz: int, rate_out_hz: int, n_channels: int) -> None:
         common = math.gcd(rate_in_hz, rate_out_hz)
-        self._up, self._down = rate_out_hz // common, rate_in_hz // common
-        h = interpolation_filter(rate_in_hz, self._up)
-        n_taps = len(h) // self._up
-        self.delay_s = (len(h) - 1) / 2 / (rate_in_hz * self._up)
-        self._X = np.zeros((n_channels, n_taps - 1 + CELL), dtype=np.float32)
-        self._Y = np.zeros((n_channels, -(-CELL * self._up // self._down)), dtype=np.float32)
-        self.cell = self._X[:, n_taps - 1 :]
-        n_kinds = self._down // math.gcd(self._down, CELL * self._up)
+        self.up, self.down = rate_out_hz // common, rate_in_hz // common
+        h = interpolation_filter(rate_in_hz, self.up)
+        n_taps = len(h) // self.up
+        self.delay_s = (len(h) - 1) / 2 / (rate_in_hz * self.up)
+        self.inputs = np.zeros((n_channels, n_taps - 1 + CELL), dtype=np.float32)
+        self._Y = np.zeros((n_channels, -(-CELL * self.up // self.down)), dtype=np.float32)
+        self.cell = self.inputs[:, n_taps - 1 :]
+        n_kinds = self.down // math.gcd(self.down, CELL * self.up)
         kinds = {self._offset(k * CELL) for k in range(n_kinds)} if n_kinds <= _MOST_KEPT else set[int]()
-        self._filter = PolyphaseFilter(h.astype(np.float32), self._up, self._down, self._Y.shape[1], kinds)
+        self.filter = PolyphaseFilter(h.astype(np.float32), self.up, self.down, self._Y.shape[1], kinds)
 
     def input_of(self, frame: int) -> int:
         """The newest input that an output needs."""
-        return frame * self._down // self._up
+        return frame * self.down // self.up
 
     def first_output_of(self, sample: int) -> int:
         """The first output that needs an input."""
-        return -(-sample * self._up // self._down)
+        return -(-sample * self.up // self.down)
 
     def next_cell(self) -> None:
         """Move on by CELL inputs; what outputs still reach back to is kept."""
-        self._X[:, :-CELL] = self._X[:, CELL:]
+        self.filter.advance(self.inputs)
 
     def outputs(self, cell_begin: int) -> Block:
         """All outputs (n_channels, n_frames) whose newest input lies in the cell; a buffer that is used again."""
-        self._filter.fill(self._Y, self._X, self._offset(cell_begin))
+        self.filter.fill(self._Y, self.inputs, self._offset(cell_begin))
         return self._Y
 
     def _offset(self, sample: int) -> int:
-        return self.first_output_of(sample) * self._down - sample * self._up
+        return self.first_output_of(sample) * self.down - sample * self.up
 
 
 def interpolation_filter(rate_in_hz: int, up: int) -> NDArray[np.float64]:

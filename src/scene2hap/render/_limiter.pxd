@@ -1,0 +1,1 @@
+cdef double limited(double x, double threshold) noexcept

@@ -1,0 +1,76 @@
+"""The compiled twin of the kernel in `playhead`."""
+# cython: boundscheck=False, wraparound=False, cdivision=True
+
+from libc.math cimport fabs
+
+from scene2hap.render._limiter cimport limited
+from scene2hap.render._tactile_mix cimport TactileMix
+from scene2hap.render._upsampler cimport PolyphaseFilter
+
+from scene2hap.render import limiter, loop_bank
+
+cdef enum:
+    CELL = 24  # known to the compiler
+
+assert CELL == loop_bank.CELL
+
+cdef double THRESHOLD = limiter.THRESHOLD
+
+
+cdef class Playhead:
+    cdef readonly long long position
+    cdef TactileMix mix
+    cdef PolyphaseFilter filter
+    cdef float[:, ::1] inputs, outputs
+    cdef object incoming, tactile_rate_hz, sample_rate_hz
+    cdef long long up, down, tick, cell_begin, cell_frame, cell_end_frame
+
+    def __init__(self, TactileMix mix, upsampler, incoming, rates_hz):
+        self.position = 0
+        self.mix, self.incoming = mix, incoming
+        self.filter, self.inputs, self.outputs = upsampler.filter, upsampler.inputs, upsampler.outputs(0)
+        self.up, self.down = upsampler.up, upsampler.down
+        self.tactile_rate_hz, self.sample_rate_hz = rates_hz
+        self.tick = self.cell_frame = self.cell_end_frame = 0
+        self.cell_begin = -CELL
+
+    def render_into(self, float[:, :] out):
+        cdef long long frame = self.position, stop, begin = frame
+        cdef long long end = frame + out.shape[0]
+        cdef Py_ssize_t hand, k
+        cdef float x
+        while frame < end:
+            if frame == self.cell_end_frame:
+                self.enter_cell()
+            stop = min(end, self.cell_end_frame)
+            # Up to the newest input that the last of these outputs needs.
+            self.take_gains((stop - 1) * self.down // self.up + 1)
+            if self.mix.compute():
+                self.filter.fill(self.outputs, self.inputs, self.cell_frame * self.down - self.cell_begin * self.up)
+            for hand in range(out.shape[1]):
+                for k in range(stop - frame):
+                    x = self.outputs[hand, frame - self.cell_frame + k]
+                    out[frame - begin + k, hand] = <float>limited(x, THRESHOLD) if fabs(x) > THRESHOLD else x
+            frame = stop
+        self.position = end
+
+    cdef enter_cell(self):
+        self.cell_begin += CELL
+        self.cell_frame = self.cell_end_frame
+        # The first output that needs the next cell's first input.
+        self.cell_end_frame = ((self.cell_begin + CELL) * self.up + self.down - 1) // self.down
+        self.filter.advance(self.inputs)
+        self.mix.enter(self.cell_begin)
+
+    cdef take_gains(self, long long end):
+        """Start the gains whose time comes before a tactile sample, none of them in what is rendered."""
+        while self.incoming:
+            change = self.incoming[0]
+            # In numbers of Python: a frame may be told that is too far away for those of C.
+            due = max(-(-change.at_frame * self.tactile_rate_hz // self.sample_rate_hz), self.tick)
+            if due >= end:
+                break
+            self.incoming.popleft()
+            self.mix.start(change.gains, due)
+            self.tick = due
+        self.tick = max(self.tick, end)

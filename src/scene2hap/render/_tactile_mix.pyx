@@ -1,0 +1,125 @@
+"""The compiled twin of the kernel in `tactile_mix`."""
+# cython: boundscheck=False, wraparound=False, cdivision=True
+
+from scene2hap.render._ramped_product cimport RampedProduct
+
+from scene2hap.render.tactile_mix import rise_over, slots_for
+
+cdef enum:
+    MOST = 64
+
+
+cdef class Held:
+    """Gains in a slot; their ramp begins at `start` and is over at `end`."""
+
+    cdef object heard
+    cdef Py_ssize_t slot
+    cdef long long start, end
+
+    def __init__(self, heard, slot, start, end):
+        self.heard, self.slot, self.start, self.end = heard, slot, start, end
+
+
+cdef class TactileMix:
+    def __init__(self, bank, Py_ssize_t n_hands, Py_ssize_t ramp, x, *, bint is_skipping=True):
+        cdef Py_ssize_t n_slots = slots_for(ramp, bank.sample_rate_hz)
+        assert n_slots <= MOST
+        self.bank, self.n_bands, self.ramp = bank, bank.n_bands, ramp
+        self.x = self.mixed = x
+        # Behind the places of loops in use there is one for gains of loops that are not.
+        n_places = bank.n_rows + bank.n_bands
+        self.product = RampedProduct(bank.n_rows, n_places, n_slots, n_hands, rise_over(ramp))
+        silence = () if is_skipping else range(len(bank))
+        self.free = list(range(n_slots - 1, 0, -1))
+        self.held = [Held(silence, 0, 0, 0)]
+        self.waiting = None
+        self.loops, self.users, self.place_of = [], [0] * len(bank), [len(bank)] * len(bank)
+        self.begin = self.first = 0
+        self.is_stale = False
+        self.n_cells = self.n_rows_mixed = self.n_merged = 0
+        self.use(silence)
+
+    cpdef enter(self, long long begin):
+        cdef Held ended
+        self.begin, self.first, self.is_stale = begin, 0, True
+        while len(self.held) > 1 and (<Held>self.held[1]).end <= begin:
+            ended = self.held.pop(0)
+            self.free.append(ended.slot)
+            if ended.heard != (<Held>self.held[0]).heard:
+                self.leave(ended.heard)
+        self.n_cells += 1
+        self.n_rows_mixed += len(self.loops) * self.n_bands
+        self.read(0)
+        if self.waiting is not None and self.free:
+            gains, self.waiting = self.waiting, None
+            self.start(gains, begin)
+
+    cpdef start(self, gains, long long tick):
+        cdef Py_ssize_t first_new
+        cdef bint is_more = False
+        if not self.free:
+            self.n_merged += self.waiting is not None
+            self.waiting = gains
+            return
+        heard = gains.heard
+        if heard != (<Held>self.held[len(self.held) - 1]).heard:
+            for loop in heard:
+                if self.users[<Py_ssize_t>loop] == 0:
+                    is_more = True
+                    break
+            if is_more:
+                # What comes before this sample keeps to the old product; see the plain twin.
+                self.compute()
+                self.first = tick - self.begin
+            first_new = len(self.loops)
+            self.use(heard)
+            if is_more:
+                self.read(first_new)
+        slot = self.free.pop()
+        self.held.append(Held(heard, slot, tick, tick + self.ramp - 1))
+        places = [self.place_of[<Py_ssize_t>loop] for loop in gains.loops]
+        self.product.set(slot, gains.values, places, len(self.loops) * self.n_bands)
+        self.is_stale = True
+
+    cpdef bint compute(self) except -1:
+        cdef Py_ssize_t[MOST] slots
+        cdef long long[MOST] starts
+        cdef Py_ssize_t k, n_held = len(self.held)
+        cdef Held held
+        if not self.is_stale:
+            return False
+        self.is_stale = False
+        for k in range(n_held):
+            held = self.held[k]
+            slots[k], starts[k] = held.slot, held.start
+        self.product.weigh(
+            self.mixed, len(self.loops) * self.n_bands, slots, starts, n_held, self.begin, self.first
+        )
+        return True
+
+    cdef read(self, Py_ssize_t first):
+        """Read the loops in use, from one of them on."""
+        cdef Py_ssize_t n_loops = len(self.loops)
+        if first < n_loops:
+            rows = self.product.loops[first * self.n_bands : n_loops * self.n_bands]
+            self.bank.read(self.loops[first:], self.begin, rows)
+
+    cdef use(self, heard):
+        for loop in heard:
+            self.users[<Py_ssize_t>loop] += 1
+            if self.users[<Py_ssize_t>loop] == 1:
+                self.place_of[<Py_ssize_t>loop] = len(self.loops)
+                self.product.clear(len(self.loops) * self.n_bands, self.n_bands)
+                self.loops.append(loop)
+
+    cdef leave(self, heard):
+        cdef Py_ssize_t at
+        for loop in heard:
+            self.users[<Py_ssize_t>loop] -= 1
+            if self.users[<Py_ssize_t>loop] == 0:
+                # The last loop takes the place, so that those in use stay together.
+                at, moved = self.place_of[<Py_ssize_t>loop], self.loops.pop()
+                if moved != loop:
+                    self.loops[at] = moved
+                self.place_of[<Py_ssize_t>moved], self.place_of[<Py_ssize_t>loop] = at, len(self.users)
+                self.product.move(at * self.n_bands, len(self.loops) * self.n_bands, self.n_bands)
