@@ -29,6 +29,7 @@ from scene2hap import Bands, HapticSession, Plate, Pose, Touch
 from scene2hap.contact.crowd import Crowd
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.propagation.band_rms import BandRms
+from scene2hap.propagation.live_law import LiveLaw
 from scene2hap.propagation.live_paths import LivePaths
 from scene2hap.session.audibility import Audibility
 from scene2hap.session.playback import Playback
@@ -203,7 +204,7 @@ def split(n_objects: int, kind: str, n_frames: int) -> None:
         "broad": (Crowd, "put"),
         "narrow": (ContactGraph, "update"),
         "paths": (LivePaths, "least_costs"),
-        "gains": (BandRms, "__call__"),
+        "gains": (LiveLaw, "at"),
         "worth": (Audibility, "loud"),
         "mixer": (Playback, "set_gains"),
         "rest": (HapticSession, "update"),

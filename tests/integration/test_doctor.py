@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 import pytest
 import soundfile
+from numpy.typing import NDArray
 from scipy.signal import chirp, correlate
 
 from scene2hap.cli import doctor, main
-from sound_server import RATE, SoundServer, missing
+from sound_server import RATE, Recorder, SoundServer, missing
 from sound_takes import undisturbed
 
 PROBLEM = missing()
@@ -103,6 +104,14 @@ class Sweeps(doctor._Sweeps):
         Sweeps.latest = self
 
 
+def _found_s(recorder: Recorder, heard: NDArray[np.float32], channel: int, wave: NDArray[np.float64]) -> float:
+    """How long after it was asked for a hand's sweep came, as another recorder heard it [s]."""
+    asked_at_s = Sweeps.latest.asked_at_s[channel]
+    assert asked_at_s is not None
+    begin = recorder.frame_at(asked_at_s)
+    return int(np.argmax(correlate(heard[begin : begin + 3 * RATE, channel], wave, "valid"))) / RATE
+
+
 @with_sound
 def test_the_latency_at_a_loop_back_is_what_another_recorder_finds(
     server: SoundServer, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
@@ -115,17 +124,17 @@ def test_the_latency_at_a_loop_back_is_what_another_recorder_finds(
         heard = recorder.stop()
         swept = json.loads(capsys.readouterr().out)["sweep"]
         told: dict[str, Any] = swept["loop_back"]
-        # A machine that stands still breaks a take; a measurement that is wrong never agrees.
-        if min(hand["correlation"] for hand in told["hands"].values()) > 0.98 or attempt == 2:
+        found_s = [_found_s(recorder, heard, channel, wave) for channel in range(2)]
+        steady_s = min(hand["uncertainty_s"] for hand in told["hands"].values())
+        # A machine that stands still breaks a take, or the server slips between the sweeps, which the other recorder
+        # hears too; a measurement that is wrong never agrees.
+        is_whole = min(hand["correlation"] for hand in told["hands"].values()) > 0.98
+        if (is_whole and abs(found_s[0] - found_s[1]) < steady_s) or attempt == 2:
             break
     assert (told["input"], told["found_from"], list(told["hands"])) == ("pulse", 0.3, ["left", "right"])
     for channel, hand in enumerate(told["hands"].values()):
-        asked_at_s = Sweeps.latest.asked_at_s[channel]
-        assert asked_at_s is not None
-        begin = recorder.frame_at(asked_at_s)
-        place = int(np.argmax(correlate(heard[begin : begin + 3 * RATE, channel], wave, "valid")))
         # A block of each recorder, and a third for the server's own.
-        assert hand["latency_s"] == pytest.approx(place / RATE, abs=3 * hand["uncertainty_s"])
+        assert hand["latency_s"] == pytest.approx(found_s[channel], abs=3 * hand["uncertainty_s"])
         assert 0.0 < hand["latency_s"] < 1.0
         assert hand["correlation"] > 0.98
         assert hand["gain_db"] == pytest.approx(0.0, abs=0.5)

@@ -227,4 +227,4 @@ def test_share_beyond_the_cut_off() -> None:
     np.testing.assert_allclose(beyond_cutoff(a), expected, atol=2e-5)
     assert (beyond_cutoff(np.array([21.0, 1e12])) == 0).all()
     many = np.concatenate([[0.0, 20.5, 1e30], 10 ** np.random.default_rng(0).uniform(-6, 2, 2000)])
-    np.testing.assert_allclose(beyond_cutoff_of_square(many**2, *table()), beyond_cutoff(many), atol=1e-6)
+    np.testing.assert_allclose(beyond_cutoff_of_square(many**2, table()), beyond_cutoff(many), atol=1e-6)

@@ -22,6 +22,7 @@ from scene2hap.contact.junction import Junction
 from scene2hap.contact.stance import Stance
 from scene2hap.contact.track import Bounds
 from scene2hap.haptics import Bands
+from scene2hap.propagation.near_field import table
 from scene2hap.propagation.walk import Door, Ends, Exit
 from scene2hap.render.loop_bank import CELL, LoopBank
 from scene2hap.render.playhead import Change
@@ -426,11 +427,9 @@ def test_the_limiter(seed: int) -> None:
 @steady
 @given(seed=seeds)
 def test_near_fields(seed: int) -> None:
-    from scene2hap.propagation.near_field import table
-
     rng = np.random.default_rng(seed)
     x, y, cut2 = rng.uniform(-1, 3, (4, 3)), rng.uniform(-1, 3, (4, 3)), rng.uniform(10, 1e4, 4)
-    numbers = (x, y, rng.normal(size=3), rng.normal(size=3), cut2, (2.0, 3.0, 30.0, 20.0), *table())
+    numbers = (x, y, rng.normal(size=3), rng.normal(size=3), cut2, (2.0, 3.0, 30.0, 20.0), table())
     points = np.concatenate([rng.uniform(0, [1.0, 2 / 3], (5, 2)), [[0.0, 0.0], [x[0, 0], y[0, 0]]]])
     plain, twin = (kind(*numbers) for kind in both("propagation.near_field.Dimples"))
     k2 = rng.uniform(0.1, 5.0, 4)
@@ -447,6 +446,33 @@ def test_products_of_cosines(seed: int, n: int) -> None:
     for fill, one in zip(both("propagation.plate_terms.fill_cosines"), found, strict=True):
         fill(one, points, 2.0, 2.0, 5, 4)
     np.testing.assert_allclose(found[1], found[0], atol=1e-13)
+
+
+@steady
+@given(seed=seeds, n=st.integers(0, 3))
+def test_forces_folded(seed: int, n: int) -> None:
+    rng = np.random.default_rng(seed)
+    n_forces, n_columns, k2 = int(rng.integers(0, 4)), int(rng.integers(0, 5)), rng.uniform(0.1, 5.0, 4)
+    x, y = rng.uniform(0, 1, (2, n_forces, 3))
+    near = (x, y, rng.normal(size=3), rng.normal(size=3), rng.uniform(10, 1e4, n_forces), (2.0, 2.0, 30.0, 20.0))
+    smooth, beyond = rng.normal(size=(20, n_columns)), rng.normal(size=(4 * n_forces, n_columns))
+    points = rng.uniform(0, 1, (n, 2))
+    dimples = both("propagation.near_field.Dimples")
+    folded = both("propagation.plate_terms.Folded")
+    told, compiled = (
+        kind((2.0, 2.0, 5, 4), smooth, own(*near, table()), k2, beyond)(points)
+        for kind, own in zip(folded, dimples, strict=True)
+    )
+    np.testing.assert_allclose(compiled, told, rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.parametrize("odd", [0.0, 1e200, -1e308, math.inf, -math.inf, math.nan])
+def test_finite_points(odd: float) -> None:
+    plain, twin = both("propagation.points.are_finite")
+    for n in range(3):
+        points = np.ones((n, 3))
+        points[n // 2 :, 1] = odd
+        assert twin(points) == plain(points)
 
 
 @steady

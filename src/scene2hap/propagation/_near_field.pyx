@@ -9,15 +9,11 @@ cdef double FAR = 20.0  # as in `near_field`, whose table ends there
 
 
 cdef class Dimples:
-    cdef const double[:, ::1] x, y
-    cdef const double[::1] x_weights, y_weights, cut2, values, steps
-    cdef double per_length, per_width, kx, ky, per_piece
-
-    def __init__(self, x, y, x_weights, y_weights, cut2, extent, values, steps):
+    def __init__(self, x, y, x_weights, y_weights, cut2, extent, pieces):
         self.x, self.y = np.ascontiguousarray(x), np.ascontiguousarray(y)
-        self.x_weights, self.y_weights, self.cut2, self.values, self.steps = x_weights, y_weights, cut2, values, steps
+        self.x_weights, self.y_weights, self.cut2, self.pieces = x_weights, y_weights, cut2, pieces
         self.per_length, self.per_width, self.kx, self.ky = extent
-        self.per_piece = (len(values) - 1) / sqrt(FAR)
+        self.per_piece = (len(pieces) - 1) / sqrt(FAR)
 
     def at(self, const double[:, :] points_m):
         cdef Py_ssize_t n_points = points_m.shape[0], n_drives = self.cut2.shape[0], i, k
@@ -55,7 +51,7 @@ cdef class Dimples:
 
     cdef double share(self, double x, double y, Py_ssize_t drive, double cut2) noexcept:
         """The sum over a force and its eight images."""
-        cdef Py_ssize_t i, j, piece, last = self.values.shape[0] - 1
+        cdef Py_ssize_t i, j, piece, last = self.pieces.shape[0] - 1
         cdef double dx, dy, t, total = 0
         for i in range(3):
             dx = x - self.x[drive, i]
@@ -65,6 +61,6 @@ cdef class Dimples:
                 t = self.per_piece * sqrt(sqrt((dx * dx + dy * dy) * cut2))
                 if t < last:
                     piece = <Py_ssize_t>t
-                    t = self.values[piece] + (t - piece) * self.steps[piece]
+                    t = self.pieces[piece, 0] + (t - piece) * self.pieces[piece, 1]
                     total += self.x_weights[i] * self.y_weights[j] * t
         return total

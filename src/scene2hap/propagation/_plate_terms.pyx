@@ -1,7 +1,66 @@
-"""The compiled twin of the kernel in `plate_terms`."""
+"""The compiled twins of the kernels in `plate_terms`."""
 # cython: boundscheck=False, wraparound=False, cdivision=True
 
-from libc.math cimport acos, cos, fmax, fmin
+import numpy as np
+
+from libc.math cimport M_PI, acos, atanh, cos, fmax, fmin, sqrt
+
+from scene2hap.propagation._near_field cimport Dimples
+
+
+cdef class Folded:
+    cdef double per_length, per_width
+    cdef Py_ssize_t n_x, n_y
+    cdef double[:, ::1] smooth, beyond
+    cdef double[::1] k2, along, across
+    cdef Dimples dimples
+
+    def __init__(self, size, smooth, Dimples dimples, k2, beyond):
+        self.per_length, self.per_width, self.n_x, self.n_y = size
+        self.smooth, self.dimples, self.k2, self.beyond = smooth, dimples, k2, beyond
+        self.along, self.across = np.empty(self.n_x), np.empty(self.n_y)
+
+    def __call__(self, const double[:, :] points_m):
+        cdef Py_ssize_t point
+        found = np.zeros((points_m.shape[0], self.smooth.shape[1]))
+        cdef double[:, ::1] told = found
+        if told.shape[1]:
+            for point in range(points_m.shape[0]):
+                self.add_cosines(&told[point, 0], points_m[point, 0], points_m[point, 1])
+                self.add_near(&told[point, 0], points_m[point, 0], points_m[point, 1])
+        return found
+
+    cdef void add_cosines(self, double* told, double x, double y) noexcept:
+        cdef Py_ssize_t i, j, k, n = self.smooth.shape[1]
+        cdef double cosine
+        cdef const double* row = &self.smooth[0, 0]
+        x = acos(fmin(fmax(x * self.per_length - 1, -1.0), 1.0))
+        y = acos(fmin(fmax(y * self.per_width - 1, -1.0), 1.0))
+        for i in range(self.n_x):
+            self.along[i] = cos(i * x)
+        for j in range(self.n_y):
+            self.across[j] = cos(j * y)
+        for i in range(self.n_x):
+            for j in range(self.n_y):
+                cosine = self.along[i] * self.across[j]
+                for k in range(n):
+                    told[k] += cosine * row[k]
+                row += n
+
+    cdef void add_near(self, double* told, double x, double y) noexcept:
+        cdef Py_ssize_t drive, node, k, n = self.beyond.shape[1], n_k2 = self.k2.shape[0]
+        cdef double cut, share, near, here2 = self.dimples.cutoff_squared(x, y)
+        cdef const double* row
+        for drive in range(self.dimples.cut2.shape[0]):
+            cut = sqrt(here2 * self.dimples.cut2[drive])
+            share = self.dimples.share(x, y, drive, cut)
+            if share == 0:  # too far away
+                continue
+            for node in range(n_k2):
+                near = atanh(self.k2[node] / cut) * share / (4 * M_PI * self.k2[node])
+                row = &self.beyond[drive * n_k2 + node, 0]
+                for k in range(n):
+                    told[k] += near * row[k]
 
 
 def fill_cosines(

@@ -1,9 +1,18 @@
-"""The compiled twin of the kernel in `points`."""
+"""The compiled twins of the kernels in `points`."""
 # cython: boundscheck=False, wraparound=False, cdivision=True
 
 import numpy as np
 
-from libc.math cimport fmax, fmin
+from libc.math cimport fmax, fmin, isfinite
+
+
+def are_finite(const double[:, :] points):
+    cdef Py_ssize_t i, k
+    for i in range(points.shape[0]):
+        for k in range(points.shape[1]):
+            if not isfinite(points[i, k]):
+                return False
+    return True
 
 
 def in_rectangle(const double[:, :] points_m, pose, double length_m, double width_m):

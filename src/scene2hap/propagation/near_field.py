@@ -52,7 +52,7 @@ class NearField:
         x, x_weight = _images(drive_m[:, 0], plate.length_m, plate.edges[:2])
         y, y_weight = _images(drive_m[:, 1], plate.width_m, plate.edges[2:])
         cut2 = cutoff_squared(modes, drive_m)
-        self._dimples = Dimples(x, y, x_weight, y_weight, cut2, _extent(plate, modes.terms), *table())
+        self.dimples = Dimples(x, y, x_weight, y_weight, cut2, _extent(plate, modes.terms), table())
 
     def __call__(self, points_m: Floats, k2: NDArray[Number]) -> NDArray[Number]:
         """At points (n_points, 2) [m], for k2 (n_frequencies,) k_c^2 [m^-2], complex or real, above 0, |k2| < K^2.
@@ -60,9 +60,9 @@ class NearField:
         Returns: (n_points, n_drives, n_frequencies) [m^2], as k2, symmetric in its two points.
         """
         if np.isrealobj(k2):
-            near: NDArray[Number] = cast("Any", self._dimples.near(points_m, k2.real))
+            near: NDArray[Number] = cast("Any", self.dimples.near(points_m, k2.real))
             return near
-        return _beyond(k2, *self._dimples.at(points_m))
+        return _beyond(k2, *self.dimples.at(points_m))
 
 
 def _beyond(k2: NDArray[Number], shares: Floats, cut2: Floats) -> NDArray[Number]:
@@ -78,7 +78,7 @@ class Dimples:
     """Where the near fields of forces are felt, and those of their images.
 
     Parameters: x, y : (n_drives, 3) coordinates of the forces and of their images [m]; x_weights, y_weights : (3,) of
-    each of these; cut2 : (n_drives,) K^2 at the forces; extent : see `_extent`; values, steps : see `table`.
+    each of these; cut2 : (n_drives,) K^2 at the forces; extent : see `_extent`; pieces : see `table`.
     """
 
     def __init__(
@@ -89,13 +89,12 @@ class Dimples:
         y_weights: Floats,
         cut2: Floats,
         extent: _Extent,
-        values: Floats,
-        steps: Floats,
+        pieces: Floats,
     ) -> None:
         # (n_drives, 9), all pairs of an image in x and one in y
         self._x, self._y = np.repeat(x, 3, axis=1), np.tile(y, 3)
         self._weights = np.repeat(x_weights, 3) * np.tile(y_weights, 3)
-        self._cut2, self._extent, self._values, self._steps = cut2, extent, values, steps
+        self._cut2, self._extent, self._pieces = cut2, extent, pieces
 
     def at(self, points_m: Floats) -> tuple[Floats, Floats]:
         """At points (n_points, 2) [m]: the sum of g(K r) over images, and K^2 [m^-2], both (n_points, n_drives)."""
@@ -106,7 +105,7 @@ class Dimples:
         y2 *= y2
         a2 += y2
         a2 *= cut2[:, :, None]
-        return beyond_cutoff_of_square(a2, self._values, self._steps) @ self._weights, cut2
+        return beyond_cutoff_of_square(a2, self._pieces) @ self._weights, cut2
 
     def near(self, points_m: Floats, k2: Floats) -> Floats:
         """See `NearField`, for real k2."""
@@ -118,7 +117,7 @@ def _images(at_m: Floats, length_m: float, edges: str) -> tuple[Floats, Floats]:
     return np.stack([at_m, -at_m, 2 * length_m - at_m], axis=-1), np.array([1.0, IMAGE[edges[0]], IMAGE[edges[1]]])
 
 
-def beyond_cutoff_of_square(a2: Floats, values: Floats, steps: Floats) -> Floats:
+def beyond_cutoff_of_square(a2: Floats, pieces: Floats) -> Floats:
     """g(a) by a^2 from a table of it, true to 1e-6; the array that it is given is used up.
 
     Not by numpy's interp, which gives the interpreter's lock away: a game's thread that asks beside a worker would wait
@@ -129,18 +128,18 @@ def beyond_cutoff_of_square(a2: Floats, values: Floats, steps: Floats) -> Floats
     t *= _N_PIECES / math.sqrt(FAR)
     piece = np.minimum(t, _N_PIECES).astype(np.intp)
     t -= piece
-    t *= steps.take(piece)
-    t += values.take(piece)
+    t *= pieces[:, 1].take(piece)
+    t += pieces[:, 0].take(piece)
     return t
 
 
 @lru_cache(maxsize=1)
-def table() -> tuple[Floats, Floats]:
-    """g (n_pieces + 1,) over the root of a, in which it is smooth, and the steps between; the last of both is 0."""
+def table() -> Floats:
+    """g over the root of a, in which it is smooth, and steps to the next (n_pieces + 1, 2); the last of both is 0."""
     values = beyond_cutoff(FAR * (np.arange(_N_PIECES + 1) / _N_PIECES) ** 2)
     steps = np.append(np.diff(values), 0.0)
     values[-1] = 0.0
-    return values, steps
+    return np.stack([values, steps], axis=1)
 
 
 def cutoff_squared(modes: PlateModes, points_m: Floats) -> Floats:

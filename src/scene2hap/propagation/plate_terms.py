@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
 from scene2hap.propagation.modes import FINE, MARGIN, Fineness, modes_up_to
-from scene2hap.propagation.near_field import NearField
+from scene2hap.propagation.near_field import Dimples, NearField
 from scene2hap.propagation.octaves import OctaveSums
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.ritz import axis_basis
@@ -69,15 +69,30 @@ class Pushed:
         modal = self.modes @ (spectrum[:n_modes] * (self.phi.T @ forces))
         by_node = (forces[:, None] * spectrum[n_modes:]).reshape(len(forces) * N_NODES, n_f)
         smooth = np.ascontiguousarray(modal + self.rest @ by_node).view(np.float64)
-        beyond = by_node.view(np.float64)
+        size = (*self.plate.per_size, *self.plate.n_cosines)
+        return Folded(size, smooth, self.near.dimples, self.k2, by_node.view(np.float64))
 
-        def response(points_m: Floats) -> Floats:
-            near = self.near(points_m, self.k2).reshape(len(points_m), len(beyond))
-            found: Floats = self.plate.cosines(points_m) @ smooth
-            found += near @ beyond
-            return found
 
-        return response
+@compiled
+class Folded:
+    """What known forces do at points that are not known yet.
+
+    Parameters: size : of `fill_cosines`; smooth : (n_products, n) what each of those products adds; dimples, k2 : near
+    fields (n_forces, n_k2), and beyond : (n_forces n_k2, n) what each of them adds.
+    """
+
+    def __init__(
+        self, size: tuple[float, float, int, int], smooth: Floats, dimples: Dimples, k2: Floats, beyond: Floats
+    ) -> None:
+        self._size, self._smooth, self._dimples, self._k2, self._beyond = size, smooth, dimples, k2, beyond
+
+    def __call__(self, points_m: Floats) -> Floats:
+        """At points (n_points, 2) [m]: (n_points, n)."""
+        cosines = np.empty((len(points_m), len(self._smooth)))
+        fill_cosines(cosines, points_m, *self._size)
+        found: Floats = cosines @ self._smooth
+        found += self._dimples.near(points_m, self._k2).reshape(len(points_m), len(self._beyond)) @ self._beyond
+        return found
 
 
 @compiled
@@ -106,11 +121,17 @@ class PlateTerms:
             axis_basis(plate.edges[:2], plate.length_m, n_x),
             axis_basis(plate.edges[2:], plate.width_m, n_y),
         )
-        self._per_size = (2 / plate.length_m, 2 / plate.width_m)
+        self.per_size = (2 / plate.length_m, 2 / plate.width_m)
         k4 = np.concatenate([block.k4 for block in self.modes.blocks])
         order = np.argsort(k4, kind="stable")
         self._k4 = k4[order]
         self._phi = self._in_cosines(self._spread([block.vectors for block in self.modes.blocks])[:, order])
+
+    @property
+    def n_cosines(self) -> tuple[int, int]:
+        """How many polynomials there are along each axis."""
+        x, y = (len(axis.family.chebyshev) for axis in self._axes)
+        return x, y
 
     @property
     def n_modes(self) -> int:
@@ -146,9 +167,8 @@ class PlateTerms:
 
     def cosines(self, points_m: Floats) -> Floats:
         """Products of Chebyshev polynomials of both axes at points (n_points, n_products), as cosines."""
-        n_x, n_y = (len(axis.family.chebyshev) for axis in self._axes)
-        found = np.empty((len(points_m), n_x * n_y))
-        fill_cosines(found, points_m, *self._per_size, n_x, n_y)
+        found = np.empty((len(points_m), math.prod(self.n_cosines)))
+        fill_cosines(found, points_m, *self.per_size, *self.n_cosines)
         return found
 
     def _in_cosines(self, columns: Floats) -> Floats:

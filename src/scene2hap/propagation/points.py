@@ -24,10 +24,16 @@ def as_points(points_m: ArrayLike, dimensions: int) -> NDArray[np.float64]:
         points = points.reshape(1, -1)
     if points.ndim != 2 or points.shape[1] != dimensions:
         raise ModelDomainError(f"points have shape {points.shape}; they must be (n_points, {dimensions}) [m].")
-    # A sum of squares is finite only if everything in it is: one quick call, where nearly all points are good.
-    if not math.isfinite(np.vdot(points, points)) and not np.isfinite(points).all():
+    if not are_finite(points):
         raise ModelDomainError("points hold a coordinate that is not finite; every one must be a number [m].")
     return points
+
+
+@compiled
+def are_finite(points: NDArray[np.float64]) -> bool:
+    """Whether all coordinates (n_points, n_axes) are."""
+    # A sum of squares is finite only if everything in it is: one quick call, where nearly all points are good.
+    return math.isfinite(np.vdot(points, points)) or bool(np.isfinite(points).all())
 
 
 @compiled
