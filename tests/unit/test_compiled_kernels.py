@@ -197,7 +197,7 @@ def test_slides_to_the_last_bit(up_axis: int) -> None:
         bounds = Bounds((-1.0, -1.0, 1.0, 1.0), (-0.6, 0.6), -0.5, edges, stance.low[up_axis] - 0.01, -0.03, 0.06)
         tracks = [kind(bounds, stance) for kind in kinds]
         for _ in range(8):
-            position = rng.uniform(-0.4, 0.4, 2).tolist()
+            position = rng.uniform(-0.7, 0.7, 2).tolist()
             position.insert(up_axis, float(rng.choice([0.0, 0.01, 0.4])))
             rotation = first if rng.random() < 0.3 else turned(rng, up_axis)
             told, compiled = (track.slid(tuple(position), rotation) for track in tracks)

@@ -7,6 +7,9 @@ from libc.math cimport fabs
 
 cdef enum:
     MOST_POINTS = 4
+    MOST_CORNERS = 8  # as in `track`
+
+cdef double SURELY_M = 1e-9  # as in `track`
 
 
 cdef class Track:
@@ -25,6 +28,9 @@ cdef class Track:
     cdef double box_u, box_v, half_u, half_v, own_u, own_v
     cdef double own_pu[MOST_POINTS]
     cdef double own_pv[MOST_POINTS]
+    # The outline of the sole, made when first needed: in its own frame if it is upright, to be turned by these.
+    cdef double[:, ::1] outline
+    cdef double turned_a, turned_c
 
     def __init__(self, bounds, stance):
         lane, heights, self.middle_m, edges, self.top_m, self.least_m, self.most_m = bounds
@@ -53,10 +59,14 @@ cdef class Track:
             self.own_u, self.own_v = sole.middle_m[0], sole.middle_m[self.flat]
             for k in range(self.n_points):
                 self.own_pu[k], self.own_pv[k] = sole.points_m[k][0], sole.points_m[k][self.flat]
+            self.turned_a, self.turned_c = turning(self.rotation_xyzw, self.up)
+        else:
+            self.turned_a, self.turned_c = 1, 0
+        self.outline = None
 
     cdef bint turn(self, rotation_xyzw) except -1:
         """Turn the body, as `Stance` does, to the last bit; false if its level faces are not level any more."""
-        cdef double y, z, w, a, c, u, v, over, across
+        cdef double y, z, a, c, u, v, over, across
         cdef int k
         if not (self.is_upright and upright(rotation_xyzw, self.up)):
             turned = self.stance.turned(rotation_xyzw)
@@ -65,11 +75,8 @@ cdef class Track:
             self.stand(turned)
             return True
         # About the vertical, nothing changes upwards, and half of the products are 0.
-        _, y, z, w = rotation_xyzw
-        if self.up == 1:
-            a, c = 1 - 2 * (y * y), 2 * (y * w)
-        else:
-            a, c = 1 - 2 * (z * z), -2 * (z * w)
+        a, c = turning(rotation_xyzw, self.up)
+        self.turned_a, self.turned_c = a, c
         u, v = a * self.box_u + c * self.box_v, a * self.box_v - c * self.box_u
         over, across = fabs(a), fabs(c)
         y, z = over * self.half_u + across * self.half_v, across * self.half_u + over * self.half_v
@@ -103,13 +110,45 @@ cdef class Track:
         if self.edges is not None:
             for k in range(self.edges.shape[0]):
                 if self.edges[k, 0] * cu + self.edges[k, 1] * cv - self.edges[k, 2] < self.radius:
-                    return None
+                    if not self.is_inside(u, v):
+                        return None
+                    break
         height = (h + self.sole + self.top_m) / 2
         if self.up == 1:
             places = tuple([(u + self.pu[k], height, v + self.pv[k]) for k in range(self.n_points)])
         else:
             places = tuple([(u + self.pu[k], v + self.pv[k], height) for k in range(self.n_points)])
         return (low[0], low[1], low[2]), (high[0], high[1], high[2]), fall_m, places
+
+    cdef bint is_inside(self, double u, double v) except -1:
+        """Whether the sole is surely inside of all edges where the circle around it is not."""
+        cdef Py_ssize_t i, k
+        cdef double pu, pv, a = self.turned_a, c = self.turned_c
+        if self.outline is None:
+            if self.is_upright:
+                corners = [(x[0], x[self.flat]) for x in self.stance.shape.sole(self.stance.way_up).outline_m]
+            else:
+                corners = self.stance.sole_outline
+            numbers = array("d", [number for corner in corners for number in corner])
+            self.outline = memoryview(numbers).cast("B").cast("d", (len(corners), 2))
+        if self.outline.shape[0] > MOST_CORNERS:
+            return False
+        for i in range(self.outline.shape[0]):
+            pu = u + a * self.outline[i, 0] + c * self.outline[i, 1]
+            pv = v + a * self.outline[i, 1] - c * self.outline[i, 0]
+            for k in range(self.edges.shape[0]):
+                if self.edges[k, 0] * pu + self.edges[k, 1] * pv - self.edges[k, 2] < SURELY_M:
+                    return False
+        return True
+
+
+cdef (double, double) turning(tuple rotation_xyzw, int up) except *:
+    """How much of the first level axis goes to itself, and of the second to the first, by a turn about the vertical."""
+    cdef double y, z, w
+    _, y, z, w = rotation_xyzw
+    if up == 1:
+        return 1 - 2 * (y * y), 2 * (y * w)
+    return 1 - 2 * (z * z), -2 * (z * w)
 
 
 cdef bint upright(tuple rotation_xyzw, int up) except -1:

@@ -13,6 +13,12 @@ from scene2hap.contact.vectors import Triple
 Rotation = tuple[float, float, float, float]
 
 
+MOST_CORNERS = 8
+"""An outline of more is taken for the circle around it, as `clearing` does."""
+SURELY_M = 1e-9
+"""How far inside of all edges a sole is to be, that `rest_on` surely tells so too."""
+
+
 class Bounds(NamedTuple):
     """Where a slide is sure.
 
@@ -67,7 +73,14 @@ class Track:
         cu, cv = mu + u, mv + v
         for nu, nv, offset in edges:
             if nu * cu + nv * cv - offset < radius:
-                return None
+                # The circle around the sole is over an edge; the sole itself need not be.
+                if len(stance.sole_outline) > MOST_CORNERS:
+                    return None
+                for pu, pv in stance.sole_outline:
+                    for mu, mv, most in edges:
+                        if mu * (u + pu) + mv * (v + pv) - most < SURELY_M:
+                            return None
+                break
         # As in `rest_points`, to the last bit.
         height = (h + sole + top_m) / 2
         if up == 1:
