@@ -1,0 +1,91 @@
+"""The short ways of a frame end where building from nothing does, and are taken where they should be."""
+
+import math
+from typing import Any
+
+import pytest
+
+from contact_scenes import box, floor, on_floor, scene
+from scene2hap.contact import finder
+from scene2hap.contact.glide import Glide
+from scene2hap.contact.graph import ContactGraph
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import SceneObject
+
+TABLE = on_floor("table", (1.0, 0.7, 1.0), 0, 0)
+CUP = box("cup", (0.08, 0.1, 0.08), (0.2, 0.75, 0.1))
+JAR = box("jar", (0.1, 0.2, 0.1), (0.0, 0.8, 0.0))
+IN_THE_AIR = {"cup": Pose((0.2, 1.2, 0.1))}
+
+
+def yaw(angle: float) -> tuple[float, float, float, float]:
+    return (0.0, math.sin(angle / 2), 0.0, math.cos(angle / 2))
+
+
+def is_as_built(graph: ContactGraph, *objects: SceneObject) -> bool:
+    return graph.contacts == ContactGraph(scene(*objects).with_poses(graph.poses)).contacts
+
+
+@pytest.mark.parametrize(
+    ("others", "moved", "lands_shortly"),
+    [
+        pytest.param([], {"cup": Pose((0.1, 0.75, -0.1))}, True, id="on the table"),
+        pytest.param([], {"cup": Pose((0.1, 0.7505, -0.1), yaw(0.4))}, True, id="half a millimetre above it, turned"),
+        pytest.param([], {"cup": Pose((0.1, 0.79, -0.1))}, False, id="too high"),
+        pytest.param([], {"cup": Pose((0.5, 0.75, 0.0))}, False, id="over the rim"),
+        pytest.param([JAR], {"cup": Pose((0.0, 0.95, 0.0))}, True, id="on the jar"),
+        pytest.param([JAR], {"cup": Pose((0.2, 0.75, 0.0))}, True, id="beside the jar"),
+        pytest.param([JAR], {"cup": Pose((0.08, 0.95, 0.0))}, False, id="over the jar's rim"),
+        pytest.param([], {"cup": Pose((1.1, 0.75, 0.0)), "table": Pose((1.0, 0.35, 0.0))}, True, id="the table comes"),
+        pytest.param([], {"cup": Pose((0.0, 0.75, 0.0)), "table": Pose((2.0, 0.35, 0.0))}, False, id="the table goes"),
+    ],
+)
+def test_landing(
+    others: list[SceneObject], moved: dict[str, Pose], lands_shortly: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    landed, land = list[bool](), finder.ContactFinder._land
+
+    def watched(*given: Any) -> bool:
+        landed.append(land(*given))
+        return landed[-1]
+
+    monkeypatch.setattr(finder.ContactFinder, "_land", watched)
+    objects = [floor(), TABLE, CUP, *others]
+    graph = ContactGraph(scene(*objects))
+    graph.update(IN_THE_AIR)
+    landed.clear()
+    graph.update(moved)
+    assert any(landed) == lands_shortly
+    assert is_as_built(graph, *objects)
+    # And what was found there holds as it goes on.
+    x, y, z = moved["cup"].position_m
+    for step in range(1, 4):
+        graph.update({"cup": Pose((x + 0.004 * step, y, z), moved["cup"].rotation_xyzw)})
+        assert is_as_built(graph, *objects)
+    graph.update(IN_THE_AIR)
+    assert is_as_built(graph, *objects)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.6])
+def test_a_glide_goes_on_to_the_rim(angle: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    stepped, step = list[bool](), Glide.step
+
+    def watched(*given: Any) -> bool:
+        stepped.append(step(*given))
+        return stepped[-1]
+
+    monkeypatch.setattr(Glide, "step", watched)
+    objects = [floor(), TABLE, box("sheet", (0.3, 0.004, 0.1), (0.0, 0.702, 0.0))]
+    graph = ContactGraph(scene(*objects))
+    reach_m = 0.15 * math.sin(angle) + 0.05 * math.cos(angle)
+    ends = []
+    for step_no in range(120):
+        z = 0.005 * step_no
+        graph.update({"sheet": Pose((0.0, 0.702, z), yaw(angle))})
+        assert is_as_built(graph, *objects)
+        if stepped and stepped.pop():
+            ends.append(z)
+        stepped.clear()
+    # To the rim but for a step, where a circle around the sheet ends at 0.34.
+    assert 0.5 - reach_m - 0.0051 <= max(ends) <= 0.5 - reach_m
+    assert len(ends) > 0.8 * max(ends) / 0.005
