@@ -5,3 +5,6 @@ cdef class Dimples:
 
     cdef double cutoff_squared(self, double x, double y) noexcept
     cdef double share(self, double x, double y, Py_ssize_t drive, double cut2) noexcept
+
+
+cdef double near_of(double k2, double cut2, double share) noexcept

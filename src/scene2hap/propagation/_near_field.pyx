@@ -40,7 +40,7 @@ cdef class Dimples:
                 cut = sqrt(here2 * self.cut2[drive])
                 share = self.share(points_m[i, 0], points_m[i, 1], drive, cut)
                 for k in range(n_k2):
-                    told[i, drive, k] = atanh(k2[k] / cut) * share / (4 * M_PI * k2[k])
+                    told[i, drive, k] = near_of(k2[k], cut, share)
         return found
 
     cdef double cutoff_squared(self, double x, double y) noexcept:
@@ -64,3 +64,8 @@ cdef class Dimples:
                     t = self.pieces[piece, 0] + (t - piece) * self.pieces[piece, 1]
                     total += self.x_weights[i] * self.y_weights[j] * t
         return total
+
+
+cdef double near_of(double k2, double cut2, double share) noexcept:
+    """The near field of a force by its share, see `_beyond`."""
+    return atanh(k2 / cut2) * share / (4 * M_PI * k2)
