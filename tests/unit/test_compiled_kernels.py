@@ -466,6 +466,16 @@ def test_forces_folded(seed: int, n: int) -> None:
     np.testing.assert_allclose(compiled, told, rtol=1e-9, atol=1e-9)
 
 
+@steady
+@given(seed=seeds, n_own=st.lists(st.integers(0, 6), min_size=1, max_size=4), n=st.integers(0, 3))
+def test_lengths_in_bands(seed: int, n_own: list[int], n: int) -> None:
+    rng = np.random.default_rng(seed)
+    factors = [np.triu(rng.normal(size=(n, k, k))) for k in n_own]
+    sides = rng.normal(size=(int(rng.integers(0, 3)), sum(n_own)))
+    told, compiled = (kind(factors)(sides) for kind in both("propagation.band_shapes.BandLengths"))
+    np.testing.assert_allclose(compiled, told, rtol=1e-12)
+
+
 @pytest.mark.parametrize("odd", [0.0, 1e200, -1e308, math.inf, -math.inf, math.nan])
 def test_finite_points(odd: float) -> None:
     plain, twin = both("propagation.points.are_finite")

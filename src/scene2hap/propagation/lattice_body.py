@@ -8,21 +8,57 @@ Letters: as `lattice_modes`; Y [m/N] receptance, D_c = D (1 + j eta) [N m].
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.propagation.lattice import Lattice
 from scene2hap.propagation.lattice_modes import TERMS, lattice_modes
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.reached import Response
 from scene2hap.propagation.recall import Recall
+from scene2hap.propagation.span import real
 
 
 @lru_cache(maxsize=32)
 def lattice_body(plate: Plate, resolution: int, max_frequency_hz: float, loss_factor: float) -> LatticeBody:
     """The body of a plate; remembered, since scenes are prepared anew whenever a contact changes."""
     return LatticeBody(plate, resolution, max_frequency_hz, loss_factor)
+
+
+@dataclass(frozen=True, eq=False)
+class LatticeSpan:
+    """A `Span`: the lattice's modes, and the series of each force.
+
+    shapes : (n_nodes, n_modes + n_forces TERMS); shares : of every mode in every force (n_forces, n_modes); spectra :
+    see `LatticeBody`.
+    """
+
+    lattice: Lattice
+    shapes: NDArray[np.float64]
+    shares: NDArray[np.float64]
+    spectra: Callable[[NDArray[np.float64]], NDArray[np.float64]]
+
+    @property
+    def sizes(self) -> NDArray[np.float64]:
+        """See `Span`."""
+        sizes: NDArray[np.float64] = np.sqrt(np.square(self.shapes).mean(axis=0))
+        return sizes
+
+    def weights(self, frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        """See `Span`."""
+        spectrum, n_modes = self.spectra(frequencies_hz).view(np.complex128)[:, None], self.shares.shape[1]
+        modal = real(self.shares.T, forces)
+        modal *= spectrum[:n_modes]
+        series = forces[:, None] * spectrum[n_modes:]
+        return np.concatenate([modal, series.reshape(len(forces) * TERMS, *forces.shape[1:])])
+
+    def mixed(self, weights: NDArray[np.float64]) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+        """See `Span`."""
+        at_nodes = self.shapes @ weights
+        return lambda points_m: np.asarray(self.lattice.interpolation(points_m) @ at_nodes)
 
 
 class LatticeBody:
@@ -47,20 +83,11 @@ class LatticeBody:
         flat = terms.reshape(-1, terms.shape[2]) @ self._spectra(frequencies_hz)
         return flat.view(np.complex128).reshape(*terms.shape[:2], -1).transpose(2, 0, 1)
 
-    def under(
-        self, forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]
-    ) -> Response:
-        """See `Foldable`."""
+    def span(self, forces_m: NDArray[np.float64]) -> LatticeSpan:
+        """See `Spanned`."""
         shares, stiffer = self._from_forces(forces_m)
-        spectrum, n = self._spectra(frequencies_hz).view(np.complex128), shares.shape[1]
-        summed = self.modes.shapes @ (spectrum[:n] * (shares.T @ forces))
-        summed += stiffer @ (forces[:, None] * spectrum[n:]).reshape(-1, forces.shape[1])
-
-        def response(points_m: NDArray[np.float64]) -> NDArray[np.complex128]:
-            answer: NDArray[np.complex128] = np.asarray(self.modes.lattice.interpolation(points_m) @ summed)
-            return answer
-
-        return response
+        shapes = np.concatenate([self.modes.shapes, stiffer], axis=1)
+        return LatticeSpan(self.modes.lattice, shapes, shares, self._spectra)
 
     def _pushed(self, forces_m: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Share of every mode in every force (n_forces, n_modes); the series at the nodes (n_nodes, n_forces TERMS)."""

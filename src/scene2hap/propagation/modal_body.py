@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scene2hap.propagation.infinite_plate import InfiniteBody
 from scene2hap.propagation.modes import FINE, MARGIN, Fineness, largest_block
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.plate_terms import PlateTerms
+from scene2hap.propagation.plate_terms import Folded, PlateTerms, Pushed
 from scene2hap.propagation.reached import Response, folded
 from scene2hap.propagation.recall import Recall
 
@@ -84,6 +84,27 @@ class SplitBody:
         return response
 
 
+@dataclass(frozen=True, eq=False)
+class ModalSpan:
+    """A `Span`: the plate's modes, and what else each force does."""
+
+    pushed: Pushed
+    spectrum: Callable[[NDArray[np.float64]], NDArray[np.complex128]]
+
+    @property
+    def sizes(self) -> NDArray[np.float64]:
+        """See `Span`."""
+        return self.pushed.sizes
+
+    def weights(self, frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        """See `Span`."""
+        return self.pushed.weights(self.spectrum(frequencies_hz), forces)
+
+    def mixed(self, weights: NDArray[np.float64]) -> Folded:
+        """See `Span`."""
+        return self.pushed.mixed(weights)
+
+
 class ModalBody:
     """An `ElasticBody` by modes, for frequencies up to `max_frequency_hz`."""
 
@@ -114,13 +135,14 @@ class ModalBody:
         for part, sums in self._sums(frequencies_hz).pieces(terms.reshape(-1, terms.shape[2])):
             yield part, sums.T.copy().reshape(-1, *terms.shape[:2])
 
-    def under(
-        self, forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]
-    ) -> Response:
-        """See `Foldable`."""
+    def span(self, forces_m: NDArray[np.float64]) -> ModalSpan:
+        """See `Spanned`."""
+        return ModalSpan(self._at_forces(forces_m), self.spectrum)
+
+    def spectrum(self, frequencies_hz: NDArray[np.float64]) -> NDArray[np.complex128]:
+        """Each of the plate's terms at each frequency (n_terms, n_frequencies)."""
         q, scale = self._damped(frequencies_hz)
-        response = self._at_forces(forces_m).under(self.terms.spectrum(q) * scale, forces)
-        return lambda points_m: response(points_m).view(np.complex128)
+        return self.terms.spectrum(q) * scale
 
     def _between(self, points_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]) -> NDArray[np.complex128]:
         return self._summed(self._among_forces(points_m), frequencies_hz)

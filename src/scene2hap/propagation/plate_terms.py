@@ -15,7 +15,6 @@ q [m^-4], rho [m^2], eta [-].
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise, product
 
@@ -28,10 +27,12 @@ from scene2hap.propagation.near_field import Dimples, NearField
 from scene2hap.propagation.octaves import OctaveSums
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.ritz import axis_basis
+from scene2hap.propagation.span import real
 
 N_NODES = 4
 
 Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,18 +60,30 @@ class Pushed:
         np.add(rest, self.near(points_m, self.k2), out=terms[:, :, n_modes:])
         return terms
 
-    def under(self, spectrum: NDArray[np.complex128], forces: NDArray[np.complex128]) -> Callable[[Floats], Floats]:
-        """Sum over all forces at few frequencies, thought out but for the point.
+    @property
+    def sizes(self) -> Floats:
+        """About how large the modes are, and then what else each force does by its nodes (n_modes + n_forces N_NODES,).
 
-        Parameters: spectrum : (n_terms, n_f), forces : (n_forces, n_f). Returns: a function from points (n_points, 2)
-        [m] to real and imaginary part, by turns (n_points, 2 n_f).
+        Products of cosines are so; near fields are left out, since all of a force's nodes have theirs.
         """
-        n_modes, n_f = self.phi.shape[1], forces.shape[1]
-        modal = self.modes @ (spectrum[:n_modes] * (self.phi.T @ forces))
-        by_node = (forces[:, None] * spectrum[n_modes:]).reshape(len(forces) * N_NODES, n_f)
-        smooth = np.ascontiguousarray(modal + self.rest @ by_node).view(np.float64)
-        size = (*self.plate.per_size, *self.plate.n_cosines)
-        return Folded(size, smooth, self.near.dimples, self.k2, by_node.view(np.float64))
+        sizes: Floats = np.sqrt(np.square(np.concatenate([self.modes, self.rest], axis=1)).sum(axis=0))
+        return sizes
+
+    def weights(self, spectrum: Complex, forces: Complex) -> Complex:
+        """How much of these shapes (n_modes + n_forces N_NODES, n, n_f) there is, for terms at frequencies (n_terms,
+        n_f) and forces (n_forces, n, n_f)."""
+        n_modes = self.phi.shape[1]
+        modal = real(self.phi.T, forces)
+        modal *= spectrum[:n_modes, None]
+        by_node = forces[:, None] * spectrum[n_modes:, None]
+        return np.concatenate([modal, by_node.reshape(len(forces) * N_NODES, *forces.shape[1:])])
+
+    def mixed(self, weights: Floats) -> Folded:
+        """Sums of these shapes, see `Span`."""
+        n_modes = self.phi.shape[1]
+        beyond = np.ascontiguousarray(weights[n_modes:])
+        smooth = self.modes @ weights[:n_modes] + self.rest @ beyond
+        return Folded((*self.plate.per_size, *self.plate.n_cosines), smooth, self.near.dimples, self.k2, beyond)
 
 
 @compiled

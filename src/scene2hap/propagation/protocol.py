@@ -88,6 +88,16 @@ class PropagationField(Protocol):
 
 
 @runtime_checkable
+class ExpectantField(PropagationField, Protocol):
+    """A field that answers sooner about objects it was told to expect questions about; it need not be one."""
+
+    def expect(self, object_id: str) -> None:
+        """Work out now what makes questions about an object quick. May take as long as many questions, and may run in
+        one thread while another asks; answers stay what they are but for rounding."""
+        ...
+
+
+@runtime_checkable
 class PropagationModel(Protocol):
     """Prepares fields."""
 

@@ -2,9 +2,10 @@
 
     u(x, f) = sum over contacts c of Y(x, x_c, f) g_c(f)
 
-In true bands that is a product of small matrices for every frequency. If each source has one frequency, all that does
-not depend on x is summed over the contacts when the object is first touched (`folded`), and a touch costs the same
-however many there are.
+If each source has one frequency, all that does not depend on x is summed over the contacts when the object is first
+touched (`folded`), and a touch costs the same however many there are. In true bands that is a product of small matrices
+for every frequency, until the object is expected to be touched often: then it is summed over contacts and frequencies
+(`band_shapes`), which takes as long as some dozen touches.
 
 Letters: as `coupling`.
 """
@@ -18,8 +19,10 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.propagation.band_shapes import band_gains
 from scene2hap.propagation.coupling import ElasticBody
 from scene2hap.propagation.sampling import Sampling
+from scene2hap.propagation.span import Spanned
 
 MOST_FOLDED = 64
 """Sources that are folded: an object keeps up to some 100 kB for each. More are summed at every touch."""
@@ -30,7 +33,7 @@ Response = Callable[[NDArray[np.float64]], NDArray[np.complex128]]
 
 @runtime_checkable
 class Foldable(Protocol):
-    """A body that can sum over known forces before it knows where it is asked."""
+    """A body that can sum over known forces before it knows where it is asked, though it is not `Spanned`."""
 
     def under(
         self, forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]
@@ -68,9 +71,14 @@ def folded(
     frequencies_hz: NDArray[np.float64],
     forces: NDArray[np.complex128],
 ) -> Response:
-    """See `Foldable.under`; a body that is none is asked for every contact."""
-    if isinstance(body, Foldable) and len(frequencies_hz) <= MOST_FOLDED:
-        return body.under(forces_m, frequencies_hz, forces)
+    """See `Foldable.under`; a body that can do neither is asked for every contact."""
+    if len(frequencies_hz) <= MOST_FOLDED:
+        if isinstance(body, Spanned):
+            span = body.span(forces_m)
+            mixed = span.mixed(span.weights(frequencies_hz, forces[:, None])[:, 0].view(np.float64))
+            return lambda points_m: mixed(points_m).view(np.complex128)
+        if isinstance(body, Foldable):
+            return body.under(forces_m, frequencies_hz, forces)
 
     def response(points_m: NDArray[np.float64]) -> NDArray[np.complex128]:
         receptance = body.receptance(points_m, forces_m, frequencies_hz)
@@ -97,6 +105,7 @@ class Reached:
     columns: NDArray[np.intp]
     _own: NDArray[np.complex128] | None = field(default=None, repr=False)
     _response: Response | None = field(default=None, repr=False)
+    _in_bands: Callable[[NDArray[np.float64]], NDArray[np.float64]] | None = field(default=None, repr=False)
 
     @property
     def own_forces(self) -> NDArray[np.complex128]:
@@ -108,8 +117,15 @@ class Reached:
             self._own = np.ascontiguousarray(np.moveaxis(taken, 2, 0)) if taken.ndim == 3 else taken
         return self._own
 
+    def expect(self, sampling: Sampling) -> None:
+        """Be ready to be touched often."""
+        if sampling.starts is not None and self._in_bands is None and isinstance(self.body, Spanned):
+            self._in_bands = band_gains(self.body.span(self.points_m), self.own_forces, sampling)
+
     def gains(self, points_m: NDArray[np.float64], sampling: Sampling) -> NDArray[np.float64]:
         """Gains (n_points, n_sources, n_bands) [-] at points (n_points, 2) [m]."""
+        if self._in_bands is not None:
+            return self._in_bands(points_m)
         own = sampling.columns(self.columns)
         if own is None:
             moved = np.empty((len(sampling.frequencies_hz), len(points_m), len(self.columns)), dtype=np.complex128)

@@ -1,6 +1,6 @@
 """Bodies that move as a whole: which ones do, and how they answer to forces.
 
-    Y(x, x') = -1 / omega^2 * (1/m + (x - x_c) (x' - x'_c) / I_y + (y - y_c) (y' - y'_c) / I_x)
+    Y(x, x') = -1 / omega^2 * (1/m + (x - x_c) (x' - x_c) / I_y + (y - y_c) (y' - y_c) / I_x)
 
 Letters: Y [m/N] receptance, m [kg], I_x, I_y [kg m2] inertia of a box about its middle, where x_c, y_c are.
 """
@@ -8,6 +8,7 @@ Letters: Y [m/N] receptance, m [kg], I_x, I_y [kg m2] inertia of a box about its
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 
 from scene2hap.propagation.modes import first_bending_hz
 from scene2hap.propagation.plate import Plate, RigidBody
+from scene2hap.propagation.span import real
 
 COMPACT_THICKNESS = 1 / 5
 """Part of the shorter side above which a thickness makes a body compact; thin-plate theory is far gone by then."""
@@ -58,17 +60,59 @@ class RigidMotion:
             size = body.size_m if body is not None else None
         return cls(mass_kg, size if rocks else None)
 
+    def span(self, forces_m: NDArray[np.float64]) -> RigidSpan:
+        """See `Spanned`."""
+        return RigidSpan(self, self._moved_by(forces_m))
+
     def receptance(
         self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
     ) -> NDArray[np.complex128]:
         """See `ElasticBody`."""
-        yielding = np.full((len(points_m), len(forces_m)), 1 / self.mass_kg)
-        if self.size_m is not None:
-            length, width, thickness = self.size_m
-            inertia = self.mass_kg / 12 * (np.array([length, width]) ** 2 + thickness**2)
-            middle = np.array([length, width]) / 2
-            yielding += ((points_m - middle) / inertia) @ (forces_m - middle).T
+        yielding = self.motions(points_m) @ self._moved_by(forces_m)
         answer: NDArray[np.complex128] = (-yielding / (2 * np.pi * frequencies_hz[:, None, None]) ** 2).astype(
             np.complex128
         )
         return answer
+
+    def motions(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+        """How far points (n_points, 2) [m] go in each motion (n_points, n_motions): 1 as all go up; if it rocks, their
+        distance from the middle along length and width [m] as it turns."""
+        up = np.ones((len(points_m), 1))
+        return up if self.size_m is None else np.concatenate([up, points_m - self._middle_m], axis=1)
+
+    def _moved_by(self, forces_m: NDArray[np.float64]) -> NDArray[np.float64]:
+        """How much of each motion forces at points (n_forces, 2) [m] accelerate (n_motions, n_forces)."""
+        inertias = np.array([self.mass_kg])
+        if self.size_m is not None:
+            turning = self.mass_kg / 12 * (np.square(self.size_m[:2]) + self.size_m[2] ** 2)
+            inertias = np.append(inertias, turning)
+        moved: NDArray[np.float64] = (self.motions(forces_m) / inertias).T
+        return moved
+
+    @property
+    def _middle_m(self) -> NDArray[np.float64]:
+        length, width, _ = self.size_m or (0.0, 0.0, 0.0)
+        return np.array([length / 2, width / 2])
+
+
+@dataclass(frozen=True, eq=False)
+class RigidSpan:
+    """A `Span`: the motions of a rigid body. moved_by : (n_motions, n_forces)."""
+
+    body: RigidMotion
+    moved_by: NDArray[np.float64]
+
+    @property
+    def sizes(self) -> NDArray[np.float64]:
+        """See `Span`."""
+        return np.array([1.0, *(side / 2 for side in (self.body.size_m or ())[:2])])
+
+    def weights(self, frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        """See `Span`."""
+        weights = real(self.moved_by, forces)
+        weights /= -((2 * np.pi * frequencies_hz) ** 2)
+        return weights
+
+    def mixed(self, weights: NDArray[np.float64]) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+        """See `Span`."""
+        return lambda points_m: self.body.motions(points_m) @ weights

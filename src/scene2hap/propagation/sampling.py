@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,6 +53,12 @@ class Sampling:
             own = np.array([item.frequency_tactile_hz for item in excitations])
             return cls(own, None, np.ones(len(own)))
         return _of_bands(bands, loss_factor, density)
+
+    @property
+    def bands(self) -> list[slice]:
+        """Which frequencies are those of each band; none if there is one for each source."""
+        ends = [] if self.starts is None else [*self.starts.tolist(), len(self.frequencies_hz)]
+        return [slice(*pair) for pair in pairwise(ends)]
 
     def columns(self, sources: NDArray[np.intp]) -> NDArray[np.intp] | None:
         """Which frequency is that of each source (n_sources,), None if all are everyone's."""

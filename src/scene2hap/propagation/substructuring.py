@@ -158,6 +158,12 @@ class CoupledField:
             gains[:, self.source_ids.index(object_id)] = 1.0
         return gains
 
+    def expect(self, object_id: str) -> None:
+        """Be ready to be asked about an object often, see `ExpectantField`."""
+        found = self.reach.get(object_id)
+        if found is not None:
+            found.expect(self.sampling)
+
 
 def checked_law(
     contact: ContactLaw | Mapping[str, Any], outside_domain: OutsideDomain, loss_floor: float = 0.0

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -9,25 +11,31 @@ from hypothesis import strategies as st
 
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, Material, ModalPlate, Plate, Pose, materials
 from scene2hap.propagation import modal_body, reached
+from scene2hap.propagation.band_shapes import CLOSE, band_gains
 from scene2hap.propagation.lattice_body import lattice_body
 from scene2hap.propagation.modal_body import ModalBody, SplitBody
 from scene2hap.propagation.octaves import OctaveSums
+from scene2hap.propagation.protocol import ExpectantField
 from scene2hap.propagation.reached import folded, pieces
+from scene2hap.propagation.rigid import RigidMotion
+from scene2hap.propagation.sampling import Sampling
 
 STEEL = Plate(0.65, 0.42, 0.002, materials.lookup("steel"))
 RUG = Plate(2.0, 1.5, 0.01, Material("rug", 300.0, 2e6, 0.3, 0.3), "CFFF")
 F_HZ = np.geomspace(11.0, 990.0, 200)
 
 
-def bodies() -> dict[str, object]:
+def bodies() -> dict[str, Any]:
     return {
         "steel": ModalPlate().elastic_body(STEEL, 1000.0),
         "rug": ModalPlate().elastic_body(RUG, 1000.0),
+        "rigid": RigidMotion(1.3, (0.4, 0.42, 0.1)),
+        "rigid that does not rock": RigidMotion(1.3),
         "lattice": lattice_body(Plate(0.6, 0.5, 0.01, materials.lookup("oak")), 8, 1000.0, 0.02),
     }
 
 
-@pytest.mark.parametrize("name", ["steel", "rug", "lattice"])
+@pytest.mark.parametrize("name", ["steel", "rug", "lattice", "rigid"])
 def test_folded_forces_are_the_sum_over_contacts(name: str) -> None:
     body = bodies()[name]
     if name == "rug":
@@ -36,18 +44,46 @@ def test_folded_forces_are_the_sum_over_contacts(name: str) -> None:
     f = rng.uniform(10.0, 1000.0, 6)  # in no order, as sources have them
     at, points = rng.uniform(0.0, 0.4, (9, 2)), rng.uniform(0.0, 0.42, (5, 2))
     forces = rng.normal(size=(9, 6)) + 1j * rng.normal(size=(9, 6))
-    expected = np.einsum("fpc,cf->pf", body.receptance(points, at, f), forces)  # type: ignore[attr-defined]
-    found = folded(body, at, f, forces)(points)  # type: ignore[arg-type]
+    expected = np.einsum("fpc,cf->pf", body.receptance(points, at, f), forces)
+    found = folded(body, at, f, forces)(points)
     np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("name", ["steel", "lattice", "rigid", "rigid that does not rock"])
+def test_shapes_of_bands_are_the_rms_over_frequencies(name: str) -> None:
+    body = bodies()[name]
+    rng = np.random.default_rng(6)
+    sampling = Sampling.of(Bands.third_octaves(), (), 0.02)
+    n_f, at, points = len(sampling.frequencies_hz), rng.uniform(0.0, 0.4, (9, 2)), rng.uniform(0.0, 0.42, (60, 2))
+    # Forces as of bodies that resonate themselves; one source is weak, and one does not reach.
+    resonances = 1 / (sampling.frequencies_hz[:, None] ** 2 - (1 + 0.02j) * np.array([50.0, 210.0, 700.0]) ** 2)
+    forces = np.einsum("fr,rcs->fcs", resonances, rng.normal(size=(3, 9, 4))) * np.array([1.0, 3.0, 1e-9, 0.0])
+    response = np.einsum("fpc,fcs->fps", body.receptance(points, at, sampling.frequencies_hz), forces)
+    squares = np.abs(response) ** 2 * sampling.weights[:, None, None]
+    expected = np.sqrt([squares[begin : begin + n_f // 20].sum(axis=0) for begin in range(0, n_f, n_f // 20)])
+    found = band_gains(body.span(at), forces, sampling)(points).transpose(2, 0, 1)
+    assert found.shape == (20, 60, 4)
+    assert (np.abs(found - expected) <= CLOSE * expected.max(axis=1, keepdims=True)).all()
+
+
+def test_a_field_that_expects_to_be_asked_says_the_same() -> None:
+    points, bands = [(0.31, 0.22, 0.0), (0.12, 0.4, 0.0)], Bands.third_octaves()
+    field, expectant = (ModalPlate().prepare(scene(), SOURCES, bands) for _ in range(2))
+    assert isinstance(expectant, ExpectantField)
+    for object_id in ("top", "tray", "s0", "nobody knows"):
+        expectant.expect(object_id)
+    for object_id in ("top", "tray", "s0"):
+        told, found = (one.attenuation(object_id, points) for one in (field, expectant))
+        np.testing.assert_allclose(found, told, atol=CLOSE * told.max())
 
 
 @pytest.mark.parametrize("name", ["steel", "rug"])
 def test_pieces_are_the_receptance(name: str) -> None:
     body = bodies()[name]
     at, points = np.array([[0.1, 0.2], [0.3, 0.05]]), np.array([[0.2, 0.2], [0.0, 0.4], [0.4, 0.1]])
-    expected = body.receptance(points, at, F_HZ)  # type: ignore[attr-defined]
+    expected = body.receptance(points, at, F_HZ)
     found = np.full_like(expected, np.nan)
-    for part, own in pieces(body, points, at, F_HZ):  # type: ignore[arg-type]
+    for part, own in pieces(body, points, at, F_HZ):
         assert own.flags.c_contiguous
         found[part] = own
     np.testing.assert_allclose(found, expected, rtol=1e-12)
@@ -117,6 +153,6 @@ def test_more_sources_than_are_folded_are_summed(monkeypatch: pytest.MonkeyPatch
     field, points = ModalPlate().prepare(scene(), SOURCES, Bands.dominant()), [(0.31, 0.22, 0.0), (0.12, 0.4, 0.0)]
     few = field.attenuation("top", points)
     monkeypatch.setattr(reached, "MOST_FOLDED", 2)
-    monkeypatch.setattr(ModalBody, "under", None)
+    monkeypatch.setattr(ModalBody, "span", None)
     many = ModalPlate().prepare(scene(), SOURCES, Bands.dominant()).attenuation("top", points)
     np.testing.assert_allclose(many, few, rtol=1e-12)

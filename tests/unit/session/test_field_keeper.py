@@ -125,6 +125,43 @@ def test_what_hands_touch_is_prepared_first_and_then_everything() -> None:
     assert s.update(touches=[ON_TABLE, on_shelf]).gain("right", "fan") > 0.0
 
 
+class Expectant(Field):
+    """A field that notes what it is told to expect, and in which thread."""
+
+    def __init__(self, source_ids: tuple[str, ...], n_contacts: int) -> None:
+        super().__init__(source_ids, n_contacts)
+        self.expected: list[tuple[str, int]] = []
+        self.has_been_told = threading.Semaphore(0)
+
+    def expect(self, object_id: str) -> None:
+        self.expected.append((object_id, threading.get_ident()))
+        self.has_been_told.release()
+
+
+def test_a_field_is_told_once_what_to_expect_and_not_by_the_game() -> None:
+    field = Expectant(("phone", "other phone"), 1)
+
+    class Model:
+        def prepare(self, network: Any, excitations: Any, bands: Bands) -> Expectant:
+            field.source_ids = tuple(x.source_id for x in excitations)
+            return field
+
+    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": Model()})
+    for _ in range(3):
+        s.update(touches=[ON_TABLE])
+    assert field.has_been_told.acquire(timeout=SECONDS)
+    s.update(touches=[Touch("left", "table", (0.7, 0.72, 0.4)), Touch("right", "phone", (0.5, 0.73, 0.4))])
+    assert field.has_been_told.acquire(timeout=SECONDS)
+    assert field.has_been_told.acquire(timeout=SECONDS)
+    s.update(touches=[ON_TABLE])
+    # All that is touched is told anew when something is touched that was not; whatever is known takes no time.
+    assert [object_id for object_id, _ in field.expected] == ["table", "table", "phone"]
+    assert threading.get_ident() not in {thread for _, thread in field.expected}
+    # The field of another situation is told before it is used.
+    s.update(shifted(0.2), [ON_TABLE])
+    assert field.has_been_told.acquire(timeout=SECONDS)
+
+
 def test_blocking_waits_in_update() -> None:
     s, model = gated(prepare="blocking")
     model.gate.set()

@@ -1,0 +1,99 @@
+"""The rms over bands of what known forces do to a body, as lengths of short vectors.
+
+    g_b(x)^2 = sum over f in b of w_f |u(x, f)|^2 = |R_b Q_b^T s(x)|^2        u(x, f) = sum over i of s_i(x) W_i(f)
+
+In a band a body moves in a few shapes only, those of the modes nearby, however many contacts push it and frequencies
+resolve its resonances. Q_b is an orthonormal basis of the columns W(f) of all sources, of which none then misses more
+than `CLOSE` of itself, and R_b^T R_b the sum of w_f Q_b^T W W^H Q_b for one source. A basis that holds nearly all of
+many columns is found by mixing them at random.
+
+Letters: s shapes [m^-2 or m^2], W weights, u [-], w [-] part of its band that a frequency stands for.
+Source: Halko, Martinsson, Tropp, Finding structure with randomness, SIAM Review 53 (2011) 217, algorithm 4.1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.compiled import compiled
+from scene2hap.propagation.sampling import Sampling
+from scene2hap.propagation.span import Span
+
+CLOSE = 3e-4
+"""Part of each source's motion in a band, over the whole body, that may be missed: 70 dB below."""
+_FIRST = 32
+"""Columns that are mixed at first; twice as many where they do not hold enough."""
+_ROUNDING = 1e-13
+"""Added to what each shape carries, since a source may need fewer than all sources together."""
+
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+@compiled
+class BandLengths:
+    """Lengths of vectors, several for each of some spaces that stand side by side.
+
+    Parameters: factors : R of each space, upper triangles (n, n_own, n_own).
+    """
+
+    def __init__(self, factors: Sequence[Floats]) -> None:
+        self._factors = factors
+
+    def __call__(self, sides: Floats) -> Floats:
+        """|R v| for vectors (n_points, sum of all n_own): (n_points, n, n_spaces)."""
+        found, begin = [], 0
+        for factor in self._factors:
+            n, n_own, _ = factor.shape
+            own = sides[:, begin : begin + n_own]
+            turned = own @ factor.reshape(n * n_own, n_own).T
+            found.append(np.sqrt(np.square(turned.reshape(len(own), n, n_own)).sum(axis=2)))
+            begin += n_own
+        return np.stack(found, axis=-1)
+
+
+def band_gains(span: Span, forces: Complex, sampling: Sampling) -> Callable[[Floats], Floats]:
+    """From points (n_points, 2) [m] to gains (n_points, n_sources, n_bands) [-] under known forces.
+
+    Parameters: forces : (n_frequencies, n_forces, n_sources).
+    """
+    sizes, bases, factors = span.sizes[:, None], [], []
+    for band in sampling.bands:
+        own = forces[band] * np.sqrt(sampling.weights[band])[:, None, None]
+        weights = span.weights(sampling.frequencies_hz[band], own.transpose(1, 2, 0))
+        basis, factor = _basis(weights.view(np.float64) * sizes[:, :, None])
+        bases.append(basis / sizes)
+        factors.append(factor)
+    sides, lengths = span.mixed(np.concatenate(bases, axis=1)), BandLengths(factors)
+    return lambda points_m: lengths(sides(points_m))
+
+
+def _basis(weights: Floats) -> tuple[Floats, Floats]:
+    """Q (n_shapes, n_own) and R of each source (n_sources, n_own, n_own), of weights (n_shapes, n_sources, n)."""
+    n_shapes, n_sources, n = weights.shape
+    sizes = np.sqrt(np.square(weights).sum(axis=(0, 2)))
+    columns = (weights / np.where(sizes > 0, sizes, 1.0)[:, None]).reshape(n_shapes, n_sources * n)
+    basis = _range_of(columns)
+    within = basis.T @ columns
+    # What little the shapes carry that all sources together need least is left out.
+    carried, turned = np.linalg.eigh(within @ within.T)
+    few = turned[:, np.cumsum(carried) > CLOSE**2 / 2]
+    within = (few.T @ within).reshape(-1, n_sources, n).transpose(1, 0, 2)
+    carried = within @ within.transpose(0, 2, 1) + _ROUNDING * np.eye(within.shape[1])
+    return basis @ few, np.linalg.cholesky(carried).transpose(0, 2, 1) * sizes[:, None, None]
+
+
+def _range_of(columns: Floats) -> Floats:
+    """An orthonormal basis that holds all of some columns (m, n), each source's of length 1, but for half of what may
+    be missed."""
+    most, n_mixed, whole = min(columns.shape), _FIRST, np.square(columns).sum()
+    random = np.random.default_rng(0)
+    while n_mixed < most:
+        basis, _ = np.linalg.qr(columns @ random.standard_normal((columns.shape[1], n_mixed)))
+        if whole - np.square(basis.T @ columns).sum() < CLOSE**2 / 2:
+            return basis
+        n_mixed *= 2
+    return np.linalg.qr(columns)[0] if columns.shape[1] <= len(columns) else np.eye(len(columns))

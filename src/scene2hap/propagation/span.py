@@ -1,0 +1,50 @@
+"""The shapes that a body can take under forces at known points.
+
+What it does at any frequency is a sum of them. So all that does not depend on where a hand is, contacts, sources and
+frequencies, is summed before one touches.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+class Span(Protocol):
+    """Shapes s_i(x), of which deflection is the sum  u(x, f) = sum over i of s_i(x) W_i(f)."""
+
+    @property
+    def sizes(self) -> Floats:
+        """About how large each shape is (n_shapes,), so that what it adds can be compared."""
+        ...
+
+    def weights(self, frequencies_hz: Floats, forces: Complex) -> Complex:
+        """W (n_shapes, n, n_f) under forces (n_forces, n, n_f) at frequencies (n_f,) [Hz]."""
+        ...
+
+    def mixed(self, weights: Floats) -> Callable[[Floats], Floats]:
+        """Sums of the shapes (n_shapes, n), thought out but for the point: from points (n_points, 2) [m] to
+        (n_points, n)."""
+        ...
+
+
+@runtime_checkable
+class Spanned(Protocol):
+    """A body whose deflection under any forces is a sum of some shapes."""
+
+    def span(self, forces_m: Floats) -> Span:
+        """The shapes for forces at points (n_forces, 2) [m]."""
+        ...
+
+
+def real(product: Floats, of: Complex) -> Complex:
+    """A real matrix (m, n) times complex columns (n, ...), at half of what a complex one costs."""
+    flat = np.ascontiguousarray(of).reshape(len(of), math.prod(of.shape[1:])).view(np.float64)
+    return (product @ flat).view(np.complex128).reshape(len(product), *of.shape[1:])

@@ -1,0 +1,134 @@
+"""The worker that prepares fields: what is near the hands first, and everything once nothing changes any more.
+
+Threads: orders come by a queue, of which all but the newest are skipped; the answer is left in one slot; neither side
+ever waits for the other.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+from collections import deque
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum, auto
+from queue import Empty, SimpleQueue
+from threading import Event
+
+from scene2hap.haptics import Bands
+from scene2hap.propagation.live import TouchedPoint
+from scene2hap.propagation.protocol import Excitation, ExpectantField, PropagationField, PropagationModel
+from scene2hap.scene.pose import Pose
+from scene2hap.session.stage import Told
+
+AT_REST_S = 0.05
+"""Time without a change after which everything is prepared, and not only what hands can feel."""
+
+
+@dataclass(eq=False)
+class Situation:
+    """What a field is prepared for.
+
+    Parameters: network : puts together what the model is told, of what hangs together with some objects or of
+    everything for none, in whatever thread; poses : of all objects then; asked_at_s, outdated_at_s : when it began and
+    ended to be how things are, by `time.monotonic` [s].
+    """
+
+    number: int
+    network: Callable[[Collection[str]], Told]
+    excitations: Sequence[Excitation]
+    poses: Mapping[str, Pose]
+    asked_at_s: float
+    outdated_at_s: float | None = None
+
+
+class Sign(Enum):
+    """What the worker is told besides situations."""
+
+    TOUCHED = auto()
+    """Hands touch something that the newest field does not expect to be asked about."""
+    END = auto()
+
+
+Order = Situation | Sign
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """A field, the situation that it tells of, the objects of which it may say something, None for all, and those that
+    it expects to be asked about."""
+
+    field: PropagationField
+    situation: Situation
+    covers: Collection[str] | None = None
+    expected: set[str] = dataclasses.field(default_factory=set)
+
+    def expect(self, touched: Sequence[TouchedPoint]) -> None:
+        """Have the field work out now what is going to be asked, so that it is not left to the game's thread."""
+        for object_id, point_m in touched:
+            if self.covers is None or object_id in self.covers:
+                self.expected.add(object_id)
+                # Whatever it refuses, it refuses where it is asked in earnest.
+                with contextlib.suppress(Exception):
+                    if isinstance(self.field, ExpectantField):
+                        self.field.expect(object_id)
+                    self.field.attenuation(object_id, [point_m])
+
+
+@dataclass(eq=False)
+class Desk:
+    """What keeper and worker share; the worker knows nothing else, so that a keeper can be forgotten."""
+
+    model: PropagationModel
+    bands: Bands
+    orders: SimpleQueue[Order] = dataclasses.field(default_factory=SimpleQueue)
+    answers: deque[Prepared | tuple[Situation, Exception]] = dataclasses.field(default_factory=lambda: deque(maxlen=1))
+    has_answered: Event = dataclasses.field(default_factory=Event)
+    touched: Sequence[TouchedPoint] = ()
+    # Fields that are in use no more: giving back their memory is left to the worker, too.
+    spent: deque[Prepared] = dataclasses.field(default_factory=lambda: deque(maxlen=4))
+
+    def prepare(self, situation: Situation, near: Collection[str] = ()) -> Prepared:
+        """A field of what is near some objects, of everything for none."""
+        network, covers = situation.network(near)
+        return Prepared(self.model.prepare(network, situation.excitations, self.bands), situation, covers)
+
+    def work(self, newest: Prepared) -> None:
+        """Follow orders until the last; `newest` is the field that is in use."""
+        is_whole, order = True, self._newest(self.orders.get())
+        while order is not Sign.END:
+            if isinstance(order, Situation):
+                self.spent.clear()
+                found = self._answer(order, {object_id for object_id, _ in self.touched})
+                newest, is_whole = found or newest, found is None or found.covers is None
+            else:
+                newest.expect(self.touched)
+            try:
+                order = self._newest(self.orders.get(timeout=None if is_whole else AT_REST_S))
+            except Empty:
+                newest, is_whole = self._answer(newest.situation, ()) or newest, True
+                order = self._newest(self.orders.get())
+
+    def _answer(self, order: Situation, near: Collection[str]) -> Prepared | None:
+        """Prepare what is near some objects, or everything for none; None if it cannot be."""
+        try:
+            prepared = self.prepare(order, near)
+        except Exception as problem:
+            self.answers.append((order, problem))
+            return None
+        else:
+            prepared.expect(self.touched)
+            self.answers.append(prepared)
+            return prepared
+        finally:
+            self.has_answered.set()
+
+    def _newest(self, order: Order) -> Order:
+        """What of all that waits is to be done: the end, or the last situation."""
+        waiting = [order]
+        with contextlib.suppress(Empty):
+            while True:
+                waiting.append(self.orders.get_nowait())
+        if Sign.END in waiting:
+            return Sign.END
+        return next((one for one in reversed(waiting) if isinstance(one, Situation)), order)
