@@ -271,6 +271,17 @@ def test_outlines_beside_each_other_to_the_last_bit(seed: int) -> None:
 
 
 @steady
+@given(seed=seeds, n=st.integers(1, 20), n_axes=st.integers(2, 3))
+def test_few_points_that_stand_for_more(seed: int, n: int, n_axes: int) -> None:
+    # On a grid many are equally far; some are nearer to each other than is told apart, or a rounding error away.
+    rng = np.random.default_rng(seed)
+    places = rng.integers(0, 3, (n, n_axes)) * rng.choice([0.1, 0.003, 1e-7]) + rng.choice([0.0, 1e-12, 0.01], (n, 1))
+    points = [tuple(place) for place in places.tolist()]
+    plain, twin = both("contact.spread.spread_few")
+    assert twin(points) == plain(points)
+
+
+@steady
 @given(seed=seeds, n=st.integers(0, 3))
 def test_silent_bands(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
@@ -449,13 +460,13 @@ def test_products_of_cosines(seed: int, n: int) -> None:
 
 
 @steady
-@given(seed=seeds, n=st.integers(0, 3))
-def test_forces_folded(seed: int, n: int) -> None:
+@given(seed=seeds, n=st.integers(0, 3), dtype=st.sampled_from([np.float32, np.float64]))
+def test_forces_folded(seed: int, n: int, dtype: type) -> None:
     rng = np.random.default_rng(seed)
     n_forces, n_columns, k2 = int(rng.integers(0, 4)), int(rng.integers(0, 5)), rng.uniform(0.1, 5.0, 4)
     x, y = rng.uniform(0, 1, (2, n_forces, 3))
     near = (x, y, rng.normal(size=3), rng.normal(size=3), rng.uniform(10, 1e4, n_forces), (2.0, 2.0, 30.0, 20.0))
-    smooth, beyond = rng.normal(size=(20, n_columns)), rng.normal(size=(4 * n_forces, n_columns))
+    smooth, beyond = (rng.normal(size=(rows, n_columns)).astype(dtype) for rows in (20, 4 * n_forces))
     points = rng.uniform(0, 1, (n, 2))
     dimples = both("propagation.near_field.Dimples")
     folded = both("propagation.plate_terms.Folded")
@@ -472,8 +483,34 @@ def test_lengths_in_bands(seed: int, n_own: list[int], n: int) -> None:
     rng = np.random.default_rng(seed)
     factors = [np.triu(rng.normal(size=(n, k, k))) for k in n_own]
     sides = rng.normal(size=(int(rng.integers(0, 3)), sum(n_own)))
-    told, compiled = (kind(factors)(sides) for kind in both("propagation.band_shapes.BandLengths"))
-    np.testing.assert_allclose(compiled, told, rtol=1e-12)
+    told, compiled = (
+        kind(lambda _: sides.astype(np.float32), factors)(np.empty((len(sides), 2)))
+        for kind in both("propagation.band_shapes.BandLengths")
+    )
+    np.testing.assert_allclose(compiled, told, rtol=1e-5, atol=1e-5)
+
+
+@steady
+@given(seed=seeds, n=st.integers(0, 3), own=st.integers(-1, 4))
+def test_what_an_object_is_asked(seed: int, n: int, own: int) -> None:
+    rng = np.random.default_rng(seed)
+    columns = rng.choice(5, int(rng.integers(0, 5)), replace=False)
+    arriving = rng.uniform(0, 1, (n, len(columns), 3))
+    told, compiled = (
+        kind(lambda points: points[:, :2], lambda points: arriving[: len(points)], columns, (5, 3), own)(
+            np.zeros((n, 3))
+        )
+        for kind in both("propagation.asked.Asked")
+    )
+    np.testing.assert_array_equal(compiled, told)
+
+
+@steady
+@given(seed=seeds, n=st.integers(0, 3), m=st.integers(0, 3))
+def test_sizes_of_complex_numbers(seed: int, n: int, m: int) -> None:
+    pairs = np.random.default_rng(seed).normal(size=(n, 2 * m))
+    told, compiled = (kind(lambda _: pairs)(np.empty((n, 2))) for kind in both("propagation.asked.Magnitudes"))
+    np.testing.assert_allclose(compiled, told, rtol=1e-14)
 
 
 @pytest.mark.parametrize("odd", [0.0, 1e200, -1e308, math.inf, -math.inf, math.nan])
@@ -491,5 +528,5 @@ def test_points_in_a_rectangle(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
     pose = Pose(tuple(rng.normal(size=3).tolist()), tuple(rng.normal(size=4).tolist()))
     points = rng.normal(size=(n, 3))
-    plain, twin = both("propagation.points.in_rectangle")
-    np.testing.assert_allclose(twin(points, pose, 0.8, 0.5), plain(points, pose, 0.8, 0.5), atol=1e-14)
+    told, compiled = (kind(pose, 0.8, 0.5)(points) for kind in both("propagation.points.InRectangle"))
+    np.testing.assert_allclose(compiled, told, atol=1e-14)

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from scene2hap.compiled import compiled
 from scene2hap.contact.vectors import Floats, Indices, Marks, dot
 
 MAX_POINTS = 4
@@ -40,17 +41,22 @@ def _apart(points: Floats, place: Floats) -> Floats:
     return np.sqrt(squares, out=squares)
 
 
+@compiled
 def spread_few(points: Sequence[tuple[float, ...]]) -> list[int]:
     """The same for a handful of points, in space or in a plane, without numpy's cost per call."""
     n = len(points)
-    middle = [math.fsum(ends) / n for ends in zip(*points, strict=True)]
-    apart = [math.dist(p, middle) for p in points]
+    middle = [sum(ends) / n for ends in zip(*points, strict=True)]
+    apart = [_distance(p, middle) for p in points]
     chosen = [_first_of_few(points, apart)]
-    apart = [math.dist(p, points[chosen[0]]) for p in points]
+    apart = [_distance(p, points[chosen[0]]) for p in points]
     while len(chosen) < MAX_POINTS and max(apart) > _SPREAD_M:
         chosen.append(_first_of_few(points, apart))
-        apart = [min(old, math.dist(p, points[chosen[-1]])) for p, old in zip(points, apart, strict=True)]
+        apart = [min(old, _distance(p, points[chosen[-1]])) for p, old in zip(points, apart, strict=True)]
     return chosen
+
+
+def _distance(one: Sequence[float], other: Sequence[float]) -> float:
+    return math.sqrt(sum([(a - b) * (a - b) for a, b in zip(one, other, strict=True)]))
 
 
 def _first(points: Floats, apart: Floats) -> int:

@@ -8,41 +8,61 @@ from libc.math cimport acos, cos, fmax, fmin, sqrt
 from scene2hap.propagation._near_field cimport Dimples, near_of
 
 
+ctypedef fused real:
+    float
+    double
+
+
 cdef class Folded:
     cdef double per_length, per_width
-    cdef Py_ssize_t n_x, n_y
+    cdef Py_ssize_t n_x, n_y, n
     cdef double[:, ::1] smooth, beyond
+    cdef float[:, ::1] smooth_single, beyond_single
     cdef double[::1] k2, cosines
     cdef Dimples dimples
+    cdef bint is_single
 
     def __init__(self, size, smooth, Dimples dimples, k2, beyond):
         self.per_length, self.per_width, self.n_x, self.n_y = size
-        self.smooth, self.dimples, self.k2, self.beyond = smooth, dimples, k2, beyond
+        self.is_single, self.n = smooth.dtype == np.float32, smooth.shape[1]
+        if self.is_single:
+            self.smooth_single, self.beyond_single = smooth, beyond
+        else:
+            self.smooth, self.beyond = smooth, beyond
+        self.dimples, self.k2 = dimples, k2
         self.cosines = np.empty(len(smooth))
 
     def __call__(self, const double[:, :] points_m):
         cdef Py_ssize_t point
-        found = np.zeros((points_m.shape[0], self.smooth.shape[1]))
-        cdef double[:, ::1] told = found
-        if told.shape[1]:
-            for point in range(points_m.shape[0]):
-                self.add_cosines(&told[point, 0], points_m[point, 0], points_m[point, 1])
-                self.add_near(&told[point, 0], points_m[point, 0], points_m[point, 1])
+        cdef double[:, ::1] told
+        cdef float[:, ::1] told_single
+        found = np.zeros((points_m.shape[0], self.n), np.float32 if self.is_single else np.float64)
+        if self.n == 0:
+            return found
+        if self.is_single:
+            told_single = found
+        else:
+            told = found
+        for point in range(points_m.shape[0]):
+            fill_point(
+                &self.cosines[0],
+                points_m[point, 0] * self.per_length - 1,
+                points_m[point, 1] * self.per_width - 1,
+                self.n_x,
+                self.n_y,
+            )
+            if self.is_single:
+                fold(&told_single[point, 0], &self.smooth_single[0, 0], &self.cosines[0], self.cosines.shape[0], self.n)
+                self.add_near(&told_single[point, 0], &self.beyond_single[0, 0], points_m[point, 0], points_m[point, 1])
+            else:
+                fold(&told[point, 0], &self.smooth[0, 0], &self.cosines[0], self.cosines.shape[0], self.n)
+                self.add_near(&told[point, 0], &self.beyond[0, 0], points_m[point, 0], points_m[point, 1])
         return found
 
-    cdef void add_cosines(self, double* told, double x, double y) noexcept:
-        cdef Py_ssize_t product, k, n = self.smooth.shape[1]
-        cdef const double* row
-        fill_point(&self.cosines[0], x * self.per_length - 1, y * self.per_width - 1, self.n_x, self.n_y)
-        for product in range(self.smooth.shape[0]):
-            row = &self.smooth[product, 0]
-            for k in range(n):
-                told[k] += self.cosines[product] * row[k]
-
-    cdef void add_near(self, double* told, double x, double y) noexcept:
-        cdef Py_ssize_t drive, node, k, n = self.beyond.shape[1], n_k2 = self.k2.shape[0]
-        cdef double cut, share, near, here2 = self.dimples.cutoff_squared(x, y)
-        cdef const double* row
+    cdef void add_near(self, real* told, const real* beyond, double x, double y) noexcept:
+        cdef Py_ssize_t drive, node, n_k2 = self.k2.shape[0]
+        cdef double cut, share, here2 = self.dimples.cutoff_squared(x, y)
+        cdef double near
         for drive in range(self.dimples.cut2.shape[0]):
             cut = sqrt(here2 * self.dimples.cut2[drive])
             share = self.dimples.share(x, y, drive, cut)
@@ -50,9 +70,18 @@ cdef class Folded:
                 continue
             for node in range(n_k2):
                 near = near_of(self.k2[node], cut, share)
-                row = &self.beyond[drive * n_k2 + node, 0]
-                for k in range(n):
-                    told[k] += near * row[k]
+                fold(told, &beyond[(drive * n_k2 + node) * self.n], &near, 1, self.n)
+
+
+cdef void fold(real* told, const real* rows, const double* shares, Py_ssize_t n_rows, Py_ssize_t n) noexcept:
+    """Add rows (n_rows, n), each times its share."""
+    cdef Py_ssize_t row, k
+    cdef real share
+    for row in range(n_rows):
+        share = <real>shares[row]
+        for k in range(n):
+            told[k] += share * rows[k]
+        rows += n
 
 
 def fill_cosines(

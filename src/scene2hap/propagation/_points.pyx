@@ -15,16 +15,29 @@ def are_finite(const double[:, :] points):
     return True
 
 
-def in_rectangle(const double[:, :] points_m, pose, double length_m, double width_m):
-    cdef double x, y, z, w, a, b, c, u, v, px, py, pz
-    cdef Py_ssize_t i, n = points_m.shape[0]
-    found = np.empty((n, 2))
-    cdef double[:, ::1] told = found
-    x, y, z, w = pose.rotation_xyzw
-    px, py, pz = pose.position_m
-    for i in range(n):
-        a, b, c = points_m[i, 0] - px, points_m[i, 1] - py, points_m[i, 2] - pz
-        u = a * (1 - 2 * (y * y + z * z)) + b * (2 * (x * y + z * w)) + c * (2 * (x * z - y * w))
-        v = a * (2 * (x * y - z * w)) + b * (1 - 2 * (x * x + z * z)) + c * (2 * (y * z + x * w))
-        told[i, 0], told[i, 1] = fmin(fmax(u, 0.0), length_m), fmin(fmax(v, 0.0), width_m)
-    return found
+cdef class InRectangle:
+    cdef double px, py, pz, length_m, width_m
+    cdef double[2][3] axes
+
+    def __init__(self, pose, double length_m, double width_m):
+        cdef double x, y, z, w
+        self.px, self.py, self.pz = pose.position_m
+        self.length_m, self.width_m = length_m, width_m
+        x, y, z, w = pose.rotation_xyzw
+        self.axes[0][:] = [1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)]
+        self.axes[1][:] = [2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)]
+
+    def __call__(self, const double[:, :] points_m):
+        cdef double a, b, c
+        cdef Py_ssize_t i, n = points_m.shape[0]
+        found = np.empty((n, 2))
+        cdef double[:, ::1] told = found
+        for i in range(n):
+            a, b, c = points_m[i, 0] - self.px, points_m[i, 1] - self.py, points_m[i, 2] - self.pz
+            told[i, 0] = fmin(fmax(along(self.axes[0], a, b, c), 0.0), self.length_m)
+            told[i, 1] = fmin(fmax(along(self.axes[1], a, b, c), 0.0), self.width_m)
+        return found
+
+
+cdef double along(const double* axis, double a, double b, double c) noexcept:
+    return a * axis[0] + b * axis[1] + c * axis[2]

@@ -19,11 +19,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
+from scene2hap.propagation.asked import Gains
 from scene2hap.propagation.sampling import Sampling
 from scene2hap.propagation.span import Span
 
-CLOSE = 3e-4
-"""Part of each source's motion in a band, over the whole body, that may be missed: 70 dB below."""
+CLOSE = 1e-3
+"""Part of each source's motion in a band, over the whole body, that may be missed: 60 dB below."""
 _FIRST = 32
 """Columns that are mixed at first; twice as many where they do not hold enough."""
 _ROUNDING = 1e-13
@@ -35,17 +36,18 @@ Complex = NDArray[np.complex128]
 
 @compiled
 class BandLengths:
-    """Lengths of vectors, several for each of some spaces that stand side by side.
+    """Lengths of vectors, several for each of some spaces that stand side by side, in single precision.
 
-    Parameters: factors : R of each space, upper triangles (n, n_own, n_own).
+    Parameters: sides : from points (n_points, 2) [m] to vectors (n_points, sum of all n_own); factors : R of each
+    space, at least one, upper triangles (n, n_own, n_own).
     """
 
-    def __init__(self, factors: Sequence[Floats]) -> None:
-        self._factors = factors
+    def __init__(self, sides: Callable[[Floats], NDArray[np.float32]], factors: Sequence[Floats]) -> None:
+        self._sides, self._factors = sides, factors
 
-    def __call__(self, sides: Floats) -> Floats:
-        """|R v| for vectors (n_points, sum of all n_own): (n_points, n, n_spaces)."""
-        found, begin = [], 0
+    def __call__(self, points_m: Floats) -> Floats:
+        """|R v| at points (n_points, 2) [m]: (n_points, n, n_spaces)."""
+        sides, found, begin = self._sides(points_m), [], 0
         for factor in self._factors:
             n, n_own, _ = factor.shape
             own = sides[:, begin : begin + n_own]
@@ -55,8 +57,8 @@ class BandLengths:
         return np.stack(found, axis=-1)
 
 
-def band_gains(span: Span, forces: Complex, sampling: Sampling) -> Callable[[Floats], Floats]:
-    """From points (n_points, 2) [m] to gains (n_points, n_sources, n_bands) [-] under known forces.
+def band_gains(span: Span, forces: Complex, sampling: Sampling) -> Gains:
+    """Gains of sources at points of a body, by the forces that each of them makes there.
 
     Parameters: forces : (n_frequencies, n_forces, n_sources).
     """
@@ -67,8 +69,8 @@ def band_gains(span: Span, forces: Complex, sampling: Sampling) -> Callable[[Flo
         basis, factor = _basis(weights.view(np.float64) * sizes[:, :, None])
         bases.append(basis / sizes)
         factors.append(factor)
-    sides, lengths = span.mixed(np.concatenate(bases, axis=1)), BandLengths(factors)
-    return lambda points_m: lengths(sides(points_m))
+    # Single precision is a thousand times as good as what is left out, and half of what has to be looked up.
+    return BandLengths(span.mixed(np.concatenate(bases, axis=1, dtype=np.float32)), factors)
 
 
 def _basis(weights: Floats) -> tuple[Floats, Floats]:

@@ -19,7 +19,7 @@ from scene2hap.propagation.lattice import Lattice
 from scene2hap.propagation.lattice_modes import TERMS, lattice_modes
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.recall import Recall
-from scene2hap.propagation.span import real
+from scene2hap.propagation.span import AnyFloat, real
 
 
 @lru_cache(maxsize=32)
@@ -55,10 +55,10 @@ class LatticeSpan:
         series = forces[:, None] * spectrum[n_modes:]
         return np.concatenate([modal, series.reshape(len(forces) * TERMS, *forces.shape[1:])])
 
-    def mixed(self, weights: NDArray[np.float64]) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    def mixed(self, weights: NDArray[AnyFloat]) -> Callable[[NDArray[np.float64]], NDArray[AnyFloat]]:
         """See `Span`."""
         at_nodes = self.shapes @ weights
-        return lambda points_m: np.asarray(self.lattice.interpolation(points_m) @ at_nodes)
+        return lambda points_m: (self.lattice.interpolation(points_m) @ at_nodes).astype(weights.dtype)
 
 
 class LatticeBody:

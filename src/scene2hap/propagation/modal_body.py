@@ -13,8 +13,9 @@ from scene2hap.propagation.infinite_plate import InfiniteBody
 from scene2hap.propagation.modes import FINE, MARGIN, Fineness, largest_block
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.plate_terms import Folded, PlateTerms, Pushed
-from scene2hap.propagation.reached import Response, folded
+from scene2hap.propagation.reached import Pairs, folded
 from scene2hap.propagation.recall import Recall
+from scene2hap.propagation.span import AnyFloat
 
 MOST_FUNCTIONS = 1100
 """Size of the largest eigenproblem for a scene, some 0.4 s: a hundred modes without symmetry, four hundred with."""
@@ -70,18 +71,18 @@ class SplitBody:
 
     def under(
         self, forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]
-    ) -> Response:
+    ) -> Pairs:
         """See `Foldable`."""
         is_low = frequencies_hz <= self.limit_hz
         low = folded(self.below, forces_m, frequencies_hz[is_low], forces[:, is_low])
         high = folded(self.above, forces_m, frequencies_hz[~is_low], forces[:, ~is_low])
 
-        def response(points_m: NDArray[np.float64]) -> NDArray[np.complex128]:
+        def both(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
             answer = np.empty((len(points_m), len(is_low)), dtype=np.complex128)
-            answer[:, is_low], answer[:, ~is_low] = low(points_m), high(points_m)
-            return answer
+            answer[:, is_low], answer[:, ~is_low] = (one(points_m).view(np.complex128) for one in (low, high))
+            return answer.view(np.float64)
 
-        return response
+        return both
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +101,7 @@ class ModalSpan:
         """See `Span`."""
         return self.pushed.weights(self.spectrum(frequencies_hz), forces)
 
-    def mixed(self, weights: NDArray[np.float64]) -> Folded:
+    def mixed(self, weights: NDArray[AnyFloat]) -> Folded[AnyFloat]:
         """See `Span`."""
         return self.pushed.mixed(weights)
 

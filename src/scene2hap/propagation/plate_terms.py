@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from itertools import pairwise, product
+from typing import Generic
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +28,7 @@ from scene2hap.propagation.near_field import Dimples, NearField
 from scene2hap.propagation.octaves import OctaveSums
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.ritz import axis_basis
-from scene2hap.propagation.span import real
+from scene2hap.propagation.span import AnyFloat, real
 
 N_NODES = 4
 
@@ -78,33 +79,41 @@ class Pushed:
         by_node = forces[:, None] * spectrum[n_modes:, None]
         return np.concatenate([modal, by_node.reshape(len(forces) * N_NODES, *forces.shape[1:])])
 
-    def mixed(self, weights: Floats) -> Folded:
+    def mixed(self, weights: NDArray[AnyFloat]) -> Folded[AnyFloat]:
         """Sums of these shapes, see `Span`."""
         n_modes = self.phi.shape[1]
         beyond = np.ascontiguousarray(weights[n_modes:])
-        smooth = self.modes @ weights[:n_modes] + self.rest @ beyond
+        smooth = (self.modes @ weights[:n_modes] + self.rest @ beyond).astype(weights.dtype)
         return Folded((*self.plate.per_size, *self.plate.n_cosines), smooth, self.near.dimples, self.k2, beyond)
 
 
 @compiled
-class Folded:
+class Folded(Generic[AnyFloat]):
     """What known forces do at points that are not known yet.
 
     Parameters: size : of `fill_cosines`; smooth : (n_products, n) what each of those products adds; dimples, k2 : near
-    fields (n_forces, n_k2), and beyond : (n_forces n_k2, n) what each of them adds.
+    fields (n_forces, n_k2), and beyond : (n_forces n_k2, n) what each of them adds; both in the precision in which sums
+    are wanted.
     """
 
     def __init__(
-        self, size: tuple[float, float, int, int], smooth: Floats, dimples: Dimples, k2: Floats, beyond: Floats
+        self,
+        size: tuple[float, float, int, int],
+        smooth: NDArray[AnyFloat],
+        dimples: Dimples,
+        k2: Floats,
+        beyond: NDArray[AnyFloat],
     ) -> None:
-        self._size, self._smooth, self._dimples, self._k2, self._beyond = size, smooth, dimples, k2, beyond
+        self._size, self._dimples, self._k2 = size, dimples, k2
+        self._smooth: NDArray[AnyFloat] = smooth
+        self._beyond: NDArray[AnyFloat] = beyond
 
-    def __call__(self, points_m: Floats) -> Floats:
+    def __call__(self, points_m: Floats) -> NDArray[AnyFloat]:
         """At points (n_points, 2) [m]: (n_points, n)."""
         cosines = np.empty((len(points_m), len(self._smooth)))
         fill_cosines(cosines, points_m, *self._size)
-        found: Floats = cosines @ self._smooth
-        found += self._dimples.near(points_m, self._k2).reshape(len(points_m), len(self._beyond)) @ self._beyond
+        near = self._dimples.near(points_m, self._k2).reshape(len(points_m), len(self._beyond))
+        found: NDArray[AnyFloat] = (cosines @ self._smooth + near @ self._beyond).astype(self._smooth.dtype)
         return found
 
 

@@ -37,11 +37,16 @@ def are_finite(points: NDArray[np.float64]) -> bool:
 
 
 @compiled
-def in_rectangle(points_m: NDArray[np.float64], pose: Pose, length_m: float, width_m: float) -> NDArray[np.float64]:
-    """World points (n, 3) in the frame of a rectangle (n, 2) [m], from its corner at `pose` along length and width;
-    those beside it at its nearest edge."""
-    flat = pose.to_own(points_m)[:, :2]
-    return np.minimum(np.maximum(flat, 0.0), (length_m, width_m))
+class InRectangle:
+    """A rectangle in the world, its corner at `pose`."""
+
+    def __init__(self, pose: Pose, length_m: float, width_m: float) -> None:
+        self._pose, self._sides_m = pose, (length_m, width_m)
+
+    def __call__(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+        """World points (n, 3) in its frame (n, 2) [m], along length and width; those beside it at its nearest edge."""
+        flat = self._pose.to_own(points_m)[:, :2]
+        return np.minimum(np.maximum(flat, 0.0), self._sides_m)
 
 
 def arrivals_at(

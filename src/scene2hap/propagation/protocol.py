@@ -6,7 +6,7 @@ contacts, ``PropagationField.attenuation`` what depends on where a hand is.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
@@ -17,7 +17,7 @@ from scene2hap import checks
 from scene2hap.errors import ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.plate import Plate, RigidBody
-from scene2hap.propagation.points import as_points, in_rectangle
+from scene2hap.propagation.points import InRectangle, as_points
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import Contact
 
@@ -57,16 +57,15 @@ class ContactNetwork:
 
         Points beside a body are taken to its nearest edge, as if a rigid leg led there; a body without size keeps them.
         """
-        return self.nearest_on_body(object_id, as_points(points_m, 3))
+        return self.placing(object_id)(as_points(points_m, 3))
 
-    def nearest_on_body(self, object_id: str, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The same of points (n_points, 3) that were looked through already."""
+    def placing(self, object_id: str) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+        """What does that for points (n_points, 3) of one body that were looked through already."""
         pose, body = self.poses.get(object_id), self.bodies.get(object_id)
         size_m = (body.length_m, body.width_m) if isinstance(body, Plate) else body and body.size_m
-        if pose is not None and size_m:
-            return in_rectangle(points_m, pose, size_m[0], size_m[1])
-        flat = (points_m if pose is None else pose.to_own(points_m))[:, :2]
-        return np.minimum(np.maximum(flat, 0.0), size_m[:2]) if size_m else flat
+        if size_m:
+            return InRectangle(pose or Pose(), size_m[0], size_m[1])
+        return lambda points_m: (points_m if pose is None else pose.to_own(points_m))[:, :2]
 
 
 @runtime_checkable

@@ -19,6 +19,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.propagation.asked import Gains, Magnitudes
 from scene2hap.propagation.band_shapes import band_gains
 from scene2hap.propagation.coupling import ElasticBody
 from scene2hap.propagation.sampling import Sampling
@@ -26,9 +27,13 @@ from scene2hap.propagation.span import Spanned
 
 MOST_FOLDED = 64
 """Sources that are folded: an object keeps up to some 100 kB for each. More are summed at every touch."""
+POINTS_AT_ONCE = 32
+"""Points at which responses at many frequencies are held at once."""
 
-Response = Callable[[NDArray[np.float64]], NDArray[np.complex128]]
-"""From points (n_points, 2) [m] to deflections (n_points, n_frequencies)."""
+Floats = NDArray[np.float64]
+
+Pairs = Callable[[Floats], Floats]
+"""From points (n_points, 2) [m] to deflections (n_points, 2 n_frequencies), real and imaginary part by turns."""
 
 
 @runtime_checkable
@@ -37,7 +42,7 @@ class Foldable(Protocol):
 
     def under(
         self, forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]
-    ) -> Response:
+    ) -> Pairs:
         """Deflection under forces (n_forces, n_frequencies) at points (n_forces, 2) [m]."""
         ...
 
@@ -70,22 +75,20 @@ def folded(
     forces_m: NDArray[np.float64],
     frequencies_hz: NDArray[np.float64],
     forces: NDArray[np.complex128],
-) -> Response:
+) -> Pairs:
     """See `Foldable.under`; a body that can do neither is asked for every contact."""
     if len(frequencies_hz) <= MOST_FOLDED:
         if isinstance(body, Spanned):
             span = body.span(forces_m)
-            mixed = span.mixed(span.weights(frequencies_hz, forces[:, None])[:, 0].view(np.float64))
-            return lambda points_m: mixed(points_m).view(np.complex128)
+            return span.mixed(span.weights(frequencies_hz, forces[:, None])[:, 0].view(np.float64))
         if isinstance(body, Foldable):
             return body.under(forces_m, frequencies_hz, forces)
 
-    def response(points_m: NDArray[np.float64]) -> NDArray[np.complex128]:
+    def summed(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
         receptance = body.receptance(points_m, forces_m, frequencies_hz)
-        summed: NDArray[np.complex128] = np.einsum("fpc,cf->pf", receptance, forces)
-        return summed
+        return np.ascontiguousarray(np.einsum("fpc,cf->pf", receptance, forces)).view(np.float64)
 
-    return response
+    return summed
 
 
 @dataclass(eq=False)
@@ -104,8 +107,6 @@ class Reached:
     forces: NDArray[np.complex128]
     columns: NDArray[np.intp]
     _own: NDArray[np.complex128] | None = field(default=None, repr=False)
-    _response: Response | None = field(default=None, repr=False)
-    _in_bands: Callable[[NDArray[np.float64]], NDArray[np.float64]] | None = field(default=None, repr=False)
 
     @property
     def own_forces(self) -> NDArray[np.complex128]:
@@ -117,22 +118,21 @@ class Reached:
             self._own = np.ascontiguousarray(np.moveaxis(taken, 2, 0)) if taken.ndim == 3 else taken
         return self._own
 
-    def expect(self, sampling: Sampling) -> None:
-        """Be ready to be touched often."""
-        if sampling.starts is not None and self._in_bands is None and isinstance(self.body, Spanned):
-            self._in_bands = band_gains(self.body.span(self.points_m), self.own_forces, sampling)
-
-    def gains(self, points_m: NDArray[np.float64], sampling: Sampling) -> NDArray[np.float64]:
-        """Gains (n_points, n_sources, n_bands) [-] at points (n_points, 2) [m]."""
-        if self._in_bands is not None:
-            return self._in_bands(points_m)
+    def gains(self, sampling: Sampling, *, is_expected: bool) -> Gains:
+        """Gains at points on the object, of its sources; quick ones in any case if each has one frequency."""
         own = sampling.columns(self.columns)
-        if own is None:
-            moved = np.empty((len(sampling.frequencies_hz), len(points_m), len(self.columns)), dtype=np.complex128)
-            for part, receptance in pieces(self.body, points_m, self.points_m, sampling.frequencies_hz):
+        if own is not None:
+            return Magnitudes(folded(self.body, self.points_m, sampling.frequencies_hz[own], self.own_forces))
+        if is_expected and isinstance(self.body, Spanned):
+            return band_gains(self.body.span(self.points_m), self.own_forces, sampling)
+        return lambda points_m: self._summed(points_m, sampling)
+
+    def _summed(self, points_m: Floats, sampling: Sampling) -> Floats:
+        found = np.empty((len(points_m), len(self.columns), len(sampling.bands)))
+        for begin in range(0, len(points_m), POINTS_AT_ONCE):
+            few = points_m[begin : begin + POINTS_AT_ONCE]
+            moved = np.empty((len(sampling.frequencies_hz), len(few), len(self.columns)), dtype=np.complex128)
+            for part, receptance in pieces(self.body, few, self.points_m, sampling.frequencies_hz):
                 moved[part] = receptance @ self.own_forces[part]
-            return sampling.gains(moved).transpose(1, 2, 0)
-        if self._response is None:
-            self._response = folded(self.body, self.points_m, sampling.frequencies_hz[own], self.own_forces)
-        magnitudes: NDArray[np.float64] = np.abs(self._response(points_m))[:, :, None]
-        return magnitudes
+            found[begin : begin + POINTS_AT_ONCE] = sampling.gains(moved).transpose(1, 2, 0)
+        return found

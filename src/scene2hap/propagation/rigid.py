@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from scene2hap.propagation.modes import first_bending_hz
 from scene2hap.propagation.plate import Plate, RigidBody
-from scene2hap.propagation.span import real
+from scene2hap.propagation.span import AnyFloat, real
 
 COMPACT_THICKNESS = 1 / 5
 """Part of the shorter side above which a thickness makes a body compact; thin-plate theory is far gone by then."""
@@ -113,6 +113,6 @@ class RigidSpan:
         weights /= -((2 * np.pi * frequencies_hz) ** 2)
         return weights
 
-    def mixed(self, weights: NDArray[np.float64]) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    def mixed(self, weights: NDArray[AnyFloat]) -> Callable[[NDArray[np.float64]], NDArray[AnyFloat]]:
         """See `Span`."""
-        return lambda points_m: self.body.motions(points_m) @ weights
+        return lambda points_m: (self.body.motions(points_m) @ weights).astype(weights.dtype)

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Protocol, runtime_checkable
+from typing import Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+AnyFloat = TypeVar("AnyFloat", np.float32, np.float64)
 
 
 class Span(Protocol):
@@ -29,9 +30,9 @@ class Span(Protocol):
         """W (n_shapes, n, n_f) under forces (n_forces, n, n_f) at frequencies (n_f,) [Hz]."""
         ...
 
-    def mixed(self, weights: Floats) -> Callable[[Floats], Floats]:
+    def mixed(self, weights: NDArray[AnyFloat]) -> Callable[[Floats], NDArray[AnyFloat]]:
         """Sums of the shapes (n_shapes, n), thought out but for the point: from points (n_points, 2) [m] to
-        (n_points, n)."""
+        (n_points, n), in the precision of the weights."""
         ...
 
 

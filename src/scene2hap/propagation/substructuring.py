@@ -12,7 +12,7 @@ Compact bodies move as a whole; so does every source. Objects that no source can
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
+from scene2hap.propagation.asked import Asked
 from scene2hap.propagation.contact_law import ContactLaw
 from scene2hap.propagation.coupling import ElasticBody, Joint, couple
 from scene2hap.propagation.domain import OutsideDomain, check_choice, check_thin
@@ -31,8 +32,6 @@ from scene2hap.propagation.protocol import ContactNetwork, Excitation
 from scene2hap.propagation.reached import Reached
 from scene2hap.propagation.rigid import RigidMotion, is_compact
 from scene2hap.propagation.sampling import Sampling
-
-POINTS_AT_ONCE = 32
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,35 +133,48 @@ def _solved(
     }
 
 
+_NO_COLUMNS = np.empty(0, dtype=np.intp)
+
+
 @dataclass(frozen=True, eq=False)
 class CoupledField:
-    """A scene, prepared: the forces in all contacts of the objects that a source reaches."""
+    """A scene, prepared: the forces in all contacts of the objects that a source reaches.
+
+    What makes an object quick to ask is worked out when it is first asked about, or expected to be.
+    """
 
     source_ids: tuple[str, ...]
     bands: Bands
     network: ContactNetwork
     sampling: Sampling
     reach: Mapping[str, Reached]
+    _asked: dict[str, Asked] = field(init=False, repr=False, default_factory=dict)
+    _expected: set[str] = field(init=False, repr=False, default_factory=set)
 
     def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
         """Deflection over the sources' free ones; above 1 where something resonates. See `PropagationField`."""
         points = as_points(points_m, 3)
-        gains = np.zeros((len(points), len(self.source_ids), self.bands.n_bands))
-        found = self.reach.get(object_id)
-        if found is not None:
-            flat = self.network.nearest_on_body(object_id, points)
-            for begin in range(0, len(points), POINTS_AT_ONCE):
-                part = slice(begin, begin + POINTS_AT_ONCE)
-                gains[part, found.columns] = found.gains(flat[part], self.sampling)
-        if object_id in self.source_ids:
-            gains[:, self.source_ids.index(object_id)] = 1.0
-        return gains
+        found = self._asked.get(object_id)
+        if found is None:
+            found = self._asked[object_id] = self._ask(object_id)
+        return found(points)
 
     def expect(self, object_id: str) -> None:
         """Be ready to be asked about an object often, see `ExpectantField`."""
-        found = self.reach.get(object_id)
-        if found is not None:
-            found.expect(self.sampling)
+        if object_id not in self._expected:
+            self._asked[object_id] = self._ask(object_id, is_expected=True)
+            self._expected.add(object_id)
+
+    def _ask(self, object_id: str, *, is_expected: bool = False) -> Asked:
+        shape, ids = (len(self.source_ids), self.bands.n_bands), self.source_ids
+        own = ids.index(object_id) if object_id in ids else -1
+        reached = self.reach.get(object_id)
+        if reached is None:
+            return Asked(
+                lambda points_m: points_m, lambda points_m: np.zeros((len(points_m), 0, 0)), _NO_COLUMNS, shape, own
+            )
+        gains = reached.gains(self.sampling, is_expected=is_expected)
+        return Asked(self.network.placing(object_id), gains, reached.columns, shape, own)
 
 
 def checked_law(

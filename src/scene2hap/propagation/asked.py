@@ -1,0 +1,57 @@
+"""An object of a solved scene, asked about points of the world."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.compiled import compiled
+
+Floats = NDArray[np.float64]
+Gains = Callable[[Floats], Floats]
+"""From points on a body (n_points, 2) [m] to gains (n_points, n_own, n_bands) of some sources [-]."""
+
+
+@compiled
+class Asked:
+    """What arrives at points of one object.
+
+    Parameters: place : from points of the world (n_points, 3) to those on its body (n_points, 2) [m]; gains : of the
+    sources that reach it; columns : (n_own,) where they are among all sources; shape : (n_sources, n_bands) of all;
+    own : the column of the source that it is itself, -1 if it is none.
+    """
+
+    def __init__(
+        self,
+        place: Callable[[Floats], Floats],
+        gains: Gains,
+        columns: NDArray[np.intp],
+        shape: tuple[int, int],
+        own: int,
+    ) -> None:
+        self._place, self._gains, self._columns, self._shape, self._own = place, gains, columns, shape, own
+
+    def __call__(self, points_m: Floats) -> Floats:
+        """Gains (n_points, n_sources, n_bands) [-] at points of the world (n_points, 3) [m]: 1 of itself, 0 of what
+        does not reach it."""
+        found = np.zeros((len(points_m), *self._shape))
+        found[:, self._columns] = self._gains(self._place(points_m))
+        if self._own >= 0:
+            found[:, self._own] = 1.0
+        return found
+
+
+@compiled
+class Magnitudes:
+    """The size of complex numbers that are told by real and imaginary part, by turns: from points (n_points, 2) to
+    (n_points, n, 1)."""
+
+    def __init__(self, pairs: Callable[[Floats], Floats]) -> None:
+        self._pairs = pairs
+
+    def __call__(self, points_m: Floats) -> Floats:
+        """See `Gains`."""
+        sizes: Floats = np.abs(self._pairs(points_m).view(np.complex128))[:, :, None]
+        return sizes
