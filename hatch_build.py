@@ -18,6 +18,8 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 # No contraction and no fast mathematics: the same digits on every machine.
 _FLAGS = ["/O2", "/fp:precise"] if sys.platform == "win32" else ["-O3", "-ffp-contract=off", "-fno-math-errno"]
+# C's arrays and divisions, as its compiler knows them: indices are not looked at, and count from 0.
+_DIRECTIVES = {"boundscheck": False, "wraparound": False, "cdivision": True}
 _SHARED = "scene2hap._cyutility"
 
 
@@ -67,6 +69,7 @@ def _compiled(source: Path, work: Path) -> Iterator[tuple[str, Path]]:
         [shared, *kernels],
         build_dir=str(work / "c"),
         language_level=3,
+        compiler_directives=_DIRECTIVES,
         quiet=True,
         shared_utility_qualified_name=_SHARED,
     )

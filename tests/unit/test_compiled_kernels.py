@@ -474,7 +474,9 @@ def test_forces_folded(seed: int, n: int, dtype: type) -> None:
         kind((2.0, 2.0, 5, 4), smooth, own(*near, table()), k2, beyond)(points)
         for kind, own in zip(folded, dimples, strict=True)
     )
-    np.testing.assert_allclose(compiled, told, rtol=1e-9, atol=1e-9)
+    assert compiled.dtype == told.dtype == dtype
+    close = 1e-9 if dtype is np.float64 else 1e-4
+    np.testing.assert_allclose(compiled, told, rtol=close, atol=close)
 
 
 @steady
@@ -497,9 +499,7 @@ def test_what_an_object_is_asked(seed: int, n: int, own: int) -> None:
     columns = rng.choice(5, int(rng.integers(0, 5)), replace=False)
     arriving = rng.uniform(0, 1, (n, len(columns), 3))
     told, compiled = (
-        kind(lambda points: points[:, :2], lambda points: arriving[: len(points)], columns, (5, 3), own)(
-            np.zeros((n, 3))
-        )
+        kind(lambda points: points[:, :2], lambda _: arriving, columns, (5, 3), own)(np.zeros((n, 3)))
         for kind in both("propagation.asked.Asked")
     )
     np.testing.assert_array_equal(compiled, told)

@@ -1,5 +1,4 @@
 """The compiled twin of the kernel in `spread`."""
-# cython: boundscheck=False, wraparound=False, cdivision=True
 
 from libc.math cimport INFINITY, sqrt
 

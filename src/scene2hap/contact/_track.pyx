@@ -1,5 +1,4 @@
 """The compiled twin of the kernel in `track`."""
-# cython: boundscheck=False, wraparound=False, cdivision=True
 
 from array import array
 

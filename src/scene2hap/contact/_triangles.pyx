@@ -1,5 +1,4 @@
 """The compiled twins of the kernels in `triangles`, operation by operation: the same to the last bit."""
-# cython: boundscheck=False, wraparound=False, cdivision=True
 
 import numpy as np
 

@@ -1,5 +1,4 @@
 """The compiled twin of the kernel in `zones`."""
-# cython: boundscheck=False, wraparound=False, cdivision=True
 
 import numpy as np
 

@@ -1,5 +1,4 @@
 """The compiled twins of the kernels in `asked`."""
-# cython: boundscheck=False, wraparound=False, cdivision=True
 
 import numpy as np
 

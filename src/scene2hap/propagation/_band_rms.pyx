@@ -1,5 +1,4 @@
 """The compiled twin of the kernel in `band_rms`."""
-# cython: boundscheck=False, wraparound=False, cdivision=True
 
 import numpy as np
 

@@ -1,5 +1,4 @@
 """The compiled twin of the kernel in `band_shapes`."""
-# cython: boundscheck=False, wraparound=False, cdivision=True
 
 import numpy as np
 
@@ -26,7 +25,8 @@ cdef class BandLengths:
     def __call__(self, points_m):
         cdef const float[:, ::1] given = self.sides(points_m)
         cdef Py_ssize_t point, space, each, row, k, n, at, begin
-        cdef float share, square
+        cdef float share
+        cdef double square
         cdef float* turned = &self.turned[0]
         found = np.empty((given.shape[0], self.n_each, self.n_spaces))
         cdef double[:, :, ::1] told = found
@@ -44,7 +44,7 @@ cdef class BandLengths:
                         at += k + 1
                     square = 0
                     for row in range(n):
-                        square += turned[row] * turned[row]
+                        square += <double>turned[row] * turned[row]
                     told[point, each, space] = sqrt(square)
                 begin += n
         return found

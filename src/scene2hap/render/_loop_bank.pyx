@@ -1,5 +1,4 @@
 """The compiled twins of the kernels in `loop_bank`."""
-# cython: boundscheck=False, wraparound=False, cdivision=True
 
 cdef enum:
     CELL = 24  # known to the compiler
@@ -29,6 +28,8 @@ cdef class StoredLoop:
             here = (2 * b * self.numerator + self.denominator) // (2 * self.denominator)
             there = (2 * (b + CELL) * self.numerator + self.denominator) // (2 * self.denominator) - CELL
             start, other = here % self.length, there % self.length
+            if other < 0:  # a cell before the first sample
+                other += self.length
         else:
             n, d = int(self.numerator), int(self.denominator)
             start = (2 * begin * n + d) // (2 * d) % self.length

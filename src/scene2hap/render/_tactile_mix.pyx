@@ -1,5 +1,4 @@
 """The compiled twin of the kernel in `tactile_mix`."""
-# cython: boundscheck=False, wraparound=False, cdivision=True
 
 from scene2hap.render._ramped_product cimport RampedProduct
 

@@ -1,5 +1,4 @@
 """The compiled twins of the kernels in `audibility`."""
-# cython: boundscheck=False, wraparound=False
 
 
 def silence(float[:, :, ::1] gains, const float[:, ::1] least, columns):

@@ -1,5 +1,4 @@
 """The compiled twin of the kernel in `touch_gains`."""
-# cython: boundscheck=False, wraparound=False
 
 
 def cap(double[:, :, :] gains, double limit):
