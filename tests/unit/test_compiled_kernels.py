@@ -295,17 +295,16 @@ def test_silent_bands(seed: int, n: int) -> None:
 
 
 @steady
-@given(seed=seeds, n=st.integers(0, 3))
-def test_what_is_left_out(seed: int, n: int) -> None:
+@given(seed=seeds, n=st.integers(0, 3), m=st.integers(0, 4), has_peaks=st.booleans(), has_least=st.booleans())
+def test_what_is_worth_mixing(seed: int, n: int, m: int, has_peaks: bool, has_least: bool) -> None:
     rng = np.random.default_rng(seed)
-    gains = (rng.random((n, 4, 5)) * rng.choice([0.0, 1.0, 3.0], (n, 4, 1))).astype(np.float32)
-    peaks = (rng.random((4, 5)) * rng.choice([0.0, 1.0], (4, 1))).astype(np.float32)
-    told, compiled = gains.copy(), gains.copy()
-    plain, twin = both("session.audibility.leave_out")
-    assert twin(compiled, peaks, 0.7) == plain(told, peaks, 0.7)
-    np.testing.assert_array_equal(compiled, told)
-    plain, twin = both("session.audibility.sounding")
-    assert twin(told) == plain(told)
+    gains = rng.choice([0.0, 1e-9, 0.1, 0.5], (n, m, 5), p=[0.6, 0.1, 0.2, 0.1]).astype(np.float32)
+    peaks = rng.uniform(0, 2, (m, 5)).astype(np.float32) if has_peaks else None
+    least = rng.choice([0.0, 0.2, np.inf], (m, 5)).astype(np.float32) if has_least else None
+    told, compiled = (kind(gains, peaks, 0.3, least) for kind in both("session.audibility.sifted"))
+    np.testing.assert_array_equal(compiled[0], told[0])
+    assert compiled[0].flags.c_contiguous
+    assert compiled[1:] == told[1:]
 
 
 @steady

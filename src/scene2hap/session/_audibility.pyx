@@ -1,5 +1,7 @@
 """The compiled twins of the kernels in `audibility`."""
 
+import numpy as np
+
 
 def silence(float[:, :, ::1] gains, const float[:, ::1] least, columns):
     cdef Py_ssize_t i, j, k, n_silent = 0
@@ -18,32 +20,46 @@ def silence(float[:, :, ::1] gains, const float[:, ::1] least, columns):
     return n_silent
 
 
-def leave_out(float[:, :, ::1] gains, const float[:, :] peaks, double least):
-    cdef Py_ssize_t i, j, k, n_new = 0
-    cdef double felt
-    for i in range(gains.shape[0]):
-        for j in range(gains.shape[1]):
-            felt = 0
-            for k in range(gains.shape[2]):
-                felt += <double>gains[i, j, k] * peaks[j, k]
-            if felt < least:
-                n_new += felt != 0
-                for k in range(gains.shape[2]):
-                    gains[i, j, k] = 0
-    return n_new
-
-
-def sounding(const float[:, :, :] gains):
-    cdef Py_ssize_t i, j, k
-    cdef bint is_heard
-    found = []
-    for j in range(gains.shape[1]):
-        is_heard = False
-        for i in range(gains.shape[0]):
-            for k in range(gains.shape[2]):
-                if gains[i, j, k] != 0:
-                    is_heard = True
-                    break
+def sifted(const float[:, :, ::1] gains, peaks, double least_felt, least):
+    cdef Py_ssize_t n = gains.shape[0], m = gains.shape[1], n_bands = gains.shape[2]
+    cdef Py_ssize_t i, j, k, at = 0, n_new, n_below = 0, n_silent = 0
+    cdef bint is_sifting = least is not None, is_heard
+    cdef const float[:, :] peak = peaks
+    cdef const float[:, :] floor = least
+    # Each column goes where the next one that is heard will be; those that are not are written over.
+    kept = np.empty((n, m, n_bands), dtype=np.float32)
+    cdef float[:, :, ::1] told = kept
+    columns = []
+    for j in range(m):
+        is_heard = not is_sifting
+        for i in range(n):
+            n_new = 0
+            if peaks is not None and is_below(&gains[i, j, 0], peak, j, n_bands, least_felt, &n_new):
+                n_below += n_new
+                for k in range(n_bands):
+                    told[i, at, k] = 0
+                continue
+            for k in range(n_bands):
+                told[i, at, k] = gains[i, j, k]
+                if is_sifting:
+                    if not gains[i, j, k] >= floor[j, k]:
+                        n_silent += gains[i, j, k] != 0
+                        told[i, at, k] = 0
+                    elif gains[i, j, k] != 0:
+                        is_heard = True
         if is_heard:
-            found.append(j)
-    return found
+            columns.append(j)
+            at += 1
+    return kept if at == m else np.ascontiguousarray(kept[:, :at]), columns, n_below, n_silent
+
+
+cdef bint is_below(
+    const float* gains, const float[:, :] peak, Py_ssize_t j, Py_ssize_t n_bands, double least, Py_ssize_t* n_new
+) noexcept:
+    """Whether what is felt of a source is less than a least; then whether it is anything."""
+    cdef Py_ssize_t k
+    cdef double felt = 0
+    for k in range(n_bands):
+        felt += <double>gains[k] * peak[j, k]
+    n_new[0] = felt != 0
+    return felt < least

@@ -52,34 +52,21 @@ class Audibility:
         felt: NDArray[np.float32] = (gains[:, :, None] @ self._felt)[:, :, 0, 0]
         return felt
 
-    def worth_mixing(self, gains: NDArray[np.float32]) -> NDArray[np.float32]:
-        """A copy of gains (n_hands, n_sources, n_bands), 0 where nothing is lost by it."""
-        worthy = gains.copy()
-        if self._skip.below_threshold:
-            self._counts.below_threshold += leave_out(worthy, self._felt[:, :, 0], float(self.least_felt))
-        return self.loud(worthy) if self._skip.silent_bands else worthy
+    def worth_mixing(self, gains: NDArray[np.float32]) -> tuple[NDArray[np.float32], Sequence[int]]:
+        """What of gains (n_hands, n_sources, n_bands) is worth mixing, 0 where nothing is lost by it, of the sources
+        of which anything is (n_hands, n_columns, n_bands); and the columns of these."""
+        felt = self._felt[:, :, 0] if self._skip.below_threshold else None
+        least = self._least_gain if self._skip.silent_bands else None
+        mixed, columns, n_below, n_silent = sifted(gains, felt, float(self.least_felt), least)
+        self._counts.below_threshold += n_below
+        self._counts.silent_bands += n_silent
+        return mixed, columns
 
     def loud(self, gains: NDArray[np.float32], columns: Sequence[int] | None = None) -> NDArray[np.float32]:
         """Gains of the sources in some columns, None for all, 0 in bands of which next to nothing is left; changes what
         it is given."""
         self._counts.silent_bands += silence(gains, self._least_gain, columns)
         return gains
-
-
-@compiled
-def leave_out(gains: NDArray[np.float32], peaks: NDArray[np.float32], least: float) -> int:
-    """Set to 0 the sources of gains (n, m, k) whose peaks (m, k), so weighted, add up to less; how many were not."""
-    felt = np.einsum("nmk,mk->nm", gains.astype(np.float64), peaks.astype(np.float64))
-    is_left_out = felt < least
-    gains[is_left_out] = 0.0
-    return int(np.count_nonzero(felt[is_left_out]))
-
-
-@compiled
-def sounding(gains: NDArray[np.float32]) -> list[int]:
-    """The columns m in which any of gains (n, m, k) is not 0."""
-    found: list[int] = np.flatnonzero(gains.any(axis=(0, 2))).tolist()
-    return found
 
 
 @compiled
@@ -90,6 +77,29 @@ def silence(gains: NDArray[np.float32], least: NDArray[np.float32], columns: Seq
     n_silent = int(np.count_nonzero(gains[is_silent]))
     gains[is_silent] = 0.0
     return n_silent
+
+
+@compiled
+def sifted(
+    gains: NDArray[np.float32], peaks: NDArray[np.float32] | None, least_felt: float, least: NDArray[np.float32] | None
+) -> tuple[NDArray[np.float32], list[int], int, int]:
+    """A copy of gains (n, m, k) without the sources whose peaks (m, k), so weighted, add up to less than is felt, and
+    without bands that are less than a `least` (m, k); the columns m of which any is left, which alone are in it; and
+    how many of each were left out that were not 0 already. None leaves nothing out; all columns stay without `least`.
+    """
+    kept, n_below = gains.copy(), 0
+    if peaks is not None:
+        felt = np.einsum("nmk,mk->nm", gains.astype(np.float64), peaks.astype(np.float64))
+        is_below = felt < least_felt
+        kept[is_below] = 0.0
+        n_below = int(np.count_nonzero(felt[is_below]))
+    if least is None:
+        return kept, list(range(gains.shape[1])), n_below, 0
+    is_silent = ~(kept >= least)
+    n_silent = int(np.count_nonzero(kept[is_silent]))
+    kept[is_silent] = 0.0
+    columns: list[int] = np.flatnonzero(kept.any(axis=(0, 2))).tolist()
+    return np.ascontiguousarray(kept[:, columns]), columns, n_below, n_silent
 
 
 # Sources come and go, and what is known of their loops goes with them.

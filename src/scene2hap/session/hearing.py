@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.propagation.live import PricedField, Prices
-from scene2hap.session.audibility import Audibility, sounding
+from scene2hap.session.audibility import Audibility
 from scene2hap.session.config import SkipConfig
 from scene2hap.session.counts import Counts
 from scene2hap.session.frame import Gains, Touch
@@ -78,13 +78,11 @@ class HearingAll:
         worth = self._loudness.audibility.worth_mixing
         if self._skip.idle_hands:
             self._counts.idle_hands += n_hands - len(felt)
-            mixed = _among(worth(given), n_hands, felt)
+            mixed, columns = worth(given)
+            mixed = _among(mixed, n_hands, felt)
         else:
-            mixed = worth(told)
-        if not self._skip.silent_bands:
-            return Heard(told, mixed)
-        columns = sounding(mixed)
-        return Heard(told, mixed if len(columns) == mixed.shape[1] else mixed[:, columns], columns)
+            mixed, columns = worth(told)
+        return Heard(told, mixed, columns if self._skip.silent_bands else None)
 
 
 class HearingNear:

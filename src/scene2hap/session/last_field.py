@@ -58,8 +58,8 @@ class LastField:
             gains[:, here] = found[:, there]
         if not self._is_current():
             for row, (object_id, _) in zip(gains, touched, strict=True):
-                if strangers := self._reach.strangers(object_id):
-                    row[strangers] = 0.0
+                for stranger in self._reach.strangers(object_id):
+                    row[stranger] = 0.0
         return gains if all(len(hand) == 1 for hand in hands) else self._largest(gains, hands)
 
     def _answers(self, touched: Sequence[TouchedPoint]) -> Gains:
