@@ -25,8 +25,8 @@ from scene2hap.propagation.span import Span
 
 CLOSE = 1e-3
 """Part of each source's motion in a band, over the whole body, that may be missed: 60 dB below."""
-_FIRST = 32
-"""Columns that are mixed at first; twice as many where they do not hold enough."""
+_MORE = 8
+"""Mixed columns over those that the band below needed; twice as many where they do not hold enough."""
 _ROUNDING = 1e-13
 """Added to what each shape carries, since a source may need fewer than all sources together."""
 
@@ -66,19 +66,20 @@ def band_gains(span: Span, forces: Complex, sampling: Sampling) -> Gains:
     for band in sampling.bands:
         own = forces[band] * np.sqrt(sampling.weights[band])[:, None, None]
         weights = span.weights(sampling.frequencies_hz[band], own.transpose(1, 2, 0))
-        basis, factor = _basis(weights.view(np.float64) * sizes[:, :, None])
+        n_before = factors[-1].shape[1] if factors else 0
+        basis, factor = _basis(weights.view(np.float64) * sizes[:, :, None], n_before + _MORE)
         bases.append(basis / sizes)
         factors.append(factor)
     # Single precision is a thousand times as good as what is left out, and half of what has to be looked up.
     return BandLengths(span.mixed(np.concatenate(bases, axis=1, dtype=np.float32)), factors)
 
 
-def _basis(weights: Floats) -> tuple[Floats, Floats]:
+def _basis(weights: Floats, n_mixed: int) -> tuple[Floats, Floats]:
     """Q (n_shapes, n_own) and R of each source (n_sources, n_own, n_own), of weights (n_shapes, n_sources, n)."""
     n_shapes, n_sources, n = weights.shape
     sizes = np.sqrt(np.square(weights).sum(axis=(0, 2)))
     columns = (weights / np.where(sizes > 0, sizes, 1.0)[:, None]).reshape(n_shapes, n_sources * n)
-    basis = _range_of(columns)
+    basis = _range_of(columns, n_mixed)
     within = basis.T @ columns
     # What little the shapes carry that all sources together need least is left out.
     carried, turned = np.linalg.eigh(within @ within.T)
@@ -88,10 +89,10 @@ def _basis(weights: Floats) -> tuple[Floats, Floats]:
     return basis @ few, np.linalg.cholesky(carried).transpose(0, 2, 1) * sizes[:, None, None]
 
 
-def _range_of(columns: Floats) -> Floats:
+def _range_of(columns: Floats, n_mixed: int) -> Floats:
     """An orthonormal basis that holds all of some columns (m, n), each source's of length 1, but for half of what may
     be missed."""
-    most, n_mixed, whole = min(columns.shape), _FIRST, np.square(columns).sum()
+    most, whole = min(columns.shape), np.square(columns).sum()
     random = np.random.default_rng(0)
     while n_mixed < most:
         basis, _ = np.linalg.qr(columns @ random.standard_normal((columns.shape[1], n_mixed)))
