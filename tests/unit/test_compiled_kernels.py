@@ -483,12 +483,12 @@ def test_forces_folded(seed: int, n: int, dtype: type) -> None:
 def test_lengths_in_bands(seed: int, n_own: list[int], n: int) -> None:
     rng = np.random.default_rng(seed)
     factors = [np.triu(rng.normal(size=(n, k, k))) for k in n_own]
-    sides = rng.normal(size=(int(rng.integers(0, 3)), sum(n_own)))
+    values, mixing = (rng.normal(size=size).astype(np.float32) for size in ((2, 3), (3, sum(n_own))))
     told, compiled = (
-        kind(lambda _: sides.astype(np.float32), factors)(np.empty((len(sides), 2)))
+        kind(lambda _: values, mixing, factors)(np.empty((2, 2)))
         for kind in both("propagation.band_shapes.BandLengths")
     )
-    np.testing.assert_allclose(compiled, told, rtol=1e-5, atol=1e-5)
+    np.testing.assert_allclose(compiled, told, rtol=1e-4, atol=1e-4)
 
 
 @steady

@@ -6,14 +6,15 @@ from libc.math cimport sqrt
 
 
 cdef class BandLengths:
-    cdef object sides
+    cdef object shapes
     cdef Py_ssize_t n_spaces, n_each
     cdef Py_ssize_t[::1] n_own
     cdef float[::1] factors  # one after another, by columns and without what is below the diagonal
-    cdef float[::1] turned
+    cdef float[:, ::1] mixing
+    cdef float[::1] turned, sides
 
-    def __init__(self, sides, factors):
-        self.sides = sides
+    def __init__(self, shapes, mixing, factors):
+        self.shapes, self.mixing = shapes, mixing
         self.n_spaces, self.n_each = len(factors), len(factors[0])
         self.n_own = np.array([factor.shape[1] for factor in factors], dtype=np.intp)
         columns = [
@@ -21,16 +22,19 @@ cdef class BandLengths:
         ]
         self.factors = np.concatenate(columns).astype(np.float32)
         self.turned = np.empty(max(self.n_own), dtype=np.float32)
+        self.sides = np.empty(sum(self.n_own), dtype=np.float32)
 
     def __call__(self, points_m):
-        cdef const float[:, ::1] given = self.sides(points_m)
+        cdef const float[:, ::1] given = self.shapes(points_m)
         cdef Py_ssize_t point, space, each, row, k, n, at, begin
         cdef float share
         cdef double square
         cdef float* turned = &self.turned[0]
+        cdef float* sides = &self.sides[0]
         found = np.empty((given.shape[0], self.n_each, self.n_spaces))
         cdef double[:, :, ::1] told = found
         for point in range(given.shape[0]):
+            self.mix(sides, given, point)
             at, begin = 0, 0
             for space in range(self.n_spaces):
                 n = self.n_own[space]
@@ -38,7 +42,7 @@ cdef class BandLengths:
                     for row in range(n):
                         turned[row] = 0
                     for k in range(n):
-                        share = given[point, begin + k]
+                        share = sides[begin + k]
                         for row in range(k + 1):
                             turned[row] += self.factors[at + row] * share
                         at += k + 1
@@ -48,3 +52,14 @@ cdef class BandLengths:
                     told[point, each, space] = sqrt(square)
                 begin += n
         return found
+
+    cdef void mix(self, float* sides, const float[:, ::1] given, Py_ssize_t point) noexcept:
+        cdef Py_ssize_t row, k, n = self.mixing.shape[1]
+        cdef const float* own
+        cdef float share
+        for k in range(n):
+            sides[k] = 0
+        for row in range(self.mixing.shape[0]):
+            own, share = &self.mixing[row, 0], given[point, row]
+            for k in range(n):
+                sides[k] += share * own[k]
