@@ -159,6 +159,12 @@ def test_walks_over_contacts(seed: int, has_ends: bool) -> None:
     assert [cost for cost, *_ in compiled] == pytest.approx([cost for cost, *_ in plain], rel=1e-12)
 
 
+def test_doors() -> None:
+    told, compiled = (kind("cup", "table", (1.0, 2.0, 3.0), 0.5) for kind in both("propagation.walk.Door"))
+    for name in ("out_of", "into", "place", "crossing"):
+        assert getattr(compiled, name) == getattr(told, name)
+
+
 @steady
 @given(seed=seeds, n=st.integers(0, 3))
 def test_what_is_within_its_horizon(seed: int, n: int) -> None:

@@ -1,37 +1,57 @@
-"""The compiled twin of the kernel in `walk`."""
+"""The compiled twins of the kernels in `walk`."""
 
 from heapq import heapify, heappop, heappush
 
-from libc.math cimport INFINITY
+from libc.math cimport INFINITY, sqrt
 
 from scene2hap.propagation._entries cimport distance, is_entered
 
 cdef double ROUNDED_UP = 1 + 1e-9
+cdef long long n_walks = 0
+
+
+cdef class Door:
+    cdef readonly object out_of, into, place
+    cdef readonly double crossing
+    cdef double x, y, z
+    # What the cheapest way to it costs in the walk of that number.
+    cdef double least
+    cdef long long walk
+
+    def __init__(self, out_of, into, tuple place, double crossing):
+        self.out_of, self.into, self.place, self.crossing = out_of, into, place, crossing
+        self.x, self.y, self.z = place
+        self.walk = 0
 
 
 def walked(list starts, exits, dict price_per_m, double limit, ends=None):
-    cdef double cost, price, price_beyond, before, further, x, y, z
+    global n_walks
+    cdef double cost, price, price_beyond, further, x, y, z
     cdef Py_ssize_t n_pushed
+    cdef long long walk
     cdef list known, beyond
-    cdef dict entries = {}, least = {}, at_most = {}, balls = {}
+    cdef dict entries = {}, at_most = {}, balls = {}
     cdef bint has_ends = ends is not None
     cdef double least_price = 0
+    cdef Door arrived, door
+    n_walks += 1
+    walk = n_walks
     if has_ends:
         at_most, balls, least_price = ends
     arrivals, waiting = [], []
     for n_pushed, (start, door) in enumerate(starts):
         if start <= limit:
             waiting.append((start, n_pushed, door))
-            least[door] = start
+            door.walk, door.least = walk, start
     n_pushed = len(starts)
     heapify(waiting)
     while waiting:
         arrived_cost, _, arrived = heappop(waiting)
         cost = arrived_cost
-        if cost > <double>least[arrived]:
+        if cost > arrived.least:
             continue
         here, place, out_of = arrived.into, arrived.place, arrived.out_of
-        x, y, z = place
+        x, y, z = arrived.x, arrived.y, arrived.z
         told = price_per_m.get(here)
         known = entries.get(here)
         if known is None:
@@ -54,22 +74,26 @@ def walked(list starts, exits, dict price_per_m, double limit, ends=None):
                 continue
             beyond = entries.get(other)
             for door in doors:
-                told_before = least.get(door)
-                before = INFINITY if told_before is None else told_before
-                if before <= cost:
+                if door.walk != walk:
+                    door.walk, door.least = walk, INFINITY
+                elif door.least <= cost:
                     continue
-                there = door.place
-                further = cost + price * distance(there, x, y, z) + <double>door.crossing
-                if further > limit or further >= before:
+                further = cost + price * apart(door, x, y, z) + door.crossing
+                if further > limit or further >= door.least:
                     continue
-                if beyond is not None and is_entered(beyond, price_beyond, there[0], there[1], there[2], further):
+                if beyond is not None and is_entered(beyond, price_beyond, door.x, door.y, door.z, further):
                     continue
-                least[door] = further
+                door.least = further
                 n_pushed += 1
                 heappush(waiting, (further, n_pushed, door))
                 if has_ends and other in at_most and further < <double>at_most[other]:
                     at_most[other] = further
     return arrivals
+
+
+cdef double apart(Door door, double x, double y, double z) noexcept:
+    cdef double a = door.x - x, b = door.y - y, c = door.z - z
+    return sqrt(a * a + b * b + c * c)
 
 
 cdef bint may_lead_to(

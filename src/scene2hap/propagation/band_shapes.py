@@ -109,7 +109,7 @@ def _factors(within: Floats) -> Floats:
     """R of each source (n_sources, n_own, n_own) of columns (n_own, n_sources, n)."""
     own = within.transpose(1, 0, 2)
     squares = own @ own.transpose(0, 2, 1) + _ROUNDING * np.eye(len(within))
-    upper: Floats = np.linalg.cholesky(squares).transpose(0, 2, 1)
+    upper: Floats = np.linalg.cholesky(squares).transpose(0, 2, 1).astype(np.float64)
     return upper
 
 

@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from scene2hap.contact.junction import Junction
 
 
+_NEVER: tuple[int, dict[str, Junction], list[Exit]] = (-1, {}, [])
+_NEVER_TO_ENDS: tuple[int, list[Exit], int, list[Exit]] = (-1, [], -1, [])
+
+
 class Doors:
     """The doors of a contact graph as it is, kept as long as their junctions: a step of a walk asks for a few dozen.
 
@@ -43,8 +47,9 @@ class Doors:
         self._known: dict[str, dict[str, tuple[Junction, list[Door]]]] = {}
         self._balls: dict[str, tuple[list[Junction], Triple, float]] = {}
         self._version = -1
-        self._exits: dict[str, list[Exit]] = {}
-        self._exits_to_ends: dict[str, list[Exit]] = {}
+        # The version of the graph in which they were last looked at, and what they were made of.
+        self._exits: dict[str, tuple[int, dict[str, Junction], list[Exit]]] = {}
+        self._exits_to_ends: dict[str, tuple[int, list[Exit], int, list[Exit]]] = {}
 
     def has(self, object_id: str) -> bool:
         """Whether an object touches any."""
@@ -52,30 +57,35 @@ class Doors:
 
     def look_again(self) -> None:
         """Take in what has changed; to be called before a walk."""
-        if self._version != self._graph.version:
-            self._version = self._graph.version
-            self._exits.clear()
-            self._exits_to_ends.clear()
+        self._version = self._graph.version
 
     def exits(self, object_id: str) -> list[Exit]:
-        """The ways out of an object."""
-        found = self._exits.get(object_id)
-        if found is None:
+        """The ways out of an object; the same list as long as nothing about them has changed."""
+        version, last, found = self._exits.get(object_id, _NEVER)
+        if version == self._version:
+            return found
+        now = self._beside.get(object_id, {})
+        if last != now or version < 0:
             price, doors = self.price_per_m, self._doors_of(object_id)
-            found = self._exits[object_id] = [Exit(x, price.get(x, 0.0), several) for x, (_, several) in doors.items()]
+            last, found = dict(now), [Exit(x, price.get(x, 0.0), several) for x, (_, several) in doors.items()]
+        self._exits[object_id] = (self._version, last, found)
         return found
 
     def exits_to_ends(self, object_id: str) -> list[Exit]:
         """The same without those that lead to no end, nor back more cheaply: into a cup that stands on this alone."""
-        found = self._exits_to_ends.get(object_id)
-        if found is None:
-            price, price_here = self.price_per_m, self.price_per_m.get(object_id, 0.0)
-            found = self._exits_to_ends[object_id] = [
+        version, last, then, found = self._exits_to_ends.get(object_id, _NEVER_TO_ENDS)
+        if version == self._version:
+            return found
+        every, topology = self.exits(object_id), self._graph.topology
+        if last is not every or then != topology:
+            price, price_here, beside = self.price_per_m, self.price_per_m.get(object_id, 0.0), self._beside
+            found = [
                 x
-                for x in self.exits(object_id)
+                for x in every
                 if x.into in self._ends
-                or (x.into in price and (len(self._beside[x.into]) > 1 or (x.price < price_here and len(x.doors) > 1)))
+                or (x.into in price and (len(beside[x.into]) > 1 or (x.price < price_here and len(x.doors) > 1)))
             ]
+        self._exits_to_ends[object_id] = (self._version, every, topology, found)
         return found
 
     def ball(self, object_id: str) -> tuple[Triple, float]:

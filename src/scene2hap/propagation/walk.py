@@ -14,6 +14,7 @@ _NOWHERE: Entries = []
 _ROUNDED_UP = 1 + 1e-9
 
 
+@compiled
 class Door:
     """A point of a contact as one goes through it: out of what, into what, where, and what going through costs."""
 
