@@ -1,7 +1,8 @@
 """Compiles the kernels, `src/scene2hap/**/_*.pyx`, where a C compiler is at hand; see docs/decisions/0012.
 
 Without one the package is built all the same: every kernel has a plain twin in Python. `SCENE2HAP_COMPILED` in the
-environment of the build: 0 leaves them out, 1 makes it an error that they cannot be built.
+environment of the build: 0 leaves them out, 1 makes it an error that they cannot be built, and so does "checked", with
+which every index is looked at, for tests of the kernels themselves.
 """
 
 from __future__ import annotations
@@ -18,7 +19,8 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 # No contraction and no fast mathematics: the same digits on every machine.
 _FLAGS = ["/O2", "/fp:precise"] if sys.platform == "win32" else ["-O3", "-ffp-contract=off", "-fno-math-errno"]
-# C's arrays and divisions, as its compiler knows them: indices are not looked at, and count from 0.
+# C's arrays and divisions, as its compiler knows them: indices are not looked at, and count from 0. Told here and not
+# in each module, where a directive below the docstring would be a comment to Cython.
 _DIRECTIVES = {"boundscheck": False, "wraparound": False, "cdivision": True}
 _SHARED = "scene2hap._cyutility"
 
@@ -36,9 +38,9 @@ class CompiledKernels(BuildHookInterface):  # type: ignore[type-arg]  # hatchlin
         self._work = mkdtemp()
         source = Path(self.root, "src")
         try:
-            built = dict(_compiled(source, Path(self._work)))
+            built = dict(_compiled(source, Path(self._work), is_checked=wish == "checked"))
         except Exception as problem:  # whatever a compiler that is not there, or half there, may bring about
-            if wish == "1":
+            if wish in ("1", "checked"):
                 raise
             self.app.display_warning(f"scene2hap is built without its compiled kernels: {problem}")
             return
@@ -54,7 +56,7 @@ class CompiledKernels(BuildHookInterface):  # type: ignore[type-arg]  # hatchlin
         shutil.rmtree(self._work, ignore_errors=True)
 
 
-def _compiled(source: Path, work: Path) -> Iterator[tuple[str, Path]]:
+def _compiled(source: Path, work: Path, *, is_checked: bool) -> Iterator[tuple[str, Path]]:
     """Each compiled module: its place under `source`, and the file that was made of it in `work`."""
     from Cython.Build import cythonize
     from setuptools import Distribution, Extension
@@ -69,7 +71,7 @@ def _compiled(source: Path, work: Path) -> Iterator[tuple[str, Path]]:
         [shared, *kernels],
         build_dir=str(work / "c"),
         language_level=3,
-        compiler_directives=_DIRECTIVES,
+        compiler_directives={**_DIRECTIVES, "boundscheck": is_checked},
         quiet=True,
         shared_utility_qualified_name=_SHARED,
     )

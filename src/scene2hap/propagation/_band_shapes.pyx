@@ -11,7 +11,7 @@ cdef class BandLengths:
     cdef Py_ssize_t[::1] n_own
     cdef float[::1] factors  # one after another, by columns and without what is below the diagonal
     cdef float[:, ::1] mixing
-    cdef float[::1] turned, sides
+    cdef float[::1] turned, sides  # one longer than is used, so that they begin somewhere
 
     def __init__(self, shapes, mixing, factors):
         self.shapes, self.mixing = shapes, mixing
@@ -21,8 +21,8 @@ cdef class BandLengths:
             np.transpose(factor, (0, 2, 1))[:, *np.tril_indices(factor.shape[1])].ravel() for factor in factors
         ]
         self.factors = np.concatenate(columns).astype(np.float32)
-        self.turned = np.empty(max(self.n_own), dtype=np.float32)
-        self.sides = np.empty(sum(self.n_own), dtype=np.float32)
+        self.turned = np.empty(max(self.n_own) + 1, dtype=np.float32)
+        self.sides = np.empty(sum(self.n_own) + 1, dtype=np.float32)
 
     def __call__(self, points_m):
         cdef const float[:, ::1] given = self.shapes(points_m)
@@ -55,11 +55,10 @@ cdef class BandLengths:
 
     cdef void mix(self, float* sides, const float[:, ::1] given, Py_ssize_t point) noexcept:
         cdef Py_ssize_t row, k, n = self.mixing.shape[1]
-        cdef const float* own
         cdef float share
         for k in range(n):
             sides[k] = 0
         for row in range(self.mixing.shape[0]):
-            own, share = &self.mixing[row, 0], given[point, row]
+            share = given[point, row]
             for k in range(n):
-                sides[k] += share * own[k]
+                sides[k] += share * self.mixing[row, k]

@@ -52,10 +52,14 @@ cdef class Folded:
             )
             if self.is_single:
                 fold(&told_single[point, 0], &self.smooth_single[0, 0], &self.cosines[0], self.cosines.shape[0], self.n)
-                self.add_near(&told_single[point, 0], &self.beyond_single[0, 0], points_m[point, 0], points_m[point, 1])
+                if self.beyond_single.shape[0]:
+                    self.add_near(
+                        &told_single[point, 0], &self.beyond_single[0, 0], points_m[point, 0], points_m[point, 1]
+                    )
             else:
                 fold(&told[point, 0], &self.smooth[0, 0], &self.cosines[0], self.cosines.shape[0], self.n)
-                self.add_near(&told[point, 0], &self.beyond[0, 0], points_m[point, 0], points_m[point, 1])
+                if self.beyond.shape[0]:
+                    self.add_near(&told[point, 0], &self.beyond[0, 0], points_m[point, 0], points_m[point, 1])
         return found
 
     cdef void add_near(self, real* told, const real* beyond, double x, double y) noexcept:
