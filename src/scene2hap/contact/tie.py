@@ -121,8 +121,9 @@ class Tie:
     @property
     def asks_apart(self) -> bool:
         """Whether how far they are apart is still to be found out, and a matter of leaning cuboids."""
-        known = self._facts is not None and _APART in self._facts
-        return not known and self.are_cuboids and not (self.a.stance.is_block and self.b.stance.is_block)
+        if not self.are_cuboids or (self.a.stance.is_block and self.b.stance.is_block):
+            return False
+        return self._facts is None or _APART not in self._facts
 
     def tell_apart(self, gap: Gap | None) -> None:
         """Take in how far two cuboids are apart, None if by more than `WITHIN_M`."""

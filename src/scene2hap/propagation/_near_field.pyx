@@ -51,13 +51,19 @@ cdef class Dimples:
     cdef double share(self, double x, double y, Py_ssize_t drive, double cut2) noexcept:
         """The sum over a force and its eight images."""
         cdef Py_ssize_t i, j, piece, last = self.pieces.shape[0] - 1
-        cdef double dx, dy, t, total = 0
+        cdef double dx, dy, t, total = 0, far2 = FAR * FAR / cut2
         for i in range(3):
             dx = x - self.x[drive, i]
+            dx *= dx
+            if dx >= far2:  # as are most images
+                continue
             for j in range(3):
                 dy = y - self.y[drive, j]
+                dy *= dy
+                if dx + dy >= far2:
+                    continue
                 # g is kept over the root of K r.
-                t = self.per_piece * sqrt(sqrt((dx * dx + dy * dy) * cut2))
+                t = self.per_piece * sqrt(sqrt((dx + dy) * cut2))
                 if t < last:
                     piece = <Py_ssize_t>t
                     t = self.pieces[piece, 0] + (t - piece) * self.pieces[piece, 1]

@@ -19,6 +19,8 @@ def as_points(points_m: ArrayLike, dimensions: int) -> NDArray[np.float64]:
 
     Raises: ModelDomainError: another shape, or a coordinate that is not finite.
     """
+    if (found := of_tuples(points_m, dimensions)) is not None:
+        return found
     points: NDArray[np.float64] = np.asarray(points_m, dtype=np.float64)
     if points.ndim < 2:
         points = points.reshape(1, -1)
@@ -27,6 +29,19 @@ def as_points(points_m: ArrayLike, dimensions: int) -> NDArray[np.float64]:
     if not are_finite(points):
         raise ModelDomainError("points hold a coordinate that is not finite; every one must be a number [m].")
     return points
+
+
+@compiled
+def of_tuples(points_m: object, dimensions: int) -> NDArray[np.float64] | None:
+    """Points as they mostly come, a list of tuples of finite numbers of Python; None for any others."""
+    if type(points_m) is not list or not points_m:
+        return None
+    for place in points_m:
+        if type(place) is not tuple or len(place) != dimensions:
+            return None
+        if not all(type(x) is float and math.isfinite(x) for x in place):
+            return None
+    return np.array(points_m)
 
 
 @compiled

@@ -202,6 +202,33 @@ def test_sizes_of_complex_numbers(seed: int, n: int, m: int) -> None:
     np.testing.assert_allclose(compiled, told, rtol=1e-14)
 
 
+@pytest.mark.parametrize(
+    "points",
+    [
+        [(0.0, 1.0, 2.0)],
+        [(0.0, 1.0, 2.0), (3.0, 4.0, 5.0)],
+        [],
+        [(0.0, 1.0)],
+        [(0.0, 1.0, 2.0), (3.0, 4.0)],
+        [[0.0, 1.0, 2.0]],
+        [(0, 1, 2)],
+        [(0.0, math.nan, 1.0)],
+        [(0.0, 1.0, math.inf)],
+        ((0.0, 1.0, 2.0),),
+        (0.0, 1.0, 2.0),
+        np.zeros((2, 3)),
+        [(0.0, 1.0, "2")],
+    ],
+    ids=str,
+)
+def test_points_as_they_mostly_come(points: Any) -> None:
+    told, compiled = (take(points, 3) for take in both("propagation.points.of_tuples"))
+    if told is None:
+        assert compiled is None
+    else:
+        np.testing.assert_array_equal(compiled, told)
+
+
 @pytest.mark.parametrize("odd", [0.0, 1e200, -1e308, math.inf, -math.inf, math.nan])
 def test_finite_points(odd: float) -> None:
     plain, twin = both("propagation.points.are_finite")
