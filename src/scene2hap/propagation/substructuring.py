@@ -133,9 +133,6 @@ def _solved(
     }
 
 
-_NO_COLUMNS = np.empty(0, dtype=np.intp)
-
-
 @dataclass(frozen=True, eq=False)
 class CoupledField:
     """A scene, prepared: the forces in all contacts of the objects that a source reaches.
@@ -156,7 +153,8 @@ class CoupledField:
         points = as_points(points_m, 3)
         found = self._asked.get(object_id)
         if found is None:
-            found = self._asked[object_id] = self._ask(object_id)
+            # Another thread may have expected it by now.
+            found = self._asked.setdefault(object_id, self._ask(object_id))
         return found(points)
 
     def expect(self, object_id: str) -> None:
@@ -168,13 +166,14 @@ class CoupledField:
     def _ask(self, object_id: str, *, is_expected: bool = False) -> Asked:
         shape, ids = (len(self.source_ids), self.bands.n_bands), self.source_ids
         own = ids.index(object_id) if object_id in ids else -1
-        reached = self.reach.get(object_id)
+        reached, place = self.reach.get(object_id), self.network.placing(object_id)
         if reached is None:
-            return Asked(
-                lambda points_m: points_m, lambda points_m: np.zeros((len(points_m), 0, 0)), _NO_COLUMNS, shape, own
-            )
-        gains = reached.gains(self.sampling, is_expected=is_expected)
-        return Asked(self.network.placing(object_id), gains, reached.columns, shape, own)
+            return Asked(place, _nothing_arrives, np.empty(0, dtype=np.intp), shape, own)
+        return Asked(place, reached.gains(self.sampling, is_expected=is_expected), reached.columns, shape, own)
+
+
+def _nothing_arrives(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.zeros((len(points_m), 0, 1))
 
 
 def checked_law(

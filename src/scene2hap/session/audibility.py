@@ -11,7 +11,7 @@ Bands of which less than -140 dB re full scale is left at their gain are left ou
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -104,6 +104,12 @@ def sifted(
 
 # Sources come and go, and what is known of their loops goes with them.
 _KNOWN: WeakKeyDictionary[LoopRow, tuple[Bands, NDArray[np.float64]]] = WeakKeyDictionary()
+
+
+def listen_ahead(rows: Iterable[LoopRow], bands: Bands) -> None:
+    """Find the peaks of these rows, while a scene is loaded and not while it is played."""
+    for row in rows:
+        _known(row, bands)
 
 
 def _known(row: LoopRow, bands: Bands) -> NDArray[np.float64]:

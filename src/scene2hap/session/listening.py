@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scene2hap.contact.graph import ContactChange
 from scene2hap.propagation.live import LiveField, LiveModel, PricedField
 from scene2hap.propagation.protocol import Excitation
-from scene2hap.session.audibility import Audibility
+from scene2hap.session.audibility import Audibility, listen_ahead
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.counts import Counts
 from scene2hap.session.explain import Explainer, Explanation
@@ -48,12 +48,14 @@ class Listening:
         self._look_around()
         self.keeper = keeper_of(config, stage, self._known_excitations())
         self._count_unreachable()
+        listen_ahead(sources.rows(), config.bands)
 
     def follow(self, change: ContactChange, *, is_other_cast: bool = False) -> None:
         """Take in a change of contacts, after objects came or went; `is_other_cast` if sources did."""
         matters = is_other_cast or not self._config.skip.unreachable or self._reach.concerns(change)
         if is_other_cast:
             self._forget_cast()
+            listen_ahead(self._sources.rows(), self._config.bands)
         if is_other_cast or self._bodies is not self._stage.bodies:
             self._look_around()
         elif change.appeared or change.vanished:
