@@ -68,6 +68,11 @@ class OctaveSums:
             self._ends.append(self._ends[-1] + len(taken[-1]))
         self._taken = np.concatenate(taken)
 
+    @property
+    def nbytes(self) -> int:
+        """Memory that they hold [byte]."""
+        return self._far.nbytes + sum(one.far.nbytes + one.spectra.nbytes for one in self._octaves)
+
     def __call__(self, terms: Floats) -> Complex:
         """Sums (n, n_f) of terms (n, n_modes + n_others)."""
         sums = np.empty((len(terms), self._n_frequencies), dtype=np.complex128)

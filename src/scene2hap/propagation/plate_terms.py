@@ -62,6 +62,11 @@ class Pushed:
         return terms
 
     @property
+    def nbytes(self) -> int:
+        """Memory that these forces hold [byte]."""
+        return self.phi.nbytes + self.rest.nbytes
+
+    @property
     def sizes(self) -> Floats:
         """About how large the modes are, and then what else each force does by its nodes (n_modes + n_forces N_NODES,).
 

@@ -11,6 +11,7 @@ Compact bodies move as a whole; so does every source. Objects that no source can
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -112,7 +113,13 @@ def prepare_coupled(
     are shorter than six of its thicknesses.
     """
     scene = assemble(network, excitations, bands, law, outside_domain)
-    return scene.solve({key: elastic_body(plate, scene.top_hz) for key, plate in scene.plates.items()}, density)
+    top_hz = scene.top_hz if bands.edges_hz else _next_step_hz(scene.top_hz)
+    return scene.solve({key: elastic_body(plate, top_hz) for key, plate in scene.plates.items()}, density)
+
+
+def _next_step_hz(frequency_hz: float) -> float:
+    """The next of twenty steps per decade: sources come and go, and their bodies need not be made anew for each."""
+    return 10 ** (math.ceil(20 * math.log10(frequency_hz)) / 20) if frequency_hz > 0 else 0.0
 
 
 def _solved(
