@@ -12,8 +12,9 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from scene2hap.errors import ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.protocol import Body, Excitation
 
@@ -26,6 +27,17 @@ TouchedPoint = tuple[str, tuple[float, float, float]]
 
 Prices = list[list[float]]
 """For each hand, what the cheapest way from each source costs: 0 on the source itself, infinite where none leads."""
+
+
+def checked(found: ArrayLike, shape: tuple[int, int, int]) -> NDArray[np.float64]:
+    """What a field answered. Raises: ModelDomainError: it has another shape; kernels take it as it is told."""
+    gains: NDArray[np.float64] = np.asarray(found, dtype=np.float64)
+    if gains.shape != shape:
+        raise ModelDomainError(
+            f"the model's field answered with an array of shape {gains.shape}; it must be {shape}: points or hands, "
+            "sources and bands."
+        )
+    return gains
 
 
 class LiveField(Protocol):

@@ -47,6 +47,12 @@ class Audibility:
             self._least_gain = np.float32(SILENT) / peaks[:, 1]
         self.least_felt = np.float32(10 ** (-BELOW_THRESHOLD_DB / 20) / max(1, len(rows)))
 
+    @property
+    def shape(self) -> tuple[int, int]:
+        """How many sources and bands there are."""
+        n_sources, n_bands = self._least_gain.shape
+        return n_sources, n_bands
+
     def felt(self, gains: NDArray[np.float32]) -> NDArray[np.float32]:
         """What no moment of each source exceeds at gains (n, n_sources, n_bands), in thresholds (n, n_sources)."""
         felt: NDArray[np.float32] = (gains[:, :, None] @ self._felt)[:, :, 0, 0]

@@ -114,7 +114,7 @@ class HearingNear:
         columns, each, n_beyond = within(prices, horizon, [among & on for _, among in asked])
         self._counts.below_threshold += n_beyond
         self._counts.idle_hands += n_hands - len(felt)
-        mixed = self._loudness.applied(self._field.at(each, columns), columns)
+        mixed = self._loudness.applied(gains.at(self._field, each, columns), columns)
         if self._skips_silent_bands:
             mixed = self._loudness.audibility.loud(mixed, columns)
 
@@ -125,7 +125,7 @@ class HearingNear:
                 everything = gains.prices(self._field, touches, asked, self._arrives)
             else:
                 everything = _without(prices, horizon)
-            return _among(self._loudness.applied(self._field.at(everything)), n_hands, felt)
+            return _among(self._loudness.applied(gains.at(self._field, everything)), n_hands, felt)
 
         return Heard(told, _among(mixed, n_hands, felt), columns)
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
-from scene2hap.propagation.live import PricedField, Prices
+from scene2hap.propagation.live import PricedField, Prices, checked
 from scene2hap.session.audibility import SILENT, Audibility
 
 # From 1 to less than exp(-700) for any band between 8 Hz and 1 MHz, in steps of 6 %.
@@ -25,11 +25,15 @@ NOWHERE = -1.0
 
 
 class Horizon:
-    """What arrives and what is felt of the sources of a field, by price."""
+    """What arrives and what is felt of the sources of a field, by price.
+
+    Raises: ModelDomainError: the field answers in another shape.
+    """
 
     def __init__(self, field: PricedField, audibility: Audibility) -> None:
-        n = len(field.source_ids)
-        gains = field.at([[price] * n for price in _PRICES.tolist()]).astype(np.float32)
+        n, n_bands = audibility.shape
+        everything = field.at([[price] * n for price in _PRICES.tolist()])
+        gains = checked(everything, (len(_PRICES), n, n_bands)).astype(np.float32)
         self._felt, self._least_felt = _falling(audibility.felt(gains)), audibility.least_felt
         self._arrives = _falling(gains.max(axis=2, initial=0.0))
 

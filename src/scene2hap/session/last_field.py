@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.live import TouchedPoint
+from scene2hap.propagation.live import TouchedPoint, checked
 from scene2hap.propagation.protocol import PropagationField
 from scene2hap.scene.pose import Pose
 from scene2hap.session.reach import Reach
@@ -51,7 +51,7 @@ class LastField:
         touched = [touch for hand in hands for touch in hand]
         if not touched:
             return np.zeros((len(hands), *self._shape))
-        gains = self._answers(touched)
+        gains = checked(self._answers(touched), (len(touched), len(self._field.source_ids), self._shape[1]))
         if self._columns is not None:
             here, there = self._columns
             found, gains = gains, np.zeros((len(touched), *self._shape))

@@ -208,6 +208,7 @@ class Listening:
         config = self._config
         return TouchGains(
             field,
+            (len(self._sources.ids), config.bands.n_bands),
             self._reach,
             counts,
             skips_unreachable=config.skip.unreachable,

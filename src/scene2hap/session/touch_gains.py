@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
-from scene2hap.propagation.live import LiveField, PricedField, Prices, TouchedPoint
+from scene2hap.errors import ModelDomainError
+from scene2hap.propagation.live import LiveField, PricedField, Prices, TouchedPoint, checked
 from scene2hap.session.config import MAX_GAIN_DB
 from scene2hap.session.counts import Counts
 from scene2hap.session.frame import Touch
@@ -22,14 +23,22 @@ GREATEST = 10 ** (MAX_GAIN_DB / 20)
 class TouchGains:
     """Asks a field about hands, each with its touches.
 
-    Parameters: reach : what hangs together now; skips_unreachable : do not ask the field where no source reaches;
-    limit : cap on a gain, None for none. `may_be_capped` tells whether the field may say more.
+    Parameters: shape : (n_sources, n_bands) of a hand's gains; reach : what hangs together now; skips_unreachable : do
+    not ask the field where no source reaches; limit : cap on a gain, None for none. `may_be_capped` tells whether the
+    field may say more.
     """
 
     def __init__(
-        self, field: LiveField, reach: Reach, counts: Counts, *, skips_unreachable: bool, limit: float | None
+        self,
+        field: LiveField,
+        shape: tuple[int, int],
+        reach: Reach,
+        counts: Counts,
+        *,
+        skips_unreachable: bool,
+        limit: float | None,
     ) -> None:
-        self._field = field
+        self._field, self._shape = field, shape
         self._own = {source_id: column for column, source_id in enumerate(field.source_ids)}
         self._reach, self._counts = reach, counts
         self._skips_unreachable = skips_unreachable
@@ -47,8 +56,15 @@ class TouchGains:
         """The price of each source at each hand up to its limit, of a field that tells it; 0 on a source.
 
         Parameters: asked : see there, of the touches of each hand.
+        Raises: ModelDomainError: the field answers of too many or too few.
         """
         prices = field.prices([points for points, _ in asked], limits, [among for _, among in asked])
+        told, n_sources = [len(row) for row in prices], self._shape[0]
+        if told != [n_sources] * len(hands):
+            raise ModelDomainError(
+                f"the model's field told {told} prices of {len(hands)} hands; it must tell one of each source at each, "
+                f"[{n_sources}] * {len(hands)}."
+            )
         for row, touches in zip(prices, hands, strict=True):
             for touch in touches:
                 if touch.object_id in self._own:
@@ -56,9 +72,12 @@ class TouchGains:
         return prices
 
     def of(self, hands: Sequence[Sequence[Touch]]) -> NDArray[np.float64]:
-        """Gains (n_hands, n_sources, n_bands) [-], the largest over each hand's touches, capped; 1 on a source."""
+        """Gains (n_hands, n_sources, n_bands) [-], the largest over each hand's touches, capped; 1 on a source.
+
+        Raises: ModelDomainError: the field answers in another shape.
+        """
         found = self._field.strongest([self.asked(touches)[0] for touches in hands])
-        gains: NDArray[np.float64] = np.asarray(found, dtype=np.float64)
+        gains = checked(found, (len(hands), *self._shape))
         for i, touches in enumerate(hands):
             for touch in touches:
                 if touch.object_id in self._own:
@@ -68,6 +87,12 @@ class TouchGains:
             if self._is_counting:
                 self._counts.gains_capped += n_capped
         return gains
+
+    def at(self, field: PricedField, prices: Prices, columns: Sequence[int] | None = None) -> NDArray[np.float64]:
+        """Gains (n_hands, n_columns, n_bands) at such prices, see `PricedField`. Raises as `of`."""
+        n_sources, n_bands = self._shape
+        n_columns = n_sources if columns is None else len(columns)
+        return checked(field.at(prices, columns), (len(prices), n_columns, n_bands))
 
     def asked(self, touches: Sequence[Touch]) -> Asked:
         """Which of a hand's touches the field is asked about, and the columns of the sources that hang together with

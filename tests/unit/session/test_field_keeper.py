@@ -251,6 +251,21 @@ def test_a_model_that_fails_in_place_is_heard_at_once() -> None:
         s.update(shifted(0.2))
 
 
+@pytest.mark.parametrize("shape", [(1, 2, 2), (1, 3, 1), (2, 2, 1), (1, 2)])
+def test_an_answer_of_another_shape_is_an_error_of_ours(shape: tuple[int, ...]) -> None:
+    class Wrong(Field):
+        def attenuation(self, object_id: str, points_m: Any) -> np.ndarray:
+            return np.ones(shape)
+
+    class Model:
+        def prepare(self, network: Any, excitations: Any, bands: Bands) -> Field:
+            return Wrong(tuple(x.source_id for x in excitations), 1)
+
+    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": Model(), "prepare": "blocking"})
+    with pytest.raises(ModelDomainError, match=r"shape .* must be \(1, 2, 1\)"):
+        s.update(touches=[ON_TABLE])
+
+
 def test_the_worker_begins_once_the_update_that_asks_for_it_is_over() -> None:
     class Model(Gated):
         def prepare(self, network: Any, excitations: Any, bands: Bands) -> Field:

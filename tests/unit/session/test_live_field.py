@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from scene2hap import Bands, ExponentialPlate, HapticSession, Pose, Touch
+from scene2hap.errors import ModelDomainError
 from scene2hap.session.audibility import SILENT
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
 
@@ -124,3 +125,41 @@ def test_a_guests_nonsense_reaches_no_hand(answer: float, told: float) -> None:
     s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": Guest(answer)})
     assert s.update(touches=[ON_TABLE]).gain("left", "phone") == told
     assert s.stats.gains_capped == (2 if answer > 1 else 0)
+
+
+class Priced(Guest):
+    """The same, with a price of 0 for everything; tells more than it is asked for, in one or the other answer."""
+
+    def __init__(self, prices_more: int, bands_more: int) -> None:
+        super().__init__(0.5)
+        self.prices_more, self.bands_more = prices_more, bands_more
+        self.most = 1.0
+
+    def live(self, graph: Any, bodies: Any, excitations: Any, bands: Bands) -> "Priced":
+        super().live(graph, bodies, excitations, bands)
+        self.most = 1.0
+        return self
+
+    def prices(self, hands: Sequence[Any], limits: Any = None, among: Any = None) -> list[list[float]]:
+        return [[0.0] * (len(self.source_ids) + self.prices_more) for _ in hands]
+
+    def at(self, prices: list[list[float]], columns: Any = None) -> np.ndarray:
+        n_columns = len(self.source_ids) if columns is None else len(columns)
+        return np.full((len(prices), n_columns, self.n_bands + self.bands_more), self.answer)
+
+
+def test_answers_of_another_shape_are_errors_of_ours() -> None:
+    class Wide(Guest):
+        def strongest(self, hands: Sequence[Sequence[Any]]) -> np.ndarray:
+            return super().strongest(hands).repeat(2, axis=1)
+
+    for model, told in (
+        (Wide(0.5), r"shape \(1, 4, 1\); it must be \(1, 2, 1\)"),
+        (Priced(-1, 0), r"told \[1\] prices of 1 hands"),
+        (Priced(0, 3), r"shape \(241, 2, 4\); it must be \(241, 2, 1\)"),
+    ):
+        s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": model})
+        with pytest.raises(ModelDomainError, match=told):
+            s.update(touches=[ON_TABLE])
+    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": Priced(0, 0)})
+    assert s.update(touches=[ON_TABLE]).gain("left", "phone") == 0.5
