@@ -3,10 +3,10 @@
 from libc.math cimport INFINITY, sqrt
 
 cdef enum:
-    MAX_POINTS = 4
-    MANY = 256
+    MAX_POINTS = 4  # as in `spread`
+    MANY = 256  # twice what two outlines of eight corners give
 
-cdef double SPREAD_M = 0.005
+cdef double SPREAD_M = 0.005  # as in `spread`
 cdef double TIE_M = 1e-6
 
 

@@ -262,16 +262,12 @@ class ContactFinder:
     def _tell_cuboids_apart(self, moved: Iterable[str]) -> None:
         """Find out all at once how far leaning cuboids are from what moved."""
         ties = {id(tie): tie for x in moved for tie in self._ties[x].values() if tie.asks_apart}
-        if not ties:
-            return
         for tie, gap in zip(ties.values(), gaps_of([(t.a, t.b) for t in ties.values()], WITHIN_M), strict=True):
             tie.tell_apart(gap)
 
     def _tell_falls(self, unsure: Iterable[str]) -> None:
         """Find out all at once how far what has few triangles is to fall."""
         asked = [(tie, x) for x in unsure for tie in self._ties.get(x, {}).values() if tie.asks_falls(x)]
-        if not asked:
-            return
         for (tie, x), falls_m in zip(asked, falls_of([tie.falling(x) for tie, x in asked]), strict=True):
             tie.tell_falls(x, falls_m)
 

@@ -19,7 +19,7 @@ from scene2hap.propagation.lattice import Lattice
 from scene2hap.propagation.lattice_modes import TERMS, lattice_modes
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.recall import Recall
-from scene2hap.propagation.span import AnyFloat, real
+from scene2hap.propagation.span import AnyFloat, real_times
 
 
 @lru_cache(maxsize=32)
@@ -50,7 +50,7 @@ class LatticeSpan:
     def weights(self, frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """See `Span`."""
         spectrum, n_modes = self.spectra(frequencies_hz).view(np.complex128)[:, None], self.shares.shape[1]
-        modal = real(self.shares.T, forces)
+        modal = real_times(self.shares.T, forces)
         modal *= spectrum[:n_modes]
         series = forces[:, None] * spectrum[n_modes:]
         return np.concatenate([modal, series.reshape(len(forces) * TERMS, *forces.shape[1:])])

@@ -28,7 +28,7 @@ from scene2hap.propagation.near_field import Dimples, NearField
 from scene2hap.propagation.octaves import OctaveSums
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.ritz import axis_basis
-from scene2hap.propagation.span import AnyFloat, real
+from scene2hap.propagation.span import AnyFloat, real_times
 
 N_NODES = 4
 
@@ -79,7 +79,7 @@ class Pushed:
         """How much of these shapes (n_modes + n_forces N_NODES, n, n_f) there is, for terms at frequencies (n_terms,
         n_f) and forces (n_forces, n, n_f)."""
         n_modes = self.phi.shape[1]
-        modal = real(self.phi.T, forces)
+        modal = real_times(self.phi.T, forces)
         modal *= spectrum[:n_modes, None]
         by_node = forces[:, None] * spectrum[n_modes:, None]
         return np.concatenate([modal, by_node.reshape(len(forces) * N_NODES, *forces.shape[1:])])

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from scene2hap.propagation.modes import first_bending_hz
 from scene2hap.propagation.plate import Plate, RigidBody
-from scene2hap.propagation.span import AnyFloat, real
+from scene2hap.propagation.span import AnyFloat, real_times
 
 COMPACT_THICKNESS = 1 / 5
 """Part of the shorter side above which a thickness makes a body compact; thin-plate theory is far gone by then."""
@@ -109,7 +109,7 @@ class RigidSpan:
 
     def weights(self, frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """See `Span`."""
-        weights = real(self.moved_by, forces)
+        weights = real_times(self.moved_by, forces)
         weights /= -((2 * np.pi * frequencies_hz) ** 2)
         return weights
 

@@ -166,7 +166,9 @@ class CoupledField:
 
     def expect(self, object_id: str) -> None:
         """Be ready to be asked about an object often, see `ExpectantField`."""
-        if object_id not in self._expected:
+        # If each source has one frequency, what was asked about is as quick as it can be.
+        ready = self._asked if self.sampling.starts is None else self._expected
+        if object_id not in ready:
             self._asked[object_id] = self._ask(object_id, is_expected=True)
             self._expected.add(object_id)
 
