@@ -57,7 +57,8 @@ def below(guest: Body, host: Body) -> Clearing | None:
         if known.top_m is None:
             return known
         u0, v0, u1, v1 = known.ledge
-        if taken[0][2] <= known.top_m and foot[0] >= u0 and foot[1] >= v0 and foot[2] <= u1 and foot[3] <= v1:
+        is_on = foot[0] >= u0 and foot[1] >= v0 and foot[2] <= u1 and foot[3] <= v1
+        if is_on and taken[0][2] <= known.top_m <= taken[1][2]:
             return known
     found = _drawn(host, own, taken, foot)
     if found is not None:

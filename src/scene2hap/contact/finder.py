@@ -17,6 +17,7 @@ from scene2hap.contact.falls_together import falls_of
 from scene2hap.contact.glide import Drift, Glide
 from scene2hap.contact.holding import Holding
 from scene2hap.contact.junction import Junction, Pair, pair_of
+from scene2hap.contact.sides import Sides, are_beside
 from scene2hap.contact.support import TOUCH_M, Support, margins_m
 from scene2hap.contact.tie import WITHIN_M, Slide, Tie, apart_by, slide
 from scene2hap.scene.pose import Pose
@@ -128,35 +129,62 @@ class ContactFinder:
             self._glides.pop(y, None)
 
     def _slide(self, body: Body, found: dict[Pair, Junction | None]) -> bool:
-        """The short way for what stays on its only support with nothing else near enough to matter.
+        """The short way for what stays on its only support, with nothing else near enough to matter but blocks that it
+        is beside.
 
         It ends where the long way does. False, and nothing done, where that is not sure.
         """
         x, bodies = body.id, self._bodies
-        ties = self._ties.get(x)
-        if ties is None or len(ties) > 1:
+        ties, held = self._ties.get(x), self._held.get(x)
+        if ties is None:
             return False
         if not ties:
             return self._land(body, found)
-        ((y, tie),) = ties.items()
-        support, is_a = bodies[y], x == tie.a.id
-        if x in self._loose or (tie.b if is_a else tie.a) is not support:
+        if held is None or len(held) > 1 or x in self._loose:
             return False
-        held = self._held.get(x)
-        bond = held.get(y) if held and len(held) == 1 else None
-        if bond is None or not bond.lies or bond.weight != 1.0 or not self._lets_alone(body, y):
+        ((y, bond),) = held.items()
+        tie = ties.get(y)
+        if tie is None or tie.falling(x)[1] is not bodies[y] or not bond.lies or bond.weight != 1.0:
             return False
-        slid = slide(body, support)
-        if slid is None:
+        sides = self._sides(body, y)
+        slid = None if sides is None else slide(body, bodies[y])
+        if sides is None or slid is None:
             return False
-        tie.slide(body, slid.rest, is_a)
+        tie.slide(body, slid.rest, x == tie.a.id)
         found[tie.a.id, tie.b.id] = _lies(slid, bond)
+        if sides:
+            before = set(ties)
+            self._sides_of(sides).follow(body, sides, found)
+            for z in before ^ ties.keys():
+                self._stop(x, z)
         glide = self._glides.get(x)
         if isinstance(glide, Glide) and glide.refused <= _VAIN and glide.tray == slid.tray:
             glide.resume(body)
         else:
-            self._keep(Glide.of(body, tie, slid, bond.normal, self._crowd.room(x), self._around(x)))
+            self._keep(Glide.of(body, tie, slid, bond.normal, self._crowd.room(x), self._around(x), self._sides_of))
         return True
+
+    def _sides(self, body: Body, support: str) -> list[str] | None:
+        """The blocks that a body on its support may touch sideways, or did; None if anything else may matter to it."""
+        bodies, ties = self._bodies, self._ties[body.id]
+        sides = [z for z in ties if z != support]
+        if any(ties[z].may_bear or not are_beside(body, bodies[z]) for z in sides):
+            return None
+        amid = self._amid(body)
+        if amid is None:
+            return None
+        for z in amid:
+            other = bodies[z]
+            if z == support or z in ties:
+                continue
+            if are_beside(body, other):
+                sides.append(z)
+            elif body.size_m >= other.size_m or not is_clear(body, other):
+                return None
+        return sides
+
+    def _sides_of(self, names: Sequence[str]) -> Sides:
+        return Sides(names, self._bodies, self._ties)
 
     def _land(self, body: Body, found: dict[Pair, Junction | None]) -> bool:
         """The short way for what touched nothing, and comes to lie on one thing alone; else as `_slide`."""

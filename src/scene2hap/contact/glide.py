@@ -1,15 +1,15 @@
-"""The shortest ways of a frame: what lies wholly on its only support, and slides there, has new points and no more;
-what is in the air far from everything has nothing at all.
+"""The shortest ways of a frame: what lies wholly on its only support, and slides there, has new points and no more, but
+where it touches blocks sideways; what is in the air far from everything has nothing at all.
 
-A `Glide` or a `Drift` is kept for a thing while all that makes it so holds: one tie and a full bond or no tie, and
-nobody in the way. Within it, a step is a handful of comparisons and additions, the same arithmetic as the long way's.
-Where a step is not surely one of these, it is refused, and nothing done.
+A `Glide` or a `Drift` is kept for a thing while all that makes it so holds: one full bond or no tie, and nobody in the
+way but blocks that it is beside. Within it, a step is a handful of comparisons and additions, the same arithmetic as
+the long way's. Where a step is not surely one of these, it is refused, and nothing done.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.clearing import open_box
@@ -17,6 +17,7 @@ from scene2hap.contact.crowd import Room
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.ledge import Flat
 from scene2hap.contact.level import Rest
+from scene2hap.contact.sides import Sides, are_beside
 from scene2hap.contact.stance import Tray
 from scene2hap.contact.support import TOUCH_M, fall_reach_m, margins_m
 from scene2hap.contact.tie import SURE_M, Slide, Tie
@@ -31,14 +32,16 @@ _ONES = (1.0,) * 4
 class Glide:
     """A body that slides on another.
 
-    `on` is the other's id, `tray` what of it is below; `hosts` are those in whose clearings it goes on, as long as they
-    stay where they are; `body` is changed in place as it goes; `refused` counts its owner's vain attempts.
+    `on` is the other's id, `tray` what of it is below; `sides` are blocks that it may touch as it goes by; `hosts` are
+    those in whose clearings it goes on, as long as they stay where they are; `body` is changed in place as it goes;
+    `refused` counts its owner's vain attempts.
     """
 
     __slots__ = (
         "_fall_m",
         "_is_a",
         "_normals",
+        "_sides",
         "_tie",
         "_top_m",
         "_track",
@@ -51,7 +54,14 @@ class Glide:
     )
 
     def __init__(
-        self, body: Body, tie: Tie, tray: Tray, normal: Triple | None, bounds: Bounds, hosts: Sequence[str]
+        self,
+        body: Body,
+        tie: Tie,
+        tray: Tray,
+        normal: Triple | None,
+        bounds: Bounds,
+        sides: Sides | None,
+        hosts: Sequence[str],
     ) -> None:
         self.body, self._tie, self._is_a = body, tie, body.id == tie.a.id
         self.pair: Pair = (tie.a.id, tie.b.id)
@@ -59,7 +69,7 @@ class Glide:
         self.tray = tray
         self._normals = (normal,) * len(body.stance.footing.points)
         self._fall_m, self._top_m = math.nan, bounds.top_m
-        self._track = Track(bounds, body.stance)
+        self._track, self._sides = Track(bounds, body.stance), sides
         self.hosts, self.refused = hosts, 0
 
     @classmethod
@@ -71,12 +81,13 @@ class Glide:
         normal: Triple | None,
         zone: Room,
         around: Iterable[tuple[Body, Room]],
+        sides_of: Callable[[Sequence[str]], Sides],
     ) -> Glide:
         """The glide of a body that slides so, may move in a zone, and has such neighbours, each of which may move in
-        its own. It goes nowhere unless boxes tell where."""
+        its own; `sides_of` are blocks by their ids. It goes nowhere unless boxes tell where."""
         support = tie.b if body.id == tie.a.id else tie.a
         middle_m = support.low[body.up_axis] + support.high[body.up_axis]
-        opens, others, hosts = [zone], [], []
+        opens, others, beside, hosts = [zone], [], [], []
         if slide.is_ledge:
             opens.append(open_box(body, support, stands=True))
             # As `is_over` tells, for all heights of a slide: with a higher bottom, over all of it, or all in it.
@@ -90,6 +101,8 @@ class Glide:
             if other.id != support.id:
                 if max(_sideways_m(body, room)) > TOUCH_M:
                     others.append(room)
+                elif are_beside(body, other):
+                    beside.append(other.id)
                 else:
                     opens.append(open_box(body, other, stands=False))
                     hosts.append(other.id)
@@ -104,7 +117,7 @@ class Glide:
             SURE_M,
             2 / 3 * fall_reach_m(body.size_m),
         )
-        return cls(body, tie, tray, normal, bounds, hosts)
+        return cls(body, tie, tray, normal, bounds, sides_of(beside) if beside else None, hosts)
 
     def resume(self, body: Body) -> None:
         """Go on from where another way has brought the body."""
@@ -116,7 +129,10 @@ class Glide:
         if slid is None:
             return False
         low, high, fall_m, places = slid
-        body = self.body
+        body, sides = self.body, self._sides
+        near = () if sides is None else sides.near(low, high, body.stance.v_axis)
+        if near is None:
+            return False
         body.put(pose, low, high)
         if fall_m != self._fall_m:
             self._fall_m = fall_m
@@ -124,6 +140,8 @@ class Glide:
         else:
             self._tie.forget()
         found[self.pair] = _new(Junction, (places, _ONES[: len(places)], self._normals, ()))
+        if sides is not None:
+            sides.follow(body, near, found)
         return True
 
 

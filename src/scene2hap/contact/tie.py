@@ -53,6 +53,11 @@ class Tie:
         rest_a = _rest(a, b)
         return cls(a, b, rest_a, _rest(b, a) if rest_a is None else None)
 
+    @property
+    def may_bear(self) -> bool:
+        """Whether one may lie on the other."""
+        return self.rest_a is not None or self.rest_b is not None
+
     def rest(self, x: str) -> Rest | None:
         """How x, one of the two, may lie on the other."""
         return self.rest_a if x == self.a.id else self.rest_b

@@ -210,3 +210,13 @@ def test_what_goes_on_in_a_clearing_notices_that_its_host_has_moved() -> None:
     moved = [replace(item, pose=places[item.id]) for item in (pen(-0.5), low, high)]
     assert graph.contacts == ContactGraph(scene(HOUSE, *moved)).contacts
     assert pairs(graph) == {("house", "low"), ("house", "pen"), ("low", "pen"), ("high", "pen")}
+
+
+def test_what_comes_from_below_a_ledge_does_not_stand_on_it() -> None:
+    """A slab that has come through a floor, which may then fall onto it, and rises again to over its lower face."""
+    base, slab = box("base", (3.0, 0.1, 3.0), (0.0, -0.05, 0.0)), box("slab", (0.5, 0.04, 0.4), (0.0, 0.02, 0.0))
+    graph = ContactGraph(scene(base, slab))
+    for height in (-0.092, -0.064):
+        place = Pose((0.35, height, -0.02), turned(0.67))
+        graph.update({"slab": place})
+        assert graph.contacts == ContactGraph(scene(base, replace(slab, pose=place))).contacts

@@ -89,3 +89,35 @@ def test_a_glide_goes_on_to_the_rim(angle: float, monkeypatch: pytest.MonkeyPatc
     # To the rim but for a step, where a circle around the sheet ends at 0.34.
     assert 0.5 - reach_m - 0.0051 <= max(ends) <= 0.5 - reach_m
     assert len(ends) > 0.8 * max(ends) / 0.005
+
+
+@pytest.mark.parametrize("also_moves", [False, True], ids=["along one that stays", "along one that comes nearer"])
+def test_a_block_that_slides_along_others_is_followed_in_its_glide(
+    also_moves: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It comes, touches, goes on and leaves; the long way is gone where it begins and where it comes to another."""
+    blocks = [box("near", (0.1, 0.1, 0.1), (0.0, 0.75, 0.0)), box("far", (0.1, 0.02, 0.1), (0.3, 0.71, 0.3))]
+    objects = [floor(), TABLE, *blocks, box("crate", (0.1, 0.1, 0.1), (-0.3, 0.75, 0.102))]
+    graph = ContactGraph(scene(*objects))
+    long_ways, take_in = list[int](), finder.ContactFinder._take_in
+
+    def watched(self: finder.ContactFinder, *given: Any) -> None:
+        if self is graph._finder:
+            long_ways.append(len(touching))
+        take_in(self, *given)
+
+    monkeypatch.setattr(finder.ContactFinder, "_take_in", watched)
+    touching = list[bool]()
+    for step in range(120):
+        moved = {"crate": Pose((-0.3 + 0.005 * step, 0.75, 0.102))}
+        if also_moves:
+            moved["near"] = Pose((0.0, 0.75, 0.001 * math.sin(step / 3)))
+        graph.update(moved)
+        assert is_as_built(graph, *objects)
+        touching.append("near" in graph.neighbours("crate"))
+    # While less than 5 mm is between them, along the diagonal before and after.
+    first, last = touching.index(True), 119 - touching[::-1].index(True)
+    assert 39 <= first <= 40
+    assert 80 <= last <= 81
+    # But where it leaves what was drawn around it, some 6 cm, it is looked around anew.
+    assert len([step for step in long_ways if first < step <= last + 1]) <= 8

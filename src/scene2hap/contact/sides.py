@@ -1,0 +1,79 @@
+"""Blocks that one slides along: which of them it touches sideways, and where.
+
+Whose boxes are beside each other, neither lies on the other, hangs from it or is built into it; all that is between
+them is a touch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+
+from scene2hap.contact.body import Body
+from scene2hap.contact.bond import direction
+from scene2hap.contact.junction import Junction, Pair, pair_of
+from scene2hap.contact.support import SLACK_M, TOUCH_M, weight
+from scene2hap.contact.tie import Tie, apart_by
+from scene2hap.contact.vectors import Triple
+
+
+class Sides:
+    """The blocks that a body may come to touch sideways.
+
+    Parameters: names : their ids; bodies, ties : of all things by id, as their owner keeps them; ties are changed.
+    """
+
+    __slots__ = ("_bodies", "_names", "_ties")
+
+    def __init__(self, names: Sequence[str], bodies: Mapping[str, Body], ties: dict[str, dict[str, Tie]]) -> None:
+        self._names, self._bodies, self._ties = names, bodies, ties
+
+    def near(self, low: Triple, high: Triple, v_axis: int) -> list[str] | None:
+        """Which of them may touch what is in a box; None if it is not beside all of them."""
+        bodies, within_m = self._bodies, TOUCH_M
+        near = []
+        for z in self._names:
+            gap_m = _gap_m(low, high, bodies[z], v_axis)
+            if gap_m < 0:
+                return None
+            if gap_m <= within_m:
+                near.append(z)
+        return near
+
+    def follow(self, body: Body, near: Collection[str], found: dict[Pair, Junction | None]) -> None:
+        """Tie a block that is tied to nothing else but its support to those of them that it touches, which may be some
+        that are near; where is added to `found`."""
+        x, bodies, mine = body.id, self._bodies, self._ties[body.id]
+        if not near and len(mine) == 1:
+            return
+        for z in self._names:
+            tie = None
+            if z in near:
+                other = bodies[z]
+                tie = Tie(body, other, None, None) if x < z else Tie(other, body, None, None)
+            if tie is not None and not (apart_by(tie.a, tie.b, TOUCH_M) or tie.is_clear):
+                mine[z] = self._ties.setdefault(z, {})[x] = tie
+                found[tie.a.id, tie.b.id] = _touch(tie)
+            elif mine.pop(z, None) is not None:
+                del self._ties[z][x]
+                found[pair_of(x, z)] = None
+
+
+def are_beside(x: Body, y: Body) -> bool:
+    """Whether two are blocks with their boxes beside each other."""
+    return _gap_m(x.low, x.high, y, x.stance.v_axis) >= 0 and x.stance.is_block and y.stance.is_block
+
+
+def _gap_m(low: Triple, high: Triple, other: Body, v_axis: int) -> float:
+    """How far a box is beside that of a body, below 0 if not at all."""
+    near, far = other.low, other.high
+    return max(low[0] - far[0], near[0] - high[0], low[v_axis] - far[v_axis], near[v_axis] - high[v_axis])
+
+
+def _touch(tie: Tie) -> Junction | None:
+    """Where two that are not clear of each other touch."""
+    side = tie.aside(TOUCH_M, SLACK_M)
+    share = 0.0 if side is None else weight(side.distance_m, TOUCH_M)
+    if side is None or share <= 0:
+        return None
+    n = len(side.points)
+    return Junction(side.points, (share,) * n, (direction(side.distance_m, side.way_m),) * n)
