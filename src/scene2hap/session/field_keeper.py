@@ -15,8 +15,8 @@ from scene2hap.errors import Scene2HapError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.live import TouchedPoint
 from scene2hap.propagation.protocol import Excitation, ExpectantField, PropagationModel
+from scene2hap.session.field_in_use import FieldInUse
 from scene2hap.session.last_field import LastField
-from scene2hap.session.noted_field import NotedField
 from scene2hap.session.reach import Reach
 from scene2hap.session.stage import Stage
 from scene2hap.session.worker import Desk, Prepared, Sign, Situation
@@ -49,6 +49,7 @@ class FieldKeeper:
         self._n_answered = self._n_ordered = 0
         self.in_use = self._whole = self._desk.prepare(self._asked)
         self._is_expectant = isinstance(self.in_use.field, ExpectantField)
+        self._heard: tuple[FieldInUse, tuple[str, ...], Reach] | None = None
         self.n_prepared, self.n_failed, self.last_failure = 1, 0, ""
         self.latency_s = 0.0
 
@@ -82,15 +83,20 @@ class FieldKeeper:
             self._put(Sign.TOUCHED)
         self._is_stranger_touched = False
 
-    def hearing(self, source_ids: tuple[str, ...], reach: Reach) -> NotedField:
-        """The field in use, for these sources and what hangs together now."""
+    def hearing(self, source_ids: tuple[str, ...], reach: Reach) -> FieldInUse:
+        """The field in use, for these sources and what hangs together now; it goes along when another one is."""
+        if self._heard is not None and self._heard[1:] == (source_ids, reach):
+            return self._heard[0]
         now, n_bands = self._stage.graph.pose, self._desk.bands.n_bands
 
-        def last(one: Prepared) -> LastField:
+        def as_now(one: Prepared) -> LastField:
             then = one.situation.poses
             return LastField(one.field, then, now, source_ids, n_bands, reach, lambda: one.situation is self._asked)
 
-        return NotedField(last(self.in_use), self.in_use.covers, last(self._whole), self._note_touched)
+        heard = FieldInUse(source_ids, as_now, self._note_touched)
+        heard.use(self.in_use, self._whole)
+        self._heard = (heard, source_ids, reach)
+        return heard
 
     def take(self) -> bool:
         """Take the newest field that is ready into use; false if it is already."""
@@ -132,6 +138,8 @@ class FieldKeeper:
         self.in_use = found
         if found.covers is None:
             self._whole, self._n_answered = found, situation.number
+        if self._heard is not None:
+            self._heard[0].use(found, self._whole)
         self.n_prepared += 1
         if situation is not before:
             self.latency_s = time.monotonic() - situation.asked_at_s

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.compiled import compiled
 from scene2hap.propagation.live import TouchedPoint, checked
 from scene2hap.propagation.protocol import PropagationField
 from scene2hap.scene.pose import Pose
@@ -43,40 +45,29 @@ class LastField:
         self._field, self._then, self._now = field, then, now
         self._reach, self._is_current = reach, is_current
         self._shape = (len(source_ids), n_bands)
-        # Columns of the answer, and those of the field that go there; None if they are the same.
-        self._columns = None if tuple(field.source_ids) == source_ids else _shared(source_ids, field.source_ids)
+        self._columns = _shared(source_ids, tuple(field.source_ids))
 
     def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> Gains:
         """See `LiveField`."""
         touched = [touch for hand in hands for touch in hand]
         if not touched:
             return np.zeros((len(hands), *self._shape))
-        gains = checked(self._answers(touched), (len(touched), len(self._field.source_ids), self._shape[1]))
-        if self._columns is not None:
-            here, there = self._columns
-            found, gains = gains, np.zeros((len(touched), *self._shape))
-            gains[:, here] = found[:, there]
-        if not self._is_current():
-            for row, (object_id, _) in zip(gains, touched, strict=True):
-                for stranger in self._reach.strangers(object_id):
-                    row[stranger] = 0.0
+        answers, rows = self._answers(touched)
+        is_current, sources = self._is_current(), self._reach.sources
+        among = [None if is_current else sources(object_id) for object_id, _ in touched]
+        gains = put_together(answers, rows, self._columns, among, self._shape)
         return gains if all(len(hand) == 1 for hand in hands) else self._largest(gains, hands)
 
-    def _answers(self, touched: Sequence[TouchedPoint]) -> Gains:
-        """What the field says of each touch; it is asked once for each object."""
-        if len({object_id for object_id, _ in touched}) == len(touched):
-            each = [self._field.attenuation(name, self._points_then(name, [point_m])) for name, point_m in touched]
-            return np.concatenate(each)
+    def _answers(self, touched: Sequence[TouchedPoint]) -> tuple[list[Gains], list[list[int]]]:
+        """What the field says, asked once for each object, and of which touches."""
         rows: dict[str, list[int]] = {}
         for row, (object_id, _) in enumerate(touched):
             rows.setdefault(object_id, []).append(row)
-        found = [
-            self._field.attenuation(object_id, self._points_then(object_id, [touched[row][1] for row in own]))
-            for object_id, own in rows.items()
-        ]
-        gains = np.concatenate(found)
-        order = [row for own in rows.values() for row in own]
-        return gains if order == sorted(order) else gains[np.argsort(order)]
+        answers, (n_sources, n_bands) = [], (len(self._field.source_ids), self._shape[1])
+        for object_id, own in rows.items():
+            points = self._points_then(object_id, [touched[row][1] for row in own])
+            answers.append(checked(self._field.attenuation(object_id, points), (len(own), n_sources, n_bands)))
+        return answers, list(rows.values())
 
     def _points_then(self, object_id: str, points_m: list[Point]) -> list[Point]:
         now, then = self._now(object_id), self._then.get(object_id)
@@ -93,8 +84,33 @@ class LastField:
         return largest
 
 
-def _shared(ours: Sequence[str], theirs: Sequence[str]) -> NDArray[np.intp]:
-    """Where the ids that both have are in ours, and where in theirs (2, n)."""
+@compiled
+def put_together(
+    answers: Sequence[Gains],
+    rows: Sequence[Sequence[int]],
+    columns: tuple[NDArray[np.intp], NDArray[np.intp]],
+    among: Sequence[frozenset[int] | None],
+    shape: tuple[int, int],
+) -> Gains:
+    """The rows (n, *shape) that several answers tell, each of some of them.
+
+    Parameters: answers : of so many rows, each (n_own, n_theirs, n_bands); columns : which of ours are known, and where
+    they are among theirs; among : for each row the columns of ours that may be other than 0, None for all.
+    """
+    gains, (ours, theirs) = np.zeros((len(among), *shape)), columns
+    for found, own in zip(answers, rows, strict=True):
+        for row, one in zip(own, found, strict=True):
+            gains[row, ours] = one[theirs]
+    for one, sources in zip(gains, among, strict=True):
+        if sources is not None:
+            one[[column for column in range(shape[0]) if column not in sources]] = 0.0
+    return gains
+
+
+@lru_cache(maxsize=64)
+def _shared(ours: tuple[str, ...], theirs: tuple[str, ...]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Where the ids that both have are in ours, and where in theirs."""
     column = {source_id: i for i, source_id in enumerate(ours)}
     pairs = [(column[x], there) for there, x in enumerate(theirs) if x in column]
-    return np.array(pairs, dtype=np.intp).reshape(-1, 2).T
+    here, there = np.array(pairs, dtype=np.intp).reshape(-1, 2).T.copy()
+    return here, there

@@ -36,7 +36,7 @@ class Listening:
         self._counts = Counts()
         self._excitations: Sequence[Excitation] | None = None
         self._hearing: Hearing | None = None
-        self._hearing_of: object = None
+        self._hearing_of: LiveField | None = None
         self._n_unreachable: int | None = None
         self._levels, self._are_levels_known = np.empty(0), False
         self._audibility: Audibility | None = None
@@ -168,16 +168,16 @@ class Listening:
                 self._counts.idle_hands += n_hands
             return Heard(silence, silence)
         self._known_levels()
-        if self._hearing is None or self._hearing_of is not self.keeper.in_use:
-            self._hearing, self._hearing_of = self._new_hearing(), self.keeper.in_use
+        field = self.keeper.hearing(self._sources.ids, self._reach)
+        if self._hearing is None or self._hearing_of is not field:
+            self._hearing, self._hearing_of = self._new_hearing(field), field
         return self._hearing.hear(n_hands, felt)
 
-    def _new_hearing(self) -> Hearing:
+    def _new_hearing(self, field: LiveField) -> Hearing:
         skip, counts = self._config.skip, self._counts
         if self._audibility is None:
             self._audibility = Audibility(self._sources.active_rows(), self._config.bands, skip, counts)
             self._horizon = None
-        field = self.keeper.hearing(self._sources.ids, self._reach)
         if self._loudness is None:
             self._loudness = Loudness(self._levels, self._audibility)
         gains, loudness = self._touch_gains(field, counts), self._loudness

@@ -2,30 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+import math
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.propagation.live import LiveField, TouchedPoint
+from scene2hap.session.worker import Prepared
 
 
-class NotedField:
-    """A `LiveField` that notes what is touched, so that this is prepared first.
+class FieldInUse:
+    """A `LiveField` of prepared fields, which are replaced as others are prepared; notes what is touched, so that this
+    is prepared first.
 
-    Parameters: newest : tells of what it `covers`, None for all; whole : tells of the rest; note : is told what is
-    touched.
+    Parameters: as_now : makes a live field of a prepared one; note : is told what is touched. `use` comes first.
     """
+
+    most = math.inf
 
     def __init__(
         self,
-        newest: LiveField,
-        covers: Collection[str] | None,
-        whole: LiveField,
+        source_ids: tuple[str, ...],
+        as_now: Callable[[Prepared], LiveField],
         note: Callable[[Sequence[TouchedPoint]], None],
     ) -> None:
-        self.source_ids, self.most = newest.source_ids, max(newest.most, whole.most)
-        self._newest, self._covers, self._whole, self._note = newest, covers, whole, note
+        self.source_ids, self._as_now, self._note = source_ids, as_now, note
+        self._prepared: Prepared | None = None
+
+    def use(self, newest: Prepared, whole: Prepared) -> None:
+        """Go on with the newest field, which may cover not all objects, and one that tells of the rest."""
+        if self._prepared is not whole:
+            self._whole, self._prepared = self._as_now(whole), whole
+        self._newest = self._whole if newest is whole else self._as_now(newest)
+        self._covers = newest.covers
 
     def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> NDArray[np.float64]:
         """See `LiveField`."""

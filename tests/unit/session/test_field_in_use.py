@@ -1,0 +1,79 @@
+"""Two fields as one: the newest, which knows some objects, and the last that knows all."""
+
+from collections.abc import Collection, Sequence
+
+import numpy as np
+import pytest
+from numpy.typing import ArrayLike
+
+from scene2hap.haptics import Bands
+from scene2hap.propagation.live import TouchedPoint
+from scene2hap.session.field_in_use import FieldInUse
+from scene2hap.session.stage import Told
+from scene2hap.session.worker import Prepared, Situation
+
+HERE = (0.0, 0.0, 0.0)
+SOURCES = ("a", "b")
+
+
+class Constant:
+    """Says the same of every hand that touches anything."""
+
+    source_ids, bands, most = SOURCES, Bands.dominant(), 1.0
+
+    def __init__(self, gain: float) -> None:
+        self.gain = gain
+
+    def attenuation(self, object_id: str, points_m: ArrayLike) -> np.ndarray:
+        return np.full((len(np.asarray(points_m)), len(SOURCES), 1), self.gain)
+
+    def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> np.ndarray:
+        return np.array([np.full((len(SOURCES), 1), self.gain if hand else 0.0) for hand in hands])
+
+
+def prepared(gain: float, covers: Collection[str] | None = None) -> Prepared:
+    def told(near: Collection[str]) -> Told:
+        pytest.fail("is prepared already")
+
+    return Prepared(Constant(gain), Situation(0, told, (), {}, 0.0), covers)
+
+
+def as_now(one: Prepared) -> Constant:
+    assert isinstance(one.field, Constant)
+    return one.field
+
+
+def gains(field: FieldInUse, *hands: Sequence[str]) -> list[float]:
+    return field.strongest([[(name, HERE) for name in hand] for hand in hands])[:, 0, 0].tolist()
+
+
+def test_what_the_newest_does_not_cover_is_asked_of_the_whole() -> None:
+    field = FieldInUse(SOURCES, as_now, lambda touched: None)
+    field.use(prepared(0.5, {"table"}), prepared(0.25))
+    assert gains(field, ["table"], ["shelf"], [], ["shelf", "table"]) == [0.5, 0.25, 0.0, 0.5]
+
+
+@pytest.mark.parametrize("covers", [None, {"table", "shelf"}])
+def test_the_newest_alone_is_asked_where_it_covers_everything(covers: set[str] | None) -> None:
+    field = FieldInUse(SOURCES, as_now, lambda touched: None)
+    field.use(prepared(0.5, covers), prepared(0.25))
+    assert gains(field, ["table"], ["shelf"]) == [0.5, 0.5]
+
+
+def test_it_goes_on_with_other_fields() -> None:
+    field, whole, newest = FieldInUse(SOURCES, as_now, lambda touched: None), prepared(0.25), prepared(0.75)
+    field.use(prepared(0.5, {"table"}), whole)
+    field.use(prepared(0.6, {"shelf"}), whole)
+    assert gains(field, ["table"], ["shelf"]) == [0.25, 0.6]
+    field.use(newest, newest)
+    assert gains(field, ["table"], ["shelf"]) == [0.75, 0.75]
+    field.use(prepared(0.5, {"table"}), newest)
+    assert gains(field, ["table"], ["shelf"]) == [0.5, 0.75]
+
+
+def test_what_is_touched_is_noted() -> None:
+    noted: list[Sequence[TouchedPoint]] = []
+    field, whole = FieldInUse(SOURCES, as_now, noted.append), prepared(0.25)
+    field.use(whole, whole)
+    field.strongest([[("table", HERE)], [("shelf", HERE)]])
+    assert noted == [[("table", HERE), ("shelf", HERE)]]
