@@ -18,7 +18,7 @@ from scene2hap.contact.glide import Drift, Glide
 from scene2hap.contact.holding import Holding
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.sides import Sides, are_beside
-from scene2hap.contact.support import TOUCH_M, Support, margins_m
+from scene2hap.contact.support import TOUCH_M, Support, hang_reach_m, margins_m
 from scene2hap.contact.tie import WITHIN_M, Slide, Tie, apart_by, slide
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject
@@ -75,7 +75,7 @@ class ContactFinder:
         for x in gone:
             del bodies[x]
             for y in self._crowd.take_out(x):
-                self._part(x, y, dirty, unsure)
+                self._part(x, y, found, unsure)
             self._ties.pop(x, None)
             self._held.pop(x, None)
             self._glides.pop(x, None)
@@ -89,7 +89,7 @@ class ContactFinder:
         for body in placed:
             x = body.id
             for y in left.get(x, ()):
-                self._part(x, y, dirty, unsure)
+                self._part(x, y, found, unsure)
             if self._slide(body, found):
                 continue
             self._look_around(body, seen, dirty, unsure)
@@ -107,14 +107,14 @@ class ContactFinder:
             if not self._ties[x]:
                 self._keep(Drift.of(bodies[x], self._crowd.room(x), self._around(x)))
 
-    def _part(self, x: str, y: str, dirty: set[Pair], unsure: set[str]) -> None:
+    def _part(self, x: str, y: str, found: dict[Pair, Junction | None], unsure: set[str]) -> None:
         """Note that two are neighbours no more."""
         mine = self._ties.get(x)
         tie = mine.pop(y, None) if mine else None
         if tie is not None:
             self._ties[y].pop(x, None)
             self._stop(x, y)
-            dirty.add(pair_of(x, y))
+            found[tie.a.id, tie.b.id] = None
             if tie.rest(y) is not None or y in self._loose:
                 unsure.add(y)
 
@@ -139,7 +139,10 @@ class ContactFinder:
         if ties is None:
             return False
         if not ties:
-            return self._land(body, found)
+            amid = self._amid(body)
+            if amid is None:
+                return False
+            return self._land(body, amid, found) if amid else self._float(body, found)
         if held is None or len(held) > 1 or x in self._loose:
             return False
         ((y, bond),) = held.items()
@@ -186,12 +189,9 @@ class ContactFinder:
     def _sides_of(self, names: Sequence[str]) -> Sides:
         return Sides(names, self._bodies, self._ties)
 
-    def _land(self, body: Body, found: dict[Pair, Junction | None]) -> bool:
+    def _land(self, body: Body, amid: Sequence[str], found: dict[Pair, Junction | None]) -> bool:
         """The short way for what touched nothing, and comes to lie on one thing alone; else as `_slide`."""
         x, bodies = body.id, self._bodies
-        amid = self._amid(body)
-        if not amid:
-            return False
         y = min(amid, key=lambda z: bodies[z].size_m)
         slid = slide(body, bodies[y])
         if slid is None or (len(amid) > 1 and not self._lets_alone(body, y)):
@@ -204,6 +204,20 @@ class ContactFinder:
         bond = self._holding.support(x, y, Support(1.0, slid.rest.fall_m), lies=True)
         self._held[x] = {y: bond}
         found[one.id, other.id] = _lies(slid, bond)
+        return True
+
+    def _float(self, body: Body, found: dict[Pair, Junction | None]) -> bool:
+        """The short way for what touched nothing, is beside all that is near, and hangs from none of it; else as
+        `_slide`."""
+        x, reach_m, around = body.id, hang_reach_m(body.size_m), self._around(body.id)
+        if any(other.size_m > body.size_m and not apart_by(body, other, reach_m) for other, _ in around):
+            return False
+        for y in self._held.pop(x, ()):
+            found[pair_of(x, y)] = None
+        if x not in self._loose:
+            self._loose.add(x)
+            self._stop_around(x)
+        self._keep(Drift.of(body, self._crowd.room(x), around))
         return True
 
     def _keep(self, glide: Glide | Drift) -> None:
@@ -290,14 +304,16 @@ class ContactFinder:
     def _tell_cuboids_apart(self, moved: Iterable[str]) -> None:
         """Find out all at once how far leaning cuboids are from what moved."""
         ties = {id(tie): tie for x in moved for tie in self._ties[x].values() if tie.asks_apart}
-        for tie, gap in zip(ties.values(), gaps_of([(t.a, t.b) for t in ties.values()], WITHIN_M), strict=True):
-            tie.tell_apart(gap)
+        if ties:
+            for tie, gap in zip(ties.values(), gaps_of([(t.a, t.b) for t in ties.values()], WITHIN_M), strict=True):
+                tie.tell_apart(gap)
 
     def _tell_falls(self, unsure: Iterable[str]) -> None:
         """Find out all at once how far what has few triangles is to fall."""
         asked = [(tie, x) for x in unsure for tie in self._ties.get(x, {}).values() if tie.asks_falls(x)]
-        for (tie, x), falls_m in zip(asked, falls_of([tie.falling(x) for tie, x in asked]), strict=True):
-            tie.tell_falls(x, falls_m)
+        if asked:
+            for (tie, x), falls_m in zip(asked, falls_of([tie.falling(x) for tie, x in asked]), strict=True):
+                tie.tell_falls(x, falls_m)
 
     def _hold_anew(self, x: str, dirty: set[Pair]) -> None:
         """Find out what holds a body; the pairs in which another than before does are dirty."""

@@ -66,6 +66,27 @@ def test_landing(
     assert is_as_built(graph, *objects)
 
 
+@pytest.mark.parametrize(
+    ("gap_m", "floats"), [pytest.param(0.2, True, id="far from the wall"), pytest.param(0.006, False, id="on the wall")]
+)
+def test_what_is_lifted_floats_unless_it_may_hang(gap_m: float, floats: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    floated, float_ = list[bool](), finder.ContactFinder._float
+
+    def watched(*given: Any) -> bool:
+        floated.append(float_(*given))
+        return floated[-1]
+
+    wall = box("wall", (2.0, 3.0, 0.1), (0.0, 1.5, -0.55))
+    objects = [floor(), TABLE, CUP, wall]
+    graph = ContactGraph(scene(*objects))
+    monkeypatch.setattr(finder.ContactFinder, "_float", watched)
+    change = graph.update({"cup": Pose((0.2, 1.2, -0.46 + gap_m))})
+    assert floated == [floats]
+    assert change.vanished == {("cup", "table")}
+    assert ("wall" in graph.neighbours("cup")) != floats
+    assert is_as_built(graph, *objects)
+
+
 @pytest.mark.parametrize("angle", [0.0, 0.6])
 def test_a_glide_goes_on_to_the_rim(angle: float, monkeypatch: pytest.MonkeyPatch) -> None:
     stepped, step = list[bool](), Glide.step
