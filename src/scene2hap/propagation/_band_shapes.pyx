@@ -4,61 +4,66 @@ import numpy as np
 
 from libc.math cimport sqrt
 
+from scene2hap.propagation._rows cimport add_row, add_rows
+
 
 cdef class BandLengths:
     cdef object shapes
     cdef Py_ssize_t n_spaces, n_each
     cdef Py_ssize_t[::1] n_own
-    cdef float[::1] factors  # one after another, by columns and without what is below the diagonal
+    # Space after space, column after column, row after row down to the diagonal: of all vectors beside each other, so
+    # that one long row is added to another.
+    cdef float[::1] factors
     cdef float[:, ::1] mixing
     cdef float[::1] turned, sides  # one longer than is used, so that they begin somewhere
+    cdef double[::1] squares
 
     def __init__(self, shapes, mixing, factors):
         self.shapes, self.mixing = shapes, mixing
         self.n_spaces, self.n_each = len(factors), len(factors[0])
         self.n_own = np.array([factor.shape[1] for factor in factors], dtype=np.intp)
         columns = [
-            np.transpose(factor, (0, 2, 1))[:, *np.tril_indices(factor.shape[1])].ravel() for factor in factors
+            np.transpose(factor, (2, 1, 0))[np.tril_indices(factor.shape[1])].ravel() for factor in factors
         ]
-        self.factors = np.concatenate(columns).astype(np.float32)
-        self.turned = np.empty(max(self.n_own) + 1, dtype=np.float32)
+        self.factors = np.concatenate([*columns, [0.0]]).astype(np.float32)
+        self.turned = np.empty(self.n_each * max(self.n_own) + 1, dtype=np.float32)
         self.sides = np.empty(sum(self.n_own) + 1, dtype=np.float32)
+        self.squares = np.empty(self.n_each)
 
     def __call__(self, points_m):
         cdef const float[:, ::1] given = self.shapes(points_m)
-        cdef Py_ssize_t point, space, each, row, k, n, at, begin
-        cdef float share
-        cdef double square
+        cdef Py_ssize_t point, space, each, k, n, begin, n_each = self.n_each
+        cdef const float* factor
         cdef float* turned = &self.turned[0]
         cdef float* sides = &self.sides[0]
-        found = np.empty((given.shape[0], self.n_each, self.n_spaces))
+        found = np.empty((given.shape[0], n_each, self.n_spaces))
         cdef double[:, :, ::1] told = found
         for point in range(given.shape[0]):
-            self.mix(sides, given, point)
-            at, begin = 0, 0
+            for k in range(self.mixing.shape[1]):
+                sides[k] = 0
+            if self.mixing.shape[0] and self.mixing.shape[1]:
+                add_rows(sides, &self.mixing[0, 0], &given[point, 0], self.mixing.shape[0], self.mixing.shape[1])
+            factor, begin = &self.factors[0], 0
             for space in range(self.n_spaces):
                 n = self.n_own[space]
-                for each in range(self.n_each):
-                    for row in range(n):
-                        turned[row] = 0
-                    for k in range(n):
-                        share = sides[begin + k]
-                        for row in range(k + 1):
-                            turned[row] += self.factors[at + row] * share
-                        at += k + 1
-                    square = 0
-                    for row in range(n):
-                        square += <double>turned[row] * turned[row]
-                    told[point, each, space] = sqrt(square)
+                for k in range(n * n_each):
+                    turned[k] = 0
+                for k in range(n):
+                    add_row(turned, factor, sides[begin + k], (k + 1) * n_each)
+                    factor += (k + 1) * n_each
+                self.sum_squares(n)
+                for each in range(n_each):
+                    told[point, each, space] = sqrt(self.squares[each])
                 begin += n
         return found
 
-    cdef void mix(self, float* sides, const float[:, ::1] given, Py_ssize_t point) noexcept:
-        cdef Py_ssize_t row, k, n = self.mixing.shape[1]
-        cdef float share
-        for k in range(n):
-            sides[k] = 0
-        for row in range(self.mixing.shape[0]):
-            share = given[point, row]
-            for k in range(n):
-                sides[k] += share * self.mixing[row, k]
+    cdef void sum_squares(self, Py_ssize_t n) noexcept:
+        """Of what has been turned to n numbers, for each vector."""
+        cdef Py_ssize_t row, each
+        cdef double one
+        for each in range(self.n_each):
+            self.squares[each] = 0
+        for row in range(n):
+            for each in range(self.n_each):
+                one = self.turned[row * self.n_each + each]
+                self.squares[each] += one * one

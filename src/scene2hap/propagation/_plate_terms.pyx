@@ -5,11 +5,7 @@ import numpy as np
 from libc.math cimport acos, cos, fmax, fmin, sqrt
 
 from scene2hap.propagation._near_field cimport Dimples, near_of
-
-
-ctypedef fused real:
-    float
-    double
+from scene2hap.propagation._rows cimport add_rows, real
 
 
 cdef class Folded:
@@ -17,7 +13,8 @@ cdef class Folded:
     cdef Py_ssize_t n_x, n_y, n
     cdef double[:, ::1] smooth, beyond
     cdef float[:, ::1] smooth_single, beyond_single
-    cdef double[::1] k2, cosines
+    cdef double[::1] k2, cosines, nears
+    cdef float[::1] cosines_single, nears_single
     cdef Dimples dimples
     cdef bint is_single
 
@@ -29,7 +26,8 @@ cdef class Folded:
         else:
             self.smooth, self.beyond = smooth, beyond
         self.dimples, self.k2 = dimples, k2
-        self.cosines = np.empty(len(smooth))
+        self.cosines, self.nears = np.empty(len(smooth)), np.empty(len(k2))
+        self.cosines_single, self.nears_single = np.empty(len(smooth), np.float32), np.empty(len(k2), np.float32)
 
     def __call__(self, const double[:, :] points_m):
         cdef Py_ssize_t point
@@ -40,51 +38,58 @@ cdef class Folded:
             return found
         if self.is_single:
             told_single = found
+            for point in range(points_m.shape[0]):
+                self.fill(points_m[point, 0], points_m[point, 1])
+                fold(
+                    self, &told_single[point, 0], &self.smooth_single[0, 0], &self.cosines_single[0],
+                    &self.beyond_single[0, 0] if self.beyond_single.shape[0] else NULL, &self.nears_single[0],
+                    points_m[point, 0], points_m[point, 1],
+                )
         else:
             told = found
-        for point in range(points_m.shape[0]):
-            fill_point(
-                &self.cosines[0],
-                points_m[point, 0] * self.per_length - 1,
-                points_m[point, 1] * self.per_width - 1,
-                self.n_x,
-                self.n_y,
-            )
-            if self.is_single:
-                fold(&told_single[point, 0], &self.smooth_single[0, 0], &self.cosines[0], self.cosines.shape[0], self.n)
-                if self.beyond_single.shape[0]:
-                    self.add_near(
-                        &told_single[point, 0], &self.beyond_single[0, 0], points_m[point, 0], points_m[point, 1]
-                    )
-            else:
-                fold(&told[point, 0], &self.smooth[0, 0], &self.cosines[0], self.cosines.shape[0], self.n)
-                if self.beyond.shape[0]:
-                    self.add_near(&told[point, 0], &self.beyond[0, 0], points_m[point, 0], points_m[point, 1])
+            for point in range(points_m.shape[0]):
+                self.fill(points_m[point, 0], points_m[point, 1])
+                fold(
+                    self, &told[point, 0], &self.smooth[0, 0], &self.cosines[0],
+                    &self.beyond[0, 0] if self.beyond.shape[0] else NULL, &self.nears[0],
+                    points_m[point, 0], points_m[point, 1],
+                )
         return found
 
-    cdef void add_near(self, real* told, const real* beyond, double x, double y) noexcept:
-        cdef Py_ssize_t drive, node, n_k2 = self.k2.shape[0]
-        cdef double cut, share, here2 = self.dimples.cutoff_squared(x, y)
-        cdef double near
-        for drive in range(self.dimples.cut2.shape[0]):
-            cut = sqrt(here2 * self.dimples.cut2[drive])
-            share = self.dimples.share(x, y, drive, cut)
-            if share == 0:  # too far away
-                continue
-            for node in range(n_k2):
-                near = near_of(self.k2[node], cut, share)
-                fold(told, &beyond[(drive * n_k2 + node) * self.n], &near, 1, self.n)
+    cdef void fill(self, double x, double y) noexcept:
+        """Take in the cosines of a point."""
+        cdef Py_ssize_t k
+        fill_point(&self.cosines[0], x * self.per_length - 1, y * self.per_width - 1, self.n_x, self.n_y)
+        if self.is_single:
+            for k in range(self.cosines.shape[0]):
+                self.cosines_single[k] = <float>self.cosines[k]
 
 
-cdef void fold(real* told, const real* rows, const double* shares, Py_ssize_t n_rows, Py_ssize_t n) noexcept:
-    """Add rows (n_rows, n), each times its share."""
-    cdef Py_ssize_t row, k
-    cdef real share
-    for row in range(n_rows):
-        share = <real>shares[row]
-        for k in range(n):
-            told[k] += share * rows[k]
-        rows += n
+cdef void fold(
+    Folded self,
+    real* told,
+    const real* smooth,
+    const real* cosines,
+    const real* beyond,
+    real* nears,
+    double x,
+    double y,
+) noexcept:
+    """Add what a plate does at a point: what its cosines tell, and near fields."""
+    cdef Py_ssize_t drive, node, n_k2 = self.k2.shape[0]
+    cdef double cut, share, here2
+    add_rows(told, smooth, cosines, self.cosines.shape[0], self.n)
+    if beyond is NULL:
+        return
+    here2 = self.dimples.cutoff_squared(x, y)
+    for drive in range(self.dimples.cut2.shape[0]):
+        cut = sqrt(here2 * self.dimples.cut2[drive])
+        share = self.dimples.share(x, y, drive, cut)
+        if share == 0:  # too far away
+            continue
+        for node in range(n_k2):
+            nears[node] = <real>near_of(self.k2[node], cut, share)
+        add_rows(told, beyond + drive * n_k2 * self.n, nears, n_k2, self.n)
 
 
 def fill_cosines(
