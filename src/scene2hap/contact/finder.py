@@ -25,6 +25,9 @@ from scene2hap.scene.snapshot import SceneObject
 
 _ONES = (1.0,) * 4
 _VAIN = 15  # A glide that was refused so often is drawn anew.
+# Of so many things that are not in a glide one more may have one drawn in a frame; what lands or is lifted counts as
+# that. So what can wait for the next frame is not added to what cannot.
+_EACH = 4
 
 
 class ContactFinder:
@@ -41,6 +44,7 @@ class ContactFinder:
         self._bodies, self._ties, self._held, self._loose = holding.bodies, holding.ties, holding.held, holding.loose
         # By host, whose glides end when it moves.
         self._guests: dict[str, set[str]] = {}
+        self._n_to_draw = 0
 
     def replace(
         self, moved: Mapping[str, Pose], added: Sequence[SceneObject] = (), gone: Collection[str] = ()
@@ -86,6 +90,7 @@ class ContactFinder:
         for x in left:
             self._stop_around(x)
         seen: set[str] = set()
+        self._n_to_draw = 1 + len(placed) // _EACH
         for body in placed:
             x = body.id
             for y in left.get(x, ()):
@@ -163,7 +168,8 @@ class ContactFinder:
         glide = self._glides.get(x)
         if isinstance(glide, Glide) and glide.refused <= _VAIN and glide.tray == slid.tray:
             glide.resume(body)
-        else:
+        elif self._n_to_draw > 0:
+            self._n_to_draw -= 1
             self._keep(Glide.of(body, tie, slid, bond.normal, self._crowd.room(x), self._around(x), self._sides_of))
         return True
 
@@ -204,6 +210,7 @@ class ContactFinder:
         bond = self._holding.support(x, y, Support(1.0, slid.rest.fall_m), lies=True)
         self._held[x] = {y: bond}
         found[one.id, other.id] = _lies(slid, bond)
+        self._n_to_draw -= 1
         return True
 
     def _float(self, body: Body, found: dict[Pair, Junction | None]) -> bool:
@@ -218,6 +225,7 @@ class ContactFinder:
             self._loose.add(x)
             self._stop_around(x)
         self._keep(Drift.of(body, self._crowd.room(x), around))
+        self._n_to_draw -= 1
         return True
 
     def _keep(self, glide: Glide | Drift) -> None:
