@@ -46,7 +46,7 @@ class FieldKeeper:
         self._worker: Thread | None = None
         self._is_stranger_touched = False
         self._asked = self._situation(0, excitations)
-        self._n_answered = self._n_ordered = 0
+        self._n_answered = self._n_ordered = self._n_put = 0
         self.in_use = self._whole = self._desk.prepare(self._asked)
         self._is_expectant = isinstance(self.in_use.field, ExpectantField)
         self._heard: tuple[FieldInUse, tuple[str, ...], Reach] | None = None
@@ -113,13 +113,14 @@ class FieldKeeper:
         return False
 
     def wait(self, timeout_s: float | None = None) -> bool:
-        """Wait until nothing is being prepared; false after the timeout [s]. The field is then taken into use."""
+        """Wait until nothing is being prepared, and what is touched is expected; false after the timeout [s]. The field
+        is then taken into use."""
         end_s = None if timeout_s is None else time.monotonic() + timeout_s
         self.order()
         while True:
             self._desk.has_answered.clear()
             self.take()
-            if self._n_answered == self._asked.number:
+            if self._n_answered == self._asked.number and self._desk.n_followed == self._n_put:
                 return True
             rest_s = None if end_s is None else end_s - time.monotonic()
             if rest_s is not None and rest_s <= 0:
@@ -162,4 +163,5 @@ class FieldKeeper:
             self._worker = Thread(target=work, args=[self.in_use], name="scene2hap propagation", daemon=True)
             self._worker.start()
             weakref.finalize(self, self._desk.orders.put, Sign.END)
+        self._n_put += 1
         self._desk.orders.put(order)

@@ -101,10 +101,9 @@ class Listening:
 
     def wait(self, timeout_s: float | None) -> bool:
         """Wait for the worker; false after the timeout [s]."""
-        in_use, is_over = self.keeper.in_use, self.keeper.wait(timeout_s)
-        if self.keeper.in_use is not in_use:
-            self._is_fresh = False
-        return is_over
+        # Another field may be in use then, or the same have been told what to expect.
+        self._is_fresh = False
+        return self.keeper.wait(timeout_s)
 
     def explain(self, hand: str) -> Explanation:
         """Each source that a hand felt at the last frame, and its way there."""

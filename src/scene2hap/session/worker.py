@@ -85,6 +85,8 @@ class Desk:
     answers: deque[Prepared | tuple[Situation, Exception]] = dataclasses.field(default_factory=lambda: deque(maxlen=1))
     has_answered: Event = dataclasses.field(default_factory=Event)
     touched: Sequence[TouchedPoint] = ()
+    n_followed: int = 0
+    """Orders that were followed or overtaken."""
     # Fields that are in use no more: giving back their memory is left to the worker, too.
     spent: deque[Prepared] = dataclasses.field(default_factory=lambda: deque(maxlen=4))
 
@@ -95,7 +97,7 @@ class Desk:
 
     def work(self, newest: Prepared) -> None:
         """Follow orders until the last; `newest` is the field that is in use."""
-        is_whole, order = True, self._newest(self.orders.get())
+        is_whole, (order, n_orders) = True, self._newest(self.orders.get())
         while order is not Sign.END:
             if isinstance(order, Situation):
                 self.spent.clear()
@@ -103,11 +105,14 @@ class Desk:
                 newest, is_whole = found or newest, found is None or found.covers is None
             else:
                 newest.expect(self.touched)
+            self.n_followed += n_orders
+            self.has_answered.set()
             try:
-                order = self._newest(self.orders.get(timeout=None if is_whole else AT_REST_S))
+                order, n_orders = self._newest(self.orders.get(timeout=None if is_whole else AT_REST_S))
             except Empty:
                 newest, is_whole = self._answer(newest.situation, ()) or newest, True
-                order = self._newest(self.orders.get())
+                self.has_answered.set()
+                order, n_orders = self._newest(self.orders.get())
 
     def _answer(self, order: Situation, near: Collection[str]) -> Prepared | None:
         """Prepare what is near some objects, or everything for none; None if it cannot be."""
@@ -120,15 +125,13 @@ class Desk:
             prepared.expect(self.touched)
             self.answers.append(prepared)
             return prepared
-        finally:
-            self.has_answered.set()
 
-    def _newest(self, order: Order) -> Order:
-        """What of all that waits is to be done: the end, or the last situation."""
+    def _newest(self, order: Order) -> tuple[Order, int]:
+        """What of all that waits is to be done, the end or the last situation, and how many orders these are."""
         waiting = [order]
         with contextlib.suppress(Empty):
             while True:
                 waiting.append(self.orders.get_nowait())
         if Sign.END in waiting:
-            return Sign.END
-        return next((one for one in reversed(waiting) if isinstance(one, Situation)), order)
+            return Sign.END, len(waiting)
+        return next((one for one in reversed(waiting) if isinstance(one, Situation)), order), len(waiting)

@@ -8,12 +8,10 @@ import pytest
 
 from scene2hap import HapticSession, Pose, Touch
 from scene2hap.propagation import MODELS
-from scene2hap.propagation.band_shapes import CLOSE
 from scene2hap.propagation.domain import ThinPlateWarning
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
 
 SETTINGS: dict[str, dict[str, Any]] = {"mass_spring_damper": {"resolution": 8}}
-WITH_SHAPES = ("auto", "mass_spring_damper", "modal_plate")
 ON_TABLE = Touch("left", "table", (0.8, 0.72, 0.4))
 HOME = Pose((0.1, 0.725, 0.4))
 
@@ -41,14 +39,11 @@ def test_a_session_lives_on_it(config: dict[str, Any]) -> None:
             assert ((gains >= 0) & (gains <= 1)).all()
             return gains
 
-        # Bodies that know shapes answer a little differently once their object is expected.
-        has_shapes = config["bands"] != "dominant" and config["propagation"]["kind"] in WITH_SHAPES
-        close = CLOSE if has_shapes else 1e-9
         before = felt()
         assert s.update(touches=[Touch("right", "phone", HOME.position_m)]).gain("right", "phone") == 1.0
         assert not s.update(touches=[Touch("right", "cup", (5.0, 0.1, 5.0))]).gains.any()
         assert felt({"phone": Pose((0.1, 1.2, 0.4))})[0, 0].max() == 0.0
-        np.testing.assert_allclose(felt({"phone": HOME}), before, rtol=close)
+        np.testing.assert_allclose(felt({"phone": HOME}), before, rtol=1e-9)
 
         s.add(
             box("fan", (0.1, 0.2, 0.1), (0.8, 0.82, 0.6)),
@@ -58,7 +53,7 @@ def test_a_session_lives_on_it(config: dict[str, Any]) -> None:
         assert felt().shape == (2, 3, before.shape[2])
         assert (felt()[0, 2].max() > 0) == (before[0, 0].max() > 0)
         s.remove("fan")
-        np.testing.assert_allclose(felt(), before, rtol=close)
+        np.testing.assert_allclose(felt(), before, rtol=1e-9)
 
         for item in s.explain("left").felt:
             assert sum(step.change_db for step in item.steps) == pytest.approx(item.gain_db, abs=1e-6)

@@ -138,6 +138,25 @@ class Expectant(Field):
         self.has_been_told.release()
 
 
+def test_who_waits_waits_until_what_is_touched_is_expected() -> None:
+    may_go = threading.Event()
+
+    class Slow(Field):
+        def expect(self, object_id: str) -> None:
+            assert may_go.wait(SECONDS)
+
+    class Model:
+        def prepare(self, network: Any, excitations: Any, bands: Bands) -> Slow:
+            return Slow(tuple(x.source_id for x in excitations), 1)
+
+    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": Model()})
+    assert s.wait_prepared(0.0)
+    s.update(touches=[ON_TABLE])
+    assert not s.wait_prepared(0.05)
+    may_go.set()
+    assert s.wait_prepared(SECONDS)
+
+
 def test_a_field_is_told_once_what_to_expect_and_not_by_the_game() -> None:
     field = Expectant(("phone", "other phone"), 1)
 
