@@ -6,8 +6,7 @@ Asked for one body or pair at a time; all that is asked depends on ties alone.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Mapping, MutableMapping
-from typing import Any
+from collections.abc import Callable, Collection, Iterable, Mapping
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.bond import NO_BOND, NO_WAY, Bond, Plan, direction, strength, triple
@@ -32,12 +31,12 @@ from scene2hap.contact.vectors import Floats, Triple
 class Holding:
     """Bodies, the ties between them and what holds each of them, all by id, as their owner keeps them.
 
-    Parameters: near : the neighbours of each body; glides : what is sure of how bodies move, dropped for two that are
-    tied here.
+    Parameters: near : the neighbours of each body; stop : is told of two that are tied here, since how they go on is
+    not sure then.
     """
 
-    def __init__(self, up_axis: int, near: Mapping[str, Collection[str]], glides: MutableMapping[str, Any]) -> None:
-        self._up_axis, self._near, self._glides = up_axis, near, glides
+    def __init__(self, up_axis: int, near: Mapping[str, Collection[str]], stop: Callable[[str, str], None]) -> None:
+        self._up_axis, self._near, self._stop = up_axis, near, stop
         self.bodies: dict[str, Body] = {}
         self.ties: dict[str, dict[str, Tie]] = {}
         self.held: dict[str, dict[str, Bond]] = {}
@@ -130,8 +129,7 @@ class Holding:
         tie = self.ties[x].get(y)
         if tie is None:
             a, b = pair_of(x, y)
-            self._glides.pop(x, None)
-            self._glides.pop(y, None)
+            self._stop(x, y)
             tie = self.ties[x][y] = self.ties.setdefault(y, {})[x] = Tie.between(self.bodies[a], self.bodies[b])
         return tie
 

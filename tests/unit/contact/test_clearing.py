@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contact_scenes import box, boxes, chair, house, pairs, scene
-from scene2hap.contact import finder, holding, tie
+from scene2hap.contact import finder, holding, short_ways, tie
 from scene2hap.contact.body import Body
 from scene2hap.contact.clearing import below, is_clear
 from scene2hap.contact.fall import falls
@@ -109,7 +109,7 @@ def alone(*things: SceneObject) -> ContactGraph:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(tie, "below", lambda guest, host: None)
         patch.setattr(tie, "is_clear", lambda guest, host: False)
-        patch.setattr(finder, "is_clear", lambda guest, host: False)
+        patch.setattr(short_ways, "is_clear", lambda guest, host: False)
         patch.setattr(holding, "is_clear", lambda guest, host: False)
         return ContactGraph(scene(*things))
 

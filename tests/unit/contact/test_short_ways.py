@@ -9,6 +9,7 @@ from contact_scenes import box, floor, on_floor, scene
 from scene2hap.contact import finder
 from scene2hap.contact.glide import Glide
 from scene2hap.contact.graph import ContactGraph
+from scene2hap.contact.short_ways import ShortWays
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject
 
@@ -43,13 +44,13 @@ def is_as_built(graph: ContactGraph, *objects: SceneObject) -> bool:
 def test_landing(
     others: list[SceneObject], moved: dict[str, Pose], lands_shortly: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    landed, land = list[bool](), finder.ContactFinder._land
+    landed, land = list[bool](), ShortWays._land
 
     def watched(*given: Any) -> bool:
         landed.append(land(*given))
         return landed[-1]
 
-    monkeypatch.setattr(finder.ContactFinder, "_land", watched)
+    monkeypatch.setattr(ShortWays, "_land", watched)
     objects = [floor(), TABLE, CUP, *others]
     graph = ContactGraph(scene(*objects))
     graph.update(IN_THE_AIR)
@@ -70,7 +71,7 @@ def test_landing(
     ("gap_m", "floats"), [pytest.param(0.2, True, id="far from the wall"), pytest.param(0.006, False, id="on the wall")]
 )
 def test_what_is_lifted_floats_unless_it_may_hang(gap_m: float, floats: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    floated, float_ = list[bool](), finder.ContactFinder._float
+    floated, float_ = list[bool](), ShortWays._float
 
     def watched(*given: Any) -> bool:
         floated.append(float_(*given))
@@ -79,7 +80,7 @@ def test_what_is_lifted_floats_unless_it_may_hang(gap_m: float, floats: bool, mo
     wall = box("wall", (2.0, 3.0, 0.1), (0.0, 1.5, -0.55))
     objects = [floor(), TABLE, CUP, wall]
     graph = ContactGraph(scene(*objects))
-    monkeypatch.setattr(finder.ContactFinder, "_float", watched)
+    monkeypatch.setattr(ShortWays, "_float", watched)
     change = graph.update({"cup": Pose((0.2, 1.2, -0.46 + gap_m))})
     assert floated == [floats]
     assert change.vanished == {("cup", "table")}

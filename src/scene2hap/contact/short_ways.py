@@ -1,0 +1,176 @@
+"""The short ways of what is not in a glide: it slides on its only support, lands on one, or floats beside all others.
+
+Each ends where the long way does, to the last bit, at a fraction of the time, and is taken where that is sure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from scene2hap.contact.body import Body
+from scene2hap.contact.bond import Bond
+from scene2hap.contact.clearing import is_clear
+from scene2hap.contact.crowd import Crowd, Room
+from scene2hap.contact.glide import Drift, Glide
+from scene2hap.contact.glides import Glides
+from scene2hap.contact.holding import Holding
+from scene2hap.contact.junction import Junction, Pair, pair_of
+from scene2hap.contact.sides import Sides, are_beside
+from scene2hap.contact.support import TOUCH_M, Support, hang_reach_m
+from scene2hap.contact.tie import Slide, Tie, apart_by, slide
+
+_ONES = (1.0,) * 4
+_VAIN = 15  # A glide that was refused so often is drawn anew.
+# Of so many things that are not in a glide one more may have one drawn in a frame; what lands or is lifted counts as
+# that. So what can wait for the next frame is not added to what cannot.
+_EACH = 4
+
+
+class ShortWays:
+    """The short ways of things, which change what is kept of them; where they touch then is added to what is `found`.
+
+    Parameters: holding : what is known of all things; crowd : their neighbours; glides : those that are in one.
+    """
+
+    def __init__(self, holding: Holding, crowd: Crowd, glides: Glides) -> None:
+        self._holding, self._crowd, self._glides = holding, crowd, glides
+        self._bodies, self._ties, self._held, self._loose = holding.bodies, holding.ties, holding.held, holding.loose
+        self._n_to_draw = 0
+
+    def begin(self, n_placed: int) -> None:
+        """Begin a frame with so many things that are not in a glide."""
+        self._n_to_draw = 1 + n_placed // _EACH
+
+    def take(self, body: Body, found: dict[Pair, Junction | None]) -> bool:
+        """Take one for a body that has moved, if there is one; else nothing is done."""
+        x = body.id
+        ties, held = self._ties.get(x), self._held.get(x)
+        if ties is None:
+            return False
+        amid = self._amid(body)
+        if amid is None:
+            return False
+        if not ties:
+            return self._land(body, amid, found) if amid else self._float(body, found)
+        if held is None or len(held) > 1 or x in self._loose:
+            return False
+        ((support, bond),) = held.items()
+        tie = ties.get(support)
+        if tie is None or tie.falling(x)[1] is not self._bodies[support] or not bond.lies or bond.weight != 1.0:
+            return False
+        return self._slide(body, tie, bond, amid, found)
+
+    def drift(self, body: Body) -> None:
+        """Keep a drift for a body that touches nothing."""
+        self._glides.keep(Drift.of(body, self._crowd.room(body.id), self._around(body)))
+
+    def _slide(self, body: Body, tie: Tie, bond: Bond, amid: Sequence[str], found: dict[Pair, Junction | None]) -> bool:
+        """For what stays on its only support, with nothing else near enough to matter but blocks that it is beside."""
+        x, (_, support) = body.id, tie.falling(body.id)
+        sides = self._sides(body, support.id, amid)
+        slid = None if sides is None else slide(body, support)
+        if sides is None or slid is None:
+            return False
+        tie.slide(body, slid.rest, x == tie.a.id)
+        found[tie.a.id, tie.b.id] = _lies(slid, bond)
+        self._follow(body, sides, found)
+        glide = self._glides.of.get(x)
+        if isinstance(glide, Glide) and glide.refused <= _VAIN and glide.tray == slid.tray:
+            glide.resume(body)
+        elif self._n_to_draw > 0:
+            self._n_to_draw -= 1
+            room, around = self._crowd.room(x), self._around(body)
+            self._glides.keep(Glide.of(body, tie, slid, bond.normal, room, around, self._sides_of))
+        return True
+
+    def _land(self, body: Body, amid: Sequence[str], found: dict[Pair, Junction | None]) -> bool:
+        """For what touched nothing, and comes to lie on one thing, with nothing else near enough to matter but blocks
+        that it is beside then."""
+        x = body.id
+        support = min([self._bodies[z] for z in amid], key=lambda other: other.size_m)
+        slid = slide(body, support)
+        sides = None if slid is None else self._sides(body, support.id, amid)
+        if sides is None or slid is None:
+            return False
+        is_a = x < support.id
+        one, other = (body, support) if is_a else (support, body)
+        tie = Tie(one, other, slid.rest if is_a else None, None if is_a else slid.rest)
+        self._ties[x][support.id] = self._ties.setdefault(support.id, {})[x] = tie
+        self._loose.discard(x)
+        self._glides.stop_around(x)
+        bond = self._holding.support(x, support.id, Support(1.0, slid.rest.fall_m), lies=True)
+        self._held[x] = {support.id: bond}
+        found[one.id, other.id] = _lies(slid, bond)
+        self._follow(body, sides, found)
+        self._n_to_draw -= 1
+        return True
+
+    def _float(self, body: Body, found: dict[Pair, Junction | None]) -> bool:
+        """For what touched nothing, is beside all that is near, and hangs from none of it."""
+        x, reach_m = body.id, hang_reach_m(body.size_m)
+        for z in self._crowd.near[x]:
+            other = self._bodies[z]
+            if other.size_m > body.size_m and not apart_by(body, other, reach_m):
+                return False
+        for y in self._held.pop(x, ()):
+            found[pair_of(x, y)] = None
+        if x not in self._loose:
+            self._loose.add(x)
+            self._glides.stop_around(x)
+        self.drift(body)
+        self._n_to_draw -= 1
+        return True
+
+    def _sides(self, body: Body, support: str, amid: Sequence[str]) -> list[str] | None:
+        """The blocks that a body on its support may touch sideways, or did; None if anything else may matter to it."""
+        bodies, ties = self._bodies, self._ties[body.id]
+        sides = [z for z in ties if z != support]
+        if any(ties[z].may_bear or not are_beside(body, bodies[z]) for z in sides):
+            return None
+        for z in amid:
+            other = bodies[z]
+            if z == support or z in ties:
+                continue
+            if are_beside(body, other):
+                sides.append(z)
+            elif body.size_m >= other.size_m or not is_clear(body, other):
+                return None
+        return sides
+
+    def _follow(self, body: Body, sides: Sequence[str], found: dict[Pair, Junction | None]) -> None:
+        if sides:
+            before = set(self._ties[body.id])
+            self._sides_of(sides).follow(body, sides, found)
+            for z in before ^ self._ties[body.id].keys():
+                self._glides.stop(body.id, z)
+
+    def _sides_of(self, names: Sequence[str]) -> Sides:
+        return Sides(names, self._bodies, self._ties)
+
+    def _around(self, body: Body) -> list[tuple[Body, Room]]:
+        """The neighbours of a body, and where each may move."""
+        room, bodies = self._crowd.room, self._bodies
+        return [(bodies[z], room(z)) for z in self._crowd.near[body.id]]
+
+    def _amid(self, body: Body) -> list[str] | None:
+        """The neighbours that a body is not beside; None if one may hang from it."""
+        bodies, loose, margin_m, size_m, amid = self._bodies, self._loose, TOUCH_M, body.size_m, []
+        (x0, x1, x2), (x3, x4, x5) = body.low, body.high
+        flat = body.stance.v_axis
+        if flat == 1:
+            x2, x5 = x1, x4
+        x0, x2, x3, x5 = x0 - margin_m, x2 - margin_m, x3 + margin_m, x5 + margin_m
+        for z in self._crowd.near[body.id]:
+            other = bodies[z]
+            low, high = other.low, other.high
+            if not (x0 > high[0] or low[0] > x3 or x2 > high[flat] or low[flat] > x5):
+                amid.append(z)
+            if z in loose and size_m > other.size_m:
+                return None
+        return amid
+
+
+def _lies(slid: Slide, bond: Bond) -> Junction:
+    """Where a body lies wholly on another."""
+    n = len(slid.points)
+    return Junction(slid.points, _ONES[:n], bond.normals[:n])
