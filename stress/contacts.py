@@ -36,7 +36,7 @@ def without_clearings() -> Iterator[None]:
     with (
         mock.patch("scene2hap.contact.tie.below", return_value=None),
         mock.patch("scene2hap.contact.tie.is_clear", return_value=False),
-        mock.patch("scene2hap.contact.finder.is_clear", return_value=False),
+        mock.patch("scene2hap.contact.short_ways.is_clear", return_value=False),
         mock.patch("scene2hap.contact.holding.is_clear", return_value=False),
     ):
         yield
