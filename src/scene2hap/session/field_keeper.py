@@ -45,8 +45,9 @@ class FieldKeeper:
         self._is_background, self._skips_unreachable = is_background, skips_unreachable
         self._worker: Thread | None = None
         self._is_stranger_touched = False
-        self._asked = self._situation(0, excitations)
-        self._n_answered = self._n_ordered = self._n_put = 0
+        self._excitations, self._changed_at_s = excitations, time.monotonic()
+        self._asked = self._situation(0)
+        self._n_answered = self._n_put = 0
         self.in_use = self._whole = self._desk.prepare(self._asked)
         self._is_expectant = isinstance(self.in_use.field, ExpectantField)
         self._heard: tuple[FieldInUse, tuple[str, ...], Reach] | None = None
@@ -55,8 +56,8 @@ class FieldKeeper:
 
     @property
     def is_current(self) -> bool:
-        """Whether the field in use tells of the newest situation."""
-        return self.in_use.situation is self._asked
+        """Whether the field in use tells of things as they are."""
+        return self.in_use.situation.is_current
 
     @property
     def age_s(self) -> float:
@@ -66,17 +67,22 @@ class FieldKeeper:
 
     def ask(self, excitations: Sequence[Excitation]) -> None:
         """Want a field for things as they are now: prepared here, or by the worker from the next `order` on."""
-        before, self._asked = self._asked, self._situation(self._asked.number + 1, excitations)
-        before.outdated_at_s = self._asked.asked_at_s
+        self._excitations, self._changed_at_s = excitations, time.monotonic()
+        if self._asked.is_current:
+            self._asked.outdated_at_s = self._changed_at_s
         if not self._is_background:
+            self._asked = self._situation(self._asked.number + 1)
             self._use(self._desk.prepare(self._asked))
 
     def order(self) -> None:
-        """Let the worker begin with what was asked for last: at the end of an update, which it would slow down."""
-        if not self._is_background:
+        """Give the worker something to do if it has nothing: at the end of an update, which it would slow down.
+
+        What is still being prepared when things change is finished first, so that nothing is put together until then.
+        """
+        if not self._is_background or not self._is_idle:
             return
-        if self._n_ordered != self._asked.number:
-            self._n_ordered = self._asked.number
+        if not self._asked.is_current:
+            self._asked = self._situation(self._asked.number + 1)
             self._put(self._asked)
         elif self._is_stranger_touched:
             self.in_use.expected.update(object_id for object_id, _ in self._desk.touched)
@@ -90,8 +96,8 @@ class FieldKeeper:
         now, n_bands = self._stage.graph.pose, self._desk.bands.n_bands
 
         def as_now(one: Prepared) -> LastField:
-            then = one.situation.poses
-            return LastField(one.field, then, now, source_ids, n_bands, reach, lambda: one.situation is self._asked)
+            then = one.situation
+            return LastField(one.field, then.poses, now, source_ids, n_bands, reach, lambda: then.is_current)
 
         heard = FieldInUse(source_ids, as_now, self._note_touched)
         heard.use(self.in_use, self._whole)
@@ -116,21 +122,25 @@ class FieldKeeper:
         """Wait until nothing is being prepared, and what is touched is expected; false after the timeout [s]. The field
         is then taken into use."""
         end_s = None if timeout_s is None else time.monotonic() + timeout_s
-        self.order()
         while True:
             self._desk.has_answered.clear()
             self.take()
-            if self._n_answered == self._asked.number and self._desk.n_followed == self._n_put:
+            self.order()
+            if self._n_answered == self._asked.number and self._is_idle:
                 return True
             rest_s = None if end_s is None else end_s - time.monotonic()
             if rest_s is not None and rest_s <= 0:
                 return False
             self._desk.has_answered.wait(rest_s)
 
-    def _situation(self, number: int, excitations: Sequence[Excitation]) -> Situation:
-        now, stage = time.monotonic(), self._stage
+    @property
+    def _is_idle(self) -> bool:
+        return self._desk.n_followed == self._n_put and self._desk.is_at_rest
+
+    def _situation(self, number: int) -> Situation:
+        stage, excitations = self._stage, self._excitations
         source_ids = [item.source_id for item in excitations] if self._skips_unreachable else None
-        return Situation(number, stage.network(source_ids), excitations, stage.poses, now)
+        return Situation(number, stage.network(source_ids), excitations, stage.poses, self._changed_at_s)
 
     def _use(self, found: Prepared) -> None:
         situation, before = found.situation, self.in_use.situation
@@ -143,7 +153,7 @@ class FieldKeeper:
             self._heard[0].use(found, self._whole)
         self.n_prepared += 1
         if situation is not before:
-            self.latency_s = time.monotonic() - situation.asked_at_s
+            self.latency_s = time.monotonic() - situation.since_s
 
     def _note_touched(self, touched: Sequence[TouchedPoint]) -> None:
         self._desk.touched = touched
