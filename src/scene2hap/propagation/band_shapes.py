@@ -15,6 +15,7 @@ Source: Halko, Martinsson, Tropp, Finding structure with randomness, SIAM Review
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +31,8 @@ _MISSED = CLOSE**2 / 3
 """Of the square of each source's motion, by each of three steps."""
 _MORE = 8
 """Mixed columns over those that the band below needed; twice as many where they do not hold enough."""
+_AT_ONCE = 64
+"""Random columns that are drawn at once, and kept."""
 _ROUNDING = 1e-13
 """Added to what each shape carries, since a source may need fewer than all sources together."""
 
@@ -116,10 +119,19 @@ def _factors(within: Floats) -> Floats:
 def _range_of(columns: Floats, n_mixed: int) -> Floats:
     """An orthonormal basis of some columns (m, n) but for what one step may miss."""
     most, whole = min(columns.shape), np.square(columns).sum()
-    random = np.random.default_rng(0)
     while n_mixed < most:
-        basis, _ = np.linalg.qr(columns @ random.standard_normal((columns.shape[1], n_mixed)))
+        basis, _ = np.linalg.qr(columns @ _mixing(columns.shape[1], n_mixed))
         if whole - np.square(basis.T @ columns).sum() < _MISSED:
             return basis
         n_mixed *= 2
     return np.linalg.qr(columns)[0] if columns.shape[1] <= len(columns) else np.eye(len(columns))
+
+
+@lru_cache(maxsize=16)
+def _random(n: int, n_mixed: int) -> Floats:
+    return np.random.default_rng(0).standard_normal((n, n_mixed))
+
+
+def _mixing(n: int, n_mixed: int) -> Floats:
+    """Random numbers (n, n_mixed) by which columns are mixed; drawing them takes as long as mixing."""
+    return _random(n, -n_mixed // _AT_ONCE * -_AT_ONCE)[:, :n_mixed]

@@ -68,11 +68,15 @@ class Element:
 
     def matrix(self, part: slice | Rows, room: Workspace) -> Complex:
         """Its part of A at some frequencies, a copy."""
-        signs = np.multiply.outer(self.signs, self.signs)[:, :, None]
         own = self.receptance[:, :, part]
         if self.at is not None:
             own = own[self.at[:, None], self.at]
-        return np.multiply(signs, own, out=room.array(*own.shape))
+        matrix = room.array(*own.shape)
+        if (self.signs == self.signs[0]).all():
+            np.copyto(matrix, own)
+        else:
+            np.multiply(np.multiply.outer(self.signs, self.signs)[:, :, None], own, out=matrix)
+        return matrix
 
 
 @dataclass(frozen=True, eq=False)

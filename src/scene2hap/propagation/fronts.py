@@ -47,10 +47,18 @@ def by_lapack(plan: Sequence[Joining], matrices: Sequence[Complex], free: Floats
 
 
 def whole(matrices: Sequence[Complex], rows_of: Sequence[Rows], free: Floats) -> Complex:
-    """Forces (n, n_sources, n_f), with pivoting."""
+    """Forces (n, n_sources, n_f), with pivoting; uses up the matrices."""
     n, n_f = len(free), matrices[0].shape[2]
-    system = np.zeros((n, n, n_f), dtype=np.complex128)
-    for rows, matrix in zip(rows_of, matrices, strict=True):
-        system[rows[:, None], rows] += matrix
-    forces = np.linalg.solve(np.ascontiguousarray(system.transpose(2, 0, 1)), free.astype(np.complex128))
-    return np.asarray(forces, dtype=np.complex128).transpose(1, 2, 0)
+    widest = max(range(len(matrices)), key=lambda number: len(rows_of[number]))
+    order, system = rows_of[widest], matrices[widest]
+    if len(order) < n:
+        order, system, widest = np.arange(n), np.zeros((n, n, n_f), dtype=np.complex128), -1
+    place = np.argsort(order)
+    for number, (rows, matrix) in enumerate(zip(rows_of, matrices, strict=True)):
+        if number != widest:
+            at = place[rows]
+            system[at[:, None], at] += matrix
+    forces = np.empty((n, free.shape[1], n_f), dtype=np.complex128)
+    solved = np.linalg.solve(np.ascontiguousarray(system.transpose(2, 0, 1)), free[order].astype(np.complex128))
+    forces[order] = solved.transpose(1, 2, 0)
+    return forces
