@@ -78,12 +78,6 @@ class Reach:
         group = self._group.get(object_id)
         return _NONE if group is None else group.sources
 
-    def strangers(self, object_id: str) -> Sequence[int]:
-        """The columns of the sources that do not hang together with an object."""
-        group = self._group.get(object_id)
-        columns = range(len(self._column))
-        return columns if group is None else [i for i in columns if i not in group.sources]
-
     def concerns(self, change: ContactChange) -> bool:
         """Whether a source reaches an object of these contacts."""
         for pairs in (change.shifted, change.appeared, change.vanished):
