@@ -19,7 +19,7 @@ from scene2hap.session.field_in_use import FieldInUse
 from scene2hap.session.last_field import LastField
 from scene2hap.session.reach import Reach
 from scene2hap.session.stage import Stage
-from scene2hap.session.worker import Desk, Prepared, Sign, Situation
+from scene2hap.session.worker import Desk, Prepared, Sign, Situation, put_to_work
 
 
 class FieldKeeper:
@@ -45,9 +45,8 @@ class FieldKeeper:
         self._is_background, self._skips_unreachable = is_background, skips_unreachable
         self._worker: Thread | None = None
         self._is_stranger_touched = False
-        self._excitations, self._changed_at_s = excitations, time.monotonic()
-        self._asked = self._situation(0)
-        self._n_answered = self._n_put = 0
+        self._asked = self._situation(0, excitations)
+        self._n_answered = self._n_ordered = self._n_put = 0
         self.in_use = self._whole = self._desk.prepare(self._asked)
         self._is_expectant = isinstance(self.in_use.field, ExpectantField)
         self._heard: tuple[FieldInUse, tuple[str, ...], Reach] | None = None
@@ -56,8 +55,8 @@ class FieldKeeper:
 
     @property
     def is_current(self) -> bool:
-        """Whether the field in use tells of things as they are."""
-        return self.in_use.situation.is_current
+        """Whether the field in use tells of the newest situation."""
+        return self.in_use.situation is self._asked
 
     @property
     def age_s(self) -> float:
@@ -67,22 +66,17 @@ class FieldKeeper:
 
     def ask(self, excitations: Sequence[Excitation]) -> None:
         """Want a field for things as they are now: prepared here, or by the worker from the next `order` on."""
-        self._excitations, self._changed_at_s = excitations, time.monotonic()
-        if self._asked.is_current:
-            self._asked.outdated_at_s = self._changed_at_s
+        before, self._asked = self._asked, self._situation(self._asked.number + 1, excitations)
+        before.outdated_at_s = self._asked.asked_at_s
         if not self._is_background:
-            self._asked = self._situation(self._asked.number + 1)
             self._use(self._desk.prepare(self._asked))
 
     def order(self) -> None:
-        """Give the worker something to do if it has nothing: at the end of an update, which it would slow down.
-
-        What is still being prepared when things change is finished first, so that nothing is put together until then.
-        """
-        if not self._is_background or not self._is_idle:
+        """Let the worker begin with what was asked for last: at the end of an update, which it would slow down."""
+        if not self._is_background:
             return
-        if not self._asked.is_current:
-            self._asked = self._situation(self._asked.number + 1)
+        if self._n_ordered != self._asked.number:
+            self._n_ordered = self._asked.number
             self._put(self._asked)
         elif self._is_stranger_touched:
             self.in_use.expected.update(object_id for object_id, _ in self._desk.touched)
@@ -96,8 +90,8 @@ class FieldKeeper:
         now, n_bands = self._stage.graph.pose, self._desk.bands.n_bands
 
         def as_now(one: Prepared) -> LastField:
-            then = one.situation
-            return LastField(one.field, then.poses, now, source_ids, n_bands, reach, lambda: then.is_current)
+            then = one.situation.poses
+            return LastField(one.field, then, now, source_ids, n_bands, reach, lambda: one.situation is self._asked)
 
         heard = FieldInUse(source_ids, as_now, self._note_touched)
         heard.use(self.in_use, self._whole)
@@ -122,25 +116,21 @@ class FieldKeeper:
         """Wait until nothing is being prepared, and what is touched is expected; false after the timeout [s]. The field
         is then taken into use."""
         end_s = None if timeout_s is None else time.monotonic() + timeout_s
+        self.order()
         while True:
             self._desk.has_answered.clear()
             self.take()
-            self.order()
-            if self._n_answered == self._asked.number and self._is_idle:
+            if self._n_answered == self._asked.number and self._desk.n_followed == self._n_put:
                 return True
             rest_s = None if end_s is None else end_s - time.monotonic()
             if rest_s is not None and rest_s <= 0:
                 return False
             self._desk.has_answered.wait(rest_s)
 
-    @property
-    def _is_idle(self) -> bool:
-        return self._desk.n_followed == self._n_put and self._desk.is_at_rest
-
-    def _situation(self, number: int) -> Situation:
-        stage, excitations = self._stage, self._excitations
+    def _situation(self, number: int, excitations: Sequence[Excitation]) -> Situation:
+        now, stage = time.monotonic(), self._stage
         source_ids = [item.source_id for item in excitations] if self._skips_unreachable else None
-        return Situation(number, stage.network(source_ids), excitations, stage.poses, self._changed_at_s)
+        return Situation(number, stage.network(source_ids), excitations, stage.poses, now)
 
     def _use(self, found: Prepared) -> None:
         situation, before = found.situation, self.in_use.situation
@@ -153,7 +143,7 @@ class FieldKeeper:
             self._heard[0].use(found, self._whole)
         self.n_prepared += 1
         if situation is not before:
-            self.latency_s = time.monotonic() - situation.since_s
+            self.latency_s = time.monotonic() - situation.asked_at_s
 
     def _note_touched(self, touched: Sequence[TouchedPoint]) -> None:
         self._desk.touched = touched
@@ -169,9 +159,7 @@ class FieldKeeper:
 
     def _put(self, order: Situation | Sign) -> None:
         if self._worker is None or not self._worker.is_alive():
-            work = self._desk.work
-            self._worker = Thread(target=work, args=[self.in_use], name="scene2hap propagation", daemon=True)
-            self._worker.start()
+            self._worker = put_to_work(self._desk, self.in_use)
             weakref.finalize(self, self._desk.orders.put, Sign.END)
         self._n_put += 1
         self._desk.orders.put(order)

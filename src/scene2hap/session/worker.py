@@ -1,19 +1,22 @@
 """The worker that prepares fields: what is near the hands first, and everything once nothing changes any more.
 
-Threads: orders come by a queue, one at a time, each once the last was followed; the answer is left in one slot; neither
-side ever waits for the other.
+Threads: orders come by a queue, of which all but the newest are skipped; the answer is left in one slot; neither side
+ever waits for the other.
 """
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import dataclasses
+import time
 from collections import deque
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum, auto
 from queue import Empty, SimpleQueue
-from threading import Event
+from threading import Event, Thread
+from weakref import WeakKeyDictionary
 
 from scene2hap.haptics import Bands
 from scene2hap.propagation.live import TouchedPoint
@@ -23,6 +26,8 @@ from scene2hap.session.stage import Told
 
 AT_REST_S = 0.05
 """Time without a change after which everything is prepared, and not only what hands can feel."""
+LAST_S = 2.0
+"""How long Python waits at its end for fields that are being prepared."""
 
 
 @dataclass(eq=False)
@@ -30,7 +35,7 @@ class Situation:
     """What a field is prepared for.
 
     Parameters: network : puts together what the model is told, of what hangs together with some objects or of
-    everything for none, in whatever thread; poses : of all objects then; since_s, outdated_at_s : when it began and
+    everything for none, in whatever thread; poses : of all objects then; asked_at_s, outdated_at_s : when it began and
     ended to be how things are, by `time.monotonic` [s].
     """
 
@@ -38,13 +43,8 @@ class Situation:
     network: Callable[[Collection[str]], Told]
     excitations: Sequence[Excitation]
     poses: Mapping[str, Pose]
-    since_s: float
+    asked_at_s: float
     outdated_at_s: float | None = None
-
-    @property
-    def is_current(self) -> bool:
-        """Whether things are so now."""
-        return self.outdated_at_s is None
 
 
 class Sign(Enum):
@@ -90,9 +90,8 @@ class Desk:
     answers: deque[Prepared | tuple[Situation, Exception]] = dataclasses.field(default_factory=lambda: deque(maxlen=1))
     has_answered: Event = dataclasses.field(default_factory=Event)
     touched: Sequence[TouchedPoint] = ()
-    # How many orders were followed, and whether nothing is done of the worker's own accord.
     n_followed: int = 0
-    is_at_rest: bool = True
+    """Orders that were followed or overtaken."""
     # Fields that are in use no more: giving back their memory is left to the worker, too.
     spent: deque[Prepared] = dataclasses.field(default_factory=lambda: deque(maxlen=4))
 
@@ -103,7 +102,7 @@ class Desk:
 
     def work(self, newest: Prepared) -> None:
         """Follow orders until the last; `newest` is the field that is in use."""
-        is_whole, order = True, self.orders.get()
+        is_whole, (order, n_orders) = True, self._newest(self.orders.get())
         while order is not Sign.END:
             if isinstance(order, Situation):
                 self.spent.clear()
@@ -111,16 +110,14 @@ class Desk:
                 newest, is_whole = found or newest, found is None or found.covers is None
             else:
                 newest.expect(self.touched)
-            self.n_followed += 1
+            self.n_followed += n_orders
             self.has_answered.set()
             try:
-                order = self.orders.get(timeout=None if is_whole else AT_REST_S)
+                order, n_orders = self._newest(self.orders.get(timeout=None if is_whole else AT_REST_S))
             except Empty:
-                self.is_at_rest = False
                 newest, is_whole = self._answer(newest.situation, ()) or newest, True
-                self.is_at_rest = True
                 self.has_answered.set()
-                order = self.orders.get()
+                order, n_orders = self._newest(self.orders.get())
 
     def _answer(self, order: Situation, near: Collection[str]) -> Prepared | None:
         """Prepare what is near some objects, or everything for none; None if it cannot be."""
@@ -133,3 +130,35 @@ class Desk:
             prepared.expect(self.touched)
             self.answers.append(prepared)
             return prepared
+
+    def _newest(self, order: Order) -> tuple[Order, int]:
+        """What of all that waits is to be done, the end or the last situation, and how many orders these are."""
+        waiting = [order]
+        with contextlib.suppress(Empty):
+            while True:
+                waiting.append(self.orders.get_nowait())
+        if Sign.END in waiting:
+            return Sign.END, len(waiting)
+        return next((one for one in reversed(waiting) if isinstance(one, Situation)), order), len(waiting)
+
+
+_WORKERS: WeakKeyDictionary[Thread, Desk] = WeakKeyDictionary()
+
+
+def put_to_work(desk: Desk, newest: Prepared) -> Thread:
+    """A new worker at a desk; `newest` is the field that is in use."""
+    worker = Thread(target=desk.work, args=[newest], name="scene2hap propagation", daemon=True)
+    _WORKERS[worker] = desk
+    worker.start()
+    return worker
+
+
+@atexit.register
+def _end_all() -> None:
+    """Let workers finish: one that is cut off within a sparse solver leaves Python with an error that nobody raised."""
+    end_s = time.monotonic() + LAST_S
+    workers = list(_WORKERS.items())
+    for _, desk in workers:
+        desk.orders.put(Sign.END)
+    for worker, _ in workers:
+        worker.join(max(0.0, end_s - time.monotonic()))

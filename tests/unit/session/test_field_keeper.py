@@ -1,8 +1,11 @@
 """Fields that a worker prepares while the last one plays on."""
 
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -301,3 +304,38 @@ def test_the_worker_begins_once_the_update_that_asks_for_it_is_over() -> None:
     assert first.seen == [1]
     assert s.wait_prepared(SECONDS)
     assert len(model.threads) > 1
+
+
+A_GAME_THAT_ENDS = """
+import threading
+from scene2hap import HapticSession, Pose, Touch
+from scene2hap.propagation.modal_plate import ModalPlate
+from scenes import RATE, table_with_two_phones
+
+has_begun = threading.Event()
+
+class Slow(ModalPlate):
+    def prepare(self, network, excitations, bands):
+        found = super().prepare(network, excitations, bands)
+        if threading.current_thread() is not threading.main_thread():
+            has_begun.set()
+            threading.Event().wait(0.3)
+            print("prepared", flush=True)
+        return found
+
+session = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": Slow()})
+touches = [Touch("left", "table", (0.8, 0.72, 0.4))]
+session.update(touches=touches)
+session.update({"phone": Pose((0.3, 0.725, 0.4))}, touches)
+assert has_begun.wait(10.0)
+print("the game ends", flush=True)
+"""
+
+
+def test_python_ends_when_the_worker_has_finished() -> None:
+    """Cut off within a solver, it would leave errors that nobody raised."""
+    tests = Path(__file__).parents[2]
+    game = [sys.executable, "-W", "ignore", "-c", A_GAME_THAT_ENDS]
+    run = subprocess.run(game, capture_output=True, text=True, check=True, cwd=tests)
+    assert run.stdout.split("\n") == ["the game ends", "prepared", ""]
+    assert run.stderr == ""
