@@ -19,7 +19,7 @@ from scene2hap.contact.ledge import Flat
 from scene2hap.contact.level import Rest
 from scene2hap.contact.sides import Sides, are_beside
 from scene2hap.contact.stance import Tray
-from scene2hap.contact.support import TOUCH_M, fall_reach_m, margins_m
+from scene2hap.contact.support import TOUCH_M, fall_reach_m, is_under, margins_m
 from scene2hap.contact.tie import SURE_M, Slide, Tie
 from scene2hap.contact.track import Bounds, Track
 from scene2hap.contact.vectors import Triple
@@ -98,7 +98,7 @@ class Glide:
                 middle_m = -math.inf
                 opens.append(_all_in(body, support))
         for other, room in around:
-            if other.id != support.id:
+            if other.id != support.id and not is_under(other, slide.rest.top_m):
                 if max(_sideways_m(body, room)) > TOUCH_M:
                     others.append(room)
                 elif are_beside(body, other):

@@ -16,7 +16,7 @@ from scene2hap.contact.glides import Glides
 from scene2hap.contact.holding import Holding
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.sides import Sides, are_beside
-from scene2hap.contact.support import TOUCH_M, Support, hang_reach_m
+from scene2hap.contact.support import TOUCH_M, Support, hang_reach_m, is_under
 from scene2hap.contact.tie import Slide, Tie, apart_by, slide
 
 _ONES = (1.0,) * 4
@@ -67,13 +67,13 @@ class ShortWays:
     def _slide(self, body: Body, tie: Tie, bond: Bond, amid: Sequence[str], found: dict[Pair, Junction | None]) -> bool:
         """For what stays on its only support, with nothing else near enough to matter but blocks that it is beside."""
         x, (_, support) = body.id, tie.falling(body.id)
-        sides = self._sides(body, support.id, amid)
-        slid = None if sides is None else slide(body, support)
+        slid = slide(body, support)
+        sides = None if slid is None else self._sides(body, support.id, amid, slid.rest.top_m)
         if sides is None or slid is None:
             return False
         tie.slide(body, slid.rest, x == tie.a.id)
         found[tie.a.id, tie.b.id] = _lies(slid, bond)
-        self._follow(body, sides, found)
+        self._follow(body, support.id, slid.rest.top_m, sides, found)
         glide = self._glides.of.get(x)
         if isinstance(glide, Glide) and glide.refused <= _VAIN and glide.tray == slid.tray:
             glide.resume(body)
@@ -86,11 +86,13 @@ class ShortWays:
     def _land(self, body: Body, amid: Sequence[str], found: dict[Pair, Junction | None]) -> bool:
         """For what touched nothing, and comes to lie on one thing, with nothing else near enough to matter but blocks
         that it is beside then."""
-        x = body.id
-        support = min([self._bodies[z] for z in amid], key=lambda other: other.size_m)
-        slid = slide(body, support)
-        sides = None if slid is None else self._sides(body, support.id, amid)
-        if sides is None or slid is None:
+        x, bodies = body.id, self._bodies
+        for support in sorted([bodies[z] for z in amid], key=lambda other: other.size_m):
+            slid = slide(body, support)
+            sides = None if slid is None else self._sides(body, support.id, amid, slid.rest.top_m)
+            if sides is not None and slid is not None:
+                break
+        else:
             return False
         is_a = x < support.id
         one, other = (body, support) if is_a else (support, body)
@@ -101,7 +103,7 @@ class ShortWays:
         bond = self._holding.support(x, support.id, Support(1.0, slid.rest.fall_m), lies=True)
         self._held[x] = {support.id: bond}
         found[one.id, other.id] = _lies(slid, bond)
-        self._follow(body, sides, found)
+        self._follow(body, support.id, slid.rest.top_m, sides, found)
         self._n_to_draw -= 1
         return True
 
@@ -121,28 +123,43 @@ class ShortWays:
         self._n_to_draw -= 1
         return True
 
-    def _sides(self, body: Body, support: str, amid: Sequence[str]) -> list[str] | None:
-        """The blocks that a body on its support may touch sideways, or did; None if anything else may matter to it."""
+    def _sides(self, body: Body, support: str, amid: Sequence[str], top_m: float) -> list[str] | None:
+        """The blocks that a body on its support may touch sideways, or did; None if anything else may matter to it.
+
+        Parameters: top_m : the height of what it lies on; what is all below that, such as cupboards under a worktop,
+        does not matter.
+        """
         bodies, ties = self._bodies, self._ties[body.id]
-        sides = [z for z in ties if z != support]
-        if any(ties[z].may_bear or not are_beside(body, bodies[z]) for z in sides):
-            return None
-        for z in amid:
+        sides: list[str] = []
+        for z in (*ties, *[z for z in amid if z not in ties]):
             other = bodies[z]
-            if z == support or z in ties:
+            if z == support or is_under(other, top_m):
                 continue
-            if are_beside(body, other):
+            if are_beside(body, other) and not (z in ties and ties[z].may_bear):
                 sides.append(z)
-            elif body.size_m >= other.size_m or not is_clear(body, other):
+            elif z in ties or body.size_m >= other.size_m or not is_clear(body, other):
                 return None
         return sides
 
-    def _follow(self, body: Body, sides: Sequence[str], found: dict[Pair, Junction | None]) -> None:
+    def _follow(
+        self, body: Body, support: str, top_m: float, sides: Sequence[str], found: dict[Pair, Junction | None]
+    ) -> None:
+        """Tie a body to what it touches sideways, in reserve to what is below its support, and to nothing else."""
+        x, ties, bodies = body.id, self._ties[body.id], self._bodies
+        under = [z for z in self._crowd.near[x] if z != support and is_under(bodies[z], top_m)]
+        if not (under or sides) and len(ties) == 1:
+            return
+        before = set(ties)
+        for z in before.difference(under, sides, (support,)):
+            del ties[z], self._ties[z][x]
+            found[pair_of(x, z)] = None
+        for z in under:
+            ties[z] = self._ties.setdefault(z, {})[x] = Tie.in_reserve(body, bodies[z])
+            found[pair_of(x, z)] = None
         if sides:
-            before = set(self._ties[body.id])
             self._sides_of(sides).follow(body, sides, found)
-            for z in before ^ self._ties[body.id].keys():
-                self._glides.stop(body.id, z)
+        for z in before ^ ties.keys():
+            self._glides.stop(x, z)
 
     def _sides_of(self, names: Sequence[str]) -> Sides:
         return Sides(names, self._bodies, self._ties)

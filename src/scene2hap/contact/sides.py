@@ -40,11 +40,8 @@ class Sides:
         return near
 
     def follow(self, body: Body, near: Collection[str], found: dict[Pair, Junction | None]) -> None:
-        """Tie a block that is tied to nothing else but its support to those of them that it touches, which may be some
-        that are near; where is added to `found`."""
+        """Tie a block to those of them that it touches, which may be some that are near; where is added to `found`."""
         x, bodies, mine = body.id, self._bodies, self._ties[body.id]
-        if not near and len(mine) == 1:
-            return
         for z in self._names:
             tie = None
             if z in near:

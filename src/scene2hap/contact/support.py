@@ -148,3 +148,8 @@ def is_over(x: Body, y: Body) -> bool:
     if x.up_axis == 1:
         return a >= g and d <= j and c >= i and f <= m
     return a >= g and d <= j and b >= h and e <= k
+
+
+def is_under(x: Body, top_m: float) -> bool:
+    """Whether x is surely too far below what lies on something of that height to matter to it."""
+    return x.high[x.up_axis] < top_m - 3 * TOUCH_M

@@ -37,13 +37,12 @@ UNCLEAR = Rest(math.nan, False, math.nan)
 
 
 class Tie:
-    """Two bodies; `a` is the one with the lower id. `rest_a` is how a may lie on b and `rest_b` the other way round:
-    None if not at all, `UNCLEAR` where triangles must tell."""
+    """Two bodies; `a` is the one with the lower id."""
 
-    __slots__ = ("_facts", "_meeting_made", "a", "b", "rest_a", "rest_b")
+    __slots__ = ("_are_rests_told", "_facts", "_meeting_made", "_rest_a", "_rest_b", "a", "b")
 
     def __init__(self, a: Body, b: Body, rest_a: Rest | None, rest_b: Rest | None) -> None:
-        self.a, self.b, self.rest_a, self.rest_b = a, b, rest_a, rest_b
+        self.a, self.b, self._rest_a, self._rest_b, self._are_rests_told = a, b, rest_a, rest_b, True
         self._meeting_made: Meeting | None = None
         self._facts: dict[object, Any] | None = None
 
@@ -52,6 +51,31 @@ class Tie:
         """What is known of two bodies."""
         rest_a = _rest(a, b)
         return cls(a, b, rest_a, _rest(b, a) if rest_a is None else None)
+
+    @classmethod
+    def in_reserve(cls, x: Body, y: Body) -> Tie:
+        """The same of two of which nothing may ever be asked."""
+        tie = cls(x, y, None, None) if x.id < y.id else cls(y, x, None, None)
+        tie._are_rests_told = False
+        return tie
+
+    @property
+    def rest_a(self) -> Rest | None:
+        """How a may lie on b: None if not at all, `UNCLEAR` where triangles must tell."""
+        if not self._are_rests_told:
+            self._tell_rests()
+        return self._rest_a
+
+    @property
+    def rest_b(self) -> Rest | None:
+        """The same the other way round."""
+        if not self._are_rests_told:
+            self._tell_rests()
+        return self._rest_b
+
+    def _tell_rests(self) -> None:
+        self._are_rests_told, self._rest_a = True, _rest(self.a, self.b)
+        self._rest_b = _rest(self.b, self.a) if self._rest_a is None else None
 
     @property
     def may_bear(self) -> bool:
@@ -66,9 +90,9 @@ class Tie:
         """Take in that one has moved, and how it lies on the other now."""
         self.forget()
         if is_a:
-            self.a, self.rest_a = body, rest
+            self.a, self._rest_a = body, rest
         else:
-            self.b, self.rest_b = body, rest
+            self.b, self._rest_b = body, rest
 
     def forget(self) -> None:
         """One has moved: what triangles told holds no longer."""

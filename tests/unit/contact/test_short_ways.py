@@ -143,3 +143,32 @@ def test_a_block_that_slides_along_others_is_followed_in_its_glide(
     assert 80 <= last <= 81
     # But where it leaves what was drawn around it, some 6 cm, it is looked around anew.
     assert len([step for step in long_ways if first < step <= last + 1]) <= 8
+
+
+def test_what_is_below_a_support_matters_once_that_is_gone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A jar slides over a worktop that is 20 mm thick, from above one cupboard to above another; then it has none."""
+    objects = [
+        floor(),
+        box("cupboard", (0.5, 0.7, 0.6), (-0.25, 0.35, 0.0)),
+        box("drawers", (0.5, 0.7, 0.6), (0.26, 0.35, 0.0)),
+        box("worktop", (1.1, 0.02, 0.7), (0.0, 0.71, 0.0)),
+        box("jar", (0.3, 0.3, 0.3), (-0.3, 0.87, 0.0)),
+    ]
+    graph = ContactGraph(scene(*objects))
+    long_ways, take = list[bool](), ShortWays.take
+
+    def watched(self: ShortWays, *given: Any) -> bool:
+        taken = take(self, *given)
+        if self is graph._finder._short_ways:
+            long_ways.append(not taken)
+        return taken
+
+    monkeypatch.setattr(ShortWays, "take", watched)
+    for step in range(1, 121):
+        graph.update({"jar": Pose((-0.3 + 0.005 * step, 0.87, 0.0))})
+        assert is_as_built(graph, *objects)
+        assert graph.neighbours("jar") == ("worktop",)
+    assert not any(long_ways)
+    graph.update({"worktop": Pose((0.0, 0.71, 3.0))})
+    assert is_as_built(graph, *objects)
+    assert graph.neighbours("jar") == ("drawers",)
