@@ -67,11 +67,11 @@ class ContactFinder:
         self._glides.stop_in({*gone})
         for x in gone:
             del bodies[x]
+            self._glides.stop_around(x)
             for y in self._crowd.take_out(x):
                 self._part(x, y, found, unsure)
             self._ties.pop(x, None)
             self._held.pop(x, None)
-            self._glides.stop(x)
             self._loose.discard(x)
         for body in placed:
             bodies[body.id] = body

@@ -172,3 +172,21 @@ def test_what_is_below_a_support_matters_once_that_is_gone(monkeypatch: pytest.M
     graph.update({"worktop": Pose((0.0, 0.71, 3.0))})
     assert is_as_built(graph, *objects)
     assert graph.neighbours("jar") == ("drawers",)
+
+
+def test_a_block_beside_a_glide_may_be_removed() -> None:
+    """While a crate slides near it, touching it or not."""
+    for gap_m in (0.002, 0.02):
+        near, crate = box("near", (0.1, 0.1, 0.1), (0.0, 0.75, 0.0)), box("crate", (0.1, 0.1, 0.1), (0.0, 0.75, 0.102))
+        objects = [floor(), TABLE, near, crate]
+        graph = ContactGraph(scene(*objects))
+        # It comes to touch, so that its glide reckons with the block, and goes off a little again.
+        for step in range(6):
+            graph.update({"crate": Pose((0.003 * step, 0.75, 0.102))})
+        graph.update({"crate": Pose((0.0, 0.75, 0.1 + gap_m))})
+        graph.update({}, removed=["near"])
+        for step in range(4):
+            graph.update({"crate": Pose((0.002 * step, 0.75, 0.1 + gap_m))})
+            assert is_as_built(graph, floor(), TABLE, crate)
+        graph.update({}, added=[near])
+        assert is_as_built(graph, *objects)
