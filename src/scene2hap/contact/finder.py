@@ -76,8 +76,9 @@ class ContactFinder:
         for body in placed:
             bodies[body.id] = body
         left = self._crowd.put(placed)
-        for x in left:
+        for x, others in left.items():
             self._glides.stop_around(x)
+            self._glides.stop(*others)
         seen: set[str] = set()
         self._short_ways.begin(len(placed))
         for body in placed:

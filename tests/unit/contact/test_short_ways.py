@@ -174,7 +174,8 @@ def test_what_is_below_a_support_matters_once_that_is_gone(monkeypatch: pytest.M
     assert graph.neighbours("jar") == ("drawers",)
 
 
-def test_a_block_beside_a_glide_may_be_removed() -> None:
+@pytest.mark.parametrize("goes_away", [False, True], ids=["at once", "once it is far away"])
+def test_a_block_beside_a_glide_may_be_removed(goes_away: bool) -> None:
     """While a crate slides near it, touching it or not."""
     for gap_m in (0.002, 0.02):
         near, crate = box("near", (0.1, 0.1, 0.1), (0.0, 0.75, 0.0)), box("crate", (0.1, 0.1, 0.1), (0.0, 0.75, 0.102))
@@ -184,6 +185,8 @@ def test_a_block_beside_a_glide_may_be_removed() -> None:
         for step in range(6):
             graph.update({"crate": Pose((0.003 * step, 0.75, 0.102))})
         graph.update({"crate": Pose((0.0, 0.75, 0.1 + gap_m))})
+        if goes_away:
+            graph.update({"near": Pose((3.0, 0.05, 3.0))})
         graph.update({}, removed=["near"])
         for step in range(4):
             graph.update({"crate": Pose((0.002 * step, 0.75, 0.1 + gap_m))})
