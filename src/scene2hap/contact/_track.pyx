@@ -2,6 +2,7 @@
 
 from array import array
 
+from cpython.mem cimport PyMem_Free, PyMem_Realloc
 from libc.math cimport fabs
 
 cdef enum:
@@ -12,11 +13,14 @@ cdef double SURELY_M = 1e-9  # as in `track`
 
 
 cdef class Track:
-    cdef object stance, rotation_xyzw
+    cdef readonly object stance
+    cdef object rotation_xyzw
     cdef bint is_upright
     cdef int up, flat, n_points
     cdef double u0, v0, u1, v1, lowest, highest, middle_m, top_m, least_m, most_m
-    cdef double[:, ::1] edges
+    # n_u, n_v and offset of each edge, one after the other.
+    cdef double* edges
+    cdef Py_ssize_t n_edges
     # As it is turned now: box and sole around the body's origin.
     cdef double low[3]
     cdef double high[3]
@@ -31,14 +35,27 @@ cdef class Track:
     cdef double[:, ::1] outline
     cdef double turned_a, turned_c
 
-    def __init__(self, bounds, stance):
-        lane, heights, self.middle_m, edges, self.top_m, self.least_m, self.most_m = bounds
-        self.u0, self.v0, self.u1, self.v1 = lane
-        self.lowest, self.highest = heights
-        numbers = array("d", [number for edge in edges for number in edge])
-        self.edges = memoryview(numbers).cast("B").cast("d", (len(edges), 3)) if len(edges) else None
+    def __init__(self, stance):
         self.up, self.flat = stance.up_axis, stance.v_axis
         self.stand(stance)
+
+    def __dealloc__(self):
+        PyMem_Free(self.edges)
+
+    def bind(self, bounds):
+        cdef double* edges
+        cdef Py_ssize_t k
+        lane, heights, self.middle_m, several, self.top_m, self.least_m, self.most_m = bounds
+        self.u0, self.v0, self.u1, self.v1 = lane
+        self.lowest, self.highest = heights
+        if len(several) > self.n_edges:
+            edges = <double*>PyMem_Realloc(self.edges, 3 * len(several) * sizeof(double))
+            if edges is NULL:
+                raise MemoryError
+            self.edges = edges
+        self.n_edges = len(several)
+        for k in range(self.n_edges):
+            self.edges[3 * k], self.edges[3 * k + 1], self.edges[3 * k + 2] = several[k]
 
     cdef stand(self, stance):
         """Take in how the body is turned."""
@@ -106,12 +123,11 @@ cdef class Track:
         if not self.least_m < fall_m < self.most_m:
             return None
         cu, cv = self.mu + u, self.mv + v
-        if self.edges is not None:
-            for k in range(self.edges.shape[0]):
-                if self.edges[k, 0] * cu + self.edges[k, 1] * cv - self.edges[k, 2] < self.radius:
-                    if not self.is_inside(u, v):
-                        return None
-                    break
+        for k in range(self.n_edges):
+            if self.inside(k, cu, cv) < self.radius:
+                if not self.is_inside(u, v):
+                    return None
+                break
         height = (h + self.sole + self.top_m) / 2
         if self.up == 1:
             places = tuple([(u + self.pu[k], height, v + self.pv[k]) for k in range(self.n_points)])
@@ -135,10 +151,14 @@ cdef class Track:
         for i in range(self.outline.shape[0]):
             pu = u + a * self.outline[i, 0] + c * self.outline[i, 1]
             pv = v + a * self.outline[i, 1] - c * self.outline[i, 0]
-            for k in range(self.edges.shape[0]):
-                if self.edges[k, 0] * pu + self.edges[k, 1] * pv - self.edges[k, 2] < SURELY_M:
+            for k in range(self.n_edges):
+                if self.inside(k, pu, pv) < SURELY_M:
                     return False
         return True
+
+    cdef double inside(self, Py_ssize_t k, double u, double v) noexcept:
+        """How far inside of an edge a point is."""
+        return self.edges[3 * k] * u + self.edges[3 * k + 1] * v - self.edges[3 * k + 2]
 
 
 cdef (double, double) turning(tuple rotation_xyzw, int up) except *:

@@ -1,8 +1,8 @@
-"""The compiled twin of the kernel in `zones`."""
+"""The compiled twins of the kernels in `zones`."""
 
 import numpy as np
 
-from libc.math cimport INFINITY
+from libc.math cimport INFINITY, fmax, fmin
 
 
 cdef class Zones:
@@ -38,3 +38,18 @@ cdef class Zones:
 
 cdef doubled(boxes, double value):
     return np.concatenate([boxes, np.full_like(boxes, value)], axis=1)
+
+
+def room_around(tuple low, tuple high, double skin_m, tuple before, int up_axis):
+    cdef double lows[3]
+    cdef double highs[3]
+    cdef double a, b, near = skin_m, far = 2 * skin_m
+    cdef tuple least = before[0], most = before[1]
+    cdef int k
+    for k in range(3):
+        a, b = low[k], high[k]
+        lows[k], highs[k] = a - near, b + near
+        if k != up_axis:
+            lows[k] = fmax(fmin(lows[k], least[k]), a - far)
+            highs[k] = fmin(fmax(highs[k], most[k]), b + far)
+    return (lows[0], lows[1], lows[2]), (highs[0], highs[1], highs[2])

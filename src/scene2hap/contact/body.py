@@ -136,17 +136,18 @@ def shape_of(mesh: TriMesh) -> Shape:
 class Body:
     """A shape at a place; a thing that moves gets a new body.
 
-    `low` and `high` are a box (three numbers each [m]) that holds it; its height is exact, its sides may be wide.
+    `low` and `high` are a box (three numbers each [m]) that holds it; its height is exact, its sides may be wide. The
+    world's axes 0 and `v_axis` are level.
     """
 
-    __slots__ = ("__dict__", "_stance", "high", "id", "low", "pose", "position_m", "shape", "size_m", "up_axis")
+    __slots__ = ("__dict__", "_stance", "high", "id", "low", "pose", "position_m", "shape", "size_m", "up_axis", "v_axis")
 
     def __init__(self, object_id: str, shape: Shape, pose: Pose, up_axis: int) -> None:
         self.id = object_id
         self.shape = shape
         self.size_m = shape.size_m
         self.pose = pose
-        self.up_axis = up_axis
+        self.up_axis, self.v_axis = up_axis, 3 - up_axis
         stance = self._stance = Stance(shape, pose.rotation_xyzw, up_axis)
         x, y, z = self.position_m = pose.position_m
         low, high = stance.low, stance.high
@@ -162,7 +163,8 @@ class Body:
         """The same thing elsewhere."""
         # Every frame of a game comes by here, often.
         body = Body.__new__(Body)
-        body.id, body.shape, body.size_m, body.up_axis = self.id, self.shape, self.size_m, self.up_axis
+        body.id, body.shape, body.size_m = self.id, self.shape, self.size_m
+        body.up_axis, body.v_axis = self.up_axis, self.v_axis
         body.pose, body._stance = pose, self._stance
         stance = body.stance
         x, y, z = body.position_m = pose.position_m

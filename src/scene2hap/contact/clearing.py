@@ -17,7 +17,7 @@ import numpy as np
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes
-from scene2hap.contact.crowd import SKIN_M, Room
+from scene2hap.contact.crowd import SKIN_M
 from scene2hap.contact.enclosure import play_reach_m
 from scene2hap.contact.fall import INSET, INSET_M
 from scene2hap.contact.ledge import Flat, Upright
@@ -25,6 +25,7 @@ from scene2hap.contact.relative import box_in_frame
 from scene2hap.contact.stance import Tray
 from scene2hap.contact.support import TOUCH_M, fall_reach_m, hang_reach_m, is_over
 from scene2hap.contact.vectors import Marks
+from scene2hap.contact.zones import Room
 
 _MOST_TILT_M = 1e-4  # A host may lean by so much over its whole size, which is the error of a ledge's height then.
 _MANY_CORNERS = 8  # An outline of more is taken for a circle.

@@ -1,8 +1,9 @@
 """Who may matter to whom: a list of neighbours for every body, wide enough to last while things move a little.
 
 Every body has a zone, all that it may touch, fall onto or hang from; two whose zones meet are neighbours. The zone of
-what moves is drawn `SKIN_M` too wide, and drawn anew only when it has left it (Verlet's lists). Who stands on such a
-list too much does no harm: the list saves looking and decides nothing.
+what moves is drawn `SKIN_M` too wide, and drawn anew only when it has left it (Verlet's lists); then as much again of
+where it came from is kept, so that what goes to and fro does not leave it over and over. Who stands on such a list too
+much does no harm: the list saves looking and decides nothing.
 
 Source: L. Verlet, Computer experiments on classical fluids I, Phys. Rev. 159 (1967) 98.
 """
@@ -15,16 +16,13 @@ import numpy as np
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes, box_pairs
-from scene2hap.contact.vectors import Triple
-from scene2hap.contact.zones import NOWHERE, Zones
+from scene2hap.contact.zones import NOWHERE, Room, Zones, room_around
 
 SKIN_M = 0.06
 """How far a thing may move before its neighbours are looked for anew (assumed: a hand's way in four or five frames)."""
 
 # From so many bodies at once on, sorting all is cheaper than asking for each.
 _MANY = 16
-Room = tuple[Triple, Triple]
-"""Lowest and highest corners [m] of a box around a body, which it has not left."""
 
 
 class Crowd:
@@ -70,7 +68,7 @@ class Crowd:
                 (a, b, c), (d, e, f), (x, y, z), (u, v, w) = room[0], room[1], body.low, body.high
                 if x >= a and y >= b and z >= c and u <= d and v <= e and w <= f:
                     continue
-            self._draw(body, 0.0 if room is None else SKIN_M)
+            self._draw(body, room)
             drawn.append(body.id)
         if not drawn:
             return left
@@ -85,20 +83,22 @@ class Crowd:
             left[object_id] = before - now
         return left
 
-    def _draw(self, body: Body, skin_m: float) -> None:
+    def _draw(self, body: Body, before: Room | None) -> None:
         row = self._rows.get(body.id)
         if row is None:
             row = self._rows[body.id] = self._free.pop() if self._free else len(self._ids)
             if row == len(self._ids):
                 self._ids.append(body.id)
             self._ids[row] = body.id
+        room = (body.low, body.high)
+        if before is not None:
+            room = room_around(body.low, body.high, SKIN_M, before, self._up_axis)
+        self._rooms[body.id] = room
         side, down = self._margins_m(body)
-        (a, b, c), (d, e, f) = body.low, body.high
-        a, b, c, d, e, f = a - skin_m, b - skin_m, c - skin_m, d + skin_m, e + skin_m, f + skin_m
-        self._rooms[body.id] = ((a, b, c), (d, e, f))
-        a, b, c, d, e, f = a - side, b - side, c - side, d + side, e + side, f + side
+        (a, b, c), (d, e, f) = room
+        a, b, c = a - side, b - side, c - side
         low = (a, b - down, c) if self._up_axis == 1 else (a, b, c - down)
-        self._zones.put(row, low, (d, e, f))
+        self._zones.put(row, low, (d + side, e + side, f + side))
 
     def _neighbours(self, ids: Sequence[str]) -> dict[str, set[str]]:
         if len(ids) < _MANY:

@@ -46,6 +46,7 @@ class ContactFinder:
         bodies, glides = self._bodies, self._glides.of
         found: dict[Pair, Junction | None] = {}
         placed = []
+        self._glides.draw(moved)
         self._glides.stop_in(moved.keys())
         for x, pose in moved.items():
             glide = glides.get(x)
@@ -67,20 +68,21 @@ class ContactFinder:
         self._glides.stop_in({*gone})
         for x in gone:
             del bodies[x]
-            self._glides.stop_around(x)
+            self._glides.stop_amid(x)
             for y in self._crowd.take_out(x):
                 self._part(x, y, found, unsure)
             self._ties.pop(x, None)
             self._held.pop(x, None)
             self._loose.discard(x)
+            self._short_ways.forget(x)
         for body in placed:
             bodies[body.id] = body
         left = self._crowd.put(placed)
         for x, others in left.items():
-            self._glides.stop_around(x)
-            self._glides.stop(*others)
+            self._glides.stop(x)
+            self._glides.look_out(self._crowd.near[x], self._crowd.room(x))
+            self._glides.look_anew(others)
         seen: set[str] = set()
-        self._short_ways.begin(len(placed))
         for body in placed:
             x = body.id
             for y in left.get(x, ()):
@@ -175,7 +177,7 @@ class ContactFinder:
         before, now = self._held.get(x), self._holding.holders(x)
         self._glides.stop(x)
         if was_loose != (x in self._loose):
-            self._glides.stop_around(x)
+            self._glides.stop_amid(x)
         if now:
             self._held[x] = now
         elif before:

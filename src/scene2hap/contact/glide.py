@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterable, Sequence
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.clearing import open_box
-from scene2hap.contact.crowd import Room
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.ledge import Flat
 from scene2hap.contact.level import Rest
@@ -23,6 +22,7 @@ from scene2hap.contact.support import TOUCH_M, fall_reach_m, is_under, margins_m
 from scene2hap.contact.tie import SURE_M, Slide, Tie
 from scene2hap.contact.track import Bounds, Track
 from scene2hap.contact.vectors import Triple
+from scene2hap.contact.zones import Room
 from scene2hap.scene.pose import Pose
 
 _new = tuple.__new__
@@ -40,6 +40,7 @@ class Glide:
     __slots__ = (
         "_fall_m",
         "_is_a",
+        "_lane",
         "_normals",
         "_sides",
         "_tie",
@@ -60,6 +61,7 @@ class Glide:
         tray: Tray,
         normal: Triple | None,
         bounds: Bounds,
+        track: Track,
         sides: Sides | None,
         hosts: Sequence[str],
     ) -> None:
@@ -67,9 +69,9 @@ class Glide:
         self.pair: Pair = (tie.a.id, tie.b.id)
         self.on = tie.b.id if self._is_a else tie.a.id
         self.tray = tray
-        self._normals = (normal,) * len(body.stance.footing.points)
-        self._fall_m, self._top_m = math.nan, bounds.top_m
-        self._track, self._sides = Track(bounds, body.stance), sides
+        self._normals = (normal,) * len(track.stance.footing.points)
+        self._fall_m, self._top_m, self._lane = math.nan, bounds.top_m, bounds.lane
+        self._track, self._sides = track, sides
         self.hosts, self.refused = hosts, 0
 
     @classmethod
@@ -81,10 +83,12 @@ class Glide:
         normal: Triple | None,
         zone: Room,
         around: Iterable[tuple[Body, Room]],
+        track: Track,
         sides_of: Callable[[Sequence[str]], Sides],
     ) -> Glide:
         """The glide of a body that slides so, may move in a zone, and has such neighbours, each of which may move in
-        its own; `sides_of` are blocks by their ids. It goes nowhere unless boxes tell where."""
+        its own; `track` is the body's, and bound here, `sides_of` are blocks by their ids. It goes nowhere unless boxes
+        tell where."""
         support = tie.b if body.id == tie.a.id else tie.a
         middle_m = support.low[body.up_axis] + support.high[body.up_axis]
         opens, others, beside, hosts = [zone], [], [], []
@@ -107,7 +111,7 @@ class Glide:
                     opens.append(open_box(body, other, stands=False))
                     hosts.append(other.id)
         zone, tray = _common(opens), slide.tray
-        up, u, v = body.up_axis, support.position_m[0], support.position_m[body.stance.v_axis]
+        up, u, v = body.up_axis, support.position_m[0], support.position_m[body.v_axis]
         bounds = Bounds(
             _lane(body, zone, others),
             (zone[0][up], zone[1][up]),
@@ -117,7 +121,14 @@ class Glide:
             SURE_M,
             2 / 3 * fall_reach_m(body.size_m),
         )
-        return cls(body, tie, tray, normal, bounds, sides_of(beside) if beside else None, hosts)
+        track.bind(bounds)
+        return cls(body, tie, tray, normal, bounds, track, sides_of(beside) if beside else None, hosts)
+
+    def minds(self, room: Room) -> bool:
+        """Whether it may be another once a neighbour may be anywhere in a box."""
+        (u0, v0, u1, v1), flat, (low, high) = self._lane, self.body.v_axis, room
+        is_past = low[0] - u1 > TOUCH_M or u0 - high[0] > TOUCH_M or low[flat] - v1 > TOUCH_M or v0 - high[flat] > TOUCH_M
+        return not is_past or u0 > u1 or v0 > v1
 
     def resume(self, body: Body) -> None:
         """Go on from where another way has brought the body."""
@@ -130,7 +141,7 @@ class Glide:
             return False
         low, high, fall_m, places = slid
         body, sides = self.body, self._sides
-        near = () if sides is None else sides.near(low, high, body.stance.v_axis)
+        near = () if sides is None else sides.near(low, high, body.v_axis)
         if near is None:
             return False
         body.put(pose, low, high)
@@ -168,6 +179,10 @@ class Drift:
                 hosts.append(other.id)
         return cls(body, _free_box(body, _common(opens), others), hosts)
 
+    def minds(self, _: Room) -> bool:
+        """Whether it may be another once a neighbour may be anywhere in a box."""
+        return True
+
     def step(self, pose: Pose, _: dict[Pair, Junction | None]) -> bool:
         """Whether the body is still far from all after a step."""
         stance, (x, y, z) = self.body.stance, pose.position_m
@@ -203,7 +218,7 @@ def _all_in(body: Body, support: Body) -> Room:
 
 def _sideways_m(body: Body, room: Room) -> tuple[float, float, float, float]:
     """How far a box is beyond a body, level: towards greater u, less u, greater v, less v."""
-    flat, (low, high), near, far = body.stance.v_axis, room, body.low, body.high
+    flat, (low, high), near, far = body.v_axis, room, body.low, body.high
     return (low[0] - far[0], near[0] - high[0], low[flat] - far[flat], near[flat] - high[flat])
 
 
@@ -229,7 +244,7 @@ def _free_box(body: Body, zone: Room, others: Iterable[tuple[Room, float]]) -> R
 
 def _lane(body: Body, zone: Room, others: Iterable[Room]) -> Flat:
     """Where a body is in its zone and surely beside the boxes of others, as it is now."""
-    flat, (low, high) = body.stance.v_axis, zone
+    flat, (low, high) = body.v_axis, zone
     u0, v0, u1, v1 = low[0], low[flat], high[0], high[flat]
     # A little more than the margin, so that rounding does not matter.
     margin_m = 1.001 * TOUCH_M

@@ -154,6 +154,8 @@ class ContactGraph:
         n_turns = self._topology - topology
         if n_turns > len(self._turns):
             return None
+        if n_turns == 1:
+            return self._turns[-1]
         return [pair for turn in islice(reversed(self._turns), n_turns) for pair in turn]
 
     @property

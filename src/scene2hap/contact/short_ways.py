@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from scene2hap.contact.body import Body
 from scene2hap.contact.bond import Bond
 from scene2hap.contact.clearing import is_clear
-from scene2hap.contact.crowd import Crowd, Room
+from scene2hap.contact.crowd import Crowd
 from scene2hap.contact.glide import Drift, Glide
 from scene2hap.contact.glides import Glides
 from scene2hap.contact.holding import Holding
@@ -18,12 +18,11 @@ from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.sides import Sides, are_beside
 from scene2hap.contact.support import TOUCH_M, Support, hang_reach_m, is_under
 from scene2hap.contact.tie import Slide, Tie, apart_by, slide
+from scene2hap.contact.track import Track
+from scene2hap.contact.zones import Room
 
 _ONES = (1.0,) * 4
 _VAIN = 15  # A glide that was refused so often is drawn anew.
-# Of so many things that are not in a glide one more may have one drawn in a frame; what lands or is lifted counts as
-# that. So what can wait for the next frame is not added to what cannot.
-_EACH = 4
 
 
 class ShortWays:
@@ -35,11 +34,8 @@ class ShortWays:
     def __init__(self, holding: Holding, crowd: Crowd, glides: Glides) -> None:
         self._holding, self._crowd, self._glides = holding, crowd, glides
         self._bodies, self._ties, self._held, self._loose = holding.bodies, holding.ties, holding.held, holding.loose
-        self._n_to_draw = 0
-
-    def begin(self, n_placed: int) -> None:
-        """Begin a frame with so many things that are not in a glide."""
-        self._n_to_draw = 1 + n_placed // _EACH
+        # What is known of how a thing slides outlasts a glide.
+        self._tracks: dict[str, Track] = {}
 
     def take(self, body: Body, found: dict[Pair, Junction | None]) -> bool:
         """Take one for a body that has moved, if there is one; else nothing is done."""
@@ -60,9 +56,34 @@ class ShortWays:
             return False
         return self._slide(body, tie, bond, amid, found)
 
+    def forget(self, x: str) -> None:
+        """One is gone."""
+        self._tracks.pop(x, None)
+
     def drift(self, body: Body) -> None:
-        """Keep a drift for a body that touches nothing."""
-        self._glides.keep(Drift.of(body, self._crowd.room(body.id), self._around(body)))
+        """Let a body that touches nothing drift from now on."""
+        x = body.id
+
+        def draw() -> Drift:
+            body = self._bodies[x]
+            return Drift.of(body, self._crowd.room(x), self._around(body))
+
+        self._glides.begin(x, draw)
+
+    def _glide(self, body: Body, tie: Tie, slid: Slide, bond: Bond) -> None:
+        """Let a body that lies so on another glide from now on."""
+        x, track, stance = body.id, self._tracks.get(body.id), body.stance
+        if track is None or track.stance.shape is not stance.shape or track.stance.way_up != stance.way_up:
+            track = self._tracks[x] = Track(stance)
+
+        def draw() -> Glide | None:
+            body = self._bodies[x]
+            if self._amid(body) is None:
+                return None
+            room, around = self._crowd.room(x), self._around(body)
+            return Glide.of(body, tie, slid, bond.normal, room, around, track, self._sides_of)
+
+        self._glides.begin(x, draw)
 
     def _slide(self, body: Body, tie: Tie, bond: Bond, amid: Sequence[str], found: dict[Pair, Junction | None]) -> bool:
         """For what stays on its only support, with nothing else near enough to matter but blocks that it is beside."""
@@ -77,10 +98,8 @@ class ShortWays:
         glide = self._glides.of.get(x)
         if isinstance(glide, Glide) and glide.refused <= _VAIN and glide.tray == slid.tray:
             glide.resume(body)
-        elif self._n_to_draw > 0:
-            self._n_to_draw -= 1
-            room, around = self._crowd.room(x), self._around(body)
-            self._glides.keep(Glide.of(body, tie, slid, bond.normal, room, around, self._sides_of))
+        else:
+            self._glide(body, tie, slid, bond)
         return True
 
     def _land(self, body: Body, amid: Sequence[str], found: dict[Pair, Junction | None]) -> bool:
@@ -99,12 +118,12 @@ class ShortWays:
         tie = Tie(one, other, slid.rest if is_a else None, None if is_a else slid.rest)
         self._ties[x][support.id] = self._ties.setdefault(support.id, {})[x] = tie
         self._loose.discard(x)
-        self._glides.stop_around(x)
+        self._glides.stop(support.id)
         bond = self._holding.support(x, support.id, Support(1.0, slid.rest.fall_m), lies=True)
         self._held[x] = {support.id: bond}
         found[one.id, other.id] = _lies(slid, bond)
         self._follow(body, support.id, slid.rest.top_m, sides, found)
-        self._n_to_draw -= 1
+        self._glide(body, tie, slid, bond)
         return True
 
     def _float(self, body: Body, found: dict[Pair, Junction | None]) -> bool:
@@ -118,9 +137,8 @@ class ShortWays:
             found[pair_of(x, y)] = None
         if x not in self._loose:
             self._loose.add(x)
-            self._glides.stop_around(x)
+            self._glides.stop_amid(x)
         self.drift(body)
-        self._n_to_draw -= 1
         return True
 
     def _sides(self, body: Body, support: str, amid: Sequence[str], top_m: float) -> list[str] | None:
@@ -173,7 +191,7 @@ class ShortWays:
         """The neighbours that a body is not beside; None if one may hang from it."""
         bodies, loose, margin_m, size_m, amid = self._bodies, self._loose, TOUCH_M, body.size_m, []
         (x0, x1, x2), (x3, x4, x5) = body.low, body.high
-        flat = body.stance.v_axis
+        flat = body.v_axis
         if flat == 1:
             x2, x5 = x1, x4
         x0, x2, x3, x5 = x0 - margin_m, x2 - margin_m, x3 + margin_m, x5 + margin_m

@@ -57,7 +57,7 @@ class Sides:
 
 def are_beside(x: Body, y: Body) -> bool:
     """Whether two are blocks with their boxes beside each other."""
-    return _gap_m(x.low, x.high, y, x.stance.v_axis) >= 0 and x.stance.is_block and y.stance.is_block
+    return _gap_m(x.low, x.high, y, x.v_axis) >= 0 and x.stance.is_block and y.stance.is_block
 
 
 def _gap_m(low: Triple, high: Triple, other: Body, v_axis: int) -> float:

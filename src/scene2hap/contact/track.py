@@ -42,19 +42,24 @@ Slid = tuple[Triple, Triple, float, tuple[Triple, ...]]
 
 @compiled
 class Track:
-    """The bounds of a slide, and a body between them, turned as it was last."""
+    """A body that slides, turned as it was last, between bounds that it is to be given first."""
 
-    def __init__(self, bounds: Bounds, stance: Stance) -> None:
-        self._bounds, self._stance = bounds, stance
+    def __init__(self, stance: Stance) -> None:
+        self.stance = stance
+        self._bounds: Bounds
+
+    def bind(self, bounds: Bounds) -> None:
+        """Go on between these bounds."""
+        self._bounds = bounds
 
     def slid(self, position_m: Triple, rotation_xyzw: Rotation) -> Slid | None:
         """Where the body is there, None if that is not surely a slide."""
-        stance = self._stance
+        stance = self.stance
         if rotation_xyzw != stance.rotation_xyzw:
             turned = stance.turned(rotation_xyzw)
             if turned.way_up != stance.way_up:
                 return None
-            stance = self._stance = turned
+            stance = self.stance = turned
         (u0, v0, u1, v1), (lowest, highest), middle_m, edges, top_m, least_m, most_m = self._bounds
         up, flat = stance.up_axis, stance.v_axis
         x, y, z = position_m

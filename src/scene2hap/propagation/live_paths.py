@@ -16,14 +16,12 @@ from typing import TYPE_CHECKING
 from scene2hap.propagation.entries import Entries, Triple, is_within, least_cost
 from scene2hap.propagation.outward import Doors, cheapest_outward, entries_around
 from scene2hap.propagation.paths import Arrivals, cheapest_over
-from scene2hap.propagation.short_way import ShortWay, ways_between
+from scene2hap.propagation.short_way import WaysInto
 
 if TYPE_CHECKING:
     from scene2hap.contact.graph import ContactGraph
-    from scene2hap.contact.junction import Junction
 
 _MOST_WEIGHTS = 1024
-_NOTHING: dict[str, Junction] = {}
 _MOVING = 8  # As long as no more is asked between two changes of a contact, things move, and a search would not last.
 _SELDOM = 20  # From here on one search of the whole scene is cheaper than one outward from each touch.
 
@@ -65,7 +63,8 @@ class LivePaths:
         self._row = {source_id: row for row, source_id in enumerate(source_ids)}
         self._doors = Doors(graph, price_per_m, self._crossing, self._row)
         self._max_hops = max_hops
-        self._plans: dict[str, _Plan] = {}
+        # What leads into each object over at most two contacts, and in what topology of the graph.
+        self._ways: dict[str, tuple[int, WaysInto]] = {}
         self._entries: dict[str, tuple[int, list[tuple[int, Entries]]]] = {}
         self._arrivals: tuple[int, dict[str, Arrivals]] = (-1, {})
         self._asked_of, self._n_asked = -1, 0
@@ -110,7 +109,7 @@ class LivePaths:
     ) -> None:
         """Take in what is cheaper from another point."""
         if self._max_hops in (1, 2):
-            self._lower_shortly(found, object_id, point_m, limits)
+            self._ways_into(object_id).lower(found, point_m, limits)
         elif self._max_hops is None and self._is_outward_quicker(limits):
             outward = cheapest_outward(object_id, point_m, self._doors, self._row, limits, among)
             found[:] = [min(pair) for pair in zip(found, outward, strict=True)]
@@ -145,15 +144,6 @@ class LivePaths:
         self._n_around = row + 1
         return False
 
-    def _lower_shortly(
-        self, found: list[float], object_id: str, point_m: Triple, limits: Sequence[float] | None
-    ) -> None:
-        """Over ways of at most two contacts, as they are now; those that surely cost more than their limit left out."""
-        price = self._price_per_m[object_id]
-        for row, way in self._ways(object_id):
-            limit = math.inf if limits is None else limits[row]
-            found[row] = way.least_cost(price, point_m, limit, found[row])
-
     def _searched(self, object_id: str) -> list[tuple[int, Entries]]:
         """Ways over any number of contacts: for each source that comes, where it comes in."""
         version = self._graph.version
@@ -183,52 +173,19 @@ class LivePaths:
             self._arrivals = (version, found)
         return self._arrivals[1]
 
-    def _ways(self, object_id: str) -> Sequence[tuple[int, ShortWay]]:
-        """All ways of at most two contacts into an object, each with its source's row."""
-        plan = self._plans.get(object_id)
-        if plan is None:
-            plan = self._plans[object_id] = _Plan(len(self._source_ids))
-        elif plan.topology == self._graph.topology:
-            return plan.ways
-        if stale := self._stale_rows(object_id, plan.topology):
-            beside, is_through = self._beside, self._max_hops == 2
-            into = beside.get(object_id, _NOTHING)
-            for row in stale:
-                out, known = beside.get(self._source_ids[row], _NOTHING), plan.by_row[row]
-                plan.by_row[row] = ways_between(
-                    out, into, object_id, self._price_per_m, self._crossing, known, is_through=is_through
-                )
-            plan.ways = [(row, way) for row, ways in enumerate(plan.by_row) for way in ways]
-        plan.topology = self._graph.topology
-        return plan.ways
-
-    def _stale_rows(self, object_id: str, topology: int) -> set[int]:
-        """The rows of the sources, but of the object itself, that may have other ways into it than then: those that a
-        contact came to or went from, and those beside what came to the object or went from it."""
-        own, beside = self._row, self._beside
-        turned = self._graph.turned_since(topology)
-        if turned is None:
-            rows = set(own.values())
+    def _ways_into(self, object_id: str) -> WaysInto:
+        """All ways of at most two contacts into an object, as they are now."""
+        topology = self._graph.topology
+        then, ways = self._ways.get(object_id, (topology, None))
+        if ways is None:
+            beside, price_per_m, is_through = self._beside, self._price_per_m, self._max_hops == 2
+            ways = WaysInto(object_id, self._row, beside, price_per_m, self._crossing, is_through=is_through)
+        elif then == topology:
+            return ways
         else:
-            rows = {own[x] for pair in turned for x in pair if x in own}
-            for a, b in turned:
-                if object_id in (a, b):
-                    via = b if a == object_id else a
-                    rows.update([row for x, row in own.items() if via in beside.get(x, _NOTHING)])
-        rows.discard(own.get(object_id, -1))
-        return rows
-
-
-class _Plan:
-    """The ways of at most two contacts into an object, by the rows of their sources and in one list, and in what
-    topology they are so."""
-
-    __slots__ = ("by_row", "topology", "ways")
-
-    def __init__(self, n_sources: int) -> None:
-        self.topology = -1
-        self.by_row: list[list[ShortWay]] = [[] for _ in range(n_sources)]
-        self.ways: list[tuple[int, ShortWay]] = []
+            ways.follow(self._graph.turned_since(then))
+        self._ways[object_id] = (topology, ways)
+        return ways
 
 
 def _worth_entering(entries: Entries, price: float) -> Entries:

@@ -98,18 +98,12 @@ class Reach:
 
     def n_of(self, objects: Container[str]) -> int:
         """How many of these they are, where all but sources are among these."""
-        n, counted = 0, set[_Group]()
-        for source_id in self._column:
-            group = self._group.get(source_id)
-            if group is not None:
-                n -= source_id not in objects
-                if group not in counted:
-                    counted.add(group)
-                    n += len(group.members)
-        return n
+        group = self._group
+        n_others = sum([x in group for x in self._column if x not in objects])
+        return sum([len(one.members) for one in self._groups_with_sources()]) - n_others
 
     def _groups_with_sources(self) -> set[_Group]:
-        return {self._group[source_id] for source_id in self._column if source_id in self._group}
+        return {self._group[x] for x in self._column if x in self._group}
 
     def _join(self, a: str, b: str) -> None:
         if a not in self._carriers or b not in self._carriers:

@@ -34,8 +34,10 @@ def test_slides_to_the_last_bit(up_axis: int) -> None:
         stance = Stance(shape, first, up_axis)
         edges = [(1.0, 0.0, -0.8), (-0.6, 0.8, -0.9), (0.0, -1.0, -0.7)][: int(rng.integers(0, 4))]
         bounds = Bounds((-1.0, -1.0, 1.0, 1.0), (-0.6, 0.6), -0.5, edges, stance.low[up_axis] - 0.01, -0.03, 0.06)
-        tracks = [kind(bounds, stance) for kind in kinds]
-        for _ in range(8):
+        tracks = [kind(stance) for kind in kinds]
+        for k in range(8):
+            for track in tracks if k % 3 == 0 else ():
+                track.bind(bounds._replace(edges=edges[k // 3 :]))
             position = rng.uniform(-0.7, 0.7, 2).tolist()
             position.insert(up_axis, float(rng.choice([0.0, 0.01, 0.4])))
             rotation = first if rng.random() < 0.3 else turned(rng, up_axis)
@@ -74,6 +76,21 @@ def test_triangles_to_the_last_bit(seed: int, n: int) -> None:
         for fill, (low, high) in zip(both("contact.triangles.fill_heights"), heights, strict=True):
             fill(low, high, p, q)
         np.testing.assert_array_equal(heights[1], heights[0])
+
+
+@steady
+@given(seed=seeds, up_axis=st.sampled_from([1, 2]))
+def test_rooms_around_things_to_the_last_bit(seed: int, up_axis: int) -> None:
+    plain, twin = both("contact.zones.room_around")
+    rng = np.random.default_rng(seed)
+    low, before = rng.normal(scale=0.1, size=(2, 3))
+    boxes = [tuple(corner.tolist()) for corner in (low, low + rng.random(3), before, before + rng.random(3))]
+    told = plain(*boxes[:2], 0.06, tuple(boxes[2:]), up_axis)
+    assert twin(*boxes[:2], 0.06, tuple(boxes[2:]), up_axis) == told
+    (lowest, highest), flat = told, 3 - up_axis
+    assert lowest[up_axis] == boxes[0][up_axis] - 0.06
+    assert all(0.06 <= boxes[0][k] - lowest[k] + 1e-9 <= 0.12 + 2e-9 for k in (0, flat))
+    assert all(0.06 <= highest[k] - boxes[1][k] + 1e-9 <= 0.12 + 2e-9 for k in (0, flat))
 
 
 @steady

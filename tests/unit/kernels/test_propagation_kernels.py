@@ -40,50 +40,46 @@ def test_ways_through_an_object(seed: int, n: int) -> None:
 
 
 @steady
-@given(seed=seeds, is_through=st.booleans())
-def test_short_ways_over_contacts_that_move(seed: int, is_through: bool) -> None:
+@given(seed=seeds, is_through=st.booleans(), object_id=st.sampled_from(["a", "b", "floor"]))
+def test_ways_over_contacts_that_come_and_go_and_move(seed: int, is_through: bool, object_id: str) -> None:
     rng = np.random.default_rng(seed)
+    prices, rows = {"a": 1.0, "b": 2.0, "floor": 0.5}, {"a": 0, "c": 1, "b": 2}
+    ids = [*prices, "c", "d"]
     crossing = {0.5: 0.3, 1.0: 0.0, 0.0: math.inf}
+    beside: dict[str, dict[str, Junction]] = {}
 
     def junction() -> Junction:
         n = int(rng.integers(1, 5))
         return Junction(tuple(places(rng, n)), tuple(rng.choice([0.0, 0.5, 1.0], n).tolist()), (None,) * n)
 
-    out, into = {"via": junction()}, {"via": junction()}
-    ways = [
-        kind("via", out, into, 0.7 if is_through else None, crossing) for kind in both("propagation.short_way.ShortWay")
-    ]
+    def change() -> tuple[str, str]:
+        a, b = sorted(rng.choice(ids, 2, replace=False).tolist())
+        if rng.random() < 0.4 and b in beside.get(a, {}):
+            del beside[a][b], beside[b][a]
+        else:
+            beside.setdefault(a, {})[b] = beside.setdefault(b, {})[a] = junction()
+        return a, b
+
     for _ in range(6):
-        if rng.random() < 0.5:
-            (out if rng.random() < 0.5 else into)["via"] = junction()
-        (point,), price = places(rng, 1), float(rng.uniform(0, 3))
-        limit, known = rng.choice([0.5, 3.0, math.inf], 2).tolist()
-        told, compiled = (way.least_cost(price, point, limit, known) for way in ways)
+        change()
+    kinds = both("propagation.short_way.WaysInto")
+    plain, twin = (kind(object_id, rows, beside, prices, crossing, is_through=is_through) for kind in kinds)
+    for _ in range(8):
+        turned = [change() for _ in range(rng.integers(0, 3))]
+        for ways in (plain, twin):
+            ways.follow(turned if rng.random() < 0.9 else None)
+        (point,) = places(rng, 1)
+        limits = rng.choice([0.5, 3.0, math.inf], 3).tolist() if rng.random() < 0.7 else None
+        told, compiled = (rng.choice([0.7, 2.0, math.inf], 3).tolist() for _ in range(2))
+        compiled[:] = told
+        plain.lower(told, point, limits)
+        twin.lower(compiled, point, limits)
         assert compiled == pytest.approx(told, rel=1e-14)
-        assert [cost for _, cost in ways[1].entries] == pytest.approx([cost for _, cost in ways[0].entries], rel=1e-14)
-        assert [place for place, _ in ways[1].entries] == [place for place, _ in ways[0].entries]
-
-
-@steady
-@given(seed=seeds, is_through=st.booleans())
-def test_what_short_ways_there_are(seed: int, is_through: bool) -> None:
-    rng = np.random.default_rng(seed)
-    prices, one = {"a": 1.0, "b": 2.0, "x": 0.5}, Junction(((0.0, 0.0, 0.0),), (1.0,), (None,))
-    plain, twin = both("propagation.short_way.ways_between")
-    out, into = {"x": one, "c": one}, {"c": one}
-    known: list[list[Any]] = [[], []]
-    for _ in range(4):
-        for beside, others in ((out, ["a", "b", "c", "x"]), (into, ["a", "b", "c"])):
-            other = str(rng.choice(others))
-            _ = beside.pop(other) if other in beside else beside.setdefault(other, one)
-        before = [{way.via: way for way in ways} for ways in known]
-        known = [
-            find(out, into, "x", prices, {1.0: 0.0}, ways, is_through=is_through)
-            for find, ways in zip((plain, twin), known, strict=True)
-        ]
-        assert [way.via for way in known[0]] == [way.via for way in known[1]]
-        for ways, last in zip(known, before, strict=True):
-            assert all(way is last[way.via] for way in ways if way.via in last)
+        anew = kinds[0](object_id, rows, beside, prices, crossing, is_through=is_through)
+        if limits is None:
+            found = [math.inf] * 3
+            anew.lower(found, point, None)
+            assert all(x <= y * (1 + 1e-14) for x, y in zip(told, found, strict=True))
 
 
 @steady
