@@ -26,6 +26,11 @@ class _Group:
     def __init__(self, members: set[str], sources: frozenset[int]) -> None:
         self.members, self.sources = members, sources
 
+    @property
+    def n_reached(self) -> int:
+        """How many of them a source reaches."""
+        return len(self.members) if self.sources and len(self.members) > 1 else 0
+
 
 class _Search:
     """A walk from an end of a contact that went."""
@@ -47,6 +52,7 @@ class Reach:
         self._beside, self._carriers = beside, carriers
         self._column = {source_id: column for column, source_id in enumerate(source_ids)}
         self._group: dict[str, _Group] = {}
+        self._n_reached = 0
         for x, others in beside.items():
             for y in others:
                 self._join(x, y)
@@ -98,9 +104,7 @@ class Reach:
 
     def n_of(self, objects: Container[str]) -> int:
         """How many of these they are, where all but sources are among these."""
-        group = self._group
-        n_others = sum([x in group for x in self._column if x not in objects])
-        return sum([len(one.members) for one in self._groups_with_sources()]) - n_others
+        return self._n_reached - sum([x in self._group for x in self._column if x not in objects])
 
     def _groups_with_sources(self) -> set[_Group]:
         return {self._group[x] for x in self._column if x in self._group}
@@ -109,18 +113,26 @@ class Reach:
         if a not in self._carriers or b not in self._carriers:
             return
         one, two = self._group.get(a), self._group.get(b)
-        if one is not None and one is two:
-            return
-        ours, theirs = ({x} if group is None else group.members for x, group in ((a, one), (b, two)))
-        if len(ours) < len(theirs):
-            one, two, ours, theirs = two, one, theirs, ours
-        sources = self._sources_in(theirs) if two is None else two.sources
         if one is None:
-            one = _Group(ours, self._sources_in(ours))
-            self._group.update(dict.fromkeys(ours, one))
-        ours |= theirs
-        one.sources |= sources
-        self._group.update(dict.fromkeys(theirs, one))
+            a, b, one, two = b, a, two, one
+        if one is None:
+            one = self._group[a] = _Group({a}, self._sources_in((a,)))
+        if one is two:
+            return
+        self._n_reached -= one.n_reached
+        if two is None:
+            one.members.add(b)
+            if b in self._column:
+                one.sources |= {self._column[b]}
+            self._group[b] = one
+        else:
+            self._n_reached -= two.n_reached
+            if len(one.members) < len(two.members):
+                one, two = two, one
+            one.members |= two.members
+            one.sources |= two.sources
+            self._group.update(dict.fromkeys(two.members, one))
+        self._n_reached += one.n_reached
 
     def _part(self, group: _Group, starts: Iterable[str]) -> None:
         """Search from all starts in turn; searches that meet go on as one, and what one that ends has seen is a group.
@@ -128,6 +140,7 @@ class Reach:
         Each part of the former group has a start, so that the last search, which need not be led to its end, has the
         rest.
         """
+        self._n_reached -= group.n_reached
         owner = {start: _Search(start) for start in sorted(starts, key=self._degree)}
         searches = deque(owner.values())
         while len(searches) > 1:
@@ -149,18 +162,22 @@ class Reach:
             if not search.waiting and len(searches) > 1:
                 searches.remove(search)
                 group.members -= search.seen
-                sources = self._sources_in(search.seen)
-                group.sources -= sources
-                self._group.update(dict.fromkeys(search.seen, _Group(search.seen, sources)))
-                self._forget_if_alone(search.seen)
+                part = _Group(search.seen, self._sources_in(search.seen))
+                group.sources -= part.sources
+                self._group.update(dict.fromkeys(part.members, part))
+                self._n_reached += part.n_reached
+                self._forget_if_alone(part.members)
+        self._n_reached += group.n_reached
         self._forget_if_alone(group.members)
 
     def _leave(self, group: _Group, x: str) -> None:
         """What touches nothing any more is in no group."""
         del self._group[x]
+        self._n_reached -= group.n_reached
         group.members.discard(x)
         if x in self._column:
             group.sources -= {self._column[x]}
+        self._n_reached += group.n_reached
         self._forget_if_alone(group.members)
 
     def _sources_in(self, members: Collection[str]) -> frozenset[int]:
