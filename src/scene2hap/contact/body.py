@@ -140,7 +140,19 @@ class Body:
     world's axes 0 and `v_axis` are level.
     """
 
-    __slots__ = ("__dict__", "_stance", "high", "id", "low", "pose", "position_m", "shape", "size_m", "up_axis", "v_axis")
+    __slots__ = (
+        "__dict__",
+        "_stance",
+        "high",
+        "id",
+        "low",
+        "pose",
+        "position_m",
+        "shape",
+        "size_m",
+        "up_axis",
+        "v_axis",
+    )
 
     def __init__(self, object_id: str, shape: Shape, pose: Pose, up_axis: int) -> None:
         self.id = object_id

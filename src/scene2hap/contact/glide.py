@@ -127,8 +127,8 @@ class Glide:
     def minds(self, room: Room) -> bool:
         """Whether it may be another once a neighbour may be anywhere in a box."""
         (u0, v0, u1, v1), flat, (low, high) = self._lane, self.body.v_axis, room
-        is_past = low[0] - u1 > TOUCH_M or u0 - high[0] > TOUCH_M or low[flat] - v1 > TOUCH_M or v0 - high[flat] > TOUCH_M
-        return not is_past or u0 > u1 or v0 > v1
+        gaps_m = (low[0] - u1, u0 - high[0], low[flat] - v1, v0 - high[flat])
+        return max(gaps_m) <= TOUCH_M or u0 > u1 or v0 > v1
 
     def resume(self, body: Body) -> None:
         """Go on from where another way has brought the body."""
