@@ -1,4 +1,4 @@
-"""The compiled twins of the kernels in `zones`."""
+"""The compiled twin of the kernel in `zones`."""
 
 import numpy as np
 
@@ -7,20 +7,57 @@ from libc.math cimport INFINITY, fmax, fmin
 
 cdef class Zones:
     cdef readonly object low, high
-    cdef double[:, ::1] lows, highs
+    cdef double[:, ::1] lows, highs, rooms
+    cdef int up_axis
+    cdef double skin_m
 
-    def __init__(self):
+    def __init__(self, int up_axis, double skin_m):
+        self.up_axis, self.skin_m = up_axis, skin_m
+        # A room's lowest and then its highest corner; infinite where there is none.
+        self.rooms = np.full((64, 6), INFINITY)
         self.keep(np.full((3, 64), INFINITY), np.full((3, 64), -INFINITY))
 
     cdef keep(self, low, high):
         self.low, self.high = low, high
         self.lows, self.highs = low, high
 
-    def put(self, Py_ssize_t row, low, high):
-        if row == self.lows.shape[1]:
+    def draw(self, Py_ssize_t row, tuple low, tuple high, double side_m, double down_m):
+        cdef double a, b, c, d, near = self.skin_m, far = 2 * self.skin_m
+        cdef int k
+        cdef bint has_room
+        if row == self.rooms.shape[0]:
+            self.rooms = np.concatenate([self.rooms, np.full((row, 6), INFINITY)])
             self.keep(doubled(self.low, INFINITY), doubled(self.high, -INFINITY))
-        self.lows[0, row], self.lows[1, row], self.lows[2, row] = low
-        self.highs[0, row], self.highs[1, row], self.highs[2, row] = high
+        has_room = self.rooms[row, 0] < INFINITY
+        for k in range(3):
+            a, b = low[k], high[k]
+            c, d = a, b
+            if has_room:
+                c, d = a - near, b + near
+                if k != self.up_axis:
+                    c = fmax(fmin(c, self.rooms[row, k]), a - far)
+                    d = fmin(fmax(d, self.rooms[row, 3 + k]), b + far)
+            self.rooms[row, k], self.rooms[row, 3 + k] = c, d
+            self.lows[k, row], self.highs[k, row] = c - side_m, d + side_m
+        self.lows[self.up_axis, row] -= down_m
+
+    def clear(self, Py_ssize_t row):
+        self.rooms[row, :] = INFINITY
+        self.lows[:, row], self.highs[:, row] = INFINITY, -INFINITY
+
+    def room(self, Py_ssize_t row):
+        cdef double* at = &self.rooms[row, 0]
+        return (at[0], at[1], at[2]), (at[3], at[4], at[5])
+
+    def holds(self, Py_ssize_t row, tuple low, tuple high):
+        cdef double* at = &self.rooms[row, 0]
+        cdef double a, b
+        cdef int k
+        for k in range(3):
+            a, b = low[k], high[k]
+            if not (a >= at[k] and b <= at[3 + k]):
+                return False
+        return True
 
     def meeting(self, Py_ssize_t row):
         cdef Py_ssize_t k, n = self.lows.shape[1]
@@ -38,18 +75,3 @@ cdef class Zones:
 
 cdef doubled(boxes, double value):
     return np.concatenate([boxes, np.full_like(boxes, value)], axis=1)
-
-
-def room_around(tuple low, tuple high, double skin_m, tuple before, int up_axis):
-    cdef double lows[3]
-    cdef double highs[3]
-    cdef double a, b, near = skin_m, far = 2 * skin_m
-    cdef tuple least = before[0], most = before[1]
-    cdef int k
-    for k in range(3):
-        a, b = low[k], high[k]
-        lows[k], highs[k] = a - near, b + near
-        if k != up_axis:
-            lows[k] = fmax(fmin(lows[k], least[k]), a - far)
-            highs[k] = fmin(fmax(highs[k], most[k]), b + far)
-    return (lows[0], lows[1], lows[2]), (highs[0], highs[1], highs[2])

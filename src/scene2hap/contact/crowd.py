@@ -16,7 +16,7 @@ import numpy as np
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes, box_pairs
-from scene2hap.contact.zones import NOWHERE, Room, Zones, room_around
+from scene2hap.contact.zones import Room, Zones
 
 SKIN_M = 0.06
 """How far a thing may move before its neighbours are looked for anew (assumed: a hand's way in four or five frames)."""
@@ -32,26 +32,22 @@ class Crowd:
     """
 
     def __init__(self, up_axis: int, margins_m: Callable[[Body], tuple[float, float]]) -> None:
-        self._up_axis = up_axis
         self._margins_m = margins_m
-        self._zones = Zones()
+        self._zones = Zones(up_axis, SKIN_M)
         self._ids: list[str] = []
         self._rows: dict[str, int] = {}
         self._free: list[int] = []
-        self._rooms: dict[str, Room] = {}
         self.near: dict[str, set[str]] = {}
 
     def room(self, object_id: str) -> Room:
         """Where a body may move without another list."""
-        return self._rooms[object_id]
+        return self._zones.room(self._rows[object_id])
 
     def take_out(self, object_id: str) -> set[str]:
         """Forget a body; who were its neighbours."""
         row = self._rows.pop(object_id)
-        low, high = NOWHERE
-        self._zones.put(row, (low,) * 3, (high,) * 3)
+        self._zones.clear(row)
         self._free.append(row)
-        del self._rooms[object_id]
         neighbours = self.near.pop(object_id)
         for other in neighbours:
             self.near[other].discard(object_id)
@@ -61,14 +57,14 @@ class Crowd:
         """Place bodies, new ones or ones that moved; by id of those that left their zone, who has ceased to be a
         neighbour; two that left each other at once are told once."""
         left: dict[str, set[str]] = {}
-        drawn, rooms = [], self._rooms
+        drawn, rows, zones = [], self._rows, self._zones
         for body in bodies:
-            room = rooms.get(body.id)
-            if room is not None:
-                (a, b, c), (d, e, f), (x, y, z), (u, v, w) = room[0], room[1], body.low, body.high
-                if x >= a and y >= b and z >= c and u <= d and v <= e and w <= f:
-                    continue
-            self._draw(body, room)
+            row = rows.get(body.id)
+            if row is None:
+                row = self._row(body.id)
+            elif zones.holds(row, body.low, body.high):
+                continue
+            zones.draw(row, body.low, body.high, *self._margins_m(body))
             drawn.append(body.id)
         if not drawn:
             return left
@@ -83,22 +79,12 @@ class Crowd:
             left[object_id] = before - now
         return left
 
-    def _draw(self, body: Body, before: Room | None) -> None:
-        row = self._rows.get(body.id)
-        if row is None:
-            row = self._rows[body.id] = self._free.pop() if self._free else len(self._ids)
-            if row == len(self._ids):
-                self._ids.append(body.id)
-            self._ids[row] = body.id
-        room = (body.low, body.high)
-        if before is not None:
-            room = room_around(body.low, body.high, SKIN_M, before, self._up_axis)
-        self._rooms[body.id] = room
-        side, down = self._margins_m(body)
-        (a, b, c), (d, e, f) = room
-        a, b, c = a - side, b - side, c - side
-        low = (a, b - down, c) if self._up_axis == 1 else (a, b, c - down)
-        self._zones.put(row, low, (d + side, e + side, f + side))
+    def _row(self, object_id: str) -> int:
+        """A row for a new body."""
+        ids = self._ids
+        row = self._rows[object_id] = self._free.pop() if self._free else len(ids)
+        ids[row : row + 1] = [object_id]
+        return row
 
     def _neighbours(self, ids: Sequence[str]) -> dict[str, set[str]]:
         if len(ids) < _MANY:

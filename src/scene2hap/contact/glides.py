@@ -51,9 +51,10 @@ class Glides:
     def stop(self, *names: str) -> None:
         """How these go on is not sure any more."""
         for x in names:
-            self.of.pop(x, None)
-            self._draws.pop(x, None)
-            self._due.discard(x)
+            if x in self._draws:
+                del self._draws[x]
+                self.of.pop(x, None)
+                self._due.discard(x)
 
     def stop_in(self, hosts: Set[str]) -> None:
         """Nor for what goes on in the clearings of these."""

@@ -39,7 +39,7 @@ def rest_on(x: Body, y: Body) -> Rest | None:
     sole, tray = x.stance.footing, y.stance.tray
     if tray is None:
         return None
-    a, v_axis = x.up_axis, x.stance.v_axis
+    a, v_axis = x.up_axis, x.v_axis
     px, py = x.position_m, y.position_m
     top_m = py[a] + tray.height
     fall_m = px[a] + sole.height - top_m
@@ -78,7 +78,7 @@ def _beside(x: Body, y: Body) -> Rest | None:
 def rest_points(x: Body, y: Body, rest: Rest) -> tuple[Triple, ...]:
     """Points of the world half way between x's sole and y's top where they are over each other."""
     sole = x.stance.footing
-    a, v_axis = x.up_axis, x.stance.v_axis
+    a, v_axis = x.up_axis, x.v_axis
     px, py = x.position_m, y.position_m
     height = (px[a] + sole.height + rest.top_m) / 2
     u, v = px[0], px[v_axis]
@@ -129,7 +129,7 @@ _FAR = Aside(math.inf, (0.0, 0.0, 0.0), ())
 
 def aside(x: Body, y: Body, within_m: float, slack_m: float) -> Aside | None:
     """How two blocks are apart, a distance of inf if by more than `within_m`; None where one is over the other."""
-    a, v_axis = x.up_axis, x.stance.v_axis
+    a, v_axis = x.up_axis, x.v_axis
     below, above = max(x.low[a], y.low[a]), min(x.high[a], y.high[a])
     upright = max(below - above, 0.0)
     if upright > within_m:

@@ -213,7 +213,7 @@ def apart_by(x: Body, y: Body, margin_m: float) -> bool:
 def _rest(x: Body, y: Body) -> Rest | None:
     """How x may lie on y."""
     reach_m = fall_reach_m(x.size_m)
-    up, v_axis = x.up_axis, x.stance.v_axis
+    up, v_axis = x.up_axis, x.v_axis
     if (
         x.low[up] - y.high[up] > reach_m
         or x.low[0] >= y.high[0]
@@ -261,7 +261,7 @@ def slide(x: Body, y: Body) -> Slide | None:
     """
     up = x.up_axis
     points, sole_height, (mu, mv), radius, _ = x.stance.footing
-    px, py, v_axis = x.position_m, y.position_m, x.stance.v_axis
+    px, py, v_axis = x.position_m, y.position_m, x.v_axis
     u, v, h, over = px[0], px[v_axis], px[up], py[up]
     tray, is_ledge = y.stance.tray, False
     if tray is None or h + sole_height - (over + tray.height) < -TOUCH_M:

@@ -1,4 +1,4 @@
-"""Boxes in rows, of which one after the other is moved and asked which it meets; and how wide they are drawn."""
+"""Boxes in rows, drawn around what moves, of which one after the other is asked which it meets."""
 
 from __future__ import annotations
 
@@ -10,41 +10,65 @@ from scene2hap.contact.vectors import Triple
 Room = tuple[Triple, Triple]
 """Lowest and highest corners [m] of a box around a body, which it has not left."""
 
-NOWHERE = (np.inf, -np.inf)
-"""Corners of a box that meets none."""
-
 
 @compiled
 class Zones:
-    """Axis-parallel boxes by their lowest and highest corners, `low` and `high`, both (3, n) [m]."""
+    """For each row a room, and around that a zone: `low` and `high`, both (3, n) [m].
 
-    def __init__(self) -> None:
-        self.low, self.high = (np.full((3, 64), value) for value in NOWHERE)
+    Parameters: skin_m : how much too wide the room of what has moved is drawn.
+    """
 
-    def put(self, row: int, low: Triple, high: Triple) -> None:
-        """Move the box of a row; a new row follows the last."""
-        if row == self.low.shape[1]:
-            self.low, self.high = (
-                np.concatenate([array, np.full_like(array, value)], axis=1)
-                for array, value in zip((self.low, self.high), NOWHERE, strict=True)
-            )
-        self.low[:, row], self.high[:, row] = low, high
+    def __init__(self, up_axis: int, skin_m: float) -> None:
+        self._up_axis, self._skin_m = up_axis, skin_m
+        self._rooms: list[Room | None] = [None] * 64
+        self.low, self.high = np.full((3, 64), np.inf), np.full((3, 64), -np.inf)
+
+    def draw(self, row: int, low: Triple, high: Triple, side_m: float, down_m: float) -> None:
+        """Draw the room of a row around a box, which fits it at first, and is too wide from then on, level as much
+        wider still where the former room was; the zone reaches so far beyond it, and so much farther down. A new row
+        follows the last."""
+        if row == len(self._rooms):
+            self._rooms += [None] * row
+            self.low = np.concatenate([self.low, np.full((3, row), np.inf)], axis=1)
+            self.high = np.concatenate([self.high, np.full((3, row), -np.inf)], axis=1)
+        before = self._rooms[row]
+        if before is not None:
+            low, high = self._wider(low, high, before)
+        self._rooms[row] = (low, high)
+        self.low[:, row] = [x - side_m for x in low]
+        self.high[:, row] = [x + side_m for x in high]
+        self.low[self._up_axis, row] -= down_m
+
+    def _wider(self, low: Triple, high: Triple, before: Room) -> Room:
+        near, far = self._skin_m, 2 * self._skin_m
+        lows, highs = [x - near for x in low], [x + near for x in high]
+        for k in (0, 3 - self._up_axis):
+            lows[k] = max(min(lows[k], before[0][k]), low[k] - far)
+            highs[k] = min(max(highs[k], before[1][k]), high[k] + far)
+        return (lows[0], lows[1], lows[2]), (highs[0], highs[1], highs[2])
+
+    def clear(self, row: int) -> None:
+        """Have nothing in a row."""
+        self._rooms[row] = None
+        self.low[:, row], self.high[:, row] = np.inf, -np.inf
+
+    def room(self, row: int) -> Room:
+        """The room of a row that has one."""
+        room = self._rooms[row]
+        assert room is not None
+        return room
+
+    def holds(self, row: int, low: Triple, high: Triple) -> bool:
+        """Whether a box is within the room of a row."""
+        lowest, highest = self.room(row)
+        return all(a >= b for a, b in zip(low, lowest, strict=True)) and all(
+            a <= b for a, b in zip(high, highest, strict=True)
+        )
 
     def meeting(self, row: int) -> list[int]:
-        """The other rows whose boxes meet that of a row, touching included."""
+        """The other rows whose zones meet that of a row, touching included."""
         x, y, z = (self.low <= self.high[:, row, None]) & (self.high >= self.low[:, row, None])
         found: list[int] = np.flatnonzero(x & y & z).tolist()
         if row in found:
             found.remove(row)
         return found
-
-
-@compiled
-def room_around(low: Triple, high: Triple, skin_m: float, before: Room, up_axis: int) -> Room:
-    """A box drawn that much too wide, and level as much wider still where the one before was."""
-    near, far = skin_m, 2 * skin_m
-    lows, highs = [x - near for x in low], [x + near for x in high]
-    for k in (0, 3 - up_axis):
-        lows[k] = max(min(lows[k], before[0][k]), low[k] - far)
-        highs[k] = min(max(highs[k], before[1][k]), high[k] + far)
-    return (lows[0], lows[1], lows[2]), (highs[0], highs[1], highs[2])

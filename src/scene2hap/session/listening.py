@@ -132,6 +132,7 @@ class Listening:
     def _look_around(self) -> None:
         """Find out anew what hangs together."""
         self._bodies, self._reach = self._stage.bodies, self._stage.reach(self._sources.ids)
+        self._bodiless = [x for x in self._sources.ids if x not in self._bodies]
         self._hearing = self._n_unreachable = None
         self._are_levels_known = False
 
@@ -146,7 +147,7 @@ class Listening:
     def _count_unreachable(self) -> None:
         if self._config.skip.unreachable:
             if self._n_unreachable is None:
-                self._n_unreachable = len(self._bodies) - self._reach.n_of(self._bodies)
+                self._n_unreachable = len(self._bodies) - self._reach.n_without(self._bodiless)
             self._counts.unreachable_objects += self._n_unreachable
 
     def _known_excitations(self) -> Sequence[Excitation]:

@@ -102,9 +102,9 @@ class Reach:
         near = {self._group[x] for x in object_ids if x in self._group}
         return set().union(*(group.members for group in near if group.sources))
 
-    def n_of(self, objects: Container[str]) -> int:
-        """How many of these they are, where all but sources are among these."""
-        return self._n_reached - sum([x in self._group for x in self._column if x not in objects])
+    def n_without(self, others: Iterable[str]) -> int:
+        """How many objects a source reaches over contacts, some sources left out."""
+        return self._n_reached - sum([x in self._group for x in others])
 
     def _groups_with_sources(self) -> set[_Group]:
         return {self._group[x] for x in self._column if x in self._group}

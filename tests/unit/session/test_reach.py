@@ -33,7 +33,8 @@ def check(reach: Reach, pairs: set[tuple[str, str]]) -> None:
             reached |= together
         assert reach.objects_near([name]) == (together if reach.has(name) else set())
     assert reach.objects == reached == reach_over(pairs, CARRIERS, SOURCES).objects
-    assert reach.n_of(set(NAMES)) == len(reached & set(NAMES))
+    assert reach.n_without([]) == len(reached)
+    assert reach.n_without(["elsewhere"]) == len(reached & set(NAMES))
 
 
 @pytest.mark.parametrize("n_pairs", [8, 25, 60])
