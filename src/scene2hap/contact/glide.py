@@ -17,9 +17,10 @@ from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.ledge import Flat
 from scene2hap.contact.level import Rest
 from scene2hap.contact.sides import Sides, are_beside
+from scene2hap.contact.slide import SURE_M, Slide
 from scene2hap.contact.stance import Tray
 from scene2hap.contact.support import TOUCH_M, fall_reach_m, is_under, margins_m
-from scene2hap.contact.tie import SURE_M, Slide, Tie
+from scene2hap.contact.tie import Tie
 from scene2hap.contact.track import Bounds, Track
 from scene2hap.contact.vectors import Triple
 from scene2hap.contact.zones import Room

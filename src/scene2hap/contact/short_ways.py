@@ -16,8 +16,9 @@ from scene2hap.contact.glides import Glides
 from scene2hap.contact.holding import Holding
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.sides import Sides, are_beside
+from scene2hap.contact.slide import Slide, slide
 from scene2hap.contact.support import TOUCH_M, Support, hang_reach_m, is_under
-from scene2hap.contact.tie import Slide, Tie, apart_by, slide
+from scene2hap.contact.tie import Tie, apart_by
 from scene2hap.contact.track import Track
 from scene2hap.contact.zones import Room
 

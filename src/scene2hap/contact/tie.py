@@ -7,13 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.clearing import below, is_clear
-from scene2hap.contact.clearing import tray as clearing_tray
 from scene2hap.contact.cuboid_meeting import gaps_of, points_of
 from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.fall import falls, first_fall_m
@@ -21,12 +20,8 @@ from scene2hap.contact.falls_together import are_few, falls_of
 from scene2hap.contact.level import Aside, Rest, aside, rest_on
 from scene2hap.contact.narrow import Gap, Meeting
 from scene2hap.contact.relative import roles
-from scene2hap.contact.stance import Tray
 from scene2hap.contact.support import HANG_REACH_M, SLACK_M, TOUCH_M, fall_reach_m, is_over
 from scene2hap.contact.vectors import Floats, Triple
-
-# Above this a fall is surely none of a thing that stands in another: tops and soles may be 0.2 mm uneven each.
-SURE_M = -TOUCH_M + 0.001
 
 WITHIN_M = max(TOUCH_M, HANG_REACH_M)
 """Nobody asks for longer distances."""
@@ -243,54 +238,3 @@ def _rest_amid(x: Body, y: Body, reach_m: float) -> Rest | None:
     if guest is not x or fall_m < -TOUCH_M:
         return UNCLEAR
     return Rest(fall_m, True, top_m) if fall_m <= reach_m else None
-
-
-class Slide(NamedTuple):
-    """How and where x lies wholly on y, and on what of it."""
-
-    rest: Rest
-    points: tuple[Triple, ...]
-    tray: Tray
-    is_ledge: bool
-
-
-def slide(x: Body, y: Body) -> Slide | None:
-    """How x lies on y if it does so wholly, without doubt and with full weight; else None: `Tie` must tell.
-
-    The same as `Tie.rest` and `rest_points`, in one go.
-    """
-    up = x.up_axis
-    points, sole_height, (mu, mv), radius, _ = x.stance.footing
-    px, py, v_axis = x.position_m, y.position_m, x.v_axis
-    u, v, h, over = px[0], px[v_axis], px[up], py[up]
-    tray, is_ledge = y.stance.tray, False
-    if tray is None or h + sole_height - (over + tray.height) < -TOUCH_M:
-        tray, is_ledge = _ledge(x, y), True
-        if tray is None:
-            return None
-    top_m = over + tray.height
-    fall_m = h + sole_height - top_m
-    if not SURE_M < fall_m < 2 / 3 * fall_reach_m(x.size_m) or not is_over(x, y):
-        return None
-    if not is_ledge:
-        cu, cv = mu + (u - py[0]), mv + (v - py[v_axis])
-        for nu, nv, offset in tray.edges:
-            if nu * cu + nv * cv - offset < radius:
-                rest = rest_on(x, y)
-                if rest is None or not rest.wholly:
-                    return None
-                break
-    # The same arithmetic as in `rest_points`, so that the last bits are those of building from nothing.
-    height = (h + sole_height + top_m) / 2
-    if up == 1:
-        places = tuple([(u + pu, height, v + pv) for pu, pv in points])
-    else:
-        places = tuple([(u + pu, v + pv, height) for pu, pv in points])
-    return Slide(Rest(fall_m, True, top_m), places, tray, is_ledge)
-
-
-def _ledge(x: Body, y: Body) -> Tray | None:
-    """The ledge of y that is wholly under x."""
-    guest, host = roles(x, y)
-    known = below(guest, host) if guest is x else None
-    return None if known is None or known.top_m is None else clearing_tray(host, known)

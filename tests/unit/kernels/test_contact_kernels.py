@@ -80,6 +80,19 @@ def test_triangles_to_the_last_bit(seed: int, n: int) -> None:
 
 @steady
 @given(seed=seeds, up_axis=st.sampled_from([1, 2]))
+def test_soles_on_tops_to_the_last_bit(seed: int, up_axis: int) -> None:
+    plain, twin = both("contact.slide.lying")
+    rng = np.random.default_rng(seed)
+    sole, top = (Stance(shape_of(Box(tuple(rng.uniform(0.1, 2, 3))).mesh), turned(rng, up_axis), up_axis) for _ in "xy")
+    places = [tuple(rng.normal(scale=0.3, size=3).tolist()) for _ in "xy"]
+    if top.tray is not None:
+        told = plain(places[0], sole.footing, places[1], top.tray, up_axis)
+        assert twin(places[0], sole.footing, places[1], top.tray, up_axis) == told
+        assert len(told[3]) == len(sole.footing.points)
+
+
+@steady
+@given(seed=seeds, up_axis=st.sampled_from([1, 2]))
 def test_zones_around_what_wanders_to_the_last_bit(seed: int, up_axis: int) -> None:
     rng = np.random.default_rng(seed)
     zones = [kind(up_axis, 0.25) for kind in both("contact.zones.Zones")]
