@@ -10,9 +10,16 @@ cdef class Zones:
     cdef double[:, ::1] lows, highs, rooms
     cdef int up_axis
     cdef double skin_m
+    # How far it may reach beyond what it is drawn around, along each axis.
+    cdef double far_m[3]
 
-    def __init__(self, int up_axis, double skin_m):
+    def __init__(self, int up_axis, double skin_m, memory_m):
+        cdef double level_m, upright_m
+        cdef int k
+        level_m, upright_m = memory_m
         self.up_axis, self.skin_m = up_axis, skin_m
+        for k in range(3):
+            self.far_m[k] = skin_m + (upright_m if k == up_axis else level_m)
         # A room's lowest and then its highest corner; infinite where there is none.
         self.rooms = np.full((64, 6), INFINITY)
         self.keep(np.full((3, 64), INFINITY), np.full((3, 64), -INFINITY))
@@ -22,7 +29,7 @@ cdef class Zones:
         self.lows, self.highs = low, high
 
     def draw(self, Py_ssize_t row, tuple low, tuple high, double side_m, double down_m):
-        cdef double a, b, c, d, near = self.skin_m, far = 2 * self.skin_m
+        cdef double a, b, c, d, near = self.skin_m
         cdef int k
         cdef bint has_room
         if row == self.rooms.shape[0]:
@@ -33,10 +40,8 @@ cdef class Zones:
             a, b = low[k], high[k]
             c, d = a, b
             if has_room:
-                c, d = a - near, b + near
-                if k != self.up_axis:
-                    c = fmax(fmin(c, self.rooms[row, k]), a - far)
-                    d = fmin(fmax(d, self.rooms[row, 3 + k]), b + far)
+                c = fmax(fmin(a - near, self.rooms[row, k]), a - self.far_m[k])
+                d = fmin(fmax(b + near, self.rooms[row, 3 + k]), b + self.far_m[k])
             self.rooms[row, k], self.rooms[row, 3 + k] = c, d
             self.lows[k, row], self.highs[k, row] = c - side_m, d + side_m
         self.lows[self.up_axis, row] -= down_m

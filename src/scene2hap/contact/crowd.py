@@ -1,9 +1,9 @@
 """Who may matter to whom: a list of neighbours for every body, wide enough to last while things move a little.
 
 Every body has a zone, all that it may touch, fall onto or hang from; two whose zones meet are neighbours. The zone of
-what moves is drawn `SKIN_M` too wide, and drawn anew only when it has left it (Verlet's lists); then as much again of
-where it came from is kept, so that what goes to and fro does not leave it over and over. Who stands on such a list too
-much does no harm: the list saves looking and decides nothing.
+what moves is drawn `SKIN_M` too wide, and drawn anew only when it has left it (Verlet's lists); then some of where it
+came from is kept, so that what goes to and fro, or is lifted and put down again, does not leave it over and over. Who
+stands on such a list too much does no harm: the list saves looking and decides nothing.
 
 Source: L. Verlet, Computer experiments on classical fluids I, Phys. Rev. 159 (1967) 98.
 """
@@ -21,6 +21,9 @@ from scene2hap.contact.zones import Room, Zones
 SKIN_M = 0.06
 """How far a thing may move before its neighbours are looked for anew (assumed: a hand's way in four or five frames)."""
 
+# As far beyond that where it was before: as much again level, and as far as one lifts a thing to look at it (assumed).
+_MEMORY_M = (SKIN_M, 0.3)
+
 # From so many bodies at once on, sorting all is cheaper than asking for each.
 _MANY = 16
 
@@ -33,7 +36,7 @@ class Crowd:
 
     def __init__(self, up_axis: int, margins_m: Callable[[Body], tuple[float, float]]) -> None:
         self._margins_m = margins_m
-        self._zones = Zones(up_axis, SKIN_M)
+        self._zones = Zones(up_axis, SKIN_M, _MEMORY_M)
         self._ids: list[str] = []
         self._rows: dict[str, int] = {}
         self._free: list[int] = []

@@ -1,11 +1,11 @@
-"""The short ways of what is not in a glide: it slides on its only support, lands on one, or floats beside all others.
+"""The short ways of what is not in a glide: it slides on its only support, lands on one, or floats far from all others.
 
 Each ends where the long way does, to the last bit, at a fraction of the time, and is taken where that is sure.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.bond import Bond
@@ -17,7 +17,7 @@ from scene2hap.contact.holding import Holding
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.sides import Sides, are_beside
 from scene2hap.contact.slide import Slide, slide
-from scene2hap.contact.support import TOUCH_M, Support, hang_reach_m, is_under
+from scene2hap.contact.support import TOUCH_M, Support, hang_reach_m, is_under, margins_m
 from scene2hap.contact.tie import Tie, apart_by
 from scene2hap.contact.track import Track
 from scene2hap.contact.zones import Room
@@ -48,14 +48,14 @@ class ShortWays:
         if amid is None:
             return False
         if not ties:
-            return self._land(body, amid, found) if amid else self._float(body, found)
+            return self._land(body, amid, found) or self._float(body, amid, found)
         if held is None or len(held) > 1 or x in self._loose:
             return False
         ((support, bond),) = held.items()
         tie = ties.get(support)
         if tie is None or tie.falling(x)[1] is not self._bodies[support] or not bond.lies or bond.weight != 1.0:
             return False
-        return self._slide(body, tie, bond, amid, found)
+        return self._slide(body, tie, bond, amid, found) or self._float(body, amid, found)
 
     def forget(self, x: str) -> None:
         """One is gone."""
@@ -127,13 +127,24 @@ class ShortWays:
         self._glide(body, tie, slid, bond)
         return True
 
-    def _float(self, body: Body, found: dict[Pair, Junction | None]) -> bool:
-        """For what touched nothing, is beside all that is near, and hangs from none of it."""
-        x, reach_m = body.id, hang_reach_m(body.size_m)
+    def _float(self, body: Body, amid: Collection[str], found: dict[Pair, Junction | None]) -> bool:
+        """For what touches nothing, since it is far over or under all that it is not beside, hangs from nothing, and
+        bore nothing."""
+        x, ties, reach_m, fall_m = body.id, self._ties[body.id], hang_reach_m(body.size_m), sum(margins_m(body))
+        if any(tie.rest(z) is not None for z, tie in ties.items()):
+            return False
         for z in self._crowd.near[x]:
             other = self._bodies[z]
-            if other.size_m > body.size_m and not apart_by(body, other, reach_m):
+            if z in ties or z in amid:
+                if not apart_by(body, other, max(fall_m, sum(margins_m(other)))):
+                    return False
+            elif other.size_m > body.size_m and not apart_by(body, other, reach_m):
                 return False
+        for z in ties:
+            del self._ties[z][x]
+            self._glides.stop(z)
+            found[pair_of(x, z)] = None
+        ties.clear()
         for y in self._held.pop(x, ()):
             found[pair_of(x, y)] = None
         if x not in self._loose:

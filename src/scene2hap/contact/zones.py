@@ -15,18 +15,18 @@ Room = tuple[Triple, Triple]
 class Zones:
     """For each row a room, and around that a zone: `low` and `high`, both (3, n) [m].
 
-    Parameters: skin_m : how much too wide the room of what has moved is drawn.
+    Parameters: skin_m : how much too wide the room of what has moved is drawn; memory_m : by how much more it may go on
+    to hold where the thing was before, level and upwards or downwards.
     """
 
-    def __init__(self, up_axis: int, skin_m: float) -> None:
-        self._up_axis, self._skin_m = up_axis, skin_m
+    def __init__(self, up_axis: int, skin_m: float, memory_m: tuple[float, float]) -> None:
+        self._up_axis, self._skin_m, self._memory_m = up_axis, skin_m, memory_m
         self._rooms: list[Room | None] = [None] * 64
         self.low, self.high = np.full((3, 64), np.inf), np.full((3, 64), -np.inf)
 
     def draw(self, row: int, low: Triple, high: Triple, side_m: float, down_m: float) -> None:
-        """Draw the room of a row around a box, which fits it at first, and is too wide from then on, level as much
-        wider still where the former room was; the zone reaches so far beyond it, and so much farther down. A new row
-        follows the last."""
+        """Draw the room of a row around a box, which fits it at first and is too wide from then on; the zone reaches so
+        far beyond it, and so much farther down. A new row follows the last."""
         if row == len(self._rooms):
             self._rooms += [None] * row
             self.low = np.concatenate([self.low, np.full((3, row), np.inf)], axis=1)
@@ -40,11 +40,12 @@ class Zones:
         self.low[self._up_axis, row] -= down_m
 
     def _wider(self, low: Triple, high: Triple, before: Room) -> Room:
-        near, far = self._skin_m, 2 * self._skin_m
-        lows, highs = [x - near for x in low], [x + near for x in high]
-        for k in (0, 3 - self._up_axis):
-            lows[k] = max(min(lows[k], before[0][k]), low[k] - far)
-            highs[k] = min(max(highs[k], before[1][k]), high[k] + far)
+        lows, highs = [0.0] * 3, [0.0] * 3
+        for k in range(3):
+            near = self._skin_m
+            far = near + self._memory_m[k == self._up_axis]
+            lows[k] = max(min(low[k] - near, before[0][k]), low[k] - far)
+            highs[k] = min(max(high[k] + near, before[1][k]), high[k] + far)
         return (lows[0], lows[1], lows[2]), (highs[0], highs[1], highs[2])
 
     def clear(self, row: int) -> None:

@@ -95,7 +95,7 @@ def test_soles_on_tops_to_the_last_bit(seed: int, up_axis: int) -> None:
 @given(seed=seeds, up_axis=st.sampled_from([1, 2]))
 def test_zones_around_what_wanders_to_the_last_bit(seed: int, up_axis: int) -> None:
     rng = np.random.default_rng(seed)
-    zones = [kind(up_axis, 0.25) for kind in both("contact.zones.Zones")]
+    zones = [kind(up_axis, 0.25, (0.25, 0.6)) for kind in both("contact.zones.Zones")]
     rows: set[int] = set()
     for row in (*range(70), *rng.integers(0, 70, 40).tolist()):
         if row in rows and rng.random() < 0.2:
