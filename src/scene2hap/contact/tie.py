@@ -34,10 +34,10 @@ UNCLEAR = Rest(math.nan, False, math.nan)
 class Tie:
     """Two bodies; `a` is the one with the lower id."""
 
-    __slots__ = ("_are_rests_told", "_facts", "_meeting_made", "_rest_a", "_rest_b", "a", "b")
+    __slots__ = ("_facts", "_is_in_reserve", "_meeting_made", "_rest_a", "_rest_b", "a", "b")
 
     def __init__(self, a: Body, b: Body, rest_a: Rest | None, rest_b: Rest | None) -> None:
-        self.a, self.b, self._rest_a, self._rest_b, self._are_rests_told = a, b, rest_a, rest_b, True
+        self.a, self.b, self._rest_a, self._rest_b, self._is_in_reserve = a, b, rest_a, rest_b, False
         self._meeting_made: Meeting | None = None
         self._facts: dict[object, Any] | None = None
 
@@ -49,28 +49,23 @@ class Tie:
 
     @classmethod
     def in_reserve(cls, x: Body, y: Body) -> Tie:
-        """The same of two of which nothing may ever be asked."""
+        """The same of two of which hardly anything is ever asked. They may move without anybody's telling, so that it
+        is found out each time."""
         tie = cls(x, y, None, None) if x.id < y.id else cls(y, x, None, None)
-        tie._are_rests_told = False
+        tie._is_in_reserve = True
         return tie
 
     @property
     def rest_a(self) -> Rest | None:
         """How a may lie on b: None if not at all, `UNCLEAR` where triangles must tell."""
-        if not self._are_rests_told:
-            self._tell_rests()
-        return self._rest_a
+        return _rest(self.a, self.b) if self._is_in_reserve else self._rest_a
 
     @property
     def rest_b(self) -> Rest | None:
         """The same the other way round."""
-        if not self._are_rests_told:
-            self._tell_rests()
+        if self._is_in_reserve:
+            return _rest(self.b, self.a) if self.rest_a is None else None
         return self._rest_b
-
-    def _tell_rests(self) -> None:
-        self._are_rests_told, self._rest_a = True, _rest(self.a, self.b)
-        self._rest_b = _rest(self.b, self.a) if self._rest_a is None else None
 
     @property
     def may_bear(self) -> bool:
@@ -112,7 +107,9 @@ class Tie:
 
     def asks_falls(self, x: str) -> bool:
         """Whether how far x is to fall is still to be found out, and a matter of few triangles."""
-        return self.rest(x) is UNCLEAR and (self._facts is None or x not in self._facts) and are_few(self.a, self.b)
+        if self._is_in_reserve or (self._facts is not None and x in self._facts):
+            return False
+        return self.rest(x) is UNCLEAR and are_few(self.a, self.b)
 
     def tell_falls(self, x: str, falls_m: Floats | None) -> None:
         """Take in what `falls` is to answer."""
@@ -145,7 +142,7 @@ class Tie:
     @property
     def asks_apart(self) -> bool:
         """Whether how far they are apart is still to be found out, and a matter of leaning cuboids."""
-        if not self.are_cuboids or (self.a.stance.is_block and self.b.stance.is_block):
+        if self._is_in_reserve or not self.are_cuboids or (self.a.stance.is_block and self.b.stance.is_block):
             return False
         return self._facts is None or _APART not in self._facts
 
@@ -185,6 +182,8 @@ class Tie:
         return tuple((x, y, z) for x, y, z in points.tolist())
 
     def _once(self, key: object, find: Callable[[], object]) -> Any:
+        if self._is_in_reserve:
+            return find()
         facts = self._facts
         if facts is None:
             facts = self._facts = {}
@@ -194,9 +193,12 @@ class Tie:
 
     @property
     def _meeting(self) -> Meeting:
-        if self._meeting_made is None:
-            self._meeting_made = Meeting(self.a, self.b)
-        return self._meeting_made
+        made = self._meeting_made
+        if made is None:
+            made = Meeting(self.a, self.b)
+            if not self._is_in_reserve:
+                self._meeting_made = made
+        return made
 
 
 def apart_by(x: Body, y: Body, margin_m: float) -> bool:

@@ -174,6 +174,24 @@ def test_what_is_below_a_support_matters_once_that_is_gone(monkeypatch: pytest.M
     assert graph.neighbours("jar") == ("drawers",)
 
 
+def test_what_is_below_a_support_is_asked_where_things_are_then() -> None:
+    """A jar slides over a cupboard that nothing holds, is asked about when a lamp beside it goes, and slides on, out
+    over the cupboard's side; then it has no worktop any more."""
+    lamp = box("lamp", (0.1, 0.1, 0.1), (-0.4, 0.77, 0.24))
+    objects = [
+        box("cupboard", (0.5, 0.7, 0.6), (-0.25, 0.35, 0.0)),
+        box("worktop", (1.1, 0.02, 0.7), (0.0, 0.71, 0.0)),
+        box("jar", (0.3, 0.3, 0.3), (-0.175, 0.87, 0.0)),
+    ]
+    graph = ContactGraph(scene(*objects, lamp))
+    for step in range(1, 13):
+        graph.update({"jar": Pose((-0.175 + 0.004 * step, 0.87, 0.0))}, removed=["lamp"] if step == 4 else ())
+        assert is_as_built(graph, *objects, *([lamp] if step < 4 else []))
+    graph.update({}, removed=["worktop"])
+    assert is_as_built(graph, *[item for item in objects if item.id != "worktop"])
+    assert graph.neighbours("jar") == ("cupboard",)
+
+
 @pytest.mark.parametrize("goes_away", [False, True], ids=["at once", "once it is far away"])
 def test_a_block_beside_a_glide_may_be_removed(goes_away: bool) -> None:
     """While a crate slides near it, touching it or not."""
