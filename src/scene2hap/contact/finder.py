@@ -81,6 +81,8 @@ class ContactFinder:
         for x, others in left.items():
             self._glides.stop(x)
             self._glides.look_out(self._crowd.near[x], self._crowd.room(x))
+            if x in self._loose:
+                self._short_ways.beware_of(bodies[x])
             self._glides.look_anew(others)
         seen: set[str] = set()
         for body in placed:
@@ -176,8 +178,8 @@ class ContactFinder:
         was_loose = x in self._loose
         before, now = self._held.get(x), self._holding.holders(x)
         self._glides.stop(x)
-        if was_loose != (x in self._loose):
-            self._glides.stop_amid(x)
+        if x in self._loose and not was_loose:
+            self._short_ways.beware_of(self._bodies[x])
         if now:
             self._held[x] = now
         elif before:

@@ -31,6 +31,7 @@ class Glides:
 
     def begin(self, x: str, draw: Draw) -> None:
         """One is in a glide from now on; draw it when it next moves, and again when that is due."""
+        self.of.pop(x, None)
         self._draws[x] = draw
         self._due.add(x)
 

@@ -61,6 +61,12 @@ class ShortWays:
         """One is gone."""
         self._tracks.pop(x, None)
 
+    def beware_of(self, body: Body) -> None:
+        """Larger things are to look out for a body from now on, since nothing wholly supports it: it may hang from
+        them."""
+        bodies = self._bodies
+        self._glides.look_anew([z for z in self._crowd.near[body.id] if bodies[z].size_m > body.size_m])
+
     def drift(self, body: Body) -> None:
         """Let a body that touches nothing drift from now on."""
         x = body.id
@@ -149,7 +155,7 @@ class ShortWays:
             found[pair_of(x, y)] = None
         if x not in self._loose:
             self._loose.add(x)
-            self._glides.stop_amid(x)
+            self.beware_of(body)
         self.drift(body)
         return True
 
