@@ -17,7 +17,7 @@ from scene2hap.contact.holding import Holding
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.sides import Sides, are_beside
 from scene2hap.contact.slide import Slide, slide
-from scene2hap.contact.support import TOUCH_M, Support, hang_reach_m, is_under, margins_m
+from scene2hap.contact.support import TOUCH_M, Support, fall_reach_m, hang_reach_m, is_under
 from scene2hap.contact.tie import Tie, apart_by
 from scene2hap.contact.track import Track
 from scene2hap.contact.zones import Room
@@ -136,13 +136,13 @@ class ShortWays:
     def _float(self, body: Body, amid: Collection[str], found: dict[Pair, Junction | None]) -> bool:
         """For what touches nothing, since it is far over or under all that it is not beside, hangs from nothing, and
         bore nothing."""
-        x, ties, reach_m, fall_m = body.id, self._ties[body.id], hang_reach_m(body.size_m), sum(margins_m(body))
+        x, ties, reach_m = body.id, self._ties[body.id], hang_reach_m(body.size_m)
         if any(tie.rest(z) is not None for z, tie in ties.items()):
             return False
         for z in self._crowd.near[x]:
             other = self._bodies[z]
             if z in ties or z in amid:
-                if not apart_by(body, other, max(fall_m, sum(margins_m(other)))):
+                if not _are_far(body, other):
                     return False
             elif other.size_m > body.size_m and not apart_by(body, other, reach_m):
                 return False
@@ -221,6 +221,13 @@ class ShortWays:
             if z in loose and size_m > other.size_m:
                 return None
         return amid
+
+
+def _are_far(x: Body, y: Body) -> bool:
+    """Whether two that are over each other are too far apart for one to fall onto the other or to hang from it."""
+    up = x.up_axis
+    upper, smaller_m = (x if x.low[up] > y.low[up] else y), min(x.size_m, y.size_m)
+    return apart_by(x, y, max(TOUCH_M, hang_reach_m(smaller_m), fall_reach_m(upper.size_m)))
 
 
 def _lies(slid: Slide, bond: Bond) -> Junction:

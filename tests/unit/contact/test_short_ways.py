@@ -1,12 +1,15 @@
 """The short ways of a frame end where building from nothing does, and are taken where they should be."""
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
 from contact_scenes import box, floor, on_floor, scene
 from scene2hap.contact import finder
+from scene2hap.contact.body import Body
+from scene2hap.contact.crowd import Crowd
 from scene2hap.contact.glide import Glide
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.short_ways import ShortWays
@@ -86,6 +89,70 @@ def test_what_is_lifted_floats_unless_it_may_hang(gap_m: float, floats: bool, mo
     assert change.vanished == {("cup", "table")}
     assert ("wall" in graph.neighbours("cup")) != floats
     assert is_as_built(graph, *objects)
+
+
+def test_what_is_lifted_and_put_down_again_keeps_its_neighbours(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A hand's breadth over the table and higher, over and over: nobody is looked for anew, and no way is long."""
+    drawn, long_ways = list[dict[str, set[str]]](), list[bool]()
+    put, take = Crowd.put, ShortWays.take
+    monkeypatch.setattr(Crowd, "put", lambda *given: drawn.append(put(*given)) or drawn[-1])
+    monkeypatch.setattr(ShortWays, "take", lambda *given: long_ways.append(not take(*given)) or not long_ways[-1])
+    objects = [floor(), TABLE, CUP, box("wide", (0.3, 0.1, 0.3), (-0.3, 0.75, 0.1))]
+    graph = ContactGraph(scene(*objects))
+    for lifted_m in (0.0, 0.28, 0.0, 0.12):
+        graph.update({"cup": Pose((0.2, 0.75 + lifted_m, 0.11))})
+    for step in range(40):
+        lifted_m = (0.28, 0.12, 0.0)[step % 3]
+        drawn.clear()
+        long_ways.clear()
+        graph.update({"cup": Pose((0.2, 0.75 + lifted_m, 0.1 + 0.0004 * step))})
+        assert not any(drawn)
+        assert not any(long_ways)
+        assert graph.neighbours("cup") == (() if lifted_m else ("table",))
+        assert is_as_built(graph, *objects)
+        drawn.clear()
+
+
+@pytest.mark.parametrize(("bears", "floats"), [(False, True), (True, False)], ids=["alone", "with a coin on it"])
+def test_what_is_lifted_from_below_another_does_not_float(
+    bears: bool, floats: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What it bore is to be asked what holds it now."""
+    floated, float_ = list[bool](), ShortWays._float
+    coin = box("coin", (0.02, 0.002, 0.02), (0.2, 0.801, 0.1))
+    objects = [floor(), TABLE, CUP, *([coin] if bears else [])]
+    graph = ContactGraph(scene(*objects))
+    graph.update({"cup": Pose((0.2, 0.75, 0.101))})
+    monkeypatch.setattr(ShortWays, "_float", lambda *given: floated.append(float_(*given)) or floated[-1])
+    graph.update({"cup": Pose((0.2, 1.0, 0.1))})
+    assert any(floated) == floats
+    assert is_as_built(graph, *objects)
+
+
+def test_a_glide_goes_on_while_others_come_and_go_beyond_its_lane(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A crate is pushed to and fro; two cups wander at the other end of the table, far enough that each has others
+    around it now and then, one of them lifted and put down."""
+    drawn, glide_of = list[str](), Glide.of.__func__  # type: ignore[attr-defined]  # of a class method
+
+    def watched(cls: type[Glide], body: Body, *given: Any) -> Glide:
+        drawn.append(body.id)
+        return glide_of(cls, body, *given)
+
+    monkeypatch.setattr(Glide, "of", classmethod(watched))
+    table = on_floor("table", (2.0, 0.7, 1.0), 0, 0)
+    objects = [floor(), table, box("crate", (0.1, 0.1, 0.1), (-0.4, 0.75, 0.0)), CUP, replace(CUP, id="other cup")]
+    graph = ContactGraph(scene(*objects))
+    for step in range(90):
+        moved = {
+            "crate": Pose((-0.4 + 0.04 * math.sin(0.3 * step), 0.75, 0.0)),
+            "cup": Pose((0.1 + 0.006 * step, 0.75 + (0.2 if step % 9 > 5 else 0.0), 0.1)),
+            "other cup": Pose((0.7 - 0.006 * step, 0.75, -0.1)),
+        }
+        graph.update(moved)
+        assert is_as_built(graph, *objects)
+    # Once at first, and once where it has left what was drawn around it tightly.
+    assert drawn.count("crate") <= 3
+    assert drawn.count("other cup") <= 15
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.6])
