@@ -31,7 +31,7 @@ class ContactFinder:
     def __init__(self, up_axis: int) -> None:
         self._up_axis = up_axis
         self._crowd = Crowd(up_axis, margins_m)
-        self._glides = Glides(self._crowd.near)
+        self._glides = Glides()
         holding = self._holding = Holding(up_axis, self._crowd.near, self._glides.stop)
         self._bodies, self._ties, self._held, self._loose = holding.bodies, holding.ties, holding.held, holding.loose
         self._short_ways = ShortWays(holding, self._crowd, self._glides)
@@ -68,8 +68,10 @@ class ContactFinder:
         self._glides.stop_in({*gone})
         for x in gone:
             del bodies[x]
-            self._glides.stop_amid(x)
-            for y in self._crowd.take_out(x):
+            self._glides.stop(x)
+            neighbours = self._crowd.take_out(x)
+            self._glides.look_away(neighbours, x)
+            for y in neighbours:
                 self._part(x, y, found, unsure)
             self._ties.pop(x, None)
             self._held.pop(x, None)
@@ -80,10 +82,8 @@ class ContactFinder:
         left = self._crowd.put(placed)
         for x, others in left.items():
             self._glides.stop(x)
-            self._glides.look_out(self._crowd.near[x], self._crowd.room(x))
-            if x in self._loose:
-                self._short_ways.beware_of(bodies[x])
-            self._glides.look_anew(others)
+            self._short_ways.announce(bodies[x])
+            self._glides.look_away(others, x)
         seen: set[str] = set()
         for body in placed:
             x = body.id
@@ -179,7 +179,7 @@ class ContactFinder:
         before, now = self._held.get(x), self._holding.holders(x)
         self._glides.stop(x)
         if x in self._loose and not was_loose:
-            self._short_ways.beware_of(self._bodies[x])
+            self._short_ways.announce(self._bodies[x])
         if now:
             self._held[x] = now
         elif before:

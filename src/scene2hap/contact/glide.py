@@ -10,9 +10,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.clearing import open_box
+from scene2hap.contact.clearing import NOWHERE, open_box
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.ledge import Flat
 from scene2hap.contact.level import Rest
@@ -25,6 +26,15 @@ from scene2hap.contact.track import Bounds, Track
 from scene2hap.contact.vectors import Triple
 from scene2hap.contact.zones import Room
 from scene2hap.scene.pose import Pose
+
+
+class Neighbour(NamedTuple):
+    """One near a body, where it may move, and how far it may hang from the body [m], 0 if not at all."""
+
+    body: Body
+    room: Room
+    hang_m: float
+
 
 _new = tuple.__new__
 _ONES = (1.0,) * 4
@@ -83,13 +93,12 @@ class Glide:
         slide: Slide,
         normal: Triple | None,
         zone: Room,
-        around: Iterable[tuple[Body, Room]],
+        around: Iterable[Neighbour],
         track: Track,
         sides_of: Callable[[Sequence[str]], Sides],
     ) -> Glide:
-        """The glide of a body that slides so, may move in a zone, and has such neighbours, each of which may move in
-        its own; `track` is the body's, and bound here, `sides_of` are blocks by their ids. It goes nowhere unless boxes
-        tell where."""
+        """The glide of a body that slides so, may move in a zone, and has such neighbours; `track` is the body's, and
+        bound here, `sides_of` are blocks by their ids. It goes nowhere unless boxes tell where."""
         support = tie.b if body.id == tie.a.id else tie.a
         middle_m = support.low[body.up_axis] + support.high[body.up_axis]
         opens, others, beside, hosts = [zone], [], [], []
@@ -102,10 +111,13 @@ class Glide:
             elif least_m < support.high[up] - TOUCH_M:
                 middle_m = -math.inf
                 opens.append(_all_in(body, support))
-        for other, room in around:
-            if other.id != support.id and not is_under(other, slide.rest.top_m):
-                if max(_sideways_m(body, room)) > TOUCH_M:
-                    others.append(room)
+        for other, room, hang_m in around:
+            if hang_m or (other.id != support.id and not is_under(other, slide.rest.top_m)):
+                margin_m = max(hang_m, TOUCH_M)
+                if max(_sideways_m(body, room)) > margin_m:
+                    others.append((room, margin_m))
+                elif hang_m:
+                    opens.append(NOWHERE)
                 elif are_beside(body, other):
                     beside.append(other.id)
                 else:
@@ -125,11 +137,15 @@ class Glide:
         track.bind(bounds)
         return cls(body, tie, tray, normal, bounds, track, sides_of(beside) if beside else None, hosts)
 
-    def minds(self, room: Room) -> bool:
-        """Whether it may be another once a neighbour may be anywhere in a box."""
+    def minds(self, room: Room, margin_m: float) -> bool:
+        """Whether it may be another once something may be anywhere in a box that matters within a margin around it."""
         (u0, v0, u1, v1), flat, (low, high) = self._lane, self.body.v_axis, room
         gaps_m = (low[0] - u1, u0 - high[0], low[flat] - v1, v0 - high[flat])
-        return max(gaps_m) <= TOUCH_M or u0 > u1 or v0 > v1
+        return max(gaps_m) <= margin_m or u0 > u1 or v0 > v1
+
+    def reckons_with(self, x: str) -> bool:
+        """Whether it asks for where another is."""
+        return x in self.hosts or (self._sides is not None and x in self._sides.names)
 
     def resume(self, body: Body) -> None:
         """Go on from where another way has brought the body."""
@@ -167,11 +183,11 @@ class Drift:
         self._low, self._high = free
 
     @classmethod
-    def of(cls, body: Body, zone: Room, around: Iterable[tuple[Body, Room]]) -> Drift:
-        """The drift of a body that touches nothing, may move in a zone, and has such neighbours, each of which may move
-        in its own. It goes nowhere unless boxes tell where."""
+    def of(cls, body: Body, zone: Room, around: Iterable[Neighbour]) -> Drift:
+        """The drift of a body that touches nothing, may move in a zone, and has such neighbours. It goes nowhere
+        unless boxes tell where."""
         opens, others, hosts, reach_m = [zone], [], [], sum(margins_m(body))
-        for other, room in around:
+        for other, room, _ in around:
             margin_m = max(reach_m, sum(margins_m(other)))
             if max(_gaps_m(body, room)) > margin_m:
                 others.append((room, margin_m))
@@ -180,9 +196,13 @@ class Drift:
                 hosts.append(other.id)
         return cls(body, _free_box(body, _common(opens), others), hosts)
 
-    def minds(self, _: Room) -> bool:
-        """Whether it may be another once a neighbour may be anywhere in a box."""
+    def minds(self, *_: object) -> bool:
+        """Whether it may be another once something may be anywhere in a box that matters within a margin around it."""
         return True
+
+    def reckons_with(self, x: str) -> bool:
+        """Whether it asks for where another is."""
+        return x in self.hosts
 
     def step(self, pose: Pose, _: dict[Pair, Junction | None]) -> bool:
         """Whether the body is still far from all after a step."""
@@ -243,15 +263,14 @@ def _free_box(body: Body, zone: Room, others: Iterable[tuple[Room, float]]) -> R
     return (low[0], low[1], low[2]), (high[0], high[1], high[2])
 
 
-def _lane(body: Body, zone: Room, others: Iterable[Room]) -> Flat:
-    """Where a body is in its zone and surely beside the boxes of others, as it is now."""
+def _lane(body: Body, zone: Room, others: Iterable[tuple[Room, float]]) -> Flat:
+    """Where a body is in its zone and surely farther beside the boxes of others than told with each, as it is now."""
     flat, (low, high) = body.v_axis, zone
     u0, v0, u1, v1 = low[0], low[flat], high[0], high[flat]
-    # A little more than the margin, so that rounding does not matter.
-    margin_m = 1.001 * TOUCH_M
-    for room in others:
+    for room, margin_m in others:
         gaps = _sideways_m(body, room)
         side = gaps.index(max(gaps))
+        margin_m *= 1.001  # so that rounding does not matter
         if side == 0:
             u1 = min(u1, room[0][0] - margin_m)
         elif side == 1:

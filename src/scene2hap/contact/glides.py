@@ -6,23 +6,19 @@ something is put down, and nothing is drawn for what then stays. So it is where 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Set
+from collections.abc import Callable, Iterable, Set
 
 from scene2hap.contact.glide import Drift, Glide
 from scene2hap.contact.zones import Room
 
-Draw = Callable[[], Glide | Drift | None]
-"""Draws a glide from where all things are now; None where it is not sure how that would go on."""
+Draw = Callable[[], Glide | Drift]
+"""Draws a glide from where all things are now."""
 
 
 class Glides:
-    """Glides and drifts, `of` each thing that is in one, by its id.
+    """Glides and drifts, `of` each thing that is in one, by its id."""
 
-    Parameters: near : the neighbours of each body.
-    """
-
-    def __init__(self, near: Mapping[str, Collection[str]]) -> None:
-        self._near = near
+    def __init__(self) -> None:
         self.of: dict[str, Glide | Drift] = {}
         self._draws: dict[str, Draw] = {}
         self._due: set[str] = set()
@@ -43,11 +39,9 @@ class Glides:
         for x in names:
             if x in due:
                 due.discard(x)
-                glide = self._draws[x]()
-                if glide is not None:
-                    self.of[x] = glide
-                    for host in glide.hosts:
-                        self._guests.setdefault(host, set()).add(x)
+                glide = self.of[x] = self._draws[x]()
+                for host in glide.hosts:
+                    self._guests.setdefault(host, set()).add(x)
 
     def stop(self, *names: str) -> None:
         """How these go on is not sure any more."""
@@ -63,22 +57,20 @@ class Glides:
             for host in hosts & self._guests.keys():
                 self.stop(*self._guests.pop(host))
 
-    def stop_amid(self, x: str) -> None:
-        """Nor is it for one amid others, and what these look out for has changed."""
-        self.stop(x)
-        self.look_anew(self._near[x])
-
-    def look_anew(self, names: Iterable[str]) -> None:
-        """What is around these has changed, but nothing of what they touch."""
-        for x in names:
-            if x in self._draws:
-                self.of.pop(x, None)
-                self._due.add(x)
-
-    def look_out(self, names: Iterable[str], room: Room) -> None:
-        """A neighbour of these may be elsewhere now: anywhere in a box."""
+    def look_out(self, names: Iterable[str], room: Room, margin_m: float) -> None:
+        """A neighbour of these may be anywhere in a box now, and matters to them within a margin around it."""
         for x in names:
             glide = self.of.get(x)
-            if glide is not None and glide.minds(room):
-                del self.of[x]
-                self._due.add(x)
+            if glide is not None and glide.minds(room, margin_m):
+                self._draw_anew(x)
+
+    def look_away(self, names: Iterable[str], x: str) -> None:
+        """One is a neighbour of these no more; if it goes altogether, nobody tells them."""
+        for z in names:
+            glide = self.of.get(z)
+            if glide is not None and glide.reckons_with(x):
+                self._draw_anew(z)
+
+    def _draw_anew(self, x: str) -> None:
+        del self.of[x]
+        self._due.add(x)

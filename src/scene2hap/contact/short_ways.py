@@ -11,7 +11,7 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.bond import Bond
 from scene2hap.contact.clearing import is_clear
 from scene2hap.contact.crowd import Crowd
-from scene2hap.contact.glide import Drift, Glide
+from scene2hap.contact.glide import Drift, Glide, Neighbour
 from scene2hap.contact.glides import Glides
 from scene2hap.contact.holding import Holding
 from scene2hap.contact.junction import Junction, Pair, pair_of
@@ -20,7 +20,6 @@ from scene2hap.contact.slide import Slide, slide
 from scene2hap.contact.support import TOUCH_M, Support, fall_reach_m, hang_reach_m, is_under
 from scene2hap.contact.tie import Tie, apart_by
 from scene2hap.contact.track import Track
-from scene2hap.contact.zones import Room
 
 _ONES = (1.0,) * 4
 _VAIN = 15  # A glide that was refused so often is drawn anew.
@@ -61,11 +60,11 @@ class ShortWays:
         """One is gone."""
         self._tracks.pop(x, None)
 
-    def beware_of(self, body: Body) -> None:
-        """Larger things are to look out for a body from now on, since nothing wholly supports it: it may hang from
-        them."""
-        bodies = self._bodies
-        self._glides.look_anew([z for z in self._crowd.near[body.id] if bodies[z].size_m > body.size_m])
+    def announce(self, body: Body) -> None:
+        """Have the glides around look out for a body that may be elsewhere now, or come to hang from others."""
+        x = body.id
+        margin_m = max(TOUCH_M, hang_reach_m(body.size_m)) if x in self._loose else TOUCH_M
+        self._glides.look_out(self._crowd.near[x], self._crowd.room(x), margin_m)
 
     def drift(self, body: Body) -> None:
         """Let a body that touches nothing drift from now on."""
@@ -83,10 +82,8 @@ class ShortWays:
         if track is None or track.stance.shape is not stance.shape or track.stance.way_up != stance.way_up:
             track = self._tracks[x] = Track(stance)
 
-        def draw() -> Glide | None:
+        def draw() -> Glide:
             body = self._bodies[x]
-            if self._amid(body) is None:
-                return None
             room, around = self._crowd.room(x), self._around(body)
             return Glide.of(body, tie, slid, bond.normal, room, around, track, self._sides_of)
 
@@ -155,7 +152,7 @@ class ShortWays:
             found[pair_of(x, y)] = None
         if x not in self._loose:
             self._loose.add(x)
-            self.beware_of(body)
+            self.announce(body)
         self.drift(body)
         return True
 
@@ -200,14 +197,19 @@ class ShortWays:
     def _sides_of(self, names: Sequence[str]) -> Sides:
         return Sides(names, self._bodies, self._ties)
 
-    def _around(self, body: Body) -> list[tuple[Body, Room]]:
-        """The neighbours of a body, and where each may move."""
-        room, bodies = self._crowd.room, self._bodies
-        return [(bodies[z], room(z)) for z in self._crowd.near[body.id]]
+    def _around(self, body: Body) -> list[Neighbour]:
+        room, bodies, loose, size_m = self._crowd.room, self._bodies, self._loose, body.size_m
+        around = []
+        for z in self._crowd.near[body.id]:
+            other = bodies[z]
+            hang_m = hang_reach_m(other.size_m) if z in loose and size_m > other.size_m else 0.0
+            around.append(Neighbour(other, room(z), hang_m))
+        return around
 
     def _amid(self, body: Body) -> list[str] | None:
-        """The neighbours that a body is not beside; None if one may hang from it."""
+        """The neighbours that a body is not beside; None if one may hang from it, or did."""
         bodies, loose, margin_m, size_m, amid = self._bodies, self._loose, TOUCH_M, body.size_m, []
+        ties = self._ties.get(body.id, ())
         (x0, x1, x2), (x3, x4, x5) = body.low, body.high
         flat = body.v_axis
         if flat == 1:
@@ -218,7 +220,8 @@ class ShortWays:
             low, high = other.low, other.high
             if not (x0 > high[0] or low[0] > x3 or x2 > high[flat] or low[flat] > x5):
                 amid.append(z)
-            if z in loose and size_m > other.size_m:
+            may_hang = z in loose and size_m > other.size_m
+            if may_hang and (z in ties or not apart_by(body, other, hang_reach_m(other.size_m))):
                 return None
         return amid
 

@@ -22,16 +22,16 @@ class Sides:
     Parameters: names : their ids; bodies, ties : of all things by id, as their owner keeps them; ties are changed.
     """
 
-    __slots__ = ("_bodies", "_names", "_ties")
+    __slots__ = ("_bodies", "_ties", "names")
 
     def __init__(self, names: Sequence[str], bodies: Mapping[str, Body], ties: dict[str, dict[str, Tie]]) -> None:
-        self._names, self._bodies, self._ties = names, bodies, ties
+        self.names, self._bodies, self._ties = names, bodies, ties
 
     def near(self, low: Triple, high: Triple, v_axis: int) -> list[str] | None:
         """Which of them may touch what is in a box; None if it is not beside all of them."""
         bodies, within_m = self._bodies, TOUCH_M
         near = []
-        for z in self._names:
+        for z in self.names:
             gap_m = _gap_m(low, high, bodies[z], v_axis)
             if gap_m < 0:
                 return None
@@ -42,7 +42,7 @@ class Sides:
     def follow(self, body: Body, near: Collection[str], found: dict[Pair, Junction | None]) -> None:
         """Tie a block to those of them that it touches, which may be some that are near; where is added to `found`."""
         x, bodies, mine = body.id, self._bodies, self._ties[body.id]
-        for z in self._names:
+        for z in self.names:
             tie = None
             if z in near:
                 other = bodies[z]
