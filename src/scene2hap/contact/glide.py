@@ -9,7 +9,7 @@ the long way's. Where a step is not surely one of these, it is refused, and noth
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from scene2hap.contact.body import Body
@@ -20,7 +20,7 @@ from scene2hap.contact.level import Rest
 from scene2hap.contact.sides import Sides, are_beside
 from scene2hap.contact.slide import SURE_M, Slide
 from scene2hap.contact.stance import Tray
-from scene2hap.contact.support import TOUCH_M, fall_reach_m, is_under, margins_m
+from scene2hap.contact.support import TOUCH_M, fall_reach_m, hang_reach_m, is_under
 from scene2hap.contact.tie import Tie
 from scene2hap.contact.track import Bounds, Track
 from scene2hap.contact.vectors import Triple
@@ -35,6 +35,9 @@ class Neighbour(NamedTuple):
     room: Room
     hang_m: float
 
+
+SidesOf = Callable[[Sequence[str], Mapping[str, float]], Sides]
+"""Makes `Sides` of blocks and others, by their ids."""
 
 _new = tuple.__new__
 _ONES = (1.0,) * 4
@@ -95,17 +98,18 @@ class Glide:
         zone: Room,
         around: Iterable[Neighbour],
         track: Track,
-        sides_of: Callable[[Sequence[str]], Sides],
+        sides_of: SidesOf,
     ) -> Glide:
         """The glide of a body that slides so, may move in a zone, and has such neighbours; `track` is the body's, and
-        bound here, `sides_of` are blocks by their ids. It goes nowhere unless boxes tell where."""
-        support = tie.b if body.id == tie.a.id else tie.a
-        middle_m = support.low[body.up_axis] + support.high[body.up_axis]
-        opens, others, beside, hosts = [zone], [], [], []
+        bound here. It goes nowhere unless boxes tell where."""
+        support, up = (tie.b if body.id == tie.a.id else tie.a), body.up_axis
+        middle_m = support.low[up] + support.high[up]
+        opens, others, hosts = [zone], [], []
+        blocks, off_m = [], {}
         if slide.is_ledge:
             opens.append(open_box(body, support, stands=True))
             # As `is_over` tells, for all heights of a slide: with a higher bottom, over all of it, or all in it.
-            up, least_m = body.up_axis, slide.rest.top_m + SURE_M
+            least_m = slide.rest.top_m + SURE_M
             if least_m > support.low[up] + TOUCH_M:
                 middle_m = -math.inf
             elif least_m < support.high[up] - TOUCH_M:
@@ -114,17 +118,23 @@ class Glide:
         for other, room, hang_m in around:
             if hang_m or (other.id != support.id and not is_under(other, slide.rest.top_m)):
                 margin_m = max(hang_m, TOUCH_M)
+                over_m = max(margin_m, fall_reach_m(other.size_m))
                 if max(_sideways_m(body, room)) > margin_m:
                     others.append((room, margin_m))
+                elif room[0][up] - body.high[up] > over_m:
+                    opens.append(_below(room, over_m, up))
+                elif not hang_m and are_beside(body, other):
+                    blocks.append(other.id)
+                elif max(_sideways_m(body, (other.low, other.high))) > margin_m:
+                    # It might come nearer in its room, but has not.
+                    off_m[other.id] = margin_m
                 elif hang_m:
                     opens.append(NOWHERE)
-                elif are_beside(body, other):
-                    beside.append(other.id)
                 else:
                     opens.append(open_box(body, other, stands=False))
                     hosts.append(other.id)
         zone, tray = _common(opens), slide.tray
-        up, u, v = body.up_axis, support.position_m[0], support.position_m[body.v_axis]
+        u, v = support.position_m[0], support.position_m[body.v_axis]
         bounds = Bounds(
             _lane(body, zone, others),
             (zone[0][up], zone[1][up]),
@@ -135,17 +145,20 @@ class Glide:
             2 / 3 * fall_reach_m(body.size_m),
         )
         track.bind(bounds)
-        return cls(body, tie, tray, normal, bounds, track, sides_of(beside) if beside else None, hosts)
+        sides = sides_of(blocks, off_m) if blocks or off_m else None
+        return cls(body, tie, tray, normal, bounds, track, sides, hosts)
 
-    def minds(self, room: Room, margin_m: float) -> bool:
-        """Whether it may be another once something may be anywhere in a box that matters within a margin around it."""
+    def minds(self, x: str, room: Room, margin_m: float) -> bool:
+        """Whether it may be another once one may be anywhere in a box, and matters within a margin."""
+        if self._sides is not None and self._sides.has(x):
+            return self._sides.minds(x, margin_m)
         (u0, v0, u1, v1), flat, (low, high) = self._lane, self.body.v_axis, room
         gaps_m = (low[0] - u1, u0 - high[0], low[flat] - v1, v0 - high[flat])
         return max(gaps_m) <= margin_m or u0 > u1 or v0 > v1
 
     def reckons_with(self, x: str) -> bool:
         """Whether it asks for where another is."""
-        return x in self.hosts or (self._sides is not None and x in self._sides.names)
+        return x in self.hosts or (self._sides is not None and self._sides.has(x))
 
     def resume(self, body: Body) -> None:
         """Go on from where another way has brought the body."""
@@ -174,35 +187,46 @@ class Glide:
 
 
 class Drift:
-    """A body far from all others, in the air, that touches nothing and holds nothing."""
+    """A body far from all others, or beside them, in the air, that touches nothing and holds nothing."""
 
-    __slots__ = ("_high", "_low", "body", "hosts", "on", "refused")
+    __slots__ = ("_high", "_low", "_sides", "body", "hosts", "on", "refused")
 
-    def __init__(self, body: Body, free: Room, hosts: Sequence[str]) -> None:
-        self.body, self.hosts, self.on, self.refused = body, hosts, "", 0
+    def __init__(self, body: Body, free: Room, sides: Sides | None, hosts: Sequence[str]) -> None:
+        self.body, self._sides, self.hosts, self.on, self.refused = body, sides, hosts, "", 0
         self._low, self._high = free
 
     @classmethod
-    def of(cls, body: Body, zone: Room, around: Iterable[Neighbour]) -> Drift:
+    def of(cls, body: Body, zone: Room, around: Iterable[Neighbour], sides_of: SidesOf) -> Drift:
         """The drift of a body that touches nothing, may move in a zone, and has such neighbours. It goes nowhere
         unless boxes tell where."""
-        opens, others, hosts, reach_m = [zone], [], [], sum(margins_m(body))
+        opens, others, hosts, off_m = [zone], [], [], {}
+        up = body.up_axis
         for other, room, _ in around:
-            margin_m = max(reach_m, sum(margins_m(other)))
-            if max(_gaps_m(body, room)) > margin_m:
-                others.append((room, margin_m))
+            gaps_m = _gaps_m(body, room)
+            side = gaps_m.index(max(gaps_m))
+            # The smaller may hang from the larger, and the upper fall onto the other unless they are beside each other.
+            hang_m = max(TOUCH_M, hang_reach_m(min(body.size_m, other.size_m)))
+            fall_m = fall_reach_m((other if side == up else body).size_m) if side % 3 == up else 0.0
+            if gaps_m[side] > max(hang_m, fall_m):
+                others.append((room, max(hang_m, fall_m)))
+            elif max(_sideways_m(body, (other.low, other.high))) > hang_m:
+                off_m[other.id] = hang_m
             else:
                 opens.append(open_box(body, other, stands=False))
                 hosts.append(other.id)
-        return cls(body, _free_box(body, _common(opens), others), hosts)
+        return cls(body, _free_box(body, _common(opens), others), sides_of((), off_m) if off_m else None, hosts)
+
+    def resume(self, body: Body) -> None:
+        """Go on from where another way has brought the body."""
+        self.body = body
 
     def minds(self, *_: object) -> bool:
-        """Whether it may be another once something may be anywhere in a box that matters within a margin around it."""
+        """Whether it may be another once one may be anywhere in a box, and matters within a margin."""
         return True
 
     def reckons_with(self, x: str) -> bool:
         """Whether it asks for where another is."""
-        return x in self.hosts
+        return x in self.hosts or (self._sides is not None and self._sides.has(x))
 
     def step(self, pose: Pose, _: dict[Pair, Junction | None]) -> bool:
         """Whether the body is still far from all after a step."""
@@ -217,6 +241,8 @@ class Drift:
         (a, b, c), (d, e, f) = self._low, self._high
         if low[0] < a or low[1] < b or low[2] < c or high[0] > d or high[1] > e or high[2] > f:
             return False
+        if self._sides is not None and self._sides.near(low, high, stance.v_axis) is None:
+            return False
         self.body.put(pose, low, high, stance)
         return True
 
@@ -227,6 +253,13 @@ def _common(rooms: Sequence[Room]) -> Room:
     for (g, h, i), (j, k, m) in rooms[1:]:
         a, b, c, d, e, f = max(a, g), max(b, h), max(c, i), min(d, j), min(e, k), min(f, m)
     return (a, b, c), (d, e, f)
+
+
+def _below(room: Room, margin_m: float, up: int) -> Room:
+    """Where anything is surely farther below a box than that."""
+    high = [math.inf] * 3
+    high[up] = room[0][up] - 1.001 * margin_m
+    return (-math.inf, -math.inf, -math.inf), (high[0], high[1], high[2])
 
 
 def _all_in(body: Body, support: Body) -> Room:

@@ -57,12 +57,12 @@ class Glides:
             for host in hosts & self._guests.keys():
                 self.stop(*self._guests.pop(host))
 
-    def look_out(self, names: Iterable[str], room: Room, margin_m: float) -> None:
-        """A neighbour of these may be anywhere in a box now, and matters to them within a margin around it."""
-        for x in names:
-            glide = self.of.get(x)
-            if glide is not None and glide.minds(room, margin_m):
-                self._draw_anew(x)
+    def look_out(self, names: Iterable[str], x: str, room: Room, margin_m: float) -> None:
+        """One may be anywhere in a box now, and matters to these, its neighbours, within a margin around it."""
+        for z in names:
+            glide = self.of.get(z)
+            if glide is not None and glide.minds(x, room, margin_m):
+                self._draw_anew(z)
 
     def look_away(self, names: Iterable[str], x: str) -> None:
         """One is a neighbour of these no more; if it goes altogether, nobody tells them."""

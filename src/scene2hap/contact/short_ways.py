@@ -5,7 +5,7 @@ Each ends where the long way does, to the last bit, at a fraction of the time, a
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.bond import Bond
@@ -64,7 +64,7 @@ class ShortWays:
         """Have the glides around look out for a body that may be elsewhere now, or come to hang from others."""
         x = body.id
         margin_m = max(TOUCH_M, hang_reach_m(body.size_m)) if x in self._loose else TOUCH_M
-        self._glides.look_out(self._crowd.near[x], self._crowd.room(x), margin_m)
+        self._glides.look_out(self._crowd.near[x], x, self._crowd.room(x), margin_m)
 
     def drift(self, body: Body) -> None:
         """Let a body that touches nothing drift from now on."""
@@ -72,7 +72,7 @@ class ShortWays:
 
         def draw() -> Drift:
             body = self._bodies[x]
-            return Drift.of(body, self._crowd.room(x), self._around(body))
+            return Drift.of(body, self._crowd.room(x), self._around(body), self._sides_of)
 
         self._glides.begin(x, draw)
 
@@ -153,20 +153,24 @@ class ShortWays:
         if x not in self._loose:
             self._loose.add(x)
             self.announce(body)
-        self.drift(body)
+        drift = self._glides.of.get(x)
+        if isinstance(drift, Drift) and drift.refused <= _VAIN:
+            drift.resume(body)
+        else:
+            self.drift(body)
         return True
 
     def _sides(self, body: Body, support: str, amid: Sequence[str], top_m: float) -> list[str] | None:
         """The blocks that a body on its support may touch sideways, or did; None if anything else may matter to it.
 
         Parameters: top_m : the height of what it lies on; what is all below that, such as cupboards under a worktop,
-        does not matter.
+        does not matter, nor what is far above, such as cabinets over it.
         """
         bodies, ties = self._bodies, self._ties[body.id]
         sides: list[str] = []
         for z in (*ties, *[z for z in amid if z not in ties]):
             other = bodies[z]
-            if z == support or is_under(other, top_m):
+            if z == support or is_under(other, top_m) or (z not in ties and _are_far(body, other)):
                 continue
             if are_beside(body, other) and not (z in ties and ties[z].may_bear):
                 sides.append(z)
@@ -190,12 +194,12 @@ class ShortWays:
             ties[z] = self._ties.setdefault(z, {})[x] = Tie.in_reserve(body, bodies[z])
             found[pair_of(x, z)] = None
         if sides:
-            self._sides_of(sides).follow(body, sides, found)
+            self._sides_of(sides, {}).follow(body, sides, found)
         for z in before ^ ties.keys():
             self._glides.stop(x, z)
 
-    def _sides_of(self, names: Sequence[str]) -> Sides:
-        return Sides(names, self._bodies, self._ties)
+    def _sides_of(self, blocks: Sequence[str], off_m: Mapping[str, float]) -> Sides:
+        return Sides(blocks, off_m, self._bodies, self._ties)
 
     def _around(self, body: Body) -> list[Neighbour]:
         room, bodies, loose, size_m = self._crowd.room, self._bodies, self._loose, body.size_m

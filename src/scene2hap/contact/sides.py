@@ -1,11 +1,12 @@
-"""Blocks that one slides along: which of them it touches sideways, and where.
+"""What one slides past: blocks that it may touch sideways, and where, and things that it must stay off.
 
 Whose boxes are beside each other, neither lies on the other, hangs from it or is built into it; all that is between
-them is a touch.
+them is a touch, which blocks tell by themselves.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 
 from scene2hap.contact.body import Body
@@ -17,21 +18,39 @@ from scene2hap.contact.vectors import Triple
 
 
 class Sides:
-    """The blocks that a body may come to touch sideways.
+    """The blocks that a body may come to touch sideways, and others that it may not.
 
-    Parameters: names : their ids; bodies, ties : of all things by id, as their owner keeps them; ties are changed.
+    Parameters: blocks : their ids; off_m : how far it must stay off others, by their ids; bodies, ties : of all things
+    by id, as their owner keeps them; ties are changed.
     """
 
-    __slots__ = ("_bodies", "_ties", "names")
+    __slots__ = ("_blocks", "_bodies", "_off_m", "_ties")
 
-    def __init__(self, names: Sequence[str], bodies: Mapping[str, Body], ties: dict[str, dict[str, Tie]]) -> None:
-        self.names, self._bodies, self._ties = names, bodies, ties
+    def __init__(
+        self,
+        blocks: Sequence[str],
+        off_m: Mapping[str, float],
+        bodies: Mapping[str, Body],
+        ties: dict[str, dict[str, Tie]],
+    ) -> None:
+        self._blocks, self._off_m, self._bodies, self._ties = blocks, off_m, bodies, ties
 
-    def near(self, low: Triple, high: Triple, v_axis: int) -> list[str] | None:
-        """Which of them may touch what is in a box; None if it is not beside all of them."""
+    def has(self, x: str) -> bool:
+        """Whether one is among them."""
+        return x in self._blocks or x in self._off_m
+
+    def minds(self, x: str, margin_m: float) -> bool:
+        """Whether it makes a difference that one matters within a margin."""
+        return self._off_m.get(x, TOUCH_M if x in self._blocks else -math.inf) < margin_m
+
+    def near(self, low: Triple, high: Triple, v_axis: int) -> Sequence[str] | None:
+        """Which blocks may touch what is in a box; None if it is not beside all of them, and off all others."""
         bodies, within_m = self._bodies, TOUCH_M
+        for z, margin_m in self._off_m.items():
+            if _gap_m(low, high, bodies[z], v_axis) <= margin_m:
+                return None
         near = []
-        for z in self.names:
+        for z in self._blocks:
             gap_m = _gap_m(low, high, bodies[z], v_axis)
             if gap_m < 0:
                 return None
@@ -42,7 +61,7 @@ class Sides:
     def follow(self, body: Body, near: Collection[str], found: dict[Pair, Junction | None]) -> None:
         """Tie a block to those of them that it touches, which may be some that are near; where is added to `found`."""
         x, bodies, mine = body.id, self._bodies, self._ties[body.id]
-        for z in self.names:
+        for z in self._blocks:
             tie = None
             if z in near:
                 other = bodies[z]
