@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Set
 
-from scene2hap.contact.glide import Drift, Glide
+from scene2hap.contact.drift import Drift
+from scene2hap.contact.glide import Glide
 from scene2hap.contact.zones import Room
 
 Draw = Callable[[], Glide | Drift]

@@ -11,10 +11,12 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.bond import Bond
 from scene2hap.contact.clearing import is_clear
 from scene2hap.contact.crowd import Crowd
-from scene2hap.contact.glide import Drift, Glide, Neighbour
+from scene2hap.contact.drift import Drift
+from scene2hap.contact.glide import Glide
 from scene2hap.contact.glides import Glides
 from scene2hap.contact.holding import Holding
 from scene2hap.contact.junction import Junction, Pair, pair_of
+from scene2hap.contact.rooms import Neighbour
 from scene2hap.contact.sides import Sides, are_beside
 from scene2hap.contact.slide import Slide, slide
 from scene2hap.contact.support import TOUCH_M, Support, fall_reach_m, hang_reach_m, is_under

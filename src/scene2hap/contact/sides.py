@@ -7,7 +7,7 @@ them is a touch, which blocks tell by themselves.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.bond import direction
@@ -72,6 +72,10 @@ class Sides:
             elif mine.pop(z, None) is not None:
                 del self._ties[z][x]
                 found[pair_of(x, z)] = None
+
+
+SidesOf = Callable[[Sequence[str], Mapping[str, float]], Sides]
+"""Makes `Sides` of blocks and others, by their ids."""
 
 
 def are_beside(x: Body, y: Body) -> bool:
