@@ -180,7 +180,8 @@ def _drawn(host: Body, own: Upright, taken: Room, foot: Flat) -> Clearing | None
         return Clearing(near.cut(taken), None, _NO_LEDGE)
     ledges = host.shape.ledges(own)
     numbers, tops = ledges.number[near.rows], near.high[2]
-    number = int(numbers[meets[tops[meets].argmax()]])
+    # Sides reach as high as the ledge that they bound.
+    number = int(numbers[meets[tops[meets] >= tops[meets].max() - _ROUNDING_M]].max())
     if number < 0:
         return None
     top_m = ledges.heights[number]

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from contact_scenes import box, floor, on_floor, scene
+from contact_scenes import box, boxes, floor, on_floor, scene
 from scene2hap.contact import finder
 from scene2hap.contact.body import Body
 from scene2hap.contact.crowd import Crowd
@@ -154,6 +154,17 @@ def test_a_glide_goes_on_while_others_pass_by(apart_m: float, monkeypatch: pytes
     assert not_gliding.count("crate") <= 3
     # Each time that it is lifted or put down, and as it goes on.
     assert not_gliding.count("cup") <= 35
+
+
+def test_a_ledge_is_known_beside_sides_as_high_as_itself() -> None:
+    """A goblet slides along a board of two halves, until its bowl, but not its foot, is over the slit between them."""
+    board = boxes("board", *(((0.4, 0.02, 0.4), (x, 0.0, 0.0)) for x in (-0.21, 0.21)), at_m=(0.0, 0.01, 0.0))
+    parts = (((0.08, 0.1, 0.08), (0.0, 0.05, 0.0)), ((0.2, 0.05, 0.2), (0.0, 0.125, 0.0)))
+    goblet = boxes("goblet", *parts, at_m=(-0.3, 0.02, 0.0))
+    graph = ContactGraph(scene(board, goblet))
+    for step in range(60):
+        graph.update({"goblet": Pose((-0.3 + 0.005 * step, 0.02, 0.0))})
+        assert is_as_built(graph, board, goblet)
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.6])
