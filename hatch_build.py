@@ -1,4 +1,4 @@
-"""Compiles the kernels, `src/scene2hap/**/_*.pyx`, where a C compiler is at hand; see docs/decisions/0012.
+"""Compiles the kernels, `scene2hap/**/_*.pyx`, where a C compiler is at hand; see docs/decisions/0012.
 
 Without one the package is built all the same: every kernel has a plain twin in Python. `SCENE2HAP_COMPILED` in the
 environment of the build: 0 leaves them out, 1 makes it an error that they cannot be built, and so does "checked", with
@@ -36,7 +36,7 @@ class CompiledKernels(BuildHookInterface):  # type: ignore[type-arg]  # hatchlin
         if self.target_name != "wheel" or wish == "0":
             return
         self._work = mkdtemp()
-        source = Path(self.root, "src")
+        source = Path(self.root)
         try:
             built = dict(_compiled(source, Path(self._work), is_checked=wish == "checked"))
         except Exception as problem:  # whatever a compiler that is not there, or half there, may bring about
@@ -63,7 +63,7 @@ def _compiled(source: Path, work: Path, *, is_checked: bool) -> Iterator[tuple[s
 
     kernels = [
         Extension(".".join(path.relative_to(source).with_suffix("").parts), [str(path)], extra_compile_args=_FLAGS)
-        for path in sorted(source.rglob("_*.pyx"))
+        for path in sorted((source / "scene2hap").rglob("_*.pyx"))
     ]
     # What every module with typed arrays needs, two thirds of their C, is compiled once.
     shared = Extension(_SHARED, [str(work / "_cyutility.c")], extra_compile_args=_FLAGS)

@@ -28,7 +28,7 @@ from trimesh.triangles import closest_point
 Mesh = tuple[NDArray[np.float64], NDArray[np.int64]]
 """Vertices (n, 3) [m] in the world, and triangles (m, 3)."""
 
-DEFAULT_PATH = Path(__file__).parents[1] / "src" / "scene2hap" / "demo" / "kitchen.glb"
+DEFAULT_PATH = Path(__file__).parents[1] / "scene2hap" / "demo" / "kitchen.glb"
 MAX_BYTES = 500_000
 TOUCH_M = 1e-6
 """The gap that still counts as none: coordinates are kept to the micrometre."""

@@ -41,7 +41,7 @@ def test_the_example_is_about_ten_lines() -> None:
 def test_the_two_commands_stand_on_the_first_screen(marker: str) -> None:
     first_screen = "\n".join(README.splitlines()[:30])
     assert block(marker).strip() in first_screen
-    assert block(marker).startswith("python3 -m pip install ")
+    assert block(marker).startswith("python3 -m venv .venv && .venv/bin/python -m pip install -e ")
 
 
 def test_every_link_leads_somewhere() -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-PACKAGE = Path(__file__).parents[2] / "src" / "scene2hap"
+PACKAGE = Path(__file__).parents[2] / "scene2hap"
 
 # Bottom to top; rooms of one row never import each other.
 LAYERS = [

@@ -15,7 +15,7 @@ from generator_asking import describe
 from scene2hap.audio.sources.text_to_audio import TextToAudio
 from scene2hap.errors import BackendUnavailable
 
-RUNNERS = Path(__file__).parents[3] / "src" / "scene2hap" / "audio" / "sources" / "runners"
+RUNNERS = Path(__file__).parents[3] / "scene2hap" / "audio" / "sources" / "runners"
 
 
 @pytest.mark.parametrize("runner", ["audiogen", "stable_audio"])

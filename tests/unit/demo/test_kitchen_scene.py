@@ -14,7 +14,7 @@ import trimesh
 
 ROOT = Path(__file__).parents[3]
 SCRIPT = ROOT / "examples" / "build_demo_kitchen.py"
-COMMITTED = ROOT / "src" / "scene2hap" / "demo" / "kitchen.glb"
+COMMITTED = ROOT / "scene2hap" / "demo" / "kitchen.glb"
 SOURCES = {
     "handheld_fan",
     "electric_toothbrush",
