@@ -41,7 +41,8 @@ class AudioClip:
 
     def __post_init__(self) -> None:
         rate = checks.number("sample_rate_hz", self.sample_rate_hz, "Hz", at_least=1, error=AudioError)
-        samples = np.array(self.samples, dtype=np.float32)
+        # Samples of another clip are shared: one recording may serve many sources.
+        samples = self.samples if _is_frozen(self.samples) else np.array(self.samples, dtype=np.float32)
         if samples.ndim != 1:
             raise AudioError(f"samples has shape {samples.shape}; a clip is mono, (n_samples,). Mix channels first.")
         if samples.size == 0:
@@ -57,3 +58,13 @@ class AudioClip:
     def duration_s(self) -> float:
         """Length [s]."""
         return len(self.samples) / self.sample_rate_hz
+
+
+def _is_frozen(samples: object) -> bool:
+    """Whether an array owns its samples, so that nobody can change them by another name, and refuses writing."""
+    return (
+        isinstance(samples, np.ndarray)
+        and samples.dtype == np.float32
+        and samples.base is None
+        and not samples.flags.writeable
+    )

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from scene2hap.audio.actuators import MAX_BOOST_DB, equalize_loop
 from scene2hap.audio.analysis import dominant_frequency_hz
-from scene2hap.audio.anchor import anchor_of
+from scene2hap.audio.anchor import Anchor, anchor_of
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import at_level, felt_level_db, sensation_level_db
@@ -22,11 +22,13 @@ _PEAK = 10 ** (-TACTILE_HEADROOM_DB / 20)
 @dataclass(frozen=True, eq=False)
 class SourceClip:
     """The chosen sound of one state of one source, its intensity 0..1, and the group within which nobody needs to tell
-    sources apart: objects of one kind, and so the states of one object."""
+    sources apart: objects of one kind, and so the states of one object. One that is to `keep` its place is not moved,
+    and the others keep clear of it."""
 
     clip: AudioClip
     intensity: float
     group: str = ""
+    keep: bool = False
 
 
 @dataclass(frozen=True)
@@ -50,13 +52,10 @@ def plan_scene(
     Raises: AudioError: an intensity outside 0..1.
     """
     levels = [sensation_level_db(source.intensity) for source in sources]
-    anchors = [
-        anchor_of(source.clip.samples, source.clip.sample_rate_hz, level, actuator)
-        for source, level in zip(sources, levels, strict=True)
-    ]
+    anchors = _anchors(sources, levels, actuator)
     known = [i for i, anchor in enumerate(anchors) if anchor is not None]
     voices = [
-        Voice(anchor.frequency_hz, level, source.group, anchor.crest_db)
+        Voice(anchor.frequency_hz, level, source.group, anchor.crest_db, is_placed=source.keep)
         for source, level, anchor in zip(sources, levels, anchors, strict=True)
         if anchor is not None
     ]
@@ -72,7 +71,7 @@ def plan_scene(
             ConversionContext(
                 actuator,
                 source.intensity,
-                tuple(frequency for frequency, group in others if group != source.group),
+                tuple(dict.fromkeys(frequency for frequency, group in others if group != source.group)),
                 anchor.frequency_hz if anchor is not None else None,
                 placed[i].target_hz if i in placed else None,
             ),
@@ -80,6 +79,16 @@ def plan_scene(
         )
         for i, (source, anchor) in enumerate(zip(sources, anchors, strict=True))
     )
+
+
+def _anchors(sources: Sequence[SourceClip], levels: Sequence[float], actuator: ActuatorProfile) -> list[Anchor | None]:
+    """The anchor of each source; sources that share a clip and a level are looked at once."""
+    known: dict[tuple[int, float], Anchor | None] = {}
+    for source, level in zip(sources, levels, strict=True):
+        key = id(source.clip), level
+        if key not in known:
+            known[key] = anchor_of(source.clip.samples, source.clip.sample_rate_hz, level, actuator)
+    return [known[id(source.clip), level] for source, level in zip(sources, levels, strict=True)]
 
 
 def _standing_voice(loop: HapticLoop, group: str, actuator: ActuatorProfile) -> Voice:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
@@ -15,6 +16,8 @@ class HapticLoop:
 
     `frequency_raw_hz` is the peak of the audible loop's spectrum, which the paper puts into its attenuation law;
     `frequency_tactile_hz` is the peak of the tactile one, after conversion.
+    `source` is the sound before it was cut, None where a person's own clip was taken, which the bundle keeps anyway, or
+    where nobody knows; `fingerprint` names each thing that the loops were made from, empty where nobody knows.
     Raises: AudioError: lengths or rates differ, or a frequency is not positive.
     """
 
@@ -22,6 +25,8 @@ class HapticLoop:
     tactile: AudioClip
     frequency_raw_hz: float
     frequency_tactile_hz: float
+    source: AudioClip | None = None
+    fingerprint: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         shapes = [(len(clip.samples), clip.sample_rate_hz) for clip in (self.audible, self.tactile)]

@@ -11,7 +11,7 @@ from scene2hap.audio.actuators import actuator_profile
 from scene2hap.audio.sources import SOURCES
 from scene2hap.audio.sources.chain import ENOUGH
 from scene2hap.audio.spreading import SpreadLimits
-from scene2hap.audio.tactile import CONVERTERS
+from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.haptics import ActuatorProfile
 from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.wrappers import build_backend
@@ -44,7 +44,7 @@ class BakeConfig(InferenceConfig):
     llm: Any = Field(default="lexicon", validate_default=True)
     audio: Annotated[Any, BeforeValidator(_sources)] = Field(default="synth", validate_default=True)
     enough_candidates: int = Field(default=ENOUGH, ge=1, le=5)
-    tactile: Annotated[Any, BeforeValidator(CONVERTERS.build)] = Field(default="adaptive", validate_default=True)
+    tactile: Annotated[Any, BeforeValidator(CONVERTERS.build)] = Field(default=DEFAULT_CONVERTER, validate_default=True)
     actuator: Annotated[ActuatorProfile, BeforeValidator(actuator_profile)] = Field(default_factory=ActuatorProfile)
     spread: SpreadLimits = Field(default_factory=SpreadLimits)
     seed: int = 0

@@ -12,9 +12,13 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from typing import Any
 
+from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.baking.config import BakeConfig
-from scene2hap.baking.sound import Progress, make_loops
-from scene2hap.bundle import HapticBundle, Override
+from scene2hap.baking.fingerprint import converter_settings
+from scene2hap.baking.sound import Earlier, Progress, Remade, make_loops
+from scene2hap.bundle import HapticBundle, MadeWith, Override
+from scene2hap.errors import ConfigError
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.llm.chain import Inference, infer_scene
 from scene2hap.llm.report import InferenceReport
@@ -22,6 +26,12 @@ from scene2hap.llm.wrappers import reports
 from scene2hap.scene.snapshot import SceneSnapshot
 
 OnReport = Callable[[InferenceReport], None]
+OnRemade = Callable[[Remade], None]
+
+
+class BundleWarning(UserWarning):
+    """A bundle does not say all that is needed to bake it again."""
+
 
 _VIBRATES = "This object vibrates by itself: tell in which states."
 
@@ -66,7 +76,9 @@ async def abake(
     inference = await _infer(scene, config, wishes, user_prompt, progress, on_report)
     objects = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in inference.objects.items()}
     sounds = await make_loops(objects, wishes, config, progress or _say_nothing)
-    return HapticBundle(scene, inference.scene_category, objects, sounds.loops, wishes, sounds.choices)
+    return HapticBundle(
+        scene, inference.scene_category, objects, sounds.loops, wishes, sounds.choices, _made_with(config)
+    )
 
 
 def rebake(
@@ -77,14 +89,33 @@ def rebake(
     user_prompt: str = "",
     progress: Progress | None = None,
     on_report: OnReport | None = None,
+    on_remade: OnRemade | None = None,
 ) -> HapticBundle:
-    """Bake some objects of a bundle again, and bring all its overrides into force; the rest stays as it is.
+    """Bake some objects of a bundle again, and make anew every loop that was made from something else than is said now.
 
-    Parameters: objects : ids to infer anew, of which `user_prompt` is told; a cache answers what it was asked before.
-    Raises: as `bake`; UnknownObject.
+    What is said now: overrides, edits of `objects.json`, and settings that are given; settings of the loops that are
+    not given (actuator, tactile, spread, seed) are those that the bundle was made with. All sources are placed together
+    as `bake` places them. A sound is chosen again only if its words changed, or `audio` or `enough_candidates` is given
+    and differs, or its object is named; else its loops are made from the sound that the bundle keeps.
+
+    Parameters:
+    objects : ids to infer anew, of which `user_prompt` is told; a cache answers what it was asked before.
+    on_remade : is handed the loops that were made, by id and state, each with what differed: "sound", "converter",
+        "actuator", "intensity", "plan" (where the source lies among the others), "new", or "no fingerprint". `progress`
+        is told the same.
+    Raises: as `bake`; UnknownObject. ConfigError: the bundle's converter was given ready made; give it again.
+    Warns: BundleWarning: loops of an older bundle, which tell not what they were made from, stay as they are.
     """
     return asyncio.run(
-        arebake(bundle, config, objects=objects, user_prompt=user_prompt, progress=progress, on_report=on_report)
+        arebake(
+            bundle,
+            config,
+            objects=objects,
+            user_prompt=user_prompt,
+            progress=progress,
+            on_report=on_report,
+            on_remade=on_remade,
+        )
     )
 
 
@@ -96,25 +127,65 @@ async def arebake(
     user_prompt: str = "",
     progress: Progress | None = None,
     on_report: OnReport | None = None,
+    on_remade: OnRemade | None = None,
 ) -> HapticBundle:
     """Bake some objects of a bundle again, awaitable; see `rebake`."""
     config = BakeConfig.parse(config)
+    given, config = config.model_fields_set, _settings_of(bundle, config)
     wishes = bundle.overrides
     silent = [key for key, wish in wishes.items() if wish.vibrates and not bundle.objects[key].vibrates]
     again = list(dict.fromkeys([*objects, *silent]))
     inference = await _infer(
         bundle.snapshot, config, wishes, user_prompt, progress, on_report, again, bundle.scene_category
     )
-    inferred = {**bundle.objects, **inference.objects}
-    said = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in inferred.items()}
-    other_sound = {key for key, wish in wishes.items() if wish.clip is not None}
-    sounding = {key: haptics for key, haptics in said.items() if key in {*again, *other_sound}}
-    kept = {key: loops for key, loops in bundle.loops.items() if key not in sounding}
-    standing = [(loop, inferred[key].object_category) for key, states in kept.items() for loop in states.values()]
-    made = await make_loops(sounding, wishes, config, progress or _say_nothing, standing)
-    loops, choices = kept | made.loops, {key: bundle.choices[key] for key in kept if key in bundle.choices}
-    ordered = {key: loops[key] for key in said if key in loops}
-    return replace(bundle, objects=said, loops=ordered, choices=choices | made.choices)
+    said = {
+        key: _as_wished(haptics, wishes.get(key)) for key, haptics in {**bundle.objects, **inference.objects}.items()
+    }
+    earlier = Earlier(
+        bundle.loops,
+        bundle.choices,
+        anew=again,
+        any_source=not given & {"audio", "enough_candidates"},
+        any_making=not given & {"actuator", "tactile", "spread"},
+    )
+    sounds = await make_loops(said, wishes, config, progress or _say_nothing, earlier)
+    if on_remade is not None:
+        on_remade(sounds.remade)
+    made_with = _made_with(config) if _all_are_known(sounds.loops) else None
+    return replace(bundle, objects=said, loops=sounds.loops, choices=sounds.choices, made_with=made_with)
+
+
+def _made_with(config: BakeConfig) -> MadeWith:
+    return MadeWith(config.actuator, converter_settings(config.tactile), config.spread, config.seed)
+
+
+def _settings_of(bundle: HapticBundle, config: BakeConfig) -> BakeConfig:
+    """The settings with those of the bundle in place of what is not given. Raises: ConfigError: see `rebake`."""
+    if bundle.made_with is None:
+        return config
+    kept = {name: getattr(bundle.made_with, name) for name in ("actuator", "spread", "seed", "tactile")}
+    kept = {name: value for name, value in kept.items() if name not in config.model_fields_set}
+    if "tactile" in kept:
+        if "kind" not in kept["tactile"]:
+            raise ConfigError(
+                f"the bundle was made with a converter of {kept['tactile'].get('class', 'a class of its own')}, which "
+                'no kind names. Give the converter again: rebake(bundle, {"tactile": ...}).'
+            )
+        kept["tactile"] = CONVERTERS.build(kept["tactile"])
+    return config.model_copy(update=kept)
+
+
+def _all_are_known(loops: Mapping[str, Mapping[str, HapticLoop]]) -> bool:
+    """Whether every loop tells what it was made from; a warning where one does not."""
+    unknown = [key for key, states in loops.items() if not all(loop.fingerprint for loop in states.values())]
+    if unknown:
+        warnings.warn(
+            f"the loops of {len(unknown)} sources ({', '.join(sorted(unknown)[:3])}, ...) do not tell what they were "
+            "made from, as in bundles of before, and stay as they are. Name actuator or tactile to make them anew.",
+            BundleWarning,
+            stacklevel=3,
+        )
+    return not unknown
 
 
 async def _infer(

@@ -1,29 +1,75 @@
-"""A sound for each state of each vibrating object: found or made, chosen, looped, and turned into touch."""
+"""A sound for each state of each vibrating object: found or made, chosen, looped, and turned into touch.
+
+Equal things are done once: states that ask for the same sound share it, and those that then convert it alike share the
+loops. What an earlier bundle has is taken from there where its fingerprint still holds.
+"""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, field, replace
 
-from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
+import numpy as np
+
+from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.felt_loop import Plan, SourceClip, felt_loop, plan_scene
+from scene2hap.audio.files import as_stored
 from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.audio.loops import middle_of
 from scene2hap.audio.select import Choice, explain_choice
 from scene2hap.audio.sources.chain import gather
 from scene2hap.baking.config import BakeConfig
+from scene2hap.baking.fingerprint import OWN_CLIP, asked_for, differences, made_by
 from scene2hap.bundle import Override
 from scene2hap.haptics import ObjectHaptics, SourceState, VibrationDescription
 
 Progress = Callable[[str, str, int, int], None]
 """Told (stage, what is done, how many are done, of how many)."""
 
+Remade = Mapping[str, Mapping[str, tuple[str, ...]]]
+"""What differed for each loop that was made, by id and state: parts of its fingerprint, or "new"."""
+
+_REPEATED_S = 3.0
+_NEW: tuple[str, ...] = ("new",)
+_UNCHANGED: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Earlier:
+    """What an earlier bundle has, and what of it may not be taken over.
+
+    anew : objects whose sounds are chosen again; any_source : keep sounds of other sound sources than those asked now;
+    any_making : leave loops without a fingerprint as they are.
+    """
+
+    loops: Mapping[str, Mapping[str, HapticLoop]] = field(default_factory=dict)
+    choices: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    anew: Collection[str] = ()
+    any_source: bool = True
+    any_making: bool = True
+
 
 @dataclass(frozen=True)
 class Sounds:
-    """The loops by object and state, and why each sound was chosen where there was a choice."""
+    """The loops by object and state, why each sound was chosen where there was a choice, and what was made, and why."""
 
-    loops: dict[str, dict[str, HapticLoop]] = field(default_factory=dict)
+    loops: dict[str, Mapping[str, HapticLoop]] = field(default_factory=dict)
     choices: dict[str, dict[str, str]] = field(default_factory=dict)
+    remade: dict[str, dict[str, tuple[str, ...]]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """One state of one source, with its sound; without one its earlier loop stays as it is."""
+
+    object_id: str
+    state: SourceState
+    group: str
+    clip: AudioClip | None
+    asked: Mapping[str, str]
+    earlier: HapticLoop | None
+    keep: bool = False
 
 
 async def make_loops(
@@ -31,40 +77,134 @@ async def make_loops(
     wishes: Mapping[str, Override],
     config: BakeConfig,
     tell: Progress,
-    standing: Sequence[tuple[HapticLoop, str]] = (),
+    earlier: Earlier | None = None,
 ) -> Sounds:
-    """The loops of all objects; `standing` are those of the scene's other objects, and their categories.
+    """The loops of all objects.
 
     All sounds are chosen before any is converted, since each source is moved clear of the others.
     """
-    wanted = [(key, haptics, state) for key, haptics in objects.items() for state in haptics.states]
-    sounds, sources = Sounds(), []
+    wanted = [(key, haptics, state) for key, haptics in objects.items() if haptics.vibrates for state in haptics.states]
+    before = earlier or Earlier()
+    sounds, chooser = Sounds(), _Chooser(config, wishes, before)
+    loops: dict[str, dict[str, HapticLoop]] = {}
+    parts = []
     for done, (object_id, haptics, state) in enumerate(wanted, start=1):
-        clip = wishes[object_id].clip if object_id in wishes else None
-        if clip is None:
-            choice = await asyncio.to_thread(_choose, object_id, haptics, state, config)
-            clip = choice.winner
-            sounds.choices.setdefault(object_id, {})[state.name] = str(choice)
-        sources.append(SourceClip(clip, state.intensity, haptics.object_category))
+        part, why = await asyncio.to_thread(chooser.part, object_id, haptics, state)
+        parts.append(part)
+        if why:
+            sounds.choices.setdefault(object_id, {})[state.name] = why
         tell("sound", object_id, done, len(wanted))
+    sources = [SourceClip(part.clip, part.state.intensity, part.group, part.keep) for part in parts if part.clip]
+    standing = [(part.earlier, part.group) for part in parts if part.clip is None and part.earlier is not None]
     plans = await asyncio.to_thread(plan_scene, sources, config.tactile, config.actuator, config.spread, standing)
-    for done, ((object_id, _, state), source, plan) in enumerate(zip(wanted, sources, plans, strict=True), start=1):
-        sounds.loops.setdefault(object_id, {})[state.name] = await asyncio.to_thread(
-            felt_loop, source.clip, config.tactile, plan
-        )
-        tell("touch", object_id, done, len(wanted))
+    planned, maker = iter(plans), _Maker(config)
+    for done, part in enumerate(parts, start=1):
+        loop, reasons = part.earlier, _UNCHANGED
+        if part.clip is not None:
+            loop, reasons = await asyncio.to_thread(maker.loop, part, part.clip, next(planned))
+        assert loop is not None  # a part without a clip has an earlier loop
+        loops.setdefault(part.object_id, {})[part.state.name] = loop
+        if reasons:
+            sounds.remade.setdefault(part.object_id, {})[part.state.name] = reasons
+        why = f" ({', '.join(reasons)})" if reasons and reasons != _NEW else ""
+        tell("touch", f"{part.object_id}{why}", done, len(parts))
+    for object_id, states in loops.items():
+        known = before.loops.get(object_id)
+        sounds.loops[object_id] = known if known is not None and _is_same(known, states) else states
     return sounds
 
 
-def _choose(object_id: str, haptics: ObjectHaptics, state: SourceState, config: BakeConfig) -> Choice:
-    description = VibrationDescription(
-        object_category=haptics.object_category,
-        state=state.name,
-        sentence=state.sentence,
-        keywords=state.keywords,
-        intensity=state.intensity,
-        size_m=haptics.estimated_size_m,
-        material=haptics.material_category,
-        seed=config.seed,
-    )
-    return explain_choice(gather(object_id, description, config.audio, enough=config.enough_candidates))
+def _is_same(states: Mapping[str, HapticLoop], others: Mapping[str, HapticLoop]) -> bool:
+    return list(states) == list(others) and all(states[name] is others[name] for name in states)
+
+
+class _Chooser:
+    """Finds the sound of each state: a person's own, that of an earlier bundle, or the best that the sources have."""
+
+    def __init__(self, config: BakeConfig, wishes: Mapping[str, Override], earlier: Earlier) -> None:
+        self._config, self._wishes, self._earlier = config, wishes, earlier
+        self._chosen: dict[VibrationDescription, tuple[AudioClip, str]] = {}
+        self._own: dict[str, AudioClip] = {}
+
+    def part(self, object_id: str, haptics: ObjectHaptics, state: SourceState) -> tuple[_Part, str]:
+        """The state with its sound, and why that was chosen, "" where there was no choice."""
+        wish, group = self._wishes.get(object_id), haptics.object_category
+        before = self._earlier.loops.get(object_id, {}).get(state.name)
+        if wish is not None and wish.clip is not None:
+            clip = self._own.setdefault(object_id, _prepared(wish.clip))
+            asked = {"words": OWN_CLIP, "sources": OWN_CLIP}
+            return _Part(object_id, state, group, clip, asked, before, wish.keep), ""
+        description = self._description(haptics, state)
+        asked = asked_for(description, self._config)
+        if before is not None and object_id not in self._earlier.anew:
+            why = self._earlier.choices.get(object_id, {}).get(state.name, "")
+            if not before.fingerprint:
+                repeated = None if self._earlier.any_making else _prepared(_repeated(before.audible))
+                return _Part(object_id, state, group, repeated, asked, before), why
+            if before.source is not None and self._holds(before.fingerprint, asked):
+                return _Part(object_id, state, group, before.source, _asked(before, asked), before), why
+        if description not in self._chosen:
+            choice = self._choose(object_id, description)
+            self._chosen[description] = _prepared(choice.winner), str(choice)
+        clip, why = self._chosen[description]
+        return _Part(object_id, state, group, clip, asked, before), why
+
+    def _holds(self, fingerprint: Mapping[str, str], asked: Mapping[str, str]) -> bool:
+        parts = ("words",) if self._earlier.any_source else ("words", "sources")
+        return all(fingerprint.get(part) == asked[part] for part in parts)
+
+    def _choose(self, object_id: str, description: VibrationDescription) -> Choice:
+        config = self._config
+        return explain_choice(gather(object_id, description, config.audio, enough=config.enough_candidates))
+
+    def _description(self, haptics: ObjectHaptics, state: SourceState) -> VibrationDescription:
+        return VibrationDescription(
+            object_category=haptics.object_category,
+            state=state.name,
+            sentence=state.sentence,
+            keywords=state.keywords,
+            intensity=state.intensity,
+            size_m=haptics.estimated_size_m,
+            material=haptics.material_category,
+            seed=self._config.seed,
+        )
+
+
+class _Maker:
+    """Makes the loops of each sound, those that come out alike once."""
+
+    def __init__(self, config: BakeConfig) -> None:
+        self._config = config
+        self._made: dict[tuple[int, Plan], HapticLoop] = {}
+        self._names: dict[tuple[int, Plan], dict[str, str]] = {}
+
+    def loop(self, part: _Part, clip: AudioClip, plan: Plan) -> tuple[HapticLoop, tuple[str, ...]]:
+        """The loops of a state, and why they were made; () where the earlier ones hold."""
+        key = id(clip), plan
+        if key not in self._names:
+            self._names[key] = made_by(clip, self._config.tactile, plan)
+        fingerprint = {**part.asked, **self._names[key]}
+        reasons = differences(part.earlier.fingerprint, fingerprint) if part.earlier is not None else _NEW
+        if part.earlier is not None and not reasons:
+            unchanged = dict(part.earlier.fingerprint) == fingerprint
+            return part.earlier if unchanged else replace(part.earlier, fingerprint=fingerprint), _UNCHANGED
+        if key not in self._made:
+            self._made[key] = felt_loop(clip, self._config.tactile, plan)
+        # A person's own clip is kept with the override; once that is gone another sound is to be chosen.
+        source = None if part.asked["words"] == OWN_CLIP else clip
+        return replace(self._made[key], source=source, fingerprint=fingerprint), reasons
+
+
+def _asked(before: HapticLoop, asked: Mapping[str, str]) -> dict[str, str]:
+    return {**asked, "sources": before.fingerprint.get("sources", "")}
+
+
+def _prepared(clip: AudioClip) -> AudioClip:
+    """The part of a clip that loops are cut from, as a bundle keeps it: made again later, loops come out the same."""
+    return as_stored(middle_of(clip))
+
+
+def _repeated(loop: AudioClip) -> AudioClip:
+    """A loop as a clip that is long enough to be cut again: at least twice, and three seconds."""
+    times = max(2, int(np.ceil(_REPEATED_S / loop.duration_s)))
+    return replace(loop, samples=np.tile(loop.samples, times))

@@ -1,21 +1,20 @@
 """A bundle on disk: a folder of JSON, WAV and meshes that a person can read and edit.
 
-bundle.json     format, version, kind of place, list of files (written last: a folder without it is half written)
+bundle.json     format, version, kind of place, settings of all loops, files (last: a folder without it is half written)
 scene.json      the snapshot; geometry by reference to meshes/
 objects.json    ObjectHaptics of each object by id
-loops.json      for each source and state its two sounds, frequencies and credit
+loops.json      for each source and state its sounds, frequencies, credit, and the fingerprint of their making
 overrides.json  what a person has overridden, by id
 credits.txt     whom the sounds are owed to
 meshes/*.ply    one per distinct mesh [m]
-sounds/*.wav    audible and tactile loop of each source and state, equal in length and seam
+sounds/*.wav    audible and tactile loop of each source and state, equal in length and seam; equal ones are one file
+sounds/*.flac   the sounds that loops were cut from, to cut and convert them again
 """
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
-import re
 import shutil
 import tempfile
 from dataclasses import asdict, replace
@@ -25,11 +24,12 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from scene2hap import checks
-from scene2hap.audio.clip import AudioClip, Credit
+from scene2hap.audio.clip import Credit
 from scene2hap.audio.files import read_clip, write_wav
-from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle.haptic_bundle import HapticBundle
+from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.override import Override
+from scene2hap.bundle.sounds import SoundReader, file_stem, inside, write_loops
 from scene2hap.errors import AudioError, BundleError, BundleIncomplete, BundleVersionError, MaterialError, SceneError
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.materials import Material
@@ -97,27 +97,9 @@ def _write(bundle: HapticBundle, folder: Path) -> None:
             if name not in written:
                 (folder / name).write_bytes(encode_ply(item.geometry))
                 written.append(name)
-    loops: dict[str, dict[str, Any]] = {}
-    for object_id, states in bundle.loops.items():
-        loops[object_id] = {}
-        for state, loop in states.items():
-            stem = f"sounds/{file_stem(object_id)}.{file_stem(state)}"
-            files = {kind: f"{stem}.{kind}.wav" for kind in ("audible", "tactile")}
-            for kind, name in files.items():
-                clip: AudioClip = getattr(loop, kind)
-                write_wav(folder / name, clip.samples, clip.sample_rate_hz)
-                written.append(name)
-            loops[object_id][state] = {
-                **files,
-                "frequency_raw_hz": loop.frequency_raw_hz,
-                "frequency_tactile_hz": loop.frequency_tactile_hz,
-                "credit": asdict(loop.audible.credit),
-            }
-            if why := bundle.choices.get(object_id, {}).get(state):
-                loops[object_id][state]["choice"] = why.splitlines()
     put("scene.json", {"format": scene_json.FORMAT, "version": scene_json.VERSION, **scene})
     put("objects.json", _objects.dump_python(dict(bundle.objects), mode="json"))
-    put("loops.json", loops)
+    put("loops.json", write_loops(bundle, folder, written))
     put("overrides.json", _override_rows(bundle, folder, written))
     owed = dict.fromkeys(replace(who, query="") for who in bundle.credits)  # found by two queries, owed once
     lines = [f"{who.title}, by {who.author}, {who.licence}{', ' + who.address if who.address else ''}" for who in owed]
@@ -129,6 +111,7 @@ def _write(bundle: HapticBundle, folder: Path) -> None:
             "format": FORMAT,
             "version": VERSION,
             "scene_category": bundle.scene_category,
+            "made_with": bundle.made_with.to_document() if bundle.made_with is not None else None,
             "files": [*written, "credits.txt"],
         },
     )
@@ -151,13 +134,13 @@ def read_bundle(folder: Path) -> HapticBundle:
     if missing:
         raise BundleIncomplete(f"{folder} lacks {missing[0]} ({len(missing)} missing). Bake it again or restore it.")
     try:
-        rows = _json_file(folder, "loops.json")
+        rows, sounds = _json_file(folder, "loops.json"), SoundReader(folder)
         return HapticBundle(
             _read_scene(folder),
             str(manifest.get("scene_category", "undefined")),
             _objects.validate_python(_json_file(folder, "objects.json")),
             {
-                object_id: {state: _read_loop(folder, row) for state, row in states.items()}
+                object_id: {state: sounds.loop(row) for state, row in states.items()}
                 for object_id, states in rows.items()
             },
             read_overrides(folder),
@@ -165,6 +148,7 @@ def read_bundle(folder: Path) -> HapticBundle:
                 object_id: {state: "\n".join(row["choice"]) for state, row in states.items() if "choice" in row}
                 for object_id, states in rows.items()
             },
+            MadeWith.from_document(manifest.get("made_with"), str(folder / MANIFEST)),
         )
     except ValidationError as cause:
         problem = checks.first_problem(cause)
@@ -180,7 +164,7 @@ def read_bundle(folder: Path) -> HapticBundle:
 def _read_scene(folder: Path) -> SceneSnapshot:
     document = _json_file(folder, "scene.json")
     names = {row.get("geometry") for row in document.get("objects", []) if isinstance(row.get("geometry"), str)}
-    document["geometries"] = {name: decode_ply(_inside(folder, name).read_bytes()) for name in sorted(names)}
+    document["geometries"] = {name: decode_ply(inside(folder, name).read_bytes()) for name in sorted(names)}
     return scene_json.from_document(document)
 
 
@@ -195,6 +179,7 @@ def _override_rows(bundle: HapticBundle, folder: Path, written: list[str]) -> di
             write_wav(folder / name, wish.clip.samples, wish.clip.sample_rate_hz)
             written.append(name)
             row["clip"] = {"file": name, "credit": asdict(wish.clip.credit)}
+        row["keep"] = None if wish.keep else False
         rows[object_id] = {field: value for field, value in row.items() if value is not None}
     return rows
 
@@ -213,15 +198,9 @@ def read_overrides(folder: Path) -> dict[str, Override]:
             fields["material"] = Material(**fields["material"])
         if isinstance(fields.get("clip"), dict):
             clip = fields["clip"]
-            fields["clip"] = read_clip(_inside(folder, clip["file"]), Credit(**clip["credit"]))
+            fields["clip"] = read_clip(inside(folder, clip["file"]), Credit(**clip["credit"]))
         overrides[object_id] = Override(**fields)
     return overrides
-
-
-def _read_loop(folder: Path, row: dict[str, Any]) -> HapticLoop:
-    credit = Credit(**row["credit"])
-    audible, tactile = (read_clip(_inside(folder, row[kind]), credit) for kind in ("audible", "tactile"))
-    return HapticLoop(audible, tactile, row["frequency_raw_hz"], row["frequency_tactile_hz"])
 
 
 def _json_file(folder: Path, name: str) -> dict[str, Any]:
@@ -236,16 +215,3 @@ def _json_file(folder: Path, name: str) -> dict[str, Any]:
     if not isinstance(document, dict):
         raise BundleError(f"{folder / name} must hold a JSON object.")
     return document
-
-
-def _inside(folder: Path, name: str) -> Path:
-    path = (folder / name).resolve()
-    if not path.is_relative_to(folder.resolve()):
-        raise BundleError(f"{folder} refers to {name!r}, outside itself; a bundle only reads its own files.")
-    return path
-
-
-def file_stem(text: str) -> str:
-    """A file name for any id; a short digest keeps apart what the plain letters would merge."""
-    plain = re.sub(r"[^A-Za-z0-9_-]+", "-", text).strip("-")[:60]
-    return plain if plain == text else f"{plain or 'x'}-{hashlib.sha256(text.encode()).hexdigest()[:8]}"

@@ -9,8 +9,9 @@ from pathlib import Path
 
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.override import Override
-from scene2hap.haptics import ObjectHaptics
+from scene2hap.haptics import ActuatorProfile, ObjectHaptics
 from scene2hap.materials import Material
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -20,7 +21,7 @@ class HapticBundle:
     """A baked scene: what is in it, what inference says of each object, and the loops of each source by state.
 
     `overrides` are what a person says against inference; `choices` tell why each sound was chosen, as a table of its
-    candidates in text, by id and state.
+    candidates in text, by id and state; `made_with` are the settings that all loops share, None where nobody knows.
     """
 
     snapshot: SceneSnapshot
@@ -29,10 +30,16 @@ class HapticBundle:
     loops: Mapping[str, Mapping[str, HapticLoop]]
     overrides: Mapping[str, Override] = field(default_factory=dict)
     choices: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    made_with: MadeWith | None = None
 
     def __post_init__(self) -> None:
         for object_id in (*self.objects, *self.loops, *self.overrides):
             self.snapshot.object(object_id)
+
+    @property
+    def actuator(self) -> ActuatorProfile | None:
+        """What all tactile loops were converted for; None where nobody knows."""
+        return self.made_with.actuator if self.made_with is not None else None
 
     @property
     def credits(self) -> tuple[Credit, ...]:
@@ -47,16 +54,18 @@ class HapticBundle:
         gain_db: float | None = None,
         material: Material | str | None = None,
         clip: AudioClip | None = None,
+        keep: bool | None = None,
     ) -> HapticBundle:
         """The bundle with a correction to one object, on top of earlier ones; None leaves a field as it is.
 
+        A clip stays at its own frequency unless `keep=False` allows to move it clear of the scene's other sources.
         Kept in the folder and by `rebake`. Level, material and silence count at once; a new sound, or vibration where
         none was inferred, counts after `rebake(bundle)`, which makes its loops.
         Raises: UnknownObject; BundleError: a field out of bounds; UnknownMaterial.
         """
         self.snapshot.object(object_id)
         wish = self.overrides.get(object_id, Override()).changed(
-            {"vibrates": vibrates, "gain_db": gain_db, "material": material, "clip": clip}
+            {"vibrates": vibrates, "gain_db": gain_db, "material": material, "clip": clip, "keep": keep}
         )
         return replace(self, overrides={**self.overrides, object_id: wish}).with_overrides()
 

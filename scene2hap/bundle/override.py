@@ -23,7 +23,9 @@ class Override:
     """A correction; None leaves what was inferred.
 
     vibrates : whether the object vibrates by itself; gain_db : its level at the hand against the inferred one [dB];
-    material : its material, or a name in the table; clip : the sound that its vibration is made from, in every state.
+    material : its material, or a name in the table; clip : the sound that its vibration is made from, in every state;
+    keep : whether that sound stays at its own frequency and level, and the scene's other sources keep clear of it; else
+    it is moved like any other.
     Raises: BundleError: a field of another type or out of bounds. UnknownMaterial.
     """
 
@@ -31,10 +33,13 @@ class Override:
     gain_db: float | None = None
     material: Material | None = None
     clip: AudioClip | None = None
+    keep: bool = True
 
     def __post_init__(self) -> None:
         if self.vibrates is not None and not isinstance(self.vibrates, bool):
             raise BundleError(f"vibrates is {self.vibrates!r}; it must be True, False or None.")
+        if not isinstance(self.keep, bool):
+            raise BundleError(f"keep is {self.keep!r}; it must be True or False.")
         if self.gain_db is not None:
             gain = checks.number("gain_db", self.gain_db, "dB", at_most=_MOST_GAIN_DB, error=BundleError)
             object.__setattr__(self, "gain_db", gain)

@@ -17,7 +17,7 @@ from typing import Any
 
 from scene2hap.audio.actuators import ACTUATORS
 from scene2hap.audio.conversion import FORMATS, Conversion, Failure, convert_files
-from scene2hap.audio.tactile import CONVERTERS
+from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.cli.console import Console
 from scene2hap.errors import AudioError, ConfigError
 
@@ -31,8 +31,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--converter",
         metavar="KIND",
-        default="svf_bandpass",
-        help=f"one of {', '.join(CONVERTERS.builtins)}, or JSON with a kind and its settings",
+        default=DEFAULT_CONVERTER,
+        help=f"one of {', '.join(CONVERTERS.builtins)}, or JSON with a kind and its settings; "
+        f"default {DEFAULT_CONVERTER}, as for a scene",
     )
     parser.add_argument(
         "--actuator",

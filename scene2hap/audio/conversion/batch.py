@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.audio.conversion.stream import FORMATS, Conversion, convert, settled
+from scene2hap.audio.tactile import DEFAULT_CONVERTER
 from scene2hap.errors import AudioError, Scene2HapError
 
 Progress = Callable[[str, int, int], None]
@@ -40,7 +41,7 @@ def convert_files(
     pictures: bool = False,
     workers: int | None = None,
     progress: Progress | None = None,
-    converter: object = "svf_bandpass",
+    converter: object = DEFAULT_CONVERTER,
     actuator: object = "flat",
     intensity: float = 1.0,
     **settings: Any,

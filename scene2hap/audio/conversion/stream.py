@@ -17,7 +17,7 @@ from scene2hap.audio.actuators import actuator_profile
 from scene2hap.audio.conversion.meter import Meter
 from scene2hap.audio.files import opened_sound, require_finite, written_whole
 from scene2hap.audio.protocol import ConversionContext, TactileConverter, TactileStream
-from scene2hap.audio.tactile import CONVERTERS
+from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.errors import AudioError, ConfigError
 
 Block = NDArray[np.float32]
@@ -65,7 +65,7 @@ def convert(
     source: str | Path,
     output: str | Path,
     *,
-    converter: object = "svf_bandpass",
+    converter: object = DEFAULT_CONVERTER,
     actuator: object = "flat",
     intensity: float = 1.0,
     mono: bool = False,

@@ -15,6 +15,7 @@ from scene2hap.audio.loops.pair import (
     TACTILE_HEADROOM_DB,
     loop_pair,
     make_loop,
+    middle_of,
 )
 from scene2hap.audio.loops.seam import FadeLaw, Seam, apply_seam
 from scene2hap.audio.loops.search import CROSSFADE_S, MAX_LOOP_S, MIN_CLIP_S, find_seam
@@ -32,4 +33,5 @@ __all__ = [
     "find_seam",
     "loop_pair",
     "make_loop",
+    "middle_of",
 ]

@@ -12,7 +12,7 @@ from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.loops.seam import apply_seam
-from scene2hap.audio.loops.search import find_seam
+from scene2hap.audio.loops.search import CROSSFADE_S, MAX_LOOP_S, find_seam
 from scene2hap.audio.protocol import ConversionContext, TactileConverter
 from scene2hap.errors import AudioError
 
@@ -22,7 +22,22 @@ TACTILE_HEADROOM_DB = 6.0
 AUDIBLE_PEAK_DBFS = -1.0
 """Peak of every audible loop [dB re 1]; the usual margin for players that resample."""
 
+_RUN_UP_S = 2.0
+"""Assumed: filters that touch can tell settle within a tenth of this."""
+
 AUDIBLE_RANGE_HZ = (20.0, 20_000.0)
+
+
+def middle_of(clip: AudioClip) -> AudioClip:
+    """The middle of a clip, as much as a loop of the greatest length needs with a run-up for converters before it.
+
+    The seam is looked for in the middle anyway, so that what is cut off is never heard.
+    """
+    n = round((MAX_LOOP_S + CROSSFADE_S + 2.0 * _RUN_UP_S) * clip.sample_rate_hz)
+    if len(clip.samples) <= n:
+        return clip
+    first = (len(clip.samples) - n) // 2
+    return replace(clip, samples=clip.samples[first : first + n])
 
 
 def make_loop(clip: AudioClip) -> AudioClip:

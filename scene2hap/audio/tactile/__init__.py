@@ -6,6 +6,9 @@ from scene2hap.plugins import PluginGroup
 
 _HERE = "scene2hap.audio.tactile"
 
+DEFAULT_CONVERTER = "adaptive"
+"""What scenes are baked and files are converted with, unless told otherwise."""
+
 CONVERTERS = PluginGroup(
     "scene2hap.tactile",
     builtins={

@@ -24,7 +24,9 @@ def with_meshes() -> HapticBundle:
     objects = [replace(box(name, (0.3,) * 3, (i, 0, 0)), geometry=mesh) for i, name in enumerate(["Куб/1", "Куб:2"])]
     snapshot = scene(*objects)
     ringing = haptics("oak", (0.3, 0.3, 0.3), "on/off", "on:off")
-    loops = {name: {"on/off": tone_loop(50), "on:off": tone_loop(90)} for name in ("Куб/1", "Куб:2")}
+    loops = {
+        name: {"on/off": tone_loop(50 + i), "on:off": tone_loop(90 + i)} for i, name in enumerate(["Куб/1", "Куб:2"])
+    }
     return HapticBundle(snapshot, "room", dict.fromkeys(loops, ringing), loops)
 
 
@@ -53,7 +55,7 @@ def test_round_trip(tmp_path: Path, make: object) -> None:
 def test_instances_share_a_mesh_file_and_names_stay_apart(tmp_path: Path) -> None:
     folder = with_meshes().save(tmp_path / "b")
     assert len(list((folder / "meshes").iterdir())) == 1
-    assert len(list((folder / "sounds").iterdir())) == 8
+    assert len(list((folder / "sounds").iterdir())) == 8  # no two of which sound alike
 
 
 def test_saving_again_gives_the_same_bytes(tmp_path: Path) -> None:
@@ -86,7 +88,7 @@ def test_a_failed_save_leaves_the_old_bundle(folder: Path, monkeypatch: pytest.M
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("scene2hap.bundle.folder.write_wav", full)
+    monkeypatch.setattr("scene2hap.bundle.sounds.write_wav", full)
     with pytest.raises(BundleError, match="No space left"):
         with_meshes().save(folder)
     monkeypatch.undo()

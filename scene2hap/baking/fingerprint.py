@@ -1,0 +1,93 @@
+"""What a loop was made from, as names that are equal where the thing is: a loop is made again where one differs.
+
+sound      the clip before it was cut
+words      what the sound was asked for by: category, state, sentence, keywords, seed
+sources    who was asked: sound sources, in their order, and how many candidates were enough
+converter  kind and settings
+actuator   the profile
+intensity  of the state
+plan       where the source was placed among the others: frequencies and level
+
+`words` and `sources` decide whether a sound is chosen again, the others whether its loops are made again.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, fields, is_dataclass
+from hashlib import sha256
+from importlib.metadata import entry_points
+from typing import Any
+
+from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.felt_loop import Plan
+from scene2hap.audio.files import sound_digest
+from scene2hap.audio.tactile import CONVERTERS
+from scene2hap.baking.config import BakeConfig
+from scene2hap.haptics import VibrationDescription
+
+OWN_CLIP = "own clip"
+"""Stands for words and sources where a person gave the sound."""
+
+_MADE_BY = ("sound", "converter", "actuator", "intensity", "plan")
+_NO_FINGERPRINT = "no fingerprint"
+
+
+def asked_for(description: VibrationDescription, config: BakeConfig) -> dict[str, str]:
+    """The names of what decides which sound is chosen."""
+    asked = (description.object_category, description.state, description.sentence, description.keywords)
+    sources = [_told(source) for source in config.audio]
+    return {
+        "words": _name([*asked, description.seed]),
+        "sources": _name([*sources, config.enough_candidates]),
+    }
+
+
+def made_by(clip: AudioClip, converter: object, plan: Plan) -> dict[str, str]:
+    """The names of what decides how the loops of a clip come out."""
+    context = plan.context
+    places = [context.own_hz, context.target_hz, plan.level_db]
+    return {
+        "sound": sound_digest(clip),
+        "converter": _name([converter_settings(converter), _told(converter)]),
+        "actuator": _name(asdict(context.actuator)),
+        "intensity": f"{context.intensity:g}",
+        # To a hundredth of a hertz or decibel: other machines round otherwise, and nobody feels less.
+        "plan": _name([_rounded(places), sorted(_rounded(context.neighbours_hz))]),
+    }
+
+
+def differences(earlier: Mapping[str, str], now: Mapping[str, str]) -> tuple[str, ...]:
+    """What differs in how a loop is made; the plan is named only where nothing else is, since it follows from that."""
+    if not earlier:
+        return (_NO_FINGERPRINT,)
+    found = tuple(part for part in _MADE_BY if earlier.get(part) != now[part])
+    return found[:-1] if len(found) > 1 and found[-1] == "plan" else found
+
+
+def converter_settings(converter: object) -> dict[str, Any]:
+    """A converter as configuration that builds it again, or its class alone where nobody has registered it."""
+    place = f"{type(converter).__module__}:{type(converter).__qualname__}"
+    guests = {entry.name: entry.value for entry in entry_points(group=CONVERTERS.name)}
+    kinds = [kind for kind, value in {**guests, **CONVERTERS.builtins}.items() if value == place]
+    if not kinds or not is_dataclass(converter):
+        return {"class": place}
+    settings = {field.name: getattr(converter, field.name) for field in fields(converter) if field.init}
+    try:
+        return {"kind": kinds[0], **json.loads(json.dumps(settings, allow_nan=False))}
+    except (TypeError, ValueError):
+        return {"class": place}
+
+
+def _told(part: object) -> str:
+    """What a part says of itself; the usual text of an object holds its address, which says nothing."""
+    return type(part).__qualname__ if type(part).__repr__ is object.__repr__ else repr(part)
+
+
+def _rounded(values: Any) -> list[str]:
+    return ["" if value is None else f"{value:.2f}" for value in values]
+
+
+def _name(document: Any) -> str:
+    return sha256(json.dumps(document, sort_keys=True, default=str).encode()).hexdigest()[:16]

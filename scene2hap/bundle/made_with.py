@@ -1,0 +1,52 @@
+"""The settings that all loops of a bundle share."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from scene2hap.audio.spreading import SpreadLimits
+from scene2hap.errors import BundleError, ConfigError
+from scene2hap.haptics import ActuatorProfile
+
+
+@dataclass(frozen=True)
+class MadeWith:
+    """What a scene was baked with, as far as it decides how a loop comes out of its sound.
+
+    `tactile` is the converter as configuration: its `kind` and settings; one that was given ready made and is
+    registered nowhere has a `class` instead, and cannot be built again. `seed` is of what is synthesized.
+    """
+
+    actuator: ActuatorProfile
+    tactile: Mapping[str, Any]
+    spread: SpreadLimits
+    seed: int = 0
+
+    def to_document(self) -> dict[str, Any]:
+        """JSON values."""
+        return {
+            "actuator": asdict(self.actuator),
+            "tactile": dict(self.tactile),
+            "spread": self.spread.model_dump(),
+            "seed": self.seed,
+        }
+
+    @classmethod
+    def from_document(cls, document: object, place: str) -> MadeWith | None:
+        """What `to_document` wrote, None for None, as in bundles of before; `place` is what errors call it.
+
+        Raises: BundleError: it is something else.
+        """
+        if document is None:
+            return None
+        try:
+            fields = dict(document)  # type: ignore[call-overload]
+            tactile, seed = fields["tactile"], fields["seed"]
+            if not isinstance(tactile, dict) or not isinstance(seed, int):
+                raise TypeError("tactile must be an object and seed a whole number")
+            actuator = ActuatorProfile(**fields["actuator"])
+            return cls(actuator, tactile, SpreadLimits.parse(fields["spread"]), seed)
+        except (ConfigError, KeyError, TypeError, ValueError) as cause:
+            raise BundleError(f"{place}: made_with lacks or misuses {cause}. Remove it, or bake again.") from cause

@@ -1,0 +1,120 @@
+"""The sound files of a bundle: equal sounds are one file, which several sources refer to.
+
+A file is named after the first source that uses it, and the number of others: `fan.on+94.audible.wav` serves 95. Who
+shares it stands in loops.json. To change one source alone, give it a file of its own there, or override its clip; what
+is changed in a shared file is changed for all. Saving a bundle shares and splits files by what is in them.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from scene2hap.audio.clip import AudioClip, Credit
+from scene2hap.audio.files import fits_flac, read_clip, sound_digest, write_flac, write_wav
+from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.bundle.haptic_bundle import HapticBundle
+from scene2hap.errors import BundleError
+
+_KINDS = ("audible", "tactile", "source")
+
+
+def write_loops(bundle: HapticBundle, folder: Path, written: list[str]) -> dict[str, dict[str, Any]]:
+    """Write the sounds of all loops below `folder`; the rows of loops.json. Adds to the names of what is `written`."""
+    digests: dict[int, str] = {}
+    users: dict[tuple[str, str], list[str]] = {}
+    for stem, loop in _stems(bundle):
+        for kind, clip in _clips(loop).items():
+            digest = digests.setdefault(id(clip), "") or sound_digest(clip)
+            digests[id(clip)] = digest
+            users.setdefault((kind, digest), []).append(stem)
+    names: dict[tuple[str, str], str] = {}
+    rows: dict[str, dict[str, Any]] = {object_id: {} for object_id in bundle.loops}
+    for object_id, states in bundle.loops.items():
+        for state, loop in states.items():
+            row: dict[str, Any] = {}
+            for kind, clip in _clips(loop).items():
+                key = kind, digests[id(clip)]
+                if key not in names:
+                    names[key] = _write(folder, users[key], kind, clip)
+                    written.append(names[key])
+                row[kind] = names[key]
+            row["frequency_raw_hz"] = loop.frequency_raw_hz
+            row["frequency_tactile_hz"] = loop.frequency_tactile_hz
+            row["credit"] = asdict(loop.audible.credit)
+            if loop.fingerprint:
+                row["fingerprint"] = dict(loop.fingerprint)
+            if why := bundle.choices.get(object_id, {}).get(state):
+                row["choice"] = why.splitlines()
+            rows[object_id][state] = row
+    return rows
+
+
+class SoundReader:
+    """Reads the loops that rows of loops.json describe, each file once."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._clips: dict[tuple[Path, Credit], AudioClip] = {}
+        self._files: dict[Path, AudioClip] = {}
+
+    def loop(self, row: Mapping[str, Any]) -> HapticLoop:
+        """One loop. Raises: AudioError: a sound cannot be used; BundleError: it lies outside; KeyError, TypeError."""
+        credit = Credit(**row["credit"])
+        audible, tactile = (self._clip(row[kind], credit) for kind in ("audible", "tactile"))
+        source = self._clip(row["source"], credit) if "source" in row else None
+        fingerprint = row.get("fingerprint", {})
+        if not isinstance(fingerprint, dict) or not all(isinstance(value, str) for value in fingerprint.values()):
+            raise TypeError("'fingerprint', which must be an object of texts")
+        return HapticLoop(audible, tactile, row["frequency_raw_hz"], row["frequency_tactile_hz"], source, fingerprint)
+
+    def _clip(self, name: str, credit: Credit) -> AudioClip:
+        path = inside(self._folder, name)
+        if (path, credit) not in self._clips:
+            if path not in self._files:
+                self._files[path] = read_clip(path, credit)
+            samples, rate = self._files[path].samples, self._files[path].sample_rate_hz
+            self._clips[path, credit] = AudioClip(samples, rate, credit)
+        return self._clips[path, credit]
+
+
+def inside(folder: Path, name: str) -> Path:
+    """The path of a file that a bundle names. Raises: BundleError: it lies outside of the bundle."""
+    path = (folder / name).resolve()
+    if not path.is_relative_to(folder.resolve()):
+        raise BundleError(f"{folder} refers to {name!r}, outside itself; a bundle only reads its own files.")
+    return path
+
+
+def file_stem(text: str) -> str:
+    """A file name for any id; a short digest keeps apart what the plain letters would merge."""
+    plain = re.sub(r"[^A-Za-z0-9_-]+", "-", text).strip("-")[:60]
+    return plain if plain == text else f"{plain or 'x'}-{hashlib.sha256(text.encode()).hexdigest()[:8]}"
+
+
+def _stems(bundle: HapticBundle) -> list[tuple[str, HapticLoop]]:
+    return [
+        (f"{file_stem(object_id)}.{file_stem(state)}", loop)
+        for object_id, states in bundle.loops.items()
+        for state, loop in states.items()
+    ]
+
+
+def _clips(loop: HapticLoop) -> dict[str, AudioClip]:
+    return {kind: clip for kind in _KINDS if (clip := getattr(loop, kind)) is not None}
+
+
+def _write(folder: Path, stems: list[str], kind: str, clip: AudioClip) -> str:
+    shared = f"{stems[0]}+{len(stems) - 1}" if len(stems) > 1 else stems[0]  # no stem holds a plus sign
+    # Loops are there to be edited; the sound that they were cut from is longer, and there to be kept.
+    if kind == "source" and fits_flac(clip.sample_rate_hz):
+        name = f"sounds/{shared}.{kind}.flac"
+        write_flac(folder / name, clip.samples, clip.sample_rate_hz)
+    else:
+        name = f"sounds/{shared}.{kind}.wav"
+        write_wav(folder / name, clip.samples, clip.sample_rate_hz)
+    return name

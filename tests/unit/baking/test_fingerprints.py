@@ -1,0 +1,272 @@
+"""Baking again makes anew what was made from something else than is said now, and tells it."""
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from scene2hap import AudioClip, Credit, HapticBundle, SceneSnapshot, VibrationDescription, bake, rebake
+from scene2hap.audio.levels import felt_level_db
+from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.sources.synth import Synthesizer
+from scene2hap.audio.tactile.adaptive import Adaptive
+from scene2hap.audio.tactile.stages import StageStream
+from scene2hap.errors import BundleError, ConfigError
+from scenes import box, scene, tone_loop
+
+NAMES = ("desk_fan", "microwave_oven", "refrigerator")  # the latter two hum at 100 Hz, and are moved apart
+RATE = 8000
+
+
+def room(*names: str) -> SceneSnapshot:
+    things = [box(name, (0.4, 0.3, 0.4), (2.0 * i, 0.15, 0.0)) for i, name in enumerate(names)]
+    return scene(box("wooden_table", (1.2, 0.05, 0.8), (-3.0, 0.7, 0.0)), *things)
+
+
+ROOM = room(*NAMES)
+
+
+@pytest.fixture(scope="module")
+def bundle() -> HapticBundle:
+    return bake(ROOM)
+
+
+def own_tone(frequency_hz: float = 155.0) -> AudioClip:
+    t = np.arange(4 * RATE) / RATE
+    return AudioClip((0.5 * np.sin(2 * np.pi * frequency_hz * t)).astype(np.float32), RATE, Credit("mine", "me", "CC0"))
+
+
+def felt(bundle: HapticBundle) -> dict[str, float]:
+    return {key: loop.frequency_tactile_hz for key, states in bundle.loops.items() for loop in states.values()}
+
+
+def assert_same_loops(one: HapticBundle, other: HapticBundle) -> None:
+    assert {key: list(states) for key, states in one.loops.items()} == {k: list(s) for k, s in other.loops.items()}
+    for key, states in one.loops.items():
+        for state, loop in states.items():
+            for kind in ("audible", "tactile"):
+                mine, theirs = getattr(loop, kind), getattr(other.loops[key][state], kind)
+                np.testing.assert_array_equal(mine.samples, theirs.samples, err_msg=f"{key} {state} {kind}")
+            assert loop.audible.credit == other.loops[key][state].audible.credit
+            assert loop.fingerprint == other.loops[key][state].fingerprint
+
+
+def remade(bundle: HapticBundle, config: Any = None, **more: Any) -> tuple[HapticBundle, Mapping[str, Any]]:
+    told: list[Any] = []
+    again = rebake(bundle, config, on_remade=told.append, **more)
+    return again, told[0]
+
+
+@pytest.mark.parametrize("settings", [{"actuator": "lra"}, {"tactile": "svf_bandpass"}, {"spread": {"octaves": 0.0}}])
+def test_other_settings_make_what_they_change_as_a_bake_would(bundle: HapticBundle, settings: dict[str, Any]) -> None:
+    again, told = remade(bundle, settings)
+    assert told
+    assert_same_loops(again, bake(ROOM, settings))
+
+
+@pytest.mark.parametrize(
+    ("settings", "why"), [({"actuator": "lra"}, "actuator"), ({"tactile": "lowpass"}, "converter")]
+)
+def test_every_source_is_made_anew_and_says_why(bundle: HapticBundle, settings: dict[str, Any], why: str) -> None:
+    lines: list[str] = []
+    tell = lambda stage, what, done, total: lines.append(f"{stage}: {what}")  # noqa: E731
+    again, told = remade(bundle.override("desk_fan", clip=own_tone()), settings, progress=tell)
+    assert set(told) == set(bundle.loops) == set(NAMES)
+    for name in NAMES[1:]:
+        assert list(told[name].values()) == [(why,)]
+        assert f"touch: {name} ({why})" in lines
+    assert len({loop.fingerprint[why] for states in again.loops.values() for loop in states.values()}) == 1
+
+
+def test_nothing_is_made_where_nothing_differs(bundle: HapticBundle, tmp_path: Path) -> None:
+    loaded = HapticBundle.load(bundle.save(tmp_path / "b"))
+    for before in (bundle, loaded):
+        again, told = remade(before)
+        assert told == {}
+        assert all(again.loops[key] is before.loops[key] for key in before.loops)
+    assert all(loop.fingerprint for states in loaded.loops.values() for loop in states.values())
+
+
+def test_what_is_not_given_is_what_the_bundle_was_made_with(tmp_path: Path) -> None:
+    settings = {"actuator": "lra", "tactile": {"kind": "adaptive", "q": 3.0}, "seed": 4, "spread": {"level_db": 0.0}}
+    loaded = HapticBundle.load(bake(ROOM, settings).save(tmp_path / "b"))
+    assert loaded.actuator is not None
+    assert loaded.actuator.name == "lra"
+    assert remade(loaded)[1] == {}
+    assert remade(loaded, settings)[1] == {}
+    again, told = remade(loaded, {"actuator": "flat"})
+    assert set(told) == set(NAMES)
+    assert again.made_with is not None
+    assert again.made_with.tactile == {"kind": "adaptive", "q": 3.0, "shift_octaves": pytest.approx(1 / 3)}
+    assert_same_loops(again, bake(ROOM, settings | {"actuator": "flat"}))
+
+
+def test_an_edited_intensity_is_felt_after_baking_again(tmp_path: Path) -> None:
+    bundle = bake(ROOM, {"spread": {"octaves": 0.0, "level_db": 0.0}})
+    folder = bundle.save(tmp_path / "b")
+    objects = json.loads((folder / "objects.json").read_text())
+    (state,) = objects["desk_fan"]["states"]
+    before_db = level_db(bundle, "desk_fan")
+    state["intensity"] /= 2
+    (folder / "objects.json").write_text(json.dumps(objects))
+    again, told = remade(HapticBundle.load(folder))
+    assert told["desk_fan"][state["name"]] == ("intensity",)
+    assert set(told) == {"desk_fan"}
+    assert level_db(again, "desk_fan") == pytest.approx(before_db - 17.0 * np.log10(2.0), abs=0.1)
+    assert again.loops["desk_fan"][state["name"]].audible.credit.origin == "synth"
+
+
+def level_db(bundle: HapticBundle, object_id: str) -> float:
+    (loop,) = bundle.loops[object_id].values()
+    return felt_level_db(loop.tactile.samples, loop.tactile.sample_rate_hz)
+
+
+def test_edited_words_choose_another_sound(bundle: HapticBundle, tmp_path: Path) -> None:
+    folder = bundle.save(tmp_path / "b")
+    objects = json.loads((folder / "objects.json").read_text())
+    objects["desk_fan"]["states"][0]["keywords"] = "telephone ringing"
+    (folder / "objects.json").write_text(json.dumps(objects))
+    again, told = remade(HapticBundle.load(folder))
+    (loop,) = again.loops["desk_fan"].values()
+    assert loop.audible.credit.query == "telephone ringing"
+    assert all(why[0] == "sound" for why in told["desk_fan"].values())
+
+
+class Recordings:
+    """Has one sound for everything, and counts how often it is asked."""
+
+    def __init__(self, clip: AudioClip) -> None:
+        self.clip, self.n_asked = clip, 0
+
+    def find(self, description: VibrationDescription) -> list[AudioClip]:
+        self.n_asked += 1
+        return [self.clip]
+
+
+def test_other_sound_sources_are_asked_only_where_they_are_given(bundle: HapticBundle) -> None:
+    source = Recordings(own_tone(90.0))
+    again, told = remade(bundle, {"audio": source})
+    assert source.n_asked == len(NAMES) == len(told)
+    assert remade(again)[1] == {}
+    assert {loop.audible.credit.title for states in again.loops.values() for loop in states.values()} == {"mine"}
+    assert remade(again, {"audio": source})[1] == {}
+    assert source.n_asked == len(NAMES)
+
+
+def test_ones_own_clip_stays_where_it_is_and_the_others_keep_clear(bundle: HapticBundle, tmp_path: Path) -> None:
+    # The fan's neighbour hums at 100 Hz, so that a recording of 101 Hz would have to give way.
+    wished = bundle.override("desk_fan", clip=own_tone(101.0))
+    again, told = remade(wished)
+    assert felt(again)["desk_fan"] == pytest.approx(101.0, abs=0.2)
+    assert abs(np.log2(felt(again)["microwave_oven"] / 101.0)) > 0.1
+    assert told["microwave_oven"]
+    kept = HapticBundle.load(wished.save(tmp_path / "b")).overrides
+    assert_same_loops(again, bake(ROOM, overrides=wished.overrides))
+    assert felt(bake(ROOM, overrides=kept)) == pytest.approx(felt(again), abs=0.01)
+
+
+def test_ones_own_clip_may_be_moved_if_asked(bundle: HapticBundle, tmp_path: Path) -> None:
+    wished = bundle.override("desk_fan", clip=own_tone(101.0), keep=False)
+    loaded = HapticBundle.load(wished.save(tmp_path / "b"))
+    assert loaded.overrides["desk_fan"].keep is False
+    again = rebake(loaded)
+    assert_same_loops(again, bake(ROOM, overrides=loaded.overrides))
+    frequencies = felt(again)
+    assert min(abs(np.log2(frequencies["desk_fan"] / frequencies[name])) for name in NAMES[1:]) > 0.1
+    assert remade(again)[1] == {}
+    kept, told = remade(again.override("desk_fan", keep=True))
+    assert "desk_fan" in told
+    assert felt(kept)["desk_fan"] == pytest.approx(101.0, abs=0.2)
+
+
+def test_an_override_that_is_gone_brings_a_chosen_sound_back(bundle: HapticBundle, tmp_path: Path) -> None:
+    folder = rebake(bundle.override("desk_fan", clip=own_tone())).save(tmp_path / "b")
+    (folder / "overrides.json").write_text("{}")
+    again, told = remade(HapticBundle.load(folder))
+    assert list(told["desk_fan"].values()) == [("sound",)]
+    assert_same_loops(again, bundle)
+
+
+def without_fingerprints(folder: Path) -> Path:
+    """A folder as written before loops told what they were made from."""
+    rows = json.loads((folder / "loops.json").read_text())
+    for states in rows.values():
+        for row in states.values():
+            del row["fingerprint"], row["source"]
+    (folder / "loops.json").write_text(json.dumps(rows))
+    manifest = json.loads((folder / "bundle.json").read_text())
+    del manifest["made_with"]
+    (folder / "bundle.json").write_text(json.dumps(manifest))
+    return folder
+
+
+def test_a_bundle_of_before_stays_until_a_setting_is_named(bundle: HapticBundle, tmp_path: Path) -> None:
+    old = HapticBundle.load(without_fingerprints(bundle.save(tmp_path / "b")))
+    assert old.actuator is None
+    with pytest.warns(UserWarning, match="3 sources .* stay as they are"):
+        again, told = remade(old)
+    assert told == {}
+    assert again.loops == old.loops
+    again, told = remade(old, {"actuator": "lra"})
+    assert set(told) == set(NAMES)
+    assert {why for states in told.values() for why in states.values()} == {("no fingerprint",)}
+    assert again.actuator is not None
+    assert again.actuator.name == "lra"
+    assert felt(again) == pytest.approx(felt(bake(ROOM, {"actuator": "lra"})), rel=0.02)
+    assert remade(again)[1] == {}
+
+
+def test_loops_that_somebody_made_by_hand_are_long_enough_to_be_made_again(bundle: HapticBundle) -> None:
+    by_hand = HapticBundle(
+        bundle.snapshot, "room", bundle.objects, {"desk_fan": {"on": tone_loop(120.0, seconds=0.05)}}
+    )
+    again = rebake(by_hand, {"actuator": "flat", "tactile": "lowpass"})
+    loop = next(iter(again.loops["desk_fan"].values()))
+    assert loop.frequency_raw_hz == pytest.approx(120.0, abs=1.0)
+
+
+class Guest:
+    """A converter that no kind names."""
+
+    def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
+        return Adaptive().stream(sample_rate_hz, context)
+
+
+def test_a_converter_given_ready_made_is_asked_for_again() -> None:
+    baked = bake(room("desk_fan"), {"tactile": Guest()})
+    with pytest.raises(ConfigError, match="test_fingerprints:Guest"):
+        rebake(baked)
+    assert remade(baked, {"tactile": Guest()})[1] == {}
+
+
+@pytest.mark.parametrize(
+    "damage", [3, [], {"tactile": {}}, {"actuator": {"q": -1}, "tactile": {}, "spread": {}, "seed": 0}]
+)
+def test_settings_of_a_bundle_that_make_no_sense(bundle: HapticBundle, tmp_path: Path, damage: object) -> None:
+    folder = bundle.save(tmp_path / "b")
+    manifest = json.loads((folder / "bundle.json").read_text())
+    (folder / "bundle.json").write_text(json.dumps(manifest | {"made_with": damage}))
+    with pytest.raises(BundleError, match="made_with"):
+        HapticBundle.load(folder)
+
+
+def test_a_scene_without_sources() -> None:
+    silent = bake(scene(box("wooden_table", (1.2, 0.05, 0.8), (0.0, 0.7, 0.0))))
+    again, told = remade(silent, {"actuator": "lra"})
+    assert (again.loops, told) == ({}, {})
+    assert again.actuator is not None
+    assert again.actuator.name == "lra"
+
+
+def test_the_synthesizer_is_asked_once_for_copies(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[VibrationDescription] = []
+    find = Synthesizer.find
+    monkeypatch.setattr(Synthesizer, "find", lambda self, wanted: [asked.append(wanted), find(self, wanted)][1])
+    baked = bake(room(*(f"desk_fan_{i}" for i in range(8))))
+    assert len(baked.loops) == 8
+    assert len(asked) == 1
+    loops = [loop for states in baked.loops.values() for loop in states.values()]
+    assert len({id(loop.tactile) for loop in loops}) == 1

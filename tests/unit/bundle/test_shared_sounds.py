@@ -1,0 +1,127 @@
+"""Sounds that are equal are one file; what a person does to one source leaves the others alone."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from scene2hap import AudioClip, HapticBundle
+from scene2hap.audio.files import read_clip, write_wav
+from scene2hap.errors import BundleError
+from scenes import RATE, box, haptics, scene, tone_loop
+
+N = 5
+
+
+def fans(n: int = N) -> HapticBundle:
+    """Equal fans, each with a loop of its own that sounds like the others'."""
+    things = [box(f"fan_{i}", (0.3, 0.3, 0.3), (float(i), 0.15, 0.0)) for i in range(n)]
+    humming = haptics("plastic", (0.3, 0.3, 0.3), "on")
+    loops = {
+        item.id: {"on": replace(tone_loop(120.0), source=tone_loop(120.0, seconds=1.0).audible)} for item in things
+    }
+    return HapticBundle(scene(*things), "room", dict.fromkeys(loops, humming), loops)
+
+
+def names(folder: Path) -> list[str]:
+    return sorted(path.name for path in (folder / "sounds").iterdir())
+
+
+def rows(folder: Path) -> dict[str, dict[str, dict[str, str]]]:
+    document: dict[str, dict[str, dict[str, str]]] = json.loads((folder / "loops.json").read_text())
+    return document
+
+
+def test_equal_sounds_are_one_file(tmp_path: Path) -> None:
+    folder = fans().save(tmp_path / "b")
+    assert names(folder) == ["fan_0.on+4.audible.wav", "fan_0.on+4.source.flac", "fan_0.on+4.tactile.wav"]
+    loaded = HapticBundle.load(folder)
+    first, *others = (loaded.loops[f"fan_{i}"]["on"] for i in range(N))
+    assert all(other.tactile is first.tactile for other in others)
+    assert first.source is not None
+    np.testing.assert_allclose(first.source.samples, fans().loops["fan_0"]["on"].source.samples, atol=2**-23)
+
+
+def test_one_source_alone_keeps_its_plain_name(tmp_path: Path) -> None:
+    folder = fans(1).save(tmp_path / "b")
+    assert names(folder) == ["fan_0.on.audible.wav", "fan_0.on.source.flac", "fan_0.on.tactile.wav"]
+
+
+def test_credits_stay_with_their_source(tmp_path: Path) -> None:
+    bundle = fans(2)
+    loop = bundle.loops["fan_1"]["on"]
+    owed = replace(loop.audible.credit, title="another title")
+    other = replace(loop, audible=replace(loop.audible, credit=owed), tactile=replace(loop.tactile, credit=owed))
+    folder = replace(bundle, loops={**bundle.loops, "fan_1": {"on": other}}).save(tmp_path / "b")
+    loaded = HapticBundle.load(folder)
+    assert loaded.loops["fan_0"]["on"].audible.credit.title == "untitled"
+    assert loaded.loops["fan_1"]["on"].audible.credit.title == "another title"
+    assert loaded.loops["fan_0"]["on"].audible.samples is loaded.loops["fan_1"]["on"].audible.samples
+
+
+def test_an_edit_of_a_shared_file_is_felt_of_all_that_share_it(tmp_path: Path) -> None:
+    folder = fans().save(tmp_path / "b")
+    path = folder / rows(folder)["fan_3"]["on"]["tactile"]
+    louder = read_clip(path)
+    write_wav(path, 2.0 * louder.samples, louder.sample_rate_hz)
+    loaded = HapticBundle.load(folder)
+    assert {float(np.abs(states["on"].tactile.samples).max()) for states in loaded.loops.values()} == {
+        pytest.approx(0.6, abs=1e-6)
+    }
+
+
+def test_a_file_of_ones_own_splits_one_source_off(tmp_path: Path) -> None:
+    folder = fans().save(tmp_path / "b")
+    document = rows(folder)
+    quiet = read_clip(folder / document["fan_3"]["on"]["tactile"])
+    write_wav(folder / "sounds" / "quiet.wav", 0.5 * quiet.samples, quiet.sample_rate_hz)
+    document["fan_3"]["on"]["tactile"] = "sounds/quiet.wav"
+    (folder / "loops.json").write_text(json.dumps(document))
+    loaded = HapticBundle.load(folder)
+    peaks = [float(np.abs(loaded.loops[f"fan_{i}"]["on"].tactile.samples).max()) for i in range(N)]
+    assert peaks == pytest.approx([0.3, 0.3, 0.3, 0.15, 0.3], abs=1e-6)
+    again = loaded.save(tmp_path / "again")
+    assert {name for name in names(again) if "tactile" in name} == {"fan_0.on+3.tactile.wav", "fan_3.on.tactile.wav"}
+
+
+def test_names_that_look_shared_are_not_confused(tmp_path: Path) -> None:
+    bundle = fans(2)
+    humming = haptics("plastic", (0.3, 0.3, 0.3), "on", "on+1")
+    loops = {key: {**states, "on+1": tone_loop(90.0)} for key, states in bundle.loops.items()}
+    loaded = HapticBundle.load(replace(bundle, objects=dict.fromkeys(loops, humming), loops=loops).save(tmp_path / "b"))
+    assert [loaded.loops["fan_0"][state].frequency_raw_hz for state in ("on", "on+1")] == [120.0, 90.0]
+    assert not np.array_equal(
+        loaded.loops["fan_0"]["on"].tactile.samples, loaded.loops["fan_0"]["on+1"].tactile.samples
+    )
+
+
+@pytest.mark.parametrize("rate_hz", [700, 8_000, 44_100, 96_001, 192_000, 700_000])
+def test_a_sound_of_any_rate_is_kept(tmp_path: Path, rate_hz: int) -> None:
+    bundle = fans(1)
+    source = AudioClip(np.linspace(-0.9, 0.9, 5000, dtype=np.float32), rate_hz)
+    loop = replace(bundle.loops["fan_0"]["on"], source=source)
+    loaded = HapticBundle.load(replace(bundle, loops={"fan_0": {"on": loop}}).save(tmp_path / "b"))
+    kept = loaded.loops["fan_0"]["on"].source
+    assert kept is not None
+    assert kept.sample_rate_hz == rate_hz
+    np.testing.assert_allclose(kept.samples, source.samples, atol=2**-23)
+
+
+@pytest.mark.parametrize("fingerprint", [3, "abc", {"sound": 7}])
+def test_a_fingerprint_that_makes_no_sense(tmp_path: Path, fingerprint: object) -> None:
+    folder = fans(1).save(tmp_path / "b")
+    document = json.loads((folder / "loops.json").read_text())
+    document["fan_0"]["on"]["fingerprint"] = fingerprint
+    (folder / "loops.json").write_text(json.dumps(document))
+    with pytest.raises(BundleError, match="fingerprint"):
+        HapticBundle.load(folder)
+
+
+def test_the_room_that_a_bundle_takes_does_not_grow_with_copies(tmp_path: Path) -> None:
+    def size(folder: Path) -> int:
+        return sum(path.stat().st_size for path in (folder / "sounds").iterdir())
+
+    assert size(fans(20).save(tmp_path / "many")) == size(fans(1).save(tmp_path / "one"))
+    assert fans(1).loops["fan_0"]["on"].tactile.sample_rate_hz == RATE
