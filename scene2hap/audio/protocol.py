@@ -25,7 +25,7 @@ class ConversionContext:
     """What a converter is told of the scene.
 
     actuator : what it converts for; intensity : of the source, 0..1; neighbours_hz : dominant frequencies of the
-    scene's other sources [Hz].
+    scene's other sources [Hz]; they decide nothing where `target_hz` is told, which has them in mind already.
     own_hz : the source's own dominant frequency where somebody has looked at the whole sound, None to find out while
     it plays; target_hz : where that frequency is to be felt, None to leave that to the converter.
     """

@@ -47,6 +47,8 @@ def asked_for(description: VibrationDescription, config: BakeConfig) -> dict[str
 def made_by(clip: AudioClip, converter: object, plan: Plan) -> dict[str, str]:
     """The names of what decides how the loops of a clip come out."""
     context = plan.context
+    # A converter that is told where a source is to be felt has no need of where the others are.
+    neighbours_hz = () if context.target_hz is not None else sorted(context.neighbours_hz)
     places = [context.own_hz, context.target_hz, plan.level_db]
     return {
         "sound": sound_digest(clip),
@@ -54,7 +56,7 @@ def made_by(clip: AudioClip, converter: object, plan: Plan) -> dict[str, str]:
         "actuator": _name(asdict(context.actuator)),
         "intensity": f"{context.intensity:g}",
         # To a hundredth of a hertz or decibel: other machines round otherwise, and nobody feels less.
-        "plan": _name([_rounded(places), sorted(_rounded(context.neighbours_hz))]),
+        "plan": _name([_rounded(places), _rounded(neighbours_hz)]),
     }
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +12,10 @@ import numpy as np
 import pytest
 import soundfile
 
+from scene2hap import audio
+from scene2hap.audio.conversion import Conversion
+from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
+from scene2hap.baking import BakeConfig
 from scene2hap.cli import main
 
 RATE = 8000
@@ -92,3 +97,18 @@ def test_wrong_settings_are_one_line(
     assert reason in told
     assert told.count("error:") == 1
     assert [path.name for path in tmp_path.iterdir()] == ["hum.wav"]
+
+
+def test_one_converter_is_the_default_everywhere(tmp_path: Path) -> None:
+    """Command, functions and baking; docs/conversion.md names it too."""
+    source = hum(tmp_path / "hum.wav")
+    by_name = audio.convert(source, tmp_path / "a.wav", converter=DEFAULT_CONVERTER).output.read_bytes()
+    assert audio.convert(source, tmp_path / "b.wav").output.read_bytes() == by_name
+    (many,) = audio.convert_files([source], tmp_path / "c.wav")
+    assert isinstance(many, Conversion)
+    assert many.output.read_bytes() == by_name
+    assert main(["convert", str(source), "-o", str(tmp_path / "d.wav"), "-q"]) == 0
+    assert (tmp_path / "d.wav").read_bytes() == by_name
+    assert BakeConfig().tactile == CONVERTERS.build(DEFAULT_CONVERTER)
+    page = (Path(__file__).parents[2] / "docs" / "conversion.md").read_text(encoding="utf-8")
+    assert re.findall(r"^\| `(\w+)` \(default\)", page, re.MULTILINE) == [DEFAULT_CONVERTER]
