@@ -84,7 +84,10 @@ class SoundReader:
 
 def inside(folder: Path, name: str) -> Path:
     """The path of a file that a bundle names. Raises: BundleError: it lies outside of the bundle."""
-    path = (folder / name).resolve()
+    try:
+        path = (folder / name).resolve()
+    except (OSError, RuntimeError, ValueError) as cause:  # a zero byte, a circle of links, a name of a megabyte
+        raise BundleError(f"{folder} names a file {name[:80]!r}, which cannot be: {cause}.") from cause
     if not path.is_relative_to(folder.resolve()):
         raise BundleError(f"{folder} refers to {name!r}, outside itself; a bundle only reads its own files.")
     return path

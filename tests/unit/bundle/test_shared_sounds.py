@@ -108,6 +108,15 @@ def test_a_sound_of_any_rate_is_kept(tmp_path: Path, rate_hz: int) -> None:
     np.testing.assert_allclose(kept.samples, source.samples, atol=2**-23)
 
 
+def test_a_name_that_no_file_can_have(tmp_path: Path) -> None:
+    folder = fans(1).save(tmp_path / "b")
+    document = rows(folder)
+    document["fan_0"]["on"]["source"] = "sounds/\0.flac"
+    (folder / "loops.json").write_text(json.dumps(document))
+    with pytest.raises(BundleError, match="which cannot be"):
+        HapticBundle.load(folder)
+
+
 @pytest.mark.parametrize("fingerprint", [3, "abc", {"sound": 7}])
 def test_a_fingerprint_that_makes_no_sense(tmp_path: Path, fingerprint: object) -> None:
     folder = fans(1).save(tmp_path / "b")
