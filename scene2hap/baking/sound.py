@@ -141,8 +141,9 @@ class _Chooser:
             if not before.fingerprint:
                 repeated = None if self._earlier.any_making else _prepared(_repeated(before.audible))
                 return _Part(object_id, state, group, repeated, asked, before), why
-            if before.source is not None and self._holds(before.fingerprint, asked):
-                return _Part(object_id, state, group, before.source, _asked(before, asked), before), why
+            if self._holds(before.fingerprint, asked):
+                clip = before.source or _prepared(_repeated(before.audible))  # None: somebody removed it
+                return _Part(object_id, state, group, clip, _asked(before, asked), before), why
         if description not in self._chosen:
             choice = self._choose(object_id, description)
             self._chosen[description] = _prepared(choice.winner), str(choice)

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -188,6 +189,19 @@ def test_an_override_that_is_gone_brings_a_chosen_sound_back(bundle: HapticBundl
     again, told = remade(HapticBundle.load(folder))
     assert list(told["desk_fan"].values()) == [("sound",)]
     assert_same_loops(again, bundle)
+
+
+def test_without_the_kept_sound_the_audible_loop_serves(bundle: HapticBundle) -> None:
+    bare = {
+        key: {name: replace(loop, source=None) for name, loop in states.items()} for key, states in bundle.loops.items()
+    }
+    again, told = remade(replace(bundle, loops=bare))
+    assert set(told) == set(NAMES)
+    for key, states in again.loops.items():
+        for name, loop in states.items():
+            assert loop.audible.credit == bundle.loops[key][name].audible.credit
+            assert loop.frequency_raw_hz == pytest.approx(bundle.loops[key][name].frequency_raw_hz, rel=0.01)
+    assert remade(again)[1] == {}
 
 
 def without_fingerprints(folder: Path) -> Path:

@@ -44,6 +44,14 @@ def test_equal_sounds_are_one_file(tmp_path: Path) -> None:
     np.testing.assert_allclose(first.source.samples, fans().loops["fan_0"]["on"].source.samples, atol=2**-23)
 
 
+def test_saving_again_gives_the_same_bytes(tmp_path: Path) -> None:
+    def content(folder: Path) -> dict[str, bytes]:
+        return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+    first = fans().save(tmp_path / "a")
+    assert content(HapticBundle.load(first).save(tmp_path / "b")) == content(first)
+
+
 def test_one_source_alone_keeps_its_plain_name(tmp_path: Path) -> None:
     folder = fans(1).save(tmp_path / "b")
     assert names(folder) == ["fan_0.on.audible.wav", "fan_0.on.source.flac", "fan_0.on.tactile.wav"]
