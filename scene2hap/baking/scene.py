@@ -179,8 +179,9 @@ def _all_are_known(loops: Mapping[str, Mapping[str, HapticLoop]]) -> bool:
     """Whether every loop tells what it was made from; a warning where one does not."""
     unknown = [key for key, states in loops.items() if not all(loop.fingerprint for loop in states.values())]
     if unknown:
+        some = ", ".join(unknown[:3]) + (", ..." if len(unknown) > 3 else "")
         warnings.warn(
-            f"the loops of {len(unknown)} sources ({', '.join(sorted(unknown)[:3])}, ...) do not tell what they were "
+            f"the loops of {len(unknown)} sources ({some}) do not tell what they were "
             "made from, as in bundles of before, and stay as they are. Name actuator or tactile to make them anew.",
             BundleWarning,
             stacklevel=3,
