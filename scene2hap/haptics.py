@@ -79,9 +79,9 @@ class ObjectHaptics:
 
     def __post_init__(self) -> None:
         size = checks.vector("estimated_size_m", self.estimated_size_m, "m", size=3, at_least=0.0, error=ConfigError)
-        if self.material is not None and not min(size) > 0.0:
+        if self.material is not None and size[2] <= 0.0:
             raise ConfigError(
-                f"estimated_size_m of {self.object_category!r} is {list(size)} m; each edge must be above 0 [m], or "
+                f"estimated_size_m of {self.object_category!r} is {list(size)} m; the thickness must be above 0 [m], or "
                 "nothing spreads through it. Give the thickness that a real one has."
             )
         object.__setattr__(self, "estimated_size_m", size)

@@ -35,7 +35,7 @@ def faults(stated_m: Sequence[float], measured_m: Sequence[float]) -> dict[str, 
     for name, stated, is_longer in (("length", stated_m[0], not is_turned), ("width", stated_m[1], is_turned)):
         measured = longer if is_longer else shorter
         low, high = max(measured / FACTOR, THINNEST_M), (measured or longer) * FACTOR
-        if longer > 0 and not low <= stated <= max(low, high):
+        if stated != measured and not low <= stated <= max(low, high):
             wrong[name] = f"{stated:.3g} m, but it was measured as {measured:.3g} m; give {low:.3g} to {high:.3g} m"
     high = thickest_m(measured_m)
     if not THINNEST_M <= stated_m[2] <= high:

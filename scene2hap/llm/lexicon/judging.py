@@ -10,6 +10,7 @@ from scene2hap.llm.answers import ObjectAnswer, StateAnswer
 from scene2hap.llm.lexicon.making import make, painted_with
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.table import ObjectRow, StateRow, table
+from scene2hap.scene import sizes
 
 UNKNOWN = "unknown"
 
@@ -59,14 +60,16 @@ def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
 
 def _unknown(item: Measured, reading: NameReading) -> ObjectAnswer:
     words = ", ".join(map(repr, reading.unread)) or "no word for an object"
+    thickness = sizes.with_thickness(item.size_m)[2]
+    assumed = "" if thickness == item.size_m[2] else f" It was measured without thickness; {thickness:.2g} m is assumed."
     return ObjectAnswer(
         object_category=UNKNOWN,
         category_reason=f"the name {item.name!r} holds {words}; the table of {len(table())} objects cannot tell.",
         material_category=painted_with(item.material_names) or UNKNOWN,
         estimated_length_m=item.size_m[0],
         estimated_width_m=item.size_m[1],
-        estimated_thickness_m=item.size_m[2],
-        size_reason="as measured; nothing to compare it with.",
+        estimated_thickness_m=thickness,
+        size_reason=f"as measured; nothing to compare it with.{assumed}",
         usage=UNKNOWN,
         vibrates=False,
         vibration_reason="nothing is known about it, so it stays silent.",
