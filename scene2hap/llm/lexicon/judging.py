@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from scene2hap.llm.answers import ObjectAnswer, StateAnswer
+from scene2hap.llm.lexicon.fitting import fit
 from scene2hap.llm.lexicon.making import make, painted_with
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.table import ObjectRow, StateRow, table
@@ -35,7 +36,8 @@ _VOWEL_FIRST = re.compile(r"[aeio]|u(?!fo|k|ni|ri|sb|t)|hour|led\b|mri\b|x-ray")
 class Measured:
     """An object as the scene has it: authored name, size of its dominant surface and the doubts about it.
 
-    `scene_category` and `material_names`, the authored names of what it is painted with, are empty where unknown.
+    `scene_category` and `material_names`, the authored names of what it is painted with, are empty where unknown;
+    `height_m` is that of its lowest point above the scene's [m], None where unknown.
     """
 
     name: str
@@ -43,6 +45,7 @@ class Measured:
     flags: Sequence[str] = ()
     scene_category: str = ""
     material_names: Sequence[str] = ()
+    height_m: float | None = None
 
 
 def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
@@ -85,10 +88,13 @@ def _as_real(item: Measured, reading: NameReading, row: ObjectRow, neighbour_nam
     if row.max_size_m is not None and max(item.size_m) > _GIANT * row.max_size_m:
         confidence *= _GIANT_TRUST
         size_reason += f" A real {row.noun} is at most {row.max_size_m:g} m long: check the scene's unit."
+    fitting = fit(reading, row, item.size_m, item.flags, item.height_m, neighbour_names)
     states, vibration_reason = _states(row, neighbour_names)
+    if fitting.part_of:
+        states, vibration_reason = [], f"it is shaken by the {fitting.part_of} that it is a part of."
     return ObjectAnswer(
         object_category=row.noun,
-        category_reason=_category_reason(item.name, reading, row),
+        category_reason=" ".join((_category_reason(item.name, reading, row), *fitting.doubts)),
         material_category=material,
         estimated_length_m=item.size_m[0],
         estimated_width_m=item.size_m[1],
@@ -98,7 +104,7 @@ def _as_real(item: Measured, reading: NameReading, row: ObjectRow, neighbour_nam
         vibrates=bool(states),
         vibration_reason=vibration_reason,
         states=states,
-        confidence=confidence,
+        confidence=round(confidence * fitting.trust, 3),
     )
 
 
