@@ -81,8 +81,8 @@ class ObjectHaptics:
         size = checks.vector("estimated_size_m", self.estimated_size_m, "m", size=3, at_least=0.0, error=ConfigError)
         if self.material is not None and size[2] <= 0.0:
             raise ConfigError(
-                f"estimated_size_m of {self.object_category!r} is {list(size)} m; the thickness must be above 0 [m], or "
-                "nothing spreads through it. Give the thickness that a real one has."
+                f"estimated_size_m of {self.object_category!r} is {list(size)} m; the thickness must be above 0 [m], "
+                "or nothing spreads through it. Give the thickness that a real one has."
             )
         object.__setattr__(self, "estimated_size_m", size)
         confidence = checks.number("confidence", self.confidence, "-", at_least=0.0, at_most=1.0, error=ConfigError)

@@ -19,7 +19,8 @@ _SAME = (
     "stove; stove top; stovetop; cooktop; cook top; cooker top; hob; cooker; cooking plate; cooking surface; "
     "cooking appliance; range; range cooker; range top; hot plate; hotplate; heating plate; burner; ring burner; "
     "gas ring; cooking ring; cooking zone; heater; heating element; heat source; heated surface; oven; camp fire; "
-    "campfire; fire; fire pit; flame; heat; fireplace; grill; barbecue; furnace; wood burner; electric plate; induction plate",
+    "campfire; fire; fire pit; flame; heat; fireplace; grill; barbecue; furnace; wood burner; electric plate; "
+    "induction plate",
     "table; desk; table top; tabletop; desktop; desk top",
     "worktop; work top; countertop; counter top; counter; bench top; benchtop; work surface; work bench; workbench",
     "road; street; roadway; asphalt; pavement; tarmac",
@@ -83,9 +84,7 @@ def _kind(words: Words) -> int | None:
 
 def _alternatives(needed: str) -> list[Words]:
     plain = re.sub(r"\([^)]*\)", " ", needed[:_LONGEST])
-    return [
-        tuple(word for word in _words(part) if word not in _BESIDE) for part in re.split(r"\bor\b|[/,;|]", plain)
-    ]
+    return [tuple(word for word in _words(part) if word not in _BESIDE) for part in re.split(r"\bor\b|[/,;|]", plain)]
 
 
 def _words(text: str) -> Words:
@@ -100,6 +99,4 @@ def _singular(word: str) -> str:
     return word[:-2] if word.endswith(("ches", "shes", "sses", "xes")) else word[:-1]
 
 
-_GROUPS: Mapping[Words, int] = {
-    _words(noun): number for number, nouns in enumerate(_SAME) for noun in nouns.split(";")
-}
+_GROUPS: Mapping[Words, int] = {_words(noun): number for number, nouns in enumerate(_SAME) for noun in nouns.split(";")}

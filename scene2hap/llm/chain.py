@@ -289,7 +289,7 @@ class _Chain:
     def _with_unmet_needs(
         self, object_id: str, haptics: ObjectHaptics, said: Mapping[str, ObjectHaptics]
     ) -> ObjectHaptics:
-        """With a word on each state whose contact nothing in the scene can give; it stays silent until something can."""
+        """With a word on each state whose contact nothing here can give; it is silent until something can."""
         categories = {item.id: said[item.id].object_category if item.id in said else "" for item in self._scene.objects}
         doubts = unmet_needs(object_id, haptics.states, categories)
         if not doubts:

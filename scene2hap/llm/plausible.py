@@ -7,7 +7,7 @@ measured size or the table's constant (`trust`).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TypeGuard
 
 from scene2hap.errors import UnknownMaterial
 from scene2hap.llm.protocol import Component
@@ -29,11 +29,14 @@ _SLIP = 300.0  # times off, from which a number was told in another unit
 
 
 def implausible(component: Component, told: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]:
-    """What no such object or material has, by the answer's field: in words for the model that said it."""
+    """What no such object or material has, by the answer's field: in words for the model that said it.
+
+    Nothing without the facts that were asked about.
+    """
     if component == "object_analyzer":
         return _sizes(told, facts)
-    if component == "material_estimator":
-        return constants(str(facts.get("material_category", "")), told)
+    if component == "material_estimator" and "material_category" in facts:
+        return constants(str(facts["material_category"]), told)
     return {}
 
 
@@ -84,19 +87,16 @@ def _bounds(row: MaterialRow | None) -> dict[str, tuple[float, float]]:
 
 
 def _sizes(told: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]:
-    measured = [facts.get(f"{edge}_m") for edge in EDGES]
-    stated = [told.get(f"estimated_{edge}_m") for edge in EDGES]
-    if not all(map(_is_number, measured)):
-        return {} if stated[2] != 0 else {"estimated_thickness_m": "0 m; give the thickness that a real one has"}
+    measured = [edge for edge in (facts.get(f"{name}_m") for name in EDGES) if _is_number(edge)]
+    if len(measured) < len(EDGES):
+        return {}
+    stated = [told.get(f"estimated_{name}_m") for name in EDGES]
     # What is no number is another fault; the rest is held against the bounds all the same.
-    filled = [one if _is_number(one) else other for one, other in zip(stated, measured, strict=True)]
-    found = sizes.faults(filled, measured)  # type: ignore[arg-type]  # numbers, by the two lines above
-    return {
-        f"estimated_{edge}_m": why
-        for edge, why in found.items()
-        if _is_number(stated[EDGES.index(edge)])
-    }
+    found = sizes.faults(
+        [one if _is_number(one) else other for one, other in zip(stated, measured, strict=True)], measured
+    )
+    return {f"estimated_{edge}_m": why for edge, why in found.items() if _is_number(stated[EDGES.index(edge)])}
 
 
-def _is_number(value: object) -> bool:
+def _is_number(value: object) -> TypeGuard[float]:
     return isinstance(value, int | float) and not isinstance(value, bool)

@@ -120,7 +120,8 @@ def _require_plausible_thickness(item: SceneObject) -> None:
     if item.surface.thickness_m > bound_m:
         raise SceneError(
             f"object {item.id!r}: surface.thickness_m is {item.surface.thickness_m:g} m, but its geometry is "
-            f"{extent_m:.3g} m thick there; it must be at most {bound_m:.3g} [m]. Leave the surface out to have it measured."
+            f"{extent_m:.3g} m thick there; it must be at most {bound_m:.3g} [m]. "
+            "Leave the surface out to have it measured."
         )
 
 

@@ -1,8 +1,8 @@
 """Whether a scene's sizes can be metres: a warning with the unit that would make them so.
 
-glTF says metres and is often wrong (centimetres, toy scale). Known sizes decide where names give them away, one voice
-for each kind of thing, however often it occurs. Otherwise only a scene is doubted that is far too wide or high and whose
-objects are so as well, or one that is too small: a park is 200 m wide, and its benches are not.
+glTF says metres and is often wrong (centimetres, toy scale). Known sizes decide where names give them away. Otherwise
+only a scene is doubted that is far too wide or high and whose objects are too large as well, or one that is too small:
+a park is 200 m wide, and its benches are not.
 """
 
 from __future__ import annotations
@@ -71,10 +71,8 @@ def warn_if_implausible(snapshot: SceneSnapshot, unit_m: float) -> None:
     )
 
 
-def _voices(
-    objects: Sequence[SceneObject], tops_m: NDArray[np.float64], edges_m: NDArray[np.float64]
-) -> list[_Voice]:
-    """What the named things say; of a kind at most three, those in the middle, so that no dozen of chairs outvotes all."""
+def _voices(objects: Sequence[SceneObject], tops_m: NDArray[np.float64], edges_m: NDArray[np.float64]) -> list[_Voice]:
+    """What the named things say; of a kind at most three, the middle ones, so that a dozen chairs outvote nobody."""
     kinds: dict[str, list[_Voice]] = {}
     for item, top, edge in zip(objects, tops_m, edges_m, strict=True):
         known = usual(item.name)

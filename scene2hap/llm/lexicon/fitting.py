@@ -12,31 +12,34 @@ from dataclasses import dataclass
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.table import ObjectRow
 
-_SHELLS = frozenset({"wall", "partition", "brick wall", "concrete wall", "floor", "parquet", "ceiling", "roof"})
 
-_STANDS = frozenset(
+def _set(text: str) -> frozenset[str]:
+    return frozenset(text.split(","))
+
+
+_SHELLS = _set("wall,partition,brick wall,concrete wall,floor,parquet,ceiling,roof")
+
+_STANDS = _set(
     "chair,armchair,bean bag,desk chair,lounge chair,rocking chair,deck chair,wheelchair,dining chair,stool,bar stool,"
     "footstool,sofa,futon,recliner,bench,park bench,bed bench,weight bench,bed,bunk bed,crib,bed frame,day bed,"
     "hospital bed,chaise longue,garden chair,folding chair,table,dining table,coffee table,side table,console table,"
     "picnic table,desk,computer desk,workbench,wardrobe,sideboard,dresser,night stand,bookcase,refrigerator,dishwasher,"
-    "washing machine,tumble dryer,bathtub,floor lamp,piano,grand piano,treadmill,pool table,ironing board".split(",")
+    "washing machine,tumble dryer,bathtub,floor lamp,piano,grand piano,treadmill,pool table,ironing board"
 )
 """What stands on the floor, or on what covers or raises it."""
 
-_GROUND = frozenset(
+_GROUND = _set(
     "floor,parquet,tile,carpet,mat,pallet,road,sidewalk,terrace,deck,path,grass,ground,foundation,podium,stage,sand,"
     "gravel,stone floor,tile floor,concrete floor,carpet floor,driveway,stairs,balcony,platform,roof,truck,van,"
-    "trailer,boat,ship,scaffold,elevator".split(",")
+    "trailer,boat,ship,scaffold,elevator"
 )
 
-_INNER = frozenset(
-    "motor,pump,fan,sprinkler,turbine,engine,compressor,burner,heater,transformer,propeller,blade,arm".split(",")
-)
+_INNER = _set("motor,pump,fan,sprinkler,turbine,engine,compressor,burner,heater,transformer,propeller,blade,arm")
 """What machines have inside them, and what is also an object of its own."""
 
-_COMPONENTS = frozenset(
-    "arm arms rack racks tray basket drum hose filter handle knob door drawer lid leg foot blade hinge panel cover "
-    "carcass casing housing frame rail".split()
+_COMPONENTS = _set(
+    "arm,arms,rack,racks,tray,basket,drum,hose,filter,handle,knob,door,drawer,lid,leg,foot,blade,hinge,panel,cover,"
+    "carcass,casing,housing,frame,rail"
 )
 """Words beside the name of a machine which say that this is only a part of it."""
 
@@ -51,7 +54,7 @@ _TOO_HIGH, _TOO_SHORT, _TOO_THIN, _TOO_SLENDER, _PART, _BESIDE_SAME = 0.4, 0.5, 
 
 @dataclass(frozen=True)
 class Fit:
-    """How far measurements bear a reading out: a factor of its confidence, why, and the machine that it is a part of."""
+    """How far measurements bear a reading out: factor of its confidence, why, and the machine that it is a part of."""
 
     trust: float = 1.0
     doubts: tuple[str, ...] = ()
@@ -84,12 +87,12 @@ def _by_height(row: ObjectRow, height_m: float | None, beside: Sequence[ObjectRo
     if height_m is None or height_m <= _HIGH_M or row.noun not in _STANDS or _GROUND & {other.noun for other in beside}:
         return []
     on = f" and touches {', '.join(dict.fromkeys(other.noun for other in beside))}" if beside else ""
-    return [(_TOO_HIGH, f"It begins {height_m:.2g} m above the lowest thing here{on}; a {row.noun} stands on the floor.")]
+    return [
+        (_TOO_HIGH, f"It begins {height_m:.2g} m above the lowest thing here{on}; a {row.noun} stands on the floor.")
+    ]
 
 
-def _by_size(
-    row: ObjectRow, size_m: tuple[float, float, float], flags: Sequence[str]
-) -> list[tuple[float, str]]:
+def _by_size(row: ObjectRow, size_m: tuple[float, float, float], flags: Sequence[str]) -> list[tuple[float, str]]:
     found = []
     longest, width, thickness = max(size_m), size_m[1], size_m[2]
     if row.noun in _SHELLS:
@@ -110,7 +113,7 @@ def _by_name(reading: NameReading, row: ObjectRow) -> list[tuple[float, str]]:
 
 
 def _machine_around(reading: NameReading, row: ObjectRow, beside: Sequence[ObjectRow]) -> str:
-    """The machine that an inner part names before itself and touches ("dishwasher_pump" in a dishwasher); "" for none."""
+    """The machine that an inner part names before itself and touches (a "dishwasher_pump" its dishwasher), or ""."""
     if row.noun not in _INNER or reading.head not in (name := " ".join(reading.words)):
         return ""
     before = read_name(name[: name.rindex(reading.head)].strip()).row
