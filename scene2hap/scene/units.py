@@ -51,11 +51,11 @@ def warn_if_implausible(snapshot: SceneSnapshot, unit_m: float) -> None:
     up = {"y": 1, "z": 2}[snapshot.up_axis]
     bounds = np.array([item.bounds_m for item in snapshot.objects])
     low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
-    edges = np.ptp(bounds, axis=1).max(axis=1)
-    voices = _voices(snapshot.objects, bounds[:, 1, up] - low[up], edges)
+    extents = np.ptp(bounds, axis=1)
+    voices = _voices(snapshot.objects, bounds[:, 1, up] - low[up], extents)
     by_name = _by_names(voices) if voices else None
     # One name may mislead (a worktop called `Table`), so the whole scene is heard before it.
-    found = by_name if len(voices) > 1 else _by_size(high - low, up, edges) or by_name
+    found = by_name if len(voices) > 1 else _by_size(high - low, up, extents.max(axis=1)) or by_name
     if found is None:
         return
     factor, reason = found
@@ -71,22 +71,31 @@ def warn_if_implausible(snapshot: SceneSnapshot, unit_m: float) -> None:
     )
 
 
-def _voices(objects: Sequence[SceneObject], tops_m: NDArray[np.float64], edges_m: NDArray[np.float64]) -> list[_Voice]:
+def _voices(
+    objects: Sequence[SceneObject], tops_m: NDArray[np.float64], extents_m: NDArray[np.float64]
+) -> list[_Voice]:
     """What the named things say; of a kind at most three, the middle ones, so that a dozen chairs outvote nobody."""
-    kinds: dict[str, list[_Voice]] = {}
-    for item, top, edge in zip(objects, tops_m, edges_m, strict=True):
-        known = usual(item.name)
-        if known is None:
-            continue
-        measured = float(top) if known.is_top else float(edge)
-        if measured > 0:
+    named = [
+        (known, item.name, float(top), tuple(f"{edge:.3g}" for edge in sorted(extent)), float(extent.max()))
+        for item, top, extent in zip(objects, tops_m, extents_m, strict=True)
+        if (known := usual(item.name)) is not None
+    ]
+    kinds_of_shape: dict[tuple[str, ...], set[str]] = {}
+    for known, _, _, shape, _ in named:
+        kinds_of_shape.setdefault(shape, set()).add(known.kind)
+    voices: dict[str, list[_Voice]] = {}
+    for known, name, top, shape, edge in named:
+        measured = top if known.is_top else edge
+        # Boxes stand in for things while a game is prototyped: a cube, or one size for things of two kinds.
+        stands_in = len(kinds_of_shape[shape]) > 1 or (not known.is_top and len(set(shape)) == 1)
+        if measured > 0 and not stands_in:
             middle = float(np.sqrt(known.low_m * known.high_m))
             nearest = min(max(measured, known.low_m), known.high_m)
-            voice = _Voice(middle / measured, nearest / measured, item.name, measured, known)
-            kinds.setdefault(known.kind, []).append(voice)
-    if kinds.keys() <= _PARTS_TOO:
+            voice = _Voice(middle / measured, nearest / measured, name, measured, known)
+            voices.setdefault(known.kind, []).append(voice)
+    if voices.keys() <= _PARTS_TOO:
         return []
-    return [voice for voices in kinds.values() for voice in _middle(sorted(voices))]
+    return [voice for of_kind in voices.values() for voice in _middle(sorted(of_kind))]
 
 
 def _middle(voices: Sequence[_Voice]) -> Sequence[_Voice]:

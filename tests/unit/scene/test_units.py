@@ -144,3 +144,10 @@ def test_a_lone_door_may_be_a_dishwashers() -> None:
         suggestion(scene(box("door", (0.6, 0.75, 0.02), (0.0, 0.4, 0.0)), box("rack", (0.5, 0.1, 0.5), (0, 0, 0))))
         is None
     )
+
+
+@pytest.mark.parametrize("edge", [0.5, 1.0, 2.0])
+def test_cubes_that_stand_in_for_things_say_nothing(edge: float) -> None:
+    names = ["microwave_oven_2", "Keyboard_1", "cup", "wooden_table_1", "fridge", "kettle"]
+    assert suggestion(scene(*(box(name, (edge,) * 3, (3 * i, edge / 2, 0)) for i, name in enumerate(names)))) is None
+    assert suggestion(scene(box("cup", (edge,) * 3, (0.0, 0.0, 0.0)))) is None
