@@ -28,7 +28,6 @@ from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import read_clip, write_wav
 from scene2hap.audio.haptic_loop import HapticLoop
-from scene2hap.bundle.checking import require_plausible
 from scene2hap.bundle.haptic_bundle import HapticBundle
 from scene2hap.bundle.override import Override
 from scene2hap.errors import AudioError, BundleError, BundleIncomplete, BundleVersionError, MaterialError, SceneError
@@ -153,12 +152,10 @@ def read_bundle(folder: Path) -> HapticBundle:
         raise BundleIncomplete(f"{folder} lacks {missing[0]} ({len(missing)} missing). Bake it again or restore it.")
     try:
         rows = _json_file(folder, "loops.json")
-        scene, objects = _read_scene(folder), _objects.validate_python(_json_file(folder, "objects.json"))
-        _hold_against(scene, objects, folder)
         return HapticBundle(
-            scene,
+            _read_scene(folder),
             str(manifest.get("scene_category", "undefined")),
-            objects,
+            _objects.validate_python(_json_file(folder, "objects.json")),
             {
                 object_id: {state: _read_loop(folder, row) for state, row in states.items()}
                 for object_id, states in rows.items()
@@ -178,13 +175,6 @@ def read_bundle(folder: Path) -> HapticBundle:
         raise BundleIncomplete(f"{folder}: {cause}") from cause
     except (AttributeError, KeyError, TypeError) as cause:
         raise BundleError(f"{folder}: loops.json or overrides.json lacks or misuses {cause}.") from cause
-
-
-def _hold_against(scene: SceneSnapshot, objects: dict[str, ObjectHaptics], folder: Path) -> None:
-    try:
-        require_plausible(objects, scene)
-    except BundleError as cause:
-        raise BundleError(f"{folder / 'objects.json'}: {cause}") from cause
 
 
 def _read_scene(folder: Path) -> SceneSnapshot:

@@ -21,13 +21,13 @@ from scene2hap.haptics import ObjectHaptics, SourceState, unmet_needs
 from scene2hap.llm.answers import MaterialAnswer, ObjectAnswer, SceneAnswer, StateAnswer, VibrationAnswer
 from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.lexicon.judging import Measured, judge
+from scene2hap.llm.measured import size_without_answer, surface_size
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.protocol import LLMBackend
 from scene2hap.llm.questions import Questions
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.sharing import copies, reachable
-from scene2hap.llm.trust import Estimate, from_model, from_table, surface_size, without_answer
-from scene2hap.scene import sizes
+from scene2hap.llm.trust import Estimate, from_model, from_table, without_answer
 from scene2hap.scene.snapshot import SceneObject, SceneSnapshot
 
 UNKNOWN = frozenset({"", "unknown", "undefined"})
@@ -331,7 +331,7 @@ def _unanswered(item: SceneObject, problem: Scene2HapError) -> ObjectHaptics:
         object_category="unknown",
         material_category="unknown",
         material=None,
-        estimated_size_m=sizes.with_thickness(item.size_m),
+        estimated_size_m=size_without_answer(item.size_m),
         usage="unknown",
         vibrates=False,
         confidence=0.0,

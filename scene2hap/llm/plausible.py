@@ -1,7 +1,7 @@
 """Numbers of an answer, held against what was measured and against what is known of a material.
 
 A bound is asked for again, once, by all its names (`validation.find_fault`); what still breaks it is replaced by the
-measured size or the table's constant (`trust`).
+measured size (`measured`) or the table's constant (`trust`).
 """
 
 from __future__ import annotations

@@ -1,15 +1,13 @@
-"""Numbers from a model, and what takes their place where they cannot be: measured sizes, the table's constants."""
+"""Material constants from a model, held against the table of measured ones."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from scene2hap.errors import UnknownMaterial
-from scene2hap.llm.answers import MaterialAnswer, ObjectAnswer
-from scene2hap.llm.plausible import EDGES, constants, row_of
+from scene2hap.llm.answers import MaterialAnswer
+from scene2hap.llm.plausible import constants, row_of
 from scene2hap.materials import Material, lookup
-from scene2hap.scene import sizes
 
 _FIELDS = {
     "density_kg_m3": "density_kg_m3",
@@ -54,25 +52,6 @@ def from_model(word: str, answer: MaterialAnswer, provenance: str) -> Estimate:
     usual = {_FIELDS[name]: getattr(row.material, _FIELDS[name]) for name in wrong}
     flags = tuple(f"{name}: {why}; the table's constant is used" for name, why in wrong.items())
     return Estimate(replace(material, **usual), f"{provenance}; {', '.join(usual)}: table of materials", flags)
-
-
-def surface_size(answer: ObjectAnswer, measured_m: Sequence[float]) -> tuple[sizes.Size, tuple[str, ...]]:
-    """Length, width and thickness [m] of a surface, and what is doubtful: an edge out of bounds is taken as measured.
-
-    A thickness that was not measured either is assumed.
-    """
-    stated = (answer.estimated_length_m, answer.estimated_width_m, answer.estimated_thickness_m)
-    wrong = sizes.faults(stated, measured_m)
-    if not wrong:
-        return stated, ()
-    known = sizes.with_thickness(measured_m)
-    # Length and width belong together: one of each would be a plate that nobody measured or meant.
-    replaced = {*wrong, *(("length", "width") if {"length", "width"} & {*wrong} else ())}
-    length, width, thickness = (
-        other if edge in replaced else one for edge, one, other in zip(EDGES, stated, known, strict=True)
-    )
-    told = {edge: f"{value:.3g} m is used" for edge, value in zip(EDGES, known, strict=True)}
-    return (length, width, thickness), tuple(f"{edge}: {why}; {told[edge]}" for edge, why in wrong.items())
 
 
 def without_answer(word: str, problem: str) -> Estimate:

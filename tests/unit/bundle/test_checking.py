@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from scene2hap import HapticBundle
-from scene2hap.bundle import BundleWarning
+from scene2hap.bundle.checking import BundleWarning
 from scene2hap.errors import BundleError
 from scenes import table_with_two_phones
 
@@ -55,8 +55,11 @@ def test_an_unknown_sheet_of_an_earlier_version_is_read_and_takes_a_material(fol
 
 def test_a_need_that_nothing_meets_is_told(folder: Path) -> None:
     edit(folder, "phone", needs_contact="stove")
-    with pytest.warns(BundleWarning, match="'phone': state 'ringing' needs contact with 'stove', which no other"):
+    with pytest.warns(
+        BundleWarning, match="'phone': state 'ringing' needs contact with 'stove', which no other"
+    ) as caught:
         HapticBundle.load(folder)
+    assert caught[0].filename == __file__
 
 
 @pytest.mark.parametrize("needs", ["", "none", "null", "table", None])
