@@ -20,12 +20,12 @@ EDGES = ("length", "width", "thickness")
 # word ("wood", "foam") differ by less. Loss factors of built things are far above those of the bare material.
 _DENSITY_FAR, _MODULUS_FAR, _LOSS_FAR = 3.0, 10.0, 100.0
 _POISSON_FAR = 0.2
-_LIGHTEST_KG_M3 = 5.0
+_ANY_SOLID_KG_M3 = (5.0, 25000.0)
 """Of a material that nobody knows; what is lighter was told in g/cm3 (foams begin at 10). Assumed."""
 
 _UNITS = {"density_kg_m3": "kg/m3", "youngs_modulus_gpa": "GPa", "poisson_ratio": "-", "damping_ratio": "-"}
 _SLIPS = {"density_kg_m3": "g/cm3? Give kg/m3", "youngs_modulus_gpa": "pascal or megapascal? Give gigapascal"}
-_SLIP = 300.0  # times off, from which a number was told in another unit
+_SLIP = 30.0  # times beyond the bound, from which a number was told in another unit
 
 
 def implausible(component: Component, told: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]:
@@ -55,7 +55,7 @@ def constants(word: str, told: Mapping[str, Any]) -> dict[str, str]:
         hint = f" ({_SLIPS[name]})" if off > _SLIP and name in _SLIPS else ""
         unit = "" if _UNITS[name] == "-" else f" {_UNITS[name]}"
         whose = f"{row.material.name} has" if row is not None else "a solid has"
-        wrong[name] = f"{value:.4g}{unit}, but {whose} {low:.3g} to {high:.3g}{unit}{hint}"
+        wrong[name] = f"{value:.4g}{unit}, but {whose} {_plain(low)} to {_plain(high)}{unit}{hint}"
     return wrong
 
 
@@ -76,7 +76,7 @@ _LONGEST = 6  # words that are read of a material
 
 def _bounds(row: MaterialRow | None) -> dict[str, tuple[float, float]]:
     if row is None:
-        return {"density_kg_m3": (_LIGHTEST_KG_M3, float("inf"))}
+        return {"density_kg_m3": _ANY_SOLID_KG_M3}
     (light, heavy), (soft, stiff) = row.density_range_kg_m3, row.youngs_range_pa
     return {
         "density_kg_m3": (light / _DENSITY_FAR, heavy * _DENSITY_FAR),
@@ -96,6 +96,11 @@ def _sizes(told: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]:
         [one if _is_number(one) else other for one, other in zip(stated, measured, strict=True)], measured
     )
     return {f"estimated_{edge}_m": why for edge, why in found.items() if _is_number(stated[EDGES.index(edge)])}
+
+
+def _plain(value: float) -> str:
+    """Three digits without an exponent where it is short: 2610, not 2.61e+03."""
+    return f"{float(f'{value:.3g}'):g}"
 
 
 def _is_number(value: object) -> TypeGuard[float]:
