@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from scene2hap import checks
 from scene2hap.errors import ConfigError
 from scene2hap.materials import Material
+from scene2hap.needs import stated, unmet
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,8 @@ class SourceState:
         at full spin, 0.5 a ringing phone on the palm, 0.1 a refrigerator's hum.
     sentence : at most 15 words that begin with the category; drives sound generation.
     keywords : "category verb"; drives sound retrieval.
-    needs_contact : category or id of the object it must touch to vibrate (a pan on a heater); None means always.
+    needs_contact : what it must touch to vibrate (a pan on a stove), as an id or in everyday words that are matched by
+        meaning (`scene2hap.needs`); None, "", "none" and "null" mean always.
     """
 
     name: str
@@ -38,6 +40,20 @@ class SourceState:
     def __post_init__(self) -> None:
         intensity = checks.number("intensity", self.intensity, "-", above=0.0, at_most=1.0, error=ConfigError)
         object.__setattr__(self, "intensity", intensity)
+        object.__setattr__(self, "needs_contact", stated(self.needs_contact))
+
+
+def unmet_needs(object_id: str, states: Sequence[SourceState], categories: Mapping[str, str]) -> tuple[str, ...]:
+    """A sentence on each state of an object that needs a contact which nothing in the scene can give.
+
+    `categories` tells what each object of the scene is, by id; "" or "unknown" where nobody knows.
+    """
+    return tuple(
+        f"state {state.name!r} needs contact with {state.needs_contact!r}, which no other object here is; "
+        "it is silent until such an object is added"
+        for state in states
+        if state.needs_contact is not None and unmet(state.needs_contact, categories, object_id)
+    )
 
 
 @dataclass(frozen=True)
@@ -63,6 +79,11 @@ class ObjectHaptics:
 
     def __post_init__(self) -> None:
         size = checks.vector("estimated_size_m", self.estimated_size_m, "m", size=3, at_least=0.0, error=ConfigError)
+        if self.material is not None and size[2] <= 0.0:
+            raise ConfigError(
+                f"estimated_size_m of {self.object_category!r} is {list(size)} m; the thickness must be above 0 [m], "
+                "or nothing spreads through it. Give the thickness that a real one has."
+            )
         object.__setattr__(self, "estimated_size_m", size)
         confidence = checks.number("confidence", self.confidence, "-", at_least=0.0, at_most=1.0, error=ConfigError)
         object.__setattr__(self, "confidence", confidence)

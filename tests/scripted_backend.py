@@ -56,7 +56,13 @@ class Scripted:
         }
 
     def material_estimator(self, request: LLMRequest) -> dict[str, Any]:
-        return {"density_kg_m3": 700.0, "youngs_modulus_gpa": 10.0, "poisson_ratio": 0.3, "damping_ratio": 0.005}
+        density, modulus = (2500.0, 70.0) if request.facts["material_category"] == "glass" else (700.0, 10.0)
+        return {
+            "density_kg_m3": density,
+            "youngs_modulus_gpa": modulus,
+            "poisson_ratio": 0.3,
+            "damping_ratio": 0.005,
+        }
 
     def vibration_describer(self, request: LLMRequest) -> dict[str, Any]:
         return {"sentence": f"phone {request.facts['state']}", "keywords": "phone buzzing"}

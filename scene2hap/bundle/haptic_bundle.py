@@ -99,7 +99,11 @@ class HapticBundle:
 
         Raises: BundleIncomplete: a file is missing or cut short; BundleVersionError: written by a newer scene2hap;
         BundleError: a file says something that cannot be.
+        Warns: BundleWarning: a state waits for a contact that nothing in the scene can give.
         """
+        from scene2hap.bundle.checking import require_plausible
         from scene2hap.bundle.folder import read_bundle
 
-        return read_bundle(Path(folder))
+        bundle = read_bundle(Path(folder))
+        require_plausible(bundle, Path(folder))
+        return bundle

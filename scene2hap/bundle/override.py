@@ -11,6 +11,7 @@ from scene2hap.audio.clip import AudioClip
 from scene2hap.errors import BundleError
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.materials import Material, lookup
+from scene2hap.scene.sizes import with_thickness
 
 USER = "user"
 """Provenance of an overridden field."""
@@ -59,7 +60,11 @@ class Override:
         provenance = dict(haptics.provenance)
         if self.material is not None:
             provenance |= {"material": USER, "material_category": USER}
-            haptics = replace(haptics, material=self.material, material_category=self.material.name)
+            # A sheet of unknown material was left without a thickness by earlier versions; what spreads needs one.
+            size_m = with_thickness(haptics.estimated_size_m)
+            haptics = replace(
+                haptics, material=self.material, material_category=self.material.name, estimated_size_m=size_m
+            )
         if self.vibrates is False:
             provenance["vibrates"] = USER
             haptics = replace(haptics, vibrates=False, states=())

@@ -123,3 +123,5 @@ def show_report(
         console.warn(f"{what or 'the scene'}: {problem}")
     for word, flags in report.flags.items():
         console.warn(f"material {word!r}: {'; '.join(flags)}")
+    for object_id, doubts in report.doubts.items():
+        console.warn(f"{object_id}: {'; '.join(doubts)}")

@@ -12,15 +12,16 @@ from __future__ import annotations
 import asyncio
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import BackendUnavailable, BadAnswer, Scene2HapError
-from scene2hap.haptics import ObjectHaptics, SourceState
+from scene2hap.haptics import ObjectHaptics, SourceState, unmet_needs
 from scene2hap.llm.answers import MaterialAnswer, ObjectAnswer, SceneAnswer, StateAnswer, VibrationAnswer
 from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.lexicon.judging import Measured, judge
+from scene2hap.llm.measured import size_without_answer, surface_size
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.protocol import LLMBackend
 from scene2hap.llm.questions import Questions
@@ -159,7 +160,8 @@ class _Chain:
             raise failed[0]
         of_member = {item.id: analyses[first] for first, members in firsts.items() for item in members}
         estimates = await self._estimates(of_member)
-        return {item.id: self._haptics(item, of_member[item.id], estimates) for item in wanted}
+        said = {item.id: self._haptics(item, of_member[item.id], estimates) for item in wanted}
+        return {key: self._with_unmet_needs(key, haptics, said) for key, haptics in said.items()}
 
     async def _analyse(self, item: SceneObject, category: str) -> _Analysis:
         length, width, thickness = item.size_m
@@ -256,6 +258,7 @@ class _Chain:
             self._report.errors[item.id] = str(found)
             return _unanswered(item, found)
         answer, estimate = found.answer, estimates[item.id]
+        size_m, doubts = surface_size(answer, item.size_m)
         analysed = ("object_category", "material_category", "estimated_size_m", "usage", "vibrates")
         provenance = {**dict.fromkeys(analysed, found.analyst), "material": estimate.provenance}
         for state, who in zip(found.states, found.describers, strict=True):
@@ -265,13 +268,16 @@ class _Chain:
             "size": answer.size_reason,
             "vibration": answer.vibration_reason,
         }
+        if doubts:
+            self._report.doubts[item.id] = doubts
+            reasons["size"] = "; ".join((answer.size_reason, *doubts))
         if estimate.flags:
             reasons["material"] = "; ".join(estimate.flags)
         return ObjectHaptics(
             object_category=answer.object_category,
             material_category=answer.material_category,
             material=estimate.material,
-            estimated_size_m=(answer.estimated_length_m, answer.estimated_width_m, answer.estimated_thickness_m),
+            estimated_size_m=size_m,
             usage=answer.usage,
             vibrates=bool(found.states),
             states=found.states,
@@ -279,6 +285,17 @@ class _Chain:
             reasons=reasons,
             provenance=provenance,
         )
+
+    def _with_unmet_needs(
+        self, object_id: str, haptics: ObjectHaptics, said: Mapping[str, ObjectHaptics]
+    ) -> ObjectHaptics:
+        """With a word on each state whose contact nothing here can give; it is silent until something can."""
+        categories = {item.id: said[item.id].object_category if item.id in said else "" for item in self._scene.objects}
+        doubts = unmet_needs(object_id, haptics.states, categories)
+        if not doubts:
+            return haptics
+        self._report.doubts[object_id] = (*self._report.doubts.get(object_id, ()), *doubts)
+        return replace(haptics, reasons={**haptics.reasons, "contact": "; ".join(doubts)})
 
 
 async def _scene_category(scene: SceneSnapshot, questions: Questions) -> str:
@@ -314,7 +331,7 @@ def _unanswered(item: SceneObject, problem: Scene2HapError) -> ObjectHaptics:
         object_category="unknown",
         material_category="unknown",
         material=None,
-        estimated_size_m=item.size_m,
+        estimated_size_m=size_without_answer(item.size_m),
         usage="unknown",
         vibrates=False,
         confidence=0.0,

@@ -21,7 +21,8 @@ class InferenceReport:
         "table_material" (words that were looked up instead), "unreached_material" (words that no source needs).
     tokens : used by answers that were paid for now, by model and kind of token; unmetered : such answers without usage.
     errors : what could not be answered, by object id ("" is the scene) or material word.
-    flags : what is doubtful, by material word.
+    flags : what is doubtful, by material word; doubts : by object id, sizes that were not believed and contacts that
+        nothing in the scene can give.
     """
 
     calls: Counter[Component] = field(default_factory=Counter)
@@ -31,6 +32,7 @@ class InferenceReport:
     unmetered: int = 0
     errors: dict[str, str] = field(default_factory=dict)
     flags: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    doubts: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
     def take(self, reply: LLMReply) -> None:
         """Take an answer into the account."""
@@ -65,4 +67,5 @@ class InferenceReport:
             "unmetered": self.unmetered,
             "errors": self.errors,
             "flags": {word: list(flags) for word, flags in self.flags.items()},
+            "doubts": {object_id: list(doubts) for object_id, doubts in self.doubts.items()},
         }

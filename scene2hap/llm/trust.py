@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from scene2hap.errors import UnknownMaterial
 from scene2hap.llm.answers import MaterialAnswer
+from scene2hap.llm.plausible import constants, row_of
 from scene2hap.materials import Material, lookup
 
-FAR = 10.0
-"""Factor by which density or modulus may differ from the table's before the estimate is doubted."""
+_FIELDS = {
+    "density_kg_m3": "density_kg_m3",
+    "youngs_modulus_gpa": "youngs_modulus_pa",
+    "poisson_ratio": "poisson_ratio",
+    "damping_ratio": "loss_factor",
+}
+"""Field of an answer -> constant of a material."""
 
 
 @dataclass(frozen=True)
@@ -31,25 +37,21 @@ def from_table(word: str) -> Estimate | None:
 
 
 def from_model(word: str, answer: MaterialAnswer, provenance: str) -> Estimate:
-    """A model's constants, flagged where density or modulus is ten-fold off the table's; never rescaled.
+    """A model's constants; one that its material cannot have is replaced by the table's, and flagged. None is rescaled.
 
-    A slip of units (2.7 for g/cm3, megapascal for gigapascal) shows as such a deviation, but so does foam for rubber.
+    A slip of units (2.7 for g/cm3, megapascal for gigapascal) shows so. Where no row of the table speaks of the
+    material, the constant is flagged and stays, since nothing better is known.
     """
     modulus_pa = answer.youngs_modulus_gpa * 1e9
     material = Material(word, answer.density_kg_m3, modulus_pa, answer.poisson_ratio, answer.loss_factor)
-    known = from_table(word)
-    if known is None or known.material is None:
+    wrong, row = constants(word, answer.model_dump()), row_of(word)
+    if not wrong:
         return Estimate(material, provenance)
-    pairs = (
-        ("density", material.density_kg_m3, known.material.density_kg_m3, "kg/m3"),
-        ("Young's modulus", material.youngs_modulus_pa, known.material.youngs_modulus_pa, "Pa"),
-    )
-    flags = tuple(
-        f"{name} {value:.3g} {unit} is {max(value / usual, usual / value):.0f} times off the table's {usual:.3g} {unit}"
-        for name, value, usual, unit in pairs
-        if not 1 / FAR < value / usual < FAR
-    )
-    return Estimate(material, provenance, flags)
+    if row is None:
+        return Estimate(material, provenance, tuple(f"{name}: {why}" for name, why in wrong.items()))
+    usual = {_FIELDS[name]: getattr(row.material, _FIELDS[name]) for name in wrong}
+    flags = tuple(f"{name}: {why}; the table's constant is used" for name, why in wrong.items())
+    return Estimate(replace(material, **usual), f"{provenance}; {', '.join(usual)}: table of materials", flags)
 
 
 def without_answer(word: str, problem: str) -> Estimate:

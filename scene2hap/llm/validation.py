@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from scene2hap.llm.answers import Answer, MaterialAnswer, ObjectAnswer, SceneAnswer, VibrationAnswer
+from scene2hap.llm.plausible import implausible
 from scene2hap.llm.protocol import Component
 
 ANSWERS: Mapping[Component, type[Answer]] = {
@@ -22,7 +24,7 @@ ANSWERS: Mapping[Component, type[Answer]] = {
 
 _ARTICLE = re.compile(r"^(a|an|the)\s+")
 _NUMERIC = ("greater_than", "less_than", "finite_number", "float_", "int_", "bool_")
-_MOST_SHOWN = 5
+_MOST_SHOWN = 15  # every field of the longest answer
 _STEEPEST_GPA = 1300.0
 
 
@@ -41,17 +43,33 @@ class Fault:
 def find_fault(component: Component, text: str, facts: Mapping[str, Any] | None = None) -> Fault | None:
     """What is wrong with a reply, in words for the model that wrote it; None where nothing is.
 
-    With the `facts` that were asked about, a sentence must begin with the object's category.
+    With the `facts` that were asked about, a sentence must begin with the object's category, and numbers must be such
+    as that object or material may have. All that is wrong is named at once.
     """
+    doubtful = implausible(component, _fields(text), facts or {})
     try:
         answer = ANSWERS[component].model_validate_json(text)
     except ValidationError as error:
         problems = error.errors(include_url=False)
         reasons = [_in_words(problem) for problem in problems[:_MOST_SHOWN]]
+        wrong = {problem["loc"][0] for problem in problems if problem["loc"]}
+        reasons += [f"{name}: {why}" for name, why in doubtful.items() if name not in wrong]
         return Fault("; ".join(reasons), not all(problem["type"].startswith(_NUMERIC) for problem in problems))
+    if doubtful:
+        reason = "; ".join(f"{name}: {why}" for name, why in doubtful.items())
+        return Fault(reason, needs_images=False, is_minor=True)
     if isinstance(answer, VibrationAnswer) and facts is not None:
         return _misses_category(answer.sentence, str(facts.get("object_category", "")))
     return None
+
+
+def _fields(text: str) -> dict[str, Any]:
+    """The fields of an answer as far as it is one."""
+    try:
+        told = json.loads(text)
+    except (ValueError, RecursionError):  # ValueError: also a number of thousands of digits
+        return {}
+    return told if isinstance(told, dict) else {}
 
 
 def _misses_category(sentence: str, category: str) -> Fault | None:

@@ -14,7 +14,7 @@ from importlib.resources import files
 from scene2hap import checks
 from scene2hap.errors import MaterialError, UnknownMaterial
 
-__all__ = ["Material", "MaterialRow", "lookup", "table"]
+__all__ = ["Material", "MaterialRow", "lookup", "lookup_row", "table"]
 
 
 @dataclass(frozen=True)
@@ -63,9 +63,14 @@ def lookup(name: str) -> Material:
 
     Raises: UnknownMaterial: no row has that name; the message names the nearest.
     """
+    return lookup_row(name).material
+
+
+def lookup_row(name: str) -> MaterialRow:
+    """The row of a material, with ranges and sources, as `lookup`. Raises: UnknownMaterial."""
     key = " ".join(name.lower().replace("_", " ").replace("-", " ").split())
     try:
-        return _by_name()[key].material
+        return _by_name()[key]
     except KeyError:
         near = difflib.get_close_matches(key, list(_by_name()), n=3)
         hint = f"Did you mean {', '.join(map(repr, near))}? " if near else ""

@@ -12,10 +12,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import TypeAdapter, ValidationError
 
 from scene2hap import checks
 from scene2hap.errors import SceneError
+from scene2hap.scene import sizes
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import DominantSurface, Geometry, SceneObject, SceneSnapshot, with_relative_heights
 
@@ -25,7 +28,7 @@ VERSION = 1
 _scene: TypeAdapter[SceneSnapshot] = TypeAdapter(SceneSnapshot)
 _geometry: TypeAdapter[Geometry] = TypeAdapter(Geometry)
 # Stands in for a surface until it is measured.
-_UNMEASURED = DominantSurface(Pose(), 0.0, 0.0, 0.0)
+_UNMEASURED = DominantSurface(Pose(), 0.0, 0.0, 0.0, ("zero-thickness",))
 
 
 def dump(snapshot: SceneSnapshot) -> str:
@@ -79,6 +82,8 @@ def from_document(document: dict[str, Any]) -> SceneSnapshot:
     except ValidationError as cause:
         problem = checks.first_problem(cause)
         raise SceneError(f"scene field {problem.place or '(top)'}: {problem.reason}.") from cause
+    for item in scene.objects:
+        _require_plausible_thickness(item)
     rows = document["objects"]
     is_whole = all(row.get(key) is not None for row in rows for key in ("surface", "relative_height_m"))
     return scene if is_whole else _measured(scene, rows)
@@ -105,6 +110,26 @@ def _told(row: Any) -> Any:
     if not isinstance(row, dict):
         return row
     return {"surface": _UNMEASURED, **{key: value for key, value in row.items() if value is not None}}
+
+
+def _require_plausible_thickness(item: SceneObject) -> None:
+    """Hold a stated thickness against the geometry, which bounds it: no slab is many times thicker than its mesh."""
+    normal = np.abs(item.surface.pose.rotation[:, 2])
+    extent_m = float(normal @ np.ptp(_bounds_m(item.geometry), axis=0))
+    bound_m = sizes.thickest_m((item.surface.length_m, item.surface.width_m, extent_m))
+    if item.surface.thickness_m > bound_m:
+        raise SceneError(
+            f"object {item.id!r}: surface.thickness_m is {item.surface.thickness_m:g} m, but its geometry is "
+            f"{extent_m:.3g} m thick there; it must be at most {bound_m:.3g} [m]. "
+            "Leave the surface out to have it measured."
+        )
+
+
+def _bounds_m(geometry: Geometry) -> NDArray[np.float64]:
+    if geometry.kind == "box":
+        half = np.asarray(geometry.size_m) / 2
+        return np.stack((-half, half))
+    return geometry.bounds_m
 
 
 def _measured(scene: SceneSnapshot, rows: Sequence[dict[str, Any]]) -> SceneSnapshot:

@@ -19,6 +19,7 @@ from pydantic import InstanceOf, PlainSerializer, PlainValidator
 
 from scene2hap import checks
 from scene2hap.errors import SceneError, UnknownObject
+from scene2hap.scene import sizes
 from scene2hap.scene.appearance import Appearance
 from scene2hap.scene.images import ImageSet, ObjectImages
 from scene2hap.scene.pose import Pose
@@ -129,6 +130,7 @@ class DominantSurface:
     `pose` puts the plate's corner frame into the object's own frame: its origin is a corner of the plate's mid-plane,
     x runs along the length, y along the width, z along the thickness (the plate's normal). `flags` tell why a
     measured value wants a second look; an engine or a person who states it leaves them empty.
+    Raises: SceneError: a size that is negative, or no thickness without the flag that says so.
     """
 
     pose: Pose
@@ -143,6 +145,12 @@ class DominantSurface:
                 self, name, checks.number(name, getattr(self, name), "m", at_least=0.0, error=SceneError)
             )
         object.__setattr__(self, "flags", tuple(self.flags))
+        least_m = sizes.NOTHING * min(self.length_m, self.width_m)
+        if "zero-thickness" not in self.flags and self.thickness_m <= least_m:
+            raise SceneError(
+                f"thickness_m is {self.thickness_m:g} m; it must be above {least_m:g} [m]. State what the real "
+                'thing has, leave the surface out to have it measured, or flag it "zero-thickness".'
+            )
 
 
 @dataclass(frozen=True)

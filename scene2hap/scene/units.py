@@ -1,40 +1,31 @@
 """Whether a scene's sizes can be metres: a warning with the unit that would make them so.
 
-glTF says metres and is often wrong (centimetres, toy scale). Known heights decide where names give them away; otherwise
-only a scene far too wide or too small is doubted.
+glTF says metres and is often wrong (centimetres, toy scale). Known sizes decide where names give them away. Otherwise
+only a scene is doubted that is far too wide or high and whose objects are too large as well, or one that is too small:
+a park is 200 m wide, and its benches are not.
 """
 
 from __future__ import annotations
 
-import re
 import warnings
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.scene.snapshot import SceneObject, SceneSnapshot
+from scene2hap.scene.usual_sizes import DOOR, Usual, usual
 
 
 class UnitWarning(UserWarning):
     """A scene whose sizes are implausible as metres."""
 
 
-# Height of the top above the floor [m] by what a name says, with the words that it must be (assumed, from usual
-# furniture; whatever hangs, lies on something or is only part of another thing is left out).
-_TOPS_M: tuple[tuple[str, float], ...] = (
-    (r"(front |main |room |entrance |folding |sliding |wooden |interior )?door", 2.0),
-    (r"(arm |office |kitchen |dining |desk )?chair", 0.9),
-    (r"(dining |kitchen |work |wooden )?table|(reading |writing |office )?desk", 0.75),
-    (r"work ?top|(kitchen )?counter( top)?|stove|sink counter", 0.9),
-    (r"fridge|refrigerator", 1.7),
-    (r"wardrobe", 2.0),
-    (r"sofa|couch", 0.85),
-    (r"washing machine|washer|tumble dryer|dishwasher", 0.85),
-    (r"toilet", 0.75),
-    (r"bath ?tub", 0.6),
-)
 _MAX_WIDTH_M, _MAX_HEIGHT_M = 100.0, 20.0  # a hall, and more than one room high (assumed)
+_MAX_MEDIAN_M = 10.0  # half of a room's or a park's objects are shorter than this at their longest (assumed)
+_MOST_OF_A_KIND = 3
+_PARTS_TOO = frozenset({DOOR})  # a lone door may be a dishwasher's
 _MIN_WIDTH_M = 0.2
 _MIN_OBJECTS = 5  # fewer objects than this may well be a close-up of something small
 _ROOM_WIDTH_M, _ROOM_HEIGHT_M = (1.0, 30.0), (1.8, 6.0)
@@ -45,15 +36,26 @@ _SAME_FACTOR = 1.25
 _DOUBT_ONE, _DOUBT_SEVERAL = 2.2, 1.5
 
 
+class _Voice(NamedTuple):
+    """What one named object says: the factor that its size is off from the usual, and from what is still usual."""
+
+    factor: float
+    excess: float
+    name: str
+    measured_m: float
+    usual: Usual
+
+
 def warn_if_implausible(snapshot: SceneSnapshot, unit_m: float) -> None:
-    """Issue a UnitWarning if the scene, read at `unit_m` metres per unit, has sizes that furniture does not have."""
+    """Issue a UnitWarning if the scene, read at `unit_m` metres per unit, has sizes that such things do not have."""
     up = {"y": 1, "z": 2}[snapshot.up_axis]
     bounds = np.array([item.bounds_m for item in snapshot.objects])
     low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
-    known = _furniture(snapshot.objects, bounds[:, 1, up] - low[up])
+    extents = np.ptp(bounds, axis=1)
+    voices = _voices(snapshot.objects, bounds[:, 1, up] - low[up], extents)
+    by_name = _by_names(voices) if voices else None
     # One name may mislead (a worktop called `Table`), so the whole scene is heard before it.
-    by_one = _by_furniture(known) if known else None
-    found = by_one if len(known) > 1 else _by_size(high - low, up, len(snapshot.objects)) or by_one
+    found = by_name if len(voices) > 1 else _by_size(high - low, up, extents.max(axis=1)) or by_name
     if found is None:
         return
     factor, reason = found
@@ -69,29 +71,60 @@ def warn_if_implausible(snapshot: SceneSnapshot, unit_m: float) -> None:
     )
 
 
-def _furniture(objects: Sequence[SceneObject], tops_m: NDArray[np.float64]) -> list[tuple[float, float, str]]:
-    """Usual height, height and name of the things whose names tell how high they are."""
-    return [
-        (usual, float(top), item.name)
-        for item, top in zip(objects, tops_m, strict=True)
-        if top > 0 and (usual := _usual(item.name)) is not None
+def _voices(
+    objects: Sequence[SceneObject], tops_m: NDArray[np.float64], extents_m: NDArray[np.float64]
+) -> list[_Voice]:
+    """What the named things say; of a kind at most three, the middle ones, so that a dozen chairs outvote nobody."""
+    named = [
+        (known, item.name, float(top), tuple(f"{edge:.3g}" for edge in sorted(extent)), float(extent.max()))
+        for item, top, extent in zip(objects, tops_m, extents_m, strict=True)
+        if (known := usual(item.name)) is not None
     ]
+    kinds_of_shape: dict[tuple[str, ...], set[str]] = {}
+    for known, _, _, shape, _ in named:
+        kinds_of_shape.setdefault(shape, set()).add(known.kind)
+    voices: dict[str, list[_Voice]] = {}
+    for known, name, top, shape, edge in named:
+        measured = top if known.is_top else edge
+        # Boxes stand in for things while a game is prototyped: a cube, or one size for things of two kinds.
+        stands_in = len(kinds_of_shape[shape]) > 1 or (not known.is_top and len(set(shape)) == 1)
+        if measured > 0 and not stands_in:
+            middle = float(np.sqrt(known.low_m * known.high_m))
+            nearest = min(max(measured, known.low_m), known.high_m)
+            voice = _Voice(middle / measured, nearest / measured, name, measured, known)
+            voices.setdefault(known.kind, []).append(voice)
+    if voices.keys() <= _PARTS_TOO:
+        return []
+    return [voice for of_kind in voices.values() for voice in _middle(sorted(of_kind))]
 
 
-def _by_furniture(known: Sequence[tuple[float, float, str]]) -> tuple[float, str] | None:
-    factor = float(np.median([usual / top for usual, top, _ in known]))
-    doubt = _DOUBT_ONE if len(known) == 1 else _DOUBT_SEVERAL
-    if 1 / doubt <= factor <= doubt:
+def _middle(voices: Sequence[_Voice]) -> Sequence[_Voice]:
+    start = max(0, (len(voices) - _MOST_OF_A_KIND) // 2)
+    return voices[start : start + _MOST_OF_A_KIND]
+
+
+def _by_names(voices: Sequence[_Voice]) -> tuple[float, str] | None:
+    ordered = sorted(np.log([voice.excess for voice in voices]))
+    # Of two halves that differ, the one that finds the sizes plausible is believed.
+    excess = min(ordered[(len(ordered) - 1) // 2], ordered[len(ordered) // 2], key=abs)
+    kinds = {voice.usual.kind for voice in voices}
+    if abs(excess) <= np.log(_DOUBT_ONE if len(kinds) == 1 else _DOUBT_SEVERAL):
         return None
-    usual, top, name = min(known, key=lambda row: abs(np.log(row[0] / row[1] / factor)))
+    same = [voice for voice in voices if (voice.excess > 1) == (excess > 0) and voice.excess != 1]
+    factor = float(np.median([voice.factor for voice in same]))
+    voice = min(same, key=lambda voice: abs(np.log(voice.factor / factor)))
     near = [unit for unit in _UNITS if factor / _SAME_FACTOR < unit < factor * _SAME_FACTOR]
-    return (near[0] if near else factor), f"{name!r} reaches {top:.3g} m above the floor, where {usual:g} m is usual"
+    where = "reaches {:.3g} m above the floor" if voice.usual.is_top else "is {:.3g} m long"
+    low, high = voice.usual.low_m, voice.usual.high_m
+    span = f"{low:g} m" if low == high else f"{low:g} to {high:g} m"
+    return (near[0] if near else factor), f"{voice.name!r} {where.format(voice.measured_m)}, where {span} is usual"
 
 
-def _by_size(size_m: NDArray[np.float64], up: int, n_objects: int) -> tuple[float, str] | None:
+def _by_size(size_m: NDArray[np.float64], up: int, edges_m: NDArray[np.float64]) -> tuple[float, str] | None:
     width, height = float(np.delete(size_m, up).max()), float(size_m[up])
-    is_small = width < _MIN_WIDTH_M and height < _MIN_WIDTH_M and n_objects >= _MIN_OBJECTS
-    if width <= _MAX_WIDTH_M and height <= _MAX_HEIGHT_M and not is_small:
+    is_small = width < _MIN_WIDTH_M and height < _MIN_WIDTH_M and len(edges_m) >= _MIN_OBJECTS
+    is_large = (width > _MAX_WIDTH_M or height > _MAX_HEIGHT_M) and float(np.median(edges_m)) > _MAX_MEDIAN_M
+    if not is_large and not is_small:
         return None
     units = [1 / unit for unit in _UNITS] if is_small else list(_UNITS)
     low, high = _ROOM_WIDTH_M
@@ -100,13 +133,3 @@ def _by_size(size_m: NDArray[np.float64], up: int, n_objects: int) -> tuple[floa
     low, high = _ROOM_HEIGHT_M
     likely = [unit for unit in likely if low <= height * unit <= high] or likely or [_TYPICAL_WIDTH_M / width]
     return likely[0], f"the scene is {width:.3g} m wide and {height:.3g} m high"
-
-
-def _usual(name: str) -> float | None:
-    """The usual height of a thing's top [m]; None if its name does not say."""
-    apart = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name)
-    words = " ".join(re.findall(r"[a-z]{2,}", apart.lower()))
-    for pattern, top_m in _TOPS_M:
-        if re.fullmatch(f"({pattern})( (left|right|front|back))?", words):
-            return top_m
-    return None

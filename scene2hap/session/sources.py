@@ -12,6 +12,7 @@ from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics
+from scene2hap.needs import meets
 from scene2hap.session.config import MAX_GAIN_DB
 from scene2hap.session.frame import unknown_source
 
@@ -49,7 +50,7 @@ class LoopRow:
 
 @dataclass
 class Source:
-    """A vibrating object; `needs` tells the contact that each state needs, by category or id."""
+    """A vibrating object; `needs` tells the contact that each state needs, by id or in words."""
 
     rows: Mapping[str, LoopRow]
     needs: Mapping[str, str | None]
@@ -130,11 +131,19 @@ class Sources:
     def factors(
         self, neighbours: Callable[[str], Iterable[str]], category: Callable[[str], str]
     ) -> NDArray[np.float64]:
-        """What each source's signal is multiplied with now: 0 when off, muted, or without the contact that it needs."""
+        """What each source's signal is multiplied with now: 0 when off, muted, or without the contact that it needs.
+
+        A contact with a source that is switched off is none: no pan sizzles on a cold stove.
+        """
+
+        def is_off(object_id: str) -> bool:
+            return object_id in self._sources and not self._sources[object_id].is_on
 
         def has_needed(source_id: str, source: Source) -> bool:
             needed = source.needs.get(source.state)
-            return needed is None or any(needed in (other, category(other)) for other in neighbours(source_id))
+            return needed is None or any(
+                meets(needed, other, category(other)) for other in neighbours(source_id) if not is_off(other)
+            )
 
         user = self.user.factor
         return np.array(

@@ -13,7 +13,7 @@ LAYERS = [
     {"checks", "compiled"},
     {"plugins", "settings", "secret"},
     {"scene"},
-    {"contact", "materials"},
+    {"contact", "materials", "needs"},
     {"haptics"},
     {"propagation", "audio"},
     {"bundle"},

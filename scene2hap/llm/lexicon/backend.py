@@ -45,9 +45,15 @@ def _object(facts: _Facts) -> Answer:
             _texts(facts, "surface_flags"),
             scene_category=_text(facts, "scene_category", default=""),
             material_names=_texts(facts, "material_names"),
+            height_m=_height(facts),
         ),
         _texts(facts, "neighbour_names"),
     )
+
+
+def _height(facts: _Facts) -> float | None:
+    height = facts.get("relative_height_m")
+    return None if height is None else checks.number("relative_height_m", height, "m", error=BadAnswer)
 
 
 def _material(facts: _Facts) -> Answer:

@@ -7,9 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from scene2hap.llm.answers import ObjectAnswer, StateAnswer
+from scene2hap.llm.lexicon.fitting import fit
 from scene2hap.llm.lexicon.making import make, painted_with
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.table import ObjectRow, StateRow, table
+from scene2hap.scene import sizes
 
 UNKNOWN = "unknown"
 
@@ -20,6 +22,8 @@ _GIANT = 3.0
 _MINIATURE_TRUST = 0.8
 _GIANT_TRUST = 0.5
 
+_LONGEST_REASON = 600  # letters, as in ObjectAnswer
+_MOST_SHOWN = 100  # letters of a name
 _LARGEST_M = 1e5  # the bound of ObjectAnswer; only a scene in a wrong unit has larger things
 _THINNEST_M = 1e-3  # a plate measured below this is taken as modelled without thickness
 _MINIATURE_MATERIAL = "plastic"  # assumed for all of them
@@ -34,7 +38,8 @@ _VOWEL_FIRST = re.compile(r"[aeio]|u(?!fo|k|ni|ri|sb|t)|hour|led\b|mri\b|x-ray")
 class Measured:
     """An object as the scene has it: authored name, size of its dominant surface and the doubts about it.
 
-    `scene_category` and `material_names`, the authored names of what it is painted with, are empty where unknown.
+    `scene_category` and `material_names`, the authored names of what it is painted with, are empty where unknown;
+    `height_m` is that of its lowest point above the scene's [m], None where unknown.
     """
 
     name: str
@@ -42,6 +47,7 @@ class Measured:
     flags: Sequence[str] = ()
     scene_category: str = ""
     material_names: Sequence[str] = ()
+    height_m: float | None = None
 
 
 def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
@@ -59,14 +65,20 @@ def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
 
 def _unknown(item: Measured, reading: NameReading) -> ObjectAnswer:
     words = ", ".join(map(repr, reading.unread)) or "no word for an object"
+    thickness = sizes.with_thickness(item.size_m)[2]
+    assumed = (
+        "" if thickness == item.size_m[2] else f" It was measured without thickness; {thickness:.2g} m is assumed."
+    )
     return ObjectAnswer(
         object_category=UNKNOWN,
-        category_reason=f"the name {item.name!r} holds {words}; the table of {len(table())} objects cannot tell.",
+        category_reason=_cut(
+            f"the table of {len(table())} objects cannot tell: the name {_shown(item.name)} holds {words}."
+        ),
         material_category=painted_with(item.material_names) or UNKNOWN,
         estimated_length_m=item.size_m[0],
         estimated_width_m=item.size_m[1],
-        estimated_thickness_m=item.size_m[2],
-        size_reason="as measured; nothing to compare it with.",
+        estimated_thickness_m=thickness,
+        size_reason=f"as measured; nothing to compare it with.{assumed}",
         usage=UNKNOWN,
         vibrates=False,
         vibration_reason="nothing is known about it, so it stays silent.",
@@ -82,10 +94,13 @@ def _as_real(item: Measured, reading: NameReading, row: ObjectRow, neighbour_nam
     if row.max_size_m is not None and max(item.size_m) > _GIANT * row.max_size_m:
         confidence *= _GIANT_TRUST
         size_reason += f" A real {row.noun} is at most {row.max_size_m:g} m long: check the scene's unit."
+    fitting = fit(reading, row, item.size_m, item.flags, item.height_m, neighbour_names)
     states, vibration_reason = _states(row, neighbour_names)
+    if fitting.part_of:
+        states, vibration_reason = [], f"it is shaken by the {fitting.part_of} that it is a part of."
     return ObjectAnswer(
         object_category=row.noun,
-        category_reason=_category_reason(item.name, reading, row),
+        category_reason=_cut(" ".join((_category_reason(item.name, reading, row), *fitting.doubts))),
         material_category=material,
         estimated_length_m=item.size_m[0],
         estimated_width_m=item.size_m[1],
@@ -95,7 +110,7 @@ def _as_real(item: Measured, reading: NameReading, row: ObjectRow, neighbour_nam
         vibrates=bool(states),
         vibration_reason=vibration_reason,
         states=states,
-        confidence=confidence,
+        confidence=round(confidence * fitting.trust, 3),
     )
 
 
@@ -104,7 +119,7 @@ def _as_miniature(item: Measured, reading: NameReading, row: ObjectRow, why: str
     thickness, size_reason = _thickness(item, _MINIATURE_THICKNESS_M, category)
     return ObjectAnswer(
         object_category=category,
-        category_reason=f"{_category_reason(item.name, reading, row)} {why}",
+        category_reason=_cut(f"{_category_reason(item.name, reading, row)} {why}"),
         material_category=reading.material or _MINIATURE_MATERIAL,
         estimated_length_m=item.size_m[0],
         estimated_width_m=item.size_m[1],
@@ -129,10 +144,19 @@ def _miniature(reading: NameReading, row: ObjectRow, size_m: tuple[float, float,
 
 
 def _category_reason(name: str, reading: NameReading, row: ObjectRow) -> str:
-    reason = f"{reading.head!r} in the name {name!r} names {_a(row.noun)}."
+    reason = f"{reading.head!r} in the name {_shown(name)} names {_a(row.noun)}."
     if reading.unread:
         reason += f" Not understood: {', '.join(map(repr, reading.unread))}."
     return reason
+
+
+def _shown(name: str) -> str:
+    return repr(name if len(name) <= _MOST_SHOWN else f"{name[:_MOST_SHOWN]}...")
+
+
+def _cut(reason: str) -> str:
+    """A reason no longer than an answer may have it; names and their words may be of any length."""
+    return reason if len(reason) <= _LONGEST_REASON else f"{reason[: _LONGEST_REASON - 3]}..."
 
 
 def _thickness(item: Measured, plausible_m: float, category: str) -> tuple[float, str]:

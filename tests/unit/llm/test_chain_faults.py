@@ -33,15 +33,19 @@ def test_impossible_constants_give_way_to_the_table_with_a_flag(zeros: dict[str,
     assert "table" in found.objects["table"].reasons["material"]
 
 
-def test_a_tenfold_deviation_is_flagged_and_left_as_it_is() -> None:
+def test_constants_that_no_such_material_has_are_the_tables_and_flagged() -> None:
     oak = materials.lookup("oak")
-    twelve = 12 * oak.youngs_modulus_pa / 1e9
-    found = run(Scripted(material_estimator=lambda request, answer: {**answer, "youngs_modulus_gpa": twelve}))
+    wrong = {"density_kg_m3": 0.75 * 10, "youngs_modulus_gpa": 9000.0 / 10}  # g/cm3 of lead, megapascal
+    found = run(Scripted(material_estimator=lambda request, answer: {**answer, **wrong, "damping_ratio": 0.02}))
     material = found.objects["table"].material
     assert material is not None
-    assert material.youngs_modulus_pa == pytest.approx(twelve * 1e9)
-    assert "Young's modulus" in found.report.flags["oak"][0]
-    assert "12 times" in found.report.flags["oak"][0]
+    assert (material.density_kg_m3, material.youngs_modulus_pa) == (oak.density_kg_m3, oak.youngs_modulus_pa)
+    assert material.loss_factor == pytest.approx(0.04)  # what may be stays the model's
+    told = found.report.flags["oak"]
+    assert [flag.split(":")[0] for flag in told] == ["density_kg_m3", "youngs_modulus_gpa"]
+    assert "7.5 kg/m3" in told[0]
+    assert "the table's constant is used" in told[0]
+    assert "table of materials" in found.objects["table"].provenance["material"]
 
 
 def test_one_bad_answer_costs_one_object() -> None:

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from scene2hap import ContactGraph, SceneSnapshot
+from scene2hap.errors import SceneError
 
 SLAB = [[x, y, z] for x in (0.0, 2.0) for y in (0.0, 0.1) for z in (0.0, 1.0)]
 QUADS = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
@@ -52,10 +53,10 @@ def test_heights_are_measured_against_the_lowest() -> None:
 
 
 def test_a_given_surface_is_kept() -> None:
-    surface = {"pose": {}, "length_m": 7, "width_m": 6, "thickness_m": 5}
+    surface = {"pose": {}, "length_m": 7, "width_m": 6, "thickness_m": 2}
     cube = {"kind": "box", "size_m": [1, 1, 1]}
     scene = read(row("told", cube, surface=surface), row("open", cube, (3, 0, 0)))
-    assert scene.object("told").size_m == (7, 6, 5)
+    assert scene.object("told").size_m == (7, 6, 2)
     assert scene.object("open").size_m == (1, 1, 1)
 
 
@@ -78,3 +79,25 @@ def test_a_whole_scene_is_read_without_measuring_anything() -> None:
         [sys.executable, "-c", code], input=scene.to_json(), capture_output=True, text=True, check=True
     )
     assert run.stdout.strip() == "False"
+
+
+@pytest.mark.parametrize(("thickness_m", "told"), [(0.0, "it must be above"), (2.0, "geometry is 0.1 m thick there")])
+def test_a_stated_thickness_that_no_such_floor_has_is_refused(thickness_m: float, told: str) -> None:
+    turned = {"rotation_xyzw": [-(0.5**0.5), 0, 0, 0.5**0.5], "position_m": [-2.5, 0, 2]}
+    surface = {"pose": turned, "length_m": 5, "width_m": 4, "thickness_m": thickness_m}
+    floor = {"kind": "box", "size_m": [5, 0.1, 4]}
+    with pytest.raises(SceneError, match=told):
+        read(row("floor", floor, surface=surface))
+    assert read(row("floor", floor, surface={**surface, "thickness_m": 0.3})).object("floor").size_m == (5, 4, 0.3)
+
+
+def test_a_sheet_may_be_stated_as_thick_as_the_real_thing() -> None:
+    sheet = {
+        "kind": "mesh",
+        "vertices_m": [[0, 0, 0], [5, 0, 0], [5, 4, 0], [0, 4, 0]],
+        "faces": [[0, 1, 2], [0, 2, 3]],
+    }
+    surface = {"pose": {}, "length_m": 5, "width_m": 4, "thickness_m": 0.15}
+    assert read(row("floor", sheet, surface=surface)).object("floor").size_m == (5, 4, 0.15)
+    with pytest.raises(SceneError, match=r"at most 0.5 \[m\]"):
+        read(row("floor", sheet, surface={**surface, "thickness_m": 2}))

@@ -105,3 +105,49 @@ def test_loading_warns_at_the_callers_line(tmp_path: Path) -> None:
 @pytest.mark.parametrize("unit_m", [0.01, 1.0])
 def test_a_unit_that_is_given_is_believed(tmp_path: Path, unit_m: float) -> None:
     assert len(load_scene(metre_cube_in_centimetres(tmp_path), unit_m=unit_m).objects) == 3
+
+
+def park(scale: float = 1.0, *, named: bool = True) -> SceneSnapshot:
+    """A ground of 225 m with benches, trees and a tower."""
+    sizes = [("ground", (225.0, 0.1, 180.0)), ("tower", (9.0, 40.0, 9.0))]
+    sizes += [(f"Bench_{i:02}", (1.6, 0.8, 0.5)) for i in range(8)] + [(f"tree_{i}", (4.0, 9.0, 4.0)) for i in range(6)]
+    return scene(
+        *(
+            box(name if named else f"Object_{i}", tuple(scale * edge for edge in size), (9 * scale * i, 0.0, 0.0))
+            for i, (name, size) in enumerate(sizes)
+        )
+    )
+
+
+@pytest.mark.parametrize("named", [True, False])
+def test_a_park_in_metres_is_silent(named: bool) -> None:
+    assert suggestion(park(named=named)) is None
+
+
+def test_a_park_in_centimetres_is_told_so() -> None:
+    assert suggestion(park(100.0)) == 0.01
+
+
+@pytest.mark.parametrize("n", [1, 4])
+def test_keyboards_of_157_cm_are_doubted(n: int) -> None:
+    keyboards = [(f"Keyboard_{i}", 1.57, 0.07) for i in range(n)]
+    assert suggestion(room(1.0, keyboards)) == pytest.approx(0.22, rel=0.1)
+    assert suggestion(room(1.0, [("Keyboard_1", 0.44, 0.03)])) is None
+
+
+def test_a_dozen_of_one_kind_does_not_outvote_all_others() -> None:
+    assert suggestion(room(1.0, [*FURNITURE, *((f"Keyboard_{i}", 1.57, 0.07) for i in range(12))])) is None
+
+
+def test_a_lone_door_may_be_a_dishwashers() -> None:
+    assert (
+        suggestion(scene(box("door", (0.6, 0.75, 0.02), (0.0, 0.4, 0.0)), box("rack", (0.5, 0.1, 0.5), (0, 0, 0))))
+        is None
+    )
+
+
+@pytest.mark.parametrize("edge", [0.5, 1.0, 2.0])
+def test_cubes_that_stand_in_for_things_say_nothing(edge: float) -> None:
+    names = ["microwave_oven_2", "Keyboard_1", "cup", "wooden_table_1", "fridge", "kettle"]
+    assert suggestion(scene(*(box(name, (edge,) * 3, (3 * i, edge / 2, 0)) for i, name in enumerate(names)))) is None
+    assert suggestion(scene(box("cup", (edge,) * 3, (0.0, 0.0, 0.0)))) is None

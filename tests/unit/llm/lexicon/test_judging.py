@@ -29,3 +29,9 @@ def test_an_article_in_the_other_reasons() -> None:
     umbrella = judge(Measured("umbrella", (0.5, 0.5, 0.0)))
     assert "assumed for an umbrella." in umbrella.size_reason
     assert umbrella.vibration_reason.startswith("an umbrella has no mechanism")
+
+
+def test_a_name_of_any_length_has_an_answer() -> None:
+    for name in ("table " * 200, "x" * 100_000, "fridge_" + "z" * 700, "toy car " + "y" * 700):
+        answer = judge(Measured(name, (0.5, 0.5, 0.02)))
+        assert len(answer.category_reason) <= 600

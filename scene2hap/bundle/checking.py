@@ -1,0 +1,37 @@
+"""What a bundle says of its objects, held against its scene: a person may have edited the file."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from scene2hap.errors import BundleError
+from scene2hap.haptics import unmet_needs
+from scene2hap.scene import sizes
+
+if TYPE_CHECKING:
+    from scene2hap.bundle.haptic_bundle import HapticBundle
+
+
+class BundleWarning(UserWarning):
+    """Something in a bundle that can be read, and hardly means what it says."""
+
+
+def require_plausible(bundle: HapticBundle, folder: Path) -> None:
+    """Hold sizes against the measured ones, and needed contacts against what there is.
+
+    Raises: BundleError: a size that no plate of that object has.
+    Warns: BundleWarning: a state that waits for a contact which nothing in the scene can give.
+    """
+    objects, scene = bundle.objects, bundle.snapshot
+    categories = {item.id: "" for item in scene.objects} | {key: said.object_category for key, said in objects.items()}
+    for object_id, haptics in objects.items():
+        # Without a material it is no plate, and earlier versions wrote such sizes as they were measured.
+        if haptics.material is not None:
+            wrong = sizes.faults(haptics.estimated_size_m, scene.object(object_id).size_m)
+            if wrong:
+                told = "; ".join(f"{edge} is {why}" for edge, why in wrong.items())
+                raise BundleError(f"{folder / 'objects.json'}: {object_id}.estimated_size_m: {told}.")
+        for doubt in unmet_needs(object_id, haptics.states, categories):
+            warnings.warn(f"{object_id!r}: {doubt}.", BundleWarning, stacklevel=3)

@@ -1,0 +1,120 @@
+"""Whether what a name says fits what is measured: height, size and neighbours of the object.
+
+A name is read as it stands, and a "bench" may be the hob on a kitchen bench. What does not fit lowers the confidence,
+each doubt by its factor, and is told; only an inner part of the very machine that it touches is kept silent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from scene2hap.llm.lexicon.names import NameReading, read_name
+from scene2hap.llm.lexicon.table import ObjectRow
+
+
+def _set(text: str) -> frozenset[str]:
+    return frozenset(text.split(","))
+
+
+_SHELLS = _set("wall,partition,brick wall,concrete wall,floor,parquet,ceiling,roof")
+
+_STANDS = _set(
+    "chair,armchair,bean bag,desk chair,lounge chair,rocking chair,deck chair,wheelchair,dining chair,stool,bar stool,"
+    "footstool,sofa,futon,recliner,bench,park bench,bed bench,weight bench,bed,bunk bed,crib,bed frame,day bed,"
+    "hospital bed,chaise longue,garden chair,folding chair,table,dining table,coffee table,side table,console table,"
+    "picnic table,desk,computer desk,workbench,wardrobe,sideboard,dresser,night stand,bookcase,refrigerator,dishwasher,"
+    "washing machine,tumble dryer,bathtub,floor lamp,piano,grand piano,treadmill,pool table,ironing board"
+)
+"""What stands on the floor, or on what covers or raises it."""
+
+_GROUND = _set(
+    "floor,parquet,tile,carpet,mat,pallet,road,sidewalk,terrace,deck,path,grass,ground,foundation,podium,stage,sand,"
+    "gravel,stone floor,tile floor,concrete floor,carpet floor,driveway,stairs,balcony,platform,roof,truck,van,"
+    "trailer,boat,ship,scaffold,elevator"
+)
+
+_INNER = _set("motor,pump,fan,sprinkler,turbine,engine,compressor,burner,heater,transformer,propeller,blade,arm")
+"""What machines have inside them, and what is also an object of its own."""
+
+_COMPONENTS = _set(
+    "arm,arms,rack,racks,tray,basket,drum,hose,filter,handle,knob,door,drawer,lid,leg,foot,blade,hinge,panel,cover,"
+    "carcass,casing,housing,frame,rail"
+)
+"""Words beside the name of a machine which say that this is only a part of it."""
+
+# All assumed; they only order answers by how much speaks against them.
+_HIGH_M = 0.5
+_SHORT_SHELL_M = 1.0
+_THIN_SHARE = 0.5
+_SLENDER_SHARE = 0.2
+_MEASURED_M = 1e-3
+_TOO_HIGH, _TOO_SHORT, _TOO_THIN, _TOO_SLENDER, _PART, _BESIDE_SAME = 0.4, 0.5, 0.6, 0.5, 0.5, 0.7
+
+
+@dataclass(frozen=True)
+class Fit:
+    """How far measurements bear a reading out: factor of its confidence, why, and the machine that it is a part of."""
+
+    trust: float = 1.0
+    doubts: tuple[str, ...] = ()
+    part_of: str = ""
+
+
+def fit(
+    reading: NameReading,
+    row: ObjectRow,
+    size_m: tuple[float, float, float],
+    flags: Sequence[str],
+    height_m: float | None,
+    neighbour_names: Sequence[str],
+) -> Fit:
+    """Hold a reading against size, height above the lowest thing [m] (None if unknown) and neighbours."""
+    beside = [other.row for other in map(read_name, neighbour_names) if other.row is not None and not other.toy]
+    found = [*_by_height(row, height_m, beside), *_by_size(row, size_m, flags), *_by_name(reading, row)]
+    part_of = _machine_around(reading, row, beside)
+    if part_of:
+        found.append((_PART, f"It is taken for a part of the {part_of} that it touches."))
+    elif row.vibrates and row in beside:
+        found.append((_BESIDE_SAME, f"It touches another {row.noun}, of which it may be a part."))
+    trust = 1.0
+    for factor, _ in found:
+        trust *= factor
+    return Fit(trust, tuple(why for _, why in found), part_of)
+
+
+def _by_height(row: ObjectRow, height_m: float | None, beside: Sequence[ObjectRow]) -> list[tuple[float, str]]:
+    if height_m is None or height_m <= _HIGH_M or row.noun not in _STANDS or _GROUND & {other.noun for other in beside}:
+        return []
+    on = f" and touches {', '.join(dict.fromkeys(other.noun for other in beside))}" if beside else ""
+    return [
+        (_TOO_HIGH, f"It begins {height_m:.2g} m above the lowest thing here{on}; a {row.noun} stands on the floor.")
+    ]
+
+
+def _by_size(row: ObjectRow, size_m: tuple[float, float, float], flags: Sequence[str]) -> list[tuple[float, str]]:
+    found = []
+    longest, width, thickness = max(size_m), size_m[1], size_m[2]
+    if row.noun in _SHELLS:
+        if 0.0 < longest < _SHORT_SHELL_M:
+            found.append((_TOO_SHORT, f"It is {longest:.2g} m long; a {row.noun} of a room is longer."))
+        if _MEASURED_M <= thickness < _THIN_SHARE * row.thickness_m and "zero-thickness" not in flags:
+            usual = f"{1e3 * row.thickness_m:.3g} mm are usual of a {row.noun}"
+            found.append((_TOO_THIN, f"It is {1e3 * thickness:.2g} mm thick; {usual}."))
+    if row.vibrates and row.min_size_m is not None and 0.0 < width < _SLENDER_SHARE * row.min_size_m:
+        found.append((_TOO_SLENDER, f"It is {width:.2g} m wide, slender for a {row.noun}."))
+    return found
+
+
+def _by_name(reading: NameReading, row: ObjectRow) -> list[tuple[float, str]]:
+    outside = set(reading.words) - set(reading.head.split())
+    told = sorted(outside & _COMPONENTS) if row.vibrates else []
+    return [(_PART, f"The name also says {told[0]!r}, which may be a part of the {row.noun}.")] if told else []
+
+
+def _machine_around(reading: NameReading, row: ObjectRow, beside: Sequence[ObjectRow]) -> str:
+    """The machine that an inner part names before itself and touches (a "dishwasher_pump" its dishwasher), or ""."""
+    if row.noun not in _INNER or reading.head not in (name := " ".join(reading.words)):
+        return ""
+    before = read_name(name[: name.rindex(reading.head)].strip()).row
+    return before.noun if before is not None and before.vibrates and before is not row and before in beside else ""

@@ -1,0 +1,33 @@
+"""Sizes from a model, held against the measured ones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from scene2hap.llm.answers import ObjectAnswer
+from scene2hap.llm.plausible import EDGES
+from scene2hap.scene import sizes
+
+
+def surface_size(answer: ObjectAnswer, measured_m: Sequence[float]) -> tuple[sizes.Size, tuple[str, ...]]:
+    """Length, width and thickness [m] of a surface, and what is doubtful: an edge out of bounds is taken as measured.
+
+    A thickness that was not measured either is assumed.
+    """
+    stated = (answer.estimated_length_m, answer.estimated_width_m, answer.estimated_thickness_m)
+    wrong = sizes.faults(stated, measured_m)
+    if not wrong:
+        return stated, ()
+    known = sizes.with_thickness(measured_m)
+    # Length and width belong together: one of each would be a plate that nobody measured or meant.
+    replaced = {*wrong, *(("length", "width") if {"length", "width"} & {*wrong} else ())}
+    length, width, thickness = (
+        other if edge in replaced else one for edge, one, other in zip(EDGES, stated, known, strict=True)
+    )
+    told = {edge: f"{value:.3g} m is used" for edge, value in zip(EDGES, known, strict=True)}
+    return (length, width, thickness), tuple(f"{edge}: {why}; {told[edge]}" for edge, why in wrong.items())
+
+
+def size_without_answer(measured_m: Sequence[float]) -> sizes.Size:
+    """The size [m] of a surface of which no answer could be had: as measured, with a thickness."""
+    return sizes.with_thickness(measured_m)

@@ -1,0 +1,107 @@
+"""Numbers of an answer, held against what was measured and against what is known of a material.
+
+A bound is asked for again, once, by all its names (`validation.find_fault`); what still breaks it is replaced by the
+measured size (`measured`) or the table's constant (`trust`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, TypeGuard
+
+from scene2hap.errors import UnknownMaterial
+from scene2hap.llm.protocol import Component
+from scene2hap.materials import MaterialRow, lookup_row
+from scene2hap.scene import sizes
+
+EDGES = ("length", "width", "thickness")
+
+# Factors beyond the range that sources give, assumed: a slip of units is a thousand or a million, and the kinds of one
+# word ("wood", "foam") differ by less. Loss factors of built things are far above those of the bare material.
+_DENSITY_FAR, _MODULUS_FAR, _LOSS_FAR = 3.0, 10.0, 100.0
+_POISSON_FAR = 0.2
+_ANY_SOLID_KG_M3 = (5.0, 25000.0)
+"""Of a material that nobody knows; what is lighter was told in g/cm3 (foams begin at 10). Assumed."""
+
+_UNITS = {"density_kg_m3": "kg/m3", "youngs_modulus_gpa": "GPa", "poisson_ratio": "-", "damping_ratio": "-"}
+_SLIPS = {"density_kg_m3": "g/cm3? Give kg/m3", "youngs_modulus_gpa": "pascal or megapascal? Give gigapascal"}
+_SLIP = 30.0  # times beyond the bound, from which a number was told in another unit
+
+
+def implausible(component: Component, told: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]:
+    """What no such object or material has, by the answer's field: in words for the model that said it.
+
+    Nothing without the facts that were asked about.
+    """
+    if component == "object_analyzer":
+        return _sizes(told, facts)
+    if component == "material_estimator" and "material_category" in facts:
+        return constants(str(facts["material_category"]), told)
+    return {}
+
+
+def constants(word: str, told: Mapping[str, Any]) -> dict[str, str]:
+    """Which of a material's constants are far from all that sources give for it, by the answer's field.
+
+    Only the density of a material that no row of the table speaks of is bounded.
+    """
+    row = row_of(word)
+    wrong = {}
+    for name, (low, high) in _bounds(row).items():
+        value = told.get(name)
+        if not _is_number(value) or low <= value <= high:
+            continue
+        off = max(value / high, low / value if value > 0 else 0.0)
+        hint = f" ({_SLIPS[name]})" if off > _SLIP and name in _SLIPS else ""
+        unit = "" if _UNITS[name] == "-" else f" {_UNITS[name]}"
+        whose = f"{row.material.name} has" if row is not None else "a solid has"
+        wrong[name] = f"{value:.4g}{unit}, but {whose} {_plain(low)} to {_plain(high)}{unit}{hint}"
+    return wrong
+
+
+def row_of(word: str) -> MaterialRow | None:
+    """The table's row of a material, or of the longest part of its words that has one ("brushed stainless steel")."""
+    parts = word.replace("-", " ").replace("_", " ").split()[:_LONGEST]
+    for length in range(len(parts), 0, -1):
+        for start in range(len(parts) - length, -1, -1):
+            try:
+                return lookup_row(" ".join(parts[start : start + length]))
+            except UnknownMaterial:
+                continue
+    return None
+
+
+_LONGEST = 6  # words that are read of a material
+
+
+def _bounds(row: MaterialRow | None) -> dict[str, tuple[float, float]]:
+    if row is None:
+        return {"density_kg_m3": _ANY_SOLID_KG_M3}
+    (light, heavy), (soft, stiff) = row.density_range_kg_m3, row.youngs_range_pa
+    return {
+        "density_kg_m3": (light / _DENSITY_FAR, heavy * _DENSITY_FAR),
+        "youngs_modulus_gpa": (soft / 1e9 / _MODULUS_FAR, stiff / 1e9 * _MODULUS_FAR),
+        "poisson_ratio": (row.poisson_range[0] - _POISSON_FAR, row.poisson_range[1] + _POISSON_FAR),
+        "damping_ratio": (0.0, row.loss_range[1] / 2 * _LOSS_FAR),
+    }
+
+
+def _sizes(told: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]:
+    measured = [edge for edge in (facts.get(f"{name}_m") for name in EDGES) if _is_number(edge)]
+    if len(measured) < len(EDGES):
+        return {}
+    stated = [told.get(f"estimated_{name}_m") for name in EDGES]
+    # What is no number is another fault; the rest is held against the bounds all the same.
+    found = sizes.faults(
+        [one if _is_number(one) else other for one, other in zip(stated, measured, strict=True)], measured
+    )
+    return {f"estimated_{edge}_m": why for edge, why in found.items() if _is_number(stated[EDGES.index(edge)])}
+
+
+def _plain(value: float) -> str:
+    """Three digits without an exponent where it is short: 2610, not 2.61e+03."""
+    return f"{float(f'{value:.3g}'):g}"
+
+
+def _is_number(value: object) -> TypeGuard[float]:
+    return isinstance(value, int | float) and not isinstance(value, bool)

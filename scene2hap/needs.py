@@ -1,0 +1,102 @@
+"""What a state must touch to vibrate, matched by meaning: a pan that needs a "stove" cooks on a "gas hob".
+
+Language models and people write such a need in everyday words, and the object that answers it has a category of its
+own, in words of its own. Compared as text, the two seldom meet.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import lru_cache
+
+_NO_NEED = frozenset(
+    {"", "none", "null", "nil", "nothing", "no", "not needed", "not required", "not applicable", "n a", "na", "false"}
+)
+"""Words by which somebody says that nothing needs to be touched."""
+
+_SAME = (
+    "stove; stove top; stovetop; cooktop; cook top; cooker top; hob; cooker; cooking plate; cooking surface; "
+    "cooking appliance; range; range cooker; range top; hot plate; hotplate; heating plate; burner; ring burner; "
+    "gas ring; cooking ring; cooking zone; heater; heating element; heat source; heated surface; oven; camp fire; "
+    "campfire; fire; fire pit; flame; heat; fireplace; grill; barbecue; furnace; wood burner; electric plate; "
+    "induction plate",
+    "table; desk; table top; tabletop; desktop; desk top",
+    "worktop; work top; countertop; counter top; counter; bench top; benchtop; work surface; work bench; workbench",
+    "road; street; roadway; asphalt; pavement; tarmac",
+    "floor; ground; flooring",
+    "sofa; couch; settee",
+    "refrigerator; fridge",
+    "television; tv; tv set",
+    "faucet; tap",
+    "sink; basin; washbasin; wash basin",
+    "mains; socket; wall socket; power socket; outlet; power outlet; electrical outlet; wall outlet; plug socket",
+    "charger; charging station; charging base; charging dock; charging pad; docking station; dock",
+)
+"""Everyday nouns that stand for each other as what must be touched, a group each. Assumed."""
+
+_TOY = frozenset({"toy", "miniature", "fake", "model", "replica", "doll"})
+_BESIDE = frozenset({"a", "an", "the", "any", "some", "its", "on", "in", "at", "with", "of", "touching", "contact"})
+_UNKNOWN = frozenset({"", "unknown", "undefined"})
+_LONGEST = 200  # letters that are read of a need or a category; assumed
+
+Words = tuple[str, ...]
+
+
+def stated(needed: str | None) -> str | None:
+    """A need as it counts: None where its words say that there is none ("", "none", "null")."""
+    if needed is None or " ".join(_words(needed)) in _NO_NEED:
+        return None
+    return needed
+
+
+@lru_cache(maxsize=4096)
+def meets(needed: str, object_id: str, category: str) -> bool:
+    """Whether an object is what is needed: by its id, or by what it is; by its id's words where nobody knows that.
+
+    "stove or oven" is met by either; "gas stove", "stove" and "hob" by each other; none by a toy stove or a stove door.
+    """
+    if needed == object_id or _words(needed) == _words(object_id):
+        return True
+    thing = _words(object_id if category.casefold().strip() in _UNKNOWN else category)
+    return any(_are_same(wanted, thing) for wanted in _alternatives(needed))
+
+
+def unmet(needed: str, categories: Mapping[str, str], of: str) -> bool:
+    """Whether no object of a scene but `of` itself is what is needed, given the category of each by id."""
+    return not any(meets(needed, object_id, category) for object_id, category in categories.items() if object_id != of)
+
+
+def _are_same(wanted: Words, thing: Words) -> bool:
+    if not wanted or not thing or bool(_TOY & set(thing)) != bool(_TOY & set(wanted)):
+        return False
+    # A "plate" is the last word of a "hot plate" and none: where a group tells, it alone decides.
+    if (kind := _kind(wanted)) is not None or _kind(thing) is not None:
+        return kind == _kind(thing)
+    shorter, longer = sorted((wanted, thing), key=len)
+    return longer[len(longer) - len(shorter) :] == shorter
+
+
+def _kind(words: Words) -> int | None:
+    """The group of synonyms that the last words of a phrase belong to."""
+    return next((found for start in range(len(words)) if (found := _GROUPS.get(words[start:])) is not None), None)
+
+
+def _alternatives(needed: str) -> list[Words]:
+    plain = re.sub(r"\([^)]*\)", " ", needed[:_LONGEST])
+    return [tuple(word for word in _words(part) if word not in _BESIDE) for part in re.split(r"\bor\b|[/,;|]", plain)]
+
+
+def _words(text: str) -> Words:
+    """The words of a text in lower case and singular; cut at signs, digits and capitals."""
+    apart = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", text[:_LONGEST])
+    return tuple(map(_singular, re.findall(r"[^\W\d_]+", apart.casefold())))
+
+
+def _singular(word: str) -> str:
+    if len(word) < 4 or not word.endswith("s") or word.endswith(("ss", "us", "is")):
+        return word
+    return word[:-2] if word.endswith(("ches", "shes", "sses", "xes")) else word[:-1]
+
+
+_GROUPS: Mapping[Words, int] = {_words(noun): number for number, nouns in enumerate(_SAME) for noun in nouns.split(";")}

@@ -1,0 +1,61 @@
+"""How far a stated size of a plate may lie from the measured one.
+
+A model may correct what a mesh cannot tell: the thickness of a floor of two triangles, a table modelled as a solid
+block. It cannot know better than the mesh how far the table reaches.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+THINNEST_M = 2e-5
+"""Thickness of a foil [m]; no plate is stated to be thinner."""
+
+NOTHING = 1e-7
+"""A thickness below this part of the shorter edge is none."""
+
+# All assumed. Three times either way holds an L-shaped top against the box around it; the thickest walls and slabs are
+# half a metre; and what is thicker than a third of its width is no plate, unless it was measured so.
+FACTOR = 3.0
+_THICKEST_M = 0.5
+_THICK_SHARE = 1 / 3
+_ASSUMED_M, _ASSUMED_SHARE = 0.02, 0.1
+
+Size = tuple[float, float, float]
+
+
+def faults(stated_m: Sequence[float], measured_m: Sequence[float]) -> dict[str, str]:
+    """What is wrong with a stated length, width and thickness [m], by field: the value and the bounds that it breaks.
+
+    Length and width may change places. An edge that was measured as 0 has only an upper bound, that of the other one.
+    """
+    wrong: dict[str, str] = {}
+    shorter, longer = sorted(measured_m[:2])
+    is_turned = stated_m[0] < stated_m[1]
+    for name, stated, is_longer in (("length", stated_m[0], not is_turned), ("width", stated_m[1], is_turned)):
+        measured = longer if is_longer else shorter
+        low, high = max(measured / FACTOR, THINNEST_M), (measured or longer) * FACTOR
+        if stated != measured and not low <= stated <= max(low, high):
+            wrong[name] = f"{stated:.3g} m, but it was measured as {measured:.3g} m; give {low:.3g} to {high:.3g} m"
+    high = thickest_m(measured_m)
+    if not THINNEST_M <= stated_m[2] <= high:
+        wrong["thickness"] = (
+            f"{stated_m[2]:.3g} m, but it was measured as {measured_m[2]:.3g} m; give {THINNEST_M:g} to {high:.3g} m"
+        )
+    return wrong
+
+
+def thickest_m(measured_m: Sequence[float]) -> float:
+    """The largest thickness that may be stated of a surface that was measured so [m]."""
+    return max(FACTOR * measured_m[2], min(_THICKEST_M, _THICK_SHARE * min(measured_m[:2])), THINNEST_M)
+
+
+def assumed_thickness_m(measured_m: Sequence[float]) -> float:
+    """What stands in for the thickness of a sheet whose thickness nobody tells [m]."""
+    return max(min(_ASSUMED_M, _ASSUMED_SHARE * min(measured_m[:2])), THINNEST_M)
+
+
+def with_thickness(measured_m: Sequence[float]) -> Size:
+    """A measured size, with an assumed thickness where the mesh has none."""
+    length, width, thickness = measured_m
+    return length, width, thickness if thickness >= THINNEST_M else assumed_thickness_m(measured_m)

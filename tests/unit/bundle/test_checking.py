@@ -1,0 +1,70 @@
+"""What a person may not write into objects.json, and what is told."""
+
+import json
+import warnings
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from scene2hap import HapticBundle
+from scene2hap.bundle.checking import BundleWarning
+from scene2hap.errors import BundleError
+from scenes import table_with_two_phones
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    return table_with_two_phones()[1].save(tmp_path / "room")
+
+
+def edit(folder: Path, object_id: str, **fields: Any) -> None:
+    file = folder / "objects.json"
+    rows = json.loads(file.read_text())
+    for name, value in fields.items():
+        target = rows[object_id]["states"][0] if name == "needs_contact" else rows[object_id]
+        target[name] = value
+    file.write_text(json.dumps(rows))
+
+
+@pytest.mark.parametrize(
+    ("size_m", "told"),
+    [
+        ([1.6, 0.8, 0.0], r"thickness must be above 0 \[m\]"),
+        ([1.6, 0.8, 2.0], r"thickness is 2 m, but it was measured as 0.02 m; give 2e-05 to 0.267 m"),
+        ([180.0, 70.0, 0.05], r"length is 180 m, but it was measured as 1.6 m; give 0.533 to 4.8 m; width is 70 m"),
+        ([1.6, 0.8, 1e-9], "thickness is 1e-09 m"),
+    ],
+)
+def test_a_size_that_the_table_cannot_have_is_refused(folder: Path, size_m: list[float], told: str) -> None:
+    edit(folder, "table", estimated_size_m=size_m)
+    with pytest.raises(BundleError, match=rf"objects\.json: table.*{told}"):
+        HapticBundle.load(folder)
+
+
+def test_a_size_that_is_corrected_within_bounds_is_read(folder: Path) -> None:
+    edit(folder, "table", estimated_size_m=[0.8, 1.5, 0.04])
+    assert HapticBundle.load(folder).objects["table"].estimated_size_m == (0.8, 1.5, 0.04)
+
+
+def test_an_unknown_sheet_of_an_earlier_version_is_read_and_takes_a_material(folder: Path) -> None:
+    edit(folder, "block", estimated_size_m=[0.4, 0.4, 0.0])
+    bundle = HapticBundle.load(folder).override("block", material="oak")
+    assert bundle.objects["block"].estimated_size_m == (0.4, 0.4, pytest.approx(0.02))
+
+
+def test_a_need_that_nothing_meets_is_told(folder: Path) -> None:
+    edit(folder, "phone", needs_contact="stove")
+    with pytest.warns(
+        BundleWarning, match="'phone': state 'ringing' needs contact with 'stove', which no other"
+    ) as caught:
+        HapticBundle.load(folder)
+    assert caught[0].filename == __file__
+
+
+@pytest.mark.parametrize("needs", ["", "none", "null", "table", None])
+def test_a_need_that_something_meets_or_that_is_none_is_quiet(folder: Path, needs: str | None) -> None:
+    edit(folder, "phone", needs_contact=needs)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        HapticBundle.load(folder)

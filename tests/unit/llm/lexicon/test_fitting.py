@@ -1,0 +1,56 @@
+"""Names that height, size and neighbours speak against."""
+
+from typing import Any
+
+import pytest
+
+from scene2hap.llm.lexicon.judging import Measured, judge
+
+SURE = 0.9
+
+
+def confidence(name: str, size_m: tuple[float, float, float], *neighbours: str, **about: Any) -> float:
+    return judge(Measured(name, size_m, **about), neighbours).confidence
+
+
+def test_a_bench_on_a_cabinet_may_be_a_hob() -> None:
+    size = (0.6, 0.5, 0.05)
+    assert confidence("kitchen_bench", size, "floor", height_m=0.0) > SURE
+    assert confidence("kitchen_bench", size, "base_cabinet", height_m=0.86) < 0.5
+    answer = judge(Measured("kitchen_bench", size, height_m=0.86), ["base_cabinet"])
+    assert "begins 0.86 m above the lowest thing here and touches cabinet" in answer.category_reason
+
+
+@pytest.mark.parametrize("ground", ["floor", "Rug_01", "stage", "stairs", "balcony_floor"])
+def test_a_chair_on_a_raised_floor_is_a_chair(ground: str) -> None:
+    assert confidence("chair", (0.45, 0.45, 0.02), ground, height_m=3.1) > SURE
+
+
+def test_without_a_height_nothing_is_said_of_it() -> None:
+    assert confidence("bench", (1.5, 0.4, 0.03)) > SURE
+
+
+def test_a_carcass_named_walls_is_hardly_a_wall() -> None:
+    assert confidence("walls", (4.0, 2.5, 0.0125)) > SURE
+    assert confidence("walls", (0.6, 0.55, 0.004)) < 0.35
+    assert confidence("walls", (4.0, 2.5, 0.004)) < 0.6
+    assert confidence("walls", (4.0, 2.5, 0.0), flags=("zero-thickness",)) > SURE
+
+
+@pytest.mark.parametrize("name", ["spray_arm_dishwasher", "dishwasher"])
+def test_a_spray_arm_is_hardly_a_dishwasher(name: str) -> None:
+    assert confidence("dishwasher", (0.6, 0.55, 0.001), height_m=0.0) > SURE
+    assert confidence(name, (0.5, 0.05, 0.02), "dishwasher") < 0.5
+
+
+def test_an_inner_part_of_the_machine_that_it_touches_is_no_source() -> None:
+    size = (0.3, 0.2, 0.1)
+    alone, inside = judge(Measured("dishwasher_pump", size)), judge(Measured("dishwasher_pump", size), ["dishwasher"])
+    assert alone.vibrates
+    assert not inside.vibrates
+    assert inside.confidence < 0.5
+    assert "shaken by the dishwasher" in inside.vibration_reason
+
+
+def test_a_burner_on_a_stove_heats_all_the_same() -> None:
+    assert judge(Measured("Burner 1", (0.17, 0.17, 0.02)), ["stove"]).vibrates

@@ -1,0 +1,148 @@
+"""Numbers that no such object or material has: asked for again by all their names, then replaced and told."""
+
+import asyncio
+import json
+from typing import Any
+
+import pytest
+
+from llm_server import GOOD, request
+from scene2hap import FunctionBackend, LLMReply, LLMRequest, RepairBackend, materials
+from scene2hap.llm.chain import infer_scene
+from scene2hap.llm.plausible import constants, row_of
+from scene2hap.llm.validation import find_fault
+from scene2hap.materials import table
+from scripted_backend import SCENE, Scripted, run
+
+STEEL = {"density_kg_m3": 7850.0, "youngs_modulus_gpa": 200.0, "poisson_ratio": 0.3, "damping_ratio": 0.0005}
+TABLE = {"length_m": 1.8, "width_m": 0.7, "thickness_m": 0.05}
+
+
+def steel(**changes: Any) -> str:
+    return json.dumps({**STEEL, **changes})
+
+
+def told_of(text: str, word: str = "steel") -> str:
+    fault = find_fault("material_estimator", text, {"material_category": word})
+    return "" if fault is None else fault.reason
+
+
+def told_of_size(length: float, width: float, thickness: float, **facts: float) -> str:
+    edges = {"estimated_length_m": length, "estimated_width_m": width, "estimated_thickness_m": thickness}
+    answer = {**GOOD["object_analyzer"], **edges}
+    fault = find_fault("object_analyzer", json.dumps(answer), {**TABLE, **facts})
+    return "" if fault is None else fault.reason
+
+
+def test_every_row_of_the_table_is_plausible() -> None:
+    for row in table():
+        constant = row.material
+        told = {
+            "density_kg_m3": constant.density_kg_m3,
+            "youngs_modulus_gpa": constant.youngs_modulus_pa / 1e9,
+            "poisson_ratio": constant.poisson_ratio,
+            "damping_ratio": constant.loss_factor / 2,
+        }
+        assert constants(constant.name, told) == {}, constant.name
+
+
+def test_steel_in_grams_is_named_with_its_bound_and_unit() -> None:
+    assert "density_kg_m3: 7.85 kg/m3, but steel has 2610 to 23600 kg/m3 (g/cm3? Give kg/m3)" in told_of(
+        steel(density_kg_m3=7.85)
+    )
+
+
+def test_all_that_is_wrong_is_named_at_once() -> None:
+    told = told_of(steel(density_kg_m3=7.85, youngs_modulus_gpa=2e11, poisson_ratio="low", damping_ratio=0.9))
+    for name in STEEL:
+        assert f"{name}: " in told
+    told = told_of(steel(density_kg_m3=7.85, youngs_modulus_gpa=0.2))
+    assert "density_kg_m3: " in told
+    assert "youngs_modulus_gpa: 0.2 GPa" in told
+
+
+@pytest.mark.parametrize("word", ["brushed stainless steel", "painted steel sheet", "Steel", "steel-plate"])
+def test_words_around_a_material_do_not_hide_it(word: str) -> None:
+    assert row_of(word) is not None
+    assert "density_kg_m3" in told_of(steel(density_kg_m3=7.85), word)
+
+
+def test_an_unknown_material_is_only_held_against_what_any_solid_has() -> None:
+    assert told_of(steel(), "unobtainium") == ""
+    assert "a solid has" in told_of(steel(density_kg_m3=2.2), "unobtainium")
+
+
+def test_the_repair_names_the_bound_and_a_second_slip_costs_no_answer() -> None:
+    wrong = steel(density_kg_m3=7.85)
+    inner = FunctionBackend(lambda _: LLMReply(wrong, "m"))
+    asked = request("material_estimator", facts={"material_category": "steel"})
+    reply = asyncio.run(RepairBackend(inner).complete(asked))
+    assert json.loads(reply.text)["density_kg_m3"] == 7.85  # handed on, for the chain to replace
+    assert len(inner.requests) == 2
+    assert "2610 to 23600 kg/m3" in inner.requests[1].prompt
+
+
+@pytest.mark.parametrize("edges", [(180.0, 70.0, 5.5), (1.8, 0.7, 0.0), (1.8, 0.7, 2.0), (0.2, 0.7, 0.05), (0, 0, 0)])
+def test_sizes_far_from_the_measured_ones_are_named(edges: tuple[float, float, float]) -> None:
+    assert "but it was measured as" in told_of_size(*edges)
+
+
+@pytest.mark.parametrize("edges", [(1.8, 0.7, 0.05), (0.7, 1.8, 0.02), (2.0, 0.8, 0.001), (1.2, 0.6, 0.1)])
+def test_sizes_near_the_measured_ones_pass(edges: tuple[float, float, float]) -> None:
+    assert told_of_size(*edges) == ""
+
+
+def test_a_floor_without_thickness_takes_that_of_a_real_one_and_no_other() -> None:
+    assert told_of_size(5.0, 4.0, 0.2, length_m=5.0, width_m=4.0, thickness_m=0.0) == ""
+    for thickness in (0.0, 2.0):
+        told = told_of_size(5.0, 4.0, thickness, length_m=5.0, width_m=4.0, thickness_m=0.0)
+        assert "give 2e-05 to 0.5 m" in told
+
+
+def test_all_three_edges_are_named_at_once() -> None:
+    told = told_of_size(180.0, 70.0, 5.5)
+    for edge in ("length", "width", "thickness"):
+        assert f"estimated_{edge}_m: " in told
+
+
+def sized(**edges: float) -> Any:
+    def change(asked: LLMRequest, answer: dict[str, Any]) -> dict[str, Any]:
+        return {**answer, **edges} if asked.subject == "table" else answer
+
+    return run(Scripted(object_analyzer=change))
+
+
+def test_a_table_of_180_m_is_as_large_as_it_was_measured_and_told() -> None:
+    found = sized(estimated_length_m=180.0, estimated_width_m=70.0, estimated_thickness_m=5.5)
+    assert found.objects["table"].estimated_size_m == (1.6, 0.8, 0.02)
+    told = found.report.doubts["table"]
+    assert [doubt.split(":")[0] for doubt in told] == ["length", "width", "thickness"]
+    assert "180 m, but it was measured as 1.6 m" in found.objects["table"].reasons["size"]
+    assert found.report.as_json()["doubts"]["table"] == list(told)
+
+
+def test_a_thickness_alone_is_replaced_alone() -> None:
+    found = sized(estimated_length_m=1.5, estimated_thickness_m=0.0)
+    assert found.objects["table"].estimated_size_m == (1.5, 0.8, 0.02)
+
+
+def test_a_need_that_nothing_meets_is_in_the_account() -> None:
+    def change(asked: LLMRequest, answer: dict[str, Any]) -> dict[str, Any]:
+        states = [{"name": "ringing", "intensity": 0.5, "needs_contact": "stove"}]
+        return {**answer, "states": states} if asked.subject == "phone" else answer
+
+    found = asyncio.run(infer_scene(SCENE, Scripted(object_analyzer=change)))
+    assert "needs contact with 'stove'" in found.report.doubts["phone"][0]
+    assert found.objects["phone"].states[0].needs_contact == "stove"
+    assert "stove" in found.objects["phone"].reasons["contact"]
+
+
+def test_the_table_takes_the_place_of_what_steel_cannot_have() -> None:
+    def change(asked: LLMRequest, answer: dict[str, Any]) -> dict[str, Any]:
+        return {**answer, "material_category": "steel"}
+
+    backend = Scripted(object_analyzer=change, material_estimator=lambda *_: {**STEEL, "density_kg_m3": 7.85})
+    material = run(backend).objects["table"].material
+    assert material is not None
+    assert material.density_kg_m3 == materials.lookup("steel").density_kg_m3
+    assert material.loss_factor == 0.001

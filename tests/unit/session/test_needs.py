@@ -1,0 +1,57 @@
+"""A pan that needs a stove, on what may be one."""
+
+from dataclasses import replace
+
+import pytest
+
+from scene2hap import HapticBundle, HapticSession, Pose, Touch
+from scenes import box, haptics, scene, tone_loop
+
+ON_PAN = [Touch("left", "pan", (0.0, 0.93, 0.0))]
+
+
+def kitchen(category: str, needs: str | None, *, hob_is_source: bool = False) -> HapticSession:
+    """A pan on a thing of that category, which hums by itself if it is a source."""
+    snapshot = scene(box("thing", (0.6, 0.9, 0.6), (0.0, 0.45, 0.0)), box("pan", (0.2, 0.03, 0.2), (0.0, 0.915, 0.0)))
+    thing = haptics("steel", (0.6, 0.6, 0.9), *(("on",) if hob_is_source else ()))
+    objects = {
+        "thing": replace(thing, object_category=category),
+        "pan": replace(haptics("steel", (0.2, 0.2, 0.03), "sizzling", needs_contact=needs), object_category="pan"),
+    }
+    loops = {"pan": {"sizzling": tone_loop(100)}, **({"thing": {"on": tone_loop(50)}} if hob_is_source else {})}
+    return HapticSession(snapshot, HapticBundle(snapshot, "kitchen", objects, loops), {"propagation": "no_propagation"})
+
+
+@pytest.mark.parametrize("category", ["stove", "cooktop", "hob", "gas hob", "hot plate", "kitchen range"])
+def test_a_stove_by_any_name_heats_the_pan(category: str) -> None:
+    assert kitchen(category, "stove").update(touches=ON_PAN).gain("left", "pan") == 1.0
+
+
+@pytest.mark.parametrize("needs", ["", "none", "null", None])
+def test_no_need_is_no_need(needs: str | None) -> None:
+    assert kitchen("table", needs).update(touches=ON_PAN).gain("left", "pan") == 1.0
+
+
+@pytest.mark.parametrize("category", ["table", "toy stove", "cooker hood", ""])
+def test_what_is_no_stove_leaves_it_cold(category: str) -> None:
+    assert kitchen(category, "stove").update(touches=ON_PAN).gain("left", "pan") == 0.0
+
+
+def test_a_stove_that_is_switched_off_leaves_it_cold() -> None:
+    session = kitchen("hob", "stove", hob_is_source=True)
+    assert session.update(touches=ON_PAN).gain("left", "pan") == 1.0
+    session.set_source("thing", on=False)
+    assert session.update(touches=ON_PAN).gain("left", "pan") == 0.0
+    session.set_source("thing", on=True)
+    assert session.update(touches=ON_PAN).gain("left", "pan") == 1.0
+
+
+def test_a_stove_that_is_only_muted_still_heats() -> None:
+    session = kitchen("hob", "stove", hob_is_source=True)
+    session.set_source("thing", mute=True)
+    assert session.update(touches=ON_PAN).gain("left", "pan") == 1.0
+
+
+def test_a_pan_that_is_lifted_is_silent() -> None:
+    touch = [Touch("left", "pan", (0.0, 1.5, 0.0))]
+    assert kitchen("hob", "stove").update({"pan": Pose((0.0, 1.5, 0.0))}, touch).gain("left", "pan") == 0.0

@@ -1,0 +1,59 @@
+"""What a state must touch, matched by meaning."""
+
+import pytest
+
+from scene2hap import SourceState
+from scene2hap.haptics import unmet_needs
+from scene2hap.llm.lexicon.table import table
+from scene2hap.needs import meets
+
+
+@pytest.mark.parametrize(
+    ("needed", "category"),
+    [
+        ("stove", "cooktop"), ("stove", "hob"), ("stove", "Gas Hob"), ("a hot stove", "induction hob"),
+        ("Stove", "stove"), ("stoves", "electric stove"), ("stove or oven", "cooktop"), ("heater/stove", "hot plate"),
+        ("stove (switched on)", "hob"), ("on a stovetop", "burner"), ("table", "dining table"), ("desk", "table"),
+        ("coffee table", "table"), ("charging station", "charger"), ("heat source", "campfire"),
+    ],
+)  # fmt: skip
+def test_words_of_one_meaning_meet(needed: str, category: str) -> None:
+    assert meets(needed, "Object_7", category)
+
+
+@pytest.mark.parametrize(
+    ("needed", "category"),
+    [
+        ("stove", "table"), ("stove", "stove door"), ("stove", "toy stove"), ("stove", "cooker hood"),
+        ("hot plate", "plate"), ("table", "table lamp"), ("stove", "fire extinguisher"), ("stove", ""),
+    ],
+)  # fmt: skip
+def test_words_of_another_meaning_do_not(needed: str, category: str) -> None:
+    assert not meets(needed, "Object_7", category)
+
+
+def test_an_id_is_enough_and_its_words_are_read_where_nobody_knows_what_it_is() -> None:
+    assert meets("Cube.003", "Cube.003", "cabinet")
+    assert meets("stove", "Kitchen_Cooktop_01", "unknown")
+    assert not meets("stove", "Kitchen_Cooktop_01", "shelf")
+
+
+@pytest.mark.parametrize("needed", ["", "  ", "none", "None", "NULL", "null", "n/a", "not needed", None])
+def test_words_for_no_need_are_none(needed: str | None) -> None:
+    assert SourceState("on", 0.5, "s", "k", needed).needs_contact is None
+
+
+def test_every_synonym_of_what_the_lexicon_needs_is_met() -> None:
+    needed = {noun for row in table() for state in row.states for noun in state.needs_contact}
+    assert needed
+    for row in table():
+        if row.noun in needed and row.noun != "heater":  # a fan heater is no stove
+            for word in (row.noun, *row.synonyms):
+                assert meets("stove", "Object_7", word), word
+
+
+def test_what_nothing_meets_is_told_and_the_object_itself_does_not_count() -> None:
+    states = (SourceState("boiling", 0.5, "s", "k", "stove"), SourceState("on", 0.5, "s", "k"))
+    (told,) = unmet_needs("stove", states, {"stove": "stove", "table": "table"})
+    assert "'boiling' needs contact with 'stove', which no other object here is" in told
+    assert unmet_needs("pot", states, {"pot": "pot", "hob": "cooktop"}) == ()
