@@ -10,7 +10,6 @@ Source: Jingu, AliAbbasi et al., Scene2Hap, CHI 2026, section "LLM Workflow and 
 from __future__ import annotations
 
 import asyncio
-from collections import Counter
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -27,6 +26,7 @@ from scene2hap.llm.questions import Questions
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.sharing import copies, reachable
 from scene2hap.llm.trust import Estimate, from_model, from_table, without_answer
+from scene2hap.scene.likeness import material_names
 from scene2hap.scene.snapshot import SceneObject, SceneSnapshot
 
 UNKNOWN = frozenset({"", "unknown", "undefined"})
@@ -83,8 +83,8 @@ async def infer_scene(
     graph = asyncio.create_task(asyncio.to_thread(ContactGraph, scene))
     if scene_category is None:
         scene_category = await _scene_category(scene, questions)
-    chain = _Chain(scene, await graph, questions, settings)
-    objects = await chain.infer(wanted, scene_category, progress or (lambda what, done, total: None))
+    chain = _Chain(scene, scene_category, await graph, questions, settings)
+    objects = await chain.infer(wanted, progress or (lambda what, done, total: None))
     return Inference(scene_category, objects, questions.report)
 
 
@@ -113,9 +113,15 @@ class _Chain:
     """One run over one scene."""
 
     def __init__(
-        self, scene: SceneSnapshot, graph: ContactGraph, questions: Questions, settings: InferenceConfig
+        self,
+        scene: SceneSnapshot,
+        category: str,
+        graph: ContactGraph,
+        questions: Questions,
+        settings: InferenceConfig,
     ) -> None:
         self._scene = scene
+        self._category = category
         self._graph = graph
         self._questions = questions
         self._settings = settings
@@ -125,12 +131,15 @@ class _Chain:
     def _report(self) -> InferenceReport:
         return self._questions.report
 
-    async def infer(self, wanted: list[SceneObject], category: str, tell: Progress) -> dict[str, ObjectHaptics]:
+    async def infer(self, wanted: list[SceneObject], tell: Progress) -> dict[str, ObjectHaptics]:
         """The haptics of each wanted object, in order."""
         standing_for = copies(self._scene, self._graph) if self._settings.share_copies else {}
-        groups: dict[str, list[SceneObject]] = {}
+        groups: dict[tuple[str, bool], list[SceneObject]] = {}
         for item in wanted:
-            groups.setdefault(standing_for.get(item.id, item.id), []).append(item)
+            # What a user wishes of one object is no answer for its copies, nor theirs one for it.
+            is_alone = self._questions.has_wish(item.id)
+            first = item.id if is_alone else standing_for.get(item.id, item.id)
+            groups.setdefault((first, is_alone), []).append(item)
         firsts = {members[0].id: members for members in groups.values()}
         self._report.skipped["copies"] += len(wanted) - len(firsts)
         done = 0
@@ -138,7 +147,7 @@ class _Chain:
         async def analyse(item: SceneObject) -> _Analysis | Scene2HapError:
             nonlocal done
             try:
-                analysis = await self._analyse(item, category)
+                analysis = await self._analyse(item)
             except Scene2HapError as problem:
                 return problem
             if self._settings.inference == "eager":
@@ -161,17 +170,21 @@ class _Chain:
         estimates = await self._estimates(of_member)
         return {item.id: self._haptics(item, of_member[item.id], estimates) for item in wanted}
 
-    async def _analyse(self, item: SceneObject, category: str) -> _Analysis:
+    async def _analyse(self, item: SceneObject) -> _Analysis:
         length, width, thickness = item.size_m
+        whole_length, whole_width, whole_height = item.whole_size_m(self._scene.up_axis)
         facts = {
-            "scene_category": category,
+            "scene_category": self._category,
             "object_name": item.name,
             "length_m": length,
             "width_m": width,
             "thickness_m": thickness,
+            "whole_length_m": whole_length,
+            "whole_width_m": whole_width,
+            "whole_height_m": whole_height,
             "relative_height_m": item.relative_height_m,
             "surface_flags": list(item.surface.flags),
-            "material_names": _material_names(item),
+            "material_names": list(material_names(item)),
             "neighbour_names": [self._scene.object(other).name for other in self._graph.neighbours(item.id)],
         }
         images = item.images.together if item.images is not None else ()
@@ -181,15 +194,13 @@ class _Chain:
         if not answer.vibrates:
             self._report.skipped["silent"] += 1
             return _Analysis(answer, analyst, (), ())
-        described = await asyncio.gather(*(self._describe(item, answer, state, category) for state in answer.states))
+        described = await asyncio.gather(*(self._describe(item, answer, state) for state in answer.states))
         states, describers = zip(*described, strict=True)
         return _Analysis(answer, analyst, states, describers)
 
-    async def _describe(
-        self, item: SceneObject, analysed: ObjectAnswer, state: StateAnswer, category: str
-    ) -> tuple[SourceState, str]:
+    async def _describe(self, item: SceneObject, analysed: ObjectAnswer, state: StateAnswer) -> tuple[SourceState, str]:
         facts = {
-            "scene_category": category,
+            "scene_category": self._category,
             "object_category": analysed.object_category,
             "usage": analysed.usage,
             "state": state.name,
@@ -223,9 +234,8 @@ class _Chain:
             self._report.skipped["table_material"] += 1
             return known
         try:
-            answer, who = await self._questions.ask(
-                "material_estimator", word, {"material_category": word}, MaterialAnswer
-            )
+            facts = {"scene_category": self._category, "material_category": word}
+            answer, who = await self._questions.ask("material_estimator", word, facts, MaterialAnswer)
             estimate = from_model(word, answer, who)
         except _SPOILED as problem:
             self._report.errors[word] = str(problem)
@@ -290,15 +300,6 @@ async def _scene_category(scene: SceneSnapshot, questions: Questions) -> str:
         questions.report.errors[""] = str(problem)
         return "undefined"
     return answer.scene_category
-
-
-def _material_names(item: SceneObject) -> list[str]:
-    """What the author called the materials of an object, those of most faces first."""
-    looks = item.appearance
-    if looks is None:
-        return []
-    by_faces = Counter(looks.face_material.tolist())
-    return list(dict.fromkeys(name for index, _ in by_faces.most_common() if (name := looks.materials[index].name)))
 
 
 def _word(category: str) -> str:
