@@ -23,6 +23,7 @@ from scene2hap.llm.lexicon.judging import Measured, judge
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.protocol import LLMBackend
 from scene2hap.llm.questions import Questions
+from scene2hap.llm.quoting import clean
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.sharing import copies, reachable
 from scene2hap.llm.trust import Estimate, from_model, from_table, without_answer
@@ -175,7 +176,7 @@ class _Chain:
         whole_length, whole_width, whole_height = item.whole_size_m(self._scene.up_axis)
         facts = {
             "scene_category": self._category,
-            "object_name": item.name,
+            "object_name": clean(item.name),
             "length_m": length,
             "width_m": width,
             "thickness_m": thickness,
@@ -184,8 +185,8 @@ class _Chain:
             "whole_height_m": whole_height,
             "relative_height_m": item.relative_height_m,
             "surface_flags": list(item.surface.flags),
-            "material_names": list(material_names(item)),
-            "neighbour_names": [self._scene.object(other).name for other in self._graph.neighbours(item.id)],
+            "material_names": [clean(name) for name in material_names(item)],
+            "neighbour_names": [clean(self._scene.object(other).name) for other in self._graph.neighbours(item.id)],
         }
         images = item.images.together if item.images is not None else ()
         answer, analyst = await self._questions.ask("object_analyzer", item.id, facts, ObjectAnswer, images)
@@ -293,7 +294,7 @@ class _Chain:
 
 async def _scene_category(scene: SceneSnapshot, questions: Questions) -> str:
     """The kind of place; "undefined" if the answer is none."""
-    facts = {"scene_name": scene.name, "object_names": [item.name for item in scene.objects]}
+    facts = {"scene_name": clean(scene.name), "object_names": [clean(item.name) for item in scene.objects]}
     try:
         answer, _ = await questions.ask("scene_analyzer", "", facts, SceneAnswer, scene.images or ())
     except BadAnswer as problem:
@@ -324,4 +325,4 @@ def _unanswered(item: SceneObject, problem: Scene2HapError) -> ObjectHaptics:
 
 
 def _seems_to_vibrate(item: SceneObject) -> bool:
-    return judge(Measured(item.name, item.size_m, item.surface.flags)).vibrates
+    return judge(Measured(clean(item.name), item.size_m, item.surface.flags)).vibrates

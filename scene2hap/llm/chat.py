@@ -72,7 +72,7 @@ def json_schema_format(request: LLMRequest, schema: Mapping[str, Any]) -> dict[s
 
 def about(request: LLMRequest) -> str:
     """What a request asks, for messages."""
-    return f"{request.component} about {shown(request.subject) if request.subject else 'the scene'}"
+    return f"{request.component} about {shown(request.subject or 'the scene')}"
 
 
 def read_chat(reply: HttpReply, model: str) -> Said:

@@ -38,8 +38,9 @@ class LocalBackend:
     Ollama, whose default of 4096 loses pictures; max_tokens : of one answer (assumed: answers stay below 600, a model
     that runs away does not); top_p : share of the likeliest words, 0..1; reasoning_effort : "none" to "high", where the
     server has it; chat_template_kwargs : as {"enable_thinking": False} for llama.cpp and vLLM; extra : further fields,
-    sent as they are; detail : of pictures, "auto", "low" or "high", in dialect "openai"; timeout_s : queueing included, since most answer one request at a time; api_key : where the server
-    wants one, never taken from the environment; transport : for tests.
+    sent as they are; detail : of pictures, "auto", "low" or "high", in dialect "openai"; timeout_s : queueing included,
+    since most answer one request at a time; api_key : where the server wants one, never taken from the environment;
+    transport : for tests.
     Raises: ConfigError: a setting that cannot work.
     """
 

@@ -10,8 +10,10 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-LONGEST_TEXT = 200
-"""Characters of one text; assumed, three times the longest name of the shared scenes."""
+LONGEST_NAME = 200
+"""Characters of an authored name; assumed, longer than any that tells something."""
+LONGEST_TEXT = 600
+"""Characters of one text in a prompt: as many as the longest text of an answer may have (`llm.answers`)."""
 MOST_ITEMS = 1000
 """Items of one list; assumed, four times the objects of the largest shared scene."""
 
@@ -41,10 +43,16 @@ def as_data(fact: Any) -> str:
     return json.dumps(fact)
 
 
+def clean(name: str) -> str:
+    """An authored name as a fact: what cannot be printed becomes a space, and what is too long ends in an ellipsis."""
+    name = name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 1]}\u2026"
+    return "".join(char if char.isprintable() else " " for char in name)
+
+
 def shown(text: str) -> str:
-    """A text for a message: cut as in prompts, quoted as Python does."""
-    left = len(text) - LONGEST_TEXT
-    return repr(text[:LONGEST_TEXT]) + (f" (cut, {left} characters more)" if left > 0 else "")
+    """A text for a message: cut as a name is, quoted as Python does."""
+    left = len(text) - LONGEST_NAME
+    return repr(text[:LONGEST_NAME]) + (f" (cut, {left} characters more)" if left > 0 else "")
 
 
 def _quoted(text: str) -> str:
