@@ -10,6 +10,7 @@ from scene2hap.scene.snapshot import SceneObject
 
 _HASH = re.compile(r"(?<![^\W_])(?=[0-9a-f]*\d)(?=[0-9a-f]*[a-f])[0-9a-f]{6,}(?![^\W_])", re.IGNORECASE)
 """Serial numbers in base 16, as kits append them ("Mug_3a2f91bc")."""
+_SIDES = frozenset({"left", "right"})
 _WORD = re.compile(r"[A-Z]+(?=[A-Z][a-z])|[A-Z]?[a-z]+|[A-Z]+|[^\W\d_a-zA-Z]+")
 _LONGEST_NAME = 1000
 _PER_MM = 1000.0
@@ -28,11 +29,13 @@ def copy_key(item: SceneObject) -> Hashable:
 
 
 def name_words(name: str) -> tuple[str, ...]:
-    """The words of an authored name in lower case, without running numbers: ("wooden", "table") of "woodenTable.012".
+    """The words of an authored name in lower case: ("wooden", "table") of "woodenTable.012".
 
+    Running numbers are left out, and left and right, which number things as well.
     What is behind the first 1,000 characters is taken as it stands.
     """
-    words = tuple(word.lower() for word in _WORD.findall(_HASH.sub(" ", name[:_LONGEST_NAME])))
+    found = (word.lower() for word in _WORD.findall(_HASH.sub(" ", name[:_LONGEST_NAME])))
+    words = tuple(word for word in found if word not in _SIDES)
     return words + ((name[_LONGEST_NAME:],) if len(name) > _LONGEST_NAME else ())
 
 

@@ -23,6 +23,7 @@ CUBE = replace(box("chair_1", (0.4, 0.4, 0.4), (0, 0, 0)), instance_key="cube")
         ("TVStand2", ("tv", "stand")),
         ("Mug_3a2f91bc", ("mug",)),
         ("facade_7", ("facade",)),
+        ("chair_left", ("chair",)),
         ("冷蔵庫_2", ("冷蔵庫",)),
         ("017", ()),
         ("", ()),
