@@ -21,6 +21,7 @@ that ``except ValueError`` keeps working for people who do not know the tree::
     ├── BackendError                        a language-model or sound service
     │   ├── BackendUnavailable (ConnectionError)  away, or refuses; tells whether trying again can help
     │   ├── BadAnswer (ValueError)          the answer fails its schema; carries the raw text
+    │   │   └── AnswerRefused               the model or a filter before it will not answer
     │   ├── BudgetExceeded                  the next call would break a limit that was set
     │   └── ReplayMiss (LookupError)        no recorded answer for this request; carries the key
     └── DeviceError (OSError)               an actuator
@@ -119,6 +120,13 @@ class BadAnswer(BackendError, ValueError):
     def __init__(self, message: str, raw_text: str = "") -> None:
         super().__init__(message)
         self.raw_text = raw_text
+
+
+class AnswerRefused(BadAnswer):
+    """A model that will not answer, or a filter that withholds the question or the answer.
+
+    The same question is refused again: change what it shows or asks, or the model.
+    """
 
 
 class BudgetExceeded(BackendError):

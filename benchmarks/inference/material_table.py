@@ -67,7 +67,7 @@ async def _row(backend: LLMBackend, row: dict[str, str]) -> MaterialRow:
 
 
 async def _ask(backend: LLMBackend, material: str) -> tuple[float, float, float] | None:
-    facts, prompts = {"material_category": material}, Prompts.load()
+    facts, prompts = {"material_category": material, "scene_category": "undefined"}, Prompts.load()
     request = LLMRequest(
         component="material_estimator",
         subject=material,

@@ -10,7 +10,6 @@ Source: Jingu, AliAbbasi et al., Scene2Hap, CHI 2026, section "LLM Workflow and 
 from __future__ import annotations
 
 import asyncio
-from collections import Counter
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
@@ -25,9 +24,11 @@ from scene2hap.llm.measured import size_without_answer, surface_size
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.protocol import LLMBackend
 from scene2hap.llm.questions import Questions
+from scene2hap.llm.quoting import clean
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.sharing import copies, reachable
 from scene2hap.llm.trust import Estimate, from_model, from_table, without_answer
+from scene2hap.scene.likeness import material_names
 from scene2hap.scene.snapshot import SceneObject, SceneSnapshot
 
 UNKNOWN = frozenset({"", "unknown", "undefined"})
@@ -84,8 +85,8 @@ async def infer_scene(
     graph = asyncio.create_task(asyncio.to_thread(ContactGraph, scene))
     if scene_category is None:
         scene_category = await _scene_category(scene, questions)
-    chain = _Chain(scene, await graph, questions, settings)
-    objects = await chain.infer(wanted, scene_category, progress or (lambda what, done, total: None))
+    chain = _Chain(scene, scene_category, await graph, questions, settings)
+    objects = await chain.infer(wanted, progress or (lambda what, done, total: None))
     return Inference(scene_category, objects, questions.report)
 
 
@@ -114,9 +115,15 @@ class _Chain:
     """One run over one scene."""
 
     def __init__(
-        self, scene: SceneSnapshot, graph: ContactGraph, questions: Questions, settings: InferenceConfig
+        self,
+        scene: SceneSnapshot,
+        category: str,
+        graph: ContactGraph,
+        questions: Questions,
+        settings: InferenceConfig,
     ) -> None:
         self._scene = scene
+        self._category = category
         self._graph = graph
         self._questions = questions
         self._settings = settings
@@ -126,12 +133,15 @@ class _Chain:
     def _report(self) -> InferenceReport:
         return self._questions.report
 
-    async def infer(self, wanted: list[SceneObject], category: str, tell: Progress) -> dict[str, ObjectHaptics]:
+    async def infer(self, wanted: list[SceneObject], tell: Progress) -> dict[str, ObjectHaptics]:
         """The haptics of each wanted object, in order."""
         standing_for = copies(self._scene, self._graph) if self._settings.share_copies else {}
-        groups: dict[str, list[SceneObject]] = {}
+        groups: dict[tuple[str, bool], list[SceneObject]] = {}
         for item in wanted:
-            groups.setdefault(standing_for.get(item.id, item.id), []).append(item)
+            # What a user wishes of one object is no answer for its copies, nor theirs one for it.
+            is_alone = self._questions.has_wish(item.id)
+            first = item.id if is_alone else standing_for.get(item.id, item.id)
+            groups.setdefault((first, is_alone), []).append(item)
         firsts = {members[0].id: members for members in groups.values()}
         self._report.skipped["copies"] += len(wanted) - len(firsts)
         done = 0
@@ -139,7 +149,7 @@ class _Chain:
         async def analyse(item: SceneObject) -> _Analysis | Scene2HapError:
             nonlocal done
             try:
-                analysis = await self._analyse(item, category)
+                analysis = await self._analyse(item)
             except Scene2HapError as problem:
                 return problem
             if self._settings.inference == "eager":
@@ -163,18 +173,22 @@ class _Chain:
         said = {item.id: self._haptics(item, of_member[item.id], estimates) for item in wanted}
         return {key: self._with_unmet_needs(key, haptics, said) for key, haptics in said.items()}
 
-    async def _analyse(self, item: SceneObject, category: str) -> _Analysis:
+    async def _analyse(self, item: SceneObject) -> _Analysis:
         length, width, thickness = item.size_m
+        whole_length, whole_width, whole_height = item.whole_size_m(self._scene.up_axis)
         facts = {
-            "scene_category": category,
-            "object_name": item.name,
+            "scene_category": self._category,
+            "object_name": clean(item.name),
             "length_m": length,
             "width_m": width,
             "thickness_m": thickness,
+            "whole_length_m": whole_length,
+            "whole_width_m": whole_width,
+            "whole_height_m": whole_height,
             "relative_height_m": item.relative_height_m,
             "surface_flags": list(item.surface.flags),
-            "material_names": _material_names(item),
-            "neighbour_names": [self._scene.object(other).name for other in self._graph.neighbours(item.id)],
+            "material_names": [clean(name) for name in material_names(item)],
+            "neighbour_names": [clean(self._scene.object(other).name) for other in self._graph.neighbours(item.id)],
         }
         images = item.images.together if item.images is not None else ()
         answer, analyst = await self._questions.ask("object_analyzer", item.id, facts, ObjectAnswer, images)
@@ -183,15 +197,13 @@ class _Chain:
         if not answer.vibrates:
             self._report.skipped["silent"] += 1
             return _Analysis(answer, analyst, (), ())
-        described = await asyncio.gather(*(self._describe(item, answer, state, category) for state in answer.states))
+        described = await asyncio.gather(*(self._describe(item, answer, state) for state in answer.states))
         states, describers = zip(*described, strict=True)
         return _Analysis(answer, analyst, states, describers)
 
-    async def _describe(
-        self, item: SceneObject, analysed: ObjectAnswer, state: StateAnswer, category: str
-    ) -> tuple[SourceState, str]:
+    async def _describe(self, item: SceneObject, analysed: ObjectAnswer, state: StateAnswer) -> tuple[SourceState, str]:
         facts = {
-            "scene_category": category,
+            "scene_category": self._category,
             "object_category": analysed.object_category,
             "usage": analysed.usage,
             "state": state.name,
@@ -225,9 +237,8 @@ class _Chain:
             self._report.skipped["table_material"] += 1
             return known
         try:
-            answer, who = await self._questions.ask(
-                "material_estimator", word, {"material_category": word}, MaterialAnswer
-            )
+            facts = {"scene_category": self._category, "material_category": word}
+            answer, who = await self._questions.ask("material_estimator", word, facts, MaterialAnswer)
             estimate = from_model(word, answer, who)
         except _SPOILED as problem:
             self._report.errors[word] = str(problem)
@@ -300,22 +311,13 @@ class _Chain:
 
 async def _scene_category(scene: SceneSnapshot, questions: Questions) -> str:
     """The kind of place; "undefined" if the answer is none."""
-    facts = {"scene_name": scene.name, "object_names": [item.name for item in scene.objects]}
+    facts = {"scene_name": clean(scene.name), "object_names": [clean(item.name) for item in scene.objects]}
     try:
         answer, _ = await questions.ask("scene_analyzer", "", facts, SceneAnswer, scene.images or ())
     except BadAnswer as problem:
         questions.report.errors[""] = str(problem)
         return "undefined"
     return answer.scene_category
-
-
-def _material_names(item: SceneObject) -> list[str]:
-    """What the author called the materials of an object, those of most faces first."""
-    looks = item.appearance
-    if looks is None:
-        return []
-    by_faces = Counter(looks.face_material.tolist())
-    return list(dict.fromkeys(name for index, _ in by_faces.most_common() if (name := looks.materials[index].name)))
 
 
 def _word(category: str) -> str:
@@ -340,4 +342,4 @@ def _unanswered(item: SceneObject, problem: Scene2HapError) -> ObjectHaptics:
 
 
 def _seems_to_vibrate(item: SceneObject) -> bool:
-    return judge(Measured(item.name, item.size_m, item.surface.flags)).vibrates
+    return judge(Measured(clean(item.name), item.size_m, item.surface.flags)).vibrates

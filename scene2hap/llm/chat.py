@@ -7,10 +7,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from scene2hap.errors import BackendUnavailable, BadAnswer
+from scene2hap.errors import AnswerRefused, BackendUnavailable, BadAnswer
 from scene2hap.llm.http_client import HttpReply
 from scene2hap.llm.http_errors import failure, server_error
 from scene2hap.llm.protocol import LLMRequest
+from scene2hap.llm.quoting import shown
+from scene2hap.llm.refusals import FILTERED_REQUEST, is_filtered, refusal_in
+
+_AFTER_REFUSAL = "It is not asked again; rename or hide what it objects to, send no pictures, or choose another model."
 
 
 class BackendWarning(UserWarning):
@@ -28,6 +32,10 @@ class UnusableAnswer(BadAnswer):
         self.usage = dict(usage or {})
 
 
+class RefusedAnswer(UnusableAnswer, AnswerRefused):
+    """A refusal that was paid for."""
+
+
 @dataclass(frozen=True)
 class Said:
     """What a model said, before anyone judged it. `thoughts` is where some servers put the answer by mistake."""
@@ -40,15 +48,15 @@ class Said:
     refusal: str = ""
 
 
-def user_message(request: LLMRequest, text: str, detail: str | None = None) -> dict[str, Any]:
+def user_message(request: LLMRequest, text: str, detail: str) -> dict[str, Any]:
     """One message with the text and then the pictures, in their order, as data URLs.
 
-    `detail` is what OpenAI bills a picture by; local servers have no use for it.
+    `detail` is what OpenAI bills a picture by; most local servers have no use for it, what stands behind one may.
     """
     parts: list[dict[str, Any]] = [{"type": "text", "text": text}]
     for png in request.images:
         picture = {"url": f"data:image/png;base64,{as_base64(png)}"}
-        parts.append({"type": "image_url", "image_url": picture if detail is None else {**picture, "detail": detail}})
+        parts.append({"type": "image_url", "image_url": {**picture, "detail": detail}})
     return {"role": "user", "content": parts}
 
 
@@ -64,7 +72,7 @@ def json_schema_format(request: LLMRequest, schema: Mapping[str, Any]) -> dict[s
 
 def about(request: LLMRequest) -> str:
     """What a request asks, for messages."""
-    return f"{request.component} about {request.subject or 'the scene'!r}"
+    return f"{request.component} about {shown(request.subject or 'the scene')}"
 
 
 def read_chat(reply: HttpReply, model: str) -> Said:
@@ -91,7 +99,7 @@ def read_chat(reply: HttpReply, model: str) -> Said:
 def require_whole(said: Said, asked: str) -> None:
     """Reject what must not be parsed, whatever the content looks like.
 
-    Raises: UnusableAnswer: cut short, filtered or refused, with what there is of the answer.
+    Raises: UnusableAnswer: cut short, with what there is of the answer; RefusedAnswer: filtered or refused.
     """
     if said.finish_reason == "length":
         raise unusable(
@@ -100,10 +108,27 @@ def require_whole(said: Said, asked: str) -> None:
             "its reasoning.",
             said.content,
         )
-    if said.finish_reason == "content_filter":
-        raise unusable(said, f"{asked}: the answer of {said.model} was withheld by a content filter.", said.content)
-    if said.refusal:
-        raise unusable(said, f"{asked}: {said.model} refused: {said.refusal}", said.refusal)
+    require_willing(said, asked)
+
+
+def require_willing(said: Said, asked: str) -> None:
+    """Reject a refusal: in its own field, as the reason to end, or as the text itself.
+
+    Raises: RefusedAnswer.
+    """
+    if is_filtered(said.finish_reason):
+        message = f"{asked}: the answer of {said.model} was withheld by a content filter ({said.finish_reason})."
+        raise RefusedAnswer(f"{message} {_AFTER_REFUSAL}", said.content, model=said.model, usage=said.usage)
+    refusal = said.refusal or refusal_in(said.content)
+    if refusal:
+        message = f"{asked}: {said.model} refused to answer: {shown(refusal)}. {_AFTER_REFUSAL}"
+        raise RefusedAnswer(message, refusal, model=said.model, usage=said.usage)
+
+
+def is_withheld(reply: HttpReply) -> bool:
+    """Whether a filter kept the question from the model."""
+    error = server_error(reply)
+    return reply.status == 400 and not FILTERED_REQUEST.isdisjoint({error.code, error.type})
 
 
 def unusable(said: Said, message: str, raw_text: str) -> UnusableAnswer:
@@ -119,6 +144,9 @@ def json_object(reply: HttpReply) -> dict[str, Any]:
     """
     body = reply.json()
     if not reply.ok:
+        if is_withheld(reply):
+            said = shown(server_error(reply).message)
+            raise AnswerRefused(f"{reply.url} withheld the question from the model: {said}. {_AFTER_REFUSAL}")
         raise failure(reply)
     if body is None and reply.text.lstrip().startswith("{"):
         raise BackendUnavailable(

@@ -25,6 +25,7 @@ LADDER: tuple[Rung, ...] = ("json_schema", "json_object", "prompt")
 class Decoding:
     """How a local server shall write: what decides its answers besides the request. None is not sent.
 
+    `detail` is said of each picture where the dialect can; "auto" is what servers take it for where it is not said.
     `extra` is sent as it is: fields of the body, or of `options` for Ollama.
     """
 
@@ -35,6 +36,7 @@ class Decoding:
     reasoning_effort: str | None = None
     chat_template_kwargs: Mapping[str, Any] | None = None
     extra: Mapping[str, Any] = field(default_factory=dict)
+    detail: Literal["auto", "low", "high"] = "auto"
 
 
 class Dialect(Protocol):
@@ -67,7 +69,7 @@ class ChatCompletions:
         }
         body: dict[str, Any] = {
             "model": model,
-            "messages": [chat.user_message(request, text)],
+            "messages": [chat.user_message(request, text, self.decoding.detail)],
             "temperature": request.temperature,
             "seed": self.decoding.seed,
             "max_tokens": self.decoding.max_tokens,

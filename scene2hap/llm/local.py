@@ -38,8 +38,9 @@ class LocalBackend:
     Ollama, whose default of 4096 loses pictures; max_tokens : of one answer (assumed: answers stay below 600, a model
     that runs away does not); top_p : share of the likeliest words, 0..1; reasoning_effort : "none" to "high", where the
     server has it; chat_template_kwargs : as {"enable_thinking": False} for llama.cpp and vLLM; extra : further fields,
-    sent as they are; timeout_s : queueing included, since most answer one request at a time; api_key : where the server
-    wants one, never taken from the environment; transport : for tests.
+    sent as they are; detail : of pictures, "auto", "low" or "high", in dialect "openai"; timeout_s : queueing included,
+    since most answer one request at a time; api_key : where the server wants one, never taken from the environment;
+    transport : for tests.
     Raises: ConfigError: a setting that cannot work.
     """
 
@@ -56,12 +57,15 @@ class LocalBackend:
         reasoning_effort: str | None = None,
         chat_template_kwargs: Mapping[str, Any] | None = None,
         extra: Mapping[str, Any] | None = None,
+        detail: Literal["auto", "low", "high"] = "auto",
         timeout_s: float = 600.0,
         api_key: str | None = None,
         transport: Transport | None = None,
     ) -> None:
         if dialect not in ("openai", "ollama"):
             raise ConfigError(f"dialect is {dialect!r}; it must be 'openai' or 'ollama'.")
+        if detail not in ("auto", "low", "high"):
+            raise ConfigError(f"detail is {detail!r}; it must be 'auto', 'low' or 'high'.")
         for name, value in (("num_ctx", num_ctx), ("max_tokens", max_tokens)):
             checks.number(name, value, "tokens", at_least=1, error=ConfigError)
         if top_p is not None:
@@ -73,7 +77,7 @@ class LocalBackend:
             raise ConfigError("Ollama has no chat_template_kwargs; use reasoning_effort, or dialect='openai'.")
         self.model = model
         self._decoding = Decoding(
-            max_tokens, seed, num_ctx, top_p, reasoning_effort, chat_template_kwargs, dict(extra or {})
+            max_tokens, seed, num_ctx, top_p, reasoning_effort, chat_template_kwargs, dict(extra or {}), detail
         )
         self._dialect: Dialect = (OllamaChat if dialect == "ollama" else ChatCompletions)(self._decoding)
         self._endpoint = Endpoint(base_url, Secret(api_key), timeout_s, transport)
@@ -128,7 +132,7 @@ class LocalBackend:
     async def _ask(self, request: LLMRequest) -> chat.Said:
         for rung in range(self._rung, len(LADDER)):
             reply = await self._post(request, LADDER[rung])
-            if reply.status not in _FORM_REJECTED:
+            if reply.status not in _FORM_REJECTED or chat.is_withheld(reply):
                 break
         if reply.ok:
             # Only success teaches: a request that no rung can save (too long a prompt) says nothing about the form.

@@ -11,8 +11,8 @@ from pydantic import ValidationError
 
 from scene2hap import checks
 from scene2hap.errors import BackendUnavailable, BadAnswer, Scene2HapError
+from scene2hap.llm import chat
 from scene2hap.llm.answers import Answer
-from scene2hap.llm.chat import UnusableAnswer
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.protocol import Component, LLMBackend, LLMReply, LLMRequest
 from scene2hap.llm.report import InferenceReport
@@ -56,8 +56,8 @@ class Questions:
     ) -> tuple[AnswerType, str]:
         """A validated answer, and its provenance: model, prompt version, and the name a cache keeps it under.
 
-        Raises: BadAnswer: the reply was cut short, is not JSON or breaks a bound; it carries the raw text. As the
-        backend; and what closed the lanes before it was this question's turn.
+        Raises: BadAnswer: the reply was cut short, is not JSON or breaks a bound; it carries the raw text.
+        AnswerRefused, and as the backend; and what closed the lanes before it was this question's turn.
         """
         request = LLMRequest(
             component=component,
@@ -76,13 +76,16 @@ class Questions:
             try:
                 reply = await self._backend.complete(request)
             except Scene2HapError as problem:
-                if isinstance(problem, UnusableAnswer):  # it was paid for all the same
+                if isinstance(problem, chat.UnusableAnswer):  # it was paid for all the same
                     self.report.take(LLMReply("", problem.model, usage=problem.usage))
                 if not _is_about_one_question(problem):
                     self.closed_by = problem
                 raise
         self.report.take(reply)
-        about = f"{component} about {subject or 'the scene'!r}"
+        about = chat.about(request)
+        chat.require_willing(chat.Said(reply.text, reply.model, reply.finish_reason), about)
+        if not reply.text.strip():
+            raise BadAnswer(f"{about}: {reply.model} answered without content.", reply.text)
         if reply.finish_reason != "stop":
             raise BadAnswer(f"{about}: the answer ended by {reply.finish_reason!r}, not by itself.", reply.text)
         try:
@@ -92,6 +95,10 @@ class Questions:
             raise BadAnswer(f"{about}: {fault.place or '(whole answer)'}: {fault.reason}.", reply.text) from cause
         kept_as = f", {reply.key[:19]}" if reply.key else ""
         return answer, f"{reply.model}, prompt {self._prompts.version}{kept_as}"
+
+    def has_wish(self, subject: str) -> bool:
+        """Whether the user wishes something of this object alone."""
+        return bool(self._wishes.get(subject))
 
     def _wish(self, subject: str) -> str:
         return " ".join(filter(None, (self._user_prompt, self._wishes.get(subject, ""))))

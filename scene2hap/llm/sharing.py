@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Hashable, Iterable, Mapping
 
 from scene2hap.contact.graph import ContactGraph
+from scene2hap.scene.likeness import copy_key
 from scene2hap.scene.snapshot import Contact, SceneSnapshot
 
 _BELOW = 0.5
@@ -12,19 +13,19 @@ _BELOW = 0.5
 
 
 def copies(scene: SceneSnapshot, graph: ContactGraph) -> dict[str, str]:
-    """For each object the one that stands for it: the first, in scene order, of one look and relation to its support.
+    """For each object the one that stands for it: the first, in scene order, of one kind and relation to its support.
 
-    Relation to the support is what the object stands on, as the support looks rather than as it is named: six handles
-    on six equal drawers are one, a pan on the stove and a pan on the table are two. An object that stands on nothing is
-    told apart by all that touches it.
+    Objects of one kind are copies of one thing (`scene.likeness`). Relation to the support is the kind of what the
+    object stands on: six handles on six equal drawers are one, a pan on the stove and a pan on the table are two. An
+    object that stands on nothing is told apart by all that touches it.
     """
-    looks = {item.id: item.instance_key or f"id {item.id}" for item in scene.objects}
+    kinds = {item.id: copy_key(item) for item in scene.objects}
     supports = _supports(scene, graph.contacts)
-    first: dict[tuple[str, frozenset[str]], str] = {}
+    first: dict[tuple[Hashable, frozenset[Hashable]], str] = {}
     standing_for = {}
     for item in scene.objects:
         on = supports.get(item.id) or graph.neighbours(item.id)
-        standing_for[item.id] = first.setdefault((looks[item.id], frozenset(looks[other] for other in on)), item.id)
+        standing_for[item.id] = first.setdefault((kinds[item.id], frozenset(kinds[other] for other in on)), item.id)
     return standing_for
 
 

@@ -214,6 +214,16 @@ class SceneObject:
         """Length, width and thickness [m] of the dominant surface."""
         return (self.surface.length_m, self.surface.width_m, self.surface.thickness_m)
 
+    def whole_size_m(self, up_axis: UpAxis) -> tuple[float, float, float]:
+        """Longer and shorter side and height [m] of the object's box along its own axes.
+
+        Height is along the axis that stands most upright, so that a thing turned about it keeps its size.
+        """
+        edges = np.ptp(self.geometry.mesh.vertices_m, axis=0)
+        upright = int(np.abs(self.pose.rotation[{"y": 1, "z": 2}[up_axis]]).argmax())
+        shorter, longer = sorted(float(edge) for edge in np.delete(edges, upright))
+        return (longer, shorter, float(edges[upright]))
+
     @cached_property
     def bounds_m(self) -> NDArray[np.float64]:
         """Lowest and highest corner (2, 3) [m] in the world."""

@@ -1,8 +1,8 @@
 """The prompt templates, one text file per component, under one version.
 
-A template names facts as {placeholders}; doubled braces stand for braces. A user may replace any of the files by one of
-the same name in a folder of their own. Raise `VERSION` whenever a built-in file changes: it is part of what a recorded
-answer answers to.
+A template names facts as {placeholders}, which are filled in as JSON (`llm.quoting`); doubled braces stand for braces.
+A user may replace any of the files by one of the same name in a folder of their own. Raise `VERSION` whenever a
+built-in file changes: it is part of what a recorded answer answers to.
 """
 
 from __future__ import annotations
@@ -20,8 +20,9 @@ from typing import Any
 
 from scene2hap.errors import ConfigError
 from scene2hap.llm.protocol import COMPONENTS, Component
+from scene2hap.llm.quoting import IS_DATA, as_data
 
-VERSION = "2"
+VERSION = "3"
 
 
 @dataclass(frozen=True)
@@ -48,10 +49,10 @@ class Prompts:
         return cls({**_built_in().templates, **replaced}, f"{VERSION}+{mark}")
 
     def fill(self, component: Component, facts: Mapping[str, Any], user_prompt: str = "") -> str:
-        """The template with its facts; what the user says outranks the rest."""
+        """The template with its facts, quoted as data; what the user says outranks the rest."""
         wish = f"\nAbove all, follow what the scene's author asks: {user_prompt}" if user_prompt else ""
-        shown = {name: fact if isinstance(fact, str) else json.dumps(fact) for name, fact in facts.items()}
-        return self.templates[component].format(**shown, user_prompt=wish).strip()
+        data = {name: as_data(fact) for name, fact in facts.items()}
+        return f"{IS_DATA}\n\n{self.templates[component].format(**data, user_prompt=wish).strip()}"
 
 
 @cache

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 from scene2hap import checks
 from scene2hap.errors import ConfigError
-from scene2hap.llm.chat import UnusableAnswer
+from scene2hap.llm.chat import Said, UnusableAnswer, require_willing, unusable
+from scene2hap.llm.chat import about as describe
 from scene2hap.llm.json_text import first_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.validation import Fault, find_fault
@@ -21,8 +22,8 @@ class RepairBackend(Wrapper):
     """Validates each reply as its component's answer and asks again, up to `repairs` times, where it is none.
 
     A repair is the original question with the last failure alone, so that its cost does not grow; pictures are left
-    out where only numbers were wrong. Replies cut short, filtered or refused are not repaired. The usage of the reply,
-    or of the error in its place, is that of all attempts.
+    out where only numbers were wrong. Replies cut short, empty, filtered or refused are not repaired. The usage of the
+    reply, or of the error in its place, is that of all attempts.
     """
 
     def __init__(self, inner: Spec, repairs: int = 2) -> None:
@@ -34,7 +35,7 @@ class RepairBackend(Wrapper):
     async def complete(self, request: LLMRequest) -> LLMReply:
         """An answer that is valid. Raises: BadAnswer: none came, with the last raw text; and as the inner backend."""
         self._calls += 1
-        about = f"{request.component} about {request.subject or 'the scene'!r}"
+        about = describe(request)
         asked, usage, left = request, Counter[str](), self._repairs
         usable: LLMReply | None = None  # with a minor fault, which one further question may mend
         while True:
@@ -45,6 +46,10 @@ class RepairBackend(Wrapper):
                 problem.usage = dict(usage)
                 raise
             usage.update(reply.usage)
+            said = Said(reply.text, reply.model, reply.finish_reason, dict(usage))
+            require_willing(said, about)
+            if not reply.text.strip():
+                raise unusable(said, f"{about}: {reply.model} answered without content.", reply.text)
             if reply.finish_reason != "stop":
                 message = f"{about}: the answer ended by {reply.finish_reason!r}, not by itself."
                 raise UnusableAnswer(message, reply.text, model=reply.model, usage=usage)

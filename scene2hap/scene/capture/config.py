@@ -26,8 +26,8 @@ class CaptureConfig(Settings):
     near_share : things whose box is nearer to the target's than this part of its diagonal are its surroundings.
     hidden_share : part of the target's silhouette that its surroundings may hide together; see `culling`.
     antialias : smooth edges by two more rays where neighbouring pixels differ; costs a seventh more time.
-    share_copies : objects of one `instance_key` share isolated images, and context images too if they stand on the
-        same kind of thing; False takes every object's own.
+    share_copies : objects of one `instance_key` share isolated images, and context images too if they are copies
+        (names and size as well, `scene.likeness`) that stand on the same kind of thing; False takes every object's own.
     workers : processes of `render_all`, this one among them; 0 and 1 render here alone.
     cache_dir : a folder that keeps pictures between runs, None for memory alone.
     """

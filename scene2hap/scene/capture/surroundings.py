@@ -5,12 +5,13 @@ Boxes decide all but support, so that this costs milliseconds and needs no rende
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.scene.capture.stage import Actor, Stage
+from scene2hap.scene.likeness import copy_key
 from scene2hap.scene.snapshot import SceneObject
 
 Floats = NDArray[np.float64]
@@ -121,18 +122,20 @@ def _cross(a: Floats, b: Floats) -> Floats:
 class Copies:
     """Who stands for whom in pictures.
 
-    Objects of one `instance_key` share isolated images: those of the first of them in scene order, as it is turned.
-    Objects of one *context class*, which is the `instance_key` and that of the object below (`supports`), share context
-    images: those of the first of the class, among its own surroundings. An object without a key stands for itself.
+    Objects of one `instance_key` share isolated images, whatever their names: those of the first of them in scene
+    order, as it is turned. Objects of one *context class*, which is their kind (`likeness.copy_key`) and that of the
+    object below (`supports`), share context images: those of the first of the class, among its own surroundings. An
+    object without a key stands for itself.
     """
 
     def __init__(self, objects: Sequence[SceneObject], below: Sequence[int | None], share: bool) -> None:
         keys = [item.instance_key if share and item.instance_key else f"id {item.id}" for item in objects]
-        classes = [(key, None if under is None else keys[under]) for key, under in zip(keys, below, strict=True)]
-        first_of_key: dict[object, str] = {}
-        first_of_class: dict[object, str] = {}
-        for item, key, kind in zip(objects, keys, classes, strict=True):
+        kinds = [copy_key(item) if share else ("id", item.id) for item in objects]
+        classes = [(kind, None if under is None else kinds[under]) for kind, under in zip(kinds, below, strict=True)]
+        first_of_key: dict[str, str] = {}
+        first_of_class: dict[Hashable, str] = {}
+        for item, key, among in zip(objects, keys, classes, strict=True):
             first_of_key.setdefault(key, item.id)
-            first_of_class.setdefault(kind, item.id)
+            first_of_class.setdefault(among, item.id)
         self.isolated = {item.id: first_of_key[key] for item, key in zip(objects, keys, strict=True)}
-        self.context = {item.id: first_of_class[kind] for item, kind in zip(objects, classes, strict=True)}
+        self.context = {item.id: first_of_class[among] for item, among in zip(objects, classes, strict=True)}

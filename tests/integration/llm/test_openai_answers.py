@@ -10,7 +10,7 @@ from openai_schema import openai_serving
 from scene2hap import (
     RepairBackend,
 )
-from scene2hap.errors import BadAnswer
+from scene2hap.errors import AnswerRefused, BadAnswer
 
 
 def test_length_comes_before_everything_else() -> None:
@@ -28,7 +28,10 @@ def test_content_filter_comes_before_refusal() -> None:
 
 def test_refusal_is_told_and_not_repaired() -> None:
     script = said(None, refusal="I cannot help with that.")
-    with openai_serving(script) as server, pytest.raises(BadAnswer, match="refused: I cannot help with that") as caught:
+    with (
+        openai_serving(script) as server,
+        pytest.raises(AnswerRefused, match="refused to answer: 'I cannot help") as caught,
+    ):
         ask(RepairBackend(openai(server)))
     assert caught.value.raw_text == "I cannot help with that."
     assert len(server.asked) == 1

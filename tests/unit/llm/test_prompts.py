@@ -7,6 +7,7 @@ import pytest
 from scene2hap.errors import ConfigError
 from scene2hap.llm.prompts import VERSION, Prompts, placeholders
 from scene2hap.llm.protocol import COMPONENTS
+from scene2hap.llm.quoting import IS_DATA
 
 
 def test_every_component_has_a_template_where_the_user_outranks_the_rest() -> None:
@@ -21,7 +22,10 @@ def test_every_component_has_a_template_where_the_user_outranks_the_rest() -> No
 def test_one_template_may_be_replaced(tmp_path: Path) -> None:
     (tmp_path / "material_estimator.txt").write_text('Constants of {material_category} as {{"x": 1}}. {user_prompt}')
     prompts = Prompts.load(tmp_path)
-    assert prompts.fill("material_estimator", {"material_category": "oak"}) == 'Constants of oak as {"x": 1}.'
+    assert (
+        prompts.fill("material_estimator", {"material_category": "oak"})
+        == f'{IS_DATA}\n\nConstants of "oak" as {{"x": 1}}.'
+    )
     assert prompts.templates["scene_analyzer"] == Prompts.load().templates["scene_analyzer"]
     assert prompts.version.startswith(f"{VERSION}+")
     (tmp_path / "material_estimator.txt").write_text("{material_category}! {user_prompt}")

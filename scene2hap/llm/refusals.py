@@ -1,0 +1,58 @@
+"""Refusals: a model that will not answer, in whichever way it says so.
+
+To hand one back as a fault of form costs the same call with all its pictures again, and is refused again.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+
+from scene2hap.llm.json_text import first_object
+
+FILTERED = frozenset({"content_filter", "safety", "prohibited_content", "blocklist", "recitation", "spii", "refusal"})
+"""Finish reasons of withheld answers: OpenAI's and, behind compatible addresses, Gemini's and Claude's."""
+
+FILTERED_REQUEST = frozenset({"content_filter", "content_policy_violation", "moderation_blocked"})
+"""Codes of status 400 for a question that was withheld from the model: Azure's and OpenAI's."""
+
+_CANNOT = r"(?:cannot|can\s?not|can't|won't|will\s+not|unable|not\s+able|not\s+allowed)"
+_DEED = (
+    r"(?:help|assist|comply|continue|fulfil\w*|provide|answer|analy[sz]e|identify|process|engage|discuss|participate|"
+    r"describe|generate|create|complete|support|do\s+th)"
+)
+_REFUSAL = re.compile(
+    rf"\b(?:{_CANNOT}\s+(?:to\s+)?(?:\w+\s+){{0,2}}{_DEED}|(?:sorry|apologi[sz]e|unfortunately)\b[^.]{{0,40}}\b{_CANNOT}|"
+    r"(?:must|have\s+to)\s+(?:decline|refuse)|(?:violates|against)\s+(?:my|our|the)\s+(?:\w+\s+)?(?:guideline|polic)|"
+    r"as\s+an\s+ai\b)",
+    re.IGNORECASE,
+)
+_LOOKED_AT = 300
+"""Characters at the beginning of a text; assumed, a refusal opens with itself."""
+_EXCUSES = frozenset({"refusal", "error", "message", "reason", "response", "answer"})
+"""The fields of an object that holds no answer but a refusal."""
+
+
+def is_filtered(finish_reason: str) -> bool:
+    """Whether an answer ended since a filter withheld it."""
+    return finish_reason.lower() in FILTERED
+
+
+def refusal_in(text: str) -> str | None:
+    """What a model says instead of an answer, None where it does not refuse.
+
+    A text with a JSON object is an answer, whatever is said around it, but for an object of excuses alone.
+    """
+    found = first_object(text)
+    if found is None:
+        opening = text.strip()[:_LOOKED_AT].replace("\u2019", "'")
+        return text.strip() if "{" not in opening and _REFUSAL.search(opening) else None
+    try:
+        fields = json.loads(found)
+    except (ValueError, RecursionError):
+        return None
+    if not isinstance(fields, dict) or not fields or not set(fields) <= _EXCUSES:
+        return None
+    excuse = " ".join(value for value in fields.values() if isinstance(value, str))
+    is_refusal = "refusal" in fields or _REFUSAL.search(excuse.replace("\u2019", "'"))
+    return excuse if excuse.strip() and is_refusal else None

@@ -1,0 +1,48 @@
+"""What makes two objects copies of one thing."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Hashable
+
+from scene2hap.scene.snapshot import SceneObject
+
+_HASH = re.compile(r"(?<![^\W_])(?=[0-9a-f]*\d)(?=[0-9a-f]*[a-f])[0-9a-f]{6,}(?![^\W_])", re.IGNORECASE)
+"""Serial numbers in base 16, as kits append them ("Mug_3a2f91bc")."""
+_SIDES = frozenset({"left", "right"})
+_WORD = re.compile(r"[A-Z]+(?=[A-Z][a-z])|[A-Z]?[a-z]+|[A-Z]+|[^\W\d_a-zA-Z]+")
+_LONGEST_NAME = 1000
+_PER_MM = 1000.0
+
+
+def copy_key(item: SceneObject) -> Hashable:
+    """Equal for objects that are copies of one thing, so that one answer holds for all of them.
+
+    That is equal mesh and looks (`instance_key`), equal words in the name, equal names of materials, and equal size to
+    the millimetre. An object without `instance_key` has no copies.
+    """
+    if not item.instance_key:
+        return ("id", item.id)
+    size_mm = tuple(round(edge_m * _PER_MM) for edge_m in item.size_m)
+    return (item.instance_key, name_words(item.name), material_names(item), size_mm)
+
+
+def name_words(name: str) -> tuple[str, ...]:
+    """The words of an authored name in lower case: ("wooden", "table") of "woodenTable.012".
+
+    Running numbers are left out, and left and right, which number things as well.
+    What is behind the first 1,000 characters is taken as it stands.
+    """
+    found = (word.lower() for word in _WORD.findall(_HASH.sub(" ", name[:_LONGEST_NAME])))
+    words = tuple(word for word in found if word not in _SIDES)
+    return words + ((name[_LONGEST_NAME:],) if len(name) > _LONGEST_NAME else ())
+
+
+def material_names(item: SceneObject) -> tuple[str, ...]:
+    """What the author called the materials of an object, those of most faces first, each once."""
+    looks = item.appearance
+    if looks is None:
+        return ()
+    by_faces = Counter(looks.face_material.tolist())
+    return tuple(dict.fromkeys(name for index, _ in by_faces.most_common() if (name := looks.materials[index].name)))

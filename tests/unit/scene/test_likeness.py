@@ -1,0 +1,74 @@
+"""What makes two objects copies of one thing."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from scene2hap.scene.appearance import Appearance, FaceMaterial
+from scene2hap.scene.likeness import copy_key, name_words
+from scene2hap.scene.pose import Pose
+from scenes import box
+
+CUBE = replace(box("chair_1", (0.4, 0.4, 0.4), (0, 0, 0)), instance_key="cube")
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("chair", ("chair",)),
+        ("wooden_table_1", ("wooden", "table")),
+        ("woodenTable.012", ("wooden", "table")),
+        ("Wooden Table (3)", ("wooden", "table")),
+        ("TVStand2", ("tv", "stand")),
+        ("Mug_3a2f91bc", ("mug",)),
+        ("facade_7", ("facade",)),
+        ("chair_left", ("chair",)),
+        ("冷蔵庫_2", ("冷蔵庫",)),
+        ("017", ()),
+        ("", ()),
+    ],
+)
+def test_words_of_a_name_without_its_running_number(name: str, words: tuple[str, ...]) -> None:
+    assert name_words(name) == words
+
+
+def test_a_very_long_name_is_told_from_another_by_its_end() -> None:
+    assert name_words("a" * 200_000 + "b") != name_words("a" * 200_000 + "c")
+
+
+def painted(name: str) -> Appearance:
+    return Appearance((FaceMaterial(name=name),), np.zeros(len(CUBE.geometry.mesh.faces), np.int32))
+
+
+def test_running_numbers_and_places_do_not_part_copies() -> None:
+    other = replace(CUBE, id="2", name="Chair.002", pose=Pose((3.0, 0.0, 1.0)))
+    assert copy_key(other) == copy_key(CUBE)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"name": "floor"},
+        {"instance_key": "other look"},
+        {"surface": replace(CUBE.surface, length_m=0.401)},
+        {"appearance": painted("steel")},
+    ],
+    ids=["name", "mesh or look", "size", "material's name"],
+)
+def test_what_parts_copies(change: dict[str, object]) -> None:
+    first = replace(CUBE, appearance=painted("oak"))
+    assert copy_key(replace(first, **change)) != copy_key(first)  # type: ignore[arg-type]
+
+
+def test_an_object_without_a_key_has_no_copies() -> None:
+    assert copy_key(replace(CUBE, instance_key="")) != copy_key(replace(CUBE, instance_key="", id="2"))
+
+
+def test_the_whole_size_stays_when_an_object_is_turned_about_its_upright_axis() -> None:
+    one = box("cupboard", (0.6, 1.8, 1.2), (0, 0, 0))
+    assert one.whole_size_m("y") == pytest.approx((1.2, 0.6, 1.8))
+    turned = replace(one, pose=Pose((0, 0, 0), (0.0, 0.38, 0.0, 0.92)))
+    assert turned.whole_size_m("y") == pytest.approx((1.2, 0.6, 1.8))
+    fallen = replace(one, pose=Pose((0, 0, 0), (2**-0.5, 0.0, 0.0, 2**-0.5)))
+    assert fallen.whole_size_m("y") == pytest.approx((1.8, 0.6, 1.2))
