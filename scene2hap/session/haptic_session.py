@@ -54,7 +54,8 @@ class HapticSession:
         self._sources = Sources()
         for object_id, loops in bundle.loops.items():
             scene.object(object_id)
-            self._sources.add(object_id, loops, bundle.objects.get(object_id), bundle.gain_db(object_id))
+            if loops:
+                self._sources.add(object_id, loops, bundle.objects.get(object_id), bundle.gain_db(object_id))
         self._stage = Stage(scene, bundle)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
         self._listening = Listening(self.config, self._stage, self._sources)
