@@ -24,7 +24,12 @@ def live(session: HapticSession) -> None:
     first, last = scene.objects[0], scene.objects[-1]
     touches = [Touch("left", first.id, on_top_of(first)), Touch("right", last.id, on_top_of(last))]
     x, y, z = last.pose.position_m
-    for moved in ({}, {last.id: Pose((x, y + 1.0, z))}, {last.id: last.pose}, {item.id: item.pose for item in scene.objects}):
+    for moved in (
+        {},
+        {last.id: Pose((x, y + 1.0, z))},
+        {last.id: last.pose},
+        {item.id: item.pose for item in scene.objects},
+    ):
         frame = session.update(moved, touches)
         assert frame.gains.shape == (2, len(session.source_ids), session.config.bands.n_bands)
         assert np.isfinite(session.render(400)).all()
