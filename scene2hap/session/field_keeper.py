@@ -14,7 +14,7 @@ from threading import Thread
 from scene2hap.errors import Scene2HapError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.live import TouchedPoint
-from scene2hap.propagation.protocol import Excitation, ExpectantField, PropagationModel
+from scene2hap.propagation.protocol import Excitation, ExpectantField, PropagationField, PropagationModel
 from scene2hap.session.field_in_use import FieldInUse
 from scene2hap.session.last_field import LastField
 from scene2hap.session.reach import Reach
@@ -52,6 +52,11 @@ class FieldKeeper:
         self._heard: tuple[FieldInUse, tuple[str, ...], Reach] | None = None
         self.n_prepared, self.n_failed, self.last_failure = 1, 0, ""
         self.latency_s = 0.0
+
+    @property
+    def field(self) -> PropagationField:
+        """The field that tells of most, as it was prepared."""
+        return self.in_use.field
 
     @property
     def is_current(self) -> bool:

@@ -111,7 +111,7 @@ class Listening:
         touches = [touch for touch in felt if touch.hand == hand and touch.object_id in self._stage.objects]
         levels = dict(zip(self._sources.ids, self._known_levels().tolist(), strict=True))
         gains = self._touch_gains(self.keeper.hearing(self._sources.ids, self._reach), Counts())
-        explainer = Explainer(self._stage, self._sources, self._config.propagation, gains, levels)
+        explainer = Explainer(self._stage, self._sources, self._config.propagation, self.keeper.field, gains, levels)
         return explainer.explain(hand, touches, self._frame, self.keeper.is_current)
 
     def stats(self, updates: int, rows_not_mixed: int) -> SessionStats:

@@ -33,7 +33,8 @@ def live(session: HapticSession) -> None:
         frame = session.update(moved, touches)
         assert frame.gains.shape == (2, len(session.source_ids), session.config.bands.n_bands)
         assert np.isfinite(session.render(400)).all()
-        assert str(session.explain("left")) and str(session.explain("right"))
+        assert str(session.explain("left"))
+        assert str(session.explain("right"))
     session.update(contacts=[])
     session.update(touches=touches)
     if first is not last:
