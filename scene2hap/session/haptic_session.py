@@ -12,10 +12,11 @@ from collections.abc import Mapping, Sequence
 from types import TracebackType
 from typing import Any, Self
 
+from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.devices.protocol import ActuatorSink, Block
-from scene2hap.errors import ConfigError, SessionError, UnknownObject
+from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.render.safety import SafetyStats
 from scene2hap.scene.pose import Pose
@@ -49,7 +50,7 @@ class HapticSession:
         sink: ActuatorSink | str | Mapping[str, Any] | None = None,
     ) -> None:
         self.config = SessionConfig.parse(config)
-        self.hands = _distinct(hands)
+        self.hands = checks.names("hands", hands)
         self._bundle = bundle
         self._sources = Sources()
         for object_id, loops in bundle.loops.items():
@@ -142,7 +143,7 @@ class HapticSession:
         Raises: ConfigError: the name is taken; SessionError: the sink is running and keeps its channels for ever;
         DeviceError: it cannot be opened again.
         """
-        hands = _distinct((*self.hands, name))
+        hands = checks.names("hands", (*self.hands, name))
         with self._output.reopened_for(hands, self.render):
             self._playback.add_hand()
             self._use_hands(hands)
@@ -151,7 +152,7 @@ class HapticSession:
         """Take away an output, but not the last; otherwise as `add_hand`. Raises: SessionError: an unknown hand."""
         if name not in self.hands:
             raise SessionError(unknown_hand(name, self.hands))
-        hands = _distinct([hand for hand in self.hands if hand != name])
+        hands = checks.names("hands", [hand for hand in self.hands if hand != name])
         with self._output.reopened_for(hands, self.render):
             self._playback.remove_hand(self.hands.index(name))
             self._use_hands(hands)
@@ -264,18 +265,16 @@ class HapticSession:
 
     def _by_hand(self, touches: Sequence[Touch]) -> Felt:
         by_hand: dict[str, list[Touch]] = {}
-        for touch in touches:
-            if touch.object_id not in self._stage.objects:
-                raise UnknownObject(unknown_object(touch.object_id, self._stage.objects))
-            by_hand.setdefault(touch.hand, []).append(touch)
+        try:
+            for touch in touches:
+                if touch.object_id not in self._stage.objects:
+                    raise UnknownObject(unknown_object(touch.object_id, self._stage.objects))
+                by_hand.setdefault(touch.hand, []).append(touch)
+        except (TypeError, AttributeError):
+            raise SessionError(
+                f"touches is {checks.shown(touches)}; it must be a list of Touch, as [Touch(...)]."
+            ) from None
         for hand in by_hand:
             if hand not in self.hands:
                 raise SessionError(unknown_hand(hand, self.hands))
         return {i: by_hand[hand] for i, hand in enumerate(self.hands) if hand in by_hand}
-
-
-def _distinct(hands: Sequence[str]) -> tuple[str, ...]:
-    names = tuple(hands)
-    if not names or len(set(names)) < len(names):
-        raise ConfigError(f"hands is {names!r}; it must be at least one name, each once.")
-    return names

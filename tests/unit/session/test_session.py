@@ -1,6 +1,7 @@
 """A session on a table with two phones."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -288,3 +289,20 @@ def test_hands_are_named_once() -> None:
 def test_start_without_a_sink() -> None:
     with pytest.raises(SessionError, match="no sink"):
         session().start()
+
+
+@pytest.mark.parametrize("hands", ["left", "", (), ("left", "left"), ("left", ""), ("left", 1), 3, None])
+def test_hands_are_names_and_not_one_string(hands: Any) -> None:
+    with pytest.raises(ConfigError, match="hands is"):
+        HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE}, hands=hands)
+    with pytest.raises(ConfigError, match=r"as \['left'\]"):
+        HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE}, hands="left")
+    assert HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE}, hands=["left"]).hands == ("left",)
+
+
+@pytest.mark.parametrize("touches", [Touch("left", "table", (0.0, 0.0, 0.0)), "left", [("left", "table")], 3])
+def test_touches_are_a_list_of_touches(touches: Any) -> None:
+    session = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE})
+    with pytest.raises(SessionError, match="must be a list of Touch"):
+        session.update(touches=touches)
+    assert session.stats.updates == 0
