@@ -21,6 +21,7 @@ from scene2hap.haptics import ObjectHaptics
 from scene2hap.render.safety import SafetyStats
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot, unknown_object
+from scene2hap.session.actuator_check import warn_if_other
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.explain import Explanation
 from scene2hap.session.frame import HapticFrame, SessionStats, Touch, unknown_hand
@@ -37,7 +38,8 @@ class HapticSession:
 
     Parameters: scene : objects and where they are now; bundle : what was baked for them; config : a SessionConfig or
     its settings; hands : names of the outputs; sink : where `start` sends the mix, None to call `render` oneself.
-    Raises: ConfigError, UnknownObject: the bundle speaks of an object that the scene does not have.
+    Raises: ConfigError, UnknownObject: the bundle speaks of an object that the scene does not have. Warns:
+    OtherActuatorWarning: the bundle's loops were made for another actuator than the configured one.
     """
 
     def __init__(
@@ -52,6 +54,7 @@ class HapticSession:
         self.config = SessionConfig.parse(config)
         self.hands = checks.names("hands", hands)
         self._bundle = bundle
+        warn_if_other(bundle, self.config.actuator)
         self._sources = Sources()
         for object_id, loops in bundle.loops.items():
             scene.object(object_id)
