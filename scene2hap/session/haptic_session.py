@@ -8,6 +8,7 @@ waits for `update`.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping, Sequence
 from types import TracebackType
 from typing import Any, Self
@@ -62,7 +63,7 @@ class HapticSession:
                 self._sources.add(object_id, loops, bundle.objects.get(object_id), bundle.gain_db(object_id))
         self._stage = Stage(scene, bundle)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
-        self._listening = Listening(self.config, self._stage, self._sources)
+        self._listening = Listening(self.config, self._stage, self._sources, self._playback.peaks)
         self._output = Output(sink, self.config)
         self._last_stamp = self._updates = 0
 
@@ -95,6 +96,8 @@ class HapticSession:
         """
         felt = self._by_hand(touches)
         stamp = self._stamp(at_sample)
+        if self._playback.take_prepared():
+            self._listening.loops_came()
         if moved or contacts is not None:
             self._listening.follow(self._stage.graph.update(moved or {}, contacts=contacts))
         frame, heard = self._listening.frame(self.hands, felt, moved or (), is_paused=self._playback.is_paused)
@@ -112,7 +115,8 @@ class HapticSession:
     ) -> None:
         """Put an object into the scene, which vibrates if it has loops, by the name of each state.
 
-        Without both, what the bundle says of its id holds, so that what was removed may come back as it was.
+        Without both, what the bundle says of its id holds, so that what was removed may come back as it was. Loops of
+        new content are prepared by a worker, and fade in with the first `update` after that.
         Raises: SceneError: its id is taken; SessionError: a loop is none.
         """
         if haptics is None and loops is None:
@@ -198,8 +202,12 @@ class HapticSession:
         return self._listening.explain(hand)
 
     def wait_prepared(self, timeout_s: float | None = None) -> bool:
-        """Wait until the worker has prepared the scene as it is; false after the timeout [s]. For loading screens."""
-        return self._listening.wait(timeout_s)
+        """Wait until the workers have prepared the scene as it is, and all loops; false after the timeout [s]. For
+        loading screens."""
+        end_s = None if timeout_s is None else time.monotonic() + timeout_s
+        if not self._playback.wait(timeout_s):
+            return False
+        return self._listening.wait(None if end_s is None else max(0.0, end_s - time.monotonic()))
 
     def render(self, n_frames: int) -> Block:
         """The next samples of the mix (n_frames, n_hands) float32 in [-1, 1]."""

@@ -124,6 +124,7 @@ def test_hops_are_counted_as_the_law_counts_them() -> None:
 @pytest.mark.parametrize("kind", ["exponential_plate", "full_propagation"])
 def test_steps_add_up_to_the_gain_for_models_of_ways(kind: str) -> None:
     s = HapticSession(*shelf_on_table(), {"sample_rate_hz": RATE, "propagation": kind, "bands": "third-octaves"})
+    assert s.wait_prepared(60.0)
     frame = s.update(touches=[ON_TABLE])
     (felt,) = s.explain("left").felt
     told = sum(step.change_db for step in felt.steps)

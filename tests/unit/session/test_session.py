@@ -161,7 +161,7 @@ def test_a_source_that_needs_contact_is_silent_without_it() -> None:
     [("no_propagation", [0.0, 1.0]), ({"kind": "full_propagation"}, [1.0, 1.0]), (NoPropagation(), [0.0, 1.0])],
 )
 def test_the_model_is_one_line_of_configuration(model: object, expected: list[float]) -> None:
-    s = session(propagation=model)
+    s = session(propagation=model, prepare="blocking")
     found = [
         s.update(touches=[touch]).gain("left", "phone")
         for touch in (ON_TABLE, Touch("left", "phone", (0.1, 0.73, 0.4)))
@@ -191,12 +191,17 @@ def test_gain_limit_caps_and_counts() -> None:
         def attenuation(self, object_id: str, points_m: object) -> np.ndarray:
             return np.full((1, 2, 1), self.value)
 
-    capped = session(propagation=Loud(3.0))
+    capped = session(prepare="blocking", propagation=Loud(3.0))
     assert capped.update(touches=[ON_TABLE]).gain("left", "phone") == 1.0
     assert capped.stats.gains_capped == 2
-    assert session(propagation=Loud(3.0), gain_limit_db=None).update(touches=[ON_TABLE]).gain("left", "phone") == 3.0
+    assert (
+        session(prepare="blocking", propagation=Loud(3.0), gain_limit_db=None)
+        .update(touches=[ON_TABLE])
+        .gain("left", "phone")
+        == 3.0
+    )
     for nonsense in (math.nan, math.inf, -1.0):
-        s = session(propagation=Loud(nonsense), gain_limit_db=None)
+        s = session(prepare="blocking", propagation=Loud(nonsense), gain_limit_db=None)
         s.update(touches=[ON_TABLE])
         out = s.render(4000)
         assert np.isfinite(out).all()
