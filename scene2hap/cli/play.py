@@ -56,7 +56,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     # Beside the plan stand a line for each source, one for the hand, one for the actuator, and one left free.
     player = Player(bundle, n_columns=max(_LEAST, width - 1), n_rows=max(_LEAST, height - len(bundle.loops) - 3))
     with (
-        HapticSession(bundle.snapshot, bundle, config, hands=(HAND,), sink=sink) as session,
+        HapticSession(bundle.snapshot, bundle, config, hands=(HAND,), sink=actuator.sink) as session,
         keys() as pressed,
         Live(refresh_per_second=20, screen=True) as screen,
     ):
@@ -77,6 +77,7 @@ class Actuator:
     def __init__(self, sink: object) -> None:
         if not isinstance(sink, ActuatorSink):
             raise ConfigError(f"--sink is {sink!r}; it must be a kind of sink, or JSON with one.")
+        self.sink: ActuatorSink = sink
         self.problem, self.has_played = "", not has_clock(sink)
         self._pull: Callable[[int], object] | None = None if has_clock(sink) else getattr(sink, "pull", None)
         self._taken_s = time.monotonic()
