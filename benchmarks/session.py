@@ -73,7 +73,9 @@ class Room:
     def session(self, **config: Any) -> HapticSession:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ThinPlateWarning)
-            return HapticSession(self.bundle.snapshot, self.bundle, {"sample_rate_hz": RATE_HZ, **config})
+            session = HapticSession(self.bundle.snapshot, self.bundle, {"sample_rate_hz": RATE_HZ, **config})
+            session.wait_prepared()
+            return session
 
 
 def tone(frequency_hz: float) -> HapticLoop:

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from numbers import Real
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from scene2hap.errors import Scene2HapError
+from scene2hap.errors import ConfigError, Scene2HapError
 
 if TYPE_CHECKING:
     from pydantic import ValidationError
@@ -105,6 +105,16 @@ def vector(
         number(f"{name}[{i}]", item, unit, above=above, at_least=at_least, error=error, hint=hint)
         for i, item in enumerate(items)
     )
+
+
+def names(name: str, value: object, *, error: type[Scene2HapError] = ConfigError) -> tuple[str, ...]:
+    """Distinct names, at least one, from a sequence of them. Raises: `error`: it is something else, as one string."""
+    if isinstance(value, str):
+        raise error(f"{name} is {shown(value)}; it must be a sequence of names, as [{shown(value)}].")
+    found = tuple(value) if isinstance(value, Iterable) else ()
+    if not found or not all(isinstance(x, str) and x.strip() for x in found) or len(set(found)) < len(found):
+        raise error(f"{name} is {shown(value)}; it must be at least one name, each once.")
+    return found
 
 
 def _in(unit: str) -> str:

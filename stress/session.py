@@ -1,12 +1,14 @@
 """A session that lives long: moves, touches, adds, removes, states, levels and pauses at random.
 
-OMP_NUM_THREADS=1 python stress/session.py [--minutes 10] [--kind exponential_plate]
+OMP_NUM_THREADS=1 python stress/session.py [--minutes 10] [--kind exponential_plate] [--edges]
 
 The game runs at 1 kHz in simulated time, as fast as it goes. At the end the command tells, and fails unless
 
     no exception came, and every sample was finite and within full scale;
     memory did not grow from the first fifth on, by more than the noise of the allocator;
     each loop stands where the clock says, to one sample: `position_s`, and what is heard of a tone.
+
+With --edges every scene of tests/edge_scenes.py lives so long instead, without the check of loops.
 """
 
 from __future__ import annotations
@@ -26,6 +28,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
+from edge_scenes import EDGE_SCENES, Bundled
 from scene2hap import HapticSession, Pose, Touch
 from scene2hap.propagation.domain import ThinPlateWarning
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
@@ -45,6 +48,7 @@ class Life:
 
     session: HapticSession
     random: random.Random
+    movers: tuple[str, ...] = ("phone", "alarm")
     there: set[str] = field(default_factory=set)
     touches: list[Touch] = field(default_factory=list)
     is_paused: bool = False
@@ -57,13 +61,13 @@ class Life:
             what = self.random.choice((self._visit, self._switch, self._pause, self._hand, self._touch, self._touch))
             what()
         if self.random.random() < 0.02:
-            name = self.random.choice(["phone", "alarm", *self.there])
+            name = self.random.choice([*self.movers, *self.there])
             lift = self.random.choice((0.0, 0.0, 0.5))
             moved[name] = Pose((self.random.uniform(0.1, 1.5), 0.725 + lift, self.random.uniform(0.1, 0.7)))
         self.session.update(moved, self.touches)
 
     def _touch(self) -> None:
-        objects = ["table", "phone", "alarm", "cup", *self.there]
+        objects = [item.id for item in self.session.snapshot.objects]
         self.touches = [
             Touch(hand, self.random.choice(objects), (self.random.uniform(0.0, 1.6), 0.72, 0.4))
             for hand in self.session.hands
@@ -84,13 +88,16 @@ class Life:
             self.there.add(name)
 
     def _switch(self) -> None:
+        if not self.session.source_ids:
+            return
         self.session.set_source(
             self.random.choice(self.session.source_ids),
             on=self.random.random() < 0.8,
             gain_db=self.random.uniform(-20.0, 6.0),
             mute=self.random.random() < 0.1,
         )
-        self.session.set_source("phone", state=self.random.choice(("ringing", "alarm")))
+        if self.movers == ("phone", "alarm"):
+            self.session.set_source("phone", state=self.random.choice(("ringing", "alarm")))
 
     def _pause(self) -> None:
         if self.is_paused:
@@ -120,11 +127,14 @@ class Outcome:
     worst_level: float
 
 
-def live(minutes: float, kind: str = "exponential_plate", seed: int = 1) -> Outcome:
-    """A life of that length in simulated time. Raises: whatever goes wrong."""
+def live(minutes: float, kind: str = "exponential_plate", seed: int = 1, bundled: Bundled | None = None) -> Outcome:
+    """A life of that length in simulated time, on the table with two phones for None. Raises: whatever goes wrong."""
     begin = time.perf_counter()
-    session = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": kind})
+    scene, bundle = bundled or table_with_two_phones()
+    session = HapticSession(scene, bundle, {"sample_rate_hz": RATE, "propagation": kind})
     life = Life(session, random.Random(seed))
+    if bundled is not None:
+        life.movers = tuple(item.id for item in scene.objects[-2:])
     n, worst, base = round(60 * minutes * UPDATES_PER_S), 0.0, 0
     for i in range(n):
         life.update()
@@ -137,7 +147,9 @@ def live(minutes: float, kind: str = "exponential_plate", seed: int = 1) -> Outc
         if i == n // 5:
             base = held_bytes()
     grown = held_bytes() - base
-    return Outcome(grown, drift_samples(life), life.n_events, time.perf_counter() - begin, worst)
+    return Outcome(
+        grown, drift_samples(life) if bundled is None else 0.0, life.n_events, time.perf_counter() - begin, worst
+    )
 
 
 def held_bytes() -> int:
@@ -175,13 +187,20 @@ def main() -> int:
     parser.add_argument("--minutes", type=float, default=10.0, help="simulated time (10)")
     parser.add_argument("--kind", default="exponential_plate", help="propagation model")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--edges", action="store_true", help="scenes with nothing in them, or next to nothing")
     arguments = parser.parse_args()
     warnings.simplefilter("ignore", ThinPlateWarning)
-    found = live(arguments.minutes, arguments.kind, arguments.seed)
+    lives = [(name, made()) for name, made in EDGE_SCENES.items()] if arguments.edges else [("two phones", None)]
+    return max(told(name, bundled, arguments) for name, bundled in lives)
+
+
+def told(name: str, bundled: Bundled | None, arguments: argparse.Namespace) -> int:
+    """Live on a scene, and tell how it went: 0 if well."""
+    found = live(arguments.minutes, arguments.kind, arguments.seed, bundled)
     is_well = found.grown_bytes < MOST_GROWN and found.drift_samples <= 1.0
     verdict = "well" if is_well else "NOT WELL"
     print(
-        f"{arguments.kind}, {arguments.minutes:g} minutes at {UPDATES_PER_S} Hz in {found.seconds:.0f} s: "
+        f"{name}, {arguments.kind}, {arguments.minutes:g} minutes at {UPDATES_PER_S} Hz in {found.seconds:.0f} s: "
         f"{found.n_events} events; memory grew by {found.grown_bytes / 1024:.0f} KiB; loops off by "
         f"{found.drift_samples:.3f} samples; loudest sample {found.worst_level:.3f}: {verdict}"
     )

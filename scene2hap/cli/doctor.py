@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import __version__
+from scene2hap import __version__, checks
 from scene2hap.cli.console import Console
 from scene2hap.compiled import are_in_use
 from scene2hap.devices import SINKS, loop_back
@@ -87,7 +87,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         console.say(f"{what}:")
         for line in found["found"] or [found["problem"] or "none"]:
             console.say(f"  {line}")
-    hands = tuple(arguments.hands.split(","))
+    hands = checks.names("--hands", arguments.hands.split(","))
     if arguments.sweep:
         outcome["sweep"] = sweep(_spec(arguments.sweep), hands, console, listen_to=arguments.loop_back)
     elif arguments.loop_back is not None:

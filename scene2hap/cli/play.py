@@ -21,6 +21,9 @@ from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
 from scene2hap.cli.plan import Plan
 from scene2hap.cli.settings import read_settings
+from scene2hap.devices import SINKS
+from scene2hap.devices.clock import has_clock
+from scene2hap.devices.protocol import ActuatorSink, SinkEvent
 from scene2hap.errors import ConfigError
 from scene2hap.session import HapticFrame, HapticSession, SessionConfig, Touch
 
@@ -47,21 +50,52 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         raise ConfigError("scene2hap play needs a terminal for its keys. Use `scene2hap render` for a file of touches.")
     bundle = HapticBundle.load(arguments.bundle)
     config = SessionConfig.parse(read_settings(arguments.settings, "session"))
-    sink = json.loads(arguments.sink) if arguments.sink.lstrip().startswith("{") else arguments.sink
+    sink = SINKS.build(json.loads(arguments.sink) if arguments.sink.lstrip().startswith("{") else arguments.sink)
+    actuator = Actuator(sink)
     width, height = shutil.get_terminal_size()
-    # Beside the plan stand a line for each source, one for the hand, and one left free.
-    player = Player(bundle, n_columns=max(_LEAST, width - 1), n_rows=max(_LEAST, height - len(bundle.loops) - 2))
+    # Beside the plan stand a line for each source, one for the hand, one for the actuator, and one left free.
+    player = Player(bundle, n_columns=max(_LEAST, width - 1), n_rows=max(_LEAST, height - len(bundle.loops) - 3))
     with (
-        HapticSession(bundle.snapshot, bundle, config, hands=(HAND,), sink=sink) as session,
+        HapticSession(bundle.snapshot, bundle, config, hands=(HAND,), sink=actuator.sink) as session,
         keys() as pressed,
         Live(refresh_per_second=20, screen=True) as screen,
     ):
         while player.press(pressed()):
             session.set_user(gain_db=player.gain_db)
             frame = session.update(touches=player.touches())
-            screen.update(player.view(frame))
+            actuator.take(config.sample_rate_hz)
+            screen.update(player.view(frame, actuator.problem))
             time.sleep(UPDATE_S)
-    return {"bundle": arguments.bundle, "ended_on": player.on}
+    if not actuator.has_played:
+        console.warn(f"nobody felt anything: {actuator.problem or 'the actuator was not reached'}")
+    return {"bundle": arguments.bundle, "ended_on": player.on, "played": actuator.has_played}
+
+
+class Actuator:
+    """What becomes of the mix: `problem` is what a person must know of the sink, "" for nothing."""
+
+    def __init__(self, sink: object) -> None:
+        if not isinstance(sink, ActuatorSink):
+            raise ConfigError(f"--sink is {sink!r}; it must be a kind of sink, or JSON with one.")
+        self.sink: ActuatorSink = sink
+        self.problem, self.has_played = "", not has_clock(sink)
+        self._pull: Callable[[int], object] | None = None if has_clock(sink) else getattr(sink, "pull", None)
+        self._taken_s = time.monotonic()
+        if getattr(sink, "on_event", self) is None:
+            sink.on_event = self.note  # type: ignore[attr-defined]  # looked up by name, see ActuatorSink
+
+    def note(self, event: SinkEvent) -> None:
+        """Take in what a sink tells, in its own thread."""
+        is_well = event.kind in ("connected", "resumed")
+        self.has_played |= is_well
+        self.problem = "" if is_well else event.message
+
+    def take(self, sample_rate_hz: int) -> None:
+        """Let a sink without a clock of its own take what is due, so that a recording is as long as the play."""
+        n_frames = int((time.monotonic() - self._taken_s) * sample_rate_hz)
+        self._taken_s += n_frames / sample_rate_hz
+        if self._pull is not None:
+            self._pull(n_frames)
 
 
 class Player:
@@ -105,10 +139,11 @@ class Player:
         found = self.plan.touched(*self._hand) if self._is_down else None
         return [Touch(HAND, *found)] if found else []
 
-    def view(self, frame: HapticFrame) -> Text:
-        """Plan, touched object, and a meter per source."""
+    def view(self, frame: HapticFrame, problem: str = "") -> Text:
+        """Plan, touched object, a meter per source, and what keeps the actuator from playing."""
         state = self.on or "nothing" if self._is_down else "lifted"
         lines = [f"hand on: {state}    level {self.gain_db:+g} dB    arrows, space, + -, q"]
+        lines.append(f"NOBODY FEELS THIS: {problem}" if problem else "")
         for source_id in frame.sources:
             gain = min(frame.gain(HAND, source_id), 1.0)
             lines.append(f"{source_id:<28.28} {'#' * round(_METER * gain):<{_METER}} {gain:5.3f}")

@@ -14,11 +14,12 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from typing import Protocol, Self
 
 import numpy as np
 
+from scene2hap.devices.claims import claim, give_back
 from scene2hap.devices.pace import Pace
 from scene2hap.devices.protocol import Block, EventCallback, Fill, SinkEvent, SinkFormat, SinkStats
 from scene2hap.devices.rate import RateConverter
@@ -88,11 +89,12 @@ class LiveSink:
     milliseconds. Errors of the device come as events; only misuse raises.
 
     Parameters: line : the way to the device; name : what to call it in events; on_event : an EventCallback or None,
-    may be set at any time.
+    may be set at any time; key : what a device is known by that takes one sink at a time, None for any number.
     """
 
-    def __init__(self, line: Line, name: str, *, on_event: EventCallback | None = None) -> None:
+    def __init__(self, line: Line, name: str, *, on_event: EventCallback | None = None, key: Hashable = None) -> None:
         self.on_event = on_event
+        self._key = key
         self._line = line
         self._name = name
         self._format: SinkFormat | None = None
@@ -106,8 +108,14 @@ class LiveSink:
         self._idle = Pace(1)
 
     def open(self, format: SinkFormat) -> None:
-        """Get ready and count anew; the device itself is reached by `start`, and may be missing."""
+        """Get ready and count anew; the device itself is reached by `start`, and may be missing.
+
+        Raises: DeviceError: another sink of this program plays on it.
+        """
         self.stop()
+        if self._key is not None:
+            refusal = f"another sink plays on the {self._name} already. Close it first, or use a TeeSink."
+            claim(self._key, self, refusal)
         self._format = format
         self._frames = self._dropped = self._faults = self._connects = 0
 
@@ -135,6 +143,7 @@ class LiveSink:
     def close(self) -> None:
         """Stop; `open` is needed before the next `start`."""
         self.stop()
+        give_back(self._key, self)
         self._format = None
         self._fill = None
 

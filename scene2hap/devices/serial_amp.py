@@ -8,6 +8,7 @@ from collections import deque
 import numpy as np
 
 from scene2hap import checks
+from scene2hap.devices.claims import port_key
 from scene2hap.devices.framing.frames import FrameParser, FrameType, message, pcm, to_wire
 from scene2hap.devices.framing.link_messages import GREETED, HEARD, Credit, DeviceFormat, Hello, is_newer
 from scene2hap.devices.link import CarryOn, LiveSink
@@ -47,7 +48,7 @@ class SerialAmplifierSink(LiveSink):
     ) -> None:
         require_pyserial()
         line = SerialLine(port, baud_rate, sample_rate_hz, buffer_s, block_frames)
-        super().__init__(line, f"serial amplifier {port}", on_event=on_event)
+        super().__init__(line, f"serial amplifier {port}", on_event=on_event, key=port_key(port))
 
 
 class SerialLine:

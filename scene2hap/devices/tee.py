@@ -8,11 +8,13 @@ a cross-fade. Sinks without a clock, such as WavSink, are given every block once
 from __future__ import annotations
 
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
+from scene2hap.checks import shown
+from scene2hap.devices.claims import parts_of
 from scene2hap.devices.clock import has_clock
 from scene2hap.devices.protocol import ActuatorSink, Block, EventCallback, Fill, SinkEvent, SinkFormat, SinkStats
 from scene2hap.errors import ConfigError, DeviceError
@@ -33,11 +35,15 @@ class TeeSink:
     ) -> None:
         from scene2hap.devices import SINKS
 
+        if isinstance(sinks, str | Mapping) or not isinstance(sinks, Iterable):
+            raise ConfigError(f"TeeSink sinks is {shown(sinks)}; it must be a list of sinks, as [{shown(sinks)}].")
         built = [SINKS.build(sink) for sink in sinks]
         strangers = [sink for sink in built if not isinstance(sink, ActuatorSink)]
         if not built or strangers:
             raise ConfigError(f"TeeSink needs at least one sink and nothing else, got {strangers or 'none'}.")
         self.sinks: tuple[ActuatorSink, ...] = tuple(sink for sink in built if isinstance(sink, ActuatorSink))
+        if len({id(part) for part in parts_of(self)}) < len(parts_of(self)):
+            raise ConfigError("TeeSink was given one sink twice, which cannot play the mix twice; give each once.")
         self.on_event = on_event
         self._format: SinkFormat | None = None
         self._tape: _Tape | None = None

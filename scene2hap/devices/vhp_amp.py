@@ -11,6 +11,7 @@ from typing import Literal
 
 import numpy as np
 
+from scene2hap.devices.claims import port_key
 from scene2hap.devices.framing import vhp
 from scene2hap.devices.link import CarryOn, LiveSink
 from scene2hap.devices.protocol import Block, EventCallback, SinkFormat
@@ -40,7 +41,9 @@ class VhpSink(LiveSink):
         if board not in ("slim", "sleeve"):
             raise ConfigError(f'board is {board!r}; it must be "slim" or "sleeve".')
         require_pyserial()
-        super().__init__(VhpLine(port, slim=board == "slim"), f"VHP {board} at {port}", on_event=on_event)
+        super().__init__(
+            VhpLine(port, slim=board == "slim"), f"VHP {board} at {port}", on_event=on_event, key=port_key(port)
+        )
 
 
 class VhpLine:

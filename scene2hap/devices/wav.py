@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import os
+from collections.abc import Hashable
 from pathlib import Path
 
 import soundfile
 
+from scene2hap.devices.claims import claim, give_back
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
 from scene2hap.errors import DeviceError
 
@@ -24,18 +26,27 @@ class WavSink:
         self._draft = self.path.with_name(f".{self.path.name}.part")
         self._file: soundfile.SoundFile | None = None
         self._fill: Fill | None = None
+        self._key: Hashable = None
         self._frames = 0
 
     def open(self, format: SinkFormat) -> None:
-        """Begin the file. Raises: DeviceError: it cannot be written."""
+        """Begin the file. Raises: DeviceError: it cannot be written, or another sink of this program writes it."""
         self.close()
         self._frames = 0
+        self._key = ("file", os.path.realpath(self.path))
+        claim(
+            self._key,
+            self,
+            f"another WavSink writes {self.path} already, and one of both takes would be lost. Close it first, or give "
+            "each a file of its own.",
+        )
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             self._file = soundfile.SoundFile(
                 self._draft, "w", format.sample_rate_hz, len(format.channels), subtype="PCM_24", format="WAV"
             )
         except (OSError, soundfile.SoundFileError) as cause:
+            give_back(self._key, self)
             raise DeviceError(f"{self.path} cannot be written: {cause}.") from cause
 
     def start(self, fill: Fill) -> None:
@@ -58,13 +69,20 @@ class WavSink:
         self._fill = None
 
     def close(self) -> None:
-        """Complete the file and give it its name."""
+        """Complete the file and give it its name. Raises: DeviceError: it was taken away meanwhile."""
         self.stop()
         if self._file is None:
             return
         self._file.close()
         self._file = None
-        os.replace(self._draft, self.path)
+        give_back(self._key, self)
+        try:
+            os.replace(self._draft, self.path)
+        except OSError as cause:
+            raise DeviceError(
+                f"{self.path} cannot be completed: {cause.strerror or cause}. Somebody else wrote or removed its draft "
+                f"{self._draft.name}; write to a folder of your own."
+            ) from cause
 
     def abort(self) -> None:
         """Stop and leave no file behind, for a run that failed."""
@@ -72,6 +90,7 @@ class WavSink:
         if self._file is not None:
             self._file.close()
             self._file = None
+            give_back(self._key, self)
             with contextlib.suppress(FileNotFoundError):
                 self._draft.unlink()
 

@@ -96,19 +96,25 @@ class Lattice:
         return csr_array((share[moves], (point[moves], node[moves])), shape=(len(points_m), self.n_nodes))
 
 
+def cells_of(plate: Plate, resolution: int) -> tuple[int, int]:
+    """Cells along length and width: `resolution` along the shorter side and, up to `LONGEST`, square ones."""
+    shorter = min(plate.length_m, plate.width_m)
+    along, across = (
+        min(math.ceil(side / shorter * resolution * (1 - 1e-9)), LONGEST * resolution)
+        for side in (plate.length_m, plate.width_m)
+    )
+    return along, across
+
+
 @lru_cache(maxsize=16)
 def bending_lattice(plate: Plate, resolution: int) -> Lattice:
-    """The lattice of a plate with `resolution` cells along its shorter side and, up to `LONGEST`, square ones.
+    """The lattice of a plate, see `cells_of`.
 
     Raises: ModelDomainError: it has more than `MOST_NODES` nodes.
     """
     from scipy.sparse import block_array, csr_array, diags_array, kron
 
-    shorter = min(plate.length_m, plate.width_m)
-    nx, ny = (
-        min(math.ceil(side / shorter * resolution * (1 - 1e-9)), LONGEST * resolution)
-        for side in (plate.length_m, plate.width_m)
-    )
+    nx, ny = cells_of(plate, resolution)
     if (nx + 1) * (ny + 1) > MOST_NODES:
         raise ModelDomainError(
             f"a lattice of {nx} × {ny} cells has {(nx + 1) * (ny + 1)} nodes; at most {MOST_NODES} are allowed. Ask "

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.lattice import Lattice, bending_lattice
+from scene2hap.propagation.lattice import MOST_NODES, Lattice, bending_lattice, cells_of
 from scene2hap.propagation.modes import n_rigid_motions
 from scene2hap.propagation.plate import Plate
 
@@ -38,6 +38,9 @@ TERMS = 4
 """Terms of the series. Measured on furniture: with them the answer is within 0.02 dB of a direct solve at p95."""
 STIFFEST = 2e-12
 """Part of the stiffest springs that stands well clear of their rounding."""
+MOST_WORK = 1e8
+"""Nodes times modes squared beyond which modes are not solved for: that is what Lanczos' method costs. A plate then
+takes some seconds at most."""
 SMALL = 500
 """Nodes up to which all modes are solved at once, which is then faster than Lanczos' method."""
 
@@ -77,18 +80,22 @@ class LatticeModes:
 def lattice_modes(plate: Plate, resolution: int, top_frequency_hz: float) -> LatticeModes:
     """Modes that answer up to a frequency [Hz]; remembered by plate, resolution and frequency in thirds of an octave.
 
-    Raises: ModelDomainError: too many nodes, see `bending_lattice`.
+    Raises: ModelDomainError: too many nodes, see `bending_lattice`; too many modes, see `MOST_WORK`.
     """
     lowest_hz = (math.pi / max(plate.length_m, plate.width_m) / plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
     thirds = math.ceil(3 * math.log2(max(top_frequency_hz / lowest_hz, 1.0)) - 1e-9)
-    return _modes_up_to(plate, resolution, lowest_hz * 2 ** (thirds / 3))
+    rounded_hz = lowest_hz * 2 ** (thirds / 3)
+    check_work(plate, resolution, n_modes_up_to(plate, MARGIN * rounded_hz))
+    return _modes_up_to(plate, resolution, rounded_hz)
 
 
 def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArray[np.float64]:
     """The lowest natural frequencies (n_modes,) [Hz], rigid motions included.
 
-    Raises: ModelDomainError: the lattice has fewer nodes; too many nodes, see `bending_lattice`.
+    Raises: ModelDomainError: the lattice has fewer nodes; too many nodes, see `bending_lattice`; too many modes, see
+    `MOST_WORK`.
     """
+    check_work(plate, resolution, n_modes)
     n_nodes = bending_lattice(plate, resolution).n_nodes
     if n_modes > n_nodes:
         raise ModelDomainError(
@@ -105,6 +112,36 @@ def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArra
             break
     frequencies: NDArray[np.float64] = np.sqrt(k4[:n_modes]) / plate.wavenumber_per_root_omega**2 / (2 * math.pi)
     return frequencies
+
+
+def n_modes_up_to(plate: Plate, frequency_hz: float) -> float:
+    """About how many modes a plate with free edges has up to a frequency [Hz] (Weyl)."""
+    k, edge = float(plate.wavenumber_rad_m(frequency_hz)), 2 * (plate.length_m + plate.width_m)
+    return (plate.length_m * plate.width_m * k**2 + edge * k) / (4 * math.pi)
+
+
+def is_too_much(plate: Plate, resolution: int, top_frequency_hz: float) -> bool:
+    """Whether `lattice_modes` would refuse a plate for its nodes or modes."""
+    n_nodes = math.prod(n + 1 for n in cells_of(plate, resolution))
+    n_modes = n_modes_up_to(plate, MARGIN * 2 ** (1 / 3) * top_frequency_hz)
+    return n_nodes > MOST_NODES or _work(n_nodes, n_modes) > MOST_WORK
+
+
+def _work(n_nodes: int, n_modes: float) -> float:
+    """Nodes times modes squared; a lattice has no more modes than nodes."""
+    return n_nodes * min(n_modes, n_nodes) ** 2
+
+
+def check_work(plate: Plate, resolution: int, n_modes: float) -> None:
+    """Raises: ModelDomainError: so many modes would take more than `MOST_WORK`."""
+    needed = _work(math.prod(n + 1 for n in cells_of(plate, resolution)), n_modes)
+    if needed > MOST_WORK:
+        raise ModelDomainError(
+            f"a plate of {plate.length_m:g} × {plate.width_m:g} m of {1e3 * plate.thickness_m:g} mm "
+            f"{plate.material.name} takes some {n_modes:.0f} modes of a lattice of resolution {resolution}, "
+            f"{needed / MOST_WORK:.0f} times what is solved in seconds. Lower the frequency or the resolution, or use "
+            "ModalPlate or InfinitePlate."
+        )
 
 
 @lru_cache(maxsize=8)  # bodies keep their own

@@ -12,8 +12,10 @@ wavenumber, k_c^4 = m omega^2 / (D (1 + j eta)). Time runs as e^{+j omega t}.
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -31,18 +33,32 @@ from scene2hap.propagation.domain import (
     driven_on_held_edge,
     warn_if_thick,
 )
+from scene2hap.propagation.infinite_plate import InfiniteBody
 from scene2hap.propagation.lattice import LONGEST
 from scene2hap.propagation.lattice_body import lattice_body
-from scene2hap.propagation.lattice_modes import LatticeModes, lattice_modes, lowest_frequencies_hz
+from scene2hap.propagation.lattice_modes import (
+    LatticeModes,
+    is_too_much,
+    lattice_modes,
+    lowest_frequencies_hz,
+    n_modes_up_to,
+)
 from scene2hap.propagation.modes import n_rigid_motions, points_on
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
+from scene2hap.propagation.split_body import SplitBody
 from scene2hap.propagation.stepping import ExactStepper, NewmarkStepper, State, Stepper
 from scene2hap.propagation.substructuring import CoupledField, checked_law, prepare_coupled
 
 CELLS_PER_WAVE = 6.0
 """Fewest cells in a bending wavelength; with six, the lattice turns it 9 % too slowly, (k h)^2 / 12."""
 FINEST = 256
+LEAST_LIMIT_HZ = 1.0
+"""Below this nothing vibrates that is felt, so that no lattice is of use that serves less."""
+
+
+class CoarsenedWarning(UserWarning):
+    """A plate is too large a lattice to be solved in seconds, and bends as one up to some frequency only."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +66,8 @@ class MassSpringDamper:
     """The bending lattice of a plate.
 
     Parameters: resolution : cells along the shorter side, 4..256; in a scene, plates whose waves are shorter than
-    `CELLS_PER_WAVE` of them get as many as they need; loss_floor, contact, outside_domain : as of `ModalPlate`.
+    `CELLS_PER_WAVE` of them get as many as they need, as far as that can be
+    solved; loss_floor, contact, outside_domain : as of `ModalPlate`.
     Raises: ConfigError: out of bounds.
     """
 
@@ -71,17 +88,36 @@ class MassSpringDamper:
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> CoupledField:
         """The field of a scene: all lattices coupled at their contacts, see `substructuring`.
 
-        Raises: ModelDomainError: a plate whose waves need more cells than 256 or nodes than a lattice may have; no
-        loss at all; an object outside the domain, if so configured. Warns: ThinPlateWarning, otherwise.
+        Raises: ModelDomainError: a plate that takes too many nodes for its lowest modes; no loss at all; an object
+        outside the domain, or a plate that is coarsened (`elastic_body`), if so configured. Warns: ThinPlateWarning,
+        CoarsenedWarning, otherwise.
         """
         return prepare_coupled(network, excitations, bands, self.elastic_body, self.contact, self.outside_domain)
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
-        """A plate, ready to be coupled, for frequencies up to `max_frequency_hz` [Hz]; see `lattice_body`."""
-        resolution = max(self.resolution, _needed_resolution(plate, max_frequency_hz))
-        if resolution > FINEST:
-            raise ModelDomainError(_too_coarse(plate, max_frequency_hz, FINEST))
-        return lattice_body(plate, resolution, max_frequency_hz, self._loss_factor(plate))
+        """A plate, ready to be coupled, for frequencies up to `max_frequency_hz` [Hz]; see `lattice_body`.
+
+        A plate whose lattice would take more cells, nodes or modes than can be solved in seconds, as a rug's, is a
+        `SplitBody`: a lattice as high as can be, and a plate without edges above.
+        Raises: ModelDomainError: even its lowest modes are too many, or it is one and `outside_domain` is "raise".
+        Warns: CoarsenedWarning, otherwise.
+        """
+        eta, limit_hz = self._loss_factor(plate), max_frequency_hz
+        while self._is_too_much(plate, limit_hz) and limit_hz > LEAST_LIMIT_HZ:
+            limit_hz *= 0.9
+        resolution = max(self.resolution, min(_needed_resolution(plate, limit_hz), FINEST))
+        body = lattice_body(plate, resolution, limit_hz, eta)
+        if limit_hz >= max_frequency_hz:
+            return body
+        if self.outside_domain == "raise":
+            raise ModelDomainError(_coarsened(plate, max_frequency_hz, limit_hz))
+        if self.outside_domain == "warn":
+            _warn_coarsened(plate, max_frequency_hz, limit_hz)
+        return SplitBody(body, InfiniteBody(plate, eta), limit_hz)
+
+    def _is_too_much(self, plate: Plate, frequency_hz: float) -> bool:
+        needed = _needed_resolution(plate, frequency_hz)
+        return needed > FINEST or is_too_much(plate, max(self.resolution, needed), frequency_hz)
 
     def plate_transfer(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
@@ -220,6 +256,20 @@ def _too_coarse(plate: Plate, frequency_hz: float, resolution: int) -> str:
         f"plate of {plate.length_m:g} × {plate.width_m:g} m, shorter than {CELLS_PER_WAVE:g} cells of a lattice of "
         f"resolution {resolution}. It must be {way_out}."
     )
+
+
+def _coarsened(plate: Plate, max_frequency_hz: float, limit_hz: float) -> str:
+    return (
+        f"a plate of {plate.length_m:g} × {plate.width_m:g} m of {1e3 * plate.thickness_m:g} mm {plate.material.name} "
+        f"has some {n_modes_up_to(plate, max_frequency_hz):,.0f} modes up to {max_frequency_hz:.0f} Hz, too many for "
+        f"masses and springs: above {limit_hz:.3g} Hz it bends as if it had no edges. ModalPlate and AutoFidelity are "
+        "made for it."
+    )
+
+
+@lru_cache(maxsize=4096)
+def _warn_coarsened(plate: Plate, max_frequency_hz: float, limit_hz: float) -> None:
+    warnings.warn(_coarsened(plate, max_frequency_hz, limit_hz), CoarsenedWarning, stacklevel=4)
 
 
 def _summed(terms: NDArray[Any], ratio: NDArray[Any] | float) -> NDArray[Any]:

@@ -13,9 +13,9 @@ from scene2hap.propagation.infinite_plate import InfiniteBody
 from scene2hap.propagation.modes import FINE, MARGIN, Fineness, largest_block
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.plate_terms import Folded, PlateTerms, Pushed
-from scene2hap.propagation.reached import Pairs, folded
 from scene2hap.propagation.recall import Recall
 from scene2hap.propagation.span import AnyFloat
+from scene2hap.propagation.split_body import SplitBody
 
 MOST_FUNCTIONS = 1100
 """Size of the largest eigenproblem for a scene, some 0.4 s: a hundred modes without symmetry, four hundred with."""
@@ -44,45 +44,6 @@ def modal_body(
     if limit_hz >= max_frequency_hz * (1 - 1e-9):
         return ModalBody(plate, max_frequency_hz, loss_factor, fineness)
     return SplitBody(ModalBody(plate, limit_hz, loss_factor, fineness), InfiniteBody(plate, loss_factor), limit_hz)
-
-
-@dataclass(frozen=True, eq=False)
-class SplitBody:
-    """An `ElasticBody` with edges up to a frequency, and without them above."""
-
-    below: ModalBody
-    above: InfiniteBody
-    limit_hz: float
-
-    @property
-    def loss_factor(self) -> float:
-        """See `ElasticBody`."""
-        return self.below.loss_factor
-
-    def receptance(
-        self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
-    ) -> NDArray[np.complex128]:
-        """See `ElasticBody`."""
-        is_low = frequencies_hz <= self.limit_hz
-        answer = np.empty((len(is_low), len(points_m), len(forces_m)), dtype=np.complex128)
-        answer[is_low] = self.below.receptance(points_m, forces_m, frequencies_hz[is_low])
-        answer[~is_low] = self.above.receptance(points_m, forces_m, frequencies_hz[~is_low])
-        return answer
-
-    def under(
-        self, forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]
-    ) -> Pairs:
-        """See `Foldable`."""
-        is_low = frequencies_hz <= self.limit_hz
-        low = folded(self.below, forces_m, frequencies_hz[is_low], forces[:, is_low])
-        high = folded(self.above, forces_m, frequencies_hz[~is_low], forces[:, ~is_low])
-
-        def both(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
-            answer = np.empty((len(points_m), len(is_low)), dtype=np.complex128)
-            answer[:, is_low], answer[:, ~is_low] = (one(points_m).view(np.complex128) for one in (low, high))
-            return answer.view(np.float64)
-
-        return both
 
 
 @dataclass(frozen=True, eq=False)

@@ -96,6 +96,31 @@ class ExpectantField(PropagationField, Protocol):
         ...
 
 
+@dataclass(frozen=True)
+class Carrier:
+    """A contact through which vibration comes into an object.
+
+    Parameters: by : the object on its other side; point_m : where it is [m], world, as it was when prepared; share : of
+    all power that comes in, 0..1.
+    """
+
+    by: str
+    point_m: tuple[float, float, float]
+    share: float
+
+
+@runtime_checkable
+class CarryingField(PropagationField, Protocol):
+    """A field in which a source arrives over all ways at once, so that none of them alone explains it."""
+
+    def carriers(self, object_id: str, source_id: str, band: int) -> tuple[Carrier, ...]:
+        """The contacts through which a source comes into an object in a band, the strongest first; shares add up to 1.
+
+        Returns: empty where nothing arrives, and on the source itself.
+        """
+        ...
+
+
 @runtime_checkable
 class PropagationModel(Protocol):
     """Prepares fields."""

@@ -12,7 +12,7 @@ Letters: as `coupling`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from scene2hap.propagation.asked import Gains, Magnitudes
 from scene2hap.propagation.band_shapes import band_gains
-from scene2hap.propagation.coupling import ElasticBody
+from scene2hap.propagation.coupling import ElasticBody, Joint
 from scene2hap.propagation.sampling import Sampling
 from scene2hap.propagation.span import Spanned
 
@@ -29,6 +29,9 @@ MOST_FOLDED = 64
 """Sources that are folded: an object keeps up to some 100 kB for each. More are summed at every touch."""
 POINTS_AT_ONCE = 32
 """Points at which responses at many frequencies are held at once."""
+
+LOSSLESS = 1e-9
+"""Part of the power that goes to and fro below which what stays is rounding."""
 
 Floats = NDArray[np.float64]
 
@@ -97,7 +100,7 @@ class Reached:
 
     points_m : (n_joints, 2) [m]; rows, signs : (n_joints,) where its joints are in the forces of its group and which
     way they pull; forces : (n_all_joints, n_sources, n_frequencies), or without the last axis, each source at its own
-    frequency [N/m]; columns : (n_sources,) which of all sources these are.
+    frequency [N/m]; columns : (n_sources,) which of all sources these are; joints : all of its group.
     """
 
     body: ElasticBody
@@ -106,6 +109,7 @@ class Reached:
     signs: NDArray[np.float64]
     forces: NDArray[np.complex128]
     columns: NDArray[np.intp]
+    joints: Sequence[Joint] = ()
     _own: NDArray[np.complex128] | None = field(default=None, repr=False)
 
     @property
@@ -117,6 +121,42 @@ class Reached:
             taken *= -self.signs.reshape(-1, *[1] * (taken.ndim - 1))
             self._own = np.ascontiguousarray(np.moveaxis(taken, 2, 0)) if taken.ndim == 3 else taken
         return self._own
+
+    @property
+    def others(self) -> list[str]:
+        """The object on the other side of each of its joints."""
+        pairs = zip(self.rows.tolist(), self.signs.tolist(), strict=True)
+        return [self.joints[row].b if sign > 0 else self.joints[row].a for row, sign in pairs]
+
+    def shares_of_power(self, column: int, band: int, sampling: Sampling) -> Floats:
+        """What part of a source's power that comes into this object in a band comes through each joint (n_joints,).
+
+        The power through a joint is Re(g* j omega u) / 2, with u the deflection there. What an object brings through
+        one joint and takes away through another does not count, and one that takes away more brings nothing. It is 0
+        for all joints of a body without loss that passes nothing on; there the part of |g u| is told, by which it is
+        held.
+        """
+        mine = np.flatnonzero(self.columns == column)
+        if not mine.size:
+            return np.zeros(len(self.rows))
+        if sampling.starts is None:
+            at, forces = slice(column, column + 1), self.own_forces[None, :, mine[0]]
+        else:
+            at = sampling.bands[band]
+            forces = self.own_forces[at, :, mine[0]]
+        frequencies = sampling.frequencies_hz[at]
+        moved = np.einsum("fpc,fc->fp", self.body.receptance(self.points_m, self.points_m, frequencies), forces)
+        weights = frequencies * sampling.weights[at]
+        passed = weights @ (forces.conj() * moved)
+        others, number = np.unique(self.others, return_inverse=True)
+        brings, held = np.maximum(-passed.imag, 0.0), np.abs(passed)
+        gross = np.bincount(number, brings, len(others))
+        net = np.maximum(np.bincount(number, -passed.imag, len(others)), 0.0)
+        comes_in = brings * (net / np.where(gross > 0, gross, 1.0))[number]
+        parts = comes_in if comes_in.sum() > LOSSLESS * held.sum() else held
+        total = parts.sum()
+        shares: Floats = parts / total if total > 0 else parts
+        return shares
 
     def gains(self, sampling: Sampling, *, is_expected: bool) -> Gains:
         """Gains at points on the object, of its sources; quick ones in any case if each has one frequency."""

@@ -29,10 +29,11 @@ from scene2hap.propagation.domain import OutsideDomain, check_choice, check_thin
 from scene2hap.propagation.joints import joints_of, reached
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import as_points
-from scene2hap.propagation.protocol import ContactNetwork, Excitation
+from scene2hap.propagation.protocol import Carrier, ContactNetwork, Excitation
 from scene2hap.propagation.reached import Reached
 from scene2hap.propagation.rigid import RigidMotion, is_compact
 from scene2hap.propagation.sampling import Sampling
+from scene2hap.scene.pose import Pose
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,7 +137,8 @@ def _solved(
     if own is not None:
         forces = np.take_along_axis(forces, own[None, :, None], axis=2)[:, :, 0]
     return {
-        x: Reached(bodies[x], ends.points_m, ends.rows, ends.signs, forces, columns) for x, ends in solved.ends.items()
+        x: Reached(bodies[x], ends.points_m, ends.rows, ends.signs, forces, columns, joints)
+        for x, ends in solved.ends.items()
     }
 
 
@@ -171,6 +173,21 @@ class CoupledField:
         if object_id not in ready:
             self._asked[object_id] = self._ask(object_id, is_expected=True)
             self._expected.add(object_id)
+
+    def carriers(self, object_id: str, source_id: str, band: int) -> tuple[Carrier, ...]:
+        """The contacts through which power comes into an object, see `CarryingField`."""
+        reached = self.reach.get(object_id)
+        if reached is None or object_id == source_id or source_id not in self.source_ids:
+            return ()
+        shares = reached.shares_of_power(self.source_ids.index(source_id), band, self.sampling)
+        pose = self.network.poses.get(object_id, Pose())
+        points = pose.to_world(np.column_stack([reached.points_m, np.zeros(len(reached.points_m))]))
+        found = [
+            Carrier(by, (float(x), float(y), float(z)), float(share))
+            for by, (x, y, z), share in zip(reached.others, points, shares, strict=True)
+            if share > 0
+        ]
+        return tuple(sorted(found, key=lambda one: (-one.share, one.by, one.point_m)))
 
     def _ask(self, object_id: str, *, is_expected: bool = False) -> Asked:
         shape, ids = (len(self.source_ids), self.bands.n_bands), self.source_ids

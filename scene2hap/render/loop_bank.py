@@ -104,8 +104,12 @@ class LoopBank:
 
     def position_s(self, loop: int, frame: int, sample_rate_hz: int) -> float:
         """Where a loop stands at a frame of a clock that runs at another rate, in time since its beginning [s]."""
-        n, rate_hz = self._periods[loop]
-        return (frame * rate_hz % (n * sample_rate_hz)) / (sample_rate_hz * rate_hz)
+        return position_s(*self._periods[loop], frame, sample_rate_hz)
+
+
+def position_s(n: int, rate_hz: int, frame: int, sample_rate_hz: int) -> float:
+    """Where a loop of n samples stands at a frame of a clock that runs at another rate, since its beginning [s]."""
+    return (frame * rate_hz % (n * sample_rate_hz)) / (sample_rate_hz * rate_hz)
 
 
 def _stored(loop: AudioClip, bands: Bands, sample_rate_hz: int) -> tuple[StoredLoop, int]:

@@ -10,42 +10,33 @@ Bands of which less than -140 dB re full scale is left at their gain are left ou
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Sequence
-from weakref import WeakKeyDictionary
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.audio.bands import split_bands
-from scene2hap.audio.levels import threshold_db
 from scene2hap.compiled import compiled
-from scene2hap.haptics import Bands
 from scene2hap.session.config import SkipConfig
 from scene2hap.session.counts import Counts
-from scene2hap.session.sources import LoopRow
 
 BELOW_THRESHOLD_DB = 10.0
 """How far below the threshold of touch everything stays that is left out of a hand's mix."""
 SILENT = 1e-7
 """Peak re full scale below which a band counts as silent."""
-RATE_HZ = 8000
-"""Rate at which peaks are looked for: eight samples per wave at 1 kHz miss it by a factor of cos(pi/8) at most."""
 
 
 class Audibility:
-    """Peaks of the rows of a mix.
+    """What of some sources is worth mixing.
 
-    Parameters: rows : the row of each source; skip : what to leave out.
+    Parameters: peaks : (n_sources, 2, n_bands), see `peaks.peaks_of`; skip : what to leave out.
     """
 
-    def __init__(self, rows: Sequence[LoopRow], bands: Bands, skip: SkipConfig, counts: Counts) -> None:
+    def __init__(self, peaks: NDArray[np.float32], skip: SkipConfig, counts: Counts) -> None:
         self._skip, self._counts = skip, counts
-        peaks = np.array([_known(row, bands) for row in rows], dtype=np.float32).reshape(len(rows), 2, bands.n_bands)
         self._felt = peaks[:, 0, :, None].copy()
         with np.errstate(divide="ignore", over="ignore"):
             self._least_gain = np.float32(SILENT) / peaks[:, 1]
-        self.least_felt = np.float32(10 ** (-BELOW_THRESHOLD_DB / 20) / max(1, len(rows)))
+        self.least_felt = np.float32(10 ** (-BELOW_THRESHOLD_DB / 20) / max(1, len(peaks)))
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -106,34 +97,3 @@ def sifted(
     kept[is_silent] = 0.0
     columns: list[int] = np.flatnonzero(kept.any(axis=(0, 2))).tolist()
     return np.ascontiguousarray(kept[:, columns]), columns, n_below, n_silent
-
-
-# Sources come and go, and what is known of their loops goes with them.
-_KNOWN: WeakKeyDictionary[LoopRow, tuple[Bands, NDArray[np.float64]]] = WeakKeyDictionary()
-
-
-def listen_ahead(rows: Iterable[LoopRow], bands: Bands) -> None:
-    """Find the peaks of these rows, while a scene is loaded and not while it is played."""
-    for row in rows:
-        _known(row, bands)
-
-
-def _known(row: LoopRow, bands: Bands) -> NDArray[np.float64]:
-    known = _KNOWN.get(row)
-    if known is None or known[0] != bands:
-        known = _KNOWN[row] = (bands, _peaks(row, bands))
-    return known[1]
-
-
-def _peaks(row: LoopRow, bands: Bands) -> NDArray[np.float64]:
-    """Peak of each band (2, n_bands): over the threshold of touch, then re full scale."""
-    clip = row.loop.tactile
-    spectrum = np.fft.rfft(clip.samples.astype(np.float64))
-    frequencies = np.fft.rfftfreq(len(clip.samples), 1 / clip.sample_rate_hz)
-    n = max(1, round(len(clip.samples) * RATE_HZ / clip.sample_rate_hz))
-    weights = (10 ** (-threshold_db(frequencies) / 20), np.ones(len(frequencies)))
-    weighted = [np.fft.irfft(spectrum * weight, n) * (n / len(clip.samples)) for weight in weights]
-    peaks: NDArray[np.float64] = np.array(
-        [np.abs(split_bands(samples, RATE_HZ, bands)).max(axis=1) for samples in weighted]
-    )
-    return peaks / math.cos(math.pi / 8)

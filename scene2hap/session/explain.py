@@ -1,8 +1,10 @@
 """Why a hand feels what it feels: each source's way to it, object by object.
 
-The way is the one on which the paper's law loses least. For `ExponentialPlate` that is where the gain comes from;
-other models add up all ways, of which it is the most direct. How much of the source is left at each contact on it is
-asked of the field itself, so that the decibels of the steps add up to the gain at the hand, whatever the model.
+Where a model spreads vibration along ways, as `ExponentialPlate` does, the way is told on which the paper's law loses
+least. How much of the source is left at each contact on it is asked of the field itself, so that the decibels of the
+steps add up to the gain at the hand. A way may leave an object and come back to it, over a bar of steel on a rug say;
+that is one step. In the physical models a source arrives over all ways at once, and resonates on them
+(`CarryingField`): for these the total is told, and how much of the power comes through which contacts.
 """
 
 from __future__ import annotations
@@ -12,23 +14,32 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from scene2hap.propagation.protocol import Carrier, CarryingField
 from scene2hap.session.frame import HapticFrame, Touch
 from scene2hap.session.sources import Sources
 from scene2hap.session.stage import Stage
 from scene2hap.session.touch_gains import TouchGains
 from scene2hap.session.way import Point, Way, best_way
 
+LEAST_SHARE = 0.01
+"""Part of the power that is still told in words."""
+
 
 @dataclass(frozen=True)
 class PathStep:
-    """One object on the way: how far through it [m], and how the level changes on that [dB]."""
+    """One object on the way: how far through it [m], and how the level changes on that [dB].
+
+    by_way_of : objects through which a short cut leads, from this one back to it; their lengths count in.
+    """
 
     object_id: str
     length_m: float
     change_db: float
+    by_way_of: tuple[str, ...] = ()
 
     def __str__(self) -> str:
-        return f"{self.object_id} ({self.length_m:.2f} m, {self.change_db:+.1f} dB)"
+        cut = f" by way of {', '.join(self.by_way_of)}" if self.by_way_of else ""
+        return f"{self.object_id} ({self.length_m:.2f} m{cut}, {self.change_db:+.1f} dB)"
 
 
 @dataclass(frozen=True)
@@ -37,7 +48,8 @@ class FeltSource:
 
     Parameters: state, on : what it is doing, and the object on which it is felt; gain_db : what arrives of it there, in
     the band that arrives best; level_db : its volume and the user's; band : that band; steps : from the source to the
-    touched object, empty where the law knows no way (over an object of unknown material, say).
+    touched object, empty where the law knows no way (over an object of unknown material, say) and for the physical
+    models; carriers : for these, the contacts through which it comes into the touched object, the strongest first.
     """
 
     source_id: str
@@ -47,6 +59,7 @@ class FeltSource:
     level_db: float
     band: int
     steps: tuple[PathStep, ...]
+    carriers: tuple[Carrier, ...] = ()
 
     @property
     def length_m(self) -> float:
@@ -55,8 +68,11 @@ class FeltSource:
 
     def __str__(self) -> str:
         volume = f", volume {self.level_db:+.1f} dB" if abs(self.level_db) >= 0.05 else ""
+        total = f"{self.source_id} ({self.state}) {self.gain_db:+.1f} dB"
+        if self.carriers:
+            return f"{total}{volume}: {_in_words(self.carriers)}"
         way = " -> ".join(map(str, self.steps)) or "by no way that the paper's law knows"
-        return f"{self.source_id} ({self.state}) {self.gain_db:+.1f} dB over {self.length_m:.2f} m{volume}: {way}"
+        return f"{total} over {self.length_m:.2f} m{volume}: {way}"
 
 
 @dataclass(frozen=True)
@@ -87,13 +103,20 @@ class Explanation:
 class Explainer:
     """Explains one moment.
 
-    Parameters: gains : asks the field in use; levels : what each source's volume comes to [-].
+    Parameters: field : in use, which `gains` asks; levels : what each source's volume comes to [-].
     """
 
     def __init__(
-        self, stage: Stage, sources: Sources, model: object, gains: TouchGains, levels: Mapping[str, float]
+        self,
+        stage: Stage,
+        sources: Sources,
+        model: object,
+        field: object,
+        gains: TouchGains,
+        levels: Mapping[str, float],
     ) -> None:
         self._stage, self._sources, self._model, self._gains, self._levels = stage, sources, model, gains, levels
+        self._field = field if isinstance(field, CarryingField) else None
 
     def explain(self, hand: str, touches: Sequence[Touch], frame: HapticFrame, is_current: bool) -> Explanation:
         """What a hand feels that was given a frame for these touches."""
@@ -113,10 +136,15 @@ class Explainer:
 
         touch = max(touches, key=lambda touch: gain_at(touch.object_id, touch.point_m))
         on, point_m = touch.object_id, touch.point_m
-        way = best_way(source_id, on, point_m, self._stage.graph.contacts, self._stage.bodies, self._model)
-        steps = _steps(way, point_m, gain_at) if way is not None else ()
         gain_db, level_db = decibels(gain_at(on, point_m)), decibels(self._levels.get(source_id, 0.0))
-        return FeltSource(source_id, self._sources[source_id].state, on, gain_db, level_db, band, steps)
+        steps: tuple[PathStep, ...] = ()
+        carriers: tuple[Carrier, ...] = ()
+        if self._field is not None and on != source_id:
+            carriers = self._field.carriers(on, source_id, band)
+        else:
+            way = best_way(source_id, on, point_m, self._stage.graph.contacts, self._stage.bodies, self._model)
+            steps = _steps(way, point_m, gain_at) if way is not None else ()
+        return FeltSource(source_id, self._sources[source_id].state, on, gain_db, level_db, band, steps, carriers)
 
 
 def decibels(gain: float) -> float:
@@ -133,4 +161,29 @@ def _steps(way: Way, point_m: Point, gain_at: Callable[[str, Point], float]) -> 
         change_db = after_db - before_db if math.isfinite(before_db) else 0.0
         steps.append(PathStep(object_id, math.dist(enter, leave), change_db))
         before_db = after_db
+        first = [step.object_id for step in steps].index(object_id)
+        steps[first:] = [_as_one(steps[first:])]
     return tuple(steps)
+
+
+def _as_one(steps: Sequence[PathStep]) -> PathStep:
+    """Steps from an object back to it as one; one step as it is."""
+    if len(steps) == 1:
+        return steps[0]
+    others = [x for step in steps for x in (step.object_id, *step.by_way_of) if x != steps[0].object_id]
+    length_m, change_db = sum(step.length_m for step in steps), sum(step.change_db for step in steps)
+    return PathStep(steps[0].object_id, length_m, change_db, tuple(dict.fromkeys(others)))
+
+
+def _in_words(carriers: Sequence[Carrier]) -> str:
+    """How much comes from each object that brings any to speak of, over how many contacts."""
+    by: dict[str, list[float]] = {}
+    for carrier in carriers:
+        by.setdefault(carrier.by, []).append(carrier.share)
+    parts = sorted(by.items(), key=lambda item: -sum(item[1]))
+    told = [
+        f"{100 * sum(shares):.0f} % from {object_id} over {len(shares)} contact{'s' * (len(shares) > 1)}"
+        for object_id, shares in parts
+        if sum(shares) >= LEAST_SHARE
+    ]
+    return ", ".join(told)

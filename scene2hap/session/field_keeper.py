@@ -13,8 +13,15 @@ from threading import Thread
 
 from scene2hap.errors import Scene2HapError
 from scene2hap.haptics import Bands
+from scene2hap.propagation.controls import NoPropagation
 from scene2hap.propagation.live import TouchedPoint
-from scene2hap.propagation.protocol import Excitation, ExpectantField, PropagationModel
+from scene2hap.propagation.protocol import (
+    ContactNetwork,
+    Excitation,
+    ExpectantField,
+    PropagationField,
+    PropagationModel,
+)
 from scene2hap.session.field_in_use import FieldInUse
 from scene2hap.session.last_field import LastField
 from scene2hap.session.reach import Reach
@@ -25,9 +32,9 @@ from scene2hap.session.worker import Desk, Prepared, Sign, Situation, put_to_wor
 class FieldKeeper:
     """The field in use, and how it is kept up to date.
 
-    Parameters: is_background : whether a worker prepares; the first field is always waited for; skips_unreachable : do
-    not tell the model of what no source reaches.
-    Raises: what the model raises of the first situation; later, only if it is prepared in place.
+    Parameters: is_background : whether a worker prepares, beginning now; until the first field is ready, each source is
+    felt on itself alone; skips_unreachable : do not tell the model of what no source reaches.
+    Raises: what the model raises, if it is prepared in place.
     """
 
     def __init__(
@@ -44,14 +51,20 @@ class FieldKeeper:
         self._stage = stage
         self._is_background, self._skips_unreachable = is_background, skips_unreachable
         self._worker: Thread | None = None
-        self._is_stranger_touched = False
-        self._asked = self._situation(0, excitations)
-        self._n_answered = self._n_ordered = self._n_put = 0
-        self.in_use = self._whole = self._desk.prepare(self._asked)
-        self._is_expectant = isinstance(self.in_use.field, ExpectantField)
+        self._is_stranger_touched = self._is_expectant = False
         self._heard: tuple[FieldInUse, tuple[str, ...], Reach] | None = None
-        self.n_prepared, self.n_failed, self.last_failure = 1, 0, ""
-        self.latency_s = 0.0
+        self._n_answered = self._n_ordered = self._n_put = self.n_prepared = self.n_failed = 0
+        self.last_failure, self.latency_s = "", 0.0
+        before = self._situation(0, excitations)
+        self.in_use = self._whole = Prepared(NoPropagation().prepare(ContactNetwork({}), excitations, bands), before)
+        self._asked = before
+        self.ask(excitations)
+        self.order()
+
+    @property
+    def field(self) -> PropagationField:
+        """The field that tells of most, as it was prepared."""
+        return self.in_use.field
 
     @property
     def is_current(self) -> bool:
@@ -136,7 +149,7 @@ class FieldKeeper:
         situation, before = found.situation, self.in_use.situation
         if self._is_background:
             self._desk.spent.append(self.in_use)
-        self.in_use = found
+        self.in_use, self._is_expectant = found, isinstance(found.field, ExpectantField)
         if found.covers is None:
             self._whole, self._n_answered = found, situation.number
         if self._heard is not None:
@@ -154,7 +167,8 @@ class FieldKeeper:
     def _note(self, problem: Exception) -> None:
         self.n_failed += 1
         self.last_failure = str(problem) if isinstance(problem, Scene2HapError) else repr(problem)
-        told = f"a field could not be prepared, so that the last one plays on: {self.last_failure}"
+        instead = "the last one plays on" if self.n_prepared else "each source is felt on itself alone"
+        told = f"a field could not be prepared, so that {instead}: {self.last_failure}"
         warnings.warn(told, RuntimeWarning, stacklevel=5)
 
     def _put(self, order: Situation | Sign) -> None:

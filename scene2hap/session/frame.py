@@ -46,10 +46,10 @@ class HapticFrame:
 
     @property
     def gains(self) -> Gains:
-        """Gains (n_hands, n_sources, n_bands) float32 [-].
+        """Gains (n_hands, n_sources, n_bands) float32 [-], 0 below -140 dB.
 
         Where the model tells prices (`propagation.live.PricedField`) they are worked out when first asked for, since
-        most games never ask: of all sources, down to -140 dB, until a contact changes; after that only of sources that
+        most games never ask: of all sources until a contact changes; after that only of sources that
         are felt, those that were left out of the mix being 0. To be asked for first in the thread that updates.
         """
         if self._gains is None:

@@ -8,18 +8,21 @@ waits for `update`.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping, Sequence
 from types import TracebackType
 from typing import Any, Self
 
+from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.devices.protocol import ActuatorSink, Block
-from scene2hap.errors import ConfigError, SessionError, UnknownObject
+from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.render.safety import SafetyStats
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot, unknown_object
+from scene2hap.session.actuator_check import warn_if_other
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.explain import Explanation
 from scene2hap.session.frame import HapticFrame, SessionStats, Touch, unknown_hand
@@ -36,7 +39,8 @@ class HapticSession:
 
     Parameters: scene : objects and where they are now; bundle : what was baked for them; config : a SessionConfig or
     its settings; hands : names of the outputs; sink : where `start` sends the mix, None to call `render` oneself.
-    Raises: ConfigError, UnknownObject: the bundle speaks of an object that the scene does not have.
+    Raises: ConfigError, UnknownObject: the bundle speaks of an object that the scene does not have. Warns:
+    OtherActuatorWarning: the bundle's loops were made for another actuator than the configured one.
     """
 
     def __init__(
@@ -49,15 +53,17 @@ class HapticSession:
         sink: ActuatorSink | str | Mapping[str, Any] | None = None,
     ) -> None:
         self.config = SessionConfig.parse(config)
-        self.hands = _distinct(hands)
+        self.hands = checks.names("hands", hands)
         self._bundle = bundle
+        warn_if_other(bundle, self.config.actuator)
         self._sources = Sources()
         for object_id, loops in bundle.loops.items():
             scene.object(object_id)
-            self._sources.add(object_id, loops, bundle.objects.get(object_id), bundle.gain_db(object_id))
+            if loops:
+                self._sources.add(object_id, loops, bundle.objects.get(object_id), bundle.gain_db(object_id))
         self._stage = Stage(scene, bundle)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
-        self._listening = Listening(self.config, self._stage, self._sources)
+        self._listening = Listening(self.config, self._stage, self._sources, self._playback.peaks)
         self._output = Output(sink, self.config)
         self._last_stamp = self._updates = 0
 
@@ -90,6 +96,8 @@ class HapticSession:
         """
         felt = self._by_hand(touches)
         stamp = self._stamp(at_sample)
+        if self._playback.take_prepared():
+            self._listening.loops_came()
         if moved or contacts is not None:
             self._listening.follow(self._stage.graph.update(moved or {}, contacts=contacts))
         frame, heard = self._listening.frame(self.hands, felt, moved or (), is_paused=self._playback.is_paused)
@@ -107,7 +115,8 @@ class HapticSession:
     ) -> None:
         """Put an object into the scene, which vibrates if it has loops, by the name of each state.
 
-        Without both, what the bundle says of its id holds, so that what was removed may come back as it was.
+        Without both, what the bundle says of its id holds, so that what was removed may come back as it was. Loops of
+        new content are prepared by a worker, and fade in with the first `update` after that.
         Raises: SceneError: its id is taken; SessionError: a loop is none.
         """
         if haptics is None and loops is None:
@@ -141,7 +150,7 @@ class HapticSession:
         Raises: ConfigError: the name is taken; SessionError: the sink is running and keeps its channels for ever;
         DeviceError: it cannot be opened again.
         """
-        hands = _distinct((*self.hands, name))
+        hands = checks.names("hands", (*self.hands, name))
         with self._output.reopened_for(hands, self.render):
             self._playback.add_hand()
             self._use_hands(hands)
@@ -150,7 +159,7 @@ class HapticSession:
         """Take away an output, but not the last; otherwise as `add_hand`. Raises: SessionError: an unknown hand."""
         if name not in self.hands:
             raise SessionError(unknown_hand(name, self.hands))
-        hands = _distinct([hand for hand in self.hands if hand != name])
+        hands = checks.names("hands", [hand for hand in self.hands if hand != name])
         with self._output.reopened_for(hands, self.render):
             self._playback.remove_hand(self.hands.index(name))
             self._use_hands(hands)
@@ -193,8 +202,12 @@ class HapticSession:
         return self._listening.explain(hand)
 
     def wait_prepared(self, timeout_s: float | None = None) -> bool:
-        """Wait until the worker has prepared the scene as it is; false after the timeout [s]. For loading screens."""
-        return self._listening.wait(timeout_s)
+        """Wait until the workers have prepared the scene as it is, and all loops; false after the timeout [s]. For
+        loading screens."""
+        end_s = None if timeout_s is None else time.monotonic() + timeout_s
+        if not self._playback.wait(timeout_s):
+            return False
+        return self._listening.wait(None if end_s is None else max(0.0, end_s - time.monotonic()))
 
     def render(self, n_frames: int) -> Block:
         """The next samples of the mix (n_frames, n_hands) float32 in [-1, 1]."""
@@ -263,18 +276,16 @@ class HapticSession:
 
     def _by_hand(self, touches: Sequence[Touch]) -> Felt:
         by_hand: dict[str, list[Touch]] = {}
-        for touch in touches:
-            if touch.object_id not in self._stage.objects:
-                raise UnknownObject(unknown_object(touch.object_id, self._stage.objects))
-            by_hand.setdefault(touch.hand, []).append(touch)
+        try:
+            for touch in touches:
+                if touch.object_id not in self._stage.objects:
+                    raise UnknownObject(unknown_object(touch.object_id, self._stage.objects))
+                by_hand.setdefault(touch.hand, []).append(touch)
+        except (TypeError, AttributeError):
+            raise SessionError(
+                f"touches is {checks.shown(touches)}; it must be a list of Touch, as [Touch(...)]."
+            ) from None
         for hand in by_hand:
             if hand not in self.hands:
                 raise SessionError(unknown_hand(hand, self.hands))
         return {i: by_hand[hand] for i, hand in enumerate(self.hands) if hand in by_hand}
-
-
-def _distinct(hands: Sequence[str]) -> tuple[str, ...]:
-    names = tuple(hands)
-    if not names or len(set(names)) < len(names):
-        raise ConfigError(f"hands is {names!r}; it must be at least one name, each once.")
-    return names

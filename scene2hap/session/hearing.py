@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.propagation.live import PricedField, Prices
-from scene2hap.session.audibility import Audibility
+from scene2hap.session.audibility import SILENT, Audibility
 from scene2hap.session.config import SkipConfig
 from scene2hap.session.counts import Counts
 from scene2hap.session.frame import Gains, Touch
@@ -74,15 +74,14 @@ class HearingAll:
     def hear(self, n_hands: int, felt: Felt) -> Heard:
         """See `Hearing`."""
         given = self._loudness.applied(self._gains.of(list(felt.values())))
-        told = _among(given, n_hands, felt)
         worth = self._loudness.audibility.worth_mixing
         if self._skip.idle_hands:
             self._counts.idle_hands += n_hands - len(felt)
             mixed, columns = worth(given)
             mixed = _among(mixed, n_hands, felt)
         else:
-            mixed, columns = worth(told)
-        return Heard(told, mixed, columns if self._skip.silent_bands else None)
+            mixed, columns = worth(_among(given, n_hands, felt))
+        return Heard(lambda: _told(given, n_hands, felt), mixed, columns if self._skip.silent_bands else None)
 
 
 class HearingNear:
@@ -125,7 +124,7 @@ class HearingNear:
                 everything = gains.prices(self._field, touches, asked, self._arrives)
             else:
                 everything = _without(prices, horizon)
-            return _among(self._loudness.applied(gains.at(self._field, everything)), n_hands, felt)
+            return _told(self._loudness.applied(gains.at(self._field, everything)), n_hands, felt)
 
         return Heard(told, _among(mixed, n_hands, felt), columns)
 
@@ -133,6 +132,11 @@ class HearingNear:
 def _without(prices: Prices, limits: Sequence[float]) -> Prices:
     """Infinite instead of prices beyond their limits."""
     return [[x if x <= limit else math.inf for x, limit in zip(row, limits, strict=True)] for row in prices]
+
+
+def _told(given: Gains, n_hands: int, felt: Felt) -> Gains:
+    """Gains as a game is told them: 0 below -140 dB, whatever the model. A copy."""
+    return _among(np.where(given < SILENT, np.float32(0.0), given), n_hands, felt)
 
 
 def _among(given: Gains, n_hands: int, felt: Felt) -> Gains:

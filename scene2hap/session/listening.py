@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scene2hap.contact.graph import ContactChange
 from scene2hap.propagation.live import LiveField, LiveModel, PricedField
 from scene2hap.propagation.protocol import Excitation
-from scene2hap.session.audibility import Audibility, listen_ahead
+from scene2hap.session.audibility import Audibility
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.counts import Counts
 from scene2hap.session.explain import Explainer, Explanation
@@ -20,9 +20,12 @@ from scene2hap.session.hearing import Felt, Heard, Hearing, HearingAll, HearingN
 from scene2hap.session.horizon import Horizon
 from scene2hap.session.live_keeper import LiveKeeper
 from scene2hap.session.network import excitations_of
-from scene2hap.session.sources import Sources
+from scene2hap.session.sources import LoopRow, Sources
 from scene2hap.session.stage import Stage
 from scene2hap.session.touch_gains import TouchGains
+
+PeaksOf = Callable[[Sequence[LoopRow]], NDArray[np.float32]]
+"""Peaks (n_rows, 2, n_bands) of the loops of some rows, 0 of those that cannot be mixed yet."""
 
 
 class Listening:
@@ -31,8 +34,8 @@ class Listening:
     What gains depend on besides the touches is remembered, and forgotten when it changes.
     """
 
-    def __init__(self, config: SessionConfig, stage: Stage, sources: Sources) -> None:
-        self._config, self._stage, self._sources = config, stage, sources
+    def __init__(self, config: SessionConfig, stage: Stage, sources: Sources, peaks: PeaksOf) -> None:
+        self._config, self._stage, self._sources, self._peaks = config, stage, sources, peaks
         self._counts = Counts()
         self._excitations: Sequence[Excitation] | None = None
         self._hearing: Hearing | None = None
@@ -48,14 +51,12 @@ class Listening:
         self._look_around()
         self.keeper = keeper_of(config, stage, self._known_excitations())
         self._count_unreachable()
-        listen_ahead(sources.rows(), config.bands)
 
     def follow(self, change: ContactChange, *, is_other_cast: bool = False) -> None:
         """Take in a change of contacts, after objects came or went; `is_other_cast` if sources did."""
         matters = is_other_cast or not self._config.skip.unreachable or self._reach.concerns(change)
         if is_other_cast:
             self._forget_cast()
-            listen_ahead(self._sources.rows(), self._config.bands)
         if is_other_cast or self._bodies is not self._stage.bodies:
             self._look_around()
         elif change.appeared or change.vanished:
@@ -70,6 +71,11 @@ class Listening:
             self._ask()
         else:
             self._counts.changes_out_of_reach += 1
+
+    def loops_came(self) -> None:
+        """Loops can be mixed that could not before."""
+        self._audibility = self._loudness = self._hearing = None
+        self._is_fresh = False
 
     def levels_changed(self, is_other_state: bool = False) -> None:
         """Forget levels; another state vibrates at another frequency, so that the field is another too."""
@@ -111,7 +117,7 @@ class Listening:
         touches = [touch for touch in felt if touch.hand == hand and touch.object_id in self._stage.objects]
         levels = dict(zip(self._sources.ids, self._known_levels().tolist(), strict=True))
         gains = self._touch_gains(self.keeper.hearing(self._sources.ids, self._reach), Counts())
-        explainer = Explainer(self._stage, self._sources, self._config.propagation, gains, levels)
+        explainer = Explainer(self._stage, self._sources, self._config.propagation, self.keeper.field, gains, levels)
         return explainer.explain(hand, touches, self._frame, self.keeper.is_current)
 
     def stats(self, updates: int, rows_not_mixed: int) -> SessionStats:
@@ -176,7 +182,7 @@ class Listening:
     def _new_hearing(self, field: LiveField) -> Hearing:
         skip, counts = self._config.skip, self._counts
         if self._audibility is None:
-            self._audibility = Audibility(self._sources.active_rows(), self._config.bands, skip, counts)
+            self._audibility = Audibility(self._peaks(self._sources.active_rows()), skip, counts)
             self._horizon = None
         if self._loudness is None:
             self._loudness = Loudness(self._levels, self._audibility)

@@ -28,6 +28,11 @@ class LiveKeeper:
         self._cast: tuple[Mapping[str, Body], Sequence[Excitation]] | None = None
         self.ask(excitations)
 
+    @property
+    def field(self) -> LiveField:
+        """What is asked."""
+        return self.in_use
+
     def ask(self, excitations: Sequence[Excitation]) -> None:
         """Go on with what there is now."""
         self.n_prepared += 1

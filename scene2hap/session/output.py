@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from scene2hap.devices import SINKS
+from scene2hap.devices.claims import claim_sink, give_back_sink
 from scene2hap.devices.clock import has_clock
 from scene2hap.devices.protocol import ActuatorSink, Fill, SinkFormat
 from scene2hap.errors import ConfigError, DeviceError, SessionError
@@ -59,31 +60,43 @@ class Output:
     def start(self, fill: Fill, hands: Sequence[str]) -> None:
         """Send what `fill` gives through the safety layer to the sink.
 
-        Raises: SessionError: there is no sink; DeviceError: it cannot be opened; ConfigError: the actuator's budget is
-        out of bounds.
+        Raises: SessionError: there is no sink; DeviceError: it cannot be opened, or another session plays on it;
+        ConfigError: the actuator's budget is out of bounds.
         """
         if self._sink is None:
             raise SessionError("this session has no sink; give one to HapticSession(..., sink=), or call render.")
         rate = self._config.sample_rate_hz
         watchdog_s = self._config.watchdog_s if has_clock(self._sink) else None
-        self._safety = SafetyLayer(self._config.actuator, rate, len(hands), watchdog_s=watchdog_s)
-        self._sink.open(SinkFormat(rate, tuple(hands)))
-        self._sink.start(self._safety.guard(fill))
+        safety = SafetyLayer(self._config.actuator, rate, len(hands), watchdog_s=watchdog_s)
+        claim_sink(self._sink, self)
+        try:
+            self._sink.open(SinkFormat(rate, tuple(hands)))
+            self._sink.start(safety.guard(fill))
+        except BaseException:
+            give_back_sink(self._sink, self)
+            raise
+        self._safety = safety
 
     def stop(self) -> None:
         """Fade out, stop the sink and give it back; may be called twice."""
-        if self._sink is not None:
+        if self._sink is not None and self._safety is not None:
             self._fade_out()
-            self._sink.stop()
-            self._sink.close()
+            try:
+                self._sink.stop()
+                self._sink.close()
+            finally:
+                give_back_sink(self._sink, self)
 
     def abort(self) -> None:
         """Stop after a failure. A sink that can tell it from a finished run leaves no half-written file behind."""
-        if self._sink is not None:
+        if self._sink is not None and self._safety is not None:
             if has_clock(self._sink):
                 self._fade_out()
             self._safety = None
-            getattr(self._sink, "abort", self.stop)()
+            try:
+                getattr(self._sink, "abort", self._sink.close)()
+            finally:
+                give_back_sink(self._sink, self)
 
     @contextlib.contextmanager
     def reopened_for(self, hands: Sequence[str], fill: Fill) -> Iterator[None]:

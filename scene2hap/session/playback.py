@@ -10,6 +10,7 @@ replaced and never changed; neither waits for the other.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from concurrent.futures import Future, wait
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,9 +18,10 @@ from numpy.typing import NDArray
 
 from scene2hap.devices.protocol import Block
 from scene2hap.render.limiter import soft_limit
-from scene2hap.render.loop_bank import LoopBank
+from scene2hap.render.loop_bank import position_s
 from scene2hap.session.config import MIN_RAMP_S, SessionConfig
 from scene2hap.session.deck import Deck
+from scene2hap.session.prepared_loops import PreparedLoop, find, order, prepare
 from scene2hap.session.slot_bank import SlotBank
 from scene2hap.session.sources import LoopRow
 
@@ -60,6 +62,7 @@ class Playback:
     def __init__(self, config: SessionConfig, rows: Sequence[LoopRow], n_hands: int) -> None:
         self._config = config
         self._tactile_rate_hz = min(config.tactile_rate_hz, config.sample_rate_hz)
+        self._coming: dict[LoopRow, Future[PreparedLoop]] = {}
         self._position = 0
         self._paused_from: int | None = None
         self._frozen_at: int | None = None
@@ -76,6 +79,8 @@ class Playback:
         # Twice the ramp, since gains that come too fast wait for each other.
         fade_s = 2 * max(config.control_period_s, MIN_RAMP_S) + self._decks[0].mixer.delay_s + 0.01
         self._fade_frames = round(fade_s * config.sample_rate_hz)
+        for row in rows:
+            self._prepared(row)
         self.change_rows(rows, 0)
 
     @property
@@ -95,9 +100,25 @@ class Playback:
 
     def position_s(self, row: LoopRow) -> float:
         """Where in its loop a row is [s]."""
-        place = self._places[row]
-        loop = place.bank.slots[place.slot]
-        return loop.position_s(0, self._position, self._config.sample_rate_hz) if loop is not None else 0.0
+        loop = row.loop.tactile
+        return position_s(len(loop.samples), loop.sample_rate_hz, self._position, self._config.sample_rate_hz)
+
+    def peaks(self, rows: Sequence[LoopRow]) -> NDArray[np.float32]:
+        """Peaks (n_rows, 2, n_bands), see `peaks.peaks_of`; 0 of loops that are still being prepared."""
+        n_bands = self._config.bands.n_bands
+        found = [np.zeros((2, n_bands)) if row in self._coming else self._prepared(row).peaks for row in rows]
+        return np.array(found, dtype=np.float32).reshape(len(rows), 2, n_bands)
+
+    def take_prepared(self) -> bool:
+        """Let in the loops that the worker has prepared by now, silent until gains are set anew; false for none."""
+        ready = [row for row, loop in self._coming.items() if loop.done()]
+        for row in ready:
+            self._let_in(row, self._coming.pop(row).result(), len(ready))
+        return bool(ready)
+
+    def wait(self, timeout_s: float | None) -> bool:
+        """Wait for loops that are being prepared; false after the timeout [s]."""
+        return not wait(self._coming.values(), timeout_s).not_done
 
     def set_gains(
         self,
@@ -126,15 +147,19 @@ class Playback:
         return routes
 
     def _route(self, rows: Sequence[LoopRow], deck: Deck, outputs: Indices, channels: Indices) -> _Route:
-        places = [self._places[row] for row in rows]
+        # Loops that are still being prepared have no place.
+        places = [(i, self._places[row]) for i, row in enumerate(rows) if row in self._places]
         # Decks of one bank share its slots.
-        own = [i for i, place in enumerate(places) if place.bank.slots is deck.bank.slots]
-        slots = [places[i].slot for i in own]
-        is_all = len(self._plan.decks) == 1
-        return deck, None if is_all else own, slots, outputs.tolist(), None if is_all else channels
+        own = [i for i, place in places if place.bank.slots is deck.bank.slots]
+        slots = [place.slot for _, place in places if place.bank.slots is deck.bank.slots]
+        is_alone = len(self._plan.decks) == 1
+        return deck, None if len(own) == len(rows) else own, slots, outputs.tolist(), None if is_alone else channels
 
     def change_rows(self, rows: Sequence[LoopRow], at_frame: int) -> None:
-        """Go on with other rows; what is not among them any more is faded out."""
+        """Go on with other rows; what is not among them any more is faded out.
+
+        Loops that nobody has prepared yet come later, see `take_prepared`, unless preparing is to block.
+        """
         self._routes.clear()
         wanted = set(rows)
         gone = [self._places.pop(row) for row in list(self._places) if row not in wanted]
@@ -144,11 +169,25 @@ class Playback:
                 if deck.bank.slots is place.bank.slots:
                     deck.fade([place.slot], at_frame)
         self._retired = [place for place in (*self._retired, *gone) if not self._is_emptied(place)]
-        new = [row for row in rows if row not in self._places]
+        self._coming = {row: loop for row, loop in self._coming.items() if row in wanted}
+        new = [row for row in rows if row not in self._places and row not in self._coming]
+        bands, rate_hz = self._config.bands, self._tactile_rate_hz
         for row in new:
-            place = self._free_place(len(new))
-            place.bank.slots[place.slot] = LoopBank([row.loop.tactile], self._config.bands, self._tactile_rate_hz)
-            self._places[row] = place
+            if self._config.prepare == "blocking":
+                self._prepared(row)
+            loop = find(row.loop.tactile, bands, rate_hz)
+            if loop is None:
+                self._coming[row] = order(row.loop.tactile, bands, rate_hz)
+            else:
+                self._let_in(row, loop, len(new))
+
+    def _prepared(self, row: LoopRow) -> PreparedLoop:
+        return prepare(row.loop.tactile, self._config.bands, self._tactile_rate_hz)
+
+    def _let_in(self, row: LoopRow, loop: PreparedLoop, n_wanted: int) -> None:
+        place = self._places[row] = self._free_place(n_wanted)
+        place.bank.slots[place.slot] = loop.bank
+        self._routes.clear()
 
     def add_hand(self) -> None:
         """One output more, the last."""

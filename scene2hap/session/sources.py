@@ -69,9 +69,8 @@ class Sources:
 
     def __init__(self) -> None:
         self._sources: dict[str, Source] = {}
-        self.ids: tuple[str, ...] = ()
         self.user = Level()
-        self._active_rows: tuple[LoopRow, ...] = ()
+        self._list()
 
     def __contains__(self, object_id: object) -> bool:
         return object_id in self._sources
@@ -123,10 +122,10 @@ class Sources:
         return is_other
 
     def _list(self) -> None:
-        self.ids = tuple(self._sources)
+        self.ids: tuple[str, ...] = tuple(self._sources)
         self._active_rows = tuple(source.row for source in self._sources.values())
         # Whether any of them vibrates only while it touches something.
-        self.need_contacts = any(source.needs.get(source.state) is not None for source in self._sources.values())
+        self.need_contacts: bool = any(source.needs.get(source.state) is not None for source in self._sources.values())
 
     def factors(
         self, neighbours: Callable[[str], Iterable[str]], category: Callable[[str], str]

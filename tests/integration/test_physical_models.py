@@ -32,7 +32,7 @@ def test_the_demo_kitchen(demo: tuple[SceneSnapshot, HapticBundle], kind: str, b
     scene, bundle = demo
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ThinPlateWarning)
-        session = HapticSession(scene, bundle, {"propagation": kind, "bands": bands})
+        session = HapticSession(scene, bundle, {"propagation": kind, "bands": bands, "prepare": "blocking"})
     reached = 0
     for item in scene.objects:
         top = tuple(item.bounds_m.mean(axis=0).tolist())
@@ -52,7 +52,8 @@ def test_the_demo_kitchen(demo: tuple[SceneSnapshot, HapticBundle], kind: str, b
 @pytest.mark.parametrize("kind", PHYSICAL)
 def test_plate_coordinates_go_along_with_the_scene(kind: str) -> None:
     scene, bundle = table_with_two_phones()
-    session = HapticSession(scene, bundle, {"propagation": kind, "bands": Bands.third_octaves()})
+    config = {"propagation": kind, "bands": Bands.third_octaves(), "prepare": "blocking"}
+    session = HapticSession(scene, bundle, config)
     before = session.update(touches=[Touch("left", "table", (0.9, 0.72, 0.5))]).gains
     far = Pose((7.0, 0.0, -3.0), (0.0, np.sqrt(0.5), 0.0, np.sqrt(0.5)))
     moved = {item.id: far.compose(item.pose) for item in scene.objects}
@@ -64,7 +65,8 @@ def test_plate_coordinates_go_along_with_the_scene(kind: str) -> None:
 
 def test_gains_above_1_are_capped_and_counted() -> None:
     scene, bundle = table_with_two_phones()
-    settings = {"propagation": {"kind": "modal_plate", "contact": {"preload_n": 5.0}}, "bands": Bands.third_octaves()}
+    model = {"kind": "modal_plate", "contact": {"preload_n": 5.0}}
+    settings = {"propagation": model, "bands": Bands.third_octaves(), "prepare": "blocking"}
     touches = [Touch("left", "table", (x, 0.72, 0.05)) for x in (0.0, 0.4, 0.8, 1.2, 1.6)]
     free = HapticSession(scene, bundle, {**settings, "gain_limit_db": None})
     capped = HapticSession(scene, bundle, settings)

@@ -1,5 +1,7 @@
 """`scene2hap play` on a pseudo-terminal, and the plan that it shows."""
 
+import contextlib
+import json
 import os
 import select
 import sys
@@ -7,6 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
+import soundfile
 
 from scene2hap.cli import main
 from scene2hap.cli.plan import Plan
@@ -50,27 +53,54 @@ def test_without_a_terminal_it_says_what_to_do(tmp_path: Path, capsys: pytest.Ca
     assert "terminal" in capsys.readouterr().err
 
 
-def test_a_person_plays(tmp_path: Path) -> None:
+def played(tmp_path: Path, *options: str) -> tuple[int, bytes]:
+    """What a person sees who plays the two phones for a moment, and how it ends."""
     import pty
 
     folder = table_with_two_phones()[1].save(tmp_path / "b")
     child, terminal = pty.fork()
     if child == 0:
-        os.environ.update(TERM="xterm", COLUMNS="100", LINES="40")
-        os.execv(sys.executable, [sys.executable, "-m", "scene2hap", "play", str(folder), "--sink", "memory"])
+        os.environ.update(TERM="xterm", COLUMNS="160", LINES="40")
+        os.execv(sys.executable, [sys.executable, "-m", "scene2hap", "play", str(folder), *options])
     said, started = b"", time.monotonic()
-    sent = False
+    sent_s = 0.0
     while time.monotonic() - started < 60:
         if select.select([terminal], [], [], 0.1)[0]:
             try:
                 said += os.read(terminal, 65536)
             except OSError:  # the other side has closed
                 break
-        if not sent and b"hand on" in said:
-            os.write(terminal, b"\x1b[A\x1b[C\x1b[B++ q")
-            sent = True
+        if not sent_s and b"hand on" in said:
+            os.write(terminal, b"\x1b[A\x1b[C\x1b[B++ ")
+            sent_s = time.monotonic()
+        elif sent_s and time.monotonic() - sent_s > 1.0:
+            with contextlib.suppress(OSError):
+                os.write(terminal, b"q")
     _, status = os.waitpid(child, 0)
     os.close(terminal)
-    assert sent
-    assert os.waitstatus_to_exitcode(status) == 0
+    assert sent_s
+    return os.waitstatus_to_exitcode(status), said
+
+
+def test_a_person_plays(tmp_path: Path) -> None:
+    code, said = played(tmp_path, "--sink", "memory")
+    assert code == 0
     assert b"hand on: phone" in said
+    assert b"NOBODY FEELS THIS" not in said
+    assert b"nobody felt anything" not in said
+
+
+def test_without_an_actuator_it_says_that_nobody_feels_it(tmp_path: Path) -> None:
+    pytest.importorskip("serial")
+    code, said = played(tmp_path, "--sink", '{"kind": "serial", "port": "/dev/no such port"}')
+    assert code == 0
+    assert b"NOBODY FEELS THIS: no serial port /dev/no such port" in said
+    assert b"nobody felt anything: no serial port" in said
+
+
+def test_a_file_takes_what_is_played(tmp_path: Path) -> None:
+    wav = tmp_path / "played.wav"
+    assert played(tmp_path, "--sink", json.dumps({"kind": "wav", "path": str(wav)}))[0] == 0
+    samples, rate = soundfile.read(wav)
+    assert len(samples) > rate / 2
+    assert samples.any()

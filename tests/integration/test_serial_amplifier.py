@@ -20,6 +20,7 @@ from scene2hap.devices import SINKS
 from scene2hap.devices.protocol import ActuatorSink, SinkEvent, SinkFormat
 from scene2hap.devices.reference_device import PseudoTerminal, ReferenceDevice
 from scene2hap.devices.serial_amp import SerialAmplifierSink
+from scene2hap.devices.serial_port import SerialPort
 from scenes import RATE, table_with_two_phones
 from serial_bench import Plug, eventually
 from wire_damage import damaged
@@ -261,15 +262,14 @@ def test_what_is_at_the_port_is_told_apart(
 
 
 def test_a_port_in_use(tmp_path: Path, events: list[SinkEvent]) -> None:
-    with Plug(tmp_path) as plug, SerialAmplifierSink(str(plug.path)) as first:
-        first.open(FORMAT)
-        first.start(Counting())
-        assert first.wait_connected(10)
-        with SerialAmplifierSink(str(plug.path), on_event=events.append) as second:
-            second.open(FORMAT)
-            second.start(Counting())
+    with Plug(tmp_path) as plug:
+        # What another program does; a second sink of this one is refused by `open`, see tests/unit/devices/test_claims.
+        other = SerialPort(str(plug.path), 921600)
+        with SerialAmplifierSink(str(plug.path), on_event=events.append) as sink:
+            sink.open(FORMAT)
+            sink.start(Counting())
             assert eventually(lambda: bool(events))
-        assert first.stats.connected
+        other.close()
     assert "in use" in events[0].message
 
 

@@ -7,6 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.signal import firwin, oaconvolve
 
+from edge_scenes import EDGE_SCENES, on_top_of
 from scene2hap import AudioClip, Bands, HapticSession, Pose, Touch
 from scene2hap.render.loop_bank import LoopBank
 from scene2hap.render.mixer import Mixer
@@ -57,6 +58,27 @@ def test_a_slide_in_steps(update_hz: int) -> None:
     x = mixer.render(RATE)[:, 0]
     power = float(np.mean(x[RATE // 4 :] ** 2))
     assert high_db(x, RATE // 2, power) <= -60
+
+
+@pytest.mark.parametrize("name", EDGE_SCENES)
+def test_the_edges_under_hands_that_come_and_go(name: str) -> None:
+    """Objects are touched, let go and lifted; where something vibrates no jump is heard, elsewhere nothing at all."""
+    scene, bundle = EDGE_SCENES[name]()
+    session = HapticSession(scene, bundle)
+    items = [scene.object(x) for x in session.source_ids[:2]] or [scene.objects[0]]
+    parts, rng = [], np.random.default_rng(3)
+    for turn in range(12):
+        item = items[turn % len(items)]
+        x, y, z = item.pose.position_m
+        pose = Pose((x, y + 0.3 * (turn % 3 == 2), z))
+        session.update({item.id: pose}, [Touch("left", item.id, on_top_of(item))] if turn % 2 == 0 else [])
+        parts.append(session.render(int(rng.integers(4000, 9000)))[:, 0])
+    out = np.concatenate(parts)
+    if not session.source_ids:
+        assert not out.any()
+        return
+    high = oaconvolve(out.astype(np.float64), ABOVE_1_KHZ, mode="same")
+    assert 10 * math.log10(np.mean(high**2) / np.mean(out**2)) <= -60
 
 
 def test_a_phone_lifted_off_and_put_back_a_thousand_times() -> None:

@@ -4,9 +4,11 @@ import math
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from edge_scenes import EDGE_SCENES, on_top_of
 from scene2hap import AudioClip, Bands, Contact, HapticBundle, HapticLoop, HapticSession, Pose, SceneSnapshot, Touch
 from scene2hap.audio.levels import threshold_db
 from scenes import RATE, box, haptics, scene, table_with_two_phones, tone_loop
@@ -90,6 +92,42 @@ def test_silence_in_silence_out(events: list[tuple], bands: Bands) -> None:
     }
     out = play(new_session((snapshot, replace(bundle, loops=loops)), bands=bands), events, [512])
     assert not out.any()
+
+
+def play_edge(session: HapticSession, data: list[tuple[int, int, float]], blocks: list[int]) -> np.ndarray:
+    """One object after the other is touched with a hand and lifted or put back."""
+    scene, parts, n = session.snapshot, [], 0
+    for object_number, hand, lift in data:
+        item = scene.objects[object_number % len(scene.objects)]
+        x, y, z = item.pose.position_m
+        session.update({item.id: Pose((x, y + lift, z))}, [Touch(session.hands[hand], item.id, on_top_of(item))])
+        for _ in range(2):
+            parts.append(session.render(blocks[n % len(blocks)]))
+            n += 1
+    return np.concatenate(parts)
+
+
+@pytest.mark.parametrize("name", EDGE_SCENES)
+@settings(derandomize=True, deadline=None, max_examples=8)
+@given(
+    data=st.lists(
+        st.tuples(st.integers(0, 59), st.integers(0, 1), st.sampled_from([0.0, 0.3])), min_size=1, max_size=6
+    ),
+    bands=st.sampled_from([Bands.dominant(), Bands.third_octaves()]),
+)
+def test_the_edges_stay_within_full_scale_and_lose_nothing(
+    name: str, data: list[tuple[int, int, float]], bands: Bands
+) -> None:
+    lean, whole = (new_session(EDGE_SCENES[name](), bands=bands, skip=skip) for skip in (True, False))
+    outs = [play_edge(session, data, [256, 777]) for session in (lean, whole)]
+    for out in outs:
+        assert np.isfinite(out).all()
+        assert np.abs(out).max() <= 1.0
+    weights = 10 ** (-threshold_db(np.fft.rfftfreq(len(outs[0]), 1 / RATE)) / 20)
+    felt = np.fft.irfft(np.fft.rfft(outs[0] - outs[1], axis=0) * weights[:, None], axis=0)
+    assert np.abs(felt).max() <= 10 ** (-10 / 20) + 1e-6 * 10 ** (45 / 20) * 10
+    if not lean.source_ids:
+        assert not outs[0].any()
 
 
 def rotation(axis: tuple[float, float, float], angle: float) -> Pose:

@@ -22,11 +22,12 @@ from scene2hap import (
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation import recall
 from scene2hap.propagation.contact_law import ContactLaw
-from scene2hap.propagation.modal_body import ModalBody, SplitBody
+from scene2hap.propagation.modal_body import ModalBody
 from scene2hap.propagation.modes import first_bending_hz
 from scene2hap.propagation.recall import Recall
 from scene2hap.propagation.rigid import is_compact
 from scene2hap.propagation.sampling import Sampling
+from scene2hap.propagation.split_body import SplitBody
 
 OAK, STEEL, CERAMIC = (materials.lookup(name) for name in ("oak", "steel", "ceramic"))
 

@@ -13,12 +13,13 @@ from scene2hap import Bands, Contact, ContactNetwork, Excitation, Material, Moda
 from scene2hap.propagation import modal_body, reached
 from scene2hap.propagation.band_shapes import CLOSE, band_gains
 from scene2hap.propagation.lattice_body import lattice_body
-from scene2hap.propagation.modal_body import ModalBody, SplitBody
+from scene2hap.propagation.modal_body import ModalBody
 from scene2hap.propagation.octaves import OctaveSums
 from scene2hap.propagation.protocol import ExpectantField
 from scene2hap.propagation.reached import folded, pieces
 from scene2hap.propagation.rigid import RigidMotion
 from scene2hap.propagation.sampling import Sampling
+from scene2hap.propagation.split_body import SplitBody
 
 STEEL = Plate(0.65, 0.42, 0.002, materials.lookup("steel"))
 RUG = Plate(2.0, 1.5, 0.01, Material("rug", 300.0, 2e6, 0.3, 0.3), "CFFF")

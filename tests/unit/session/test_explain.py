@@ -1,5 +1,6 @@
 """Why a hand feels what it feels, against the paper's law written out."""
 
+import dataclasses
 import json
 import math
 
@@ -7,6 +8,7 @@ import pytest
 
 from scene2hap import Contact, HapticBundle, HapticSession, SceneSnapshot, Touch, materials
 from scene2hap.errors import SessionError
+from scene2hap.propagation import MODELS
 from scenes import RATE, box, haptics, scene, table_with_two_phones, tone_loop
 
 
@@ -119,11 +121,95 @@ def test_hops_are_counted_as_the_law_counts_them() -> None:
     assert s.explain("right").felt == ()
 
 
-@pytest.mark.parametrize("kind", ["exponential_plate", "infinite_plate", "full_propagation"])
-def test_steps_add_up_to_the_gain_for_any_model(kind: str) -> None:
+@pytest.mark.parametrize("kind", ["exponential_plate", "full_propagation"])
+def test_steps_add_up_to_the_gain_for_models_of_ways(kind: str) -> None:
     s = HapticSession(*shelf_on_table(), {"sample_rate_hz": RATE, "propagation": kind, "bands": "third-octaves"})
+    assert s.wait_prepared(60.0)
     frame = s.update(touches=[ON_TABLE])
     (felt,) = s.explain("left").felt
     told = sum(step.change_db for step in felt.steps)
     assert told == pytest.approx(20 * math.log10(frame.gain("left", "phone")), abs=1e-4)
     assert felt.band == int(frame.gains[0, 0].argmax())
+
+
+@pytest.mark.parametrize("bands", ["dominant", "third-octaves"])
+@pytest.mark.parametrize("kind", ["infinite_plate", "modal_plate", "auto", "mass_spring_damper"])
+@pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
+def test_physical_models_tell_the_total_and_which_contacts_carry_how_much(kind: str, bands: str) -> None:
+    config = {"sample_rate_hz": RATE, "propagation": kind, "bands": bands, "prepare": "blocking"}
+    s = HapticSession(*shelf_on_table(), config)
+    frame = s.update(touches=[ON_TABLE])
+    (felt,) = s.explain("left").felt
+    assert felt.steps == ()
+    assert felt.gain_db == pytest.approx(20 * math.log10(frame.gain("left", "phone")), abs=1e-4)
+    assert felt.band == int(frame.gains[0, 0].argmax())
+    assert {carrier.by for carrier in felt.carriers} == {"shelf"}
+    assert {(round(c.point_m[0], 9), round(c.point_m[2], 9)) for c in felt.carriers} <= {(0.7, 0.7), (0.2, 0.4)}
+    assert sum(carrier.share for carrier in felt.carriers) == pytest.approx(1.0)
+    assert [carrier.share for carrier in felt.carriers] == sorted((c.share for c in felt.carriers), reverse=True)
+    assert f"dB: 100 % from shelf over {len(felt.carriers)} contact" in str(felt)
+    s.update(touches=[Touch("left", "shelf", (0.5, 0.74, 0.4))])
+    assert s.explain("left").felt[0].carriers[0].by == "phone"
+    s.update(touches=[Touch("left", "phone", (0.3, 0.745, 0.4))])
+    on_itself = s.explain("left").felt[0]
+    assert (on_itself.carriers, [step.object_id for step in on_itself.steps]) == ((), ["phone"])
+
+
+@pytest.mark.parametrize("weak", [1, 2])
+def test_a_contact_that_hardly_touches_carries_hardly_anything(weak: int) -> None:
+    snapshot, bundle = shelf_on_table()
+    contacts = list(snapshot.contacts or ())
+    contacts[weak] = dataclasses.replace(contacts[weak], weight=1e-9)
+    config = {"sample_rate_hz": RATE, "propagation": "infinite_plate", "prepare": "blocking"}
+    s = HapticSession(dataclasses.replace(snapshot, contacts=tuple(contacts)), bundle, config)
+    s.update(touches=[ON_TABLE])
+    strongest = s.explain("left").felt[0].carriers[0]
+    assert strongest.share > 0.99
+    assert strongest.point_m == pytest.approx((contacts[3 - weak].point_m[0], 0.71, contacts[3 - weak].point_m[2]))
+
+
+def bar_on_a_rug() -> tuple[SceneSnapshot, HapticBundle]:
+    """A phone on a long rubber mat, over which a steel bar makes a short cut."""
+    plain = scene(
+        box("mat", (2.0, 0.01, 0.8), (1.0, 0.005, 0.4)),
+        box("bar", (1.8, 0.02, 0.1), (1.0, 0.02, 0.4)),
+        box("phone", (0.1, 0.01, 0.1), (0.1, 0.015, 0.4)),
+    )
+    contacts = (
+        Contact("phone", "mat", (0.1, 0.01, 0.4)),
+        Contact("bar", "mat", (0.15, 0.01, 0.4)),
+        Contact("bar", "mat", (1.85, 0.01, 0.4)),
+    )
+    inferred = {
+        "mat": haptics("rubber", (2.0, 0.8, 0.01)),
+        "bar": haptics("steel", (1.8, 0.1, 0.02)),
+        "phone": haptics("glass", (0.1, 0.1, 0.01), "ringing"),
+    }
+    snapshot = SceneSnapshot("bar", "y", plain.objects, contacts)
+    return snapshot, HapticBundle(snapshot, "room", inferred, {"phone": {"ringing": tone_loop(40)}})
+
+
+def test_a_short_cut_over_another_object_is_one_step() -> None:
+    s = HapticSession(*bar_on_a_rug(), {"sample_rate_hz": RATE})
+    frame = s.update(touches=[Touch("left", "mat", (1.9, 0.01, 0.4))])
+    (felt,) = s.explain("left").felt
+    assert [step.object_id for step in felt.steps] == ["phone", "mat"]
+    mat = felt.steps[1]
+    assert mat.by_way_of == ("bar",)
+    assert mat.length_m == pytest.approx(0.05 + 1.7 + 0.05)
+    assert mat.change_db == pytest.approx(20 * math.log10(frame.gain("left", "phone")), abs=1e-4)
+    assert "mat (1.80 m by way of bar, " in str(felt)
+
+
+@pytest.mark.parametrize("kind", MODELS.kinds())
+@pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
+def test_gains_are_0_below_140_db_whatever_the_model(kind: str) -> None:
+    config = {"sample_rate_hz": RATE, "propagation": kind, "prepare": "blocking", "bands": "third-octaves"}
+    snapshot, bundle = shelf_on_table()
+    for gain_db in (-139.0, -141.0, -220.0):
+        s = HapticSession(snapshot, bundle, config)
+        s.set_source("phone", gain_db=gain_db)
+        frame = s.update(touches=[Touch("left", "phone", (0.3, 0.745, 0.4)), ON_TABLE])
+        assert (frame.gain("left", "phone") > 0.0) == (gain_db > -140.0)
+        assert not ((frame.gains > 0.0) & (frame.gains < 1e-7)).any()
+        assert bool(s.explain("left").felt) == (gain_db > -140.0)

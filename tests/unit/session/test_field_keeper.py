@@ -69,7 +69,9 @@ class Gated:
 
 def gated(**config: object) -> tuple[HapticSession, Gated]:
     model = Gated()
-    return HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": model, **config}), model
+    session = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": model, **config})
+    assert session.wait_prepared(SECONDS)
+    return session, model
 
 
 def shifted(x: float) -> dict[str, Pose]:
@@ -91,7 +93,41 @@ def test_update_does_not_wait_and_the_last_field_plays_on() -> None:
     assert s.stats.fields_prepared == 2
     assert s.stats.field_age_s == 0
     assert 0 < s.stats.field_latency_s < SECONDS
-    assert model.threads[0] == threading.get_ident() != model.threads[1]
+    assert threading.get_ident() not in model.threads
+
+
+def test_no_field_is_prepared_in_the_constructor_and_until_then_sources_are_felt_on_themselves() -> None:
+    may_go, threads = threading.Event(), list[int]()
+
+    class Model:
+        def prepare(self, network: Any, excitations: Any, bands: Bands) -> Field:
+            threads.append(threading.get_ident())
+            assert may_go.wait(SECONDS)
+            return Field(tuple(x.source_id for x in excitations), 1)
+
+    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": Model()})
+    frame = s.update(touches=[ON_TABLE, Touch("right", "phone", (0.1, 0.73, 0.4))])
+    assert (frame.gain("left", "phone"), frame.gain("right", "phone")) == (0.0, 1.0)
+    assert (s.stats.fields_prepared, s.wait_prepared(0.0)) == (0, False)
+    may_go.set()
+    assert s.wait_prepared(SECONDS)
+    assert s.update(touches=[ON_TABLE]).gain("left", "phone") > 0.0
+    assert s.stats.fields_prepared == len(threads) == 1
+    assert threads != [threading.get_ident()]
+
+
+def test_a_first_field_that_fails_is_told() -> None:
+    class Model:
+        def prepare(self, network: Any, excitations: Any, bands: Bands) -> Field:
+            raise ModelDomainError("the table is too thick")
+
+    settings = {"sample_rate_hz": RATE, "propagation": Model()}
+    s = HapticSession(*table_with_two_phones(), settings)
+    with pytest.warns(RuntimeWarning, match="each source is felt on itself alone: the table is too thick"):
+        assert s.wait_prepared(SECONDS)
+    assert s.stats.fields_failed == 1
+    with pytest.raises(ModelDomainError, match="the table is too thick"):
+        HapticSession(*table_with_two_phones(), {**settings, "prepare": "blocking"})
 
 
 def test_only_the_newest_situation_is_prepared() -> None:
@@ -153,7 +189,7 @@ def test_who_waits_waits_until_what_is_touched_is_expected() -> None:
             return Slow(tuple(x.source_id for x in excitations), 1)
 
     s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": Model()})
-    assert s.wait_prepared(0.0)
+    assert s.wait_prepared(SECONDS)
     s.update(touches=[ON_TABLE])
     assert not s.wait_prepared(0.05)
     may_go.set()
@@ -298,6 +334,7 @@ def test_the_worker_begins_once_the_update_that_asks_for_it_is_over() -> None:
 
     model = Model()
     s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": model})
+    assert s.wait_prepared(SECONDS)
     s.update(shifted(0.2), [ON_TABLE])
     first = model.fields[0]
     assert isinstance(first, SlowField)

@@ -14,6 +14,7 @@ from scene2hap.session.config import SkipConfig
 from scene2hap.session.counts import Counts
 from scene2hap.session.horizon import Horizon
 from scene2hap.session.network import body_of, excitations_of
+from scene2hap.session.peaks import peaks_of
 from scene2hap.session.sources import Sources
 from scenes import RATE, table_with_two_phones
 
@@ -30,7 +31,8 @@ def ears(bands: Bands, **settings: Any) -> tuple[Any, Audibility, Horizon]:
     bodies = {name: body for name, known in bundle.objects.items() if (body := body_of(known)) is not None}
     excitations = excitations_of(sources.active_rows(), bodies)
     field = ExponentialPlate(**settings).live(ContactGraph(snapshot), bodies, excitations, bands)
-    audibility = Audibility(sources.active_rows(), bands, SkipConfig(), Counts())
+    peaks = np.array([peaks_of(row.loop.tactile, bands) for row in sources.active_rows()], dtype=np.float32)
+    audibility = Audibility(peaks, SkipConfig(), Counts())
     return field, audibility, Horizon(field, audibility)
 
 

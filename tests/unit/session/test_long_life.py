@@ -6,6 +6,8 @@ from types import ModuleType
 
 import pytest
 
+from edge_scenes import EDGE_SCENES
+
 
 @pytest.fixture(scope="module")
 def stress() -> ModuleType:
@@ -26,6 +28,13 @@ def test_a_minute_without_an_exception_or_drift(stress: ModuleType) -> None:
     assert found.n_events > 500
     assert 0.05 < found.worst_level <= 1.0
     assert found.drift_samples <= 1.0
+
+
+@pytest.mark.parametrize("name", EDGE_SCENES)
+def test_the_edges_live_too(stress: ModuleType, name: str) -> None:
+    found = stress.live(0.1, bundled=EDGE_SCENES[name]())
+    assert found.n_events > 50
+    assert found.worst_level <= 1.0
 
 
 def test_memory_does_not_grow(stress: ModuleType) -> None:

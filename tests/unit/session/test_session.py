@@ -1,6 +1,7 @@
 """A session on a table with two phones."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -160,7 +161,7 @@ def test_a_source_that_needs_contact_is_silent_without_it() -> None:
     [("no_propagation", [0.0, 1.0]), ({"kind": "full_propagation"}, [1.0, 1.0]), (NoPropagation(), [0.0, 1.0])],
 )
 def test_the_model_is_one_line_of_configuration(model: object, expected: list[float]) -> None:
-    s = session(propagation=model)
+    s = session(propagation=model, prepare="blocking")
     found = [
         s.update(touches=[touch]).gain("left", "phone")
         for touch in (ON_TABLE, Touch("left", "phone", (0.1, 0.73, 0.4)))
@@ -190,12 +191,17 @@ def test_gain_limit_caps_and_counts() -> None:
         def attenuation(self, object_id: str, points_m: object) -> np.ndarray:
             return np.full((1, 2, 1), self.value)
 
-    capped = session(propagation=Loud(3.0))
+    capped = session(prepare="blocking", propagation=Loud(3.0))
     assert capped.update(touches=[ON_TABLE]).gain("left", "phone") == 1.0
     assert capped.stats.gains_capped == 2
-    assert session(propagation=Loud(3.0), gain_limit_db=None).update(touches=[ON_TABLE]).gain("left", "phone") == 3.0
+    assert (
+        session(prepare="blocking", propagation=Loud(3.0), gain_limit_db=None)
+        .update(touches=[ON_TABLE])
+        .gain("left", "phone")
+        == 3.0
+    )
     for nonsense in (math.nan, math.inf, -1.0):
-        s = session(propagation=Loud(nonsense), gain_limit_db=None)
+        s = session(prepare="blocking", propagation=Loud(nonsense), gain_limit_db=None)
         s.update(touches=[ON_TABLE])
         out = s.render(4000)
         assert np.isfinite(out).all()
@@ -288,3 +294,20 @@ def test_hands_are_named_once() -> None:
 def test_start_without_a_sink() -> None:
     with pytest.raises(SessionError, match="no sink"):
         session().start()
+
+
+@pytest.mark.parametrize("hands", ["left", "", (), ("left", "left"), ("left", ""), ("left", 1), 3, None])
+def test_hands_are_names_and_not_one_string(hands: Any) -> None:
+    with pytest.raises(ConfigError, match="hands is"):
+        HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE}, hands=hands)
+    with pytest.raises(ConfigError, match=r"as \['left'\]"):
+        HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE}, hands="left")
+    assert HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE}, hands=["left"]).hands == ("left",)
+
+
+@pytest.mark.parametrize("touches", [Touch("left", "table", (0.0, 0.0, 0.0)), "left", [("left", "table")], 3])
+def test_touches_are_a_list_of_touches(touches: Any) -> None:
+    session = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE})
+    with pytest.raises(SessionError, match="must be a list of Touch"):
+        session.update(touches=touches)
+    assert session.stats.updates == 0

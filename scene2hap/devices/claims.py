@@ -1,0 +1,71 @@
+"""Who of this program holds a sink, a file or a port, so that nobody else takes it away.
+
+A file that two sinks write, or a sink that two sessions play on, loses the first one's samples without an error. What
+is held is known by a key; it is free again when it is given back, and when its holder is gone.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Hashable
+from weakref import WeakValueDictionary
+
+from scene2hap.devices.protocol import ActuatorSink
+from scene2hap.errors import DeviceError
+
+_LOCK = threading.Lock()
+_HELD: WeakValueDictionary[Hashable, object] = WeakValueDictionary()
+
+
+def claim(key: Hashable, holder: object, refusal: str) -> None:
+    """Hold what is known by a key, until `give_back`; claimed again by its holder, it stays held.
+
+    Raises: DeviceError: another one holds it, in the words of `refusal`.
+    """
+    with _LOCK:
+        if _HELD.get(key, holder) is not holder:
+            raise DeviceError(refusal)
+        _HELD[key] = holder
+
+
+def give_back(key: Hashable, holder: object) -> None:
+    """Let others hold it; nothing if somebody else does."""
+    with _LOCK:
+        if _HELD.get(key) is holder:
+            del _HELD[key]
+
+
+def claim_sink(sink: ActuatorSink, holder: object) -> None:
+    """Hold a sink with all that it hands the mix on to, or nothing of it.
+
+    Raises: DeviceError: another session plays on one of them.
+    """
+    parts = parts_of(sink)
+    try:
+        for part in parts:
+            refusal = (
+                f"another session plays on this {type(part).__name__} already, and what it was given would be lost. "
+                "Stop that session first, or give each a sink of its own; TeeSink plays one session on several sinks."
+            )
+            claim(("sink", id(part)), holder, refusal)
+    except DeviceError:
+        give_back_sink(sink, holder)
+        raise
+
+
+def give_back_sink(sink: ActuatorSink, holder: object) -> None:
+    """Let others hold a sink, and all that it hands the mix on to."""
+    for part in parts_of(sink):
+        give_back(("sink", id(part)), holder)
+
+
+def parts_of(sink: ActuatorSink) -> list[ActuatorSink]:
+    """A sink, and all that it hands the mix on to, such as those of a TeeSink."""
+    parts: tuple[ActuatorSink, ...] = getattr(sink, "sinks", ())
+    return [sink, *(x for part in parts for x in parts_of(part))]
+
+
+def port_key(port: str) -> Hashable:
+    """What a serial port is known by, whatever link leads to it."""
+    return ("port", os.path.realpath(port) if os.path.exists(port) else port)

@@ -1,0 +1,51 @@
+"""A plate that bends with its edges up to a frequency, and as if it had none above it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.propagation.coupling import ElasticBody
+from scene2hap.propagation.infinite_plate import InfiniteBody
+from scene2hap.propagation.reached import Pairs, folded
+
+
+@dataclass(frozen=True, eq=False)
+class SplitBody:
+    """An `ElasticBody` with edges up to a frequency, and without them above."""
+
+    below: ElasticBody
+    above: InfiniteBody
+    limit_hz: float
+
+    @property
+    def loss_factor(self) -> float:
+        """See `ElasticBody`."""
+        return self.below.loss_factor
+
+    def receptance(
+        self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
+    ) -> NDArray[np.complex128]:
+        """See `ElasticBody`."""
+        is_low = frequencies_hz <= self.limit_hz
+        answer = np.empty((len(is_low), len(points_m), len(forces_m)), dtype=np.complex128)
+        answer[is_low] = self.below.receptance(points_m, forces_m, frequencies_hz[is_low])
+        answer[~is_low] = self.above.receptance(points_m, forces_m, frequencies_hz[~is_low])
+        return answer
+
+    def under(
+        self, forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]
+    ) -> Pairs:
+        """See `Foldable`."""
+        is_low = frequencies_hz <= self.limit_hz
+        low = folded(self.below, forces_m, frequencies_hz[is_low], forces[:, is_low])
+        high = folded(self.above, forces_m, frequencies_hz[~is_low], forces[:, ~is_low])
+
+        def both(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+            answer = np.empty((len(points_m), len(is_low)), dtype=np.complex128)
+            answer[:, is_low], answer[:, ~is_low] = (one(points_m).view(np.complex128) for one in (low, high))
+            return answer.view(np.float64)
+
+        return both

@@ -1,0 +1,80 @@
+"""Loops ready to be mixed: split into bands, with the peaks by which `audibility` judges them.
+
+That takes some 100 ms a loop, so each content is prepared once in a process, however many objects, sessions and copies
+of its samples there are. What a session is given while it plays is prepared by a worker. What has been prepared stays
+as long as its clip, and the newest `KEPT_BYTES` a while longer, for things that come and go.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import threading
+from collections import OrderedDict
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import lru_cache
+from weakref import WeakKeyDictionary, WeakValueDictionary
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.audio.clip import AudioClip
+from scene2hap.haptics import Bands
+from scene2hap.render.loop_bank import LoopBank
+from scene2hap.session.peaks import peaks_of
+
+KEPT_BYTES = 32 * 2**20
+"""Memory of loops that are kept though nobody uses them."""
+
+
+@dataclass(frozen=True, eq=False)
+class PreparedLoop:
+    """A bank of one loop, and its peaks (2, n_bands), see `peaks_of`."""
+
+    bank: LoopBank
+    peaks: NDArray[np.float64]
+
+
+_Kind = tuple[Bands, int]
+_LOCK = threading.Lock()
+_BUILDING = threading.Lock()
+_OF_CLIP: WeakKeyDictionary[AudioClip, dict[_Kind, PreparedLoop]] = WeakKeyDictionary()
+_BY_CONTENT: WeakValueDictionary[tuple[bytes, _Kind], PreparedLoop] = WeakValueDictionary()
+_NEWEST: OrderedDict[tuple[bytes, _Kind], PreparedLoop] = OrderedDict()
+
+
+def find(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop | None:
+    """What was prepared of this very clip, None if nothing was; does no work."""
+    with _LOCK:
+        return _OF_CLIP.get(clip, {}).get((bands, tactile_rate_hz))
+
+
+def prepare(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop:
+    """A clip's loop, made here and now unless one of the same content is there."""
+    found = find(clip, bands, tactile_rate_hz)
+    if found is not None:
+        return found
+    kind = (bands, tactile_rate_hz)
+    content = hashlib.blake2b(clip.samples.tobytes(), key=str(clip.sample_rate_hz).encode()).digest()
+    with _BUILDING:
+        found = _BY_CONTENT.get((content, kind)) or _made(clip, bands, tactile_rate_hz)
+    with _LOCK:
+        _OF_CLIP.setdefault(clip, {})[kind] = _BY_CONTENT[content, kind] = _NEWEST[content, kind] = found
+        _NEWEST.move_to_end((content, kind))
+        while len(_NEWEST) > 1 and sum(one.bank.nbytes for one in _NEWEST.values()) > KEPT_BYTES:
+            _NEWEST.popitem(last=False)
+    return found
+
+
+def order(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> Future[PreparedLoop]:
+    """Have a worker prepare a clip's loop."""
+    return _worker().submit(prepare, clip, bands, tactile_rate_hz)
+
+
+@lru_cache(maxsize=1)
+def _worker() -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(1, thread_name_prefix="scene2hap loops")
+
+
+def _made(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop:
+    return PreparedLoop(LoopBank([clip], bands, tactile_rate_hz), peaks_of(clip, bands))

@@ -1,0 +1,70 @@
+"""No plate keeps masses and springs busy for minutes: a budget of nodes and modes, not a clock."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from scene2hap import materials
+from scene2hap.errors import ModelDomainError
+from scene2hap.propagation import lattice_modes
+from scene2hap.propagation.lattice_body import LatticeBody
+from scene2hap.propagation.mass_spring_damper import CoarsenedWarning, MassSpringDamper, _warn_coarsened
+from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.split_body import SplitBody
+
+# Values typical of felt, chosen for its softness; 1.5 m x 1 m x 10 mm.
+FELT = dataclasses.replace(materials.lookup("fabric"), name="felt", youngs_modulus_pa=4e6, density_kg_m3=150.0)
+RUG = Plate(1.5, 1.0, 0.01, FELT)
+
+
+@pytest.fixture
+def small_budget(monkeypatch: pytest.MonkeyPatch) -> float:
+    monkeypatch.setattr(lattice_modes, "MOST_WORK", 3e6)
+    _warn_coarsened.cache_clear()
+    return 3e6
+
+
+def test_a_rug_is_coarsened_within_the_budget_and_says_so(small_budget: float) -> None:
+    with pytest.warns(CoarsenedWarning, match=r"1.5 × 1 m of 10 mm felt has some .* modes up to 1000 Hz"):
+        body = MassSpringDamper(resolution=8).elastic_body(RUG, 1000.0)
+    assert isinstance(body, SplitBody)
+    assert isinstance(body.below, LatticeBody)
+    assert 1.0 < body.limit_hz < 1000.0
+    modes = body.below.modes
+    assert modes.lattice.n_nodes * modes.shapes.shape[1] ** 2 <= 2 * small_budget
+    at = np.array([[0.4, 0.3], [0.9, 0.6]])
+    found = body.receptance(at, at, np.array([0.5 * body.limit_hz, 2 * body.limit_hz, 900.0]))
+    assert np.isfinite(found).all()
+    assert (found[:, [0, 1], [0, 1]].imag < 0).all()
+
+
+def test_it_may_be_refused_or_taken_silently(small_budget: float, recwarn: pytest.WarningsRecorder) -> None:
+    with pytest.raises(ModelDomainError, match="too many for masses and springs"):
+        MassSpringDamper(resolution=8, outside_domain="raise").elastic_body(RUG, 1000.0)
+    MassSpringDamper(resolution=8, outside_domain="ignore").elastic_body(RUG, 1000.0)
+    assert not recwarn.list
+
+
+def test_what_is_asked_of_a_plate_alone_is_refused_before_it_is_begun(monkeypatch: pytest.MonkeyPatch) -> None:
+    def never(*_: object) -> None:
+        raise AssertionError("it was begun")
+
+    monkeypatch.setattr(lattice_modes, "_factorised", never)
+    fine = MassSpringDamper(resolution=200)
+    with pytest.raises(ModelDomainError, match="times what is solved in seconds"):
+        fine.plate_transfer(RUG, [0.4, 0.3], [[0.9, 0.6]], [300.0])
+    with pytest.raises(ModelDomainError, match="times what is solved in seconds"):
+        fine.natural_frequencies_hz(RUG, 5000)
+
+
+def test_furniture_is_as_it_was() -> None:
+    table = Plate(1.6, 0.8, 0.02, materials.lookup("oak"))
+    assert isinstance(MassSpringDamper().elastic_body(table, 1000.0), LatticeBody)
+
+
+def test_the_number_of_modes_is_told_well_enough() -> None:
+    table = Plate(1.6, 0.8, 0.02, materials.lookup("oak"))
+    found = lattice_modes.lowest_frequencies_hz(table, 16, 40)
+    assert math.isclose(lattice_modes.n_modes_up_to(table, float(found[-1])), 40, rel_tol=0.25)

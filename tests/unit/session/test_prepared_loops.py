@@ -1,0 +1,157 @@
+"""Who prepares loops, and how often: told by threads and counts, not by clocks."""
+
+import threading
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from scene2hap import AudioClip, HapticLoop, HapticSession, Touch
+from scene2hap.haptics import Bands
+from scene2hap.session import prepared_loops
+from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
+
+ON_FAN = Touch("left", "fan", (0.8, 0.82, 0.6))
+SECONDS = 10.0
+
+
+class Notes:
+    """What was prepared: its samples, and by which thread. A closed gate holds the worker, not the main thread."""
+
+    def __init__(self) -> None:
+        self.threads: list[int] = []
+        self.contents: list[bytes] = []
+        self.gate = threading.Event()
+        self.gate.set()
+
+    def made(self, clip: AudioClip, bands: Bands, rate_hz: int) -> prepared_loops.PreparedLoop:
+        self.threads.append(threading.get_ident())
+        self.contents.append(clip.samples.tobytes())
+        assert threading.current_thread() is threading.main_thread() or self.gate.wait(SECONDS)
+        return MADE(clip, bands, rate_hz)
+
+
+MADE = prepared_loops._made
+
+
+@pytest.fixture
+def notes(monkeypatch: pytest.MonkeyPatch) -> Iterator[Notes]:
+    noted = Notes()
+    monkeypatch.setattr(prepared_loops, "_made", noted.made)
+    for remembered in ("_OF_CLIP", "_BY_CONTENT", "_NEWEST"):
+        monkeypatch.setattr(prepared_loops, remembered, type(getattr(prepared_loops, remembered))())
+    yield noted
+    noted.gate.set()
+
+
+def session(**config: object) -> HapticSession:
+    return HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, **config})
+
+
+def add_fan(s: HapticSession, frequency_hz: float, name: str = "fan", x: float = 0.8) -> None:
+    item = box(name, (0.1, 0.2, 0.1), (x, 0.82, 0.6))
+    s.add(item, haptics("plastic", (0.2, 0.1, 0.1), "on"), {"on": tone_loop(frequency_hz)})
+
+
+@pytest.mark.parametrize("skip", [True, False])
+@pytest.mark.parametrize("bands", ["dominant", "third-octaves"])
+def test_the_game_prepares_nothing_and_feels_it_later(notes: Notes, bands: str, skip: bool) -> None:
+    s = session(bands=bands, skip=skip)
+    here = threading.get_ident()
+    before = len(notes.threads)
+    notes.gate.clear()
+    add_fan(s, 131.0)
+    frame = s.update(touches=[ON_FAN])
+    assert frame.gain("left", "fan") == 1.0
+    assert s.position_s("fan") == 0.0
+    assert str(s.explain("left"))
+    assert np.abs(s.render(RATE // 4)[:, 0]).max() < 0.05  # the phones, faintly
+    s.set_source("fan", gain_db=-1.0)
+    s.pause()
+    s.resume()
+    assert not s.wait_prepared(0.0)
+    notes.gate.set()
+    assert s.wait_prepared(SECONDS)
+    s.update(touches=[ON_FAN])
+    assert np.abs(s.render(RATE // 2)[:, 0]).max() > 0.2
+    assert len(notes.threads) == before + 1
+    assert here not in notes.threads[before:]
+
+
+def test_what_is_to_block_is_prepared_at_once(notes: Notes) -> None:
+    s = session(prepare="blocking")
+    add_fan(s, 133.0)
+    s.update(touches=[ON_FAN])
+    assert s.render(RATE // 4)[:, 0].any()
+    assert set(notes.threads) == {threading.get_ident()}
+
+
+def test_a_content_is_prepared_once(notes: Notes) -> None:
+    s = session()
+    for n in range(5):
+        add_fan(s, 137.0, f"fan {n}", 0.3 + 0.2 * n)  # copies, each with samples of its own
+        assert s.wait_prepared(SECONDS)
+    s.remove("fan 0")
+    add_fan(s, 137.0, "fan 0", 0.3)
+    other = session()
+    add_fan(other, 137.0)
+    assert other.wait_prepared(SECONDS)
+    assert notes.contents.count(tone_loop(137.0).tactile.samples.tobytes()) == 1
+    assert len(set(notes.contents)) == len(notes.contents)
+    add_fan(s, 137.0, "slower", 0.5)
+    session(tactile_rate_hz=4000)  # another rate is another loop
+    assert len(notes.contents) > len(set(notes.contents))
+
+
+def test_what_is_known_is_felt_at_once(notes: Notes) -> None:
+    s = session()
+    loop = tone_loop(139.0)
+    item, told = box("fan", (0.1, 0.2, 0.1), (0.8, 0.82, 0.6)), haptics("plastic", (0.2, 0.1, 0.1), "on")
+    s.add(item, told, {"on": loop})
+    assert s.wait_prepared(SECONDS)
+    s.update()
+    notes.gate.clear()
+    s.remove("fan")
+    s.add(item, told, {"on": loop})
+    s.update(touches=[ON_FAN])
+    assert np.abs(s.render(RATE // 4)[:, 0]).max() > 0.2
+
+
+def test_one_that_goes_before_it_came_is_forgotten(notes: Notes) -> None:
+    s = session()
+    notes.gate.clear()
+    add_fan(s, 149.0)
+    s.update(touches=[ON_FAN])
+    s.remove("fan")
+    s.update()
+    assert s.wait_prepared(SECONDS)
+    notes.gate.set()
+    assert s.source_ids == ("phone", "alarm")
+    assert not s.render(RATE).any()
+
+
+def test_it_comes_without_a_click(notes: Notes) -> None:
+    s = session()
+    notes.gate.clear()
+    add_fan(s, 151.0)
+    parts = []
+    for n in range(60):
+        if n == 20:
+            notes.gate.set()
+            assert s.wait_prepared(SECONDS)
+        s.update(touches=[ON_FAN])
+        parts.append(s.render(161)[:, 0])
+    x = np.concatenate(parts)
+    assert np.abs(x[-RATE // 4 :]).max() > 0.25
+    # No step is longer than the tones' own, with a fifth for their ramps.
+    assert np.abs(np.diff(x)).max() <= 1.2 * 2 * np.pi * 0.3 * 151.0 / RATE + 0.01
+
+
+def test_loops_that_nobody_keeps_do_not_pile_up() -> None:
+    for n in range(400):
+        samples = np.full(RATE * 8, n / 500, dtype=np.float32)
+        clip = AudioClip(samples, RATE)
+        prepared_loops.prepare(HapticLoop(clip, clip, 100.0, 100.0).tactile, Bands.dominant(), RATE)
+    kept = sum(loop.bank.nbytes for loop in prepared_loops._NEWEST.values())
+    assert RATE * 8 * 4 < kept <= prepared_loops.KEPT_BYTES
+    assert len(prepared_loops._OF_CLIP) < 400
