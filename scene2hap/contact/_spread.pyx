@@ -65,7 +65,7 @@ cdef Py_ssize_t first(double[3][MANY] at, Py_ssize_t n_axes, const double* apart
     """Of those that are farthest apart, up to rounding, the one with the least first coordinate, then second, ..."""
     cdef bint[MANY] is_left
     cdef double limit = greatest(apart, n) - TIE_M
-    cdef Py_ssize_t row, axis
+    cdef Py_ssize_t row, axis, found
     for row in range(n):
         is_left[row] = apart[row] >= limit
     for axis in range(n_axes):
@@ -76,7 +76,16 @@ cdef Py_ssize_t first(double[3][MANY] at, Py_ssize_t n_axes, const double* apart
         limit += TIE_M
         for row in range(n):
             is_left[row] = is_left[row] and at[axis][row] <= limit
+    found = -1
     for row in range(n):
-        if is_left[row]:
-            return row
-    return 0
+        if is_left[row] and (found < 0 or is_less(at, n_axes, row, found)):
+            found = row
+    return found
+
+
+cdef bint is_less(double[3][MANY] at, Py_ssize_t n_axes, Py_ssize_t row, Py_ssize_t other) noexcept:
+    cdef Py_ssize_t axis
+    for axis in range(n_axes):
+        if at[axis][row] != at[axis][other]:
+            return at[axis][row] < at[axis][other]
+    return False

@@ -14,7 +14,8 @@ from scene2hap.contact.ledge import Ledges, Upright
 from scene2hap.contact.profile import Sole, sole_of, top_of, triples, uneven_m
 from scene2hap.contact.rays import first_hits
 from scene2hap.contact.stance import Stance
-from scene2hap.contact.vectors import Floats, Triple, along, cross, dot, highest, lowest
+from scene2hap.contact.triangle_tree import TriangleTree
+from scene2hap.contact.vectors import Floats, Rows, Triple, cross, dot, highest, lowest
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject, TriMesh
 
@@ -47,11 +48,9 @@ class Shape:
         self._ledges: dict[Upright, Ledges] = {}
 
     @cached_property
-    def normals(self) -> Floats:
-        """Unit normals (3, m) of the triangles, 0 for those without area."""
-        normals, lengths = self._cross
-        unit: Floats = normals / np.where(lengths > 0, lengths, 1.0)
-        return unit
+    def tree(self) -> TriangleTree:
+        """A bounding volume hierarchy over the triangles."""
+        return TriangleTree.over(self.triangles, self.boxes)
 
     @cached_property
     def is_cuboid(self) -> bool:
@@ -60,7 +59,7 @@ class Shape:
         if not (edges > 0).all():
             return False
         near = 1e-9 * float(edges.max())
-        areas = self._cross[1] / 2
+        areas = self._areas
         on_side = np.zeros(len(areas), dtype=bool)
         for axis in range(3):
             for end in (self.low[axis], self.high[axis]):
@@ -113,10 +112,12 @@ class Shape:
         return known[up]
 
     @cached_property
-    def _cross(self) -> tuple[Floats, Floats]:
+    def _areas(self) -> Floats:
+        """Area (m,) of each triangle."""
         a, b, c = self.triangles.transpose(1, 0, 2)
         normals = cross(b - a, c - a)
-        return normals, np.sqrt(dot(normals, normals))
+        areas: Floats = np.sqrt(dot(normals, normals)) / 2
+        return areas
 
 
 # Instances share a mesh, and sessions come and go over one scene: a shape lives as long as some body uses it.
@@ -211,50 +212,14 @@ class Body:
         return self.high[self.up_axis]
 
     @property
-    def n_triangles(self) -> int:
-        """How many triangles its shape has."""
-        return len(self.shape.triangles[0, 0])
-
-    @property
-    def up(self) -> Floats:
-        """The world's upward axis (3,) in the own frame."""
-        up: Floats = self.pose.rotation[self.up_axis]
-        return up
-
-    @cached_property
-    def triangles_m(self) -> Floats:
-        """Its triangles in the world (3, 3, m) [m]."""
-        placed = np.stack([along(axis, self.shape.triangles) for axis in self.pose.rotation])
-        placed += np.array(self.position_m)[:, None, None]
-        return placed
-
-    @cached_property
-    def lows_m(self) -> Floats:
-        """Height of the lowest corner of each triangle (m,)."""
-        return lowest(self._heights_m)
-
-    @cached_property
-    def highs_m(self) -> Floats:
-        """Height of the highest corner of each triangle (m,)."""
-        return highest(self._heights_m)
-
-    @cached_property
-    def _heights_m(self) -> Floats:
-        """Height of each corner of each triangle (3, m)."""
-        heights = along(self.up, self.shape.triangles)
-        heights += self.pose.position_m[self.up_axis]
-        return heights
+    def rows(self) -> Rows:
+        """Its rotation, in rows."""
+        return self.stance.rows
 
     @cached_property
     def clearings(self) -> dict[str, Clearing]:
         """What is known, for guests by their ids, of their surroundings; see `contact.clearing`."""
         return {}
-
-    @cached_property
-    def slopes(self) -> Floats:
-        """How flat each triangle (m,) lies: 1 level, 0 upright or without area."""
-        slopes: Floats = np.abs(along(self.up, self.shape.normals))
-        return slopes
 
 
 def boxes_of(triangles: Floats) -> Boxes:

@@ -9,7 +9,7 @@ from scene2hap.contact.junction import Junction
 from scene2hap.contact.level import Aside, Rest, rest_points
 from scene2hap.contact.support import CLEAR_M
 from scene2hap.contact.tie import Tie
-from scene2hap.contact.vectors import Floats, Triple
+from scene2hap.contact.vectors import Triple
 
 
 class Bond(NamedTuple):
@@ -67,9 +67,3 @@ def direction(distance_m: float, way_m: Triple) -> Triple | None:
     x, y, z = way_m
     length = math.sqrt(x * x + y * y + z * z)
     return (x / length, y / length, z / length)
-
-
-def triple(way: Floats) -> Triple:
-    """As plain numbers."""
-    x, y, z = way.tolist()
-    return (x, y, z)

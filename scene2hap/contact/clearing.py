@@ -19,8 +19,8 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes
 from scene2hap.contact.crowd import SKIN_M
 from scene2hap.contact.enclosure import play_reach_m
-from scene2hap.contact.fall import INSET, INSET_M
 from scene2hap.contact.ledge import Flat, Upright
+from scene2hap.contact.mesh_distance import INSET, INSET_M
 from scene2hap.contact.relative import box_in_frame
 from scene2hap.contact.stance import Tray
 from scene2hap.contact.support import TOUCH_M, fall_reach_m, hang_reach_m, is_over

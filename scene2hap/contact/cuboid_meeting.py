@@ -1,4 +1,4 @@
-"""Bodies that are cuboids, leaning or not: what `Meeting` tells of triangles, by `cuboids` for many couples at once."""
+"""Distance and contact points of pairs of cuboids, leaning or not: `MeshPair` in closed form, for many pairs."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from scene2hap.contact.body import Body
 from scene2hap.contact.cuboid_patch import patches
 from scene2hap.contact.cuboids import Pairs, gaps, times
-from scene2hap.contact.narrow import ROUNDING_M, Gap
+from scene2hap.contact.mesh_distance import ROUNDING_M, Gap
 from scene2hap.contact.support import TOUCH_M
 from scene2hap.contact.vectors import Floats, Triple, dot
 
@@ -38,9 +38,9 @@ def gaps_of(couples: Sequence[Couple], within_m: float) -> list[Gap | None]:
     if couples:
         posed = _Posed(couples)
         rows, near = gaps(posed.pairs, max(within_m, ROUNDING_M))
-        ways = times(posed.axes[..., rows], (near.way_m * posed.sign[rows])[:, None])[:, 0].T
-        for row, distance_m, way in zip(rows.tolist(), near.distance_m.tolist(), ways, strict=True):
-            found[row] = Gap(distance_m, way) if distance_m > ROUNDING_M else Gap(0.0, np.zeros(3))
+        ways = times(posed.axes[..., rows], (near.way_m * posed.sign[rows])[:, None])[:, 0].T.tolist()
+        for row, distance_m, (x, y, z) in zip(rows.tolist(), near.distance_m.tolist(), ways, strict=True):
+            found[row] = Gap(distance_m, (x, y, z)) if distance_m > ROUNDING_M else Gap(0.0, (0.0, 0.0, 0.0))
     return found
 
 

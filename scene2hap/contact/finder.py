@@ -11,7 +11,6 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from scene2hap.contact.body import Body
 from scene2hap.contact.crowd import Crowd
 from scene2hap.contact.cuboid_meeting import gaps_of
-from scene2hap.contact.falls_together import falls_of
 from scene2hap.contact.glides import Glides
 from scene2hap.contact.holding import Holding
 from scene2hap.contact.junction import Junction, Pair, pair_of
@@ -97,7 +96,6 @@ class ContactFinder:
         if not (unsure or dirty):
             return
         self._tell_cuboids_apart(seen)
-        self._tell_falls(unsure)
         for x in unsure:
             if x in bodies:
                 self._hold_anew(x, dirty)
@@ -165,13 +163,6 @@ class ContactFinder:
         if ties:
             for tie, gap in zip(ties.values(), gaps_of([(t.a, t.b) for t in ties.values()], WITHIN_M), strict=True):
                 tie.tell_apart(gap)
-
-    def _tell_falls(self, unsure: Iterable[str]) -> None:
-        """Find out all at once how far what has few triangles is to fall."""
-        asked = [(tie, x) for x in unsure for tie in self._ties.get(x, {}).values() if tie.asks_falls(x)]
-        if asked:
-            for (tie, x), falls_m in zip(asked, falls_of([tie.falling(x) for tie, x in asked]), strict=True):
-                tie.tell_falls(x, falls_m)
 
     def _hold_anew(self, x: str, dirty: set[Pair]) -> None:
         """Find out what holds a body; the pairs in which another than before does are dirty."""

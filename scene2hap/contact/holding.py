@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Collection, Iterable, Mapping
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.bond import NO_BOND, NO_WAY, Bond, Plan, direction, strength, triple
+from scene2hap.contact.bond import NO_BOND, NO_WAY, Bond, Plan, direction, strength
 from scene2hap.contact.clearing import is_clear
 from scene2hap.contact.cuboid_meeting import points_of
 from scene2hap.contact.junction import Junction, Pair, pair_of
@@ -123,7 +123,7 @@ class Holding:
         if side is not None:
             return (side.distance_m, side.way_m) if side.points else None
         gap = tie.gap(within_m)
-        return None if gap is None else (gap.distance_m, triple(gap.way_m))
+        return None if gap is None else (gap.distance_m, gap.way_m)
 
     def _tie(self, x: str, y: str) -> Tie:
         tie = self.ties[x].get(y)

@@ -74,12 +74,15 @@ def _first_of_few(points: Sequence[tuple[float, ...]], apart: Sequence[float]) -
 
 
 def _least(names: Sequence[int], axes: Sequence[Sequence[float]]) -> int:
-    """The first of the names with the least of the first coordinates, then of the second, and so on."""
+    """The name with the least of the first coordinates, up to rounding, then of the second, and so on.
+
+    What is left is decided to the last bit, so that the order of the names does not matter.
+    """
     left = list(range(len(names)))
     for values in axes:
         limit = min([values[k] for k in left]) + _TIE_M
         left = [k for k in left if values[k] <= limit]
-    return names[left[0]]
+    return names[min(left, key=lambda k: [values[k] for values in axes])]
 
 
 def spread_each(points: Floats, counts: Marks) -> tuple[Indices, Marks]:

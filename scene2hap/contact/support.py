@@ -40,7 +40,7 @@ CLEAR_M = 1e-4
 # hovers 37 mm. These are to weigh 1, as gaps do up to 2/3 of the reach. Small things, which hands lift, get less.
 _FALL_REACH_M, _FALL_REACH_SIZES = 0.090, 0.25
 # Tuned likewise: a television of 1.5 m hangs 49 mm off its wall, a shelf board 12 mm.
-HANG_REACH_M, _HANG_REACH_SIZES = 0.075, 0.05
+HANG_REACH_M, _HANG_REACH_SIZES = 0.075, 0.12
 
 _HIDDEN_M = 0.002  # What lies this much below something else is hidden by it (assumed: the thinnest carpet).
 

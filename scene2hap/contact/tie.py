@@ -9,16 +9,12 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from scene2hap.contact.body import Body
 from scene2hap.contact.clearing import below, is_clear
 from scene2hap.contact.cuboid_meeting import gaps_of, points_of
 from scene2hap.contact.enclosure import enclosed
-from scene2hap.contact.fall import falls, first_fall_m
-from scene2hap.contact.falls_together import are_few, falls_of
 from scene2hap.contact.level import Aside, Rest, aside, rest_on
-from scene2hap.contact.narrow import Gap, Meeting
+from scene2hap.contact.mesh_distance import Gap, MeshPair
 from scene2hap.contact.relative import roles
 from scene2hap.contact.support import HANG_REACH_M, SLACK_M, TOUCH_M, fall_reach_m, is_over
 from scene2hap.contact.vectors import Floats, Triple
@@ -38,7 +34,7 @@ class Tie:
 
     def __init__(self, a: Body, b: Body, rest_a: Rest | None, rest_b: Rest | None) -> None:
         self.a, self.b, self._rest_a, self._rest_b, self._is_in_reserve = a, b, rest_a, rest_b, False
-        self._meeting_made: Meeting | None = None
+        self._meeting_made: MeshPair | None = None
         self._facts: dict[object, Any] | None = None
 
     @classmethod
@@ -89,31 +85,19 @@ class Tie:
         self._meeting_made = self._facts = None
 
     def first_fall_m(self, x: str) -> float:
-        """How far x is to fall by its triangles; see `fall.first_fall_m`."""
-        if are_few(self.a, self.b):
-            each_m = self.falls(x)
-            return math.inf if each_m is None else float(each_m.min())
-        found: float = self._once((x, "first"), lambda: first_fall_m(self._meeting, *self.falling(x)))
-        return found
+        """How far x is to fall by its triangles, inf if it meets nothing."""
+        each_m = self.falls(x)
+        return math.inf if each_m is None else float(each_m.min())
 
     def falls(self, x: str) -> Floats | None:
-        """How far each of them is to fall; see `fall.falls`."""
-        found: Floats | None = self._once(x, lambda: self._falls(x))
+        """How far each of its triangles is to fall; see `MeshPair.drops`."""
+        found: Floats | None = self._once(x, lambda: self._falls(*self.falling(x)))
         return found
 
-    def _falls(self, x: str) -> Floats | None:
-        couple = self.falling(x)
-        return falls_of([couple])[0] if are_few(*couple) else falls(self._meeting, *couple)
-
-    def asks_falls(self, x: str) -> bool:
-        """Whether how far x is to fall is still to be found out, and a matter of few triangles."""
-        if self._is_in_reserve or (self._facts is not None and x in self._facts):
-            return False
-        return self.rest(x) is UNCLEAR and are_few(self.a, self.b)
-
-    def tell_falls(self, x: str, falls_m: Floats | None) -> None:
-        """Take in what `falls` is to answer."""
-        self._once(x, lambda: falls_m)
+    def _falls(self, faller: Body, other: Body) -> Floats | None:
+        if not is_over(faller, other):
+            return None
+        return self._meeting.drops(faller, faller.up_axis, faller.lowest_m, fall_reach_m(faller.size_m), TOUCH_M)
 
     def falling(self, x: str) -> tuple[Body, Body]:
         """x, and the other."""
@@ -151,7 +135,7 @@ class Tie:
         self._once(_APART, lambda: gap)
 
     def gap(self, within_m: float) -> Gap | None:
-        """How far their surfaces are apart; see `Meeting.gap`."""
+        """How far their surfaces are apart; see `MeshPair.gap`."""
         if self.are_cuboids and within_m <= WITHIN_M:
             near: Gap | None = self._once(_APART, lambda: gaps_of([(self.a, self.b)], WITHIN_M)[0])
             return near if near is not None and near.distance_m <= within_m else None
@@ -177,9 +161,7 @@ class Tie:
         return points_of([(self.a, self.b)], [way_m], [within_m])[0]
 
     def _points_of_triangles(self, way_m: Triple, within_m: float) -> tuple[Triple, ...]:
-        patch = self._meeting.patch(np.array(way_m), within_m)
-        points = (self.a.pose.to_world(patch.on_a_m) + self.b.pose.to_world(patch.on_b_m)) / 2
-        return tuple((x, y, z) for x, y, z in points.tolist())
+        return tuple([ends.middle_m for ends in self._meeting.patch(way_m, within_m)])
 
     def _once(self, key: object, find: Callable[[], object]) -> Any:
         if self._is_in_reserve:
@@ -192,10 +174,10 @@ class Tie:
         return facts[key]
 
     @property
-    def _meeting(self) -> Meeting:
+    def _meeting(self) -> MeshPair:
         made = self._meeting_made
         if made is None:
-            made = Meeting(self.a, self.b)
+            made = MeshPair(self.a, self.b)
             if not self._is_in_reserve:
                 self._meeting_made = made
         return made

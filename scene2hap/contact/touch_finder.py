@@ -17,11 +17,11 @@ from scene2hap.contact.broad import Boxes, box_pairs
 from scene2hap.contact.cuboid_patch import patches
 from scene2hap.contact.cuboids import Pairs, gaps, times
 from scene2hap.contact.junction import ContactArrays, Junction, Pair
-from scene2hap.contact.narrow import ROUNDING_M, Meeting
+from scene2hap.contact.mesh_distance import ROUNDING_M, MeshPair
 from scene2hap.contact.spread import MAX_POINTS
 from scene2hap.contact.support import CLEAR_M, PATCH_SHARE, weight, weights
 from scene2hap.contact.touches import Difference, PairNames, Touches, difference
-from scene2hap.contact.vectors import Indices, Marks, Triple, dot
+from scene2hap.contact.vectors import Indices, Marks, Rows, Triple, dot
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.scene.snapshot import SceneObject
@@ -39,7 +39,8 @@ class Placed(NamedTuple):
     """A shape at a place."""
 
     shape: Shape
-    pose: Pose
+    rows: Rows
+    position_m: Triple
     size_m: float
 
 
@@ -259,20 +260,20 @@ class TouchFinder:
 
     def _of_two(self, a: Placed, b: Placed) -> Junction | None:
         """Where the triangles of two things touch."""
-        meeting = Meeting(a, b)
-        gap = meeting.gap(self._tolerance_m)
+        pair = MeshPair(a, b)
+        gap = pair.gap(self._tolerance_m)
         share = 0.0 if gap is None else weight(gap.distance_m, self._tolerance_m)
         if gap is None or share <= 0:
             return None
-        patch = meeting.patch(np.zeros(3), PATCH_SHARE * self._tolerance_m + gap.distance_m)
-        middles = (a.pose.to_world(patch.on_a_m) + b.pose.to_world(patch.on_b_m)) / 2
-        points = tuple((x, y, z) for x, y, z in middles.tolist())
+        patch = pair.patch((0.0, 0.0, 0.0), PATCH_SHARE * self._tolerance_m + gap.distance_m)
+        points = tuple([ends.middle_m for ends in patch])
         normal: Triple | None = None
         if gap.distance_m >= CLEAR_M:
-            x, y, z = (gap.way_m / np.linalg.norm(gap.way_m)).tolist()
+            x, y, z = (np.array(gap.way_m) / np.linalg.norm(gap.way_m)).tolist()
             normal = (x, y, z)
         return Junction(points, (share,) * len(points), (normal,) * len(points)) if points else None
 
     def _placed(self, column: int) -> Placed:
         (x, y, z), (a, b, c, d) = self._position[:, column].tolist(), self._rotation[:, column].tolist()
-        return Placed(self._shapes[column], Pose((x, y, z), (a, b, c, d)), float(self._size[column]))
+        p, q, r = Pose((x, y, z), (a, b, c, d)).rotation.tolist()
+        return Placed(self._shapes[column], (tuple(p), tuple(q), tuple(r)), (x, y, z), float(self._size[column]))

@@ -18,8 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap.compiled import compiled
-from scene2hap.contact.vectors import Floats, Marks, Triple, cross, dot, frame_along, highest, lowest, turned
+from scene2hap.contact.vectors import Floats, Marks, cross, dot, highest, lowest
 
 # Squared sine below which edges are parallel and corners in line: the rest of their answer would be rounding noise.
 _PARALLEL = 1e-12
@@ -37,37 +36,6 @@ class Meetings(NamedTuple):
     on_q: Floats
 
 
-class TrianglePairs:
-    """Triangles p and q (3, 3, n), pair by pair."""
-
-    __slots__ = ("p", "q")
-
-    def __init__(self, p: Floats, q: Floats) -> None:
-        self.p, self.q = p, q
-
-    def __len__(self) -> int:
-        return len(self.p[0, 0])
-
-    def within(self, distance_m: float) -> TrianglePairs:
-        """Those that may be so near: a triangle that stays farther on one side of the other's plane surely is not."""
-        near = np.flatnonzero(clearances(self.p, self.q) <= distance_m)
-        return self if len(near) == len(self) else TrianglePairs(self.p.take(near, axis=2), self.q.take(near, axis=2))
-
-    def closest(self) -> Meetings:
-        """Distance (n,) [m] of each pair, 0 where they cut each other, and a nearest point (3, n) on either.
-
-        Where several points are equally near, as on parallel faces, one of them.
-        """
-        n = len(self)
-        found = Meetings(np.empty(n), np.empty((3, n)), np.empty((3, n)))
-        fill_closest(*found, self.p, self.q)
-        return found
-
-    def near(self, distance_m: float) -> tuple[Floats, Floats]:
-        """All ends (3, m) [m] of meetings of any pair at which the two come so near: those on p, and those on q."""
-        return near_ends(self.p, self.q, distance_m)
-
-
 def meetings(p: Floats, q: Floats) -> Meetings:
     """The 21 local meetings of each pair (3, 3, n): nine of edges, six of vertices with faces, six of edges through
     faces."""
@@ -82,54 +50,24 @@ def meetings(p: Floats, q: Floats) -> Meetings:
     return every
 
 
-def height_range(p: Floats, q: Floats, up: Triple) -> tuple[Floats, Floats]:
-    """Least and greatest height (n,) [m] of p over q along the unit vector `up`, of points straight over each other.
-
-    (inf, -inf) where no vertical line meets both. The height is linear over the common shadow, so that its extremes lie
-    on the shadow's corners: vertices of either triangle or crossings of edges.
-    """
-    n = p.shape[2]
-    both = turned(frame_along(up), np.concatenate([p, q], axis=2))
-    low, high = np.empty(n), np.empty(n)
-    fill_heights(low, high, both[..., :n], both[..., n:])
-    return low, high
-
-
-@compiled
 def clearances(p: Floats, q: Floats) -> Floats:
     """How far (n,) [m] one of each pair (3, 3, n) stays on one side of the other's plane, 0 if neither does."""
     return np.maximum(_Faces.of(q, p).clear_of_plane(), _Faces.of(p, q).clear_of_plane())
 
 
-@compiled
-def fill_closest(distance: Floats, on_p: Floats, on_q: Floats, p: Floats, q: Floats) -> None:
-    """Fill (n,), (3, n) and (3, n) with the nearest meeting of each pair (3, 3, n), the first of equals."""
-    every, columns = meetings(p, q), np.arange(len(distance))
-    nearest = np.argmin(every.distance, axis=0)
-    distance[:] = every.distance[nearest, columns]
-    on_p[:], on_q[:] = every.on_p[:, nearest, columns], every.on_q[:, nearest, columns]
+def heights(p: Floats, q: Floats) -> tuple[Floats, Floats]:
+    """Least and greatest height (n,) [m] of p over q (3, 3, n) along the third axis, at points over each other.
 
-
-@compiled
-def near_ends(p: Floats, q: Floats, distance_m: float) -> tuple[Floats, Floats]:
-    """The ends (3, m) of all meetings of pairs (3, 3, n) that are so near, in the order of meetings, then of pairs."""
-    every = meetings(p, q)
-    hits = np.flatnonzero(every.distance <= distance_m)
-    on_p, on_q = (side.reshape(3, -1).take(hits, axis=1) for side in (every.on_p, every.on_q))
-    return on_p, on_q
-
-
-@compiled
-def fill_heights(low: Floats, high: Floats, p: Floats, q: Floats) -> None:
-    """Fill the least and the greatest height (n,) of p over q (3, 3, n) along the third axis."""
+    (inf, -inf) where no vertical line meets both. The height is linear over the common shadow, so that its extremes lie
+    on the shadow's corners: vertices of either triangle or crossings of edges.
+    """
     n = p.shape[2]
-    heights = np.empty((15, n))
+    found = np.empty((15, n))
     over = _over(np.concatenate([p, q], axis=2), np.concatenate([q, p], axis=2))
-    heights[:3] = over[:, :n]
-    np.negative(over[:, n:], out=heights[3:6])
-    heights[6:] = _over_crossings(p, q)
-    np.fmin.reduce(heights, axis=0, initial=np.inf, out=low)
-    np.fmax.reduce(heights, axis=0, initial=-np.inf, out=high)
+    found[:3] = over[:, :n]
+    np.negative(over[:, n:], out=found[3:6])
+    found[6:] = _over_crossings(p, q)
+    return np.fmin.reduce(found, axis=0, initial=np.inf), np.fmax.reduce(found, axis=0, initial=-np.inf)
 
 
 class _Faces(NamedTuple):

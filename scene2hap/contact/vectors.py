@@ -15,6 +15,7 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 Marks = NDArray[np.bool_]
 Triple = tuple[float, float, float]
+Rows = tuple[Triple, Triple, Triple]
 
 
 def dot(x: Floats, y: Floats) -> Floats:
@@ -76,3 +77,16 @@ def turned(turn: Floats, points: Floats) -> Floats:
     """
     found: Floats = (turn @ points.reshape(3, -1)).reshape(points.shape)
     return found
+
+
+def rotated(rows: Rows, point: Triple) -> Triple:
+    """A matrix in rows, in plain numbers, times a vector."""
+    (a, b, c), (d, e, f), (g, h, i) = rows
+    x, y, z = point
+    return (a * x + b * y + c * z, d * x + e * y + f * z, g * x + h * y + i * z)
+
+
+def transposed(rows: Rows) -> Rows:
+    """The transpose of a matrix in rows."""
+    (a, b, c), (d, e, f), (g, h, i) = rows
+    return ((a, d, g), (b, e, h), (c, f, i))

@@ -9,12 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contact_scenes import box, boxes, chair, house, pairs, scene
-from scene2hap.contact import finder, holding, short_ways, tie
+from scene2hap.contact import holding, short_ways, tie
 from scene2hap.contact.body import Body
 from scene2hap.contact.clearing import below, is_clear
-from scene2hap.contact.fall import falls
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.contact.narrow import Meeting
+from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.support import fall_reach_m, hang_reach_m
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject
@@ -52,8 +51,8 @@ def test_what_is_told_is_what_triangles_tell(
         place = Pose((at[0] + dx, at[1] + size[1] / 2, at[2] + dz), turned(turn))
         guest = Body.of(replace(box("guest", size, (0, 0, 0)), pose=all_of_it.compose(place)), 1)
         reach_m = fall_reach_m(guest.size_m)
-        meeting = Meeting(guest, host)
-        told = falls(meeting, guest, host)
+        meeting = MeshPair(guest, host)
+        told = tie.Tie.between(guest, host).falls("guest")
         known = below(guest, host)
         if known is not None and known.top_m is None:
             assert told is None
@@ -69,18 +68,13 @@ def test_what_is_told_is_what_triangles_tell(
 
 def test_most_of_a_room_is_told_without_triangles(monkeypatch: pytest.MonkeyPatch) -> None:
     met: list[object] = []
-    near, falls_of = Meeting.near, finder.falls_of
+    made = MeshPair.__init__
 
-    def watched(self: Meeting, *args: object, **named: object) -> object:
+    def watched(self: MeshPair, *args: Body) -> None:
         met.append(self)
-        return near(self, *args, **named)  # type: ignore[arg-type]  # as the caller gave them
+        made(self, *args)
 
-    def fallen(couples: list[tuple[Body, Body]]) -> object:
-        met.extend(couples)
-        return falls_of(couples)
-
-    monkeypatch.setattr(Meeting, "near", watched)
-    monkeypatch.setattr(finder, "falls_of", fallen)
+    monkeypatch.setattr(MeshPair, "__init__", watched)
     graph = ContactGraph(scene(HOUSE, chair((-0.2, 0.0, 0.9)), box("pan", (0.2, 0.1, 0.2), (1.2, 0.955, 0.1))))
     assert pairs(graph) == {("chair", "house"), ("house", "pan")}
     for k in range(30):

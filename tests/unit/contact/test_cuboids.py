@@ -13,7 +13,7 @@ from contact_scenes import box
 from scene2hap.contact.body import Body
 from scene2hap.contact.cuboid_patch import patches
 from scene2hap.contact.cuboids import Gaps, Pairs, gaps
-from scene2hap.contact.narrow import Meeting
+from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.spread import spread_each
 from scene2hap.scene.pose import Pose
 
@@ -46,11 +46,11 @@ def pairs_of(several: list[Case]) -> Pairs:
     return Pairs.of(turn, shift, *(np.stack([case[k] for case in several], axis=-1) / 2 for k in (0, 1)))
 
 
-def meeting(case: Case) -> Meeting:
+def meeting(case: Case) -> MeshPair:
     host, guest, pose = case
     a = Body.of(box("a", tuple(host.tolist()), (0, 0, 0)), 1)
     b = Body.of(box("b", tuple(guest.tolist()), pose.position_m, pose.rotation_xyzw), 1)
-    return Meeting(a, b)
+    return MeshPair(a, b)
 
 
 @pytest.mark.parametrize("plain", [False, True])
@@ -140,7 +140,7 @@ def test_points_lie_half_way_between_the_surfaces_and_as_wide_as_the_triangles_t
         if found.least_m[place] > -SUNK_M:
             continue
         # Sunk in deeper: the curve of the cut is as wide.
-        told = meeting(several[row]).patch(np.zeros(3), 0.0).on_a_m
+        told = np.array([ends.on_a_m for ends in meeting(several[row]).patch((0.0, 0.0, 0.0), 0.0)])
         if len(told) > 1 and gap_m == 0:
             assert np.linalg.norm(np.ptp(points, axis=0)) >= 0.5 * np.linalg.norm(np.ptp(told, axis=0))
 

@@ -129,27 +129,23 @@ def test_a_change_of_weight_alone_is_a_shift() -> None:
 
 
 def test_what_does_not_move_is_not_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
-    from scene2hap.contact import finder, narrow
+    from scene2hap.contact import finder
+    from scene2hap.contact.mesh_distance import MeshPair
 
     graph = room(*(on_floor(f"crate{i}", (0.2, 0.2, 0.2), -2, i * 0.5 - 2) for i in range(6)))
     met: list[set[str]] = []
-    near, tie, falls_of = narrow.Meeting.near, finder.Tie.between, finder.falls_of
+    tie, made = finder.Tie.between, MeshPair.__init__
 
-    def watched(self: narrow.Meeting, *args: object, **kwargs: object) -> object:
-        met.append({self.a.id, self.b.id})
-        return near(self, *args, **kwargs)  # type: ignore[arg-type]
+    def watched(self: MeshPair, a: Body, b: Body) -> None:
+        met.append({a.id, b.id})
+        made(self, a, b)
 
     def tied(a: Body, b: Body) -> finder.Tie:
         met.append({a.id, b.id})
         return tie(a, b)
 
-    def fallen(couples: list[tuple[Body, Body]]) -> object:
-        met.extend({faller.id, other.id} for faller, other in couples)
-        return falls_of(couples)
-
-    monkeypatch.setattr(narrow.Meeting, "near", watched)
+    monkeypatch.setattr(MeshPair, "__init__", watched)
     monkeypatch.setattr(finder.Tie, "between", tied)
-    monkeypatch.setattr(finder, "falls_of", fallen)
     graph.update({"cup": Pose((0.25, 0.76, 0.1))})
     assert all(pair == {"cup", "table"} for pair in met)
     # Over the table's edge the foot of a tilted thing is not all over the table, so that triangles must tell.

@@ -1,4 +1,4 @@
-"""Outlines against triangles: the closed forms tell what `Meeting` and `falls` tell."""
+"""Outlines against triangles: closed forms agree with `MeshPair`."""
 
 import math
 
@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from contact_scenes import box, boxes
 from scene2hap.contact.body import Body
-from scene2hap.contact.fall import falls, first_fall_m
 from scene2hap.contact.level import aside, clipped, rest_on, rest_points
-from scene2hap.contact.narrow import Meeting
+from scene2hap.contact.mesh_distance import MeshPair
+from scene2hap.contact.tie import Tie
 from scene2hap.scene.pose import Pose
 
 TURNS = st.floats(-3.0, 3.0)
@@ -31,9 +31,7 @@ def test_a_block_falls_onto_another_as_its_triangles_do(
     upper = block("upper", (0.3, 0.1, 0.2), (at[0], 0.25 + gap, at[1]), turn_x)
     rest = rest_on(upper, lower)
     assert rest is not None
-    told = falls(Meeting(upper, lower), upper, lower)
-    least = math.inf if told is None else float(told.min())
-    assert first_fall_m(Meeting(upper, lower), upper, lower) == least
+    least = Tie.between(upper, lower).first_fall_m("upper")
     # Rims that overlap by a tenth of a millimetre may or may not count.
     if math.isinf(rest.fall_m) != math.isinf(least):
         moved = block("upper", (0.2998, 0.1, 0.1998), upper.position_m, turn_x)
@@ -59,14 +57,14 @@ def test_two_blocks_are_apart_as_their_triangles_are(
     x = block("x", (0.3, 0.2, 0.2), at, turn_x)
     y = block("y", (0.8, 0.3, 0.5), (0.0, 0.15, 0.0), turn_y)
     told = aside(x, y, 0.5, 0.001)
-    gap = Meeting(x, y).gap(0.5)
+    gap = MeshPair(x, y).gap(0.5)
     if told is None:
         assert apart < 0.66  # the circles around the two outlines overlap
     elif gap is None:
         assert math.isinf(told.distance_m)
     else:
         assert told.distance_m == pytest.approx(gap.distance_m, abs=1e-9)
-        assert told.way_m == pytest.approx(gap.way_m.tolist(), abs=1e-6) or gap.distance_m < 1e-9
+        assert told.way_m == pytest.approx(gap.way_m, abs=1e-6) or gap.distance_m < 1e-9
         assert 2 <= len(told.points) <= 4 or told.way_m[1] != 0.0
 
 
@@ -102,7 +100,7 @@ def test_what_leans_stands_on_its_lowest_edge() -> None:
     assert rest is not None
     assert rest.fall_m == pytest.approx(height + 0.2)
     assert rest.wholly
-    told = falls(Meeting(leaning, floor), leaning, floor)
+    told = Tie.between(leaning, floor).falls("leaning")
     assert told is not None
     assert rest.fall_m == pytest.approx(told.min(), abs=1e-4)  # triangles are tried a little smaller
     # Half over an edge nothing is sure.

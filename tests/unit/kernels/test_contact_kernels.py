@@ -10,9 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kernels import both, seeds, steady
-from scene2hap.contact.body import shape_of
+from scene2hap.contact.body import Body, shape_of
+from scene2hap.contact.mesh_distance import ROUNDING_M, MeshPair, upright_frame
 from scene2hap.contact.stance import Stance
 from scene2hap.contact.track import Bounds
+from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import Box, TriMesh
 
 
@@ -47,35 +49,55 @@ def test_slides_to_the_last_bit(up_axis: int) -> None:
     assert n_slid > 100
 
 
-def triangles(rng: np.random.Generator, n: int) -> np.ndarray:
-    """Triangles (3, 3, n), some on a coarse grid, so that they are level, parallel, in touch or without area."""
-    found = rng.uniform(-1, 1, (3, 3, n))
-    coarse = rng.random(n) < 0.7
-    found[..., coarse] = rng.integers(-1, 2, (3, 3, int(coarse.sum())))
-    return found
+def mesh(rng: np.random.Generator) -> TriMesh:
+    """A box, a soup of triangles, the same on a coarse grid (level, parallel, in touch or without area), a floor."""
+    kind, n = rng.integers(4), int(rng.integers(1, 60))
+    if kind == 0:
+        return Box(tuple(rng.choice([0.1, 0.2, 0.3], 3).tolist())).mesh
+    if kind < 3:
+        corners = rng.uniform(-0.3, 0.3, (3 * n, 3)) if kind == 1 else 0.1 * rng.integers(-2, 3, (3 * n, 3))
+        return TriMesh(corners, np.arange(3 * n).reshape(n, 3))
+    k = int(rng.integers(1, 12))
+    u, v = (axis.ravel() for axis in np.meshgrid(*[np.linspace(-0.3, 0.3, k + 1)] * 2, indexing="ij"))
+    heights = np.round(rng.uniform(0, 0.05, u.size), 2) * rng.integers(0, 2)
+    c = (np.arange(k)[:, None] * (k + 1) + np.arange(k)).ravel()
+    faces = np.concatenate([np.stack([c, c + 1, c + k + 2], 1), np.stack([c, c + k + 2, c + k + 1], 1)])
+    return TriMesh(np.stack([u, heights, v], axis=1), faces)
+
+
+def mesh_pair(rng: np.random.Generator) -> MeshPair:
+    posed = []
+    for name in "ab":
+        turn = rng.normal(size=4) if rng.random() < 0.5 else np.array([0.0, 0.0, 0.0, 1.0])
+        place = np.round(rng.uniform(-0.4, 0.4, 3), int(rng.choice([1, 9])))
+        posed.append(Body(name, shape_of(mesh(rng)), Pose(tuple(place.tolist()), tuple(turn.tolist())), 1))
+    return MeshPair(*posed)
 
 
 @steady
-@given(seed=seeds, n=st.integers(0, 20))
-def test_triangles_to_the_last_bit(seed: int, n: int) -> None:
-    rng = np.random.default_rng(seed)
-    p, q = triangles(rng, n), triangles(rng, n)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        plain, twin = both("contact.triangles.clearances")
-        np.testing.assert_array_equal(twin(p, q), plain(p, q))
-        told = [[np.empty(n), np.empty((3, n)), np.empty((3, n))] for _ in range(2)]
-        for fill, meetings in zip(both("contact.triangles.fill_closest"), told, strict=True):
-            fill(*meetings, p, q)
-        plain, twin = both("contact.triangles.near_ends")
-        for distance_m in (0.0, 0.3, 2.0):
-            told[0] += plain(p, q, distance_m)
-            told[1] += twin(p, q, distance_m)
-        for one, other in zip(*told, strict=True):
-            np.testing.assert_array_equal(other, one)
-        heights = np.empty((2, 2, n))
-        for fill, (low, high) in zip(both("contact.triangles.fill_heights"), heights, strict=True):
-            fill(low, high, p, q)
-        np.testing.assert_array_equal(heights[1], heights[0])
+@given(seed=seeds)
+def test_distances_of_meshes_to_the_last_bit(seed: int) -> None:
+    for k in range(8):
+        rng = np.random.default_rng((seed, k))
+        pair = mesh_pair(rng)
+        given = (pair.host.shape, pair.guest.shape, pair._turn, pair._shift)
+        within_m = float(rng.choice([1e-9, 0.004, 0.05, 0.5]))
+        with np.errstate(invalid="ignore", divide="ignore"):
+            plain, twin = both("contact.mesh_distance.closest_points")
+            told, compiled = plain(*given, within_m), twin(*given, within_m)
+            # Where surfaces cut each other any pair may be given.
+            assert compiled == told or (told[0] <= ROUNDING_M and compiled[0] <= ROUNDING_M)
+            plain, twin = both("contact.mesh_distance.contact_points")
+            way = tuple(rng.uniform(-0.05, 0.05, 3).tolist()) if rng.random() < 0.5 else (0.0, 0.0, 0.0)
+            args = (*given, way, min(within_m, 0.05))
+            assert twin(*args) == plain(*args)
+            plain, twin = both("contact.mesh_distance.drops")
+            limits = (float(rng.uniform(-0.4, 0.4)), float(rng.choice([0.01, 0.09])), 0.004)
+            args = (*given, upright_frame(pair.host.rows[1]), limits, bool(rng.integers(2)))
+            told, compiled = plain(*args), twin(*args)
+            assert (told is None) == (compiled is None)
+            if told is not None:
+                np.testing.assert_array_equal(compiled, told)
 
 
 @steady
