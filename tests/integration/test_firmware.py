@@ -1,6 +1,5 @@
 """The firmware's own code, compiled for the host, at the other end of the wire."""
 
-import os
 import shutil
 import subprocess
 import time
@@ -11,13 +10,14 @@ import pytest
 
 from scene2hap.devices.protocol import SinkEvent, SinkFormat
 from scene2hap.devices.serial_amp import SerialAmplifierSink
+from host import terminal_problem
 from serial_bench import eventually
 
 HOST = Path(__file__).parents[2] / "firmware" / "host" / "main.cpp"
 COMPILER = shutil.which("c++") or shutil.which("g++") or shutil.which("clang++")
 
 pytestmark = [
-    pytest.mark.skipif(os.name == "nt", reason="pseudo-terminals are POSIX"),
+    pytest.mark.skipif(bool(terminal_problem()), reason=terminal_problem()),
     pytest.mark.skipif(COMPILER is None, reason="no C++ compiler"),
 ]
 

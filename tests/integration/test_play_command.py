@@ -11,6 +11,7 @@ import pytest
 from scene2hap.cli import main
 from scene2hap.cli.plan import Plan
 from scene2hap.cli.play import Player
+from host import terminal_problem
 from scenes import table_with_two_phones
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs a POSIX terminal")
@@ -50,6 +51,7 @@ def test_without_a_terminal_it_says_what_to_do(tmp_path: Path, capsys: pytest.Ca
     assert "terminal" in capsys.readouterr().err
 
 
+@pytest.mark.skipif(bool(terminal_problem()), reason=terminal_problem())
 def test_a_person_plays(tmp_path: Path) -> None:
     import pty
 

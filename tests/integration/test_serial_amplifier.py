@@ -20,11 +20,12 @@ from scene2hap.devices import SINKS
 from scene2hap.devices.protocol import ActuatorSink, SinkEvent, SinkFormat
 from scene2hap.devices.reference_device import PseudoTerminal, ReferenceDevice
 from scene2hap.devices.serial_amp import SerialAmplifierSink
+from host import terminal_problem
 from scenes import RATE, table_with_two_phones
 from serial_bench import Plug, eventually
 from wire_damage import damaged
 
-pytestmark = pytest.mark.skipif(os.name == "nt", reason="pseudo-terminals are POSIX")
+pytestmark = pytest.mark.skipif(bool(terminal_problem()), reason=terminal_problem())
 
 FORMAT = SinkFormat(4000, ("left", "right"))
 SECONDS = 30 if os.environ.get("CI") else 6

@@ -12,9 +12,10 @@ from scene2hap.devices.protocol import SinkEvent, SinkFormat
 from scene2hap.devices.reference_device import PseudoTerminal
 from scene2hap.devices.vhp_amp import VhpSink
 from scene2hap.errors import ConfigError
+from host import terminal_problem
 from serial_bench import eventually
 
-pytestmark = pytest.mark.skipif(os.name == "nt", reason="pseudo-terminals are POSIX")
+pytestmark = pytest.mark.skipif(bool(terminal_problem()), reason=terminal_problem())
 
 
 class Board:

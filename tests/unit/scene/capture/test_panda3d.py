@@ -16,6 +16,7 @@ from scene2hap.scene.capture.paint import BACKGROUND_RGB
 from scene2hap.scene.capture.protocol import Selection
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import frame
+from host import rasteriser_problem
 from scenes import box, scene
 
 embree = pytest.importorskip(
@@ -24,6 +25,8 @@ embree = pytest.importorskip(
 panda = pytest.importorskip(
     "scene2hap.scene.capture.panda3d_renderer", reason="needs the extra `panda3d`", exc_type=ImportError
 )
+
+pytestmark = pytest.mark.skipif(bool(rasteriser_problem()), reason=rasteriser_problem())
 
 
 def room() -> SceneSnapshot:
