@@ -47,7 +47,8 @@ cdef void take(Triangle* one, const double[:, :, :] many, Py_ssize_t k) noexcept
 
 cdef void look(Face* face, const Triangle* own, const Triangle* other) noexcept:
     """A face, and how high another's corners are over it; nan for a face without area."""
-    cdef double both, way[3]
+    cdef double way[3]
+    cdef double both
     cdef double* u = face.u
     cdef double* v = face.v
     cdef int corner

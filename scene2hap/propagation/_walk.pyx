@@ -32,7 +32,7 @@ def walked(list starts, exits, dict price_per_m, double limit, ends=None):
     cdef list known, beyond
     cdef dict entries = {}, at_most = {}, balls = {}
     cdef bint has_ends = ends is not None
-    cdef double least_price = 0
+    cdef double least_price = 0, price = 0
     cdef Door arrived, door
     n_walks += 1
     walk = n_walks
