@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from host import terminal_problem
 from scene2hap.devices.protocol import SinkEvent, SinkFormat
 from scene2hap.devices.serial_amp import SerialAmplifierSink
-from host import terminal_problem
 from serial_bench import eventually
 
 HOST = Path(__file__).parents[2] / "firmware" / "host" / "main.cpp"

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from host import terminal_problem
 from scene2hap.cli import main
 from scene2hap.cli.plan import Plan
 from scene2hap.cli.play import Player
-from host import terminal_problem
 from scenes import table_with_two_phones
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs a POSIX terminal")

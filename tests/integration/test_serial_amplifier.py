@@ -15,12 +15,12 @@ import pytest
 import soundfile
 from numpy.typing import NDArray
 
+from host import terminal_problem
 from scene2hap import HapticSession, Touch
 from scene2hap.devices import SINKS
 from scene2hap.devices.protocol import ActuatorSink, SinkEvent, SinkFormat
 from scene2hap.devices.reference_device import PseudoTerminal, ReferenceDevice
 from scene2hap.devices.serial_amp import SerialAmplifierSink
-from host import terminal_problem
 from scenes import RATE, table_with_two_phones
 from serial_bench import Plug, eventually
 from wire_damage import damaged

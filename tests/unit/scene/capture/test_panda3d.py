@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scipy.ndimage import maximum_filter, minimum_filter
 
+from host import rasteriser_problem
 from scene2hap import SceneSnapshot
 from scene2hap.scene.appearance import Appearance, FaceMaterial
 from scene2hap.scene.capture import capture_images
@@ -16,7 +17,6 @@ from scene2hap.scene.capture.paint import BACKGROUND_RGB
 from scene2hap.scene.capture.protocol import Selection
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import frame
-from host import rasteriser_problem
 from scenes import box, scene
 
 embree = pytest.importorskip(
