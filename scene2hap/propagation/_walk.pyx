@@ -26,13 +26,14 @@ cdef class Door:
 
 def walked(list starts, exits, dict price_per_m, double limit, ends=None):
     global n_walks
-    cdef double cost, price, price_beyond, further, x, y, z
+    cdef double cost, price_beyond, further, x, y, z
+    cdef double price = 0
     cdef Py_ssize_t n_pushed
     cdef long long walk
     cdef list known, beyond
     cdef dict entries = {}, at_most = {}, balls = {}
     cdef bint has_ends = ends is not None
-    cdef double least_price = 0, price = 0
+    cdef double least_price = 0
     cdef Door arrived, door
     n_walks += 1
     walk = n_walks
