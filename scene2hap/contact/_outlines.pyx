@@ -30,7 +30,8 @@ def facing(x, y, double rise_m, double within_m, double slack_m):
         strip = widest(&other, &one, strip, within_m)
     if strip < -ROUNDING_M:
         return None
-    best.length = INFINITY
+    # Read only once another has come before it; compilers cannot know.
+    best.length, best.pu, best.pv, best.qu, best.qv = INFINITY, 0.0, 0.0, 0.0, 0.0
     if strip <= within_m:
         n = nearest(&one, &other, ways, False)
         n += nearest(&other, &one, ways + n, True)

@@ -105,7 +105,9 @@ cdef class Track:
         return True
 
     def slid(self, tuple position_m, tuple rotation_xyzw):
-        cdef double x, y, z, low[3], high[3], down, over, h, u, v, fall_m, cu, cv, height
+        cdef double low[3]
+        cdef double high[3]
+        cdef double x, y, z, down, over, h, u, v, fall_m, cu, cv, height
         cdef int k
         if rotation_xyzw is not self.rotation_xyzw and rotation_xyzw != self.rotation_xyzw:
             if not self.turn(rotation_xyzw):

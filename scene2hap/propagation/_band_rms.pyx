@@ -18,7 +18,7 @@ cdef class BandRms:
         b, roots = 2 * np.sqrt(2 * np.pi * hz), np.sqrt(hz)
         self.edges, self.roots, self.widths = b, roots, np.diff(roots)
         self.scales = np.sqrt(2 / np.diff(hz) / (8 * np.pi))
-        self.least = sqrt(LEAST / float((b[:-1] * np.diff(b)).min()))
+        self.least = sqrt(LEAST / float((b[: len(b) - 1] * np.diff(b)).min()))
 
     def __call__(self, lengths):
         cdef Py_ssize_t i, k, n_bands = self.scales.shape[0]

@@ -26,7 +26,8 @@ cdef class Door:
 
 def walked(list starts, exits, dict price_per_m, double limit, ends=None):
     global n_walks
-    cdef double cost, price, price_beyond, further, x, y, z
+    cdef double cost, price_beyond, further, x, y, z
+    cdef double price = 0
     cdef Py_ssize_t n_pushed
     cdef long long walk
     cdef list known, beyond

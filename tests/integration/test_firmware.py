@@ -1,6 +1,5 @@
 """The firmware's own code, compiled for the host, at the other end of the wire."""
 
-import os
 import shutil
 import subprocess
 import time
@@ -9,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from host import terminal_problem
 from scene2hap.devices.protocol import SinkEvent, SinkFormat
 from scene2hap.devices.serial_amp import SerialAmplifierSink
 from serial_bench import eventually
@@ -17,7 +17,7 @@ HOST = Path(__file__).parents[2] / "firmware" / "host" / "main.cpp"
 COMPILER = shutil.which("c++") or shutil.which("g++") or shutil.which("clang++")
 
 pytestmark = [
-    pytest.mark.skipif(os.name == "nt", reason="pseudo-terminals are POSIX"),
+    pytest.mark.skipif(bool(terminal_problem()), reason=terminal_problem()),
     pytest.mark.skipif(COMPILER is None, reason="no C++ compiler"),
 ]
 

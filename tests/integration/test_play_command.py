@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 import soundfile
 
+from host import terminal_problem
 from scene2hap.cli import main
 from scene2hap.cli.plan import Plan
 from scene2hap.cli.play import Player
@@ -55,6 +56,8 @@ def test_without_a_terminal_it_says_what_to_do(tmp_path: Path, capsys: pytest.Ca
 
 def played(tmp_path: Path, *options: str) -> tuple[int, bytes]:
     """What a person sees who plays the two phones for a moment, and how it ends."""
+    if problem := terminal_problem():
+        pytest.skip(problem)
     import pty
 
     folder = table_with_two_phones()[1].save(tmp_path / "b")

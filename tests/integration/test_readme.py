@@ -25,7 +25,10 @@ def test_the_example_works_when_pasted(tmp_path: Path) -> None:
         [sys.executable, "-W", "error", "-c", block("example")], cwd=tmp_path, capture_output=True, text=True
     )
     assert run.returncode == 0, run.stderr
-    assert "'smartphone': " in run.stdout
+    told = re.search(r"#\s(the phone: (-\d+\.\d) dB)\n", block("example"))
+    assert told, "the example says what it prints"
+    assert run.stdout == told[1] + "\n"
+    assert -12 < float(told[2]) < -3  # near enough to be felt, too far to be the phone itself
     samples, rate = soundfile.read(tmp_path / "touch.wav")
     assert samples.shape == (2 * rate + round(FADE_OUT_S * rate), 2)
     assert samples[:, 0].any()

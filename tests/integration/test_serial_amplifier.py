@@ -15,6 +15,7 @@ import pytest
 import soundfile
 from numpy.typing import NDArray
 
+from host import terminal_problem
 from scene2hap import HapticSession, Touch
 from scene2hap.devices import SINKS
 from scene2hap.devices.protocol import ActuatorSink, SinkEvent, SinkFormat
@@ -25,7 +26,7 @@ from scenes import RATE, table_with_two_phones
 from serial_bench import Plug, eventually
 from wire_damage import damaged
 
-pytestmark = pytest.mark.skipif(os.name == "nt", reason="pseudo-terminals are POSIX")
+pytestmark = pytest.mark.skipif(bool(terminal_problem()), reason=terminal_problem())
 
 FORMAT = SinkFormat(4000, ("left", "right"))
 SECONDS = 30 if os.environ.get("CI") else 6

@@ -1,6 +1,5 @@
 """VHP boards as sinks, against boards that the test plays from docs/serial-protocol.md."""
 
-import os
 import threading
 import time
 from collections.abc import Iterator
@@ -8,13 +7,14 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
+from host import terminal_problem
 from scene2hap.devices.protocol import SinkEvent, SinkFormat
 from scene2hap.devices.reference_device import PseudoTerminal
 from scene2hap.devices.vhp_amp import VhpSink
 from scene2hap.errors import ConfigError
 from serial_bench import eventually
 
-pytestmark = pytest.mark.skipif(os.name == "nt", reason="pseudo-terminals are POSIX")
+pytestmark = pytest.mark.skipif(bool(terminal_problem()), reason=terminal_problem())
 
 
 class Board:

@@ -84,7 +84,9 @@ class Programme:
         values = [value for row in self._rows for value in row.values()]
         columns = [column for row in self._rows for column in row]
         numbers = [number for number, row in enumerate(self._rows) for _ in row]
-        return csr_array((values, (numbers, columns)), shape=(len(self._rows), width))
+        # scipy before 1.15 solves with indices of 32 bits alone.
+        at = np.array([numbers, columns], dtype=np.int32)
+        return csr_array((values, (at[0], at[1])), shape=(len(self._rows), width))
 
 
 def _joined(*parts: ArrayLike) -> Array:

@@ -57,7 +57,7 @@ def test_body_and_headers_of_a_request() -> None:
 
     def echo(sent: httpx.Request) -> httpx.Response:
         seen.append(sent)
-        return httpx.Response(418, json={"a": "ü"}, headers={"X-Request-ID": "r", "Set-Cookie": "c"})
+        return httpx.Response(418, content='{"a":"ü"}', headers={"X-Request-ID": "r", "Set-Cookie": "c"})
 
     reply = post(echo, {"prompt": "käse"})
     assert reply == HttpReply("https://model.example/v1/chat", 418, '{"a":"ü"}', {"x-request-id": "r"})

@@ -1,5 +1,6 @@
 """The mixer against a slow one written out sample by sample, and what its threads may rely on."""
 
+import gc
 import threading
 import tracemalloc
 
@@ -301,14 +302,19 @@ def test_little_is_allocated_and_nothing_kept() -> None:
             worst = max(worst, tracemalloc.get_traced_memory()[1] - before)
         return worst
 
+    # A full collection empties Python's lists of small objects to use again, so that they would count as allocated.
+    gc.collect()
+    gc.disable()
     tracemalloc.start()
     try:
         run(200)
         held = tracemalloc.get_traced_memory()[0]
-        assert run(200) <= 4096
+        # Small objects of plain Python; another buffer of one cell and all slots is more than the rest.
+        assert run(200) <= 5120
         assert tracemalloc.get_traced_memory()[0] - held < 2048
     finally:
         tracemalloc.stop()
+        gc.enable()
 
 
 def test_setting_gains_while_rendering() -> None:

@@ -64,7 +64,7 @@ def test_a_flattened_node_has_a_pose_all_the_same() -> None:
 
 def test_copies_that_went_through_single_precision_are_one() -> None:
     pool = MeshPool(1.0)
-    turns = Rotation.random(40, rng=5).as_matrix()
+    turns = Rotation.from_quat(np.random.default_rng(5).normal(size=(40, 4))).as_matrix()
     exact = [affine(0.37 * turn, (i, 0.0, 0.0)) for i, turn in enumerate(turns)]
     placed = [pool.place(group(matrix.astype(np.float32).astype(np.float64))) for matrix in exact]
     assert len({id(item.mesh) for item in placed}) == 1

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scipy.ndimage import maximum_filter, minimum_filter
 
+from host import rasteriser_problem
 from scene2hap import SceneSnapshot
 from scene2hap.scene.appearance import Appearance, FaceMaterial
 from scene2hap.scene.capture import capture_images
@@ -24,6 +25,8 @@ embree = pytest.importorskip(
 panda = pytest.importorskip(
     "scene2hap.scene.capture.panda3d_renderer", reason="needs the extra `panda3d`", exc_type=ImportError
 )
+
+pytestmark = pytest.mark.skipif(bool(rasteriser_problem()), reason=rasteriser_problem())
 
 
 def room() -> SceneSnapshot:
