@@ -7,13 +7,11 @@ Errors that a person can act on are one line on standard error and exit status 1
 from __future__ import annotations
 
 import argparse
-import json
-import sys
 import warnings
 from collections.abc import Sequence
 
 from scene2hap import __version__
-from scene2hap.cli import bake, convert, demo, doctor, inspect, play, render, report
+from scene2hap.cli import bake, convert, demo, doctor, inspect, play, render, report, streams
 from scene2hap.cli.console import Console
 from scene2hap.errors import Scene2HapError
 
@@ -22,8 +20,19 @@ COMMANDS = (demo, bake, render, play, convert, inspect, report, doctor)
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command; the exit status is returned."""
-    arguments = _parser().parse_args(argv)
+    streams.prepare()
+    try:
+        arguments = _parser().parse_args(argv)
+    except SystemExit:  # after help or a word on wrong usage, which may have nowhere to go
+        if Console(quiet=True).close():
+            return 1
+        raise
     console = Console(quiet=arguments.quiet or arguments.json)
+    status = _run(arguments, console)
+    return console.close() or status
+
+
+def _run(arguments: argparse.Namespace, console: Console) -> int:
     try:
         with warnings.catch_warnings():
             warnings.showwarning = lambda message, category, *rest, **more: console.warn(str(message))
@@ -35,12 +44,14 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         console.fail("interrupted; nothing was left half written.")
         return 130
-    except BrokenPipeError:
-        # The reader of a pipe (`| head`) has gone; there is nobody left to tell.
-        sys.stderr.close()
-        return 0
+    except MemoryError:
+        console.fail("out of memory. Use a smaller scene or shorter sounds, or a machine with more memory.")
+        return 1
+    except OSError as error:
+        console.fail(f"{error.filename or 'the system'}: {error.strerror or error}.")
+        return 1
     if arguments.json:
-        print(json.dumps(outcome, indent=1, ensure_ascii=False))
+        console.outcome(outcome)
     return 0
 
 
