@@ -1,8 +1,14 @@
-"""A room of tables with things on them, for measurements: any number of objects, movers that slide, a hand's touches.
+"""Rooms for measurements: any number of objects, five movers that slide, seven sources, a hand's touches.
 
-One object in seven is a table, the last few tables hold what is left over; each table bears a tray with a thing on it
-and four more things, all turned about the vertical. Movers slide to and fro on their table, every other one turning;
-every tenth frame the first of them is lifted or put down.
+- `busy_room`: tables. One object in seven is a table; each bears a tray with an object on it and four more objects, all
+  turned about the vertical.
+- `shelf_room`: stacked shelves. Units of five boards in one mesh, seven objects on each board, 3 to 6 cm apart.
+- `furnished_room`: groups of 30 meshes that crowd each other: a dining table with four chairs below it, plates, glasses
+  on mats and bowls; a sofa with cushions; a sideboard with vases.
+- `floor_room`: boxes and round objects on one floor, in a jittered grid.
+
+Movers slide to and fro where they stand, every other one turning; every tenth frame the first of them is lifted or put
+down.
 """
 
 from __future__ import annotations
@@ -96,14 +102,108 @@ def busy_room(n_objects: int, kind: str = "box", seed: int = 1) -> BusyRoom:
             objects.append(_thing(name, geometry, tuple(at.tolist()), float(rng.uniform(-3, 3))))
             if k < 4:
                 items.append(name)
-    scene = SceneSnapshot("busy room", "y", with_relative_heights(objects, "y"))
     # Both hands are on one floor and one table that bear movers; two movers are sources, five sources stand still.
-    near = [name for name in items if name.startswith("item00000")][:3]
+    return _room(objects, items, [name for name in items if name.startswith("item00000")][:3], "table00000")
+
+
+def shelf_room(n_objects: int, seed: int) -> BusyRoom:
+    """Shelf units along the walls, full of small objects."""
+    rng = np.random.default_rng(seed)
+    n_units = max(1, round((n_objects - 1) / 36))
+    extent = 1.2 * n_units + 1.0
+    objects = [_thing("floor", _box((extent, 0.1, 4.0)), (extent / 2, -0.05, 0.0), 0.0)]
+    boards = [0.1 + 0.4 * k for k in range(5)]
+    frame = [(_box((0.9, 0.02, 0.32)), (0.0, h - 1.0, 0.0)) for h in boards]
+    frame += [(_box((0.02, 2.0, 0.32)), (x, 0.0, 0.0)) for x in (-0.46, 0.46)]
+    unit = _joined([(mesh.vertices_m + move, mesh.faces) for mesh, move in frame])
+    items: list[str] = []
+    for u in range(n_units):
+        at, angle = (1.2 * u + 1.0, float(rng.uniform(-1.5, 1.5))), float(rng.uniform(-0.2, 0.2))
+        objects.append(_thing(f"shelf{u:04d}", unit, (at[0], 1.0, at[1]), angle))
+        for k in range(35):
+            if len(objects) == n_objects:
+                break
+            size = tuple(float(edge) for edge in rng.uniform(0.05, 0.09, 3))
+            slot = np.array([-0.36 + 0.12 * (k % 7), boards[k // 7] + 0.01 + size[1] / 2, rng.uniform(-0.05, 0.05)])
+            x, y, z = (yaw(angle).to_world(slot) + np.array([at[0], 0.0, at[1]])).tolist()
+            name = f"item{u:04d}_{k:02d}"
+            objects.append(_thing(name, (_round if k % 3 == 0 else _box)(size), (x, y, z), float(rng.uniform(-3, 3))))
+            items.append(name)
+    return _room(objects, items, items[:3], "shelf0000")
+
+
+def furnished_room(n_objects: int, seed: int) -> BusyRoom:
+    """Groups of 30 objects with furniture of some hundred to a thousand triangles."""
+    rng = np.random.default_rng(seed)
+    n_groups = max(1, (n_objects - 1 + 29) // 30)
+    side = math.ceil(math.sqrt(n_groups))
+    extent = 4.0 * side + 2.0
+    objects = [_thing("floor", _slab("mesh", (extent, 0.1, extent)), (extent / 2, -0.05, extent / 2), 0.0)]
+    items: list[str] = []
+    for g in range(n_groups):
+        middle, turn = np.array([4.0 * (g % side) + 3.0, 0.0, 4.0 * (g // side) + 3.0]), float(rng.uniform(-3, 3))
+        for name, mesh, (x, bottom, z), angle, moves in _furniture(rng):
+            if len(objects) == n_objects:
+                break
+            height = float(np.ptp(mesh.bounds_m[:, 1]))
+            u, v, w = (yaw(turn).to_world(np.array([x, bottom + height / 2, z])) + middle).tolist()
+            objects.append(_thing(f"{name}_{g:03d}", mesh, (u, v, w), turn + angle))
+            if moves:
+                items.append(f"{name}_{g:03d}")
+    return _room(objects, items, items[:3], "dining_table_000")
+
+
+Placed = tuple[str, TriMesh, tuple[float, float, float], float, bool]
+
+
+def _furniture(rng: np.random.Generator) -> list[Placed]:
+    """One group: name, mesh, place of the middle of its bottom [m], turn, and whether it may move."""
+    found: list[Placed] = [("dining_table", _desk("mesh"), (0.0, 0.0, 0.0), 0.0, False)]
+    for k, (x, z, angle) in enumerate(
+        ((-0.35, 0.45, 0.0), (0.35, 0.45, 0.0), (-0.35, -0.45, math.pi), (0.35, -0.45, math.pi))
+    ):
+        found.append((f"chair_{k}", _chair(), (x, 0.0, z), angle, False))
+        found.append((f"plate_{k}", _round((0.22, 0.015, 0.22)), (x, 0.72, 0.24 if z > 0 else -0.24), 0.0, True))
+        found.append((f"mat_{k}", _box((0.08, 0.004, 0.08)), (x + 0.17, 0.72, 0.26 if z > 0 else -0.26), 0.1, False))
+        glass = _round((0.06, float(rng.uniform(0.1, 0.16)), 0.06))
+        found.append((f"glass_{k}", glass, (x + 0.17, 0.724, 0.26 if z > 0 else -0.26), 0.0, True))
+    found += [(f"bowl_{k}", _round((0.15, 0.06, 0.15)), (-0.18 + 0.18 * k, 0.72, 0.0), 0.0, True) for k in range(3)]
+    found.append(("sofa", _sofa(), (0.0, 0.0, 1.6), math.pi, False))
+    found += [
+        (f"cushion_{k}", _gridded((0.4, 0.12, 0.35), 4), (-0.45 + 0.45 * k, 0.4, 1.6), 0.1 * k, True) for k in range(3)
+    ]
+    found.append(("sideboard", _gridded((1.4, 0.8, 0.4), 6), (0.0, 0.0, -1.6), 0.0, False))
+    for k in range(4):
+        size = (0.12, float(rng.uniform(0.15, 0.35)), 0.12)
+        found.append((f"vase_{k}", _round(size), (-0.5 + 0.3 * k, 0.8, -1.6), 0.0, True))
+    found.append(("rug", _slab("mesh", (0.9, 0.008, 0.6)), (1.45, 0.0, 0.0), 0.0, False))
+    return found
+
+
+def floor_room(n_objects: int, seed: int) -> BusyRoom:
+    """Objects of 6 to 30 cm on a floor, some of them nearly touching."""
+    rng = np.random.default_rng(seed)
+    side = math.ceil(math.sqrt(n_objects - 1))
+    extent = 0.4 * side + 2.0
+    objects = [_thing("floor", _box((extent, 0.1, extent)), (extent / 2, -0.05, extent / 2), 0.0)]
+    for k in range(n_objects - 1):
+        size = tuple(float(edge) for edge in rng.uniform(0.06, 0.3, 3))
+        x, z = (0.4 * cell + 1.0 + float(rng.uniform(-0.03, 0.03)) for cell in divmod(k, side))
+        objects.append(
+            _thing(f"item{k:05d}", (_box, _round)[k % 2](size), (x, size[1] / 2, z), float(rng.uniform(-3, 3)))
+        )
+    items = [item.id for item in objects[1:]]
+    return _room(objects, items, items[:3], items[0])
+
+
+def _room(objects: list[SceneObject], items: list[str], near: list[str], touched: str) -> BusyRoom:
+    """Five movers of the items, three of them near what hands touch; seven sources, of which two move."""
+    scene = SceneSnapshot("busy room", "y", with_relative_heights(objects, "y"))
     others = [items[round(k * (len(items) - 1) / 8)] for k in range(1, 9)]
     movers = tuple(dict.fromkeys([*near, *others[::4], *others]))[:N_MOVERS]
     still = [name for name in [*items[3:4], *others, *items] if name not in movers]
     sources = [*movers[:2], *dict.fromkeys(still)][:N_SOURCES]
-    return BusyRoom(scene, _bundle(scene, sources), movers, ("floor", "table00000"))
+    return BusyRoom(scene, _bundle(scene, sources), movers, ("floor", touched))
 
 
 def yaw(angle: float) -> Pose:
@@ -136,6 +236,22 @@ def _desk(kind: str) -> TriMesh:
             parts.append(_gridded((0.06, y - 0.04, 0.06), 1))
             moves.append((sx * (x / 2 - 0.05), -0.02, sz * (z / 2 - 0.05)))
     return _joined([(part.vertices_m + move, part.faces) for part, move in zip(parts, moves, strict=True)])
+
+
+def _chair() -> TriMesh:
+    parts = [(_gridded((0.42, 0.04, 0.42), 4), (0.0, 0.0, 0.0)), (_gridded((0.42, 0.45, 0.03), 4), (0.0, 0.245, 0.195))]
+    parts += [(_gridded((0.04, 0.43, 0.04), 1), (x, -0.235, z)) for x in (-0.18, 0.18) for z in (-0.18, 0.18)]
+    return _centred(_joined([(part.vertices_m + move, part.faces) for part, move in parts]))
+
+
+def _sofa() -> TriMesh:
+    parts = [(_gridded((1.8, 0.4, 0.8), 5), (0.0, 0.0, 0.0)), (_gridded((1.8, 0.45, 0.2), 5), (0.0, 0.425, 0.3))]
+    parts += [(_gridded((0.18, 0.6, 0.8), 3), (x, 0.1, 0.0)) for x in (-0.99, 0.99)]
+    return _centred(_joined([(part.vertices_m + move, part.faces) for part, move in parts]))
+
+
+def _centred(mesh: TriMesh) -> TriMesh:
+    return TriMesh(mesh.vertices_m - mesh.bounds_m.mean(axis=0), mesh.faces)
 
 
 def _gridded(size: tuple[float, float, float], n: int) -> TriMesh:

@@ -1,6 +1,9 @@
-"""What a frame costs here and in the paper's loop written plainly, as tables in Markdown.
+"""Time of a frame here and in the paper's loop written plainly, as tables in Markdown.
 
-OMP_NUM_THREADS=1 python benchmarks/paper_loop.py [n_frames]
+OMP_NUM_THREADS=1 python benchmarks/paper_loop.py [n_frames] [--defaults] [--seed N]
+
+`--defaults` measures default settings alone (any number of contacts), in three rooms drawn from a seed, a new one each
+run; the other tables hold `ExponentialPlate` to two contacts, as the paper's loop.
 
 The plain loop, once per frame: compare all bounding boxes with all, draw a networkx graph, follow all paths from every
 touch to every source depth first up to two contacts, one exponential (of 20 bands) per path. Ours is
@@ -13,11 +16,11 @@ leaves out what the machine did besides.
 
 from __future__ import annotations
 
+import argparse
 import gc
 import math
 import os
 import platform
-import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -25,7 +28,7 @@ from itertools import pairwise
 
 import networkx as nx
 import numpy as np
-from busy_room import BusyRoom, busy_room
+from busy_room import BusyRoom, busy_room, floor_room, furnished_room, shelf_room
 
 from scene2hap import Bands, HapticSession, Plate, Pose, Touch
 from scene2hap.contact.crowd import Crowd
@@ -122,8 +125,8 @@ def _crossing(weight: float) -> float:
     return -math.log(weight) / math.sqrt(2 * math.pi * 250.0) if weight > 0 else math.inf
 
 
-def session_of(room: BusyRoom) -> HapticSession:
-    config = {"propagation": {"kind": "exponential_plate", "max_hops": N_HOPS}, "bands": BANDS}
+def session_of(room: BusyRoom, max_hops: int | None = N_HOPS) -> HapticSession:
+    config = {"propagation": {"kind": "exponential_plate", "max_hops": max_hops}, "bands": BANDS}
     return HapticSession(room.scene, room.bundle, config)
 
 
@@ -159,9 +162,33 @@ def compared(n_objects: int, kind: str, n_frames: int) -> None:
     )
 
 
-def alone_in(room: BusyRoom, frames: Sequence[tuple[dict[str, Pose], list[Touch]]], n_frames: int) -> np.ndarray:
+def default_settings(n_frames: int, seed: int) -> None:
+    """Sessions over any number of contacts against the plain loop over two, in rooms drawn from the seed."""
+    print(f"\nDefault settings, seed {seed}.\n")
+    print("| room | objects | plain loop [ms] | HapticSession [ms] | ratio | p99 / median |\n|---|---|---|---|---|---|")
+    for draw in (shelf_room, furnished_room, floor_room):
+        for n_objects in (50, 1000):
+            room = draw(n_objects, seed)
+            plain, session, frames = PaperLoop(room), session_of(room, None), frames_of(room, n_frames)
+            few = n_frames if n_objects < 500 else min(n_frames, 40)
+            steps = [lambda i, loop=loop, f=frames: loop.update(*f[i]) for loop in (plain, session)]
+            slow, whole = np.median(times_of(steps, few, time.thread_time), axis=1)
+            alone = np.array([alone_in(room, frames, n_frames, None) for _ in range(3)])
+            print(
+                f"| {draw.__name__} | {n_objects} | {1e3 * slow:.3f} | {1e3 * whole:.4f} | {slow / whole:.1f} | "
+                f"{np.median([worst_of(one) for one in alone]):.2f}, {worst_of(alone.min(axis=0)):.2f} |",
+                flush=True,
+            )
+
+
+def alone_in(
+    room: BusyRoom,
+    frames: Sequence[tuple[dict[str, Pose], list[Touch]]],
+    n_frames: int,
+    max_hops: int | None = N_HOPS,
+) -> np.ndarray:
     """Seconds (n_frames,) that the updates of a new session take."""
-    session = session_of(room)
+    session = session_of(room, max_hops)
     return times_of([lambda i: session.update(*frames[i])], n_frames, time.thread_time)[0]
 
 
@@ -270,12 +297,21 @@ def growth(n_frames: int) -> None:
 
 
 def main() -> None:
-    n_frames = int(sys.argv[1]) if len(sys.argv) > 1 else 400
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("n_frames", type=int, nargs="?", default=400)
+    parser.add_argument("--defaults", action="store_true")
+    parser.add_argument("--seed", type=int, default=time.time_ns() % 10**6)
+    args = parser.parse_args()
+    n_frames = args.n_frames
     print(
         f"Python {platform.python_version()}, numpy {np.__version__}, {platform.machine()}, gc {gc.isenabled()}, ",
         end="",
     )
-    print(f"load {os.getloadavg()[0]:.1f}\n")
+    print(f"load {os.getloadavg()[0]:.1f}")
+    default_settings(n_frames, args.seed)
+    if args.defaults:
+        return
+    print("\n`ExponentialPlate` over at most two contacts.\n")
     print(
         "| objects | meshes | plain loop [ms] | HapticSession [ms] | ratio | p99 / median | parts [ms] | ratio |\n"
         "|---|---|---|---|---|---|---|---|"

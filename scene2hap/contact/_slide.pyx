@@ -9,7 +9,7 @@ def lying(tuple position_m, sole, tuple at_m, tray, int up_axis):
     cdef bint is_inside = True
     # Named tuples: footing and tray of `stance`, by their places.
     points, sole_height, (cu, cv), radius, _ = <tuple>sole
-    _, top_height, edges = <tuple>tray
+    _, top_height, edges, _, _ = <tuple>tray
     top_m = over + top_height
     fall_m = h + sole_height - top_m
     cu, cv = cu + (u - over_u), cv + (v - over_v)

@@ -15,13 +15,14 @@ from typing import NamedTuple
 from scene2hap.contact.body import Body
 from scene2hap.contact.outlines import facing
 from scene2hap.contact.spread import spread_few
-from scene2hap.contact.stance import Point, Stance, edges_of
+from scene2hap.contact.stance import Point, Stance
 from scene2hap.contact.vectors import Triple
 
 # Outlines lie over each other from this overlap on, as a share of the upper one's radius, and at most: equal boxes
 # side by side, whose rims coincide, do not.
 _RIM, _RIM_M = 1e-4, 1e-4
 _ROUNDING_M = 1e-9
+_SLACK_M = 1e-6  # Bounds by circles are trusted beyond this, so that they never decide otherwise than corners.
 
 
 class Rest(NamedTuple):
@@ -52,9 +53,18 @@ def rest_on(x: Body, y: Body) -> Rest | None:
     else:
         return Rest(fall_m, True, top_m)
     rim = min(_RIM * radius, _RIM_M)
+    mu, mv = tray.middle
+    if math.hypot(cu - mu, cv - mv) > radius + tray.radius + _SLACK_M:
+        return _beside(x, y)
     outline = [(u + du, v + dv) for u, v in x.stance.sole_outline]
     wholly = True
     for nu, nv, offset in tray.edges:
+        # No corner of the sole is farther from its middle than its radius: most edges of round things need no more.
+        middle = nu * cu + nv * cv - offset
+        if middle - radius > rim + _SLACK_M:
+            continue
+        if middle + radius < rim - _SLACK_M:
+            return _beside(x, y)
         inside = [nu * u + nv * v - offset for u, v in outline]
         if max(inside) <= rim:
             return _beside(x, y)
@@ -63,9 +73,11 @@ def rest_on(x: Body, y: Body) -> Rest | None:
         return Rest(fall_m, True, top_m)
     if not sole.is_filled:
         return None
-    for nu, nv, offset in edges_of(x.stance.sole_outline):
+    for nu, nv, offset in x.stance.sole_edges:
         offset += nu * du + nv * dv
-        if max(nu * u + nv * v - offset for u, v in tray.outline) <= rim:
+        if nu * mu + nv * mv - offset > tray.radius + rim + _SLACK_M:
+            continue
+        if max([nu * u + nv * v - offset for u, v in tray.outline]) <= rim:
             return _beside(x, y)
     return Rest(fall_m, False, top_m)
 

@@ -40,11 +40,14 @@ class Footing(NamedTuple):
 
 
 class Tray(NamedTuple):
-    """A top, turned [m]: its outline, its height, and (n_u, n_v, offset) of each edge: n u >= offset is inside."""
+    """A top, turned [m]: its outline, its height, (n_u, n_v, offset) of each edge, inside where n u >= offset, and the
+    middle and radius of a circle around it."""
 
     outline: tuple[Point, ...]
     height: float
     edges: tuple[Triple, ...]
+    middle: Point = (0.0, 0.0)
+    radius: float = math.inf
 
 
 class Lean(NamedTuple):
@@ -62,6 +65,7 @@ class Stance:
         "_heading",
         "_lean",
         "_outline",
+        "_sole_edges",
         "_tray",
         "high",
         "is_block",
@@ -95,6 +99,7 @@ class Stance:
         self._footing: Footing | None = None
         self._tray: Tray | None = None
         self._outline: tuple[Point, ...] = ()
+        self._sole_edges: tuple[Triple, ...] | None = None
         self._heading: Point | None = None
         self._lean: Lean | Literal[False] | None = False
 
@@ -129,7 +134,7 @@ class Stance:
             self.is_block,
         )
         turned.up_axis, turned.v_axis, turned._tray, turned._outline, turned._heading = 1, 2, None, (), None
-        turned._lean = self._lean
+        turned._lean, turned._sole_edges = self._lean, None
         a, c = 1 - 2 * (y * y), 2 * (y * w)
         turned.rows = ((a, 0.0, c), self.rows[1], (-c, 0.0, a))
         (mx, _, mz), (hx, _, hz) = self.shape.middle, self.shape.half
@@ -164,12 +169,22 @@ class Stance:
         return self._outline
 
     @property
+    def sole_edges(self) -> tuple[Triple, ...]:
+        """The edges of that outline, as a `Tray` has them."""
+        if self._sole_edges is None:
+            self._sole_edges = edges_of(self.sole_outline)
+        return self._sole_edges
+
+    @property
     def tray(self) -> Tray | None:
         """What it bears others with, if that is level and convex."""
         if self._tray is None and (top_m := self.shape.top(self.way_up)) is not None:
             corners = [self._turned(corner) for corner in top_m]
             outline = tuple([(u, v) for u, v, _ in corners])
-            self._tray = Tray(outline, sum(h for _, _, h in corners) / len(corners), edges_of(outline))
+            height = sum(h for _, _, h in corners) / len(corners)
+            middle = (sum(u for u, _ in outline) / len(outline), sum(v for _, v in outline) / len(outline))
+            radius = max([math.dist(middle, corner) for corner in outline])
+            self._tray = Tray(outline, height, edges_of(outline), middle, radius)
         return self._tray
 
     @property

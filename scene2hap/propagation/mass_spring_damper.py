@@ -105,12 +105,13 @@ class MassSpringDamper:
         eta, limit_hz = self._loss_factor(plate), max_frequency_hz
         while self._is_too_much(plate, limit_hz) and limit_hz > LEAST_LIMIT_HZ:
             limit_hz *= 0.9
+        is_coarsened = limit_hz < max_frequency_hz
+        if is_coarsened and self.outside_domain == "raise":
+            raise ModelDomainError(_coarsened(plate, max_frequency_hz, limit_hz))
         resolution = max(self.resolution, min(_needed_resolution(plate, limit_hz), FINEST))
         body = lattice_body(plate, resolution, limit_hz, eta)
-        if limit_hz >= max_frequency_hz:
+        if not is_coarsened:
             return body
-        if self.outside_domain == "raise":
-            raise ModelDomainError(_coarsened(plate, max_frequency_hz, limit_hz))
         if self.outside_domain == "warn":
             _warn_coarsened(plate, max_frequency_hz, limit_hz)
         return SplitBody(body, InfiniteBody(plate, eta), limit_hz)

@@ -12,6 +12,8 @@ c. A node without a mesh that holds nothing but one object, directly or through 
    name and place (`washing_machine` over `washer(Clone)`); the outermost such name wins. Names that exporters give to
    their own nodes (`RootNode`, `Sketchfab_model`, `kitchen.fbx`) and names of places (`house`) are never taken.
 d. Every other node without a mesh is a container, and is looked through.
+e. What (a) or (b) would make one object is several where it is a collection of items that stand apart
+   (`scene.collection`): a pot, two cups and their saucers, but not a table with its legs.
 """
 
 from __future__ import annotations
@@ -26,6 +28,7 @@ from typing import Literal
 import numpy as np
 
 from scene2hap.errors import SceneError
+from scene2hap.scene.collection import Member, split
 from scene2hap.scene.tree import AuthoredNode, Matrix, Piece
 
 Grouping = Literal["authored", "leaf"] | int | Mapping[str, str]
@@ -111,21 +114,29 @@ class _Subtree:
 
 def _authored(node: AuthoredNode, above: Matrix) -> _Subtree:
     frame = above @ node.matrix
-    parts = [(frame, piece) for piece in node.pieces]
+    members = [Member(node.name, frame, node.pieces)] if node.pieces else []
     below = []
     for child in node.children:
         if _is_part(child, node):
-            parts += [(frame @ child.matrix, piece) for piece in child.pieces]
+            members.append(Member(child.name, frame @ child.matrix, child.pieces))
         else:
             below.append(_authored(child, frame))
     others = [group for subtree in below for group in subtree.groups]
-    if parts:
-        return _Subtree([Group(node.name, frame, tuple(parts)), *others], has_head=True)
+    if members:
+        several = split(node.name, members)
+        if len(several) == 1:
+            return _Subtree([Group(node.name, frame, _parts(members)), *others], has_head=True)
+        items = [Group(item[0].name, item[0].frame, _parts(item)) for item in several]
+        return _Subtree([*items, *others], has_head=bool(node.pieces))
     if len(below) == 1 and below[0].has_head:
         if _names_a_thing(node):
             others[0] = replace(others[0], name=node.name, frame=frame)
         return _Subtree(others, has_head=True)
     return _Subtree(others, has_head=False)
+
+
+def _parts(members: Sequence[Member]) -> tuple[tuple[Matrix, Piece], ...]:
+    return tuple((member.frame, piece) for member in members for piece in member.pieces)
 
 
 def _is_part(child: AuthoredNode, node: AuthoredNode) -> bool:

@@ -13,7 +13,7 @@ from scene2hap.errors import ModelDomainError
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.contact_law import ContactLaw
 from scene2hap.propagation.lattice import bending_lattice
-from scene2hap.propagation.mass_spring_damper import MassSpringDamper
+from scene2hap.propagation.mass_spring_damper import CoarsenedWarning, MassSpringDamper
 from scene2hap.propagation.stepping import NewmarkStepper, State
 
 TABLE = Plate(1.2, 0.7, 0.025, replace(materials.lookup("oak"), loss_factor=0.03))
@@ -135,5 +135,8 @@ def test_it_is_chosen_by_kind_and_refines_thin_plates() -> None:
     body = model.elastic_body(foil, 1000.0)
     assert body.modes.lattice.cells[1] > 8
     assert 2 * np.pi / float(foil.wavenumber_rad_m(1000.0)) >= 6 * max(body.modes.lattice.cell_m)
-    with pytest.raises(ModelDomainError, match="use InfinitePlate"):
-        model.elastic_body(replace(foil, thickness_m=1e-6), 1000.0)
+    thinner = replace(foil, thickness_m=1e-6)
+    with pytest.warns(CoarsenedWarning, match="as if it had no edges"):
+        model.elastic_body(thinner, 1000.0)
+    with pytest.raises(ModelDomainError, match="too many for masses and springs"):
+        replace(model, outside_domain="raise").elastic_body(thinner, 1000.0)

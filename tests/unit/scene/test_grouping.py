@@ -9,6 +9,7 @@ import pytest
 
 from gltf_builder import CUBE, CUBE_FACES
 from scene2hap.errors import SceneError
+from scene2hap.scene.collection import has_own_noun
 from scene2hap.scene.grouping import Group, group_objects, unique_ids
 from scene2hap.scene.tree import AuthoredNode, Piece
 
@@ -223,3 +224,58 @@ def test_a_group_without_end_of_leaves_is_fast_enough_to_test() -> None:
 def test_ids_are_the_names_made_unique_in_file_order(names: list[str], ids: list[str]) -> None:
     assert unique_ids(names) == ids
     assert len(set(ids)) == len(ids)
+
+
+def test_a_group_of_a_pot_with_its_lid_and_cups_with_saucers_is_several_objects() -> None:
+    tree = group(
+        "tea_set",
+        mesh("tea_set_pot", at=0.0),
+        mesh("tea_set_pot_lid", at=0.1),
+        mesh("tea_set_cup_1", at=5.0),
+        mesh("tea_set_saucer_1", at=5.0),
+        mesh("tea_set_cup_2", at=9.0),
+        mesh("tea_set_saucer_2", at=9.0),
+    )
+    assert objects(tree) == {
+        "tea_set_pot": ["tea_set_pot", "tea_set_pot_lid"],
+        "tea_set_cup_1": ["tea_set_cup_1"],
+        "tea_set_saucer_1": ["tea_set_saucer_1"],
+        "tea_set_cup_2": ["tea_set_cup_2"],
+        "tea_set_saucer_2": ["tea_set_saucer_2"],
+    }
+
+
+def test_what_stands_on_a_mesh_and_apart_from_it_is_its_own_object() -> None:
+    assert objects(mesh("tray", mesh("teapot", at=3.0), mesh("tray_handle", at=0.1))) == {
+        "tray": ["tray", "tray_handle"],
+        "teapot": ["teapot"],
+    }
+
+
+@pytest.mark.parametrize(
+    "names",
+    [["table_top", "table_leg_1", "table_leg_2"], ["table_1", "table_2"], ["table_mat_0", "table_wood"], ["", ""]],
+)
+def test_parts_numbers_and_materials_are_no_items_however_far_apart(names: list[str]) -> None:
+    tree = group("table", *(mesh(name, at=5.0 * k) for k, name in enumerate(names)))
+    assert objects(tree) == {"table": names}
+
+
+def test_items_in_one_place_are_one_object() -> None:
+    tree = group("lamp", mesh("lampFlex", at=0.0), mesh("lampGlobe", at=0.5))
+    assert objects(tree) == {"lamp": ["lampFlex", "lampGlobe"]}
+
+
+@pytest.mark.parametrize(
+    ("name", "is_item"),
+    [("set_cup", True), ("setTeaCup2", True), ("Tasse", True), ("set_cup_mat_0", True), ("set_cup_handle", False),
+     ("set_doors", False), ("set_LEFT", False), ("set.001", False), ("set_XY", False), ("", False)],
+)  # fmt: skip
+def test_an_item_has_a_noun_of_its_own(name: str, is_item: bool) -> None:
+    assert has_own_noun(name, "set") is is_item
+
+
+def test_every_piece_of_a_collection_is_in_one_object() -> None:
+    names = ["set_pot", "set_lid", "", "set_cup", "set_knob", "set_1"]
+    tree = group("set", *(mesh(name, at=3.0 * k) for k, name in enumerate(names)))
+    assert sorted(key for keys in objects(tree).values() for key in keys) == sorted(names)

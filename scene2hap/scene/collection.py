@@ -1,0 +1,97 @@
+"""Splits a group that holds several separate items: a pot with its lid, two cups and their saucers under one node.
+
+A member of a group is an *item* if its name has a head noun of its own that names no part: `tea_set_cup` under
+`tea_set`, but not `tea_set_lid` (a part), `tea_set_mat_0` (a material) or `tea_set_2` (a number). A group is a
+collection if two of its items stand apart, by their bounding boxes. Then every item is an object of its own, and every
+other member belongs to the nearest item: the lid to its pot. A table with its legs and a hob with its burners have no
+two items that stand apart, and stay one object.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.scene.tree import Matrix, Piece
+
+# Two items stand apart if their boxes do, by more than this share of the group's diagonal (assumed).
+_APART = 0.002
+
+_PARTS = """
+    arm armrest axle back backrest base basket bezel blade board body bottom bulb burner button cable cap case casing
+    chain control cord corner cover cushion dial display door drawer edge eye face fan feet foot frame front glass grate
+    grid grill grip handle hinge holder hood hose inlay inside interior key knob label leaf led leg lens lever lid light
+    lock mirror neck outlet outside pane panel part pedal pin pipe plug pole post rack rail rim ring rod roof screen
+    screw seat shade shaft shelf shell side sill spout spring stand strap strip string surface switch tail top trim tube
+    valve vent wall wheel window wing wire
+"""
+# Words that say where or of which stuff a piece is, or that a program gave it.
+_NO_NOUNS = """
+    left right upper lower middle center centre inner outer rear small big large long short up down mat material
+    mesh node object obj geo geometry geom poly polygon primitive prim surface lod collision collider cube box
+    sphere cylinder plane circle cone torus default none wood metal steel chrome plastic fabric leather glass
+    rubber ceramic porcelain stone marble paper black white red green blue grey gray brown yellow dark bright
+    clone copy instance shape group sub model item element piece
+"""
+_PART_WORDS, _OTHER_WORDS = frozenset(_PARTS.split()), frozenset(_NO_NOUNS.split())
+
+
+@dataclass(frozen=True, eq=False)
+class Member:
+    """A node's own pieces in a group: `frame` is its world transform."""
+
+    name: str
+    frame: Matrix
+    pieces: tuple[Piece, ...]
+
+    @cached_property
+    def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Lowest and highest corner in the world [file unit]."""
+        points = np.concatenate([piece.vertices for piece in self.pieces]) @ self.frame[:3, :3].T + self.frame[:3, 3]
+        return points.min(axis=0), points.max(axis=0)
+
+
+def split(group_name: str, members: Sequence[Member]) -> list[list[Member]]:
+    """The members of each object, the one that names it first; all in one where the group is no collection."""
+    some = [member for member in members if any(len(piece.vertices) for piece in member.pieces)]
+    items = [member for member in some if member.name == group_name or has_own_noun(member.name, group_name)]
+    if len(items) < 2 or not _stand_apart(some, items):
+        return [list(members)]
+    found = [[item] for item in items]
+    for member in some:
+        if not any(member is item for item in items):
+            gaps = [_gap(member, item) for item in items]
+            found[gaps.index(min(gaps))].append(member)
+    return found
+
+
+def has_own_noun(name: str, group_name: str) -> bool:
+    """Whether a name, without its group's, ends in a noun that names no part; see the module."""
+    rest = name[len(group_name) :] if name.startswith(group_name) else name
+    words = [word.lower() for word in re.findall(r"[A-Z]?[^\W\d_A-Z]+|[A-Z]+(?![^\W\d_A-Z])", rest)]
+    nouns = [word for word in words if len(word) > 2 and word not in _OTHER_WORDS]
+    return bool(nouns) and not {nouns[-1], nouns[-1].removesuffix("s"), nouns[-1].removesuffix("es")} & _PART_WORDS
+
+
+def _stand_apart(members: Sequence[Member], items: Sequence[Member]) -> bool:
+    """Whether the items fall into two sets at least whose boxes are apart."""
+    low = np.min([member.box[0] for member in members], axis=0)
+    high = np.max([member.box[1] for member in members], axis=0)
+    reach = _APART * float(np.linalg.norm(high - low))
+    joined, left = [items[0]], list(items[1:])
+    for one in joined:
+        near = [other for other in left if _gap(one, other) <= reach]
+        joined += near
+        left = [other for other in left if not any(other is some for some in near)]
+    return bool(left)
+
+
+def _gap(one: Member, other: Member) -> float:
+    """Distance of two bounding boxes."""
+    (a, b), (c, d) = one.box, other.box
+    return float(np.linalg.norm(np.maximum(np.maximum(a - d, c - b), 0.0)))
