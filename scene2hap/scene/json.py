@@ -18,7 +18,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from scene2hap import checks
 from scene2hap.errors import SceneError
-from scene2hap.scene import sizes
+from scene2hap.scene import limits, sizes
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import DominantSurface, Geometry, SceneObject, SceneSnapshot, with_relative_heights
 
@@ -76,6 +76,7 @@ def from_document(document: dict[str, Any]) -> SceneSnapshot:
         shared = {key: _geometry.validate_python(row) for key, row in table.items()}
         objects = document.get("objects")
         if isinstance(objects, list):
+            limits.at_most("the number of objects", len(objects), "MAX_OBJECTS")
             objects = [_with_geometry(_told(row), shared) for row in objects]
         fields = {key: document[key] for key in ("name", "up_axis", "contacts") if key in document}
         scene = _scene.validate_python({**fields, "objects": objects})
@@ -134,7 +135,10 @@ def _bounds_m(geometry: Geometry) -> NDArray[np.float64]:
 
 def _measured(scene: SceneSnapshot, rows: Sequence[dict[str, Any]]) -> SceneSnapshot:
     """The scene with what its rows leave out."""
-    objects = [replace(item, surface=_surface(item, scene)) for item in scene.objects]
+    measured_before: dict[tuple[object, ...], DominantSurface] = {}
+    stored = {item.geometry.mesh.digest: len(item.geometry.mesh.faces) for item in scene.objects}
+    budget = limits.Budget("the triangles to measure", 500_000, 4.0, stored=sum(stored.values()), unit="triangles")
+    objects = [replace(item, surface=_surface(item, scene, measured_before, budget)) for item in scene.objects]
     above = with_relative_heights(objects, scene.up_axis)
     objects = [
         measured if row.get("relative_height_m") is None else item
@@ -143,11 +147,19 @@ def _measured(scene: SceneSnapshot, rows: Sequence[dict[str, Any]]) -> SceneSnap
     return replace(scene, objects=tuple(objects))
 
 
-def _surface(item: SceneObject, scene: SceneSnapshot) -> DominantSurface:
+def _surface(
+    item: SceneObject, scene: SceneSnapshot, before: dict[tuple[object, ...], DominantSurface], budget: limits.Budget
+) -> DominantSurface:
     if item.surface is not _UNMEASURED:
         return item.surface
     # Imported by need: what this library wrote is never measured again.
     from scene2hap.scene.geometry import dominant_surface
 
     up = item.pose.rotation.T[:, {"y": 1, "z": 2}[scene.up_axis]]
-    return dominant_surface(item.geometry.mesh, up=up)
+    # Copies that stand alike are measured once.
+    mesh = item.geometry.mesh
+    key = (mesh.digest, *np.round(up, 6).tolist())
+    if key not in before:
+        budget.spend(len(mesh.faces), f"object {item.id!r}")
+        before[key] = dominant_surface(mesh, up=up)
+    return before[key]

@@ -127,7 +127,7 @@ def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float
         groups = group_objects(authored.roots, group)
     if not groups:
         raise SceneError(f"scene {name!r} holds no triangles; nothing in it can be touched. Export it with meshes.")
-    limits.at_most("the number of objects", len(groups), "MAX_NODES")
+    limits.at_most("the number of objects", len(groups), "MAX_OBJECTS")
     pool = MeshPool(unit_m)
     up = np.array({"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}[up_axis])
     surfaces: dict[str, DominantSurface] = {}
