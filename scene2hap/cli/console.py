@@ -10,8 +10,16 @@ from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Table
 
+from scene2hap.printable import printable
+
 Tell = Callable[[str, str, int, int], None]
 """Told (stage, what is done, how many are done, of how many)."""
+
+
+def _safe(text: str, *, lines: bool = False) -> str:
+    """Text to print: neither markup nor what a terminal would obey; names come from files and servers."""
+    return escape(printable(text, lines=lines))
+
 
 _FILE_WIDTH = 160
 """Columns for output into a file or a pipe, which have no width of their own."""
@@ -29,23 +37,23 @@ class Console:
 
     def say(self, text: str) -> None:
         """One line on standard output."""
-        self._out.print(escape(text), soft_wrap=True)
+        self._out.print(_safe(text, lines=True), soft_wrap=True)
 
     def warn(self, text: str) -> None:
         """One line of warning on standard error."""
-        self._error.print(f"scene2hap: warning: {escape(text)}", style="yellow")
+        self._error.print(f"scene2hap: warning: {_safe(text)}", style="yellow")
 
     def fail(self, text: str) -> None:
         """One line of error on standard error."""
-        self._error.print(f"scene2hap: error: {escape(text)}", style="red")
+        self._error.print(f"scene2hap: error: {_safe(text)}", style="red")
 
     def table(self, title: str, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
         """A table; a column whose name starts with ">" is set to the right."""
-        table = Table(title=escape(title), title_justify="left", title_style="bold")
+        table = Table(title=_safe(title), title_justify="left", title_style="bold")
         for column in columns:
-            table.add_column(escape(column.removeprefix(">")), justify="right" if column.startswith(">") else "left")
+            table.add_column(_safe(column.removeprefix(">")), justify="right" if column.startswith(">") else "left")
         for row in rows:
-            table.add_row(*map(escape, row))
+            table.add_row(*map(_safe, row))
         self._out.print(table)
 
     @contextmanager
@@ -68,6 +76,6 @@ class Console:
             def tell(stage: str, what: str, done: int, total: int) -> None:
                 if stage not in tasks:
                     tasks[stage] = bars.add_task(stage, total=total, what="")
-                bars.update(tasks[stage], completed=done, total=total, what=escape(what))
+                bars.update(tasks[stage], completed=done, total=total, what=_safe(what))
 
             yield tell

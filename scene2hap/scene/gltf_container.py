@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import base64
 import binascii
-import json
 import struct
 from pathlib import Path
 from typing import Any
@@ -20,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.printable import read_json
 from scene2hap.scene import limits
 from scene2hap.scene.files import inside, read_bytes
 
@@ -157,7 +157,7 @@ def _split(name: str, data: bytes) -> tuple[bytes, bytes | None]:
 def _header(text: bytes) -> Json:
     """The header, with every table that geometry needs present and made of objects."""
     try:
-        header = json.loads(text.decode("utf-8-sig"))
+        header = read_json(text.decode("utf-8-sig"))
     except (ValueError, RecursionError) as cause:
         raise SceneFormatError(f"not glTF: its JSON cannot be read: {cause}.") from cause
     if not isinstance(header, dict):

@@ -18,6 +18,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from scene2hap import checks
 from scene2hap.errors import SceneError
+from scene2hap.printable import read_json
 from scene2hap.scene import limits, sizes
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import DominantSurface, Geometry, SceneObject, SceneSnapshot, with_relative_heights
@@ -45,7 +46,7 @@ def dump(snapshot: SceneSnapshot) -> str:
 def parse(text: str) -> SceneSnapshot:
     """The snapshot in a JSON text; raises SceneError with the field that is wrong."""
     try:
-        document = json.loads(text)
+        document = read_json(text)
     except (ValueError, RecursionError) as cause:  # ValueError: also a number of thousands of digits
         raise SceneError(f'not JSON: {cause}. A scene file starts with {{"format": "{FORMAT}", ...}}.') from cause
     if not isinstance(document, dict) or document.get("format") != FORMAT:
