@@ -114,6 +114,10 @@ def _told(row: Any) -> Any:
     return {"surface": _UNMEASURED, **{key: value for key, value in row.items() if value is not None}}
 
 
+_PER_SURFACE = 250
+"""What a surface costs however few triangles it has, in triangles."""
+
+
 def _require_plausible_thickness(item: SceneObject) -> None:
     """Hold a stated thickness against the geometry, which bounds it: no slab is many times thicker than its mesh."""
     normal = np.abs(item.surface.pose.rotation[:, 2])
@@ -137,8 +141,8 @@ def _bounds_m(geometry: Geometry) -> NDArray[np.float64]:
 def _measured(scene: SceneSnapshot, rows: Sequence[dict[str, Any]]) -> SceneSnapshot:
     """The scene with what its rows leave out."""
     measured_before: dict[tuple[object, ...], DominantSurface] = {}
-    stored = {item.geometry.mesh.digest: len(item.geometry.mesh.faces) for item in scene.objects}
-    budget = limits.Budget("the triangles to measure", 500_000, 4.0, stored=sum(stored.values()), unit="triangles")
+    stored = {item.geometry.mesh.digest: len(item.geometry.mesh.faces) + _PER_SURFACE for item in scene.objects}
+    budget = limits.Budget("the triangles to measure", 250_000, 2.0, stored=sum(stored.values()), unit="triangles")
     objects = [replace(item, surface=_surface(item, scene, measured_before, budget)) for item in scene.objects]
     above = with_relative_heights(objects, scene.up_axis)
     objects = [
@@ -161,6 +165,6 @@ def _surface(
     mesh = item.geometry.mesh
     key = (mesh.digest, *np.round(up, 6).tolist())
     if key not in before:
-        budget.spend(len(mesh.faces), f"object {item.id!r}")
+        budget.spend(len(mesh.faces) + _PER_SURFACE, f"object {item.id!r}")
         before[key] = dominant_surface(mesh, up=up)
     return before[key]

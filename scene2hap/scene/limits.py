@@ -22,8 +22,8 @@ MAX_TEXTURE_PX = 8192
 MAX_COORDINATE_M = 1e6
 """Distance of any point from the origin [m]; also keeps squares and cubes of it exact enough."""
 
-MAX_OBJECTS = 20_000
-"""Objects of a scene."""
+MAX_OBJECTS = 4_000
+"""Objects of a scene; each takes a millisecond or two to place and measure, however small."""
 
 
 def at_most(what: str, value: int, limit: str) -> None:
