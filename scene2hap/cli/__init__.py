@@ -9,11 +9,13 @@ from __future__ import annotations
 import argparse
 import warnings
 from collections.abc import Sequence
+from typing import Any
 
 from scene2hap import __version__
 from scene2hap.cli import bake, convert, demo, doctor, inspect, play, render, report, streams
 from scene2hap.cli.console import Console
 from scene2hap.errors import Scene2HapError
+from scene2hap.printable import printable
 
 COMMANDS = (demo, bake, render, play, convert, inspect, report, doctor)
 
@@ -55,10 +57,17 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
     return 0
 
 
+class _Parser(argparse.ArgumentParser):
+    """Shows arguments as `Console` shows names: a file may be called anything."""
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        super()._print_message(printable(message, lines=True), file)
+
+
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="scene2hap", description="Scene-wide vibrotactile haptics.")
+    parser = _Parser(prog="scene2hap", description="Scene-wide vibrotactile haptics.")
     parser.add_argument("--version", action="version", version=f"scene2hap {__version__}")
-    common = argparse.ArgumentParser(add_help=False)
+    common = _Parser(add_help=False)
     common.add_argument("-q", "--quiet", action="store_true", help="show no progress and no tables")
     common.add_argument("--json", action="store_true", help="print the outcome as JSON instead")
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")

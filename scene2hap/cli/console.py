@@ -1,13 +1,11 @@
 """What a person sees: progress on standard error, tables on standard output, one line per trouble.
 
-Texts come from files of anybody. What would steer the terminal in them is shown as an escape. A command goes on where
-its output cannot be written: nobody reads it, or the disk is full.
+A command goes on where its output cannot be written: nobody reads it, or the disk is full.
 """
 
 from __future__ import annotations
 
 import json
-import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -18,34 +16,26 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 
 from scene2hap.cli import streams
+from scene2hap.printable import printable, printable_json
 
 Tell = Callable[[str, str, int, int], None]
 """Told (stage, what is done, how many are done, of how many)."""
 
-_STEERING = re.compile(
-    "[\x00-\x08\x0b-\x1f\x7f-\x9f\xad\u061c\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f\ud800-\udfff\ufeff]"
-)
-"""Control characters but tab and line break, what turns the direction of writing or hides, lone surrogates."""
+
+def _safe(text: str, *, lines: bool = False) -> str:
+    """Text to print: neither markup nor what a terminal would obey; names come from files and servers."""
+    return rich.markup.escape(printable(text, lines=lines))
+
+
 _LONGEST = 2000
 """Characters of a warning or an error that are shown; a name may have a million."""
 _FILE_WIDTH = 160
 """Columns for output into a file or a pipe, which have no width of their own."""
 
 
-def plain(text: str) -> str:
-    """The text with escapes for what a terminal would obey instead of show."""
-    return _STEERING.sub(lambda found: found[0].encode("unicode_escape").decode("ascii"), text)
-
-
-def escape(text: str) -> str:
-    """As `plain`, and without the markup of tables."""
-    return rich.markup.escape(plain(text))
-
-
 def _one_line(text: str) -> str:
     left = len(text) - _LONGEST
-    text = text if left <= 0 else f"{text[:_LONGEST]} ... ({left} characters more)"
-    return escape("\\n".join(text.split("\n")))
+    return _safe(text if left <= 0 else f"{text[:_LONGEST]} ... ({left} characters more)")
 
 
 class _Output(rich.console.Console):
@@ -67,7 +57,7 @@ class Console:
     def say(self, text: str) -> None:
         """One line on standard output."""
         with self._lasting():
-            self._out.print(escape(text), soft_wrap=True)
+            self._out.print(_safe(text, lines=True), soft_wrap=True)
 
     def warn(self, text: str) -> None:
         """One line of warning on standard error."""
@@ -79,11 +69,11 @@ class Console:
 
     def table(self, title: str, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
         """A table; a column whose name starts with ">" is set to the right."""
-        table = Table(title=escape(title), title_justify="left", title_style="bold")
+        table = Table(title=_safe(title), title_justify="left", title_style="bold")
         for column in columns:
-            table.add_column(escape(column.removeprefix(">")), justify="right" if column.startswith(">") else "left")
+            table.add_column(_safe(column.removeprefix(">")), justify="right" if column.startswith(">") else "left")
         for row in rows:
-            table.add_row(*(escape(cell.replace("\n", "\\n")) for cell in row))
+            table.add_row(*map(_safe, row))
         with self._lasting():
             self._out.print(table)
 
@@ -94,9 +84,8 @@ class Console:
             text.encode(sys.stdout.encoding or "utf-8")
         except UnicodeEncodeError:
             text = json.dumps(outcome, indent=1)
-        text = _STEERING.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
         with self._lasting():
-            print(text, flush=True)
+            print(printable_json(text), flush=True)
 
     def close(self) -> int:
         """Write out what is left. The exit status for output that was asked for: 0, or 1 if it cannot be written."""
@@ -143,6 +132,6 @@ class Console:
             def tell(stage: str, what: str, done: int, total: int) -> None:
                 if stage not in tasks:
                     tasks[stage] = bars.add_task(stage, total=total, what="")
-                bars.update(tasks[stage], completed=done, total=total, what=escape(what))
+                bars.update(tasks[stage], completed=done, total=total, what=_safe(what))
 
             yield tell
