@@ -166,8 +166,10 @@ def _reading(path: Path) -> Iterator[None]:
     """Says of what goes wrong in the block which file it is about. Raises: BundleError and its children alone."""
     try:
         yield
-    except BundleError:
-        raise
+    except BundleError as cause:
+        if str(path.parent) in str(cause):
+            raise
+        raise type(cause)(f"{path}: {cause}") from cause
     except ValidationError as cause:
         problem = checks.first_problem(cause)
         raise BundleError(f"{path}: {problem.place[:200]}: {problem.reason}.") from cause

@@ -85,9 +85,10 @@ class HapticBundle:
         return wish.gain_db if wish is not None and wish.gain_db is not None else 0.0
 
     def save(self, folder: str | os.PathLike[str]) -> Path:
-        """Write the folder whole or not at all; a bundle that is there already is replaced.
+        """Write the folder whole or not at all; a bundle that is there already is replaced, and what is not ours stays.
 
-        Raises: BundleError: the folder holds something else, or cannot be written.
+        Raises: BundleVersionError: a bundle of a newer scene2hap is there; BundleError: the folder holds something
+        else, is the one that the process works in, or cannot be written.
         """
         from scene2hap.bundle.folder import write_bundle
 

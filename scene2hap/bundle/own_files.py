@@ -86,10 +86,11 @@ def own_file(folder: Path, name: object) -> Path:
         mode = path.stat().st_mode
     except (FileNotFoundError, NotADirectoryError) as cause:
         raise BundleIncomplete(
-            f"{folder} has no {name}: not a bundle, or one that was not written to its end."
+            f"{folder} has no {str(name)[:80]}: not a bundle, or one that was not written to its end."
         ) from cause
-    except (OSError, ValueError) as cause:
-        raise BundleIncomplete(f"{path} cannot be read: {cause}. Bake again, or mend the file.") from cause
+    except OSError as cause:
+        told = f"{folder / str(name)[:80]} cannot be read: {cause.strerror}"
+        raise BundleIncomplete(f"{told}. Bake again, or mend the file.") from cause
     if not stat.S_ISREG(mode):
         raise BundleIncomplete(f"{path} is not a file. Bake again, or mend the folder.")
     return path

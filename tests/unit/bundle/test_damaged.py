@@ -1,0 +1,128 @@
+"""A bundle that anybody damaged is read, or refused with an error of ours: never another, never a wait for a pipe."""
+
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from scene2hap import HapticBundle
+from scene2hap.errors import BundleError, BundleIncomplete
+from scenes import table_with_two_phones
+
+DOCUMENTS = ("bundle.json", "scene.json", "objects.json", "loops.json", "overrides.json")
+ODD: tuple[Any, ...] = (
+    None,
+    True,
+    -1,
+    10**400,
+    1e308,
+    float("nan"),
+    "",
+    "\ud800",
+    "\0",
+    "a" * 10_000,
+    [],
+    {},
+    [[]],
+    ["x"],
+)
+
+pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.bundle.checking.BundleWarning")
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    bundle = table_with_two_phones()[1].override("phone", gain_db=-3.0, material="oak")
+    return bundle.override("alarm", clip=bundle.loops["alarm"]["ringing"].audible).save(tmp_path / "room")
+
+
+def read(folder: Path) -> None:
+    told = str(folder)
+    try:
+        HapticBundle.load(folder)
+    except BundleError as error:
+        told = str(error)
+    assert str(folder) in told
+    assert len(told) < 12_000
+
+
+def places(document: Any) -> list[tuple[Any, Any]]:
+    items = list(document.items() if isinstance(document, dict) else enumerate(document))
+    below = [place for _, value in items if isinstance(value, dict | list) for place in places(value)]
+    return [(document, key) for key, _ in items] + below
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+def test_every_value_becomes_another_or_goes(folder: Path, name: str) -> None:
+    path = folder / name
+    whole = path.read_text(encoding="utf-8")
+    for at in range(len(places(json.loads(whole)))):
+        for value in (*ODD[at % 3 :: 3], ...):
+            document = json.loads(whole)
+            holder, key = places(document)[at]
+            if value is ...:
+                del holder[key]
+            else:
+                holder[key] = value
+            path.write_text(json.dumps(document), encoding="utf-8")
+            read(folder)
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+@pytest.mark.parametrize(
+    "content",
+    [b"", b"null", b"[]", b"{}", b"NaN", b"[" * 100_000, b'{"a":' * 100_000, b"1" * 9000, b"\xff\xfe{\0}\0", b"\x80"],
+    ids=lambda content: repr(content[:6]),
+)
+def test_a_document_becomes_another(folder: Path, name: str, content: bytes) -> None:
+    (folder / name).write_bytes(content)
+    read(folder)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes and links")
+@pytest.mark.parametrize("kind", ["folder", "pipe", "circle", "outside", "device", "dangling", "sparse"])
+@pytest.mark.parametrize("name", [*DOCUMENTS, "sounds/phone.ringing.tactile.wav"])
+def test_something_else_stands_in_a_file_s_place(folder: Path, name: str, kind: str) -> None:
+    path = folder / name
+    path.unlink(missing_ok=True)
+    path = path if name in DOCUMENTS else sorted((folder / "sounds").glob("*.wav"))[0]
+    path.unlink(missing_ok=True)
+    (folder.parent / "outside").write_text("{}")
+    if kind == "folder":
+        path.mkdir()
+    elif kind == "pipe":
+        os.mkfifo(path)
+    elif kind == "sparse":
+        with path.open("wb") as file:
+            file.truncate(1 << 36)
+    else:
+        where = {"circle": path.name, "outside": folder.parent / "outside", "device": "/dev/zero", "dangling": "none"}
+        path.symlink_to(where[kind])
+    if kind == "dangling" and name == "overrides.json":
+        read(folder)
+        return
+    with pytest.raises(BundleError):
+        HapticBundle.load(folder)
+
+
+def test_names_that_are_no_utf_8_come_back(tmp_path: Path) -> None:
+    """What a file system calls something; JSON can spell it, UTF-8 cannot."""
+    bundle = table_with_two_phones()[1]
+    odd = HapticBundle(bundle.snapshot, "caf\udce9", bundle.objects, bundle.loops)
+    assert HapticBundle.load(odd.save(tmp_path / "room")).scene_category == "caf\udce9"
+
+
+def test_a_number_beyond_any_bound_is_told(folder: Path) -> None:
+    path = folder / "objects.json"
+    path.write_text(path.read_text().replace('"density_kg_m3": 750.0', '"density_kg_m3": 1' + "0" * 400))
+    with pytest.raises(BundleError, match=r"objects\.json: table.*(finite|number)"):
+        HapticBundle.load(folder)
+
+
+def test_a_file_that_is_too_large_is_not_read(folder: Path) -> None:
+    with (folder / "scene.json").open("wb") as file:
+        file.truncate(1 << 40)
+    with pytest.raises((BundleError, BundleIncomplete), match="bytes; it must be at most"):
+        HapticBundle.load(folder)
