@@ -67,7 +67,10 @@ def number(
     # numpy scalars register as Real; bool is an int by accident of history and never a measurement.
     if isinstance(value, bool) or not isinstance(value, Real):
         raise error(_sentence(f"{name} is {value!r}; it must be a number{_in(unit)}", hint))
-    result = float(value)
+    try:
+        result = float(value)
+    except OverflowError:  # a whole number of more than 308 digits
+        result = math.inf
     bounds = [
         (not math.isfinite(result), "finite"),
         (above is not None and result <= above, f"above {above}"),

@@ -118,7 +118,7 @@ class TouchTrack(BaseModel):
         try:
             text = path.read_text(encoding="utf-8-sig")
             document = _from_csv(text) if path.suffix.lower() == ".csv" else json.loads(text)
-        except (OSError, UnicodeDecodeError, ValueError) as cause:
+        except (OSError, UnicodeDecodeError, ValueError, RecursionError, csv.Error) as cause:
             raise SessionError(f"{path} cannot be read as touches: {cause}. See docs/touches.md.") from cause
         return cls.parse(document, str(path))
 

@@ -26,6 +26,11 @@ MAX_FILE_S = 600.0
 """Longer files are refused before they are decoded [s]; assumed: no sound of an object needs ten minutes, and a
 damaged header may promise a thousand hours."""
 
+MAX_FILE_SAMPLES = 1 << 26
+"""Samples of all channels together; assumed: ten minutes of stereo at 48 kHz, and what is decoded in a second or two. A
+megabyte of FLAC may hold hours of silence at 655 kHz."""
+_BLOCK_FRAMES = 1 << 18
+
 _BITS: dict[str, int] = {"PCM_16": 16, "PCM_24": 24, "PCM_32": 32}
 
 
@@ -44,12 +49,26 @@ def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
                 f"{path} lasts {file.frames / rate:.0f} s; it must be at most {MAX_FILE_S:.0f} s. "
                 "Cut out the part you want."
             )
-        channels = file.read(dtype="float32", always_2d=True)
-    if channels.shape[0] == 0:
+        require_bounded(path, file)
+        blocks: list[np.ndarray[tuple[int, ...], np.dtype[np.float32]]] = []
+        n_read = 0
+        while len(block := file.read(_BLOCK_FRAMES, dtype="float32", always_2d=True)):
+            require_finite(path, block, n_read)
+            n_read += len(block)
+            blocks.append(block.mean(axis=1, dtype=np.float64).astype(np.float32))
+    if not blocks:
         raise AudioError(f"{path} has no samples. Use a sound that is longer than 0 s.")
-    require_finite(path, channels)
-    mono = channels.mean(axis=1, dtype=np.float64)
-    return AudioClip(mono.astype(np.float32), rate, credit or Credit(path.stem, "unknown", "unknown"))
+    return AudioClip(np.concatenate(blocks), rate, credit or Credit(path.stem, "unknown", "unknown"))
+
+
+def require_bounded(path: Path, file: soundfile.SoundFile) -> None:
+    """Raises: AudioError: the header promises more samples, of all channels together, than `MAX_FILE_SAMPLES`."""
+    n_samples = file.frames * file.channels
+    if n_samples > MAX_FILE_SAMPLES:
+        raise AudioError(
+            f"{path} has {file.frames:,} frames of {file.channels} channels at {file.samplerate:,} Hz, "
+            f"{n_samples:,} samples; it must have at most {MAX_FILE_SAMPLES:,}. Shorten it, or save it at 48,000 Hz."
+        )
 
 
 @contextmanager

@@ -4,6 +4,7 @@ from scene2hap.bundle.folder import read_overrides
 from scene2hap.bundle.haptic_bundle import HapticBundle
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.override import Override
+from scene2hap.bundle.replacing import require_replaceable
 from scene2hap.bundle.sounds import file_stem
 
-__all__ = ["HapticBundle", "MadeWith", "Override", "file_stem", "read_overrides"]
+__all__ = ["HapticBundle", "MadeWith", "Override", "file_stem", "read_overrides", "require_replaceable"]

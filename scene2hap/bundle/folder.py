@@ -15,8 +15,9 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
-import tempfile
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -24,59 +25,50 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from scene2hap import checks
-from scene2hap.audio.clip import Credit
 from scene2hap.audio.files import read_clip, write_wav
 from scene2hap.bundle.haptic_bundle import HapticBundle
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.override import Override
-from scene2hap.bundle.sounds import SoundReader, file_stem, inside, write_loops
-from scene2hap.errors import AudioError, BundleError, BundleIncomplete, BundleVersionError, MaterialError, SceneError
+from scene2hap.bundle.own_files import (
+    FORMAT,
+    MANIFEST,
+    VERSION,
+    inside,
+    own_file,
+    read_bytes,
+    read_json,
+    read_manifest,
+)
+from scene2hap.bundle.replacing import recover, replaced
+from scene2hap.bundle.sounds import SoundReader, file_stem, read_credit, write_loops
+from scene2hap.errors import AudioError, BundleError, BundleIncomplete, Scene2HapError, SceneError
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.materials import Material
 from scene2hap.scene import json as scene_json
 from scene2hap.scene.ply import decode_ply, encode_ply
 from scene2hap.scene.snapshot import SceneSnapshot
 
-FORMAT = "scene2hap/bundle"
-VERSION = 1
-MANIFEST = "bundle.json"
-
 _objects: TypeAdapter[dict[str, ObjectHaptics]] = TypeAdapter(dict[str, ObjectHaptics])
 
 
-def write_bundle(bundle: HapticBundle, target: Path) -> Path:
-    """Write the folder whole or not at all; a bundle that is there already is replaced.
+_SURROGATE = re.compile("[\ud800-\udfff]")
+_MOST_READINGS = 5
+_DAMAGE = (ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RecursionError, TypeError, ValueError)
+"""What Python itself raises on a document of the wrong shape, on numbers beyond any bound, on files that vanish."""
 
-    Raises: BundleError: the folder holds something else, or cannot be written.
+
+def write_bundle(bundle: HapticBundle, target: Path) -> Path:
+    """Write the folder whole or not at all; a bundle that is there already is replaced, and what is not ours stays.
+
+    Raises: BundleVersionError: a bundle of a newer scene2hap is there; BundleError: the folder holds something else, is
+    the one that the process works in, or cannot be written.
     """
-    if target.exists() and not _may_replace(target):
-        raise BundleError(f"{target} is not empty and not a bundle; choose another folder, or empty this one.")
     try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        draft = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
-        try:
+        with replaced(target) as draft:
             _write(bundle, draft)
-            _swap(draft, target)
-        finally:
-            shutil.rmtree(draft, ignore_errors=True)
     except OSError as cause:
         raise BundleError(f"{target} cannot be written: {cause}.") from cause
     return target
-
-
-def _may_replace(target: Path) -> bool:
-    return target.is_dir() and ((target / MANIFEST).is_file() or not any(target.iterdir()))
-
-
-def _swap(draft: Path, target: Path) -> None:
-    os.chmod(draft, 0o755)  # mkdtemp makes it private; a bundle is as readable as any folder
-    if not target.exists():
-        draft.rename(target)
-        return
-    retired = Path(tempfile.mkdtemp(prefix=f".{target.name}-old-", dir=target.parent))
-    target.rename(retired / "bundle")
-    draft.rename(target)
-    shutil.rmtree(retired)
 
 
 def _write(bundle: HapticBundle, folder: Path) -> None:
@@ -86,7 +78,15 @@ def _write(bundle: HapticBundle, folder: Path) -> None:
 
     def put(name: str, document: Any) -> None:
         text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
-        (folder / name).write_text(text + "\n", encoding="utf-8")
+        if _SURROGATE.search(text):  # a file name that is no UTF-8 made it into a name
+            text = json.dumps(document, indent=1, allow_nan=False)
+        put_bytes(name, f"{text}\n".encode())
+
+    def put_bytes(name: str, content: bytes) -> None:
+        with (folder / name).open("wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
         written.append(name)
 
     scene = scene_json.to_document(bundle.snapshot)
@@ -95,8 +95,7 @@ def _write(bundle: HapticBundle, folder: Path) -> None:
             name = f"meshes/{scene_json.geometry_key(item.geometry)}.ply"
             row["geometry"] = name
             if name not in written:
-                (folder / name).write_bytes(encode_ply(item.geometry))
-                written.append(name)
+                put_bytes(name, encode_ply(item.geometry))
     put("scene.json", {"format": scene_json.FORMAT, "version": scene_json.VERSION, **scene})
     put("objects.json", _objects.dump_python(dict(bundle.objects), mode="json"))
     put("loops.json", write_loops(bundle, folder, written))
@@ -104,7 +103,7 @@ def _write(bundle: HapticBundle, folder: Path) -> None:
     owed = dict.fromkeys(replace(who, query="") for who in bundle.credits)  # found by two queries, owed once
     lines = [f"{who.title}, by {who.author}, {who.licence}{', ' + who.address if who.address else ''}" for who in owed]
     text = "\n".join(["Sounds in this bundle, cut into loops and turned into vibration", *lines]) + "\n"
-    (folder / "credits.txt").write_text(text, encoding="utf-8")
+    put_bytes("credits.txt", text.encode("utf-8", "replace"))
     put(
         MANIFEST,
         {
@@ -112,59 +111,89 @@ def _write(bundle: HapticBundle, folder: Path) -> None:
             "version": VERSION,
             "scene_category": bundle.scene_category,
             "made_with": bundle.made_with.to_document() if bundle.made_with is not None else None,
-            "files": [*written, "credits.txt"],
+            "files": written,
         },
     )
 
 
 def read_bundle(folder: Path) -> HapticBundle:
-    """Read a folder that `write_bundle` wrote, edited or not.
+    """Read a folder that `write_bundle` wrote, edited or not. One that is replaced meanwhile is read again.
 
     Raises: BundleIncomplete, BundleVersionError, BundleError: see `HapticBundle.load`.
+    Warns: BundleWarning: the process that replaced it died, and it was put in its place.
     """
-    manifest = _json_file(folder, MANIFEST)
-    if manifest.get("format") != FORMAT:
-        raise BundleError(f'{folder / MANIFEST} is not a bundle: it lacks "format": "{FORMAT}".')
-    version = manifest.get("version")
-    if not isinstance(version, int) or version > VERSION:
-        raise BundleVersionError(
-            f"{folder} has bundle version {version!r}; this scene2hap reads up to {VERSION}. Upgrade scene2hap."
-        )
-    missing = [name for name in manifest.get("files", []) if not (folder / name).is_file()]
-    if missing:
-        raise BundleIncomplete(f"{folder} lacks {missing[0]} ({len(missing)} missing). Bake it again or restore it.")
+    recover(folder)
+    for _ in range(_MOST_READINGS):
+        begun = _identity(folder)
+        try:
+            bundle = _read(folder)
+        except BundleError:
+            if _identity(folder) == begun:
+                raise
+        else:
+            if _identity(folder) == begun:
+                return bundle
+    raise BundleIncomplete(f"{folder} was replaced {_MOST_READINGS} times while it was read. Read it again later.")
+
+
+def _read(folder: Path) -> HapticBundle:
+    with _reading(folder / MANIFEST):
+        manifest = read_manifest(folder)
+        missing = [name for name in manifest.get("files", []) if not inside(folder, name).is_file()]
+        if missing:
+            told = f"{folder} lacks {missing[0][:200]} ({len(missing)} missing). Bake it again or restore it."
+            raise BundleIncomplete(told)
+    with _reading(folder / "scene.json"):
+        scene = _read_scene(folder)
+    with _reading(folder / "objects.json"):
+        objects = _objects.validate_python(read_json(folder, "objects.json"))
+    with _reading(folder / "loops.json"):
+        rows, sounds = read_json(folder, "loops.json"), SoundReader(folder)
+        loops = {key: {state: sounds.loop(row) for state, row in states.items()} for key, states in rows.items()}
+        choices = {
+            key: {state: "\n".join(row["choice"]) for state, row in states.items() if "choice" in row}
+            for key, states in rows.items()
+        }
+    overrides = read_overrides(folder)
+    with _reading(folder / MANIFEST):
+        made_with = MadeWith.from_document(manifest.get("made_with"), str(folder / MANIFEST))
+        category = str(manifest.get("scene_category", "undefined"))
+        return HapticBundle(scene, category, objects, loops, overrides, choices, made_with)
+
+
+@contextmanager
+def _reading(path: Path) -> Iterator[None]:
+    """Says of what goes wrong in the block which file it is about. Raises: BundleError and its children alone."""
     try:
-        rows, sounds = _json_file(folder, "loops.json"), SoundReader(folder)
-        return HapticBundle(
-            _read_scene(folder),
-            str(manifest.get("scene_category", "undefined")),
-            _objects.validate_python(_json_file(folder, "objects.json")),
-            {
-                object_id: {state: sounds.loop(row) for state, row in states.items()}
-                for object_id, states in rows.items()
-            },
-            read_overrides(folder),
-            {
-                object_id: {state: "\n".join(row["choice"]) for state, row in states.items() if "choice" in row}
-                for object_id, states in rows.items()
-            },
-            MadeWith.from_document(manifest.get("made_with"), str(folder / MANIFEST)),
-        )
+        yield
+    except BundleError:
+        raise
     except ValidationError as cause:
         problem = checks.first_problem(cause)
-        raise BundleError(f"{folder / 'objects.json'}: {problem.place}: {problem.reason}.") from cause
-    except MaterialError as cause:
-        raise BundleError(f"{folder / 'overrides.json'}: {cause}") from cause
+        raise BundleError(f"{path}: {problem.place[:200]}: {problem.reason}.") from cause
     except (AudioError, SceneError) as cause:
-        raise BundleIncomplete(f"{folder}: {cause}") from cause
-    except (AttributeError, KeyError, TypeError) as cause:
-        raise BundleError(f"{folder}: loops.json or overrides.json lacks or misuses {cause}.") from cause
+        raise BundleIncomplete(f"{path}: {cause}") from cause
+    except Scene2HapError as cause:
+        raise BundleError(f"{path}: {cause}") from cause
+    except KeyError as cause:
+        raise BundleError(f"{path} lacks {cause}. Bake again, or mend the file.") from cause
+    except _DAMAGE as cause:  # what files may hold has no end; the cause tells more
+        told = str(cause)[:200] or type(cause).__name__
+        raise BundleError(f"{path} holds what cannot be: {told}. Bake again, or mend the file.") from cause
+
+
+def _identity(folder: Path) -> tuple[int, int] | None:
+    try:
+        found = folder.stat()
+    except (OSError, ValueError):
+        return None
+    return found.st_dev, found.st_ino
 
 
 def _read_scene(folder: Path) -> SceneSnapshot:
-    document = _json_file(folder, "scene.json")
+    document = read_json(folder, "scene.json")
     names = {row.get("geometry") for row in document.get("objects", []) if isinstance(row.get("geometry"), str)}
-    document["geometries"] = {name: decode_ply(inside(folder, name).read_bytes()) for name in sorted(names)}
+    document["geometries"] = {name: decode_ply(read_bytes(folder, name)) for name in sorted(names)}
     return scene_json.from_document(document)
 
 
@@ -189,29 +218,19 @@ def read_overrides(folder: Path) -> dict[str, Override]:
 
     Raises: BundleError and its children: the file cannot be read, so that it would be lost.
     """
-    if not (folder / "overrides.json").is_file():
+    recover(folder)
+    if not os.path.lexists(folder / MANIFEST) or not os.path.lexists(folder / "overrides.json"):
         return {}
-    overrides = {}
-    for object_id, row in _json_file(folder, "overrides.json").items():
-        fields = dict(row)
-        if isinstance(fields.get("material"), dict):
-            fields["material"] = Material(**fields["material"])
-        if isinstance(fields.get("clip"), dict):
-            clip = fields["clip"]
-            fields["clip"] = read_clip(inside(folder, clip["file"]), Credit(**clip["credit"]))
-        overrides[object_id] = Override(**fields)
-    return overrides
+    read_manifest(folder)
+    with _reading(folder / "overrides.json"):
+        return {object_id: _override(folder, row) for object_id, row in read_json(folder, "overrides.json").items()}
 
 
-def _json_file(folder: Path, name: str) -> dict[str, Any]:
-    try:
-        document = json.loads((folder / name).read_text(encoding="utf-8"))
-    except FileNotFoundError as cause:
-        raise BundleIncomplete(
-            f"{folder} has no {name}: not a bundle, or one that was not written to its end."
-        ) from cause
-    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as cause:
-        raise BundleIncomplete(f"{folder / name} cannot be read: {cause}. Bake again, or mend the file.") from cause
-    if not isinstance(document, dict):
-        raise BundleError(f"{folder / name} must hold a JSON object.")
-    return document
+def _override(folder: Path, row: Mapping[str, Any]) -> Override:
+    fields = dict(row)
+    if isinstance(fields.get("material"), dict):
+        fields["material"] = Material(**fields["material"])
+    if isinstance(fields.get("clip"), dict):
+        clip = fields["clip"]
+        fields["clip"] = read_clip(own_file(folder, clip["file"]), read_credit(clip["credit"]))
+    return Override(**fields)

@@ -18,7 +18,7 @@ from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import fits_flac, read_clip, sound_digest, write_flac, write_wav
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle.haptic_bundle import HapticBundle
-from scene2hap.errors import BundleError
+from scene2hap.bundle.own_files import own_file
 
 _KINDS = ("audible", "tactile", "source")
 
@@ -63,8 +63,8 @@ class SoundReader:
         self._files: dict[Path, AudioClip] = {}
 
     def loop(self, row: Mapping[str, Any]) -> HapticLoop:
-        """One loop. Raises: AudioError: a sound cannot be used; BundleError: it lies outside; KeyError, TypeError."""
-        credit = Credit(**row["credit"])
+        """One loop. Raises: AudioError: a sound cannot be used; BundleError: its file; KeyError, TypeError."""
+        credit = read_credit(row["credit"])
         audible, tactile = (self._clip(row[kind], credit) for kind in ("audible", "tactile"))
         source = self._clip(row["source"], credit) if "source" in row else None
         fingerprint = row.get("fingerprint", {})
@@ -73,7 +73,7 @@ class SoundReader:
         return HapticLoop(audible, tactile, row["frequency_raw_hz"], row["frequency_tactile_hz"], source, fingerprint)
 
     def _clip(self, name: str, credit: Credit) -> AudioClip:
-        path = inside(self._folder, name)
+        path = own_file(self._folder, name)
         if (path, credit) not in self._clips:
             if path not in self._files:
                 self._files[path] = read_clip(path, credit)
@@ -82,21 +82,22 @@ class SoundReader:
         return self._clips[path, credit]
 
 
-def inside(folder: Path, name: str) -> Path:
-    """The path of a file that a bundle names. Raises: BundleError: it lies outside of the bundle."""
-    try:
-        path = (folder / name).resolve()
-    except (OSError, RuntimeError, ValueError) as cause:  # a zero byte, a circle of links, a name of a megabyte
-        raise BundleError(f"{folder} names a file {name[:80]!r}, which cannot be: {cause}.") from cause
-    if not path.is_relative_to(folder.resolve()):
-        raise BundleError(f"{folder} refers to {name!r}, outside itself; a bundle only reads its own files.")
-    return path
-
-
 def file_stem(text: str) -> str:
     """A file name for any id; a short digest keeps apart what the plain letters would merge."""
     plain = re.sub(r"[^A-Za-z0-9_-]+", "-", text).strip("-")[:60]
-    return plain if plain == text else f"{plain or 'x'}-{hashlib.sha256(text.encode()).hexdigest()[:8]}"
+    return plain if plain == text else f"{plain or 'x'}-{_digest(text)}"
+
+
+def read_credit(fields: Mapping[str, Any]) -> Credit:
+    """Whom a sound is owed to, as a file says it. Raises: TypeError: it says something else."""
+    credit = Credit(**fields)
+    if not all(isinstance(value, str) for value in asdict(credit).values()):
+        raise TypeError("'credit', which must be an object of texts")
+    return credit
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:8]
 
 
 def _stems(bundle: HapticBundle) -> list[tuple[str, HapticLoop]]:

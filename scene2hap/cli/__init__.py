@@ -7,23 +7,34 @@ Errors that a person can act on are one line on standard error and exit status 1
 from __future__ import annotations
 
 import argparse
-import json
-import sys
 import warnings
 from collections.abc import Sequence
+from typing import Any
 
 from scene2hap import __version__
-from scene2hap.cli import bake, convert, demo, doctor, inspect, play, render, report
+from scene2hap.cli import bake, convert, demo, doctor, inspect, play, render, report, streams
 from scene2hap.cli.console import Console
 from scene2hap.errors import Scene2HapError
+from scene2hap.printable import printable
 
 COMMANDS = (demo, bake, render, play, convert, inspect, report, doctor)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command; the exit status is returned."""
-    arguments = _parser().parse_args(argv)
+    streams.prepare()
+    try:
+        arguments = _parser().parse_args(argv)
+    except SystemExit:  # after help or a word on wrong usage, which may have nowhere to go
+        if Console(quiet=True).close():
+            return 1
+        raise
     console = Console(quiet=arguments.quiet or arguments.json)
+    status = _run(arguments, console)
+    return console.close() or status
+
+
+def _run(arguments: argparse.Namespace, console: Console) -> int:
     try:
         with warnings.catch_warnings():
             warnings.showwarning = lambda message, category, *rest, **more: console.warn(str(message))
@@ -35,19 +46,28 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         console.fail("interrupted; nothing was left half written.")
         return 130
-    except BrokenPipeError:
-        # The reader of a pipe (`| head`) has gone; there is nobody left to tell.
-        sys.stderr.close()
-        return 0
+    except MemoryError:
+        console.fail("out of memory. Use a smaller scene or shorter sounds, or a machine with more memory.")
+        return 1
+    except OSError as error:
+        console.fail(f"{error.filename or 'the system'}: {error.strerror or error}.")
+        return 1
     if arguments.json:
-        print(json.dumps(outcome, indent=1, ensure_ascii=False))
+        console.outcome(outcome)
     return 0
 
 
+class _Parser(argparse.ArgumentParser):
+    """Shows arguments as `Console` shows names: a file may be called anything."""
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        super()._print_message(printable(message, lines=True), file)
+
+
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="scene2hap", description="Scene-wide vibrotactile haptics.")
+    parser = _Parser(prog="scene2hap", description="Scene-wide vibrotactile haptics.")
     parser.add_argument("--version", action="version", version=f"scene2hap {__version__}")
-    common = argparse.ArgumentParser(add_help=False)
+    common = _Parser(add_help=False)
     common.add_argument("-q", "--quiet", action="store_true", help="show no progress and no tables")
     common.add_argument("--json", action="store_true", help="print the outcome as JSON instead")
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
-from scene2hap.bundle import read_overrides
+from scene2hap.bundle import read_overrides, require_replaceable
 from scene2hap.cli.console import Console
 from scene2hap.cli.settings import read_settings
 from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
@@ -60,7 +60,8 @@ def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
 
 def read_scene(arguments: argparse.Namespace) -> SceneSnapshot:
     """The scene that the arguments name."""
-    group: Any = int(arguments.group) if arguments.group.isdigit() else arguments.group
+    is_depth = arguments.group.isascii() and arguments.group.isdigit() and len(arguments.group) < 10
+    group: Any = int(arguments.group) if is_depth else arguments.group
     return load_scene(
         arguments.scene,
         up_axis=arguments.up_axis,
@@ -78,6 +79,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     pictures = _is_remote(config.llm) if arguments.pictures is None else arguments.pictures
     if arguments.dry_run:
         return _dry_run(arguments, config, console, pictures=pictures)
+    target = Path(arguments.output)
+    overrides = read_overrides(target)
+    require_replaceable(target)  # before anything is paid for
     accounts: list[InferenceReport] = []
     with console.progress() as tell:
         tell("reading", arguments.scene, 0, 1)
@@ -91,7 +95,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             user_prompt=arguments.prompt,
             progress=tell,
             on_report=accounts.append,
-            overrides=read_overrides(Path(arguments.output)),
+            overrides=overrides,
         )
     folder = bundle.save(arguments.output)
     show_bundle(console, bundle)

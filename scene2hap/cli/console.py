@@ -1,20 +1,46 @@
-"""What a person sees: progress on standard error, tables on standard output, one line per trouble."""
+"""What a person sees: progress on standard error, tables on standard output, one line per trouble.
+
+A command goes on where its output cannot be written: nobody reads it, or the disk is full.
+"""
 
 from __future__ import annotations
 
+import json
+import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 
 import rich.console
-from rich.markup import escape
+import rich.markup
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Table
+
+from scene2hap.cli import streams
+from scene2hap.printable import printable, printable_json
 
 Tell = Callable[[str, str, int, int], None]
 """Told (stage, what is done, how many are done, of how many)."""
 
+
+def _safe(text: str, *, lines: bool = False) -> str:
+    """Text to print: neither markup nor what a terminal would obey; names come from files and servers."""
+    return rich.markup.escape(printable(text, lines=lines))
+
+
+_LONGEST = 2000
+"""Characters of a warning or an error that are shown; a name may have a million."""
 _FILE_WIDTH = 160
 """Columns for output into a file or a pipe, which have no width of their own."""
+
+
+def _one_line(text: str) -> str:
+    left = len(text) - _LONGEST
+    return _safe(text if left <= 0 else f"{text[:_LONGEST]} ... ({left} characters more)")
+
+
+class _Output(rich.console.Console):
+    def on_broken_pipe(self) -> None:
+        raise BrokenPipeError  # else the command would end here, whatever it has still to do
 
 
 class Console:
@@ -22,31 +48,69 @@ class Console:
 
     def __init__(self, *, quiet: bool) -> None:
         self.is_quiet = quiet
-        self._out = rich.console.Console(quiet=quiet, highlight=False)
+        self._out = _Output(quiet=quiet, highlight=False)
         if not self._out.is_terminal:
             self._out.width = _FILE_WIDTH
-        self._error = rich.console.Console(stderr=True, highlight=False, soft_wrap=True)
+        self._error = _Output(stderr=True, highlight=False, soft_wrap=True)
+        self._unwritten: OSError | None = None
 
     def say(self, text: str) -> None:
         """One line on standard output."""
-        self._out.print(escape(text), soft_wrap=True)
+        with self._lasting():
+            self._out.print(_safe(text, lines=True), soft_wrap=True)
 
     def warn(self, text: str) -> None:
         """One line of warning on standard error."""
-        self._error.print(f"scene2hap: warning: {escape(text)}", style="yellow")
+        self._tell(f"scene2hap: warning: {_one_line(text)}", "yellow")
 
     def fail(self, text: str) -> None:
         """One line of error on standard error."""
-        self._error.print(f"scene2hap: error: {escape(text)}", style="red")
+        self._tell(f"scene2hap: error: {_one_line(text)}", "red")
 
     def table(self, title: str, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
         """A table; a column whose name starts with ">" is set to the right."""
-        table = Table(title=escape(title), title_justify="left", title_style="bold")
+        table = Table(title=_safe(title), title_justify="left", title_style="bold")
         for column in columns:
-            table.add_column(escape(column.removeprefix(">")), justify="right" if column.startswith(">") else "left")
+            table.add_column(_safe(column.removeprefix(">")), justify="right" if column.startswith(">") else "left")
         for row in rows:
-            table.add_row(*map(escape, row))
-        self._out.print(table)
+            table.add_row(*map(_safe, row))
+        with self._lasting():
+            self._out.print(table)
+
+    def outcome(self, outcome: object) -> None:
+        """JSON on standard output, quiet or not; with escapes where the encoding lacks a letter."""
+        text = json.dumps(outcome, indent=1, ensure_ascii=False)
+        try:
+            text.encode(sys.stdout.encoding or "utf-8")
+        except UnicodeEncodeError:
+            text = json.dumps(outcome, indent=1)
+        with self._lasting():
+            print(printable_json(text), flush=True)
+
+    def close(self) -> int:
+        """Write out what is left. The exit status for output that was asked for: 0, or 1 if it cannot be written."""
+        failed = streams.flush() or self._unwritten
+        if failed is None or streams.is_unread(failed):
+            return 0
+        self.fail(f"standard output cannot be written: {failed.strerror}. Everything else has been done.")
+        streams.flush()
+        return 1
+
+    @contextmanager
+    def _lasting(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as cause:
+            self._unwritten = cause
+            self._out.quiet = True
+            streams.give_up(sys.stdout)
+
+    def _tell(self, text: str, style: str) -> None:
+        try:
+            self._error.print(text, style=style)
+        except OSError:
+            self._error.quiet = True
+            streams.give_up(sys.stderr)
 
     @contextmanager
     def progress(self) -> Iterator[Tell]:
@@ -68,6 +132,6 @@ class Console:
             def tell(stage: str, what: str, done: int, total: int) -> None:
                 if stage not in tasks:
                     tasks[stage] = bars.add_task(stage, total=total, what="")
-                bars.update(tasks[stage], completed=done, total=total, what=escape(what))
+                bars.update(tasks[stage], completed=done, total=total, what=_safe(what))
 
             yield tell

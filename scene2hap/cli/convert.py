@@ -84,7 +84,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         console.fail(failure.reason)
     if failed:
         if arguments.json:
-            print(json.dumps(outcome, indent=1, ensure_ascii=False))
+            console.outcome(outcome)
         raise AudioError(f"{len(failed)} of {len(outcomes)} files were not converted.")
     return outcome
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.baking import bake
+from scene2hap.bundle import require_replaceable
 from scene2hap.cli.console import Console
 from scene2hap.cli.picture import draw_envelopes
 from scene2hap.cli.render import render_track
@@ -36,6 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Bake, play, draw, and tell."""
     folder = Path(arguments.output)
+    require_replaceable(folder / "bundle")
     with console.progress() as tell:
         bundle = bake(load_scene(kitchen_path()), progress=tell)
     bundle.save(folder / "bundle")

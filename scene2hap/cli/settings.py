@@ -20,7 +20,7 @@ def read_settings(path: str | None, section: str) -> dict[str, Any]:
     try:
         text = Path(path).read_text(encoding="utf-8")
         document = json.loads(text) if path.lower().endswith(".json") else tomllib.loads(text)
-    except (OSError, ValueError) as cause:
+    except (OSError, ValueError, RecursionError) as cause:
         raise ConfigError(
             f"settings {path} cannot be read: {cause}. They are TOML, or JSON in a .json file."
         ) from cause

@@ -2,22 +2,20 @@
 
 What the key opens stays closed: it is revealed on one line, straight into the header; whatever a server says is
 searched for it before anyone else reads it, and no traceback that leaves here holds the header in a local variable.
-httpx is imported when the first request is sent.
+The exchange itself, bounded in bytes and seconds, is `scene2hap.web`'s.
 """
 
 from __future__ import annotations
 
-import asyncio
 import json
 import logging
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cache
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
-from scene2hap import checks
-from scene2hap.errors import BackendError, BackendUnavailable, ConfigError
+from scene2hap import checks, web
+from scene2hap.errors import BackendError, ConfigError
 from scene2hap.llm import waits
 from scene2hap.llm.http_reply import HttpReply as HttpReply
 from scene2hap.llm.pace import Pace
@@ -25,16 +23,12 @@ from scene2hap.llm.quiet_logs import scrubbed
 from scene2hap.secret import Secret as Secret
 
 if TYPE_CHECKING:
-    import ssl
-
-    import httpx
-
-    Transport: TypeAlias = httpx.AsyncBaseTransport
+    from scene2hap.web import Transport as Transport
 
 _LOG = logging.getLogger(__name__)
 
-CONNECT_TIMEOUT_S = 10.0
-"""Assumed: whoever has not accepted a connection by then is not there."""
+MAX_REPLY_BYTES = 4 << 20
+"""Of one reply, unpacked; assumed: a hundred times the longest answer with its thoughts, and any list of models."""
 
 _HEADERS_READ = ("x-should-retry", "x-request-id", *waits.HEADERS)
 
@@ -69,75 +63,23 @@ class Endpoint:
         return await self._send("GET", path, None, min(timeout_s, self.timeout_s))
 
     async def _send(self, method: str, path: str, content: bytes | None, timeout_s: float) -> HttpReply:
-        import httpx
-
         url = f"{self.base_url}/{path}"
-        headers = {"content-type": "application/json"} if content is not None else {}
-        limits = httpx.Timeout(timeout_s, connect=min(CONNECT_TIMEOUT_S, timeout_s))
-        client = _client(self.transport, limits)
-        try:
-            with scrubbed(self.secret):
-                async with asyncio.timeout(timeout_s), client:
-                    response = await client.request(method, url, content=content, headers=headers, auth=self._authorise)
-        except (TimeoutError, httpx.TimeoutException) as cause:
-            raise BackendUnavailable(
-                f"{url} did not answer within {timeout_s:g} s. Raise timeout_s, or lower the concurrency.",
-                retryable=True,
-            ) from _without_frames(cause)
-        except (httpx.HTTPError, httpx.StreamError, httpx.InvalidURL) as cause:
-            ours = isinstance(cause, httpx.UnsupportedProtocol | httpx.LocalProtocolError | httpx.InvalidURL)
-            problem = self.secret.scrub(str(cause)) or type(cause).__name__
-            raise BackendUnavailable(
-                f"{url} cannot be reached: {problem}. Check that the server runs and base_url is right.",
-                retryable=not ours,
-            ) from _without_frames(cause)
-        return self._scrubbed(url, response)
+        with scrubbed(self.secret):
+            reply = await web.exchange(
+                method,
+                url,
+                web.Limits(timeout_s, MAX_REPLY_BYTES),
+                json_body=content,
+                authorization=self._authorization,
+                scrub=self.secret.scrub,
+                transport=self.transport,
+            )
+        headers = {name: self.secret.scrub(reply.headers[name]) for name in _HEADERS_READ if name in reply.headers}
+        _LOG.debug("%s answered %d, request id %s", url, reply.status, headers.get("x-request-id", "unknown"))
+        return HttpReply(url, reply.status, self.secret.scrub(reply.text), headers)
 
-    def _scrubbed(self, url: str, response: httpx.Response) -> HttpReply:
-        headers = {
-            name: self.secret.scrub(response.headers[name]) for name in _HEADERS_READ if name in response.headers
-        }
-        _LOG.debug("%s answered %d, request id %s", url, response.status_code, headers.get("x-request-id", "unknown"))
-        return HttpReply(url, response.status_code, self.secret.scrub(response.text), headers)
-
-    def _authorise(self, request: httpx.Request) -> httpx.Request:
-        if self.secret.reveal():
-            request.headers["authorization"] = f"Bearer {self.secret.reveal()}"
-        return request
-
-
-def _client(transport: Transport | None, limits: httpx.Timeout) -> httpx.AsyncClient:
-    """One per request: a pool would outlive the event loop of asyncio.run and leak its sockets."""
-    import httpx
-
-    try:
-        return httpx.AsyncClient(transport=transport, timeout=limits, verify=_ssl_context())
-    except (ImportError, ValueError):
-        # The address of a proxy may hold a password: neither it nor the cause is shown.
-        raise ConfigError(
-            "the proxy that the environment names cannot be used. Check ALL_PROXY, HTTPS_PROXY and HTTP_PROXY (SOCKS "
-            "needs the package socksio), or unset them."
-        ) from None
-
-
-@cache
-def _ssl_context() -> ssl.SSLContext:
-    """Made once: reading the certificates takes some 30 ms, during which no other call goes on."""
-    import httpx
-
-    return httpx.create_ssl_context()
-
-
-def _without_frames(error: BaseException) -> BaseException:
-    """The error, its causes and contexts without their tracebacks.
-
-    The frames of the HTTP library have the header among their local variables, which reporters of errors show.
-    """
-    seen: BaseException | None = error
-    while seen is not None:
-        seen.__traceback__ = None
-        seen = seen.__cause__ or seen.__context__
-    return error
+    def _authorization(self) -> str:
+        return f"Bearer {self.secret.reveal()}" if self.secret.reveal() else ""
 
 
 def _encoded(body: Mapping[str, Any]) -> bytes:

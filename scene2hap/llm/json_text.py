@@ -6,10 +6,9 @@ import json
 import re
 from collections.abc import Iterator
 
-_THOUGHT = re.compile(r"<think>.*?</think>", re.DOTALL | re.IGNORECASE)
-_END_OF_THOUGHT = re.compile(r"</think>", re.IGNORECASE)
+_THOUGHT = re.compile(r"<(/?)think>", re.IGNORECASE)
 _OPENING = re.compile(r'\{\s*["}]')
-_TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|[{}]', re.DOTALL)
+_MARK = re.compile(r'[\\"{}]')
 
 
 def first_object(text: str) -> str | None:
@@ -30,9 +29,19 @@ def first_object(text: str) -> str | None:
 
 
 def _without_thoughts(text: str) -> str:
-    rest = _THOUGHT.sub("", text)
-    # Some chat templates open the thought themselves, so that only its end is in the reply.
-    return _END_OF_THOUGHT.split(rest)[-1]
+    """What stands outside thoughts, after the last end of one that some chat templates open themselves."""
+    said, begin, thinks = list[str](), 0, False
+    for mark in _THOUGHT.finditer(text):
+        is_end = bool(mark[1])
+        if is_end and not thinks:
+            said, begin = [], mark.end()
+        elif is_end:
+            begin, thinks = mark.end(), False
+        elif not thinks:
+            said.append(text[begin : mark.start()])
+            begin, thinks = mark.start(), True
+    # A thought without an end is no thought.
+    return "".join((*said, text[begin:]))
 
 
 def _balanced(text: str) -> Iterator[str]:
@@ -47,11 +56,21 @@ def _balanced(text: str) -> Iterator[str]:
 
 
 def _closing(text: str, start: int) -> int | None:
-    depth = 0
-    for token in _TOKEN.finditer(text, start):
-        depth += {"{": 1, "}": -1}.get(token.group(), 0)
-        if depth == 0 and token.group() == "}":
-            return token.end()
+    depth, in_string, escaped = 0, False, -1
+    for found in _MARK.finditer(text, start):
+        mark, at = found.group(), found.start()
+        if in_string:
+            if at == escaped:
+                continue
+            if mark == "\\":
+                escaped = at + 1
+            in_string = mark != '"'
+        elif mark == '"':
+            in_string = True
+        else:
+            depth += {"{": 1, "}": -1}.get(mark, 0)
+            if depth == 0 and mark == "}":
+                return found.end()
     return None
 
 

@@ -6,11 +6,13 @@ import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from functools import cache
 
 from scene2hap.secret import Secret
 
-_LOGGERS = ("httpx", "httpcore.connection", "httpcore.http11", "httpcore.http2", "httpcore.proxy")
+_FAMILIES = ("httpx", "httpcore", "httpx2", "httpcore2", "httpxyz", "httpcorexyz", "hpack", "h11", "h2", "socksio")
+"""The HTTP library, what it builds on, and the names under which forks of it go on (pydantic/httpx2, httpxyz)."""
+_MODULES = ("connection", "http11", "http2", "proxy", "socks", "hpack", "table")
+"""Loggers below a family. Some come into being with the first request, when it is too late to look for them."""
 _IN_USE: ContextVar[Secret | None] = ContextVar("secret in use", default=None)
 
 
@@ -22,10 +24,14 @@ class _Scrub(logging.Filter):
         return True
 
 
+_SCRUB = _Scrub()
+
+
 @contextmanager
 def scrubbed(secret: Secret) -> Iterator[None]:
     """While a request is under way, what the HTTP library logs for it is searched for the key."""
-    _install()
+    for name in _loggers():
+        logging.getLogger(name).addFilter(_SCRUB)  # once: the same filter is not added again
     token = _IN_USE.set(secret)
     try:
         yield
@@ -33,7 +39,7 @@ def scrubbed(secret: Secret) -> Iterator[None]:
         _IN_USE.reset(token)
 
 
-@cache
-def _install() -> None:
-    for name in _LOGGERS:
-        logging.getLogger(name).addFilter(_Scrub())
+def _loggers() -> set[str]:
+    """What may log a header: the names known here, and whatever else has come into being below them."""
+    known = {*_FAMILIES, *(f"{family}.{module}" for family in _FAMILIES for module in _MODULES)}
+    return known | {name for name in list(logging.root.manager.loggerDict) if name.partition(".")[0] in _FAMILIES}

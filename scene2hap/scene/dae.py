@@ -23,6 +23,11 @@ from scene2hap.scene.dae_materials import DaeMaterials
 from scene2hap.scene.texture_files import TextureFiles
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Piece
 
+_ENCODING = re.compile(rb"(?:\xef\xbb\xbf)?\s*<\?xml[^>]*?encoding\s*=\s*[\"']([^\"']*)")
+_LIKE_ASCII = re.compile(
+    rb"utf-?8|(us-)?ascii|iso-8859-\d+|latin-?1|(windows-|cp)125\d|shift_jis|euc-\w+|gb\w+|big5", re.IGNORECASE
+)
+
 
 def read_dae(data: bytes, name: str, textures: TextureFiles) -> AuthoredScene:
     """The file's scene with its looks; `up_axis` and `unit_m` are those of its <asset>.
@@ -37,8 +42,16 @@ def read_dae(data: bytes, name: str, textures: TextureFiles) -> AuthoredScene:
             f"{name!r} is COLLADA, and its reader is not installed. Run: pip install pycollada"
         ) from cause
     # A document type could name other files or grow without end, and pycollada unpacks archives; COLLADA needs neither.
-    if not data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<") or re.search(rb"<!(DOCTYPE|ENTITY)", data):
-        raise SceneFormatError(f"{name!r} is not COLLADA: it must be XML without a document type.")
+    # Both are looked for in ASCII, so nothing is read whose encoding could spell them otherwise (UTF-16, UTF-7).
+    encoding = _ENCODING.match(data)
+    if (
+        not data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<")
+        or re.search(rb"<!(DOCTYPE|ENTITY)|\x00", data)
+        or (encoding is not None and not _LIKE_ASCII.fullmatch(encoding[1]))
+    ):
+        raise SceneFormatError(
+            f"{name!r} is not COLLADA: it must be XML without a document type. Save it as UTF-8 if it is."
+        )
     tolerated = [collada.common.DaeUnsupportedError, collada.common.DaeBrokenRefError]
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):

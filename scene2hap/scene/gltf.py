@@ -109,6 +109,7 @@ class _Reader:
         else:
             points = positions(self._file, attributes["POSITION"], place)
             order = indices(self._file, row["indices"], place) if "indices" in row else np.arange(len(points))
+            self._file.triangles.spend(len(order) // 3 if mode == _TRIANGLES else max(len(order) - 2, 0), place)
             faces = _triangles(order, mode)
 
             def attribute(name: str, types: tuple[str, ...]) -> NDArray[np.float64]:

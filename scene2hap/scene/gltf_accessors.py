@@ -26,10 +26,14 @@ def positions(file: GltfFile, number: object, place: str) -> NDArray[np.float64]
 
 def vectors(file: GltfFile, number: object, types: tuple[str, ...], what: str) -> NDArray[np.float64]:
     """Values (n, columns) float64 of an accessor of one of these types; `what` is their name in messages."""
-    values, row = _values(file, number, what)
+    row = file.row("accessors", number, what)
+    # Primitives share accessors; each is read once.
+    if id(row) not in file.vectors:
+        values = _values(file, number, what)[0]
+        file.vectors[id(row)] = unpacked(values) if row.get("normalized") is True else values.astype(np.float64)
     if row.get("type") not in types:
         raise SceneFormatError(f"{what} are {row.get('type')!r}; they must be {' or '.join(map(repr, types))}.")
-    return unpacked(values) if row.get("normalized") is True else values.astype(np.float64)
+    return file.vectors[id(row)]
 
 
 def unpacked(values: NDArray[np.generic]) -> NDArray[np.float64]:
@@ -60,10 +64,10 @@ def _values(file: GltfFile, number: object, place: str) -> tuple[NDArray[np.gene
     count = natural(row.get("count"), f"{place}.count", at_least=1)
     limits.at_most(f"{place}.count", count, "MAX_TRIANGLES")
     dtype = _dtype(row, place)
-    if "bufferView" in row:
-        values = _strided(file, row, count, columns, dtype, place)
-    else:
-        values = np.zeros((count, columns), dtype)
+    # What is stored is only looked at so far; what is not is counted before there is any.
+    stored = _strided(file, row, count, columns, dtype, place) if "bufferView" in row else None
+    file.values.spend(count * columns, place)
+    values = np.zeros((count, columns), dtype) if stored is None else stored
     if "sparse" in row:
         values = _with_sparse(file, values, row["sparse"], f"{place}.sparse")
     return values, row

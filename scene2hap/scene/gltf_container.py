@@ -10,13 +10,16 @@ from __future__ import annotations
 
 import base64
 import binascii
-import json
 import struct
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
+import numpy as np
+from numpy.typing import NDArray
+
 from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.printable import read_json
 from scene2hap.scene import limits
 from scene2hap.scene.files import inside, read_bytes
 
@@ -39,6 +42,12 @@ class GltfFile:
         text, self._binary = _split(path.name, read_bytes(path))
         self.header = _header(text)
         self._buffers: dict[int, bytes] = {}
+        self._files: dict[str, bytes] = {}
+        self.vectors: dict[int, NDArray[np.float64]] = {}
+        stored = len(text) + len(self._binary or b"")
+        self.values = limits.Budget("the numbers in its accessors", 1_000_000, 2.0, stored=stored)
+        self.triangles = limits.Budget("its triangles", 100_000, 0.5, stored=stored)
+        self.image_bytes = limits.Budget("the bytes of its images", 16 << 20, 4.0, stored=stored)
 
     def table(self, name: str) -> list[Json]:
         """One of the header's tables; empty if the file has none."""
@@ -80,7 +89,15 @@ class GltfFile:
             raise SceneFormatError(f"{place}.uri is {uri!r}; it must be a file name or a data: URI.")
         if uri.startswith("data:"):
             return data_uri(uri, place)
-        return read_bytes(inside(self._assets_root, self._path.parent, uri, place))
+        if uri not in self._files:
+            data = read_bytes(inside(self._assets_root, self._path.parent, uri, place))
+            limits.at_most(
+                "the bytes of its buffers", sum(map(len, self._files.values())) + len(data), "MAX_FILE_BYTES"
+            )
+            self._files[uri] = data
+            for budget in (self.values, self.triangles, self.image_bytes):
+                budget.stored += len(data)
+        return self._files[uri]
 
 
 def data_uri(uri: str, place: str) -> bytes:
@@ -140,7 +157,7 @@ def _split(name: str, data: bytes) -> tuple[bytes, bytes | None]:
 def _header(text: bytes) -> Json:
     """The header, with every table that geometry needs present and made of objects."""
     try:
-        header = json.loads(text.decode("utf-8-sig"))
+        header = read_json(text.decode("utf-8-sig"))
     except (ValueError, RecursionError) as cause:
         raise SceneFormatError(f"not glTF: its JSON cannot be read: {cause}.") from cause
     if not isinstance(header, dict):

@@ -91,12 +91,15 @@ class GltfMaterials:
         image = self._row("images", source, place)
         uri, name = image.get("uri"), f"images[{source}]"
         if not isinstance(uri, str):
-            return self.textures.named(
-                name, lambda: bytes(view(self.file, image.get("bufferView"), name)[0]), keeps_alpha
-            )
+            return self.textures.named(name, lambda: self._embedded(image.get("bufferView"), name), keeps_alpha)
         if uri.startswith("data:"):
             return self.textures.named(name, lambda: data_uri(uri, name), keeps_alpha)
         return self.textures.from_file(uri, name, keeps_alpha=keeps_alpha)
+
+    def _embedded(self, number: object, place: str) -> bytes:
+        data = view(self.file, number, place)[0]
+        self.file.image_bytes.spend(len(data), place)
+        return bytes(data)
 
     def _row(self, table: str, number: object, place: str) -> Json:
         """Row `number` of a table that a scene may well be read without."""

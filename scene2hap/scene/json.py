@@ -18,7 +18,8 @@ from pydantic import TypeAdapter, ValidationError
 
 from scene2hap import checks
 from scene2hap.errors import SceneError
-from scene2hap.scene import sizes
+from scene2hap.printable import read_json
+from scene2hap.scene import limits, sizes
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import DominantSurface, Geometry, SceneObject, SceneSnapshot, with_relative_heights
 
@@ -45,7 +46,7 @@ def dump(snapshot: SceneSnapshot) -> str:
 def parse(text: str) -> SceneSnapshot:
     """The snapshot in a JSON text; raises SceneError with the field that is wrong."""
     try:
-        document = json.loads(text)
+        document = read_json(text)
     except (ValueError, RecursionError) as cause:  # ValueError: also a number of thousands of digits
         raise SceneError(f'not JSON: {cause}. A scene file starts with {{"format": "{FORMAT}", ...}}.') from cause
     if not isinstance(document, dict) or document.get("format") != FORMAT:
@@ -76,6 +77,7 @@ def from_document(document: dict[str, Any]) -> SceneSnapshot:
         shared = {key: _geometry.validate_python(row) for key, row in table.items()}
         objects = document.get("objects")
         if isinstance(objects, list):
+            limits.at_most("the number of objects", len(objects), "MAX_OBJECTS")
             objects = [_with_geometry(_told(row), shared) for row in objects]
         fields = {key: document[key] for key in ("name", "up_axis", "contacts") if key in document}
         scene = _scene.validate_python({**fields, "objects": objects})
@@ -112,6 +114,10 @@ def _told(row: Any) -> Any:
     return {"surface": _UNMEASURED, **{key: value for key, value in row.items() if value is not None}}
 
 
+_PER_SURFACE = 250
+"""What a surface costs however few triangles it has, in triangles."""
+
+
 def _require_plausible_thickness(item: SceneObject) -> None:
     """Hold a stated thickness against the geometry, which bounds it: no slab is many times thicker than its mesh."""
     normal = np.abs(item.surface.pose.rotation[:, 2])
@@ -134,7 +140,10 @@ def _bounds_m(geometry: Geometry) -> NDArray[np.float64]:
 
 def _measured(scene: SceneSnapshot, rows: Sequence[dict[str, Any]]) -> SceneSnapshot:
     """The scene with what its rows leave out."""
-    objects = [replace(item, surface=_surface(item, scene)) for item in scene.objects]
+    measured_before: dict[tuple[object, ...], DominantSurface] = {}
+    stored = {item.geometry.mesh.digest: len(item.geometry.mesh.faces) + _PER_SURFACE for item in scene.objects}
+    budget = limits.Budget("the triangles to measure", 250_000, 2.0, stored=sum(stored.values()), unit="triangles")
+    objects = [replace(item, surface=_surface(item, scene, measured_before, budget)) for item in scene.objects]
     above = with_relative_heights(objects, scene.up_axis)
     objects = [
         measured if row.get("relative_height_m") is None else item
@@ -143,11 +152,19 @@ def _measured(scene: SceneSnapshot, rows: Sequence[dict[str, Any]]) -> SceneSnap
     return replace(scene, objects=tuple(objects))
 
 
-def _surface(item: SceneObject, scene: SceneSnapshot) -> DominantSurface:
+def _surface(
+    item: SceneObject, scene: SceneSnapshot, before: dict[tuple[object, ...], DominantSurface], budget: limits.Budget
+) -> DominantSurface:
     if item.surface is not _UNMEASURED:
         return item.surface
     # Imported by need: what this library wrote is never measured again.
     from scene2hap.scene.geometry import dominant_surface
 
     up = item.pose.rotation.T[:, {"y": 1, "z": 2}[scene.up_axis]]
-    return dominant_surface(item.geometry.mesh, up=up)
+    # Copies that stand alike are measured once.
+    mesh = item.geometry.mesh
+    key = (mesh.digest, *np.round(up, 6).tolist())
+    if key not in before:
+        budget.spend(len(mesh.faces) + _PER_SURFACE, f"object {item.id!r}")
+        before[key] = dominant_surface(mesh, up=up)
+    return before[key]

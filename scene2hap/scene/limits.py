@@ -5,6 +5,8 @@ All are assumed: some ten times what runs on a headset.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from scene2hap.errors import SceneError
 
 MAX_FILE_BYTES = 1 << 30
@@ -20,6 +22,9 @@ MAX_TEXTURE_PX = 8192
 MAX_COORDINATE_M = 1e6
 """Distance of any point from the origin [m]; also keeps squares and cubes of it exact enough."""
 
+MAX_OBJECTS = 4_000
+"""Objects of a scene; each takes a millisecond or two to place and measure, however small."""
+
 
 def at_most(what: str, value: int, limit: str) -> None:
     """Raise SceneError if `value` of something is above the limit of that name in this module."""
@@ -29,3 +34,31 @@ def at_most(what: str, value: int, limit: str) -> None:
             f"{what} is {value:,}; scene2hap reads at most {bound:,} (scene2hap.scene.limits.{limit}). "
             "Split or simplify the scene, or raise the limit."
         )
+
+
+@dataclass
+class Budget:
+    """How much of something one file may come to in all, however many rows it is spread over.
+
+    A row that is within its limit costs a few bytes and may want megabytes; so the whole is held against the bytes
+    that the file has (or another measure of what is stored), `per_stored` for each and `free` for none, before
+    anything is allocated.
+    """
+
+    what: str
+    free: int
+    per_stored: float = 0.0
+    spent: int = 0
+    stored: int = 0
+    unit: str = "bytes"
+
+    def spend(self, amount: int, place: str) -> None:
+        """Count `amount` that `place` wants. Raises: SceneError: it is more than the file may have."""
+        self.spent += amount
+        allowed = self.free + int(self.per_stored * self.stored)
+        if self.spent > allowed:
+            raise SceneError(
+                f"{place} brings {self.what} to {self.spent:,}; at most {allowed:,} are read "
+                f"where {self.stored:,} {self.unit} are stored. "
+                "Split or simplify the scene, or export it again without shared or empty data."
+            )

@@ -10,6 +10,7 @@ import numpy as np
 
 from scene2hap import checks
 from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.printable import writable
 from scene2hap.scene import limits
 from scene2hap.scene.files import read_bytes
 from scene2hap.scene.geometry import dominant_surface
@@ -74,7 +75,7 @@ def load_scene(
             message = f"{path.name!r} is read without {n} of its textures, in their plain colours: {first}"
             warnings.warn(message, TextureWarning, stacklevel=2)
         unit = unit_m or authored.unit_m or 1.0
-        snapshot = _snapshot(path.stem, authored, up_axis or authored.up_axis, unit, group)
+        snapshot = _snapshot(writable(path.stem), authored, up_axis or authored.up_axis, unit, group)
     if unit_m is None:
         warn_if_implausible(snapshot, unit)
     return snapshot
@@ -93,14 +94,16 @@ def _read(path: Path, assets_root: Path) -> AuthoredScene:
     if suffix == ".obj":
         from scene2hap.scene.obj import read_obj
 
-        return read_obj(data.decode("utf-8", errors="replace"), path.stem, TextureFiles(path.parent, assets_root))
+        return read_obj(
+            data.decode("utf-8", errors="replace"), writable(path.stem), TextureFiles(path.parent, assets_root)
+        )
     if suffix == ".dae":
         from scene2hap.scene.dae import read_dae
 
         return read_dae(data, path.name, TextureFiles(path.parent, assets_root))
     from scene2hap.scene.stl_ply import read_stl_ply
 
-    return read_stl_ply(data, suffix[1:], path.stem)
+    return read_stl_ply(data, suffix[1:], writable(path.stem))
 
 
 def _from_json(path: Path, up_axis: UpAxis | None, unit_m: float | None, group: Grouping) -> SceneSnapshot:
@@ -127,7 +130,7 @@ def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float
         groups = group_objects(authored.roots, group)
     if not groups:
         raise SceneError(f"scene {name!r} holds no triangles; nothing in it can be touched. Export it with meshes.")
-    limits.at_most("the number of objects", len(groups), "MAX_NODES")
+    limits.at_most("the number of objects", len(groups), "MAX_OBJECTS")
     pool = MeshPool(unit_m)
     up = np.array({"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}[up_axis])
     surfaces: dict[str, DominantSurface] = {}

@@ -48,6 +48,10 @@ class MeshPool:
     _copies: dict[tuple[object, ...], _Copies] = field(default_factory=dict)
     _by_faces: dict[bytes, _Copies] = field(default_factory=dict)
     _looks: dict[tuple[object, ...], Appearance | None] = field(default_factory=dict)
+    _stored: set[object] = field(default_factory=set)
+    _baked: limits.Budget = field(
+        default_factory=lambda: limits.Budget("triangles to draw", 500_000, 4.0, unit="triangles")
+    )
 
     def place(self, group: Group) -> Placed:
         """The group's mesh, pose and looks.
@@ -79,6 +83,12 @@ class MeshPool:
 
     def _bake(self, group: Group, own: NDArray[np.float64]) -> TriMesh:
         pieces = [piece for _, piece in group.parts]
+        # Copies of a piece within one object are made as often as they stand there.
+        for piece in pieces:
+            if piece.key not in self._stored:
+                self._stored.add(piece.key)
+                self._baked.stored += len(piece.faces)
+        self._baked.spend(sum(len(piece.faces) for piece in pieces), f"object {group.name!r}")
         baked = [_baked(piece, matrix) for piece, matrix in zip(pieces, own, strict=True)]
         starts = np.cumsum([0, *(len(vertices) for vertices, _ in baked)])
         vertices = np.concatenate([vertices for vertices, _ in baked])

@@ -7,8 +7,10 @@ Source: Wavefront, MTL material format, Lightwave/Wavefront (1995): Kd, d, Tr, m
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from urllib.parse import quote
 
 import numpy as np
@@ -25,6 +27,7 @@ _OPTIONS = {
     **dict.fromkeys(("-mm",), 2),
     **dict.fromkeys(("-o", "-s", "-t"), 3),
 }
+_WORD = re.compile(r"\S+")
 _WORDS_AS_VALUES = ("-blendu", "-blendv", "-cc", "-clamp", "-imfchan", "-type")
 
 
@@ -51,6 +54,8 @@ class MtlLibraries:
 
     textures: TextureFiles
     materials: dict[str, MtlMaterial] = field(default_factory=dict)
+    _read: set[str] = field(default_factory=set)
+    _paths: set[Path] = field(default_factory=set)
 
     def read(self, names: str) -> None:
         """Read the libraries that a `mtllib` statement names: one name with blanks, or several.
@@ -58,9 +63,16 @@ class MtlLibraries:
         One that is missing, broken or outside the assets root is refused in `textures`.
         """
         for name in (names,) if names.lower().endswith(".mtl") and not self._are_many(names) else names.split():
+            if name in self._read:
+                continue
+            self._read.add(name)
             uri = _uri(name)
             try:
-                data = read_bytes(inside(self.textures.assets_root, self.textures.folder, uri, "mtllib"))
+                path = inside(self.textures.assets_root, self.textures.folder, uri, "mtllib")
+                if path in self._paths:
+                    continue
+                self._paths.add(path)
+                data = read_bytes(path)
             except SceneError as error:
                 self.textures.refuse(name, str(error))
                 continue
@@ -107,23 +119,26 @@ def _blocks(text: str) -> Iterator[tuple[str, dict[str, str]]]:
 def _texture(statement: str) -> tuple[str, MtlMaterial]:
     """The file that a map statement names, and how it lies."""
     lies = MtlMaterial(FaceMaterial())
-    rest = statement
-    while rest.startswith("-"):
-        option, _, rest = rest.partition(" ")
-        values = []
-        for _ in range(_OPTIONS.get(option.lower(), 0)):
-            word, _, after = rest.lstrip().partition(" ")
-            if option.lower() not in _WORDS_AS_VALUES and _numbers(word, 1) is None:
+    # Words are taken from where they stand, in one pass: a statement may have a megabyte of options.
+    words = list(_WORD.finditer(statement))
+    at = 0
+    while at < len(words) and words[at].group().startswith("-"):
+        option = words[at].group().lower()
+        at += 1
+        values: list[str] = []
+        while at < len(words) and len(values) < _OPTIONS.get(option, 0):
+            word = words[at].group()
+            if option not in _WORDS_AS_VALUES and _numbers(word, 1) is None:
                 break
             values.append(word)
-            rest = after
-        rest = rest.lstrip()
+            at += 1
         # Three values are for u, v and depth; v and depth may be left out.
-        if option.lower() == "-s":
+        if option == "-s":
             lies = replace(lies, scale=_pair(values, 1.0))
-        elif option.lower() == "-o":
+        elif option == "-o":
             lies = replace(lies, offset=_pair(values, 0.0))
-    return rest.strip().strip('"'), lies
+    file = statement[words[at].start() :] if at < len(words) else ""
+    return file.strip().strip('"'), lies
 
 
 def _pair(words: list[str], default: float) -> tuple[float, float]:
@@ -134,7 +149,7 @@ def _pair(words: list[str], default: float) -> tuple[float, float]:
 def _numbers(text: str, n: int) -> tuple[float, ...] | None:
     """The first n numbers of a text; None if it does not begin with as many finite ones."""
     try:
-        values = tuple(map(float, text.split()[:n]))
+        values = tuple(map(float, text.split(None, n)[:n]))
     except ValueError:
         return None
     return values if len(values) == n and np.isfinite(values).all() else None

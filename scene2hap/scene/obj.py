@@ -98,13 +98,16 @@ def _node(number: int, part: _Part, points: _Table, uv: _Table, libraries: MtlLi
 
 def _statements(text: str) -> Iterator[tuple[int, str, str]]:
     """Line number, keyword and the rest of each statement."""
-    continued = ""
+    # Joined once: a file may be one statement of a hundred thousand lines.
+    continued: list[str] = []
     for number, line in enumerate(text.splitlines(), start=1):
-        line = continued + line.partition("#")[0]
+        line = line.partition("#")[0]
         if line.endswith("\\"):
-            continued = line[:-1] + " "
+            continued.append(line[:-1])
             continue
-        continued = ""
+        if continued:
+            line = " ".join((*continued, line))
+            continued = []
         words = line.split(None, 1)
         if words:
             yield number, words[0], words[1].strip() if len(words) > 1 else ""

@@ -20,6 +20,9 @@ Ints = NDArray[np.int64]
 
 # Pairs of triangle and ray that are tested at once; bounds memory to some 100 MB (assumed).
 _MAX_PAIRS = 1_000_000
+# Pairs in all, so many layers on every ray and so many per triangle; a heap of large triangles beyond is not measured
+# (assumed: ten times the densest foliage, and some seconds).
+_MAX_LAYERS, _MAX_PAIRS_PER_TRIANGLE = 1000, 4
 # Rays stand up to this part of a cell off its centre, so that none runs along the diagonal of a quad, where it would
 # meet both triangles or neither. The fractions are powers of the plastic number, which fill the plane evenly.
 _JITTER = 0.25
@@ -47,7 +50,10 @@ class Hits:
 
 
 def cast_grid(triangles: Floats, n: int) -> Hits:
-    """Hits of n x n rays that run along w through the bounding rectangle of triangles (3, 3, m) [m]."""
+    """Hits of n x n rays that run along w through the bounding rectangle of triangles (3, 3, m) [m].
+
+    None for a line, and for more than some thousand layers of triangles.
+    """
     corners = triangles.reshape(3, -1)
     low = corners.min(axis=1)
     size = corners.max(axis=1) - low
@@ -62,6 +68,8 @@ def cast_grid(triangles: Floats, n: int) -> Hits:
     last = np.floor(np.maximum(np.maximum(a, b), c) - (0.5 - _JITTER)).astype(np.int64).clip(None, n - 1)
     span = (last - first + 1).clip(0) * (area != 0)
     pairs = span[0] * span[1]
+    if pairs.sum() > _MAX_LAYERS * n * n + _MAX_PAIRS_PER_TRIANGLE * len(pairs):
+        return Hits(np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))
     drawn = np.flatnonzero(pairs)
     breaks = np.flatnonzero(np.diff(np.cumsum(pairs[drawn]) // _MAX_PAIRS)) + 1
     found = [

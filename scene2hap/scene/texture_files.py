@@ -22,6 +22,8 @@ class TextureFiles:
     assets_root: Path
     _refused: dict[str, str] = field(default_factory=dict)
     _by_name: dict[str, EncodedTexture] = field(default_factory=dict)
+    _paths: dict[str, Path] = field(default_factory=dict)
+    _first_names: dict[Path, str] = field(default_factory=dict)
     _by_content: dict[str, EncodedTexture] = field(default_factory=dict)
 
     @property
@@ -35,7 +37,21 @@ class TextureFiles:
 
     def from_file(self, uri: str, place: str, *, keeps_alpha: bool = True) -> EncodedTexture | None:
         """The image that `place` means by `uri`, percent-encoded and relative to the scene; None if it is refused."""
-        return self.named(uri, lambda: read_bytes(inside(self.assets_root, self.folder, uri, place)), keeps_alpha)
+        if uri in self._refused:
+            return None
+        if uri not in self._paths:
+            try:
+                self._paths[uri] = inside(self.assets_root, self.folder, uri, place)
+            except SceneError as error:
+                self.refuse(uri, str(error))
+                return None
+        path = self._paths[uri]
+        # A file may be named in many ways; it is read once.
+        first = self._first_names.setdefault(path, uri)
+        if first in self._refused:
+            self.refuse(uri, self._refused[first])
+            return None
+        return self.named(first, lambda: read_bytes(path), keeps_alpha)
 
     def named(self, name: str, read: Callable[[], bytes], keeps_alpha: bool) -> EncodedTexture | None:
         """The image that `read` gives the bytes of, once for each name; None if it raises, or if it is no image."""
@@ -43,7 +59,8 @@ class TextureFiles:
             return None
         if name not in self._by_name:
             try:
-                self._by_name[name] = EncodedTexture.checked(read(), f"texture {name!r}")
+                texture = EncodedTexture.checked(read(), f"texture {name!r}")
+                self._by_name[name] = self._by_content.setdefault(texture.digest, texture)
             except SceneError as error:
                 self.refuse(name, str(error))
                 return None

@@ -106,7 +106,7 @@ class EncodedTexture:
         is_deep, has_alpha = image.mode.startswith("I"), self.has_alpha
         if is_deep:
             # Grey of 16 bits, which Pillow would clip rather than scale.
-            image = Image.fromarray((np.asarray(image).astype(np.int64) >> 8).clip(0, 255).astype(np.uint8))
+            image = Image.fromarray((np.asarray(image) >> 8).clip(0, 255).astype(np.uint8))
         elif image.has_transparency_data:
             image = image.convert("RGBA")
         image = image.convert("RGBA" if has_alpha else "RGB")

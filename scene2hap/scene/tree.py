@@ -56,14 +56,25 @@ class Piece:
         if lowest < 0 or highest >= len(points):
             wrong = lowest if lowest < 0 else highest
             raise SceneFormatError(f"{place}: a face uses vertex {wrong}; there are {len(points)} (from 0).")
-        is_used = np.zeros(len(points), dtype=bool)
-        is_used[corners] = True
-        compact = points[is_used]
+        used, renumbered = _used(corners, len(points))
+        compact = points[used]
         if not np.isfinite(compact).all():
-            row = int(np.flatnonzero(is_used & ~np.isfinite(points).all(axis=1))[0])
+            row = int(used[np.flatnonzero(~np.isfinite(compact).all(axis=1))[0]])
             raise SceneError(f"{place}: vertex {row} is {points[row].tolist()}; every coordinate must be finite.")
-        renumbered = (np.cumsum(is_used) - 1)[corners] if len(compact) < len(points) else corners
-        return cls(key, compact, renumbered.astype(np.int32), material)
+        return cls(key, compact, renumbered.reshape(-1, 3).astype(np.int32), material)
+
+
+def _used(corners: NDArray[np.integer], n_points: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The vertices that corners use, in order, and the corners as places among these.
+
+    Takes no longer than the corners want: files share one table of vertices among thousands of pieces.
+    """
+    if corners.size < n_points // 8:
+        used, renumbered = np.unique(corners, return_inverse=True)
+        return used.astype(np.int64), renumbered
+    is_used = np.zeros(n_points, dtype=bool)
+    is_used[corners] = True
+    return np.flatnonzero(is_used), (np.cumsum(is_used) - 1)[corners]
 
 
 @dataclass(frozen=True, eq=False)

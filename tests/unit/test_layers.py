@@ -9,9 +9,9 @@ PACKAGE = Path(__file__).parents[2] / "scene2hap"
 
 # Bottom to top; rooms of one row never import each other.
 LAYERS = [
-    {"errors"},
+    {"errors", "printable"},
     {"checks", "compiled"},
-    {"plugins", "settings", "secret"},
+    {"plugins", "settings", "secret", "web"},
     {"scene"},
     {"contact", "materials", "needs"},
     {"haptics"},
@@ -27,7 +27,7 @@ LAYERS = [
 ]
 HEIGHT = {room: height for height, rooms in enumerate(LAYERS) for room in rooms}
 PLAY_SIDE = ("session", "touch_track", "track_player", "render", "devices", "propagation", "contact")
-DESIGN_TIME_ONLY = ("scene2hap.llm", "scene2hap.baking", "scene2hap.audio.sources", "httpx", "trimesh")
+DESIGN_TIME_ONLY = ("scene2hap.llm", "scene2hap.baking", "scene2hap.audio.sources", "scene2hap.web", "httpx", "trimesh")
 
 
 def room_of(path: Path) -> str:

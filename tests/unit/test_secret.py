@@ -1,14 +1,19 @@
 """A key that shows itself to nobody."""
 
 import copy
+import html
+import json
 import pickle
 import traceback
+from base64 import b64encode, encodebytes, urlsafe_b64encode
+from collections.abc import Callable
 from typing import Any
+from urllib.parse import quote
 
 import pytest
 
 from scene2hap.errors import ConfigError
-from scene2hap.secret import Secret
+from scene2hap.secret import MASK, Secret
 
 KEY = "sk-0123456789abcdef"
 
@@ -24,12 +29,53 @@ def test_secret_shows_itself_to_nobody(value: Any, monkeypatch: pytest.MonkeyPat
 
 @pytest.mark.parametrize("key", ["ab/cd+0123456789==", 'with"quote0123456789', "back\\slash0123456789"])
 def test_a_key_is_found_as_json_writes_it(key: str) -> None:
-    import json
-
     secret = Secret(key)
     written = json.dumps({"error": key})
     assert json.loads(secret.scrub(written)) == {"error": "******"}
     assert json.loads(secret.scrub(written.replace("/", "\\/"))) == {"error": "******"}
+
+
+ECHOES: dict[str, Callable[[str], str]] = {
+    "percent-encoded": lambda key: quote(key, safe=""),
+    "percent-encoded whole": lambda key: "".join(f"%{ord(letter):02X}" for letter in key),
+    "percent-encoded twice": lambda key: quote(quote(key, safe=""), safe=""),
+    "base64": lambda key: b64encode(key.encode()).decode(),
+    "base64 of the header": lambda key: b64encode(f"Bearer {key}".encode()).decode(),
+    "base64 of basic": lambda key: b64encode(f"me:{key}:x".encode()).decode(),
+    "base64 for addresses": lambda key: urlsafe_b64encode(f"x{key}".encode()).decode().rstrip("="),
+    "base64, percent-encoded": lambda key: quote(b64encode(key.encode()).decode(), safe=""),
+    "base64 in JSON of PHP": lambda key: b64encode(key.encode()).decode().replace("/", "\\/"),
+    "base64 in lines": lambda key: encodebytes(f"{'.' * 50}{key}".encode()).decode(),
+    "hex": lambda key: key.encode().hex(),
+    "hex with colons": lambda key: key.encode().hex(":").upper(),
+    "JSON escapes": lambda key: "".join(f"\\u{ord(letter):04x}" for letter in key),
+    "C escapes": lambda key: "".join(f"\\x{ord(letter):02x}" for letter in key),
+    "HTML": lambda key: html.escape(key),
+    "HTML numbers": lambda key: "".join(f"&#{ord(letter)};" for letter in key),
+    "HTML hex numbers": lambda key: "".join(f"&#x{ord(letter):x};" for letter in key),
+    "capitals": lambda key: key.upper(),
+    "JSON in JSON": lambda key: json.dumps(json.dumps(key)),
+}
+
+
+@pytest.mark.parametrize(
+    "key", ["sk-proj-0123456789abcdefgh", "ab/cd+0123456789==", "a&b<c>'d'0123456789", "~~~???>>>ii0123456"]
+)
+@pytest.mark.parametrize("form", ECHOES)
+def test_a_key_is_found_however_it_is_written(form: str, key: str) -> None:
+    echoed = ECHOES[form](key)
+    shown = Secret(key).scrub(f"You sent {echoed}, which is wrong.")
+    assert shown.startswith("You sent ")
+    assert shown.endswith(" is wrong.")
+    assert MASK in shown
+    left = shown.removeprefix("You sent ").removesuffix(", which is wrong.").replace(MASK, "")
+    assert len(left) <= len(echoed) - len(key)  # what was beside the key in the same code
+    assert not any(key[at : at + 4] in left for at in range(len(key) - 3))
+
+
+def test_text_without_the_key_stays_as_it_is() -> None:
+    text = "sk-0123456789abcde c2stMDEyMzQ1Njc4OWFiY2Rl 73 6b 2d &amp; %2F \\u0041"
+    assert Secret(KEY).scrub(text) == text
 
 
 def test_a_short_key_is_a_word_that_answers_may_hold() -> None:

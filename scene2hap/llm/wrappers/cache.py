@@ -10,19 +10,19 @@ import hashlib
 import json
 import os
 import tempfile
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from filelock import AsyncFileLock
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from scene2hap.errors import ConfigError
 from scene2hap.llm.protocol import Component, LLMReply, LLMRequest
 from scene2hap.llm.request_key import request_key
 from scene2hap.llm.validation import find_fault
-from scene2hap.llm.wrappers.file_lock import FileLock
 from scene2hap.llm.wrappers.stack import Spec, Wrapper
 
 
@@ -48,24 +48,15 @@ class CacheBackend(Wrapper):
     The key is that of a recording plus the inner backend's `identity`: model, base address, what else decides the
     answer. A hit reports no usage, since it costs nothing. Equal questions asked at the same time are asked once, in
     this process and between processes. A file that cannot be read back, or whose answer the rules of today no
-    longer allow, counts as absent and is written again.
-    stale_after_s : age at which the lock of another run is taken for abandoned; sleep : for tests.
+    longer allow, counts as absent and is written again. The lock of a run that died is free: the system holds it for a
+    process, and its empty file stays in `locks/`.
     Raises: ConfigError: the folder cannot be written, or `inner` has no identity.
     """
 
-    def __init__(
-        self,
-        inner: Spec,
-        folder: str | os.PathLike[str],
-        *,
-        stale_after_s: float = 1800.0,
-        sleep: Callable[[float], Awaitable[object]] = asyncio.sleep,
-    ) -> None:
+    def __init__(self, inner: Spec, folder: str | os.PathLike[str]) -> None:
         super().__init__(inner)
         _ = self.identity  # whoever has none is better told now than after a scene was rendered
         self._folder = Path(folder)
-        self._stale_after_s = stale_after_s
-        self._sleep = sleep
         self._turns: dict[tuple[int, str], tuple[asyncio.Lock, int]] = {}
         self._calls = self._hits = self._stored = self._rejected = 0
         self._unreadable: set[str] = set()
@@ -84,7 +75,7 @@ class CacheBackend(Wrapper):
             reply = self._load(path, key)
             if reply is not None:
                 return reply
-            async with FileLock(path.with_suffix(".lock"), self._stale_after_s, self._sleep):
+            async with self._lock(key):
                 return self._load(path, key) or await self._ask(request)
 
     def report(self) -> dict[str, int]:
@@ -110,6 +101,22 @@ class CacheBackend(Wrapper):
             lock, users = self._turns.pop(name)
             if users > 1:
                 self._turns[name] = (lock, users - 1)
+
+    @asynccontextmanager
+    async def _lock(self, key: str) -> AsyncIterator[None]:
+        """One at a time per key among the processes that share the folder."""
+        lock = AsyncFileLock(self._folder / "locks" / f"{key}.lock")
+        try:
+            (self._folder / "locks").mkdir(parents=True, exist_ok=True)
+            await lock.acquire()
+        except (OSError, NotImplementedError) as cause:  # the latter: a file system without locks
+            raise ConfigError(
+                f"cannot lock an answer in {self._folder}: {cause}. Give a folder that can be written."
+            ) from cause
+        try:
+            yield
+        finally:
+            await lock.release()
 
     def _path(self, key: str) -> Path:
         return self._folder / f"{key}.json"

@@ -27,8 +27,14 @@ MAX_FILES_DEEP = 20
 """Files within files (assumed)."""
 MAX_COPIES = 10_000
 """Bodies that one place in the file may be multiplied to (assumed: MuJoCo takes 14 s to compile 10,000)."""
-MAX_CELLS = 1 << 26
-"""Cells of a generated texture or height field (assumed: 8192 x 8192)."""
+MAX_COPIED_ELEMENTS = 50_000
+"""Elements that all copies come to together (assumed: MuJoCo takes some seconds for as many)."""
+MAX_CELLS = 1 << 25
+"""Cells of all textures and height fields together, those that pictures store apart (assumed: eight of 2048 x 2048)."""
+_CELLS_PER_BYTE = 20.0
+"""What a byte of a picture may unpack to, in cells (assumed: ten times what photographs do)."""
+MAX_MODELS = 200
+"""Models within models, each as often as it is named (assumed)."""
 
 # Whatever multiplies what it holds, and whatever makes a grid of that many cells.
 _COPIES = {"replicate": "count", "composite": "count", "flexcomp": "count"}
@@ -58,6 +64,34 @@ class _Wanted(NamedTuple):
 
 
 @dataclass
+class _Totals:
+    """What the whole model comes to, with all models in it; a million small rows are as much as a large one."""
+
+    cells: limits.Budget = field(
+        default_factory=lambda: limits.Budget(
+            "the cells of textures and height fields", MAX_CELLS, _CELLS_PER_BYTE, unit="bytes of pictures"
+        )
+    )
+    n_copied: int = 0
+    n_models: int = 0
+
+    def add_copies(self, n: int, place: str) -> None:
+        """Raises: SceneError: all copies together have too many elements."""
+        self.n_copied += n
+        if self.n_copied > MAX_COPIED_ELEMENTS:
+            raise SceneError(
+                f"{place} is copied {n:,} times, and all copies have {self.n_copied:,} elements; up to "
+                f"{MAX_COPIED_ELEMENTS:,} are read. Copy less."
+            )
+
+    def add_model(self, place: str) -> None:
+        """Raises: SceneError: too many models stand in models."""
+        self.n_models += 1
+        if self.n_models > MAX_MODELS:
+            raise SceneError(f"{place} is one of more than {MAX_MODELS} models within models. Name fewer.")
+
+
+@dataclass
 class _Model:
     """An MJCF file with all that it includes; `around` are the models that this one is part of."""
 
@@ -70,6 +104,7 @@ class _Model:
     strips_paths: bool = False
     assets: list[_Wanted] = field(default_factory=list)
     outside: list[tuple[_Wanted, Path]] = field(default_factory=list)
+    totals: _Totals = field(default_factory=_Totals)
 
     def check(self) -> None:
         _not_too_deep(self.path, len(self.around))
@@ -81,7 +116,11 @@ class _Model:
                 continue
             limits.at_most(f"the size of {found.name!r} in bytes", found.stat().st_size, "MAX_FILE_BYTES")
             if wanted.kind == "model":
-                _Model(found, self.root, (*self.around, self.path)).check()
+                self.totals.add_model(wanted.place)
+                _Model(found, self.root, (*self.around, self.path), totals=self.totals).check()
+            elif wanted.kind in _GRIDS:
+                self.totals.cells.stored += found.stat().st_size
+                self.totals.cells.spend(_png_cells(found), wanted.place)
         if self.outside:
             raise SceneError(self._refusal())
 
@@ -190,8 +229,12 @@ class _Reader:
                 raise SceneError(f"{place} makes {around:,} copies; MJCF with up to {MAX_COPIES:,} is read.")
         if tag in _GRIDS:
             cells = _product(" ".join(attributes.get(key, "") for key in _GRIDS[tag]))
-            if cells > MAX_CELLS:
-                raise SceneError(f"{place} has {cells:,} cells; up to {MAX_CELLS:,} are read.")
+            if tag == "texture" and attributes.get("type", "cube") != "2d":
+                # The six sides of a cube are as high as they are wide.
+                cells = max(cells, 6 * _product(attributes.get("width", "")) ** 2)
+            self.model.totals.cells.spend(cells, place)
+        if around > 1:
+            self.model.totals.add_copies(around, place)
         return around
 
     def _compiler(self, attributes: Mapping[str, str]) -> None:
@@ -205,6 +248,21 @@ class _Reader:
 def _not_too_deep(path: Path, depth: int) -> None:
     if depth > MAX_FILES_DEEP:
         raise SceneError(f"{path.name!r} stands in {depth} files, one in the other; up to {MAX_FILES_DEEP} are read.")
+
+
+def _png_cells(path: Path) -> int:
+    """Pixels of a PNG file by its header, before MuJoCo unpacks it; 0 for other files, which are as large as they say.
+
+    Raises: SceneError: the file cannot be read.
+    """
+    try:
+        with path.open("rb") as file:
+            start = file.read(24)
+    except OSError as cause:
+        raise SceneError(f"{str(path)!r} cannot be read: {cause}.") from cause
+    if not start.startswith(b"\x89PNG\r\n\x1a\n"):
+        return 0
+    return int.from_bytes(start[16:20], "big") * int.from_bytes(start[20:24], "big")
 
 
 def _plain(name: str) -> str:

@@ -29,7 +29,7 @@ def subclasses(kind: type[Exception]) -> list[type[Exception]]:
 HTTPX_ERRORS = sorted(
     {*subclasses(httpx.HTTPError), *subclasses(httpx.StreamError), httpx.InvalidURL}, key=lambda kind: kind.__name__
 )
-OURS = (httpx.UnsupportedProtocol, httpx.LocalProtocolError, httpx.InvalidURL)
+OURS = (httpx.UnsupportedProtocol, httpx.LocalProtocolError, httpx.InvalidURL, httpx.TooManyRedirects)
 
 
 def made(kind: type[Exception]) -> Exception:

@@ -74,6 +74,20 @@ def test_x_up_is_refused(tmp_path: Path) -> None:
 
 
 @needs_pycollada
+@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be", "utf-16", "utf-32", "utf-7", "cp037"])
+def test_a_document_type_in_another_encoding_is_refused(tmp_path: Path, encoding: str) -> None:
+    said = f'<?xml version="1.0" encoding="{encoding.removesuffix("-le").removesuffix("-be")}"?>'
+    typed = '<!DOCTYPE COLLADA [<!ENTITY a "b">]>' + dae(FLAT).partition("?>")[2]
+    (tmp_path / "a.dae").write_bytes((said + typed).encode(encoding))
+    with pytest.raises(SceneError, match="without a document type"):
+        load_scene(tmp_path / "a.dae")
+    if encoding == "utf-7":
+        (tmp_path / "a.dae").write_bytes(said.encode() + typed.replace("<", "+ADw-").encode())
+        with pytest.raises(SceneError, match="without a document type"):
+            load_scene(tmp_path / "a.dae")
+
+
+@needs_pycollada
 @pytest.mark.parametrize(
     "text",
     [

@@ -103,9 +103,9 @@ def test_a_vertex_that_is_not_finite_names_its_object() -> None:
 
 
 def test_objects_are_limited(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(limits, "MAX_NODES", 1)
+    monkeypatch.setattr(limits, "MAX_OBJECTS", 1)
     (tmp_path / "two.obj").write_text(SQUARE + "o a\nf 1 2 3\no b\nf 1 2 3\n")
-    with pytest.raises(SceneError, match="number of objects is 2; .*MAX_NODES"):
+    with pytest.raises(SceneError, match="number of objects is 2; .*MAX_OBJECTS"):
         load_scene(tmp_path / "two.obj")
 
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from scene2hap.audio.sources import web
+from scene2hap import web
 from scene2hap.audio.sources.freesound.rate import MINUTE_S, RateLimit
 from scene2hap.audio.sources.freesound.sounds import FIELDS, Sound, read_sounds
 from scene2hap.audio.sources.store import plain_line
@@ -19,7 +19,7 @@ from scene2hap.errors import BackendError, BackendUnavailable, BadAnswer
 from scene2hap.secret import Secret
 
 if TYPE_CHECKING:
-    from scene2hap.audio.sources.web import Transport
+    from scene2hap.web import Transport
 
 RESULTS_ASKED = 15
 """Three times what is wanted, since some previews turn out to be too short or broken; the API's own default."""
@@ -119,6 +119,8 @@ class Service:
             authorization=lambda: f"Token {self.token.reveal()}",
             transport=self.transport,
         )
+        # Whatever the service echoes would reach titles and credits.
+        reply = replace(reply, content=self.token.scrub(reply.text).encode("utf-8"))
         if reply.status != 200:
             raise self._error(reply)
         return reply
@@ -129,14 +131,14 @@ class Service:
         if sounds is None or (not sounds and document["results"]):
             raise BadAnswer(
                 f"{reply.url} answered without the list of sounds that it promises. Check base_url.",
-                raw_text=self._shown(reply.content),
+                raw_text=reply.text[:2000],
             )
         return sounds
 
     def _error(self, reply: web.WebReply) -> BackendUnavailable:
         document = _json(reply.content)
         detail = document.get("detail") if isinstance(document, dict) else None
-        said = plain_line(self.token.scrub(detail)) if isinstance(detail, str) else "nothing more"
+        said = plain_line(detail) if isinstance(detail, str) else "nothing more"
         text = f"{reply.url} answered {reply.status}: {said.rstrip('.')}."
         if reply.status == 429 and "day" in said:
             return BackendUnavailable(f"{text} Bake again tomorrow; what was found is kept.", retryable=False)
@@ -159,9 +161,6 @@ class Service:
             for_now = failure.retryable or failure.retry_after_s is not None
             rest_s = max(rest_s, failure.retry_after_s or 0.0) if for_now else float("inf")
         self._failure = (self.clock() + rest_s, failure)
-
-    def _shown(self, content: bytes) -> str:
-        return self.token.scrub(content[:2000].decode("utf-8", "replace"))
 
 
 def _json(content: bytes) -> Any:

@@ -17,14 +17,14 @@ from scene2hap.audio.sources.freesound.ladder import ladder
 from scene2hap.audio.sources.freesound.service import Service
 from scene2hap.audio.sources.freesound.sounds import Sound, read_sounds
 from scene2hap.audio.sources.store import MAX_CLIP_S, Store, digest, is_long_enough
-from scene2hap.audio.sources.web import checked_base
 from scene2hap.errors import AudioError, BackendUnavailable, ConfigError
 from scene2hap.haptics import VibrationDescription
 from scene2hap.secret import Secret
 from scene2hap.settings import cache_folder
+from scene2hap.web import checked_base
 
 if TYPE_CHECKING:
-    from scene2hap.audio.sources.web import Transport
+    from scene2hap.web import Transport
 
 SORTS = tuple(
     f"{what}{way}"

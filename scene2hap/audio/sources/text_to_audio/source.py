@@ -20,10 +20,10 @@ from scene2hap.audio.sources.candidates import MAX_CANDIDATES, how_many
 from scene2hap.audio.sources.store import MAX_CLIP_S, Store, digest, plain_line
 from scene2hap.audio.sources.text_to_audio.contract import Reply, Request, read_file, read_reply
 from scene2hap.audio.sources.text_to_audio.process import Allowance, CannotStart, environment, run, scrubbed
-from scene2hap.audio.sources.web import is_safe
 from scene2hap.errors import AudioError, BackendError, BadAnswer, ConfigError
 from scene2hap.haptics import VibrationDescription
 from scene2hap.settings import cache_folder
+from scene2hap.web import is_safe
 
 RUNNERS = ("audiogen", "stable_audio")
 

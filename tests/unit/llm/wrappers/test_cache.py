@@ -4,7 +4,7 @@ import asyncio
 import dataclasses
 import json
 import os
-import socket
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -42,17 +42,8 @@ def ask(backend: CacheBackend, asked: LLMRequest | None = None) -> LLMReply:
 
 
 def files(folder: Path) -> list[Path]:
-    return sorted(path for path in folder.rglob("*") if path.is_file())
-
-
-def abandon(folder: Path, holder: dict[str, Any] | None = None, age_s: float = 0.0) -> Path:
-    """A lock on the one question that the folder answers, instead of its answer."""
-    (entry,) = files(folder)
-    lock = entry.with_suffix(".lock")
-    entry.rename(lock)
-    lock.write_text(json.dumps(holder or {"host": "elsewhere", "pid": 1, "id": "a"}), encoding="utf-8")
-    os.utime(lock, (lock.stat().st_mtime - age_s,) * 2)
-    return lock
+    """What is kept; the files of locks stay behind, empty."""
+    return sorted(path for path in folder.rglob("*") if path.is_file() and path.parent.name != "locks")
 
 
 # --- hits and misses --------------------------------------------------------------------------------------------------
@@ -262,9 +253,17 @@ def test_folder_that_cannot_be(tmp_path: Path) -> None:
         CacheBackend(answering(), tmp_path / "file" / "cache")
 
 
-def test_folder_that_has_gone(tmp_path: Path) -> None:
+def test_folder_that_has_gone_is_made_again(tmp_path: Path) -> None:
     backend = CacheBackend(answering(), tmp_path / "cache")
-    (tmp_path / "cache").rmdir()
+    shutil.rmtree(tmp_path / "cache")
+    assert plain(ask(backend)) == ANSWER
+    assert len(files(tmp_path / "cache")) == 1
+
+
+def test_folder_that_cannot_be_locked(tmp_path: Path) -> None:
+    backend = CacheBackend(answering(), tmp_path / "cache")
+    shutil.rmtree(tmp_path / "cache")
+    (tmp_path / "cache").write_text("")
     with pytest.raises(ConfigError, match="cannot lock"):
         ask(backend)
 
@@ -290,78 +289,49 @@ def test_equal_questions_at_the_same_time_are_asked_once(tmp_path: Path) -> None
     assert len(files(tmp_path)) == 1
 
 
+HOLDER = """
+import json, sys, time
+from pathlib import Path
+from filelock import FileLock
+lock, answer = FileLock(sys.argv[1]), sys.stdin.readline()
+with lock:
+    print("held", flush=True)
+    if not answer.strip():
+        time.sleep(60.0)
+    time.sleep(0.3)
+    Path(sys.argv[2]).write_text(answer)
+"""
+
+
+def other_run(folder: Path, answer: str = "") -> subprocess.Popen[str]:
+    """A process that holds the lock of the one answer in the folder, which it writes after a while, or never."""
+    (entry,) = files(folder)
+    entry.unlink()
+    lock = folder / "locks" / f"{entry.stem}.lock"
+    arguments = [sys.executable, "-c", HOLDER, str(lock), str(entry)]
+    process = subprocess.Popen(arguments, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    assert process.stdin is not None
+    assert process.stdout is not None
+    process.stdin.write(answer + "\n")
+    process.stdin.flush()
+    assert process.stdout.readline() == "held\n"
+    return process
+
+
 def test_another_run_is_waited_for(tmp_path: Path) -> None:
     inner = answering()
     ask(CacheBackend(inner, tmp_path))
-    answer = files(tmp_path)[0].read_bytes()
-    lock = abandon(tmp_path)
-    waits: list[float] = []
-
-    async def other_run(wait_s: float) -> None:
-        waits.append(wait_s)
-        if len(waits) == 3:
-            lock.with_suffix(".json").write_bytes(answer)
-            lock.unlink()
-
-    assert ask(CacheBackend(inner, tmp_path, sleep=other_run)).text == ANSWER.text
-    assert len(waits) == 3
+    answer = json.dumps(json.loads(files(tmp_path)[0].read_bytes()))
+    with other_run(tmp_path, answer):
+        assert ask(CacheBackend(inner, tmp_path)).text == ANSWER.text
     assert len(inner.requests) == 1
 
 
-@pytest.mark.parametrize("age_s", [1900.0, 1e9])
-def test_stale_lock_is_taken_over(tmp_path: Path, age_s: float) -> None:
+def test_lock_of_a_run_that_died_is_free(tmp_path: Path) -> None:
     inner = answering()
     ask(CacheBackend(inner, tmp_path))
-    abandon(tmp_path, age_s=age_s)
-    assert plain(ask(CacheBackend(inner, tmp_path, sleep=never))) == ANSWER
-    assert [path.suffix for path in files(tmp_path)] == [".json"]
-
-
-@pytest.mark.skipif(os.name != "posix", reason="a process cannot be asked after without harm elsewhere")
-def test_lock_of_a_dead_process_is_taken_over(tmp_path: Path) -> None:
-    gone = subprocess.Popen([sys.executable, "-c", ""])
-    gone.wait()
-    inner = answering()
-    ask(CacheBackend(inner, tmp_path))
-    abandon(tmp_path, {"host": socket.gethostname(), "pid": gone.pid, "id": "a"})
-    assert plain(ask(CacheBackend(inner, tmp_path, sleep=never))) == ANSWER
-
-
-@pytest.mark.parametrize(
-    "holder",
-    [
-        {"host": socket.gethostname(), "pid": os.getpid(), "id": "a"},
-        {"host": "elsewhere", "pid": 999_999_999, "id": "a"},
-        {"host": socket.gethostname(), "pid": 10**30},
-        {"host": socket.gethostname(), "pid": None},
-        {"pid": 1},
-    ],
-    ids=str,
-)
-def test_lock_that_may_be_held_is_respected(tmp_path: Path, holder: dict[str, Any]) -> None:
-    ask(CacheBackend(answering(), tmp_path))
-    lock = abandon(tmp_path, holder)
-    waits: list[float] = []
-
-    async def release(wait_s: float) -> None:
-        waits.append(wait_s)
-        lock.unlink()
-
-    assert plain(ask(CacheBackend(answering(), tmp_path, sleep=release))) == ANSWER
-    assert len(waits) == 1
-
-
-def test_lock_that_was_taken_over_is_not_released_by_its_old_holder(tmp_path: Path) -> None:
-    theirs = b'{"id": "theirs"}'
-
-    def answer(_: LLMRequest) -> LLMReply:
-        (lock,) = files(tmp_path)
-        lock.write_bytes(theirs)
-        return ANSWER
-
-    ask(CacheBackend(FunctionBackend(answer), tmp_path))
-    assert theirs in [path.read_bytes() for path in files(tmp_path)]
-
-
-async def never(_: float) -> None:
-    raise AssertionError("waited for a lock that nobody holds")
+    with other_run(tmp_path) as process:
+        process.kill()
+        process.wait()
+        assert plain(ask(CacheBackend(inner, tmp_path))) == ANSWER
+    assert len(inner.requests) == 2

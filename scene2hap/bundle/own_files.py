@@ -1,0 +1,108 @@
+"""The files of a bundle's folder: which of them are ours, and reading one that anybody may have changed."""
+
+from __future__ import annotations
+
+import json
+import re
+import stat
+from pathlib import Path
+from typing import Any
+
+from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError
+
+FORMAT = "scene2hap/bundle"
+VERSION = 1
+MANIFEST = "bundle.json"
+
+MAX_FILE_BYTES = 1 << 28
+"""Larger JSON and mesh files are refused before they are read; assumed: 256 MiB are some 7 million triangles."""
+
+_OURS = re.compile(
+    r"(meshes/[^/\\]+\.ply|sounds/[^/\\]+\.(wav|flac)|(scene|objects|loops|overrides)\.json|credits\.txt)"
+)
+
+
+def read_manifest(folder: Path) -> dict[str, Any]:
+    """What bundle.json says, of a format and version that can be read.
+
+    Raises: BundleIncomplete: it is missing or damaged; BundleVersionError: of a newer scene2hap; BundleError: it is
+    something else.
+    """
+    manifest = read_json(folder, MANIFEST)
+    if manifest.get("format") != FORMAT:
+        raise BundleError(f'{folder / MANIFEST} is not a bundle: it lacks "format": "{FORMAT}".')
+    version = manifest.get("version")
+    if isinstance(version, bool) or not isinstance(version, int) or version < 1:
+        raise BundleError(f"{folder / MANIFEST}: version is {str(version)[:40]!r}; it must be a whole number from 1.")
+    if version > VERSION:
+        raise BundleVersionError(
+            f"{folder} has bundle version {str(version)[:40]}; this scene2hap reads up to {VERSION}. Upgrade scene2hap."
+        )
+    names = manifest.get("files", [])
+    if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
+        raise BundleError(f"{folder / MANIFEST}: files must be a list of names.")
+    return manifest
+
+
+def our_files(folder: Path) -> frozenset[str]:
+    """What a bundle's folder holds of ours, by its own account: names with forward slashes. Raises: as `read_manifest`.
+
+    A name that we would never write is not ours, whatever the account says.
+    """
+    names = read_manifest(folder).get("files", [])
+    return frozenset(name for name in names if _OURS.fullmatch(name)) | {MANIFEST}
+
+
+def read_json(folder: Path, name: str) -> dict[str, Any]:
+    """The JSON object in a file of a bundle. Raises: BundleIncomplete, BundleError."""
+    try:
+        document = json.loads(read_bytes(folder, name).decode("utf-8"))
+    except (ValueError, RecursionError) as cause:  # ValueError: no UTF-8, no JSON, or a number of thousands of digits
+        raise BundleIncomplete(f"{folder / name} cannot be read: {cause}. Bake again, or mend the file.") from cause
+    if not isinstance(document, dict):
+        raise BundleError(f"{folder / name} must hold a JSON object.")
+    return document
+
+
+def read_bytes(folder: Path, name: str) -> bytes:
+    """What is in a file of a bundle, of at most `MAX_FILE_BYTES`. Raises: BundleIncomplete, BundleError."""
+    path = own_file(folder, name)
+    try:
+        size = path.stat().st_size
+        if size > MAX_FILE_BYTES:
+            raise BundleError(f"{path} has {size} bytes; it must be at most {MAX_FILE_BYTES}. Bake again.")
+        return path.read_bytes()
+    except OSError as cause:
+        raise BundleIncomplete(f"{path} cannot be read: {cause.strerror}. Bake again, or mend the file.") from cause
+
+
+def own_file(folder: Path, name: object) -> Path:
+    """The path of a regular file that a bundle names: a pipe would be waited for.
+
+    Raises: BundleIncomplete: it is missing, or is no regular file; BundleError: it lies outside.
+    """
+    path = inside(folder, name)
+    try:
+        mode = path.stat().st_mode
+    except (FileNotFoundError, NotADirectoryError) as cause:
+        raise BundleIncomplete(
+            f"{folder} has no {name}: not a bundle, or one that was not written to its end."
+        ) from cause
+    except (OSError, ValueError) as cause:
+        raise BundleIncomplete(f"{path} cannot be read: {cause}. Bake again, or mend the file.") from cause
+    if not stat.S_ISREG(mode):
+        raise BundleIncomplete(f"{path} is not a file. Bake again, or mend the folder.")
+    return path
+
+
+def inside(folder: Path, name: object) -> Path:
+    """The path of a file that a bundle names. Raises: BundleError: it lies outside of the bundle, or is no name."""
+    if not isinstance(name, str):
+        raise BundleError(f"{folder} names a file {str(name)[:80]!r}; it must be a text.")
+    try:
+        path, home = (folder / name).resolve(), folder.resolve()
+    except (OSError, RuntimeError, ValueError) as cause:  # a zero byte, a circle of links, a name of a megabyte
+        raise BundleError(f"{folder} names a file {name[:80]!r}, which cannot be: {cause}.") from cause
+    if not path.is_relative_to(home):
+        raise BundleError(f"{folder} refers to {name[:80]!r}, outside itself; a bundle only reads its own files.")
+    return path

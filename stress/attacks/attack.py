@@ -1,0 +1,23 @@
+"""One attack: a command that has to end well or in one sentence of ours, within bounds, in its own folder."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Attack:
+    """A command and what it may take.
+
+    argv : what is run; "scene2hap" first means the command line of this package, which is forked for speed. seconds :
+    of processor time; memory_bytes : resident; untouched : further paths that must not change.
+    """
+
+    family: str
+    name: str
+    argv: tuple[str, ...]
+    stdin: bytes = b""
+    seconds: float = 5.0
+    memory_bytes: int = 1 << 30
+    untouched: tuple[Path, ...] = ()

@@ -1,0 +1,347 @@
+"""Scene files: totals that a few bytes ask for, and small valid files broken at random."""
+
+from __future__ import annotations
+
+import base64
+import itertools
+import json
+import random
+import struct
+import zlib
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from fuzz_scenes import MUTATIONS, seeds
+
+from attacks.attack import Attack
+
+_MB = 1 << 20
+Files = dict[str, bytes]
+"""Contents by file name; the first is the scene."""
+
+
+def attacks(seed: int, work: Path) -> Iterator[Attack]:
+    """Bombs and mutations in turn, without end."""
+    originals = {**seeds(), ".dae": _dae().encode(), ".xml": _mjcf("").encode()}
+    for number in itertools.count():
+        rng = random.Random(f"scene_files/{seed}/{number}")
+        if number % 2 == 0:
+            bomb = BOMBS[(number // 2) % len(BOMBS)] if number < 2 * len(BOMBS) else rng.choice(BOMBS)
+            name, files = bomb.__name__, bomb(rng)
+        else:
+            suffix, mutation = rng.choice(list(originals)), rng.choice(MUTATIONS)
+            data = originals[suffix]
+            for _ in range(rng.choice([1, 1, 2])):
+                data = mutation(data, rng) or b"\0"
+            name, files = f"{mutation.__name__}{suffix}", {f"case{suffix}": data}
+        folder = work / str(number)
+        folder.mkdir()
+        for file, data in files.items():
+            (folder / file).write_bytes(data)
+        yield Attack("scene_files", f"{number} {name}", ("scene2hap", "inspect", str(folder / next(iter(files)))))
+
+
+# -- glTF ------------------------------------------------------------------------------------------------------------
+
+
+def _gltf(data: bytes = b"", **tables: Any) -> Files:
+    uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+    document = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": len(data), "uri": uri}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(data)}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "nodes": [{"mesh": 0}],
+        **tables,
+    }
+    return {"case.gltf": json.dumps(document).encode()}
+
+
+def _floats(n: int, rng: random.Random) -> bytes:
+    return struct.pack(f"<{n}f", *(rng.uniform(-1, 1) for _ in range(n)))
+
+
+def _vec3(count: int, **more: Any) -> dict[str, Any]:
+    return {"type": "VEC3", "componentType": 5126, "count": count, **more}
+
+
+def accessors_without_bytes(rng: random.Random) -> Files:
+    """As many zeros as fifty rows ask for."""
+    n, count = rng.choice([1, 50, 2000]), rng.choice([10**5, 10**6, 10**7])
+    primitives = [{"attributes": {"POSITION": i}} for i in range(n)]
+    return _gltf(accessors=[_vec3(count)] * n, meshes=[{"primitives": primitives}])
+
+
+def sparse_accessors(rng: random.Random) -> Files:
+    """Large tables of which one value is stored."""
+    n = rng.choice([10, 500])
+    sparse = {
+        "count": 1,
+        "indices": {"bufferView": 0, "componentType": 5121},
+        "values": {"bufferView": 0},
+    }
+    rows = [_vec3(rng.choice([10**5, 9 * 10**6]), sparse=sparse) for _ in range(n)]
+    primitives = [{"attributes": {"POSITION": i}} for i in range(n)]
+    return _gltf(bytes(12), accessors=rows, meshes=[{"primitives": primitives}])
+
+
+def shared_accessor(rng: random.Random) -> Files:
+    """One table of vertices in thousands of primitives."""
+    count = rng.choice([3, 3000, 30_000])
+    rows = [_vec3(count, bufferView=0), {"type": "SCALAR", "componentType": 5121, "count": 3, "bufferView": 0}]
+    primitive: dict[str, Any] = {"attributes": {"POSITION": 0}}
+    if rng.random() < 0.5:
+        primitive["indices"] = 1
+    primitives = [primitive] * rng.choice([100, 8000])
+    return _gltf(_floats(3 * count, rng), accessors=rows, meshes=[{"primitives": primitives}])
+
+
+def overlapping_accessors(rng: random.Random) -> Files:
+    """The same bytes under many accessors."""
+    count, n = 20_000, rng.choice([50, 3000])
+    primitives = [{"attributes": {"POSITION": i}} for i in range(n)]
+    rows = [_vec3(count, bufferView=0)] * n
+    return _gltf(_floats(3 * count, rng), accessors=rows, meshes=[{"primitives": primitives}])
+
+
+def instances(rng: random.Random) -> Files:
+    """One mesh drawn by as many nodes as fit, apart or within one object."""
+    count, n = rng.choice([3, 300, 30_000]), rng.choice([1000, 19_000, 40_000])
+    nodes: list[dict[str, Any]] = [{"mesh": 0, "translation": [i, 0, 0]} for i in range(n)]
+    more: dict[str, Any] = {}
+    if rng.random() < 0.5:
+        nodes.append({"name": "all", "children": list(range(n))})
+        more = {"scenes": [{"nodes": [n]}]}
+    return _gltf(_floats(3 * count, rng), accessors=[_vec3(count, bufferView=0)], nodes=nodes, **more)
+
+
+def deep_nodes(rng: random.Random) -> Files:
+    """A tree that is a chain, or a ring."""
+    n = rng.choice([150, 250, 20_000])
+    nodes = [{"children": [i + 1]} for i in range(n)] + [{"mesh": 0}]
+    if rng.random() < 0.3:
+        nodes[-1] = {"children": [0]}
+    return _gltf(_floats(9, rng), accessors=[_vec3(3, bufferView=0)], nodes=nodes, scenes=[{"nodes": [0]}])
+
+
+def embedded_pictures(rng: random.Random) -> Files:
+    """One picture under thousands of names."""
+    png, n = _png(rng.choice([8, 4000, 9000])), rng.choice([10, 3000])
+    vertices = _floats(9, rng)
+    return _gltf(
+        vertices + png + bytes(200_000),
+        bufferViews=[
+            {"buffer": 0, "byteLength": 36},
+            *({"buffer": 0, "byteOffset": 36, "byteLength": len(png) + i} for i in range(n)),
+        ],
+        accessors=[_vec3(3, bufferView=0)],
+        images=[{"bufferView": i + 1, "mimeType": "image/png"} for i in range(n)],
+        textures=[{"source": i} for i in range(n)],
+        materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": i}}} for i in range(n)],
+        meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "material": i} for i in range(n)]}],
+    )
+
+
+def _png(edge: int) -> bytes:
+    """A picture of nothing, packed a thousand times."""
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    header = struct.pack(">IIBBBBB", edge, edge, 8, 2, 0, 0, 0)
+    packer = zlib.compressobj(9)
+    rows = b"".join(packer.compress(bytes(1 + 3 * edge)) for _ in range(edge)) + packer.flush()
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", rows) + chunk(b"IEND", b"")
+
+
+# -- OBJ, PLY, STL ---------------------------------------------------------------------------------------------------
+
+
+def obj_continued(rng: random.Random) -> Files:
+    """A statement of as many lines as fit."""
+    line = rng.choice([b"\\\n", b"1 \\\n", b"f \\\n"])
+    return {"case.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 " + line * (_MB // len(line)) + b"\n"}
+
+
+def obj_many_objects(rng: random.Random) -> Files:
+    """Objects times vertices, as honest files from CAD have them."""
+    n = rng.choice([1000, 15_000])
+    vertices = b"".join(b"v %d %d %d\n" % (i, i % 7, i % 11) for i in range(n))
+    return {"case.obj": vertices + b"".join(b"o o%d\nf %d %d %d\n" % (i, i, i + 1, i + 2) for i in range(1, n - 2))}
+
+
+def obj_heap(rng: random.Random) -> Files:
+    """The same triangle again and again, as triangles or as polygons."""
+    face = rng.choice([b"f 1 2 3\n", b"f " + b"1 2 3 " * 1000 + b"\n", b"f 1 2 4\nf 2 3 4\n"])
+    return {"case.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n" + face * (_MB // len(face))}
+
+
+def obj_soup(rng: random.Random) -> Files:
+    """Large triangles at random."""
+    n = 3000
+    vertices = b"".join(b"v %.2f %.2f %.2f\n" % tuple(rng.uniform(-1, 1) for _ in range(3)) for _ in range(n))
+    faces = b"".join(b"f %d %d %d\n" % tuple(rng.randrange(1, n) for _ in range(3)) for _ in range(60_000))
+    return {"case.obj": (vertices + faces)[:_MB].rpartition(b"\n")[0]}
+
+
+def mtl_options(rng: random.Random) -> Files:
+    """A megabyte of options of one texture."""
+    option = rng.choice(["-s 1 ", "-o ", "-mm 0 1 ", "-x ", "-clamp on ", "-s\t1\t2\t3 "])
+    text = "newmtl a\nmap_Kd " + option * (_MB // len(option)) + "a.png\n"
+    return {"case.obj": b"mtllib a.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "a.mtl": text.encode()}
+
+
+def mtl_again(rng: random.Random) -> Files:
+    """One library or texture under as many names as fit."""
+    if rng.random() < 0.5:
+        lines = "".join(f"mtllib {'./' * (i % 500)}a.mtl\n" for i in range(2000))
+        return {"case.obj": f"{lines}v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".encode(), "a.mtl": b"newmtl a\n" * 100_000}
+    rows = "".join(f"newmtl m{i}\nmap_Kd {'./' * (i % 100)}a.png\n" for i in range(8000))
+    scene = b"mtllib a.mtl\nusemtl m1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+    return {"case.obj": scene, "a.mtl": rows.encode(), "a.png": _png(8) + bytes(500_000)}
+
+
+def ply_promises(rng: random.Random) -> Files:
+    """A header that promises what is not there."""
+    n, m = rng.choice([0, 3, 10**9, 10**15]), rng.choice([1, 10**9, 10**18])
+    form = rng.choice(["ascii", "binary_little_endian", "binary_big_endian"])
+    properties = rng.choice(["property float x\nproperty float y\nproperty float z\n", ""])
+    faces = rng.choice(["property list uchar int vertex_indices\n", "property list uint double vertex_indices\n", ""])
+    head = f"ply\nformat {form} 1.0\nelement vertex {n}\n{properties}element face {m}\n{faces}end_header\n"
+    return {"case.ply": head.encode() + bytes(rng.choice([0, 100, 500_000]))}
+
+
+def stl_promises(rng: random.Random) -> Files:
+    """A count that does not fit, or text without end."""
+    if rng.random() < 0.5:
+        count = rng.choice([0, 1, 2**31, 2**32 - 1])
+        return {"case.stl": bytes(80) + struct.pack("<I", count) + bytes(rng.choice([0, 50, 500_000]))}
+    return {"case.stl": b"solid a\n" + b"facet normal 0 0 0\nouter loop\n" * (_MB // 32)}
+
+
+# -- COLLADA, JSON, MJCF ---------------------------------------------------------------------------------------------
+
+
+def _dae(nodes: str = '<node id="n"><instance_geometry url="#g"/></node>', more: str = "") -> str:
+    return (
+        '<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>'
+        "<created>2026-01-01T00:00:00</created><modified>2026-01-01T00:00:00</modified></asset><library_geometries>"
+        '<geometry id="g"><mesh><source id="p"><float_array id="f" count="9">0 0 0 1 0 0 0 1 0</float_array>'
+        '<technique_common><accessor source="#f" count="3" stride="3"><param name="X" type="float"/><param name="Y" '
+        'type="float"/><param name="Z" type="float"/></accessor></technique_common></source><vertices id="v"><input '
+        'semantic="POSITION" source="#p"/></vertices><triangles count="1"><input semantic="VERTEX" source="#v" '
+        f'offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>{more}<library_visual_scenes>'
+        f'<visual_scene id="s">{nodes}</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/>'
+        "</scene></COLLADA>"
+    )
+
+
+def dae_document_type(rng: random.Random) -> Files:
+    """A document type in every encoding, with entities that grow."""
+    entities = '<!ENTITY a0 "lol">' + "".join(f'<!ENTITY a{i} "{f"&a{i - 1};" * 10}">' for i in range(1, 10))
+    head, _, rest = _dae('<node id="n" name="&a9;"><instance_geometry url="#g"/></node>').partition("?>")
+    encoding = rng.choice(["utf-8", "utf-16", "utf-16-le", "utf-16-be", "utf-32", "utf-7", "cp037"])
+    said = f'<?xml version="1.0" encoding="{encoding}"?><!DOCTYPE x [{entities}]>{rest}'
+    return {"case.dae": said.encode(encoding)}
+
+
+def dae_instances(rng: random.Random) -> Files:
+    """Nodes that instance nodes, twice each."""
+    depth = rng.choice([10, 40, 300])
+    library = "".join(
+        f'<node id="n{i}"><instance_node url="#n{i + 1}"/><instance_node url="#n{i + 1}"/></node>' for i in range(depth)
+    )
+    end = f'<node id="n{depth}"><instance_geometry url="#g"/></node>'
+    return {
+        "case.dae": _dae(
+            '<node id="r"><instance_node url="#n0"/></node>', f"<library_nodes>{end}{library}</library_nodes>"
+        ).encode()
+    }
+
+
+def json_objects(rng: random.Random) -> Files:
+    """As many objects as fit, of one shape, turned or not."""
+    n, m = rng.choice([3000, 9000]), rng.choice([1, 3000])
+    faces = [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]] * m
+    shape = {"kind": "mesh", "vertices_m": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], "faces": faces}
+    objects = []
+    for i in range(n):
+        turned = [rng.random(), rng.random(), rng.random(), 1.0] if rng.random() < 0.5 else [0, 0, 0, 1]
+        pose = {"position_m": [i, 0, 0], "rotation_xyzw": turned}
+        objects.append({"id": f"o{i}", "name": "o", "pose": pose, "geometry": "g"})
+    document = {"format": "scene2hap/scene", "version": 1, "name": "a", "up_axis": "y", "objects": objects}
+    return {"case.json": json.dumps({**document, "geometries": {"g": shape}}).encode()[: 2 * _MB]}
+
+
+def json_deep(rng: random.Random) -> Files:
+    """Brackets, digits, halves of characters."""
+    core = rng.choice(["[" * 300_000, '{"a":' * 100_000, "9" * 900_000, '"\\ud800"', "1e999", "NaN", "-" * 10])
+    return {"case.json": f'{{"format": "scene2hap/scene", "version": 1, "name": {core}'.encode()}
+
+
+def _mjcf(inside: str, assets: str = "") -> str:
+    return f'<mujoco><asset>{assets}</asset><worldbody><geom type="box" size="1 1 1"/>{inside}</worldbody></mujoco>'
+
+
+def mjcf_textures(rng: random.Random) -> Files:
+    """Textures that are made up, each within its limit."""
+    edge, n = rng.choice([512, 2000, 8000]), rng.choice([1, 50, 2000])
+    kind = rng.choice(['type="2d"', 'type="cube"', ""])
+    rows = "".join(f'<texture name="t{i}" {kind} builtin="flat" width="{edge}" height="{edge}"/>' for i in range(n))
+    return {"case.xml": _mjcf("", rows).encode()}
+
+
+def mjcf_pictures(rng: random.Random) -> Files:
+    """Pictures that unpack to a thousand times their size."""
+    edge = rng.choice([100, 9000, 16_000])
+    rows = "".join(f'<texture name="t{i}" type="2d" file="a.png"/>' for i in range(rng.choice([1, 20])))
+    return {"case.xml": _mjcf("", rows).encode(), "a.png": _png(edge)}
+
+
+def mjcf_copies(rng: random.Random) -> Files:
+    """Copies beside and within copies."""
+    count, n = rng.choice([10, 99, 5000]), rng.choice([1, 30, 500])
+    ball = '<body><freejoint/><geom size="0.1"/></body>'
+    row = f'<replicate count="{count}" offset="0.3 0 0">{ball}</replicate>'
+    if rng.random() < 0.3:
+        row = f'<replicate count="{count}" offset="0 0.3 0">{row}</replicate>'
+    return {"case.xml": _mjcf(row * n).encode()}
+
+
+def mjcf_models(rng: random.Random) -> Files:
+    """Models that name models, twice each."""
+    depth = rng.choice([5, 19])
+    files = {}
+    for i in range(depth):
+        inner = f"m{i + 1}.xml" if i + 1 < depth else ""
+        rows = f'<model name="a" file="{inner}"/><model name="b" file="{inner}"/>' if inner else ""
+        files["case.xml" if i == 0 else f"m{i}.xml"] = _mjcf("", rows).encode()
+    return files
+
+
+BOMBS: tuple[Callable[[random.Random], Files], ...] = (
+    accessors_without_bytes,
+    sparse_accessors,
+    shared_accessor,
+    overlapping_accessors,
+    instances,
+    deep_nodes,
+    embedded_pictures,
+    obj_continued,
+    obj_many_objects,
+    obj_heap,
+    obj_soup,
+    mtl_options,
+    mtl_again,
+    ply_promises,
+    stl_promises,
+    dae_document_type,
+    dae_instances,
+    json_objects,
+    json_deep,
+    mjcf_textures,
+    mjcf_pictures,
+    mjcf_copies,
+    mjcf_models,
+)

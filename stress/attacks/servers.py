@@ -1,0 +1,147 @@
+"""Servers that answer too much, too slowly, in odd codes, or with the key; and sound files that unpack to hours."""
+
+from __future__ import annotations
+
+import base64
+import html
+import itertools
+import json
+import random
+import socketserver
+import struct
+import sys
+import threading
+import time
+import zlib
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from urllib.parse import quote
+
+import numpy as np
+import soundfile
+
+from attacks.ask import KEY
+from attacks.attack import Attack
+
+_ASK = str(Path(__file__).with_name("ask.py"))
+_SECONDS = 8.0
+Send = Callable[[bytes], object]
+
+ECHOES: tuple[Callable[[str], str], ...] = (
+    str,
+    lambda key: quote(key, safe=""),
+    lambda key: base64.b64encode(key.encode()).decode(),
+    lambda key: base64.urlsafe_b64encode(f"Bearer {key}".encode()).decode(),
+    lambda key: key.encode().hex(),
+    lambda key: "".join(f"\\u{ord(letter):04x}" for letter in key),
+    html.escape,
+)
+
+
+def attacks(seed: int, work: Path) -> Iterator[Attack]:
+    """Replies drawn from the seed, by a server on the loopback interface that lives as long as this does."""
+    with _Server(("127.0.0.1", 0), _Handler) as server:
+        server.seed = seed
+        threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.01}, daemon=True).start()
+        try:
+            for number in itertools.count():
+                rng = random.Random(f"servers/{seed}/{number}")
+                if number % 8 == 7:
+                    where, kind = str(_sound(work / f"{number}.flac", rng)), "sound"
+                else:
+                    where, kind = f"http://127.0.0.1:{server.server_address[1]}/{number}", rng.choice(KINDS)
+                argv = (sys.executable, _ASK, kind, where)
+                yield Attack("servers", f"{number} {kind}", argv, seconds=_SECONDS)
+        finally:
+            server.shutdown()
+
+
+KINDS = ("openai", "ollama", "page")
+
+
+def _sound(path: Path, rng: random.Random) -> Path:
+    """Silence at a high rate in many channels, or a file that is broken."""
+    rate, channels = rng.choice([(8000, 1), (655_350, 8), (96_000, 8), (48_000, 2)]), rng.choice([1, 2, 8])
+    with soundfile.SoundFile(path, "w", rate[0], channels, "PCM_16", format="FLAC") as file:
+        for _ in range(rng.choice([1, 40, 200])):
+            file.write(np.zeros((1 << 18, channels), np.int16))
+    if rng.random() < 0.3:
+        data = bytearray(path.read_bytes())
+        data[rng.randrange(len(data))] = rng.randrange(256)
+        path.write_bytes(data)
+    return path
+
+
+class _Server(socketserver.ThreadingTCPServer):
+    daemon_threads = True
+    allow_reuse_address = True
+    seed = 0
+
+    def handle_error(self, request: object, client_address: object) -> None:
+        pass  # a client that has had enough is what is wanted
+
+
+class _Handler(socketserver.StreamRequestHandler):
+    def handle(self) -> None:
+        assert isinstance(self.server, _Server)
+        line = self.rfile.readline().decode("latin-1")
+        while self.rfile.readline().strip():
+            pass
+        number = line.partition("/")[2].partition("/")[0].partition(" ")[0]
+        rng = random.Random(f"reply/{self.server.seed}/{number}")
+        _play(rng, self.wfile.write)
+
+
+def _play(rng: random.Random, send: Send) -> None:
+    """One reply: a head that may lie, and a body."""
+    kind = rng.choice(["bomb", "endless", "drip", "headers", "charset", "echo", "odd", "deep", "cut", "redirect"])
+    status = rng.choice([200, 200, 200, 401, 404, 429, 500])
+    echoed = rng.choice(ECHOES)(KEY)
+    good = json.dumps({"choices": [{"message": {"content": '{"scene_category": "kitchen"}'}}]}).encode()
+    packings = ["gzip", "deflate", "br", "zstd", "identity", "rot13"]
+    heads = {
+        "bomb": f"content-encoding: {rng.choice(packings)}",
+        "charset": f"content-type: application/json; charset={rng.choice(['rot13', 'idna', 'zlib', 'hex', 'utf-7', '%'])}",
+        "echo": f"x-request-id: {echoed}",
+        "odd": rng.choice(
+            [
+                "content-length: -1",
+                "content-length: 99999999999999999999",
+                "transfer-encoding: chunked",
+                f"retry-after: {rng.choice(['9' * 400, '-1', 'nan', 'inf', 'Sun, 99 Xxx 0000 00:00:00 GMT'])}",
+                "content-encoding: gzip, gzip, gzip",
+                "x-ratelimit-reset-requests: 1e308s",
+                "set-cookie: a=\x1b[2J",
+            ]
+        ),
+        "redirect": f"location: {rng.choice(['/', 'file:///etc/passwd', 'http://10.0.0.1/', '//x', 'x' * 60_000])}",
+    }
+    send(f"HTTP/1.1 {302 if kind == 'redirect' else status} x\r\nconnection: close\r\n".encode())
+    if kind in heads:
+        send(heads[kind].encode("latin-1") + b"\r\n")
+    if kind == "headers":
+        for i in range(rng.choice([100, 10**6])):
+            send(b"x-%d: %s\r\n" % (i, b"a" * 1000))
+    send(b"\r\n")
+    if kind == "bomb":
+        packer = zlib.compressobj(9, zlib.DEFLATED, rng.choice([31, 15]))
+        for _ in range(1024):
+            send(packer.compress(bytes(1 << 20)))
+        send(packer.flush())
+    elif kind == "endless":
+        block = rng.choice([b" ", b"[", b'{"a":', b'\\"', b"<think>"]) * 10_000
+        while True:
+            send(block)
+    elif kind == "drip":
+        while True:
+            send(b" ")
+            time.sleep(0.05)
+    elif kind == "echo":
+        send(json.dumps({"error": {"message": f"wrong key {echoed}", "code": echoed}}).encode())
+    elif kind == "deep":
+        text = rng.choice(["[" * 10**6, '{"a":' * 10**5, "9" * 10**6, '{"' + '\\"' * 10**6, "<think>" * 10**5])
+        send(rng.choice([text.encode(), json.dumps({"choices": [{"message": {"content": text}}]}).encode()]))
+    elif kind == "cut":
+        send(good[: rng.randrange(len(good))] + struct.pack("<I", rng.getrandbits(32)))
+    else:
+        send(good)

@@ -1,0 +1,119 @@
+"""Saves a bundle over another with a fault at each step in turn, as SQLite is tested; prints what each left, as JSON.
+
+A step is an operation of Python on files, seen by an audit hook before it happens: the process is ended there, or the
+operation is refused. Each try is a child of its own, which takes its hook with it.
+
+Run by tests/unit/bundle/test_faults.py: python bundle_faults.py FOLDER kill|refuse exchange|renames
+"""
+
+import json
+import os
+import shutil
+import sys
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+
+from scene2hap import HapticBundle
+from scene2hap.bundle import replacing
+from scenes import table_with_two_phones
+
+OPERATIONS = ("open", "os.", "shutil.", "tempfile.")
+NEVER = 7
+WORK = Path(sys.argv[1])
+ROOM = WORK / "room"
+THESIS = {"thesis.txt": b"ten years", "sounds/mine.txt": b"of mine", "notes/a/b.txt": b"deep"}
+
+
+def old_and_new() -> tuple[HapticBundle, HapticBundle]:
+    bundle = table_with_two_phones()[1]
+    return bundle, bundle.override("phone", gain_db=-7.0)
+
+
+def begin() -> None:
+    shutil.rmtree(WORK, ignore_errors=True)
+    WORK.mkdir()
+    old_and_new()[0].save(ROOM)
+    for name, content in THESIS.items():
+        (ROOM / name).parent.mkdir(parents=True, exist_ok=True)
+        (ROOM / name).write_bytes(content)
+
+
+def save_with_fault(step: int, kind: str) -> int:
+    """In a child: save the new bundle with a fault at a step.
+
+    0 saved, 9 killed, 3 refused with a sentence, `NEVER` saved before that step, 1 anything else.
+    """
+    child = os.fork()
+    if child:
+        return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    status = 1
+    try:
+        seen = 0
+
+        def hook(event: str, arguments: tuple[object, ...]) -> None:
+            nonlocal seen
+            if not event.startswith(OPERATIONS) or str(WORK) not in "".join(map(str, arguments)):
+                return
+            seen += 1
+            if seen == step:
+                if kind == "kill":
+                    os._exit(9)
+                raise OSError(28, "No space left on device")
+
+        new = old_and_new()[1]
+        sys.addaudithook(hook)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            new.save(ROOM)
+        status = 0 if seen >= step else NEVER
+    except ValueError as error:  # a BundleError or an AudioError is one
+        status = 3 if type(error).__module__ == "scene2hap.errors" else 1
+    finally:
+        os._exit(status)
+
+
+def which() -> str:
+    """The bundle that is at the place, loaded."""
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        bundle = HapticBundle.load(ROOM)
+    name = "new" if bundle.overrides else "old"
+    return name + ("".join(", recovered" for warning in told if "being replaced" in str(warning.message)))
+
+
+def attempt(look: Callable[[], str]) -> str:
+    try:
+        return look()
+    except Exception as error:
+        return f"{type(error).__name__}: {error}"
+
+
+def thesis_is_there() -> bool:
+    return all((ROOM / name).is_file() and (ROOM / name).read_bytes() == THESIS[name] for name in THESIS)
+
+
+def main() -> None:
+    kind = sys.argv[2]
+    if sys.argv[3] == "renames":
+        replacing.exchange = lambda one, other: False  # type: ignore[assignment]
+    rows = []
+    for step in range(1, 2000):
+        begin()
+        status = save_with_fault(step, kind)
+        is_missing = not ROOM.exists()
+        thesis_before = thesis_is_there()
+        row: dict[str, object] = {"step": step, "status": status, "was_missing": is_missing, "found": attempt(which)}
+        row["thesis"] = thesis_is_there() and (thesis_before or is_missing)
+        row["left"] = sorted(path.name for path in WORK.iterdir() if path != ROOM)
+        row["again"] = attempt(lambda: str(old_and_new()[1].save(ROOM)) and which())
+        row["thesis_again"] = thesis_is_there()
+        row["left_again"] = sorted(path.name for path in WORK.iterdir() if path != ROOM)
+        row["odd"] = sorted(path.name for path in ROOM.rglob("*") if "kept" in path.name or path.suffix == ".part")
+        rows.append(row)
+        if status == NEVER:
+            break
+    print(json.dumps(rows))
+
+
+main()

@@ -1,0 +1,57 @@
+"""A save that dies, or is refused an operation, at each of its steps: the old bundle or the new one, whole."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+TESTS = Path(__file__).parents[1]
+NEVER = 7
+
+pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="each step is tried in a fork")
+
+
+def faults(work: Path, kind: str, how: str) -> list[dict[str, Any]]:
+    run = subprocess.run(
+        [sys.executable, str(TESTS / "bundle_faults.py"), str(work), kind, how],
+        env={**os.environ, "PYTHONPATH": str(TESTS)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    rows: list[dict[str, Any]] = json.loads(run.stdout)
+    assert len(rows) > 50
+    assert rows[-1]["status"] == NEVER
+    return rows
+
+
+@pytest.mark.parametrize("how", ["exchange", "renames"])
+@pytest.mark.parametrize("kind", ["kill", "refuse"])
+def test_a_fault_at_each_step(tmp_path: Path, kind: str, how: str) -> None:
+    """And what is not ours is there, and the next save removes what the fault left."""
+    rows = faults(tmp_path / "work", kind, how)
+    for row in rows:
+        assert row["found"] in ("old", "new", "new, recovered"), row
+        assert row["thesis"], row
+        assert (row["again"], row["thesis_again"]) == ("new", True), row
+        assert row["left_again"] == [], row
+        assert row["odd"] == [], row
+        assert row["status"] in ({"kill": (9,), "refuse": (0, 3)}[kind] + ((NEVER,) if row is rows[-1] else ())), row
+        if row["status"] == 3:
+            assert (row["found"], row["left"]) == ("old", []), row
+    assert {row["found"] for row in rows} >= {"old", "new"}
+
+
+def test_an_exchange_leaves_no_moment_without_a_bundle(tmp_path: Path) -> None:
+    if not sys.platform.startswith(("linux", "darwin")):
+        pytest.skip("this system has no exchange in one step")
+    assert not any(row["was_missing"] for row in faults(tmp_path / "work", "kill", "exchange"))
+
+
+def test_without_it_the_moment_between_two_renames_is_mended_aloud(tmp_path: Path) -> None:
+    between = [row for row in faults(tmp_path / "work", "kill", "renames") if row["was_missing"]]
+    assert [row["found"] for row in between] == ["new, recovered"]

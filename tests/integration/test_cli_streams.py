@@ -1,0 +1,135 @@
+"""The command line where its output is closed, full, unread or of a small encoding, and where names are hostile."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from scene2hap import load_scene
+from scene2hap.cli import main
+from scene2hap.scene import json as scene_json
+from scenes import box, scene
+
+posix = pytest.mark.skipif(os.name != "posix", reason="shells and /dev/full")
+ESCAPES = "\x1b]0;changed\x07\x1b[2J\x9b2J\u202egnp"
+
+
+@pytest.fixture(scope="module")
+def room(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A scene of a hundred objects whose names steer terminals, or lack in most encodings."""
+    folder = tmp_path_factory.mktemp("scene")
+    names = ["冷蔵庫", f"box{ESCAPES}", "[red]table[/red]", "line\nbreak", *(f"box {i}" for i in range(100))]
+    snapshot = scene(*(box(name, (0.3,) * 3, (i, 0, 0)) for i, name in enumerate(names)))
+    (folder / "room.json").write_text(scene_json.dump(snapshot), encoding="utf-8")
+    assert len(load_scene(folder / "room.json").objects) == len(names)
+    return folder / "room.json"
+
+
+def run(command: str, *arguments: object) -> subprocess.CompletedProcess[str]:
+    """A shell's command, where `$run` is scene2hap with `arguments`."""
+    words = " ".join(f"'{word}'" for word in ("-m", "scene2hap", *arguments))
+    return subprocess.run(
+        ["bash", "-c", "set -o pipefail; " + command.replace("$run", f"'{sys.executable}' {words}")],
+        env={**os.environ, "PYTHONUNBUFFERED": ""},
+        capture_output=True,
+        encoding="utf-8",
+        errors="surrogateescape",
+        timeout=120,
+        check=False,
+    )
+
+
+@posix
+@pytest.mark.parametrize("options", [(), ("--json",)], ids=["tables", "json"])
+def test_a_reader_that_goes_is_no_error(room: Path, options: tuple[str, ...]) -> None:
+    outcome = run("$run | head -c 1", "inspect", room, *options)
+    assert (outcome.returncode, outcome.stderr) == (0, "")
+
+
+@posix
+@pytest.mark.parametrize("arguments", [("inspect", "ROOM"), ("inspect", "ROOM", "--json"), ("--help",), ("--version",)])
+def test_a_full_disk_is_one_sentence(room: Path, arguments: tuple[str, ...]) -> None:
+    outcome = run("$run > /dev/full", *(str(room) if word == "ROOM" else word for word in arguments))
+    assert outcome.returncode == 1
+    assert "standard output cannot be written: No space left on device" in outcome.stderr
+    assert outcome.stderr.count("\n") == 1
+
+
+@posix
+@pytest.mark.parametrize("closed", [">&-", "2> /dev/full", "<&- >&- 2>&-"])
+@pytest.mark.parametrize("arguments", [("inspect", "ROOM"), ("inspect", "nowhere.glb"), ("bad",)])
+def test_closed_streams(room: Path, closed: str, arguments: tuple[str, ...]) -> None:
+    outcome = run(f"$run {closed}", *(str(room) if word == "ROOM" else word for word in arguments))
+    assert outcome.returncode == {"nowhere.glb": 1, "bad": 2}.get(arguments[-1], 0)
+    assert "Traceback" not in outcome.stderr
+    assert "Exception ignored" not in outcome.stderr
+
+
+@posix
+def test_what_was_asked_for_is_done_though_nobody_reads(room: Path, tmp_path: Path) -> None:
+    outcome = run("$run > /dev/full", "bake", room, "-o", tmp_path / "bundle")
+    assert outcome.returncode == 1
+    assert (tmp_path / "bundle" / "bundle.json").is_file()
+
+
+@pytest.mark.parametrize("encoding", ["cp1252", "utf-8"])
+def test_any_encoding_can_show_any_name(room: Path, encoding: str) -> None:
+    for options in ((), ("--json",)):
+        arguments = [sys.executable, "-m", "scene2hap", "inspect", str(room), *options]
+        outcome = subprocess.run(arguments, env={**os.environ, "PYTHONIOENCODING": encoding}, capture_output=True)
+        assert (outcome.returncode, outcome.stderr) == (0, b"")
+        text = outcome.stdout.decode(encoding)
+        if options:
+            assert "冷蔵庫" in json.dumps(json.loads(text), ensure_ascii=False)
+        else:
+            assert ("冷蔵庫" in text) or (r"\u51b7\u8535\u5eab" in text)
+
+
+def test_names_do_not_steer_the_terminal(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for arguments in (["inspect", str(room)], ["inspect", str(room), "--json"], ["inspect", f"{ESCAPES}.glb"]):
+        main(arguments)
+        shown = capsys.readouterr()
+        assert not {"\x1b", "\x07", "\x9b", "\u202e"} & set(shown.out + shown.err)
+        assert "x1b" in shown.out + shown.err or "u001b" in shown.out
+    main(["inspect", str(room)])
+    shown = capsys.readouterr()
+    assert "[red]table[/red]" in shown.out
+    assert r"line\nbreak" in shown.out
+
+
+def test_an_error_stays_one_line_of_bounded_length(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["inspect", "a\n" * 100_000 + ".glb"]) == 1
+    told = capsys.readouterr().err
+    assert told.count("\n") == 1
+    assert len(told) < 5000
+
+
+@posix
+def test_a_file_name_that_is_no_utf_8(tmp_path: Path) -> None:
+    outcome = run("$run", "inspect", os.fsdecode(os.fsencode(tmp_path) + b"/\xff\xfe.glb"))
+    assert outcome.returncode == 1
+    assert outcome.stderr.startswith("scene2hap: error:")
+    assert outcome.stderr.count("\n") == 1
+
+
+def test_a_bake_is_refused_before_it_begins(
+    room: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "thesis").mkdir()
+    (tmp_path / "thesis" / "bundle.json").write_text('{"name": "a JavaScript bundle"}')
+
+    def never(*_: object, **__: object) -> None:
+        raise AssertionError("baked for nothing")
+
+    monkeypatch.setattr("scene2hap.cli.bake.bake", never)
+    assert main(["bake", str(room), "-o", str(tmp_path / "thesis")]) == 1
+    assert "is not a bundle" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("group", ["²", "9" * 5000, "-1", "", "1e3"])
+def test_a_grouping_that_is_none(room: Path, group: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["inspect", str(room), f"--group={group}"]) in (0, 1)
+    assert "Traceback" not in capsys.readouterr().err

@@ -1,0 +1,344 @@
+"""What a bundle may replace, what stays in its folder, and what earlier saves left beside it."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from scene2hap import HapticBundle
+from scene2hap.bundle import read_overrides, replacing
+from scene2hap.bundle.checking import BundleWarning
+from scene2hap.bundle.exchange import exchange
+from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError
+from scenes import table_with_two_phones
+
+
+def a_bundle() -> HapticBundle:
+    return table_with_two_phones()[1]
+
+
+def content(folder: Path) -> dict[str, bytes]:
+    return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
+
+
+@pytest.fixture(params=["exchange", "renames"])
+def both_ways(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the system's exchange, and as where there is none."""
+    if request.param == "renames":
+        monkeypatch.setattr(replacing, "exchange", lambda one, other: False)
+
+
+# --- what may be replaced ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "manifest",
+    [
+        "{}",
+        '{"name": "my JavaScript"}',
+        "[]",
+        "",
+        "no JSON",
+        '{"format": "scene2hap/scene", "version": 1}',
+        '{"format": "scene2hap/bundle"}',
+        '{"format": "scene2hap/bundle", "version": true}',
+        '{"format": "scene2hap/bundle", "version": "1"}',
+        '{"format": "scene2hap/bundle", "version": 0}',
+        '{"format": "scene2hap/bundle", "version": 1, "files": "thesis.txt"}',
+        '{"format": "scene2hap/bundle", "version": 2}',
+        '{"format": "scene2hap/bundle", "version": 1e400}',
+    ],
+)
+def test_a_folder_with_some_bundle_json_stays(tmp_path: Path, manifest: str) -> None:
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "bundle.json").write_text(manifest)
+    (tmp_path / "mine" / "thesis.txt").write_text("ten years")
+    before = content(tmp_path)
+    with pytest.raises(BundleError, match="mine"):
+        a_bundle().save(tmp_path / "mine")
+    assert content(tmp_path) == before
+
+
+def test_a_newer_bundle_is_neither_replaced_nor_half_read(tmp_path: Path) -> None:
+    folder = a_bundle().override("phone", gain_db=3.0).save(tmp_path / "room")
+    manifest = json.loads((folder / "bundle.json").read_text())
+    (folder / "bundle.json").write_text(json.dumps({**manifest, "version": 2}))
+    before = content(tmp_path)
+    for attempt in (lambda: a_bundle().save(folder), lambda: HapticBundle.load(folder), lambda: read_overrides(folder)):
+        with pytest.raises(BundleVersionError, match="bundle version 2"):
+            attempt()
+    assert content(tmp_path) == before
+
+
+def test_overrides_of_something_else_are_not_read(tmp_path: Path) -> None:
+    (tmp_path / "overrides.json").write_text('{"margin": "10px"}')
+    assert read_overrides(tmp_path) == {}
+
+
+def test_a_name_that_we_never_write_is_not_ours_whatever_the_manifest_says(tmp_path: Path) -> None:
+    folder = a_bundle().save(tmp_path / "room")
+    (folder / "sounds" / "thesis.txt").write_text("ten years")
+    (tmp_path / "outside.ply").write_text("not yours")
+    manifest = json.loads((folder / "bundle.json").read_text())
+    manifest["files"] += ["sounds/thesis.txt", "meshes/../../outside.ply", "../outside.ply", "/etc/passwd"]
+    (folder / "bundle.json").write_text(json.dumps(manifest))
+    a_bundle().save(folder)
+    assert (folder / "sounds" / "thesis.txt").read_text() == "ten years"
+    assert (tmp_path / "outside.ply").read_text() == "not yours"
+
+
+def test_the_folder_one_works_in_is_refused_without_a_trace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = a_bundle().save(tmp_path / "room")
+    (tmp_path / "empty").mkdir()
+    for here in (folder, folder / "sounds", tmp_path / "empty"):
+        monkeypatch.chdir(here)
+        before = sorted(tmp_path.rglob("*"))
+        with pytest.raises(BundleError, match=r"Change to another one, and save to .*(room|empty)"):
+            a_bundle().save("." if here.name != "sounds" else "..")
+        assert sorted(tmp_path.rglob("*")) == before
+
+
+@pytest.mark.parametrize("name", ["", "a\0b", "x" * 300, "file/below"])
+def test_a_name_that_cannot_be(tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "file").write_text("")
+    before = sorted(tmp_path.rglob("*"))
+    with pytest.raises(BundleError):
+        a_bundle().save(name)
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_a_long_name_can_be(tmp_path: Path) -> None:
+    for _ in range(2):
+        a_bundle().save(tmp_path / ("x" * 250))
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+# --- what stays -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.usefixtures("both_ways")
+def test_what_is_not_ours_outlives_every_save(tmp_path: Path) -> None:
+    folder = a_bundle().save(tmp_path / "room")
+    theirs = {
+        "README.md": b"read me",
+        "sounds/takes/one.wav": b"RIFF",
+        "meshes/chair.blend": b"BLENDER",
+        ".hidden": b"",
+    }
+    for name, said in theirs.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes(said)
+    (folder / "empty").mkdir()
+    (folder / "link").symlink_to("README.md")
+    (folder / "README.md").chmod(0o600)
+    inode = (folder / "README.md").stat().st_ino
+    for _ in range(3):
+        a_bundle().override("phone", gain_db=1.0).save(folder)
+        assert {name: (folder / name).read_bytes() for name in theirs} == theirs
+    assert (folder / "empty").is_dir()
+    assert os.readlink(folder / "link") == "README.md"
+    assert (folder / "README.md").stat().st_ino == inode
+    assert (folder / "README.md").stat().st_mode & 0o777 == 0o600
+    assert [path.name for path in tmp_path.iterdir()] == ["room"]
+    assert HapticBundle.load(folder).gain_db("phone") == 1.0
+
+
+@pytest.mark.usefixtures("both_ways")
+def test_where_hard_links_cannot_be_they_are_copied(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise OSError(1, "Operation not permitted")
+
+    monkeypatch.setattr(os, "link", refuse)
+    folder = a_bundle().save(tmp_path / "room")
+    (folder / "thesis.txt").write_text("ten years")
+    a_bundle().save(folder)
+    assert (folder / "thesis.txt").read_text() == "ten years"
+    assert [path.name for path in tmp_path.iterdir()] == ["room"]
+
+
+def test_somebody_s_file_under_a_name_that_is_now_ours_is_kept_beside(tmp_path: Path) -> None:
+    bundle = a_bundle()
+    folder = bundle.save(tmp_path / "room")
+    manifest = json.loads((folder / "bundle.json").read_text())
+    manifest["files"].remove("credits.txt")
+    (folder / "bundle.json").write_text(json.dumps(manifest))
+    (folder / "credits.txt").write_text("for my supervisor")
+    for _ in range(2):
+        bundle.save(folder)
+    assert (folder / "credits-kept.txt").read_text() == "for my supervisor"
+    assert "Sounds in this bundle" in (folder / "credits.txt").read_text()
+
+
+@pytest.mark.usefixtures("both_ways")
+def test_what_an_editor_saves_meanwhile_is_not_lost(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Editors write beside a file and rename: the name then means another file than the one that was linked."""
+    folder = a_bundle().save(tmp_path / "room")
+    (folder / "thesis.txt").write_text("ten years")
+    carry_over = replacing.carry_over
+
+    def and_then_edit(old: Path, new: Path) -> None:
+        carry_over(old, new)
+        (tmp_path / "beside").write_text("eleven years")
+        (tmp_path / "beside").rename(folder / "thesis.txt")
+        (folder / "new.txt").write_text("a chapter")
+
+    monkeypatch.setattr(replacing, "carry_over", and_then_edit)
+    a_bundle().save(folder)
+    assert (folder / "new.txt").read_text() == "a chapter"
+    assert {(folder / name).read_text() for name in ("thesis.txt", "thesis-kept.txt")} == {"ten years", "eleven years"}
+
+
+def test_a_link_to_a_folder_stays_a_link(tmp_path: Path) -> None:
+    a_bundle().save(tmp_path / "elsewhere" / "room")
+    (tmp_path / "link").symlink_to(tmp_path / "elsewhere" / "room")
+    a_bundle().override("phone", gain_db=2.0).save(tmp_path / "link")
+    assert (tmp_path / "link").is_symlink()
+    assert HapticBundle.load(tmp_path / "elsewhere" / "room").gain_db("phone") == 2.0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["elsewhere", "link"]
+
+
+def test_the_folder_s_mode_stays(tmp_path: Path) -> None:
+    folder = a_bundle().save(tmp_path / "room")
+    folder.chmod(0o750)
+    a_bundle().save(folder)
+    assert folder.stat().st_mode & 0o777 == 0o750
+
+
+# --- what was left ----------------------------------------------------------------------------------------------------
+
+DIES = """
+import os, sys
+from scene2hap.bundle import folder, replacing
+from scenes import table_with_two_phones
+if sys.argv[2] == "between":
+    replacing.exchange = lambda one, other: False
+    rename, count = replacing.Path.rename, [0]
+    def dying(self, target):
+        if self.suffix == ".new":
+            os._exit(9)
+        return rename(self, target)
+    replacing.Path.rename = dying
+else:
+    def hanging(bundle, draft):
+        (draft / "half").write_text("written")
+        print("writing", flush=True)
+        sys.stdin.readline()
+        os._exit(9)
+    folder._write = hanging
+table_with_two_phones()[1].override("phone", gain_db=-7.0).save(sys.argv[1])
+"""
+
+
+def dying(folder: Path, where: str) -> subprocess.Popen[str]:
+    """A process that begins to save there, and dies: when it is told to, or between the two renames."""
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}
+    arguments = [sys.executable, "-c", DIES, str(folder), where]
+    return subprocess.Popen(arguments, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="folders cannot be locked")
+def test_drafts_of_dead_processes_go_and_those_of_living_ones_stay(tmp_path: Path) -> None:
+    with dying(tmp_path / "room", "writing") as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "writing\n"
+        a_bundle().save(tmp_path / "room")
+        assert len(list(tmp_path.iterdir())) == 2
+        process.communicate("\n")
+    assert len(list(tmp_path.iterdir())) == 2
+    a_bundle().save(tmp_path / "room")
+    assert [path.name for path in tmp_path.iterdir()] == ["room"]
+
+
+def test_folders_that_only_look_alike_stay(tmp_path: Path) -> None:
+    names = [".room-abcdefgh", ".room.scene2hap-mine", ".room.scene2hap-0123abcd", ".room.scene2hap-0123abcd-77.old"]
+    for name in names:
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "thesis.txt").write_text("ten years")
+    for _ in range(2):
+        a_bundle().save(tmp_path / "room")
+    assert all((tmp_path / name / "thesis.txt").is_file() for name in names)
+
+
+@pytest.mark.parametrize("look", [HapticBundle.load, read_overrides], ids=["load", "read_overrides"])
+def test_nothing_at_the_place_is_mended_by_whoever_looks(tmp_path: Path, look: object) -> None:
+    folder = a_bundle().save(tmp_path / "room")
+    (folder / "thesis.txt").write_text("ten years")
+    with dying(folder, "between") as process:
+        process.communicate()
+    assert not folder.exists()
+    with pytest.warns(BundleWarning, match="being replaced when that process died"):
+        look(folder)  # type: ignore[operator]
+    assert HapticBundle.load(folder).gain_db("phone") == -7.0
+    assert (folder / "thesis.txt").read_text() == "ten years"
+    assert [path.name for path in tmp_path.iterdir()] == ["room"]
+
+
+def test_a_bundle_that_somebody_removed_does_not_come_back(tmp_path: Path) -> None:
+    folder = a_bundle().save(tmp_path / "room")
+    with dying(folder, "writing") as process:
+        process.communicate("\n")
+    shutil.rmtree(folder)
+    with pytest.raises(BundleIncomplete, match=r"has no bundle\.json"):
+        HapticBundle.load(folder)
+
+
+def test_two_renames_of_which_the_second_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = a_bundle().save(tmp_path / "room")
+    monkeypatch.setattr(replacing, "exchange", lambda one, other: False)
+    rename = Path.rename
+
+    def refuse(self: Path, target: Path) -> Path:
+        if self.suffix == ".new":
+            raise OSError(28, "No space left on device")
+        return rename(self, target)
+
+    monkeypatch.setattr(Path, "rename", refuse)
+    with pytest.raises(BundleError, match="No space left"):
+        a_bundle().override("phone", gain_db=1.0).save(folder)
+    monkeypatch.undo()
+    assert HapticBundle.load(folder).gain_db("phone") == 0.0
+    assert [path.name for path in tmp_path.iterdir()] == ["room"]
+
+
+def test_a_bundle_that_is_replaced_while_it_is_read_is_read_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = a_bundle().save(tmp_path / "room")
+    other = a_bundle().override("phone", gain_db=-7.0)
+    from scene2hap.bundle import folder as reading
+
+    read, times = reading._read_scene, []
+
+    def and_replace(place: Path) -> object:
+        times.append(place)
+        if len(times) == 1:
+            other.save(folder)
+        return read(place)
+
+    monkeypatch.setattr(reading, "_read_scene", and_replace)
+    assert HapticBundle.load(folder).gain_db("phone") == -7.0
+    assert len(times) == 2
+
+
+# --- the exchange -----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.skipif(not sys.platform.startswith(("linux", "darwin")), reason="this system has no exchange")
+def test_two_folders_swap(tmp_path: Path) -> None:
+    for name in ("a", "b"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / name).write_text("")
+    assert exchange(tmp_path / "a", tmp_path / "b")
+    assert [path.name for path in (tmp_path / "a").iterdir()] == ["b"]
+    with pytest.raises(FileNotFoundError):
+        exchange(tmp_path / "a", tmp_path / "nowhere")
+
+
+def test_a_system_without_it_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "platform", "win32")
+    assert not exchange(tmp_path / "a", tmp_path / "b")

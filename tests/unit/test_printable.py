@@ -1,0 +1,97 @@
+"""Names are data: what a terminal would obey, or no encoding can write, reaches neither."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from scene2hap import load_scene
+from scene2hap.cli import main
+from scene2hap.printable import printable, printable_json, writable
+
+TITLE = "\x1b]0;owned\x07\x1b[2J"
+NASTY = {"escape": TITLE, "C1": "\x9b2J", "newline": "a\nscene2hap: error: b", "bidi": "\u202eabc", "return": "a\rb"}
+OBJECT = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+
+
+def is_quiet(text: str) -> bool:
+    return all(letter.isprintable() or letter == "\n" for letter in text)
+
+
+def test_what_a_terminal_obeys_is_written_out() -> None:
+    assert printable(f"a{TITLE}b") == r"a\x1b]0;owned\x07\x1b[2Jb"
+    assert printable("Küche 台所 🍳") == "Küche 台所 🍳"
+    assert printable("a\tb\nc", lines=True) == "a\tb\nc"
+    assert printable("\ud800") == r"\ud800"
+
+
+def test_json_means_what_it_did() -> None:
+    told = {"a\x9b": f"{TITLE}\u202e\ud800ü"}
+    text = printable_json(json.dumps(told, ensure_ascii=False, indent=1))
+    assert json.loads(text) == told
+    assert is_quiet(text)
+    assert "ü" in text
+
+
+def test_halves_of_characters_are_replaced() -> None:
+    assert writable("a\udcffb") == "a\ufffdb"
+    assert writable("\ud83c\udf73") == "🍳"
+
+
+@pytest.mark.parametrize("form", NASTY)
+@pytest.mark.parametrize("json_", [False, True])
+def test_inspect_shows_names_as_data(tmp_path: Path, form: str, json_: bool, capfd: pytest.CaptureFixture[str]) -> None:
+    node = {"name": NASTY[form], "mesh": 0}
+    gltf = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": 36, "uri": "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "accessors": [{"type": "VEC3", "componentType": 5126, "count": 3, "bufferView": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+        "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+        "textures": [{"source": 0}],
+        "images": [{"uri": NASTY[form]}],
+        "nodes": [node],
+    }
+    path = tmp_path / "a.gltf"
+    path.write_text(json.dumps(gltf))
+    assert main(["inspect", str(path), *(["--json"] if json_ else [])]) == 0
+    shown = capfd.readouterr()
+    assert is_quiet(shown.out)
+    assert is_quiet(shown.err)
+    node["mesh"] = 7
+    path.write_text(json.dumps(gltf))
+    assert main(["inspect", str(path)]) == 1
+    shown = capfd.readouterr()
+    assert is_quiet(shown.err)
+    assert shown.err.count("\n") == 1
+
+
+def test_arguments_are_shown_as_data(capfd: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["inspect", "a.glb", "--no-such", TITLE])
+    assert is_quiet(capfd.readouterr().err)
+
+
+def test_a_name_with_half_a_character_is_read(tmp_path: Path) -> None:
+    (tmp_path / "a.obj").write_text(OBJECT)
+    text = load_scene(tmp_path / "a.obj").to_json().replace('"name": "a"', '"name": "\\ud800"')
+    (tmp_path / "a.json").write_text(text)
+    assert load_scene(tmp_path / "a.json").objects[0].name == "\ufffd"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="file names are Unicode there")
+def test_a_file_name_that_is_no_utf_8(tmp_path: Path) -> None:
+    path = tmp_path / "a\udcff\x1b.obj"
+    try:
+        path.write_text(OBJECT)
+    except OSError:
+        pytest.skip("this file system takes UTF-8 alone")
+    scene = load_scene(path)
+    scene.name.encode("utf-8")
+    for more in ([], ["--json"]):
+        done = subprocess.run([sys.executable, "-m", "scene2hap", "inspect", path, *more], capture_output=True)
+        assert done.returncode == 0, done.stderr
+        assert is_quiet(done.stdout.decode("utf-8"))

@@ -1,0 +1,99 @@
+"""Replies of servers are bounded in bytes and seconds, packed or not, for every use of HTTP."""
+
+import asyncio
+import gzip
+import resource
+import zlib
+from collections.abc import AsyncIterator
+
+import httpx
+import pytest
+
+from llm_server import KEY
+from scene2hap import web
+from scene2hap.errors import BackendUnavailable
+from scene2hap.llm import http_client
+from scene2hap.llm.http_client import Endpoint
+from scene2hap.llm.http_reply import HttpReply
+from scene2hap.secret import Secret
+
+LIMITS = web.Limits(5.0, 1 << 20)
+
+
+class Endless(httpx.AsyncByteStream):
+    def __init__(self, chunk: bytes, pause_s: float = 0.0) -> None:
+        self.chunk, self.pause_s, self.n_sent = chunk, pause_s, 0
+
+    async def __aiter__(self) -> AsyncIterator[bytes]:
+        while True:
+            self.n_sent += len(self.chunk)
+            yield self.chunk
+            await asyncio.sleep(self.pause_s)
+
+
+def answering(response: httpx.Response) -> httpx.MockTransport:
+    return httpx.MockTransport(lambda _: response)
+
+
+def asked(response: httpx.Response, limits: web.Limits = LIMITS) -> web.WebReply:
+    return web.get("https://a.example/", limits, transport=answering(response))
+
+
+def posted(response: httpx.Response, timeout_s: float = 5.0) -> HttpReply:
+    endpoint = Endpoint("https://model.example/v1", Secret(KEY), timeout_s, answering(response))
+    return asyncio.run(endpoint.post("chat", {}))
+
+
+def bomb() -> bytes:
+    packer = zlib.compressobj(9, zlib.DEFLATED, 31)
+    return b"".join(packer.compress(bytes(1 << 20)) for _ in range(1024)) + packer.flush()
+
+
+def test_a_gzip_bomb_is_refused_before_it_unpacks() -> None:
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    body = bomb()
+    for ask in (asked, posted):
+        with pytest.raises(BackendUnavailable, match=r"more than \d+ bytes") as caught:
+            ask(httpx.Response(200, headers={"content-encoding": "gzip"}, stream=httpx.ByteStream(body)))
+        assert not caught.value.retryable
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 200 * 1024
+
+
+def test_an_endless_body_is_ended() -> None:
+    stream = Endless(bytes(65536))
+    with pytest.raises(BackendUnavailable, match="more than"):
+        asked(httpx.Response(200, stream=stream))
+    assert stream.n_sent <= LIMITS.max_bytes + 65536
+    stream = Endless(bytes(65536))
+    with pytest.raises(BackendUnavailable, match="more than"):
+        posted(httpx.Response(200, stream=stream))
+    assert stream.n_sent <= http_client.MAX_REPLY_BYTES + 65536
+
+
+def test_a_body_that_drips_for_ever_is_ended() -> None:
+    with pytest.raises(BackendUnavailable, match="did not answer within") as caught:
+        posted(httpx.Response(200, stream=Endless(b" ", 0.01)), timeout_s=0.2)
+    assert caught.value.retryable
+
+
+def test_an_answer_that_is_packed_though_nobody_asked() -> None:
+    packed = httpx.Response(200, headers={"content-encoding": "gzip"}, stream=httpx.ByteStream(gzip.compress(b"{}")))
+    assert posted(packed).json() == {}
+
+
+@pytest.mark.parametrize("packing", ["br", "zstd", "gzip, gzip", "rot13"])
+def test_an_unknown_packing_is_refused(packing: str) -> None:
+    with pytest.raises(BackendUnavailable, match="packs its answer as"):
+        posted(httpx.Response(200, headers={"content-encoding": packing}, stream=httpx.ByteStream(b"{}")))
+
+
+def test_what_is_not_packed_as_it_says() -> None:
+    with pytest.raises(BackendUnavailable, match="and it is not"):
+        posted(httpx.Response(200, headers={"content-encoding": "gzip"}, stream=httpx.ByteStream(b"{}")))
+
+
+@pytest.mark.parametrize("charset", ["rot13", "idna", "zlib", "hex", "utf-7", "undefined", "utf-16", "no such"])
+def test_json_is_utf_8_whatever_the_server_says(charset: str) -> None:
+    body = httpx.ByteStream('{"a": "\u00fc"}'.encode())
+    headers = {"content-type": f"application/json; charset={charset}"}
+    assert posted(httpx.Response(200, headers=headers, stream=body)).json() == {"a": "\u00fc"}
