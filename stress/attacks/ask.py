@@ -6,9 +6,11 @@ python ask.py openai|ollama|page|sound WHERE
 from __future__ import annotations
 
 import asyncio
+import base64
 import logging
 import sys
 from pathlib import Path
+from urllib.parse import quote
 
 from scene2hap.errors import Scene2HapError
 from scene2hap.printable import printable
@@ -41,5 +43,9 @@ if __name__ == "__main__":
     try:
         main(*sys.argv[1:])
     except Scene2HapError as error:
+        told = f"{error} {getattr(error, 'raw_text', '')}"
+        forms = (KEY, quote(KEY, safe=""), base64.b64encode(KEY.encode()).decode()[:-4], KEY.encode().hex())
+        if any(form in told for form in forms):
+            sys.exit(f"the key is shown: {told}")
         print(f"scene2hap: error: {printable(str(error))[:2000]}", file=sys.stderr)
         sys.exit(1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import contextlib
 import itertools
 import json
 import random
@@ -13,7 +14,8 @@ from pathlib import Path
 from attacks.attack import Attack
 
 _PARTS = (
-    "\x1b]0;owned\x07", "\x1b[2J", "\x9b31m", "\x00", "\r", "\n", "\t", "\u202e", "\u2028", "\ud800", "\udcff", "\ufeff",
+    "\x1b]0;owned\x07", "\x1b[2J", "\x9b31m", "\x00", "\r", "\n", "\t", "\u202e", "\u2028", "\ud800", "\udcff",
+    "\ufeff",
     "[red]", "[/]", "[link=file:///]", "{0}", "%s%n", "../" * 9, "/etc/passwd", "C:\\", "CON", "a" * 5000, "é", "台所",
     "🍳", "'", '"', "`id`", "$(id)", "<script>", "-rf", "--help", " ", "", "#2", "\u0301" * 100,
 )  # fmt: skip
@@ -42,10 +44,8 @@ def attacks(seed: int, work: Path) -> Iterator[Attack]:
         else:
             path.write_text(_gltf(name, other))
         if kind == "file":
-            try:
+            with contextlib.suppress(OSError, ValueError):  # not a name here
                 path = path.rename(folder / f"{name[:60].replace('/', '_')}.gltf")
-            except (OSError, ValueError):
-                pass  # not a name here
         more = () if rng.random() < 0.5 else ("--json",)
         if kind == "argument":
             more = (*more, rng.choice(["--group", "--unit", "--up", "--no-such", ""]), name.replace("\0", "") or "x")

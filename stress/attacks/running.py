@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 import re
@@ -92,10 +93,8 @@ def _child(attack: Attack, folder: Path, logs: Path) -> tuple[int, float, int]:
             traceback.print_exc()
         finally:
             for stream in (sys.stdout, sys.stderr):
-                try:
+                with contextlib.suppress(Exception):
                     stream.flush()
-                except Exception:
-                    pass
             os._exit(status)
     deadline = time.monotonic() + _WALL_FACTOR * attack.seconds + 5.0
     while True:
