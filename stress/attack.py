@@ -3,8 +3,8 @@
 python stress/attack.py [--seed 0] [--families scene_files servers ...] [--cases 100]
 
 Each case runs in a child process with limits on processor time and memory, in a fresh folder with canaries around it.
-It passes when it exits with 0, or with one sentence of ours; when no traceback and no raw control character is shown; when
-time and memory stay in bounds; and when nothing outside its folder has changed. Cases are drawn from the seed, so that
+It passes when it exits with 0, or with one sentence of ours; when no traceback and no raw control character is shown;
+when time and memory stay in bounds; and when nothing outside its folder has changed. Cases are drawn from the seed:
 another seed is another campaign. Prints a table per family and exits with 1 if any case fails. Needs fork (POSIX).
 """
 

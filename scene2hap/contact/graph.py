@@ -80,6 +80,7 @@ class ContactGraph:
         self._version = self._topology = 0
         # The pairs of the last topologies that came to touch or ceased to.
         self._turns: deque[list[Pair]] = deque(maxlen=_MANY_TURNS)
+        self._changes: deque[list[Pair]] = deque(maxlen=_MANY_TURNS)
         self._views: dict[str, object] = {}
         # Whether the junctions are those of an earlier moment, and whether somebody holds them, so that they never are.
         self._is_behind = self._junctions_lent = False
@@ -151,12 +152,11 @@ class ContactGraph:
 
     def turned_since(self, topology: int) -> list[Pair] | None:
         """The pairs that have come to touch or ceased to since then, None if that is too long ago to know."""
-        n_turns = self._topology - topology
-        if n_turns > len(self._turns):
-            return None
-        if n_turns == 1:
-            return self._turns[-1]
-        return [pair for turn in islice(reversed(self._turns), n_turns) for pair in turn]
+        return _latest(self._turns, self._topology - topology)
+
+    def changed_since(self, version: int) -> list[Pair] | None:
+        """The pairs that have come to touch, ceased to or shifted since then, None if that is too long ago to know."""
+        return _latest(self._changes, self._version - version)
 
     @property
     def poses(self) -> Mapping[str, Pose]:
@@ -349,10 +349,18 @@ class ContactGraph:
         if not (appeared or vanished or shifted):
             return NO_CHANGE
         self._version += 1
+        self._changes.append(appeared + vanished + shifted)
         if appeared or vanished:
             self._topology += 1
             self._turns.append(appeared + vanished)
         return ContactChange(frozenset(appeared), frozenset(vanished), frozenset(shifted))
+
+
+def _latest(log: deque[list[Pair]], n: int) -> list[Pair] | None:
+    """The pairs of the last n entries of a log, None if it is shorter."""
+    if not 0 <= n <= len(log):
+        return None
+    return log[-1] if n == 1 else [pair for entry in islice(reversed(log), n) for pair in entry]
 
 
 def _demand(object_id: str, known: Mapping[str, object]) -> None:

@@ -12,6 +12,8 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+import numpy as np
+
 from scene2hap.contact.body import Body
 from scene2hap.contact.outlines import facing
 from scene2hap.contact.spread import spread_few
@@ -22,6 +24,7 @@ from scene2hap.contact.vectors import Triple
 # side by side, whose rims coincide, do not.
 _RIM, _RIM_M = 1e-4, 1e-4
 _ROUNDING_M = 1e-9
+_FEW = 256  # Pairs of a corner and an edge, from which on numpy takes less time.
 _SLACK_M = 1e-6  # Bounds by circles are trusted beyond this, so that they never decide otherwise than corners.
 
 
@@ -56,30 +59,31 @@ def rest_on(x: Body, y: Body) -> Rest | None:
     mu, mv = tray.middle
     if math.hypot(cu - mu, cv - mv) > radius + tray.radius + _SLACK_M:
         return _beside(x, y)
+    # No corner of the sole is farther from its middle than its radius: most edges of round objects need no more.
+    edges = [edge for edge in tray.edges if edge[0] * cu + edge[1] * cv - edge[2] <= radius + rim + _SLACK_M]
     outline = [(u + du, v + dv) for u, v in x.stance.sole_outline]
-    wholly = True
-    for nu, nv, offset in tray.edges:
-        # No corner of the sole is farther from its middle than its radius: most edges of round things need no more.
-        middle = nu * cu + nv * cv - offset
-        if middle - radius > rim + _SLACK_M:
-            continue
-        if middle + radius < rim - _SLACK_M:
-            return _beside(x, y)
-        inside = [nu * u + nv * v - offset for u, v in outline]
-        if max(inside) <= rim:
-            return _beside(x, y)
-        wholly = wholly and min(inside) >= -_ROUNDING_M
-    if wholly:
+    ranges = _inside(outline, edges)
+    if any(most <= rim for _, most in ranges):
+        return _beside(x, y)
+    if all(least >= -_ROUNDING_M for least, _ in ranges):
         return Rest(fall_m, True, top_m)
     if not sole.is_filled:
         return None
-    for nu, nv, offset in x.stance.sole_edges:
-        offset += nu * du + nv * dv
-        if nu * mu + nv * mv - offset > tray.radius + rim + _SLACK_M:
-            continue
-        if max([nu * u + nv * v - offset for u, v in tray.outline]) <= rim:
-            return _beside(x, y)
+    edges = [(nu, nv, offset + (nu * du + nv * dv)) for nu, nv, offset in x.stance.sole_edges]
+    edges = [edge for edge in edges if edge[0] * mu + edge[1] * mv - edge[2] <= tray.radius + rim + _SLACK_M]
+    if any(most <= rim for _, most in _inside(tray.outline, edges)):
+        return _beside(x, y)
     return Rest(fall_m, False, top_m)
+
+
+def _inside(outline: Sequence[Point], edges: Sequence[Triple]) -> list[tuple[float, float]]:
+    """For each edge how far inside of it corners of an outline are at least and at most."""
+    if len(outline) * len(edges) <= _FEW:
+        rows = [[nu * u + nv * v - offset for u, v in outline] for nu, nv, offset in edges]
+        return [(min(row), max(row)) for row in rows]
+    (u, v), (nu, nv, offset) = np.array(outline).T, np.array(edges).T[..., None]
+    table = nu * u + nv * v - offset
+    return list(zip(table.min(axis=1).tolist(), table.max(axis=1).tolist(), strict=True))
 
 
 def _beside(x: Body, y: Body) -> Rest | None:
@@ -113,6 +117,8 @@ def clipped(ring: list[Point], edges: Sequence[Triple]) -> list[Point]:
 
     Source: I. E. Sutherland, G. W. Hodgman, Reentrant polygon clipping, Comm. ACM 17 (1974) 32.
     """
+    if len(ring) * len(edges) > _FEW:
+        edges = [edge for edge, (least, _) in zip(edges, _inside(ring, edges), strict=True) if least < _ROUNDING_M]
     for nu, nv, offset in edges:
         inside = [nu * u + nv * v - offset for u, v in ring]
         cut: list[Point] = []

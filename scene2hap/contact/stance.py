@@ -218,7 +218,7 @@ def _lean(up: Triple) -> Lean | None:
 
 def edges_of(outline: tuple[Point, ...]) -> tuple[Triple, ...]:
     """(n_u, n_v, offset) of each edge of a convex outline, the normal of length 1 and pointing inwards."""
-    mu, mv = sum(u for u, _ in outline) / len(outline), sum(v for _, v in outline) / len(outline)
+    mu, mv = sum([u for u, _ in outline]) / len(outline), sum([v for _, v in outline]) / len(outline)
     edges = []
     for (u1, v1), (u2, v2) in zip(outline, outline[1:] + outline[:1], strict=True):
         nu, nv = v1 - v2, u2 - u1

@@ -23,10 +23,6 @@ if TYPE_CHECKING:
     from scene2hap.contact.junction import Junction
 
 
-_NEVER: tuple[int, dict[str, Junction], list[Exit]] = (-1, {}, [])
-_NEVER_TO_ENDS: tuple[int, list[Exit], int, list[Exit]] = (-1, [], -1, [])
-
-
 class Doors:
     """The doors of a contact graph as it is, kept as long as their junctions: a step of a walk asks for a few dozen.
 
@@ -44,49 +40,93 @@ class Doors:
         self._crossing, self._ends = crossing, ends
         self.price_per_m = price_per_m
         self.least_price_per_m = min(price_per_m.values(), default=0.0)
-        self._known: dict[str, dict[str, tuple[Junction, list[Door]]]] = {}
         self._balls: dict[str, tuple[list[Junction], Triple, float]] = {}
         self._version = -1
-        # The version of the graph in which they were last looked at, and what they were made of.
-        self._exits: dict[str, tuple[int, dict[str, Junction], list[Exit]]] = {}
-        self._exits_to_ends: dict[str, tuple[int, list[Exit], int, list[Exit]]] = {}
+        # Neighbours of the objects that a walk came to so far, as of that version; below, those that may lead to ends.
+        self._exits: dict[str, dict[str, Exit]] = {}
+        self._exits_to_ends: dict[str, dict[str, Exit]] = {}
 
     def has(self, object_id: str) -> bool:
         """Whether an object touches any."""
         return bool(self._beside.get(object_id))
 
     def look_again(self) -> None:
-        """Take in what has changed; to be called before a walk."""
+        """Take in the pairs that changed since the last walk; to be called before a walk."""
+        if self._version == self._graph.version:
+            return
+        changed = self._graph.changed_since(self._version)
         self._version = self._graph.version
+        if changed is None:
+            self._exits.clear()
+            self._exits_to_ends.clear()
+            return
+        for a, b in changed:
+            self._renew(a, b)
+            self._renew(b, a)
+        for pair in changed:
+            for x in pair:
+                # Whether an object leads on depends on whether it has one neighbour or more.
+                around = self._beside.get(x, {})
+                if len(around) <= 2:
+                    for y in around:
+                        self._judge(y, x)
 
-    def exits(self, object_id: str) -> list[Exit]:
-        """The ways out of an object; the same list as long as nothing about them has changed."""
-        version, last, found = self._exits.get(object_id, _NEVER)
-        if version == self._version:
-            return found
-        now = self._beside.get(object_id, {})
-        if last != now or version < 0:
-            price, doors = self.price_per_m, self._doors_of(object_id)
-            last, found = dict(now), [Exit(x, price.get(x, 0.0), several) for x, (_, several) in doors.items()]
-        self._exits[object_id] = (self._version, last, found)
-        return found
+    def exits(self, object_id: str) -> Collection[Exit]:
+        """The neighbours of an object, with the doors into each."""
+        found = self._exits.get(object_id)
+        if found is None:
+            around = self._beside.get(object_id, {})
+            found = self._exits[object_id] = {x: self._exit(object_id, x, junction) for x, junction in around.items()}
+        return found.values()
 
-    def exits_to_ends(self, object_id: str) -> list[Exit]:
+    def exits_to_ends(self, object_id: str) -> Collection[Exit]:
         """The same without those that lead to no end, nor back more cheaply: into a cup that stands on this alone."""
-        version, last, then, found = self._exits_to_ends.get(object_id, _NEVER_TO_ENDS)
-        if version == self._version:
-            return found
-        every, topology = self.exits(object_id), self._graph.topology
-        if last is not every or then != topology:
-            price, price_here, beside = self.price_per_m, self.price_per_m.get(object_id, 0.0), self._beside
-            found = [
-                x
-                for x in every
-                if x.into in self._ends
-                or (x.into in price and (len(beside[x.into]) > 1 or (x.price < price_here and len(x.doors) > 1)))
-            ]
-        self._exits_to_ends[object_id] = (self._version, every, topology, found)
-        return found
+        found = self._exits_to_ends.get(object_id)
+        if found is None:
+            found = {x.into: x for x in self.exits(object_id) if self._leads_on(object_id, x)}
+            self._exits_to_ends[object_id] = found
+        return found.values()
+
+    def _renew(self, object_id: str, other: str) -> None:
+        """Take in how two touch now, seen from one of them."""
+        exits, around = self._exits.get(object_id), self._beside.get(object_id)
+        if exits is None:
+            return
+        if not around:
+            # It may have left the scene for good.
+            del self._exits[object_id]
+            self._exits_to_ends.pop(object_id, None)
+            return
+        junction = around.get(other)
+        if junction is None:
+            exits.pop(other, None)
+        else:
+            exits[other] = self._exit(object_id, other, junction)
+        self._judge(object_id, other)
+
+    def _judge(self, object_id: str, other: str) -> None:
+        """Take in whether a neighbour may lead to an end."""
+        to_ends, exits = self._exits_to_ends.get(object_id), self._exits.get(object_id)
+        if to_ends is None or exits is None:
+            return
+        found = exits.get(other)
+        if found is not None and self._leads_on(object_id, found):
+            to_ends[other] = found
+        else:
+            to_ends.pop(other, None)
+
+    def _leads_on(self, object_id: str, x: Exit) -> bool:
+        if x.into in self._ends:
+            return True
+        if x.into not in self.price_per_m:
+            return False
+        is_cheaper = x.price < self.price_per_m.get(object_id, 0.0)
+        return len(self._beside[x.into]) > 1 or (is_cheaper and len(x.doors) > 1)
+
+    def _exit(self, object_id: str, other: str, junction: Junction) -> Exit:
+        points = zip(junction.points_m, junction.weights, strict=True)
+        doors = [Door(object_id, other, place, self._crossing[weight]) for place, weight in points]
+        return Exit(other, self.price_per_m.get(other, 0.0), doors)
 
     def ball(self, object_id: str) -> tuple[Triple, float]:
         """A ball around all doors of an object that touches others: its middle, and its radius [m]."""
@@ -98,18 +138,6 @@ class Doors:
             radius_m = max([math.dist((x, y, z), place) for place in places])
             known = self._balls[object_id] = (junctions, (x, y, z), radius_m)
         return known[1:]
-
-    def _doors_of(self, object_id: str) -> dict[str, tuple[Junction, list[Door]]]:
-        """The doors out of an object into each other, with the junctions that they are of; kept as long as these."""
-        before, now = self._known.get(object_id, {}), {}
-        for other, junction in self._beside.get(object_id, {}).items():
-            last = before.get(other)
-            if last is None or last[0] is not junction:
-                points = zip(junction.points_m, junction.weights, strict=True)
-                last = junction, [Door(object_id, other, place, self._crossing[weight]) for place, weight in points]
-            now[other] = last
-        self._known[object_id] = now
-        return now
 
 
 def cheapest_outward(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import heapq
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import NamedTuple
 
 from scene2hap.compiled import compiled
@@ -47,7 +47,7 @@ class Ends(NamedTuple):
 @compiled
 def walked(
     starts: Sequence[tuple[float, Door]],
-    exits: Callable[[str], list[Exit]],
+    exits: Callable[[str], Collection[Exit]],
     price_per_m: Mapping[str, float],
     limit: float,
     ends: Ends | None = None,

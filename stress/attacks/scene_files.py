@@ -240,7 +240,7 @@ def _dae(nodes: str = '<node id="n"><instance_geometry url="#g"/></node>', more:
 def dae_document_type(rng: random.Random) -> Files:
     """A document type in every encoding, with entities that grow."""
     entities = '<!ENTITY a0 "lol">' + "".join(f'<!ENTITY a{i} "{f"&a{i - 1};" * 10}">' for i in range(1, 10))
-    head, _, rest = _dae('<node id="n" name="&a9;"><instance_geometry url="#g"/></node>').partition("?>")
+    rest = _dae('<node id="n" name="&a9;"><instance_geometry url="#g"/></node>').partition("?>")[2]
     encoding = rng.choice(["utf-8", "utf-16", "utf-16-le", "utf-16-be", "utf-32", "utf-7", "cp037"])
     said = f'<?xml version="1.0" encoding="{encoding}"?><!DOCTYPE x [{entities}]>{rest}'
     return {"case.dae": said.encode(encoding)}

@@ -99,9 +99,10 @@ def _play(rng: random.Random, send: Send) -> None:
     echoed = rng.choice(ECHOES)(KEY)
     good = json.dumps({"choices": [{"message": {"content": '{"scene_category": "kitchen"}'}}]}).encode()
     packings = ["gzip", "deflate", "br", "zstd", "identity", "rot13"]
+    charsets = ["rot13", "idna", "zlib", "hex", "utf-7", "%"]
     heads = {
         "bomb": f"content-encoding: {rng.choice(packings)}",
-        "charset": f"content-type: application/json; charset={rng.choice(['rot13', 'idna', 'zlib', 'hex', 'utf-7', '%'])}",
+        "charset": f"content-type: application/json; charset={rng.choice(charsets)}",
         "echo": f"x-request-id: {echoed}",
         "odd": rng.choice(
             [

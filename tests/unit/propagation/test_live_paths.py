@@ -1,6 +1,7 @@
 """Ways asked one by one over a graph that moves, against the search of the whole scene."""
 
 import math
+from collections.abc import Collection
 from itertools import pairwise
 
 import numpy as np
@@ -167,7 +168,7 @@ class Noted(Doors):
 
     left: tuple[str, ...] = ()
 
-    def exits_to_ends(self, object_id: str) -> list[Exit]:
+    def exits_to_ends(self, object_id: str) -> Collection[Exit]:
         self.left += (object_id,)
         return super().exits_to_ends(object_id)
 
@@ -210,3 +211,34 @@ def test_what_does_not_hang_together_with_a_touch_is_not_looked_for() -> None:
     assert set(doors.left) == {"floor"}
     paths = LivePaths(graph, prices, crossing, ["radio", "fan"], None)
     assert paths.least_costs([("floor", (0, 0, 0))], None, {0}) == paths.costs("floor", (0, 0, 0))
+
+
+def test_kept_exits_are_those_of_a_new_search_while_contacts_come_go_and_shift() -> None:
+    """Random contacts of an engine, told to one search that lives on and to a new one each time."""
+    rng = np.random.default_rng(5)
+    names = [f"x{i}" for i in range(12)]
+    graph = ContactGraph(scene(*(box(name, (0.1, 0.1, 0.1), (i, 0, 0)) for i, name in enumerate(names))))
+    prices = {name: float(rng.uniform(0.05, 0.5)) for name in names[:10]}
+    sources, pairs = ["x1", "x7", "x11"], [(a, b) for a in names for b in names if a < b]
+    contacts: dict[tuple[str, str], list[Contact]] = {}
+    kept = LivePaths(graph, prices, crossing, sources, None)
+    n_finite = 0
+    for step in range(200):
+        for k in rng.permutation(len(pairs))[: rng.integers(0, 3)]:
+            pair = pairs[k]
+            if pair in contacts and rng.random() < 0.6:
+                del contacts[pair]
+            else:
+                places = rng.uniform(-1, 1, (int(rng.integers(1, 4)), 3)).tolist()
+                contacts[pair] = [
+                    Contact(*pair, tuple(place), weight=float(rng.choice([0.5, 1.0]))) for place in places
+                ]
+        graph.update({}, contacts=[one for several in contacts.values() for one in several])
+        if step % 7 < 5 or 100 < step < 130:  # several changes pass unasked, once more than the log holds
+            continue
+        fresh = LivePaths(graph, prices, crossing, sources, None)
+        for touched in names[:10]:
+            expected = fresh.costs(touched, (0.0, 0.0, 0.0))
+            assert kept.costs(touched, (0.0, 0.0, 0.0)) == pytest.approx(expected, rel=1e-12)
+            n_finite += sum(map(math.isfinite, expected))
+    assert n_finite > 200

@@ -1,0 +1,18 @@
+"""A slice of the attack table; `python stress/attack.py` runs as many cases as one likes."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs fork")
+ATTACK = Path(__file__).parents[2] / "stress" / "attack.py"
+
+
+@pytest.mark.parametrize("family", ["scene_files", "servers", "names"])
+def test_a_slice_of_the_attack_table(family: str) -> None:
+    command = [sys.executable, str(ATTACK), "--families", family, "--cases", "9", "--seed", "1"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=240)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert f"| {family} | 9 |" in done.stdout
