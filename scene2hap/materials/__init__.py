@@ -33,6 +33,8 @@ class Material:
     loss_factor: float = 0.01
 
     def __post_init__(self) -> None:
+        if not isinstance(self.name, str):
+            raise MaterialError(f"name is {self.name!r}; it must be a text. Say what the material is called.")
         hint = f"Material {self.name!r}; `materials.lookup` knows usual values."
 
         def bound(field: str, unit: str, **bounds: float) -> None:

@@ -8,6 +8,8 @@ from typing import Any
 import pytest
 
 from scene2hap import HapticBundle
+from scene2hap.cli.console import Console
+from scene2hap.cli.tables import show_bundle
 from scene2hap.errors import BundleError, BundleIncomplete
 from scenes import table_with_two_phones
 
@@ -41,7 +43,8 @@ def folder(tmp_path: Path) -> Path:
 def read(folder: Path) -> None:
     told = str(folder)
     try:
-        HapticBundle.load(folder)
+        bundle = HapticBundle.load(folder)
+        show_bundle(Console(quiet=True), bundle)  # what is read can be shown
     except BundleError as error:
         told = str(error)
     assert str(folder) in told
@@ -68,6 +71,26 @@ def test_every_value_becomes_another_or_goes(folder: Path, name: str) -> None:
                 holder[key] = value
             path.write_text(json.dumps(document), encoding="utf-8")
             read(folder)
+
+
+def test_what_is_read_can_be_written(folder: Path) -> None:
+    """Of texts that no encoding can write, and of numbers at their bounds."""
+    path = folder / "overrides.json"
+    whole = path.read_text(encoding="utf-8")
+    written = 0
+    for at in range(len(places(json.loads(whole)))):
+        document = json.loads(whole)
+        holder, key = places(document)[at]
+        holder[key] = "\ud800"
+        path.write_text(json.dumps(document), encoding="utf-8")
+        try:
+            bundle = HapticBundle.load(folder)
+        except BundleError:
+            continue
+        bundle.save(folder.parent / "again")
+        HapticBundle.load(folder.parent / "again")
+        written += 1
+    assert written > 3
 
 
 @pytest.mark.parametrize("name", DOCUMENTS)
