@@ -154,6 +154,9 @@ def _read(folder: Path) -> HapticBundle:
             key: {state: "\n".join(row["choice"]) for state, row in states.items() if "choice" in row}
             for key, states in rows.items()
         }
+    for key in loops:
+        if key not in objects:
+            raise BundleError(f"{folder / 'objects.json'} lacks {key[:200]!r}, which has loops. Bake again.")
     overrides = read_overrides(folder)
     with _reading(folder / MANIFEST):
         made_with = MadeWith.from_document(manifest.get("made_with"), str(folder / MANIFEST))

@@ -7,6 +7,7 @@ from typing import Any
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
+from scene2hap.errors import BundleError
 
 HELP = "bundle -> who said what of each object, and why"
 
@@ -33,6 +34,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 def _account(bundle: HapticBundle, object_id: str) -> dict[str, Any]:
+    if object_id not in bundle.objects:
+        raise BundleError(f"{object_id!r} stands in the scene, but nothing was inferred of it. Bake again.")
     haptics = bundle.objects[object_id]
     by = haptics.provenance
     rows = [

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from scene2hap import HapticBundle
+from scene2hap.cli import main
 from scene2hap.cli.console import Console
 from scene2hap.cli.tables import show_bundle
 from scene2hap.errors import BundleError, BundleIncomplete
@@ -142,6 +143,17 @@ def test_a_number_beyond_any_bound_is_told(folder: Path) -> None:
     path.write_text(path.read_text().replace('"density_kg_m3": 750.0', '"density_kg_m3": 1' + "0" * 400))
     with pytest.raises(BundleError, match=r"objects\.json: table.*(finite|number)"):
         HapticBundle.load(folder)
+
+
+def test_a_source_of_which_nothing_was_inferred(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = folder / "objects.json"
+    whole = json.loads(path.read_text())
+    path.write_text(json.dumps({key: row for key, row in whole.items() if key != "phone"}))
+    with pytest.raises(BundleError, match=r"objects\.json lacks 'phone'"):
+        HapticBundle.load(folder)
+    path.write_text(json.dumps({key: row for key, row in whole.items() if key != "table"}))
+    assert main(["report", str(folder), "table"]) == 1
+    assert "nothing was inferred of it" in capsys.readouterr().err
 
 
 def test_a_file_that_is_too_large_is_not_read(folder: Path) -> None:
