@@ -56,8 +56,8 @@ def dominant_surface(mesh: TriMesh, *, up: ArrayLike | None = None) -> DominantS
         without it, normals point along the axes of the own frame.
     Returns: length_m >= width_m; exact for boxes and for slabs on legs, else to about a ray's spacing. Flags:
         "open-mesh", rays enter and never leave; "zero-thickness", a sheet; "box-fallback", too few rays met the
-        surface twice, so that its thickness is that of the box around it or below its sheet, or no rectangle of medians fits it, so that
-        length and width are.
+        surface twice, so that its thickness is that of the box around it, or of that below its sheet, or no rectangle
+        of medians fits it, so that length and width are the box's.
     """
     used, faces = np.unique(mesh.faces, return_inverse=True)
     points, faces = mesh.vertices_m[used].T.copy(), faces.reshape(-1, 3).T.copy()
