@@ -26,8 +26,12 @@ UNIT_M = {"sketchfab_kitchen/scene.gltf": 0.01}
 DISAGREEMENTS = """\
 Where people and rays disagree: the worktop `Table` of sketchfab_kitchen is an open sheet whose back panel is larger
 than its top, and is flagged; the table of the KayKit kitchen has an apron fused under 64 % of its top, so that top and
-apron count as one slab of 0.288 m; a chair with a solid side gives that side rather than its seat. The cooktop of
-sketchfab_kitchen is open below and falls back to its box: 0.0554 m with burners and whatever hangs below.
+apron count as one slab of 0.288 m; a chair with a solid side gives that side rather than its seat.
+
+An open mesh has no underside, and is as thick as its box is high (flag "box-fallback"). Only where most rays and most
+of its edge meet it at one height does it end there: a hob is its sheet and rim, without burners and knobs. What is
+fixed to a flat plate's edge, fills less than half of its rows and is not level with it is left out: a television's
+stand, a radio's handle.
 
 A door's frame belongs to its leaf only where one mesh holds both: the rays cannot tell them apart. The frame counts
 into length and width where it crosses the leaf's mid-plane, and not into thickness, which most rays take from the leaf.

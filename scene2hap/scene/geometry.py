@@ -5,8 +5,11 @@
    area is the plate's normal.
 3. Thickness is the median length of the first solid that the rays meet from above. Table legs, knobs and back-rests
    are met by few rays and do not move the median.
-4. Length and width are the median spans of rays in the mid-plane of that solid; where the surface is not flat (a bowl,
-   a curtain), they are the median spans of its outline, seen along the normal.
+   A mesh that is open below has no such solid; its thickness reaches from its top, or from the sheet that most of it
+   is, down to its lowest rim.
+4. Length and width are the median spans of rays in the mid-plane of that solid, without what is fixed to its edge
+   (`plate_edge`); where the surface is not flat (a bowl, a curtain), they are the median spans of its outline, seen
+   along the normal.
 
 Source: Scene2Hap, section "Automatic Data Extraction": the size of an object is that of its dominant surface, "by
 raycasting within the 3D mesh's bounding box and calculating its median values".
@@ -20,12 +23,14 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap.scene.plate_edge import windows
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.rays import Hits, cast_grid, cut, first_solids, median_span, outline, share_open
 from scene2hap.scene.snapshot import DominantSurface, SurfaceFlag, TriMesh
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
 
 RAYS_PER_SIDE = 32
 """Rays along each side of the bounding box: what is no box is measured to about 1/32 of it (tuned: 5 ms an object)."""
@@ -34,6 +39,7 @@ RAYS_PER_SIDE = 32
 _SAME_DEPTH = 1e-6  # surfaces closer than this part of the object are one
 _OPEN_SHARE = 0.02  # more rays than this that do not come out again make the mesh an open one
 _FLAT_SHARE = 0.5  # a plate is flat if this part of its rays meets it at one height
+_SAME_LEVEL = 0.1  # an open plate is flat if its rays meet it within this part of its box's height
 _FILLED_CUT = 0.75  # the rectangle of a cut must be this part of what the rays see of that height (a disc's is 0.95)
 _FILLED_OUTLINE = 0.5  # the rectangle of an outline, of all that they see
 _PAIRED_SHARE = 0.5  # and has a thickness if this part of its rays comes out again
@@ -50,8 +56,8 @@ def dominant_surface(mesh: TriMesh, *, up: ArrayLike | None = None) -> DominantS
         without it, normals point along the axes of the own frame.
     Returns: length_m >= width_m; exact for boxes and for slabs on legs, else to about a ray's spacing. Flags:
         "open-mesh", rays enter and never leave; "zero-thickness", a sheet; "box-fallback", too few rays met the
-        surface twice, so that its thickness is that of the box around it, or no rectangle of medians fits it, so that
-        length and width are.
+        surface twice, so that its thickness is that of the box around it, or of that below its sheet, or no rectangle
+        of medians fits it, so that length and width are the box's.
     """
     used, faces = np.unique(mesh.faces, return_inverse=True)
     points, faces = mesh.vertices_m[used].T.copy(), faces.reshape(-1, 3).T.copy()
@@ -87,10 +93,11 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
         middle = float(np.median((solids.top + solids.bottom)[paired])) / 2
         level = np.abs(solids.top - np.median(solids.top)) <= thickness / 2
         if level.mean() >= _FLAT_SHARE:
-            spans = _spans(cut(triangles, middle), at_least=_FILLED_CUT * cell * level.sum())
+            is_thick = ~(solids.top - solids.bottom < thickness / 2)
+            spans = _flat_spans(cut(triangles, middle), hits.ray[hits.starts], level, is_thick, low, high)
     else:
-        thickness = float(high[2] - low[2])
-        middle = float(high[2] + low[2]) / 2
+        bottom, top = float(low[2]), _open_top(solids.top, hits.ray[hits.starts], low, high)
+        thickness, middle = top - bottom, (top + bottom) / 2
         if thickness > _SAME_DEPTH * size:
             flags = (*flags, "box-fallback")
     if thickness <= _SAME_DEPTH * size:
@@ -103,6 +110,36 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
         flags = flags if "box-fallback" in flags else (*flags, "box-fallback")
     (u_m, v_m), (u_mid, v_mid) = spans
     return _placed(np.array([u_m, v_m, thickness]), np.array([u_mid, v_mid, middle]), own_to_plate, flags)
+
+
+def _open_top(tops: Floats, ray: Ints, low: Floats, high: Floats) -> float:
+    """Where an open mesh is as high as a plate: at its top, or where most rays and most of its edge meet it, so that
+    burners and knobs that stand on a hob are no part of the sheet whose rim reaches down."""
+    height, top, n = float(high[2] - low[2]), float(np.median(tops)), RAYS_PER_SIDE
+    level = np.abs(tops - top) <= _SAME_LEVEL * height
+    at_edge = (np.minimum(ray // n, ray % n) == 0) | (np.maximum(ray // n, ray % n) == n - 1)
+    is_sheet = level.mean() >= _FLAT_SHARE and at_edge.any() and level[at_edge].mean() >= _FLAT_SHARE
+    return top if is_sheet and top - low[2] > _SAME_LEVEL * height else float(high[2])
+
+
+def _flat_spans(
+    segments: Floats, ray: Ints, level: Bools, is_thick: Bools, low: Floats, high: Floats
+) -> tuple[Floats, Floats] | None:
+    """`_spans` of a cut without what is fixed to the plate's edge, given which rays meet the plate's level, and which
+    meet about as much solid as the plate is thick."""
+    n = RAYS_PER_SIDE
+    grids = np.zeros((3, n * n), dtype=bool)
+    grids[:, ray] = np.stack((np.ones_like(level), level, level & is_thick))
+    seen, is_level, is_plate = grids.reshape(3, n, n)
+    rows = windows(seen, is_plate)
+    for along, window in enumerate(rows):
+        if not window.is_all:
+            bounds_m = window.bounds_m(segments, along, float(low[along]), float(high[along]))
+            segments = segments.copy()
+            segments[along] = segments[along].clip(*bounds_m)
+    (a, b), (c, d) = (window[:2] for window in rows)
+    cell = float(np.prod(high[:2] - low[:2])) / n**2
+    return _spans(segments, at_least=_FILLED_CUT * cell * is_level[a:b, c:d].sum())
 
 
 def _spans(segments: Floats, at_least: float) -> tuple[Floats, Floats] | None:

@@ -18,6 +18,12 @@ def floating_weight(item: SceneObject, lift_m: float, other: str = "floor") -> f
     return weight(graph, *sorted((item.id, other)))
 
 
+def weights_of(*objects: SceneObject) -> dict[tuple[str, str], float]:
+    """The weight of each pair that touches."""
+    graph = ContactGraph(scene(*objects))
+    return {pair: weight(graph, *pair) for pair in found(*objects)}
+
+
 @pytest.mark.parametrize(
     ("size", "gap_m"),
     [
@@ -173,6 +179,35 @@ def test_a_lamp_hangs_from_the_ceiling() -> None:
     graph = ContactGraph(scene(floor(), ceiling, lamp))
     assert {(c.a, c.b) for c in graph.contacts} == {("ceiling", "lamp")}
     assert graph.contacts[0].normal == pytest.approx((0, -1, 0))
+
+
+@pytest.mark.parametrize("length_m", [0.16, 0.25])
+def test_a_handle_hangs_before_its_leaf(length_m: float) -> None:
+    leaf = box("leaf", (0.6, 0.7, 0.018), (0, 0.5, 0))
+    handle = box("handle", (0.012, length_m, 0.012), (0.25, 0.5, 0.009 + 0.016 + 0.006))
+    assert weights_of(leaf, handle) == {("handle", "leaf"): 1.0}
+
+
+def test_what_is_farther_off_a_leaf_than_handles_are_does_not_hang_on_it() -> None:
+    leaf = box("leaf", (0.6, 0.7, 0.018), (0, 0.5, 0))
+    handle = box("handle", (0.012, 0.16, 0.012), (0.25, 0.5, 0.009 + 0.026 + 0.006))
+    assert weights_of(leaf, handle) == {}
+
+
+@pytest.mark.parametrize("gap_m", [0.001, 0.0046, 0.008])
+def test_a_wall_cabinet_hangs_on_the_tall_one_beside_it_and_on_its_wall(gap_m: float) -> None:
+    wall = on_floor("wall", (3, 3, 0.2), 0, 0)
+    tall = on_floor("tall", (0.6, 2.1, 0.6), -0.6, 0.4)
+    cabinet = box("cabinet", (0.6, 0.7, 0.35), (0, 1.75, 0.1 + gap_m + 0.175))
+    weights = weights_of(floor(), wall, tall, cabinet)
+    assert weights["cabinet", "tall"] == weights["cabinet", "wall"] == 1.0
+
+
+def test_a_wall_cabinet_does_not_hang_on_what_is_much_farther_off_than_its_wall() -> None:
+    wall = on_floor("wall", (3, 3, 0.2), 0, 0)
+    tall = on_floor("tall", (0.6, 2.1, 0.6), -0.62, 0.4)
+    cabinet = box("cabinet", (0.6, 0.7, 0.35), (0, 1.75, 0.1 + 0.002 + 0.175))
+    assert ("cabinet", "tall") not in weights_of(floor(), wall, tall, cabinet)
 
 
 def test_what_stands_near_a_wall_does_not_hang_on_it() -> None:

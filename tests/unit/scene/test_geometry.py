@@ -163,6 +163,67 @@ def test_faces_that_all_look_inwards_change_nothing() -> None:
     assert size(dominant_surface(inside_out)) == pytest.approx([1.6, 0.8, 0.04])
 
 
+PANEL: tuple[Size, Size] = ((0.68, 0.02, 0.38), (0.0, 0.0, 0.26))
+STAND = (((0.1, 0.02, 0.05), (0.0, 0.0, 0.045)), ((0.36, 0.14, 0.02), (0.0, 0.0, 0.01)))
+HANDLE = (
+    ((0.3, 0.02, 0.012), (0.0, 0.0, 0.224)),
+    ((0.012, 0.02, 0.04), (-0.144, 0.0, 0.198)),
+    ((0.012, 0.02, 0.04), (0.144, 0.0, 0.198)),
+)
+
+
+@pytest.mark.parametrize("pose", [Pose(), TURN])
+@pytest.mark.parametrize(
+    ("parts", "expected", "at_m"),
+    [
+        ((PANEL, *STAND), [0.68, 0.38, 0.02], (0.0, 0.0, 0.26)),
+        ((((0.3, 0.1, 0.18), (0.0, 0.0, 0.09)), *HANDLE), [0.3, 0.18, 0.1], (0.0, 0.0, 0.09)),
+    ],
+    ids=["television", "radio"],
+)
+def test_a_stand_and_a_handle_are_no_part_of_the_plate(
+    parts: tuple[tuple[Size, Size], ...], expected: list[float], at_m: Size, pose: Pose
+) -> None:
+    mesh = turned(boxes(*parts), pose)
+    surface = dominant_surface(mesh)
+    assert size(surface) == pytest.approx(expected, abs=1e-9)
+    assert middle(surface) == pytest.approx(pose.to_world([at_m])[0], abs=1e-9)
+
+
+def test_a_lintel_over_windows_is_level_with_its_wall_and_belongs_to_it() -> None:
+    posts = [((0.5, 0.1, 0.7), (x, 0.0, 1.75)) for x in (-1.75, 0.0, 1.75)]
+    wall = boxes(((4.0, 0.1, 1.4), (0.0, 0.0, 0.7)), *posts, ((4.0, 0.1, 0.4), (0.0, 0.0, 2.3)))
+    assert size(dominant_surface(wall)) == pytest.approx([4.0, 2.5, 0.1])
+
+
+def hob(*on_it: tuple[Size, Size]) -> TriMesh:
+    """A sheet 0.5 m wide with a rim 40 mm down, open below, and what stands on it."""
+    tray = Box((0.5, 0.45, 0.04)).mesh
+    closed = tray.vertices_m[tray.faces].mean(axis=1)[:, 2] > -0.019
+    tray = TriMesh(tray.vertices_m, tray.faces[closed])
+    if not on_it:
+        return tray
+    more = boxes(*on_it)
+    return TriMesh(
+        np.concatenate((tray.vertices_m, more.vertices_m)),
+        np.concatenate((tray.faces, more.faces + len(tray.vertices_m))),
+    )
+
+
+def test_burners_and_knobs_do_not_thicken_a_hob_that_is_open_below() -> None:
+    burners = [((0.12, 0.12, 0.05), (x, y, 0.045)) for x in (-0.12, 0.12) for y in (-0.11, 0.11)]
+    surface = dominant_surface(hob(*burners), up=(0, 0, 1))
+    assert size(surface) == pytest.approx([0.5, 0.45, 0.04])
+    assert surface.flags == ("open-mesh", "box-fallback")
+    assert middle(surface)[2] == pytest.approx(0.0)
+
+
+def test_a_rim_that_stands_above_an_open_sheet_counts() -> None:
+    rims = [((0.5, 0.02, 0.06), (0.0, s * 0.215, 0.05)) for s in (-1, 1)]
+    rims += [((0.02, 0.45, 0.06), (s * 0.24, 0.0, 0.05)) for s in (-1, 1)]
+    assert size(dominant_surface(hob(*rims), up=(0, 0, 1)))[2] == pytest.approx(0.1)
+
+
 def test_an_l_is_boxed_and_says_so() -> None:
     sofa = boxes(((2.4, 0.8, 0.4), (0.0, 0.0, 0.2)), ((0.8, 1.6, 0.4), (-0.8, 1.2, 0.2)))
     surface = dominant_surface(sofa)

@@ -1,0 +1,79 @@
+"""Where a plate ends and what is fixed to its edge begins: a television's stand, a radio's handle, a bookcase's feet.
+
+Seen along the plate's normal, such a thing fills less than half as much of its rows as the plate fills of its own, at
+least right beside the plate, and it is not level with the plate. An arm of an L-shaped top and the wall beside a
+doorway are level with theirs, and belong to it; a disc narrows by and by, and has no such edge.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+# Tuned on real scenes, with the labels in tests/data/dominant_surfaces.csv unchanged.
+_NARROW = 0.5  # rows filled by less than this part of the fullest row's rays are no part of the plate ...
+_ABRUPT = 0.9  # ... if the row beside them is filled by this part of what is usual
+_LEVEL = 0.5  # ... and less than this part of their hits is level with the plate
+_LEAST_ROWS = 0.5  # the plate has this part of all rows, or the mesh is no plate with something at its edge
+
+
+class Window(NamedTuple):
+    """Rows of the grid that are the plate's, from `first` up to, not including, `last`, of n."""
+
+    first: int
+    last: int
+    n: int
+
+    @property
+    def is_all(self) -> bool:
+        """Whether nothing is fixed to the plate's edge."""
+        return self.last - self.first == self.n
+
+    def bounds_m(self, segments: Floats, along: int, low_m: float, high_m: float) -> tuple[float, float]:
+        """The plate's ends [m] along a coordinate of segments (2, 2, k), given those of the grid.
+
+        An end that is no end of the grid is where the longest edge across stands within a cell of that row; without
+        any, it is the row's own.
+        """
+        cell_m = (high_m - low_m) / self.n
+        return (
+            low_m if self.first == 0 else _edge_m(segments, along, low_m + self.first * cell_m, cell_m),
+            high_m if self.last == self.n else _edge_m(segments, along, low_m + self.last * cell_m, cell_m),
+        )
+
+
+def windows(seen: Bools, level: Bools) -> tuple[Window, Window]:
+    """The plate's rows along u and v, given which rays (n, n) meet anything, and which meet the plate's level."""
+    along_u, along_v = (_window(seen.sum(axis=axis), level.sum(axis=axis)) for axis in (1, 0))
+    return along_u, along_v
+
+
+def _window(n_seen: NDArray[np.int64], n_level: NDArray[np.int64]) -> Window:
+    n = len(n_seen)
+    is_wide = n_seen >= _NARROW * n_seen.max()
+    ends = np.flatnonzero(np.diff(is_wide, prepend=False, append=False)).reshape(-1, 2)
+    first, last = max(ends.tolist(), key=lambda run: int(n_seen[run[0] : run[1]].sum()))
+    if last - first < _LEAST_ROWS * n:
+        return Window(0, n, n)
+    usual = np.median(n_seen[first:last])
+
+    def is_fixed(beyond: slice, edge: int) -> bool:
+        return bool(n_seen[edge] >= _ABRUPT * usual and n_level[beyond].sum() < _LEVEL * n_seen[beyond].sum())
+
+    return Window(
+        first if is_fixed(slice(0, first), first) else 0, last if is_fixed(slice(last, n), last - 1) else n, n
+    )
+
+
+def _edge_m(segments: Floats, along: int, near_m: float, cell_m: float) -> float:
+    """Where the longest of the segments (2, 2, k) across a coordinate, within a cell of a place, stands on it [m]."""
+    places, lengths = segments[along], np.abs(np.diff(segments[1 - along], axis=0)[0])
+    lengths = np.where((np.abs(places - near_m) <= cell_m).all(axis=0), lengths, 0.0)
+    if not lengths.max(initial=0.0) > 0:
+        return near_m
+    return float(places[:, lengths.argmax()].mean())
