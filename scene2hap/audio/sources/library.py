@@ -81,12 +81,16 @@ class FolderLibrary:
         except (OSError, UnicodeDecodeError) as cause:
             raise ConfigError(f"{index}: cannot be read as UTF-8 text ({cause}). Save it as CSV in UTF-8.") from cause
         table = csv.DictReader(text.splitlines())
+        try:
+            rows = list(table)
+        except csv.Error as cause:  # a field of more than 131,072 characters
+            raise ConfigError(f"{index}: cannot be read as CSV ({cause}). Shorten that field.") from cause
         if "file" not in (table.fieldnames or ()):
             raise ConfigError(
                 f"{index}: the first line is {table.fieldnames}; it must name the columns, at least 'file', "
                 "separated by commas."
             )
-        for row in table:
+        for row in rows:
             # A short row leaves None behind.
             name, keywords, title, author, licence, address = (
                 (row.get(column) or "").strip()

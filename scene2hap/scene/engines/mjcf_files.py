@@ -35,6 +35,10 @@ _CELLS_PER_BYTE = 20.0
 """What a byte of a picture may unpack to, in cells (assumed: ten times what photographs do)."""
 MAX_MODELS = 200
 """Models within models, each as often as it is named (assumed)."""
+MAX_RESERVED = 1_000
+"""Numbers for which <size> may reserve room in each element, or for key frames (assumed)."""
+MAX_MESH_STEPS = 200
+"""Steps that a built-in mesh may be divided into (assumed: 80,000 triangles)."""
 
 # Whatever multiplies what it holds, and whatever makes a grid of that many cells.
 _COPIES = {"replicate": "count", "composite": "count", "flexcomp": "count"}
@@ -212,6 +216,13 @@ class _Reader:
         self.open_copies.append(self._counted(tag, attributes, place, around))
         if tag == "compiler":
             self._compiler(attributes)
+        if tag == "size":
+            for key in attributes:
+                if key == "nkey" or key.startswith("nuser"):
+                    _at_most(f"{key} of {place}", attributes[key], MAX_RESERVED)
+        if tag == "mesh" and "builtin" in attributes:
+            for number in attributes.get("params", "").split():
+                _at_most(f"a parameter of {place}", number, MAX_MESH_STEPS)
         for key, name in attributes.items():
             # A cube's sides are called fileright, fileleft, ...
             if key.startswith("file") and name:
@@ -263,6 +274,12 @@ def _png_cells(path: Path) -> int:
     if not start.startswith(b"\x89PNG\r\n\x1a\n"):
         return 0
     return int.from_bytes(start[16:20], "big") * int.from_bytes(start[20:24], "big")
+
+
+def _at_most(what: str, number: str, most: int) -> None:
+    """Raises: SceneError: a number is larger; what is no number is left to MuJoCo."""
+    if _product(number) > most:
+        raise SceneError(f"{what} is {number[:40]!r}; up to {most:,} is read.")
 
 
 def _plain(name: str) -> str:

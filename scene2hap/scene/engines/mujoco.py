@@ -116,7 +116,7 @@ def open_mjcf(path: str | os.PathLike[str], *, assets_root: str | os.PathLike[st
             data = mujoco.MjData(model)
             # Enough for poses; contacts of a model that never moved would tell little, and may take minutes to find.
             mujoco.mj_kinematics(model, data)
-    except (ValueError, MemoryError, mujoco.FatalError, mujoco.UnexpectedError) as cause:
+    except (ValueError, RuntimeError, MemoryError, mujoco.FatalError, mujoco.UnexpectedError) as cause:
         told = " ".join(str(cause).split()).removeprefix("Error: ")
         raise SceneFormatError(f"MuJoCo cannot read {path.name!r}: {told}.") from cause
     return model, data

@@ -319,3 +319,29 @@ def test_a_real_kitchen_is_measured_from_its_visual_geoms() -> None:
     )
     # Four knobs of one make are copies.
     assert len({scene.object(f"knob {i}").instance_key for i in range(1, 5)}) == 1
+
+
+@pytest.mark.parametrize(
+    "inside",
+    [
+        '<size nuser_body="2000000000"/>' + BALL,
+        '<size nuser_geom="100000000"/>' + BALL,
+        '<size nkey="10000000"/>' + BALL,
+        '<asset><mesh name="t" builtin="torus" params="5000 0.5 1 1"/></asset>' + WORLD,
+        '<asset><mesh name="t" builtin="sphere" params="1e9"/></asset>' + WORLD,
+    ],
+)
+def test_rooms_and_meshes_that_a_few_bytes_make_are_bounded(home: Path, inside: str) -> None:
+    with pytest.raises(SceneError, match="up to .* is read"):
+        open_mjcf(mjcf(home, inside))
+
+
+def test_whatever_mujoco_raises_is_an_error_of_ours(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    import mujoco
+
+    def fails(model: object) -> None:
+        raise RuntimeError("could not allocate")
+
+    monkeypatch.setattr(mujoco, "MjData", fails)
+    with pytest.raises(SceneFormatError, match="could not allocate"):
+        open_mjcf(mjcf(home, BALL))
