@@ -113,6 +113,6 @@ def test_is_known_by_its_kind(tmp_path: Path) -> None:
 
 
 def test_a_table_with_a_field_of_a_megabyte_is_refused_with_a_sentence(tmp_path: Path) -> None:
-    (tmp_path / "index.csv").write_text(f"file,keywords\na.wav,{'x' * 200_000}\n", encoding="utf-8")
+    (tmp_path / "sounds.csv").write_text(f"file,keywords\na.wav,{'x' * 200_000}\n", encoding="utf-8")
     with pytest.raises(ConfigError, match="cannot be read as CSV"):
         FolderLibrary(tmp_path).find(describe("pump", "pump"))
