@@ -7,6 +7,7 @@ Errors that a person can act on are one line on standard error and exit status 1
 from __future__ import annotations
 
 import argparse
+import contextlib
 import warnings
 from collections.abc import Sequence
 from typing import Any
@@ -61,7 +62,9 @@ class _Parser(argparse.ArgumentParser):
     """Shows arguments as `Console` shows names: a file may be called anything."""
 
     def _print_message(self, message: str, file: Any = None) -> None:
-        super()._print_message(printable(message, lines=True), file)
+        # Older versions of argparse raise what newer ones swallow; `Console.close` reports what cannot be written.
+        with contextlib.suppress(OSError):
+            super()._print_message(printable(message, lines=True), file)
 
 
 def _parser() -> argparse.ArgumentParser:

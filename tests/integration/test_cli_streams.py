@@ -69,6 +69,21 @@ def test_closed_streams(room: Path, closed: str, arguments: tuple[str, ...]) -> 
 
 
 @posix
+def test_wrong_usage_is_2_where_argparse_raises_what_it_cannot_write() -> None:
+    """As argparse of Python 3.11.2, the one of Debian 12, does."""
+    program = (
+        "import argparse, sys\n"
+        "def write(self, message, file=None): (file or sys.stderr).write(message)\n"
+        "argparse.ArgumentParser._print_message = write\n"
+        "from scene2hap.cli import main\n"
+        "sys.exit(main())"
+    )
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+    with open("/dev/full", "w") as full:
+        assert subprocess.run([sys.executable, "-c", program, "bad"], stderr=full, env=environment).returncode == 2
+
+
+@posix
 def test_what_was_asked_for_is_done_though_nobody_reads(room: Path, tmp_path: Path) -> None:
     outcome = run("$run > /dev/full", "bake", room, "-o", tmp_path / "bundle")
     assert outcome.returncode == 1
