@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 from kernels import both, seeds, steady
 from scene2hap.contact.junction import Junction
 from scene2hap.propagation.near_field import table
-from scene2hap.propagation.walk import Door, Ends, Exit
 from scene2hap.scene.pose import Pose
 
 
@@ -22,95 +21,43 @@ def places(rng: np.random.Generator, n: int) -> list[tuple[float, float, float]]
 
 
 @steady
-@given(seed=seeds, n=st.integers(0, 6))
-def test_ways_through_an_object(seed: int, n: int) -> None:
+@given(seed=seeds, max_hops=st.sampled_from([1, 2, 3, 4, None]))
+def test_cheapest_paths_over_contacts_that_come_and_go_and_move(seed: int, max_hops: int | None) -> None:
     rng = np.random.default_rng(seed)
-    entries = list(zip(places(rng, n), rng.uniform(0, 2, n).tolist(), strict=True))
-    (point,), price = places(rng, 1), float(rng.uniform(0, 3))
-    plain, twin = both("propagation.entries.least_cost")
-    least = plain(entries, price, point)
-    assert twin(entries, price, point) == pytest.approx(least, rel=1e-14)
-    plain, twin = both("propagation.entries.is_within")
-    for cost in (0.99 * least, 1.01 * least):
-        assert twin(entries, price, point, cost) is plain(entries, price, point, cost)
-    if n:
-        plain, twin = both("propagation.entries.nearest_m")
-        nearby = tuple(place for place, _ in entries)
-        assert twin(nearby, point) == pytest.approx(plain(nearby, point), rel=1e-14)
-
-
-@steady
-@given(seed=seeds, is_through=st.booleans(), object_id=st.sampled_from(["a", "b", "floor"]))
-def test_ways_over_contacts_that_come_and_go_and_move(seed: int, is_through: bool, object_id: str) -> None:
-    rng = np.random.default_rng(seed)
-    prices, rows = {"a": 1.0, "b": 2.0, "floor": 0.5}, {"a": 0, "c": 1, "b": 2}
-    ids = [*prices, "c", "d"]
+    ids = [f"x{i}" for i in range(9)]
+    prices = {x: float(rng.choice([0.0, rng.uniform(0.1, 2)])) for x in ids[:-2]}
+    rows = {"x0": 0, "x5": 1, "x8": 2}
     crossing = {0.5: 0.3, 1.0: 0.0, 0.0: math.inf}
     beside: dict[str, dict[str, Junction]] = {}
-
-    def junction() -> Junction:
-        n = int(rng.integers(1, 5))
-        return Junction(tuple(places(rng, n)), tuple(rng.choice([0.0, 0.5, 1.0], n).tolist()), (None,) * n)
 
     def change() -> tuple[str, str]:
         a, b = sorted(rng.choice(ids, 2, replace=False).tolist())
         if rng.random() < 0.4 and b in beside.get(a, {}):
             del beside[a][b], beside[b][a]
         else:
-            beside.setdefault(a, {})[b] = beside.setdefault(b, {})[a] = junction()
+            n = int(rng.integers(1, 5))
+            weights = tuple(rng.choice([0.0, 0.5, 1.0], n).tolist())
+            junction = Junction(tuple(places(rng, n)), weights, (None,) * n)
+            beside.setdefault(a, {})[b] = beside.setdefault(b, {})[a] = junction
         return a, b
 
-    for _ in range(6):
+    for _ in range(12):
         change()
-    kinds = both("propagation.short_way.WaysInto")
-    plain, twin = (kind(object_id, rows, beside, prices, crossing, is_through=is_through) for kind in kinds)
-    for _ in range(8):
-        turned = [change() for _ in range(rng.integers(0, 3))]
-        for ways in (plain, twin):
-            ways.follow(turned if rng.random() < 0.9 else None)
-        (point,) = places(rng, 1)
+    kinds = both("propagation.contact_paths.ContactPaths")
+    networks = [kind(prices, rows, crossing, max_hops) for kind in kinds]
+    for step in range(10):
+        pairs = [change() for _ in range(rng.integers(0, 4))] if step else None
+        touched = [(str(rng.choice([*ids, "nobody"])), place) for place in places(rng, int(rng.integers(0, 3)))]
         limits = rng.choice([0.5, 3.0, math.inf], 3).tolist() if rng.random() < 0.7 else None
-        told, compiled = (rng.choice([0.7, 2.0, math.inf], 3).tolist() for _ in range(2))
-        compiled[:] = told
-        plain.lower(told, point, limits)
-        twin.lower(compiled, point, limits)
-        assert compiled == pytest.approx(told, rel=1e-14)
-        anew = kinds[0](object_id, rows, beside, prices, crossing, is_through=is_through)
-        if limits is None:
-            found = [math.inf] * 3
-            anew.lower(found, point, None)
-            assert all(x <= y * (1 + 1e-14) for x, y in zip(told, found, strict=True))
-
-
-@steady
-@given(seed=seeds, has_ends=st.booleans())
-def test_walks_over_contacts(seed: int, has_ends: bool) -> None:
-    rng = np.random.default_rng(seed)
-    ids = [f"x{i}" for i in range(8)]
-    prices = {x: float(rng.uniform(0.1, 2)) for x in ids[:-1]}
-    out: dict[str, list[Exit]] = {x: [] for x in ids}
-    for _ in range(14):
-        a, b = rng.choice(ids, 2, replace=False).tolist()
-        shared = list(zip(places(rng, 2), rng.uniform(0, 0.5, 2).tolist(), strict=True))
-        for here, there in ((a, b), (b, a)):
-            several = [Door(here, there, place, crossing) for place, crossing in shared]
-            out[here].append(Exit(there, prices.get(there, 0.0), several))
-    starts = [(0.0, Door("", "x0", places(rng, 1)[0], 0.0))]
-    limit = float(rng.choice([1.0, 4.0, math.inf]))
-    arrivals = []
-    for walk in both("propagation.walk.walked"):
-        balls = dict.fromkeys(ids[4:], ((0.0, 0.0, 0.0), 6.0))
-        ends = Ends(dict.fromkeys(balls, limit), balls, min(prices.values())) if has_ends else None
-        arrivals.append(walk(starts, out.__getitem__, prices, limit, ends))
-    plain, compiled = arrivals
-    assert [arrival[1:] for arrival in compiled] == [arrival[1:] for arrival in plain]
-    assert [cost for cost, *_ in compiled] == pytest.approx([cost for cost, *_ in plain], rel=1e-12)
-
-
-def test_doors() -> None:
-    told, compiled = (kind("cup", "table", (1.0, 2.0, 3.0), 0.5) for kind in both("propagation.walk.Door"))
-    for name in ("out_of", "into", "place", "crossing"):
-        assert getattr(compiled, name) == getattr(told, name)
+        among = {0, 2} if rng.random() < 0.3 else None
+        for network in networks:
+            network.update(None if rng.random() < 0.2 else pairs, beside)
+        plain, twin = (network.cheapest(touched, limits, among) for network in networks)
+        assert twin == pytest.approx(plain, rel=1e-12)
+        for kind, kept in zip(kinds, (plain, twin), strict=True):
+            fresh = kind(prices, rows, crossing, max_hops)
+            fresh.update(None, beside)
+            assert fresh.cheapest(touched, limits, among) == kept
 
 
 @steady

@@ -1,0 +1,450 @@
+"""The compiled twin of the kernel in `contact_paths`."""
+
+from cpython.mem cimport PyMem_Free, PyMem_Malloc, PyMem_Realloc
+from libc.math cimport INFINITY, fmax, sqrt
+from libc.string cimport memset
+
+cdef double ROUNDED_UP = 1 + 1e-9
+
+
+cdef struct Edge:
+    double x, y, z, crossing_cost
+    # The best label of the search of that number.
+    double least
+    int least_hops
+    long long search
+
+
+cdef struct Entry:
+    double x, y, z, cost
+    int hops
+
+
+cdef struct Label:
+    double cost
+    int hops
+    Py_ssize_t k
+    void* neighbour
+
+
+cdef struct Target:
+    double x, y, z, radius_m, at_most
+    Py_ssize_t row
+
+
+cdef inline double apart(double ax, double ay, double az, double bx, double by, double bz) noexcept nogil:
+    ax, ay, az = ax - bx, ay - by, az - bz
+    return sqrt(ax * ax + ay * ay + az * az)
+
+
+cdef class Object:
+    """An object of the network, with the entries of the search of that number."""
+
+    cdef object id
+    cdef double price
+    cdef bint has_price
+    cdef Py_ssize_t row  # of a source, else -1
+    cdef dict neighbours
+    cdef list onward  # neighbours through which a path may lead on, in any order
+    cdef list sources  # neighbours that are sources
+    cdef Entry* entries
+    cdef Py_ssize_t n_entries, room
+    cdef long long search
+    cdef bint is_ball_known
+    cdef double x, y, z, radius_m
+
+    def __dealloc__(self):
+        PyMem_Free(self.entries)
+
+    cdef int enter(self, Edge* at, double cost, int hops) except -1:
+        cdef Entry* entries
+        if self.n_entries == self.room:
+            entries = <Entry*>PyMem_Realloc(self.entries, (2 * self.room + 4) * sizeof(Entry))
+            if entries == NULL:
+                raise MemoryError
+            self.entries, self.room = entries, 2 * self.room + 4
+        self.entries[self.n_entries] = Entry(at.x, at.y, at.z, cost, hops)
+        self.n_entries += 1
+        return 0
+
+    cdef bint dominates(self, long long search, Edge* at, double cost, int hops) noexcept:
+        cdef Py_ssize_t i
+        cdef Entry* entry
+        if self.search == search:
+            for i in range(self.n_entries):
+                entry = &self.entries[i]
+                if entry.hops <= hops and entry.cost <= cost:
+                    if entry.cost + self.price * apart(entry.x, entry.y, entry.z, at.x, at.y, at.z) <= cost:
+                        return True
+        return False
+
+    cdef void find_ball(self) noexcept:
+        cdef Neighbour other
+        cdef Py_ssize_t k, n = 0
+        cdef Edge* at
+        self.is_ball_known = True
+        self.x = self.y = self.z = self.radius_m = 0
+        for other in self.neighbours.values():
+            for k in range(other.n):
+                at = &other.edges[k]
+                self.x, self.y, self.z, n = self.x + at.x, self.y + at.y, self.z + at.z, n + 1
+        self.x, self.y, self.z = self.x / n, self.y / n, self.z / n
+        for other in self.neighbours.values():
+            for k in range(other.n):
+                at = &other.edges[k]
+                self.radius_m = fmax(self.radius_m, apart(self.x, self.y, self.z, at.x, at.y, at.z))
+
+
+cdef class Neighbour:
+    """The contact points from one object into another."""
+
+    cdef Object out_of, into
+    cdef object junction
+    cdef Edge* edges
+    cdef Py_ssize_t n
+    cdef Py_ssize_t place  # in `onward` of the object it leads out of, -1 if it does not lead on
+
+    def __dealloc__(self):
+        PyMem_Free(self.edges)
+
+    cdef int allocate(self, Py_ssize_t n) except -1:
+        if n != self.n:
+            PyMem_Free(self.edges)
+            self.n, self.edges = 0, <Edge*>PyMem_Malloc(n * sizeof(Edge))
+            if self.edges == NULL:
+                raise MemoryError
+            self.n = n
+        memset(self.edges, 0, n * sizeof(Edge))
+        return 0
+
+    cdef int sort_in(self) except -1:
+        """Put it among the neighbours that lead on, or take it out."""
+        cdef Neighbour last
+        cdef list onward = self.out_of.onward
+        cdef bint leads_on = self.into.has_price and (
+            len(self.into.neighbours) > 1
+            or (self.n > 1 and self.out_of.has_price and self.into.price < self.out_of.price)
+        )
+        if leads_on and self.place < 0:
+            self.place = len(onward)
+            onward.append(self)
+        elif not leads_on and self.place >= 0:
+            last = onward.pop()
+            if last is not self:
+                onward[self.place] = last
+                last.place = self.place
+            self.place = -1
+        return 0
+
+
+cdef class ContactPaths:
+    cdef dict price_per_m, rows, objects
+    cdef object crossing_costs
+    cdef double least_price
+    cdef bint is_limited
+    cdef int max_hops
+    cdef long long search
+    cdef Label* labels
+    cdef Py_ssize_t n_labels, room
+    cdef Target* targets
+    cdef Py_ssize_t n_targets
+    cdef double* found
+
+    def __init__(self, dict price_per_m, dict rows, crossing_costs, max_hops):
+        self.price_per_m, self.rows, self.crossing_costs = price_per_m, rows, crossing_costs
+        self.least_price = min(price_per_m.values(), default=0.0)
+        self.is_limited = max_hops is not None
+        self.max_hops = min(max_hops, 1 << 30) if self.is_limited else 0
+        self.objects = {}
+        self.targets = <Target*>PyMem_Malloc((len(rows) + 1) * sizeof(Target))
+        self.found = <double*>PyMem_Malloc((len(rows) + 1) * sizeof(double))
+        if self.targets == NULL or self.found == NULL:
+            raise MemoryError
+
+    def __dealloc__(self):
+        PyMem_Free(self.labels)
+        PyMem_Free(self.targets)
+        PyMem_Free(self.found)
+
+    # The network.
+
+    def update(self, pairs, dict beside):
+        cdef dict around
+        if pairs is None:
+            self.update_all(beside)
+            return
+        for a, b in pairs:
+            around = beside.get(a)
+            junction = None if around is None else around.get(b)
+            if junction is None:
+                self.disconnect(a, b)
+            else:
+                self.connect(a, b, junction)
+
+    cdef int update_all(self, dict beside) except -1:
+        """Connect what is new or moved, a junction that moved being another one, and disconnect what is gone."""
+        cdef Object x
+        cdef Neighbour there
+        cdef dict around, known
+        for a, around in beside.items():
+            x = self.objects.get(a)
+            known = {} if x is None else x.neighbours
+            for b, junction in around.items():
+                there = known.get(b)
+                if there is None or there.junction is not junction:
+                    self.connect(a, b, junction)
+        for x in list(self.objects.values()):
+            around = beside.get(x.id, {})
+            if len(x.neighbours) > len(around):
+                for b in list(x.neighbours):
+                    if b not in around:
+                        self.disconnect(x.id, b)
+        return 0
+
+    cdef Object object_of(self, object_id):
+        cdef Object found = self.objects.get(object_id)
+        if found is None:
+            found = Object.__new__(Object)
+            found.id, price = object_id, self.price_per_m.get(object_id)
+            found.has_price = price is not None
+            found.price = price if found.has_price else 0.0
+            found.row = self.rows.get(object_id, -1)
+            found.neighbours, found.onward, found.sources = {}, [], []
+            self.objects[object_id] = found
+        return found
+
+    cdef int connect(self, a, b, junction) except -1:
+        cdef Object one = self.object_of(a), two = self.object_of(b)
+        cdef Neighbour there = one.neighbours.get(b), back = two.neighbours.get(a)
+        cdef tuple points = junction[0], weights = junction[1]
+        cdef tuple point
+        cdef Py_ssize_t k
+        cdef bint is_new = there is None
+        cdef Edge* edge
+        if is_new:
+            there, back = Neighbour.__new__(Neighbour), Neighbour.__new__(Neighbour)
+            there.out_of, there.into, there.place = one, two, -1
+            back.out_of, back.into, back.place = two, one, -1
+        there.junction = back.junction = junction
+        there.allocate(len(points))
+        back.allocate(len(points))
+        for k in range(len(points)):
+            point, edge = points[k], &there.edges[k]
+            edge.x, edge.y, edge.z = point
+            edge.crossing_cost = self.crossing_costs[weights[k]]
+            back.edges[k] = edge[0]
+        one.is_ball_known = two.is_ball_known = False
+        if is_new:
+            one.neighbours[b], two.neighbours[a] = there, back
+            if two.row >= 0:
+                one.sources.append(there)
+            if one.row >= 0:
+                two.sources.append(back)
+            self.sort_around(one)
+            self.sort_around(two)
+        there.sort_in()
+        back.sort_in()
+        return 0
+
+    cdef int disconnect(self, a, b) except -1:
+        cdef Object one = self.objects.get(a), two = self.objects.get(b)
+        cdef Neighbour there, back
+        if one is None or two is None:
+            return 0
+        there, back = one.neighbours.pop(b, None), two.neighbours.pop(a, None)
+        if there is None:
+            return 0
+        self.forget(there)
+        self.forget(back)
+        for x in (one, two):
+            (<Object>x).is_ball_known = False
+            if (<Object>x).neighbours:
+                self.sort_around(x)
+            else:
+                del self.objects[(<Object>x).id]
+        return 0
+
+    cdef int forget(self, Neighbour gone) except -1:
+        cdef Neighbour last
+        cdef list onward = gone.out_of.onward
+        if gone.into.row >= 0:
+            gone.out_of.sources.remove(gone)
+        if gone.place >= 0:
+            last = onward.pop()
+            if last is not gone:
+                onward[gone.place] = last
+                last.place = gone.place
+        return 0
+
+    cdef int sort_around(self, Object x) except -1:
+        """An object with one neighbour leads on in another way than one with more: tell its neighbours."""
+        cdef Neighbour out, back
+        if len(x.neighbours) <= 2:
+            for out in x.neighbours.values():
+                back = out.into.neighbours[x.id]
+                back.sort_in()
+        return 0
+
+    # The search.
+
+    def cheapest(self, touched, limits=None, among=None):
+        cdef Py_ssize_t k, n = len(self.rows), row
+        cdef Object x
+        cdef Neighbour start
+        cdef list starts = []
+        cdef double limit = INFINITY
+        cdef Target* target
+        self.search += 1
+        self.n_labels = self.n_targets = 0
+        for k in range(n):
+            self.found[k] = INFINITY
+        for object_id, point in touched:
+            at = self.rows.get(object_id)
+            if at is not None:
+                self.found[<Py_ssize_t>at] = 0.0
+            x = self.objects.get(object_id)
+            if x is not None and x.has_price:
+                start = Neighbour.__new__(Neighbour)
+                start.into = x
+                start.allocate(1)
+                start.edges[0].x, start.edges[0].y, start.edges[0].z = point
+                start.edges[0].search = self.search
+                starts.append(start)
+                self.push(0.0, 0, start, 0)
+        if starts:
+            for source_id, row in self.rows.items():
+                if self.found[row] > 0.0 and (among is None or row in among):
+                    x = self.objects.get(source_id)
+                    if x is not None:
+                        if not x.is_ball_known:
+                            x.find_ball()
+                        if limits is not None:
+                            limit = limits[row]
+                        self.targets[self.n_targets] = Target(x.x, x.y, x.z, x.radius_m, limit, row)
+                        self.n_targets += 1
+            self.follow()
+        return [self.found[k] for k in range(n)]
+
+    cdef int follow(self) except -1:
+        """Expand labels, the cheapest first, until no target is left."""
+        cdef Label label
+        cdef Neighbour way
+        cdef Edge* at
+        while self.n_labels and self.n_targets:
+            label = self.pop()
+            way = <Neighbour>label.neighbour
+            at = &way.edges[label.k]
+            if label.cost > at.least and label.hops >= at.least_hops:
+                continue  # a cheaper label of the same point came first
+            if way.into.dominates(self.search, at, label.cost, label.hops):
+                continue
+            self.drop_targets(label.cost)
+            if self.may_reach(at, label.cost):
+                self.expand(way, at, label.cost, label.hops)
+        return 0
+
+    cdef int expand(self, Neighbour way, Edge* at, double cost, int hops) except -1:
+        cdef Object here = way.into, beyond
+        cdef Neighbour other
+        cdef Py_ssize_t i, k
+        cdef double price = here.price, further, limit = 0
+        cdef bint is_last = False
+        cdef Target* target
+        cdef Edge* edge
+        if here.search != self.search:
+            here.search, here.n_entries = self.search, 0
+        here.enter(at, cost, hops)
+        for i in range(self.n_targets):
+            target = &self.targets[i]
+            for other in here.sources:
+                if other.into.row == target.row:
+                    for k in range(other.n):
+                        edge = &other.edges[k]
+                        further = cost + price * apart(at.x, at.y, at.z, edge.x, edge.y, edge.z) + edge.crossing_cost
+                        if further < self.found[target.row] and further <= target.at_most:
+                            self.found[target.row] = target.at_most = further
+                    break
+            limit = fmax(limit, target.at_most)
+        if self.is_limited:
+            hops += 1
+            if hops >= self.max_hops:
+                return 0
+            is_last = hops + 1 == self.max_hops
+        for other in here.onward:
+            beyond = other.into
+            if (is_last and not beyond.sources) or (beyond is way.out_of and price >= beyond.price):
+                continue
+            for k in range(other.n):
+                edge = &other.edges[k]
+                further = cost + price * apart(at.x, at.y, at.z, edge.x, edge.y, edge.z) + edge.crossing_cost
+                if further > limit or further == INFINITY:
+                    continue
+                if edge.search != self.search:
+                    edge.search, edge.least, edge.least_hops = self.search, INFINITY, 2147483647
+                if further >= edge.least and hops >= edge.least_hops:
+                    continue
+                if beyond.dominates(self.search, edge, further, hops):
+                    continue
+                if further <= edge.least and hops <= edge.least_hops:
+                    edge.least, edge.least_hops = further, hops
+                self.push(further, hops, other, k)
+        return 0
+
+    cdef void drop_targets(self, double cost) noexcept:
+        """Drop the targets that no path of such a cost improves."""
+        cdef Py_ssize_t i = 0
+        while i < self.n_targets:
+            if cost <= self.targets[i].at_most and cost < self.found[self.targets[i].row]:
+                i += 1
+            else:
+                self.n_targets -= 1
+                self.targets[i] = self.targets[self.n_targets]
+
+    cdef bint may_reach(self, Edge* at, double cost) noexcept:
+        cdef Py_ssize_t i
+        cdef double metres
+        cdef Target* target
+        for i in range(self.n_targets):
+            target = &self.targets[i]
+            metres = apart(at.x, at.y, at.z, target.x, target.y, target.z) - target.radius_m
+            if cost + self.least_price * metres <= target.at_most * ROUNDED_UP:
+                return True
+        return False
+
+    # A binary heap of labels. Their neighbours outlive the search: nothing updates the network meanwhile.
+
+    cdef int push(self, double cost, int hops, Neighbour way, Py_ssize_t k) except -1:
+        cdef Py_ssize_t i = self.n_labels, parent
+        cdef Label* labels
+        if i == self.room:
+            labels = <Label*>PyMem_Realloc(self.labels, (2 * i + 64) * sizeof(Label))
+            if labels == NULL:
+                raise MemoryError
+            self.labels, self.room = labels, 2 * i + 64
+        labels = self.labels
+        while i > 0:
+            parent = (i - 1) // 2
+            if labels[parent].cost <= cost:
+                break
+            labels[i] = labels[parent]
+            i = parent
+        labels[i] = Label(cost, hops, k, <void*>way)
+        self.n_labels += 1
+        return 0
+
+    cdef Label pop(self) noexcept:
+        cdef Label* labels = self.labels
+        cdef Label first = labels[0], last
+        cdef Py_ssize_t i = 0, child, n = self.n_labels - 1
+        self.n_labels = n
+        last = labels[n]
+        while 2 * i + 1 < n:
+            child = 2 * i + 1
+            if child + 1 < n and labels[child + 1].cost < labels[child].cost:
+                child += 1
+            if last.cost <= labels[child].cost:
+                break
+            labels[i] = labels[child]
+            i = child
+        labels[i] = last
+        return first

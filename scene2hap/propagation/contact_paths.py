@@ -1,0 +1,191 @@
+"""Cheapest paths over contacts from touched points to sources (Dijkstra's algorithm, pruned).
+
+A path runs from contact to contact: a straight line through an object costs its price per metre, and each contact costs
+something to cross. A path costs the same in both directions, so one search from the touched points finds all sources.
+
+`ContactPaths` keeps the network of contacts and updates only the pairs that changed. Four rules prune the search, and
+none of them changes a result:
+
+- A point that another entry into the same object reaches at no higher cost leads nowhere new, since a straight line
+  through an object is never longer than a line by way of another point.
+- An object that is no source, and touches only the object that the search comes from, leads nowhere.
+- With one contact left only sources are entered, and with two only their neighbours.
+- A path ends where even a straight line at the lowest price of all objects reaches no source at a useful cost (A*).
+
+Source of the last: P. E. Hart, N. J. Nilsson, B. Raphael, IEEE Trans. Systems Science and Cybernetics 4 (1968) 100.
+"""
+
+from __future__ import annotations
+
+import heapq
+import math
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from scene2hap.compiled import compiled
+
+if TYPE_CHECKING:
+    from scene2hap.contact.junction import Junction, Pair
+
+Triple = tuple[float, float, float]
+_ROUNDED_UP = 1 + 1e-9
+_MOST_HOPS = 2**31 - 1
+
+
+class ContactEdge:
+    """A contact point as an edge from one object into another; equal only to itself."""
+
+    __slots__ = ("crossing_cost", "into", "out_of", "point_m")
+
+    def __init__(self, out_of: str, into: str, point_m: Triple, crossing_cost: float) -> None:
+        self.out_of, self.into, self.point_m, self.crossing_cost = out_of, into, point_m, crossing_cost
+
+
+class Target:
+    """A source that a search has not reached at its lowest cost yet.
+
+    at_most : the highest cost of a path that still improves the result; middle, radius_m : a ball around all contact
+    points of the source.
+    """
+
+    __slots__ = ("at_most", "middle", "radius_m", "row")
+
+    def __init__(self, row: int, at_most: float, points_m: Sequence[Triple]) -> None:
+        x, y, z = (sum(axis) / len(points_m) for axis in zip(*points_m, strict=True))
+        self.row, self.at_most, self.middle = row, at_most, (x, y, z)
+        self.radius_m = max([math.dist(self.middle, point) for point in points_m])
+
+
+@compiled
+class ContactPaths:
+    """A network of contacts, and the cheapest paths over it.
+
+    Parameters: price_per_m : cost of a metre through each object, >= 0; objects without a price pass nothing on; rows :
+    index of each source in the results; crossing_costs : cost of crossing a contact, by its weight; max_hops : number
+    of contacts that a path may cross, None for any number.
+    """
+
+    def __init__(
+        self,
+        price_per_m: Mapping[str, float],
+        rows: Mapping[str, int],
+        crossing_costs: Mapping[float, float],
+        max_hops: int | None,
+    ) -> None:
+        self._price_per_m, self._rows, self._crossing_costs = price_per_m, rows, crossing_costs
+        self._least_price_per_m = min(price_per_m.values(), default=0.0)
+        self._max_hops = max_hops
+        self._edges: dict[str, dict[str, list[ContactEdge]]] = {}
+
+    def update(self, pairs: Iterable[Pair] | None, beside: Mapping[str, Mapping[str, Junction]]) -> None:
+        """Read the contacts of changed pairs, None for all, from `ContactGraph.beside`."""
+        if pairs is None:
+            self._edges.clear()
+            pairs = [(a, b) for a, around in beside.items() for b in around if a < b]
+        for a, b in pairs:
+            junction = beside.get(a, {}).get(b)
+            for x, y in ((a, b), (b, a)):
+                neighbours = self._edges.setdefault(x, {})
+                neighbours.pop(y, None)
+                if junction is not None:
+                    contacts = zip(junction.points_m, junction.weights, strict=True)
+                    neighbours[y] = [ContactEdge(x, y, point, self._crossing_costs[w]) for point, w in contacts]
+                elif not neighbours:
+                    del self._edges[x]
+
+    def cheapest(
+        self,
+        touched: Iterable[tuple[str, Triple]],
+        limits: Sequence[float] | None = None,
+        among: Collection[int] | None = None,
+    ) -> list[float]:
+        """Cost of the cheapest path from each source to the nearest of several touched points.
+
+        Parameters: touched : objects, each with a point [m]; limits : for each source, the highest cost of interest;
+        among : rows of the sources to look for, None for all.
+        Returns: one cost per source: 0 on a touched source, infinity without a path up to the limit.
+        """
+        rows, prices, edges = self._rows, self._price_per_m, self._edges
+        found = [math.inf] * len(rows)
+        waiting: list[tuple[float, int, int, ContactEdge]] = []
+        for object_id, point_m in touched:
+            if object_id in rows:
+                found[rows[object_id]] = 0.0
+            if object_id in prices and object_id in edges:
+                waiting.append((0.0, len(waiting), 0, ContactEdge("", object_id, point_m, 0.0)))
+        targets = {
+            x: Target(
+                row, math.inf if limits is None else limits[row], [e.point_m for es in edges[x].values() for e in es]
+            )
+            for x, row in rows.items()
+            if found[row] > 0.0 and (among is None or row in among) and x in edges
+        }
+        n_labels = len(waiting)
+        best: dict[ContactEdge, tuple[float, int]] = {}
+        entries: dict[str, list[tuple[Triple, float, int]]] = {}
+        while waiting and targets:
+            cost, _, hops, edge = heapq.heappop(waiting)
+            here, point = edge.into, edge.point_m
+            price, known = prices[here], entries.setdefault(here, [])
+            if _is_dominated(known, price, point, cost, hops):
+                continue
+            targets = {x: t for x, t in targets.items() if cost <= t.at_most and cost < found[t.row]}
+            if not self._may_reach(targets, point, cost):
+                continue
+            known.append((point, cost, hops))
+            for other, across in edges[here].items():
+                if other in targets:
+                    target = targets[other]
+                    for onward in across:
+                        further = cost + price * math.dist(point, onward.point_m) + onward.crossing_cost
+                        if further < found[target.row] and further <= target.at_most:
+                            found[target.row] = target.at_most = further
+            limit = max([target.at_most for target in targets.values()])
+            onward_hops = 0 if self._max_hops is None else hops + 1
+            for other, across in edges[here].items():
+                if not self._leads_on(here, other, onward_hops) or (other == edge.out_of and price >= prices[other]):
+                    continue
+                beyond, price_beyond = entries.get(other, []), prices[other]
+                for onward in across:
+                    further = cost + price * math.dist(point, onward.point_m) + onward.crossing_cost
+                    least, least_hops = best.get(onward, (math.inf, _MOST_HOPS))
+                    if further > limit or further == math.inf or (further >= least and onward_hops >= least_hops):
+                        continue
+                    if _is_dominated(beyond, price_beyond, onward.point_m, further, onward_hops):
+                        continue
+                    if further <= least and onward_hops <= least_hops:
+                        best[onward] = (further, onward_hops)
+                    n_labels += 1
+                    heapq.heappush(waiting, (further, n_labels, onward_hops, onward))
+        return found
+
+    def _leads_on(self, here: str, other: str, hops: int) -> bool:
+        """Whether a path may go on through a neighbour, after so many contacts, to a source or back at a lower cost."""
+        price, neighbours = self._price_per_m.get(other), self._edges[other]
+        if price is None:
+            return False
+        if self._max_hops is not None:
+            if hops >= self._max_hops:
+                return False
+            if hops + 1 == self._max_hops:
+                return any(x in self._rows for x in neighbours)
+        return len(neighbours) > 1 or (price < self._price_per_m[here] and len(neighbours[here]) > 1)
+
+    def _may_reach(self, targets: Mapping[str, Target], point_m: Triple, cost: float) -> bool:
+        """Whether a path on from a point may reach a target at a useful cost."""
+        price = self._least_price_per_m
+        for target in targets.values():
+            # Rounding must not prune a path of equal cost: its last digit would depend on the order of the search.
+            if cost + price * (math.dist(point_m, target.middle) - target.radius_m) <= target.at_most * _ROUNDED_UP:
+                return True
+        return False
+
+
+def _is_dominated(
+    entries: Iterable[tuple[Triple, float, int]], price_per_m: float, point_m: Triple, cost: float, hops: int
+) -> bool:
+    """Whether another entry into the object reaches a point at no higher cost and over no more contacts."""
+    for entry_m, entry_cost, entry_hops in entries:  # `any` takes twice as long
+        if entry_hops <= hops and entry_cost + price_per_m * math.dist(entry_m, point_m) <= cost:
+            return True
+    return False
