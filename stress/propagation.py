@@ -47,7 +47,6 @@ from scene2hap import (
 )
 from scene2hap.errors import Scene2HapError
 from scene2hap.propagation.domain import ThinPlateWarning
-from scene2hap.propagation.fir import exponential_fir
 from scene2hap.propagation.lattice import bending_lattice
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 from scene2hap.propagation.stepping import ExactStepper, NewmarkStepper, State, Stepper, viscous_difference_db
@@ -164,10 +163,6 @@ def kernels(number: int, tallies: dict[str, Tally], limit_s: float) -> None:
         tallies[name].ask(case, limit_s, lambda model=model: model.plate_transfer(plate, points[0], points, f))
         if not isinstance(model, ExponentialPlate):
             tallies[name].ask(case, limit_s, lambda model=model: model.plate_receptance(plate, points[0], points, f))
-    rate, distance = rng.choice([2000.0, 8000.0, 48000.0]), 10 ** rng.uniform(-6, 3)
-    tallies["exponential, FIR"].ask(
-        f"filter {number}, {plate}", limit_s, lambda: exponential_fir(plate, distance, rate, rng.choice([16, 1000]))
-    )
 
 
 def some_scene(rng: random.Random) -> tuple[ContactNetwork, list[Excitation]]:

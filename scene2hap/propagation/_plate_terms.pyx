@@ -8,7 +8,7 @@ from scene2hap.propagation._near_field cimport Dimples, near_of
 from scene2hap.propagation._rows cimport add_rows, real
 
 
-cdef class Folded:
+cdef class ContractedShapes:
     cdef double per_length, per_width
     cdef Py_ssize_t n_x, n_y, n
     cdef double[:, ::1] smooth, beyond
@@ -66,7 +66,7 @@ cdef class Folded:
 
 
 cdef void fold(
-    Folded self,
+    ContractedShapes self,
     real* told,
     const real* smooth,
     const real* cosines,

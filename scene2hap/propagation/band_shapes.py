@@ -21,9 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
-from scene2hap.propagation.asked import Gains
+from scene2hap.propagation.object_response import Gains
+from scene2hap.propagation.response_basis import ResponseBasis
 from scene2hap.propagation.sampling import Sampling
-from scene2hap.propagation.span import Span
 
 CLOSE = 1e-3
 """Part of each source's motion in a band, over the whole body, that may be missed: 60 dB below."""
@@ -69,16 +69,16 @@ class BandLengths:
         return np.stack(found, axis=-1)
 
 
-def band_gains(span: Span, forces: Complex, sampling: Sampling) -> Gains:
+def band_gains(response: ResponseBasis, forces: Complex, sampling: Sampling) -> Gains:
     """Gains of sources at points of a body, by the forces that each of them makes there.
 
     Parameters: forces : (n_frequencies, n_forces, n_sources).
     """
-    sizes, n_before = span.sizes[:, None], 0
+    sizes, n_before = response.sizes[:, None], 0
     bases, carried, factors = [], [], []
     for band in sampling.bands:
         own = forces[band] * np.sqrt(sampling.weights[band])[:, None, None]
-        weights = span.weights(sampling.frequencies_hz[band], own.transpose(1, 2, 0)).view(np.float64)
+        weights = response.weights(sampling.frequencies_hz[band], own.transpose(1, 2, 0)).view(np.float64)
         columns, lengths = _of_length_one(weights * sizes[:, :, None])
         basis, share = _few(columns.reshape(len(columns), -1), n_before + _MORE)
         bases.append(basis)
@@ -88,7 +88,7 @@ def band_gains(span: Span, forces: Complex, sampling: Sampling) -> Gains:
     every = np.concatenate(bases, axis=1)
     common, _ = _few(every * np.concatenate(carried), 2 * n_before + _MORE)
     # Single precision is a thousand times as good as what is left out, and half of what has to be looked up.
-    shapes = span.mixed((common / sizes).astype(np.float32))
+    shapes = response.mixed((common / sizes).astype(np.float32))
     return BandLengths(shapes, (common.T @ every).astype(np.float32), factors)
 
 

@@ -51,7 +51,7 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
     return joints
 
 
-def reached(joints: Sequence[Joint], source_ids: Iterable[str]) -> list[tuple[list[str], list[Joint]]]:
+def source_groups(joints: Sequence[Joint], source_ids: Iterable[str]) -> list[tuple[list[str], list[Joint]]]:
     """Groups of bodies that hang together and hold a source: their sources, and all of their joints."""
     beside: Mapping[str, list[int]] = defaultdict(list)
     for row, joint in enumerate(joints):

@@ -15,11 +15,11 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.propagation.byte_bounded_lru import ByteBoundedLru
 from scene2hap.propagation.lattice import Lattice
 from scene2hap.propagation.lattice_modes import TERMS, lattice_modes
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.recall import Recall
-from scene2hap.propagation.span import AnyFloat, real_times
+from scene2hap.propagation.response_basis import AnyFloat, real_times
 
 
 @lru_cache(maxsize=32)
@@ -29,8 +29,8 @@ def lattice_body(plate: Plate, resolution: int, max_frequency_hz: float, loss_fa
 
 
 @dataclass(frozen=True, eq=False)
-class LatticeSpan:
-    """A `Span`: the lattice's modes, and the series of each force.
+class LatticeBasis:
+    """A `ResponseBasis`: the lattice's modes, and the series of each force.
 
     shapes : (n_nodes, n_modes + n_forces TERMS); shares : of every mode in every force (n_forces, n_modes); spectra :
     see `LatticeBody`.
@@ -43,12 +43,12 @@ class LatticeSpan:
 
     @property
     def sizes(self) -> NDArray[np.float64]:
-        """See `Span`."""
+        """See `ResponseBasis`."""
         sizes: NDArray[np.float64] = np.sqrt(np.square(self.shapes).mean(axis=0))
         return sizes
 
     def weights(self, frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]) -> NDArray[np.complex128]:
-        """See `Span`."""
+        """See `ResponseBasis`."""
         spectrum, n_modes = self.spectra(frequencies_hz).view(np.complex128)[:, None], self.shares.shape[1]
         modal = real_times(self.shares.T, forces)
         modal *= spectrum[:n_modes]
@@ -56,7 +56,7 @@ class LatticeSpan:
         return np.concatenate([modal, series.reshape(len(forces) * TERMS, *forces.shape[1:])])
 
     def mixed(self, weights: NDArray[AnyFloat]) -> Callable[[NDArray[np.float64]], NDArray[AnyFloat]]:
-        """See `Span`."""
+        """See `ResponseBasis`."""
         at_nodes = self.shapes @ weights
         return lambda points_m: (self.lattice.interpolation(points_m) @ at_nodes).astype(weights.dtype)
 
@@ -68,8 +68,8 @@ class LatticeBody:
         self.plate = plate
         self.loss_factor = loss_factor
         self.modes = lattice_modes(plate, resolution, max_frequency_hz)
-        self._from_forces = Recall(self._pushed)
-        self._spectra = Recall(self._spectrum, room=4)
+        self._from_forces = ByteBoundedLru(self._pushed)
+        self._spectra = ByteBoundedLru(self._spectrum, room=4)
 
     def receptance(
         self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
@@ -83,11 +83,11 @@ class LatticeBody:
         flat = terms.reshape(-1, terms.shape[2]) @ self._spectra(frequencies_hz)
         return flat.view(np.complex128).reshape(*terms.shape[:2], -1).transpose(2, 0, 1)
 
-    def span(self, forces_m: NDArray[np.float64]) -> LatticeSpan:
-        """See `Spanned`."""
+    def response_basis(self, forces_m: NDArray[np.float64]) -> LatticeBasis:
+        """See `HasResponseBasis`."""
         shares, stiffer = self._from_forces(forces_m)
         shapes = np.concatenate([self.modes.shapes, stiffer], axis=1)
-        return LatticeSpan(self.modes.lattice, shapes, shares, self._spectra)
+        return LatticeBasis(self.modes.lattice, shapes, shares, self._spectra)
 
     def _pushed(self, forces_m: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Share of every mode in every force (n_forces, n_modes); the series at the nodes (n_nodes, n_forces TERMS)."""

@@ -9,12 +9,12 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.propagation.byte_bounded_lru import ByteBoundedLru
 from scene2hap.propagation.infinite_plate import InfiniteBody
 from scene2hap.propagation.modes import FINE, MARGIN, Fineness, largest_block
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.plate_terms import Folded, PlateTerms, Pushed
-from scene2hap.propagation.recall import Recall
-from scene2hap.propagation.span import AnyFloat
+from scene2hap.propagation.plate_terms import ContractedShapes, ForcedPlate, PlateTerms
+from scene2hap.propagation.response_basis import AnyFloat
 from scene2hap.propagation.split_body import SplitBody
 
 MOST_FUNCTIONS = 1100
@@ -47,23 +47,23 @@ def modal_body(
 
 
 @dataclass(frozen=True, eq=False)
-class ModalSpan:
-    """A `Span`: the plate's modes, and what else each force does."""
+class ModalBasis:
+    """A `ResponseBasis`: the plate's modes, and what else each force does."""
 
-    pushed: Pushed
+    pushed: ForcedPlate
     spectrum: Callable[[NDArray[np.float64]], NDArray[np.complex128]]
 
     @property
     def sizes(self) -> NDArray[np.float64]:
-        """See `Span`."""
+        """See `ResponseBasis`."""
         return self.pushed.sizes
 
     def weights(self, frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]) -> NDArray[np.complex128]:
-        """See `Span`."""
+        """See `ResponseBasis`."""
         return self.pushed.weights(self.spectrum(frequencies_hz), forces)
 
-    def mixed(self, weights: NDArray[AnyFloat]) -> Folded[AnyFloat]:
-        """See `Span`."""
+    def mixed(self, weights: NDArray[AnyFloat]) -> ContractedShapes[AnyFloat]:
+        """See `ResponseBasis`."""
         return self.pushed.mixed(weights)
 
 
@@ -74,10 +74,10 @@ class ModalBody:
         self.plate = plate
         self.loss_factor = loss_factor
         self.terms = PlateTerms(plate, max_frequency_hz, fineness)
-        self._at_forces = Recall(self.terms.of_forces)
-        self._among_forces = Recall(self._symmetric)
-        self._coupled = Recall(self._between, room=2)
-        self._sums = Recall(lambda frequencies_hz: self.terms.sums(*self._damped(frequencies_hz)), room=4)
+        self._at_forces = ByteBoundedLru(self.terms.of_forces)
+        self._among_forces = ByteBoundedLru(self._symmetric)
+        self._coupled = ByteBoundedLru(self._between, room=2)
+        self._sums = ByteBoundedLru(lambda frequencies_hz: self.terms.sums(*self._damped(frequencies_hz)), room=4)
 
     def receptance(
         self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
@@ -97,9 +97,9 @@ class ModalBody:
         for part, sums in self._sums(frequencies_hz).pieces(terms.reshape(-1, terms.shape[2])):
             yield part, sums.T.copy().reshape(-1, *terms.shape[:2])
 
-    def span(self, forces_m: NDArray[np.float64]) -> ModalSpan:
-        """See `Spanned`."""
-        return ModalSpan(self._at_forces(forces_m), self.spectrum)
+    def response_basis(self, forces_m: NDArray[np.float64]) -> ModalBasis:
+        """See `HasResponseBasis`."""
+        return ModalBasis(self._at_forces(forces_m), self.spectrum)
 
     def spectrum(self, frequencies_hz: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Each of the plate's terms at each frequency (n_terms, n_frequencies)."""

@@ -27,8 +27,8 @@ from scene2hap.propagation.modes import FINE, MARGIN, Fineness, modes_up_to
 from scene2hap.propagation.near_field import Dimples, NearField
 from scene2hap.propagation.octaves import OctaveSums
 from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.response_basis import AnyFloat, real_times
 from scene2hap.propagation.ritz import axis_basis
-from scene2hap.propagation.span import AnyFloat, real_times
 
 N_NODES = 4
 
@@ -37,7 +37,7 @@ Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)
-class Pushed:
+class ForcedPlate:
     """A plate under forces at given points.
 
     modes : (n_products, n_modes), phi : (n_forces, n_modes) shapes, in cosines and at the forces; rest : (n_products,
@@ -84,16 +84,18 @@ class Pushed:
         by_node = forces[:, None] * spectrum[n_modes:, None]
         return np.concatenate([modal, by_node.reshape(len(forces) * N_NODES, *forces.shape[1:])])
 
-    def mixed(self, weights: NDArray[AnyFloat]) -> Folded[AnyFloat]:
-        """Sums of these shapes, see `Span`."""
+    def mixed(self, weights: NDArray[AnyFloat]) -> ContractedShapes[AnyFloat]:
+        """Sums of these shapes, see `ResponseBasis`."""
         n_modes = self.phi.shape[1]
         beyond = np.ascontiguousarray(weights[n_modes:])
         smooth = (self.modes @ weights[:n_modes] + self.rest @ beyond).astype(weights.dtype)
-        return Folded((*self.plate.per_size, *self.plate.n_cosines), smooth, self.near.dimples, self.k2, beyond)
+        return ContractedShapes(
+            (*self.plate.per_size, *self.plate.n_cosines), smooth, self.near.dimples, self.k2, beyond
+        )
 
 
 @compiled
-class Folded(Generic[AnyFloat]):
+class ContractedShapes(Generic[AnyFloat]):
     """What known forces do at points that are not known yet.
 
     Parameters: size : of `fill_cosines`; smooth : (n_products, n) what each of those products adds; dimples, k2 : near
@@ -180,7 +182,7 @@ class PlateTerms:
         between: NDArray[np.complex128] = np.where(is_other[:, :, None], factors, 1.0).prod(axis=1)
         return between
 
-    def of_forces(self, forces_m: Floats) -> Pushed:
+    def of_forces(self, forces_m: Floats) -> ForcedPlate:
         """What forces at points (n_forces, 2) [m] do."""
         phi = self.cosines(forces_m) @ self._phi
         by_axes = self._basis(forces_m).reshape(-1, *self.modes.terms)
@@ -190,7 +192,7 @@ class PlateTerms:
             stiff.append(block.beyond(forces, self._nodes).reshape(forces.shape[0], -1))
         # One column per force and node: how the rest of the spectrum answers to it.
         rest = self._in_cosines(self._spread(stiff, side_by_side=False))
-        return Pushed(self, self._phi, phi, rest, NearField(self.modes, forces_m), np.sqrt(self._nodes))
+        return ForcedPlate(self, self._phi, phi, rest, NearField(self.modes, forces_m), np.sqrt(self._nodes))
 
     def cosines(self, points_m: Floats) -> Floats:
         """Products of Chebyshev polynomials of both axes at points (n_points, n_products), as cosines."""

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from scene2hap.propagation.modes import first_bending_hz
 from scene2hap.propagation.plate import Plate, RigidBody
-from scene2hap.propagation.span import AnyFloat, real_times
+from scene2hap.propagation.response_basis import AnyFloat, real_times
 
 COMPACT_THICKNESS = 1 / 5
 """Part of the shorter side above which a thickness makes a body compact; thin-plate theory is far gone by then."""
@@ -60,9 +60,9 @@ class RigidMotion:
             size = body.size_m if body is not None else None
         return cls(mass_kg, size if rocks else None)
 
-    def span(self, forces_m: NDArray[np.float64]) -> RigidSpan:
-        """See `Spanned`."""
-        return RigidSpan(self, self._moved_by(forces_m))
+    def response_basis(self, forces_m: NDArray[np.float64]) -> RigidBasis:
+        """See `HasResponseBasis`."""
+        return RigidBasis(self, self._moved_by(forces_m))
 
     def receptance(
         self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
@@ -96,23 +96,23 @@ class RigidMotion:
 
 
 @dataclass(frozen=True, eq=False)
-class RigidSpan:
-    """A `Span`: the motions of a rigid body. moved_by : (n_motions, n_forces)."""
+class RigidBasis:
+    """A `ResponseBasis`: the motions of a rigid body. moved_by : (n_motions, n_forces)."""
 
     body: RigidMotion
     moved_by: NDArray[np.float64]
 
     @property
     def sizes(self) -> NDArray[np.float64]:
-        """See `Span`."""
+        """See `ResponseBasis`."""
         return np.array([1.0, *(side / 2 for side in (self.body.size_m or ())[:2])])
 
     def weights(self, frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]) -> NDArray[np.complex128]:
-        """See `Span`."""
+        """See `ResponseBasis`."""
         weights = real_times(self.moved_by, forces)
         weights /= -((2 * np.pi * frequencies_hz) ** 2)
         return weights
 
     def mixed(self, weights: NDArray[AnyFloat]) -> Callable[[NDArray[np.float64]], NDArray[AnyFloat]]:
-        """See `Span`."""
+        """See `ResponseBasis`."""
         return lambda points_m: (self.body.motions(points_m) @ weights).astype(weights.dtype)

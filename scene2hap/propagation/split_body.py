@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from scene2hap.propagation.coupling import ElasticBody
 from scene2hap.propagation.infinite_plate import InfiniteBody
-from scene2hap.propagation.reached import Pairs, folded
+from scene2hap.propagation.solved_object import Pairs, contracted
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,10 +38,10 @@ class SplitBody:
     def under(
         self, forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]
     ) -> Pairs:
-        """See `Foldable`."""
+        """See `Contractible`."""
         is_low = frequencies_hz <= self.limit_hz
-        low = folded(self.below, forces_m, frequencies_hz[is_low], forces[:, is_low])
-        high = folded(self.above, forces_m, frequencies_hz[~is_low], forces[:, ~is_low])
+        low = contracted(self.below, forces_m, frequencies_hz[is_low], forces[:, is_low])
+        high = contracted(self.above, forces_m, frequencies_hz[~is_low], forces[:, ~is_low])
 
         def both(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
             answer = np.empty((len(points_m), len(is_low)), dtype=np.complex128)

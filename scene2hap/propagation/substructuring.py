@@ -22,17 +22,17 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
-from scene2hap.propagation.asked import Asked
 from scene2hap.propagation.contact_law import ContactLaw
 from scene2hap.propagation.coupling import ElasticBody, Joint, couple
 from scene2hap.propagation.domain import OutsideDomain, check_choice, check_thin
-from scene2hap.propagation.joints import joints_of, reached
+from scene2hap.propagation.joints import joints_of, source_groups
+from scene2hap.propagation.object_response import ObjectResponse
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.protocol import Carrier, ContactNetwork, Excitation
-from scene2hap.propagation.reached import Reached
 from scene2hap.propagation.rigid import RigidMotion, is_compact
 from scene2hap.propagation.sampling import Sampling
+from scene2hap.propagation.solved_object import SolvedObject
 from scene2hap.scene.pose import Pose
 
 
@@ -62,7 +62,7 @@ class Assembly:
         losses = [body.loss_factor for body in bodies.values()]
         losses += [joint.loss_factor for _, joints in self.groups for joint in joints]
         sampling = Sampling.of(self.bands, self.excitations, min(losses, default=1.0), density)
-        reach: dict[str, Reached] = {}
+        reach: dict[str, SolvedObject] = {}
         for sources, joints in self.groups:
             if joints:
                 reach |= _solved(bodies, joints, sources, source_ids, sampling)
@@ -79,7 +79,7 @@ def assemble(
     """What hangs together and what bends. Parameters, errors and warnings as `prepare_coupled`."""
     mass_kg = {item.source_id: item.mass_kg for item in excitations}
     joints = joints_of(network, network.bodies.keys() | mass_kg.keys(), law)
-    groups = reached(joints, mass_kg)
+    groups = source_groups(joints, mass_kg)
     top_hz = max(
         (*bands.edges_hz, *(item.frequency_tactile_hz for item in excitations if not bands.edges_hz)), default=0.0
     )
@@ -129,7 +129,7 @@ def _solved(
     sources: Sequence[str],
     source_ids: tuple[str, ...],
     sampling: Sampling,
-) -> dict[str, Reached]:
+) -> dict[str, SolvedObject]:
     solved = couple(bodies, joints, sources, sampling.frequencies_hz)
     forces = np.ascontiguousarray(solved.forces.transpose(1, 2, 0))
     columns = np.array([source_ids.index(x) for x in sources])
@@ -137,7 +137,7 @@ def _solved(
     if own is not None:
         forces = np.take_along_axis(forces, own[None, :, None], axis=2)[:, :, 0]
     return {
-        x: Reached(bodies[x], ends.points_m, ends.rows, ends.signs, forces, columns, joints)
+        x: SolvedObject(bodies[x], ends.points_m, ends.rows, ends.signs, forces, columns, joints)
         for x, ends in solved.ends.items()
     }
 
@@ -153,49 +153,49 @@ class CoupledField:
     bands: Bands
     network: ContactNetwork
     sampling: Sampling
-    reach: Mapping[str, Reached]
-    _asked: dict[str, Asked] = field(init=False, repr=False, default_factory=dict)
+    reach: Mapping[str, SolvedObject]
+    _responses: dict[str, ObjectResponse] = field(init=False, repr=False, default_factory=dict)
     _expected: set[str] = field(init=False, repr=False, default_factory=set)
 
     def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
         """Deflection over the sources' free ones; above 1 where something resonates. See `PropagationField`."""
         points = as_points(points_m, 3)
-        found = self._asked.get(object_id)
+        found = self._responses.get(object_id)
         if found is None:
             # Another thread may have expected it by now.
-            found = self._asked.setdefault(object_id, self._ask(object_id))
+            found = self._responses.setdefault(object_id, self._response(object_id))
         return found(points)
 
     def expect(self, object_id: str) -> None:
         """Be ready to be asked about an object often, see `ExpectantField`."""
         # If each source has one frequency, what was asked about is as quick as it can be.
-        ready = self._asked if self.sampling.starts is None else self._expected
+        ready = self._responses if self.sampling.starts is None else self._expected
         if object_id not in ready:
-            self._asked[object_id] = self._ask(object_id, is_expected=True)
+            self._responses[object_id] = self._response(object_id, is_expected=True)
             self._expected.add(object_id)
 
     def carriers(self, object_id: str, source_id: str, band: int) -> tuple[Carrier, ...]:
         """The contacts through which power comes into an object, see `CarryingField`."""
-        reached = self.reach.get(object_id)
-        if reached is None or object_id == source_id or source_id not in self.source_ids:
+        solved = self.reach.get(object_id)
+        if solved is None or object_id == source_id or source_id not in self.source_ids:
             return ()
-        shares = reached.shares_of_power(self.source_ids.index(source_id), band, self.sampling)
+        shares = solved.shares_of_power(self.source_ids.index(source_id), band, self.sampling)
         pose = self.network.poses.get(object_id, Pose())
-        points = pose.to_world(np.column_stack([reached.points_m, np.zeros(len(reached.points_m))]))
+        points = pose.to_world(np.column_stack([solved.points_m, np.zeros(len(solved.points_m))]))
         found = [
             Carrier(by, (float(x), float(y), float(z)), float(share))
-            for by, (x, y, z), share in zip(reached.others, points, shares, strict=True)
+            for by, (x, y, z), share in zip(solved.others, points, shares, strict=True)
             if share > 0
         ]
         return tuple(sorted(found, key=lambda one: (-one.share, one.by, one.point_m)))
 
-    def _ask(self, object_id: str, *, is_expected: bool = False) -> Asked:
+    def _response(self, object_id: str, *, is_expected: bool = False) -> ObjectResponse:
         shape, ids = (len(self.source_ids), self.bands.n_bands), self.source_ids
         own = ids.index(object_id) if object_id in ids else -1
-        reached, place = self.reach.get(object_id), self.network.placing(object_id)
-        if reached is None:
-            return Asked(place, _nothing_arrives, np.empty(0, dtype=np.intp), shape, own)
-        return Asked(place, reached.gains(self.sampling, is_expected=is_expected), reached.columns, shape, own)
+        solved, place = self.reach.get(object_id), self.network.placing(object_id)
+        if solved is None:
+            return ObjectResponse(place, _nothing_arrives, np.empty(0, dtype=np.intp), shape, own)
+        return ObjectResponse(place, solved.gains(self.sampling, is_expected=is_expected), solved.columns, shape, own)
 
 
 def _nothing_arrives(points_m: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -101,10 +101,10 @@ def test_forces_folded(seed: int, n: int, dtype: type) -> None:
     smooth, beyond = (rng.normal(size=(rows, n_columns)).astype(dtype) for rows in (20, 4 * n_forces))
     points = rng.uniform(0, 1, (n, 2))
     dimples = both("propagation.near_field.Dimples")
-    folded = both("propagation.plate_terms.Folded")
+    contracted = both("propagation.plate_terms.ContractedShapes")
     told, compiled = (
         kind((2.0, 2.0, 5, 4), smooth, own(*near, table()), k2, beyond)(points)
-        for kind, own in zip(folded, dimples, strict=True)
+        for kind, own in zip(contracted, dimples, strict=True)
     )
     assert compiled.dtype == told.dtype == dtype
     close = 1e-9 if dtype is np.float64 else 1e-4
@@ -132,7 +132,7 @@ def test_what_an_object_is_asked(seed: int, n: int, own: int) -> None:
     arriving = rng.uniform(0, 1, (n, len(columns), 3))
     told, compiled = (
         kind(lambda points: points[:, :2], lambda _: arriving, columns, (5, 3), own)(np.zeros((n, 3)))
-        for kind in both("propagation.asked.Asked")
+        for kind in both("propagation.object_response.ObjectResponse")
     )
     np.testing.assert_array_equal(compiled, told)
 
@@ -141,7 +141,9 @@ def test_what_an_object_is_asked(seed: int, n: int, own: int) -> None:
 @given(seed=seeds, n=st.integers(0, 3), m=st.integers(0, 3))
 def test_sizes_of_complex_numbers(seed: int, n: int, m: int) -> None:
     pairs = np.random.default_rng(seed).normal(size=(n, 2 * m))
-    told, compiled = (kind(lambda _: pairs)(np.empty((n, 2))) for kind in both("propagation.asked.Magnitudes"))
+    told, compiled = (
+        kind(lambda _: pairs)(np.empty((n, 2))) for kind in both("propagation.object_response.Magnitudes")
+    )
     np.testing.assert_allclose(compiled, told, rtol=1e-14)
 
 

@@ -20,11 +20,11 @@ from scene2hap import (
     plate_modes,
 )
 from scene2hap.errors import ConfigError, ModelDomainError
-from scene2hap.propagation import recall
+from scene2hap.propagation import byte_bounded_lru
+from scene2hap.propagation.byte_bounded_lru import ByteBoundedLru
 from scene2hap.propagation.contact_law import ContactLaw
 from scene2hap.propagation.modal_body import ModalBody
 from scene2hap.propagation.modes import first_bending_hz
-from scene2hap.propagation.recall import Recall
 from scene2hap.propagation.rigid import is_compact
 from scene2hap.propagation.sampling import Sampling
 from scene2hap.propagation.split_body import SplitBody
@@ -96,29 +96,31 @@ def test_frequencies_of_bands() -> None:
     assert Sampling.of(Bands.dominant(), source, 0.01).frequencies_hz.tolist() == [44.0, 55.0]
 
 
-def test_recall_asks_once_and_forgets_what_was_asked_for_longest_ago() -> None:
+def test_the_cache_computes_once_and_drops_the_least_recently_used() -> None:
     asked: list[float] = []
-    twice = Recall(lambda array: asked.append(float(array[0])) or 2 * array, room=2)
+    twice = ByteBoundedLru(lambda array: asked.append(float(array[0])) or 2 * array, room=2)
     for value in (1.0, 1.0, 2.0, 1.0, 3.0, 2.0, 1.0):
         assert twice(np.array([value]))[0] == 2 * value
     assert asked == [1.0, 2.0, 3.0, 2.0, 1.0]
 
 
 def test_what_is_remembered_is_bounded_in_all(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(recall, "MOST_BYTES", 3 * 8000)
-    monkeypatch.setattr(Recall, "_shelf", OrderedDict())
-    monkeypatch.setattr(Recall, "_held_bytes", 0)
+    monkeypatch.setattr(byte_bounded_lru, "MOST_BYTES", 3 * 8000)
+    monkeypatch.setattr(ByteBoundedLru, "_shelf", OrderedDict())
+    monkeypatch.setattr(ByteBoundedLru, "_held_bytes", 0)
     asked: list[float] = []
-    one, other = (Recall(lambda array: asked.append(float(array[0])) or np.full(1000, array[0])) for _ in range(2))
+    one, other = (
+        ByteBoundedLru(lambda array: asked.append(float(array[0])) or np.full(1000, array[0])) for _ in range(2)
+    )
     for which, value in ((one, 1.0), (other, 2.0), (one, 3.0), (one, 1.0), (other, 4.0), (one, 1.0), (other, 2.0)):
         assert which(np.array([value]))[0] == value
-        assert Recall._held_bytes == 8000 * len(Recall._shelf) <= 3 * 8000
+        assert ByteBoundedLru._held_bytes == 8000 * len(ByteBoundedLru._shelf) <= 3 * 8000
     # The fourth took the place of the second, which was asked for longest ago.
     assert asked == [1.0, 2.0, 3.0, 4.0, 2.0]
     # What is too large by itself is remembered alone.
-    large = Recall(lambda array: np.empty(9000))
+    large = ByteBoundedLru(lambda array: np.empty(9000))
     assert large(np.array([1.0])) is large(np.array([1.0]))
-    assert len(Recall._shelf) == 1
+    assert len(ByteBoundedLru._shelf) == 1
 
 
 def test_bodies_are_shared_by_sources_of_nearly_the_same_frequency() -> None:

@@ -10,15 +10,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, Material, ModalPlate, Plate, Pose, materials
-from scene2hap.propagation import modal_body, reached
+from scene2hap.propagation import modal_body, solved_object
 from scene2hap.propagation.band_shapes import CLOSE, band_gains
 from scene2hap.propagation.lattice_body import lattice_body
 from scene2hap.propagation.modal_body import ModalBody
 from scene2hap.propagation.octaves import OctaveSums
 from scene2hap.propagation.protocol import ExpectantField
-from scene2hap.propagation.reached import folded, pieces
 from scene2hap.propagation.rigid import RigidMotion
 from scene2hap.propagation.sampling import Sampling
+from scene2hap.propagation.solved_object import contracted, pieces
 from scene2hap.propagation.split_body import SplitBody
 
 STEEL = Plate(0.65, 0.42, 0.002, materials.lookup("steel"))
@@ -46,7 +46,7 @@ def test_folded_forces_are_the_sum_over_contacts(name: str) -> None:
     at, points = rng.uniform(0.0, 0.4, (9, 2)), rng.uniform(0.0, 0.42, (5, 2))
     forces = rng.normal(size=(9, 6)) + 1j * rng.normal(size=(9, 6))
     expected = np.einsum("fpc,cf->pf", body.receptance(points, at, f), forces)
-    found = folded(body, at, f, forces)(points).view(np.complex128)
+    found = contracted(body, at, f, forces)(points).view(np.complex128)
     np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12 * np.abs(expected).max())
 
 
@@ -62,7 +62,7 @@ def test_shapes_of_bands_are_the_rms_over_frequencies(name: str) -> None:
     response = np.einsum("fpc,fcs->fps", body.receptance(points, at, sampling.frequencies_hz), forces)
     squares = np.abs(response) ** 2 * sampling.weights[:, None, None]
     expected = np.sqrt([squares[begin : begin + n_f // 20].sum(axis=0) for begin in range(0, n_f, n_f // 20)])
-    found = band_gains(body.span(at), forces, sampling)(points).transpose(2, 0, 1)
+    found = band_gains(body.response_basis(at), forces, sampling)(points).transpose(2, 0, 1)
     assert found.shape == (20, 60, 4)
     assert (np.abs(found - expected) <= CLOSE * expected.max(axis=1, keepdims=True)).all()
 
@@ -153,7 +153,7 @@ def test_a_scene_in_which_one_thing_moved_is_as_if_seen_for_the_first_time(bands
 def test_more_sources_than_are_folded_are_summed(monkeypatch: pytest.MonkeyPatch) -> None:
     field, points = ModalPlate().prepare(scene(), SOURCES, Bands.dominant()), [(0.31, 0.22, 0.0), (0.12, 0.4, 0.0)]
     few = field.attenuation("top", points)
-    monkeypatch.setattr(reached, "MOST_FOLDED", 2)
-    monkeypatch.setattr(ModalBody, "span", None)
+    monkeypatch.setattr(solved_object, "MOST_CONTRACTED", 2)
+    monkeypatch.setattr(ModalBody, "response_basis", None)
     many = ModalPlate().prepare(scene(), SOURCES, Bands.dominant()).attenuation("top", points)
     np.testing.assert_allclose(many, few, rtol=1e-12)

@@ -29,7 +29,7 @@ Answer = TypeVar("Answer", bound=Sized | tuple[Sized, ...])
 _Key = tuple[Any, ...]
 
 
-class Recall(Generic[Answer]):
+class ByteBoundedLru(Generic[Answer]):
     """A function of arrays that remembers its last answers, `room` of them at most.
 
     A worker may prepare a field while the game's thread asks another, so that both may call.
@@ -63,7 +63,7 @@ class Recall(Generic[Answer]):
     def _put(self, key: _Key, answer: Answer) -> None:
         size = sum(one.nbytes for one in answer) if isinstance(answer, tuple) else answer.nbytes
         self._shelf[key], self._own[key] = (answer, size), None
-        Recall._held_bytes += size
+        ByteBoundedLru._held_bytes += size
         if len(self._own) > self._room:
             self._forget(next(iter(self._own)))
         while self._held_bytes > MOST_BYTES and len(self._shelf) > 1:
@@ -71,6 +71,6 @@ class Recall(Generic[Answer]):
 
     @staticmethod
     def _forget(key: _Key) -> None:
-        _, size = Recall._shelf.pop(key)
+        _, size = ByteBoundedLru._shelf.pop(key)
         del key[0]._own[key]
-        Recall._held_bytes -= size
+        ByteBoundedLru._held_bytes -= size

@@ -5,7 +5,7 @@ import numpy as np
 from libc.math cimport sqrt
 
 
-cdef class Asked:
+cdef class ObjectResponse:
     cdef object place, gains
     cdef const Py_ssize_t[:] columns
     cdef Py_ssize_t n_sources, n_bands, own

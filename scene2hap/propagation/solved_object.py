@@ -1,11 +1,11 @@
-"""An object that sources reach, asked about touches.
+"""An object of a solved scene: deflection under the forces at its contacts, evaluated at touched points.
 
     u(x, f) = sum over contacts c of Y(x, x_c, f) g_c(f)
 
-If each source has one frequency, all that does not depend on x is summed over the contacts when the object is first
-touched (`folded`), and a touch costs the same however many there are. In true bands that is a product of small matrices
-for every frequency, until the object is expected to be touched often: then it is summed over contacts and frequencies
-(`band_shapes`), which takes as long as some dozen touches.
+If each source has one frequency, everything that does not depend on x is summed over the contacts on the first touch
+(`contracted`), so a touch costs the same for any number of contacts. In true bands a touch takes a product of small
+matrices for every frequency, until the object is expected to be touched often: then the sum over contacts and
+frequencies is computed in advance (`band_shapes`), which takes as long as some dozen touches.
 
 Letters: as `coupling`.
 """
@@ -19,14 +19,14 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.asked import Gains, Magnitudes
 from scene2hap.propagation.band_shapes import band_gains
 from scene2hap.propagation.coupling import ElasticBody, Joint
+from scene2hap.propagation.object_response import Gains, Magnitudes
+from scene2hap.propagation.response_basis import HasResponseBasis
 from scene2hap.propagation.sampling import Sampling
-from scene2hap.propagation.span import Spanned
 
-MOST_FOLDED = 64
-"""Sources that are folded: an object keeps up to some 100 kB for each. More are summed at every touch."""
+MOST_CONTRACTED = 64
+"""Sources that are contracted: an object keeps up to some 100 kB for each. More are summed at every touch."""
 POINTS_AT_ONCE = 32
 """Points at which responses at many frequencies are held at once."""
 
@@ -40,8 +40,8 @@ Pairs = Callable[[Floats], Floats]
 
 
 @runtime_checkable
-class Foldable(Protocol):
-    """A body that can sum over known forces before it knows where it is asked, though it is not `Spanned`."""
+class Contractible(Protocol):
+    """A body that can sum over known forces before it knows where it is asked, though it is not `HasResponseBasis`."""
 
     def under(
         self, forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]
@@ -73,18 +73,18 @@ def pieces(
     return iter([(slice(None), np.ascontiguousarray(body.receptance(points_m, forces_m, frequencies_hz)))])
 
 
-def folded(
+def contracted(
     body: ElasticBody,
     forces_m: NDArray[np.float64],
     frequencies_hz: NDArray[np.float64],
     forces: NDArray[np.complex128],
 ) -> Pairs:
-    """See `Foldable.under`; a body that can do neither is asked for every contact."""
-    if len(frequencies_hz) <= MOST_FOLDED:
-        if isinstance(body, Spanned):
-            span = body.span(forces_m)
-            return span.mixed(span.weights(frequencies_hz, forces[:, None])[:, 0].view(np.float64))
-        if isinstance(body, Foldable):
+    """See `Contractible.under`; a body that can do neither is asked for every contact."""
+    if len(frequencies_hz) <= MOST_CONTRACTED:
+        if isinstance(body, HasResponseBasis):
+            basis = body.response_basis(forces_m)
+            return basis.mixed(basis.weights(frequencies_hz, forces[:, None])[:, 0].view(np.float64))
+        if isinstance(body, Contractible):
             return body.under(forces_m, frequencies_hz, forces)
 
     def summed(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -95,7 +95,7 @@ def folded(
 
 
 @dataclass(eq=False)
-class Reached:
+class SolvedObject:
     """An object that some sources reach.
 
     points_m : (n_joints, 2) [m]; rows, signs : (n_joints,) where its joints are in the forces of its group and which
@@ -162,9 +162,9 @@ class Reached:
         """Gains at points on the object, of its sources; quick ones in any case if each has one frequency."""
         own = sampling.columns(self.columns)
         if own is not None:
-            return Magnitudes(folded(self.body, self.points_m, sampling.frequencies_hz[own], self.own_forces))
-        if is_expected and isinstance(self.body, Spanned):
-            return band_gains(self.body.span(self.points_m), self.own_forces, sampling)
+            return Magnitudes(contracted(self.body, self.points_m, sampling.frequencies_hz[own], self.own_forces))
+        if is_expected and isinstance(self.body, HasResponseBasis):
+            return band_gains(self.body.response_basis(self.points_m), self.own_forces, sampling)
         return lambda points_m: self._summed(points_m, sampling)
 
     def _summed(self, points_m: Floats, sampling: Sampling) -> Floats:

@@ -15,7 +15,7 @@ Gains = Callable[[Floats], Floats]
 
 
 @compiled
-class Asked:
+class ObjectResponse:
     """What arrives at points of one object.
 
     Parameters: place : from points of the world (n_points, 3) to those on its body (n_points, 2) [m]; gains : of the

@@ -18,7 +18,7 @@ Complex = NDArray[np.complex128]
 AnyFloat = TypeVar("AnyFloat", np.float32, np.float64)
 
 
-class Span(Protocol):
+class ResponseBasis(Protocol):
     """Shapes s_i(x), of which deflection is the sum  u(x, f) = sum over i of s_i(x) W_i(f)."""
 
     @property
@@ -37,10 +37,10 @@ class Span(Protocol):
 
 
 @runtime_checkable
-class Spanned(Protocol):
+class HasResponseBasis(Protocol):
     """A body whose deflection under any forces is a sum of some shapes."""
 
-    def span(self, forces_m: Floats) -> Span:
+    def response_basis(self, forces_m: Floats) -> ResponseBasis:
         """The shapes for forces at points (n_forces, 2) [m]."""
         ...
 
