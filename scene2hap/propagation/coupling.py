@@ -180,5 +180,5 @@ def solve_joints(
     for column, source_id in enumerate(source_ids):
         if source_id in ends:
             free[ends[source_id].rows, column] = ends[source_id].signs
-    elements = [Element(own.rows, own.signs, receptances[body_id].transpose(1, 2, 0)) for body_id, own in ends.items()]
+    elements = [Element(own.rows, own.signs, receptances[body_id]) for body_id, own in ends.items()]
     return solve(elements, compliances_m_n(joints, frequencies_hz), free).transpose(2, 0, 1)

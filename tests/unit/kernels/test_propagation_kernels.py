@@ -12,6 +12,8 @@ from hypothesis import strategies as st
 
 from kernels import both, seeds, steady
 from scene2hap.contact.junction import Junction
+from scene2hap.propagation.elimination import Element
+from scene2hap.propagation.elimination_order import pattern_of
 from scene2hap.propagation.near_field import table
 from scene2hap.scene.pose import Pose
 
@@ -191,3 +193,11 @@ def test_points_in_a_rectangle(seed: int, n: int) -> None:
     points = rng.normal(size=(n, 3))
     told, compiled = (kind(pose, 0.8, 0.5)(points) for kind in both("propagation.points.InRectangle"))
     np.testing.assert_allclose(compiled, told, atol=1e-14)
+
+
+def test_without_a_compiled_factorisation_every_frequency_is_solved_dense() -> None:
+    plain, _ = both("propagation.elimination.factored")
+    element = Element(np.array([0]), np.array([1.0]), np.ones((5, 1, 1), dtype=np.complex128))
+    forces = np.empty((1, 1, 5), dtype=np.complex128)
+    pattern = pattern_of(((0,), (0,)))
+    assert not plain([element, element], np.ones((1, 5), np.complex128), np.ones((1, 1)), pattern, 1e4, forces).any()

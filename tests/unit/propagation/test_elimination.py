@@ -1,11 +1,11 @@
-"""Joining bodies two at a time, against LAPACK on the whole matrix."""
+"""Factors of the system of all joints, against LAPACK on the dense matrix."""
 
 import numpy as np
 import pytest
 
 from scene2hap.propagation import elimination
-from scene2hap.propagation.elimination import Element, joinings, solve
-from scene2hap.propagation.workspace import ROOM, workspace
+from scene2hap.propagation.elimination import Element, solve
+from scene2hap.propagation.elimination_order import merged_fronts, pattern_of
 
 N_F = 40
 
@@ -15,9 +15,9 @@ def room(rng: np.random.Generator, pairs: list[tuple[int, int]]) -> list[Element
     elements = []
     for body in range(1 + max(max(pair) for pair in pairs)):
         rows = np.array([row for row, pair in enumerate(pairs) if body in pair], dtype=np.intp)
-        matrix = rng.normal(size=(2, len(rows), len(rows), N_F))
+        matrix = rng.normal(size=(2, N_F, len(rows), len(rows)))
         signs = np.array([1.0 if body == pairs[row][0] else -1.0 for row in rows])
-        real, imaginary = matrix + matrix.transpose(0, 2, 1, 3)
+        real, imaginary = matrix + matrix.transpose(0, 1, 3, 2)
         elements.append(Element(rows, signs, real + 1j * imaginary))
     return elements
 
@@ -26,7 +26,8 @@ def whole(elements: list[Element], compliance: np.ndarray, free: np.ndarray) -> 
     n = len(compliance)
     system = np.zeros((N_F, n, n), dtype=np.complex128)
     for element in elements:
-        system[:, element.rows[:, None], element.rows] += element.matrix(slice(None), workspace()).transpose(2, 0, 1)
+        signed = np.multiply.outer(element.signs, element.signs) * element.receptance
+        system[:, element.rows[:, None], element.rows] += signed
     system[:, np.arange(n), np.arange(n)] += compliance.T
     return np.linalg.solve(system, np.broadcast_to(free, (N_F, *free.shape)))
 
@@ -52,15 +53,15 @@ def test_as_lapack(shape: str) -> None:
     assert (np.abs(found - expected) <= 1e-9 * np.abs(expected).max(axis=(1, 2), keepdims=True)).all()
 
 
-@pytest.mark.parametrize("narrow", [0, 16])
-def test_pivots_that_vanish_at_some_frequencies(narrow: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(elimination, "_NARROW", narrow)
+@pytest.mark.parametrize("slack", [0.0, elimination.SLACK])
+def test_pivots_that_vanish_at_some_frequencies(slack: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(elimination, "SLACK", slack)
     rng = np.random.default_rng(3)
     elements = room(rng, PAIRS["chain"])
     compliance = np.zeros((12, N_F), dtype=np.complex128)
     for row, (a, b) in enumerate(PAIRS["chain"]):
         own = sum(
-            element.receptance[list(element.rows).index(row)][list(element.rows).index(row)]
+            element.receptance[:, list(element.rows).index(row), list(element.rows).index(row)]
             for element in (elements[a], elements[b])
         )
         compliance[row, 7] = -own[7]
@@ -76,15 +77,34 @@ def test_every_joint_is_eliminated_once_and_fronts_stay_narrow() -> None:
         (0, 1 + i) for i in range(8) for _ in range(4)
     ]
     rows_of = tuple(tuple(row for row, pair in enumerate(pairs) if body in pair) for body in range(49))
-    plan = joinings(rows_of)
-    eliminated = [row for joining in plan for row in joining.rows[: joining.n_shared].tolist()]
-    assert sorted(eliminated) == list(range(len(pairs)))
-    assert max(len(joining.rows) for joining in plan) <= 32
+    fronts = merged_fronts(rows_of)
+    assert sorted(row for shared, _ in fronts for row in shared) == list(range(len(pairs)))
+    assert max(len(shared) + len(others) for shared, others in fronts) <= 32
+
+
+@pytest.mark.parametrize("shape", PAIRS)
+def test_the_pattern_holds_every_entry_of_the_factor(shape: str) -> None:
+    pairs = PAIRS[shape]
+    bodies = range(1 + max(max(pair) for pair in pairs))
+    rows_of = tuple(tuple(row for row, pair in enumerate(pairs) if body in pair) for body in bodies)
+    pattern, n = pattern_of(rows_of), len(pairs)
+    filled = np.zeros((n, n), dtype=bool)
+    for rows in rows_of:
+        places = pattern.place[list(rows)]
+        filled[places[:, None], places] = True
+    for i in range(n):
+        after = i + 1 + np.flatnonzero(filled[i, i + 1 :])
+        filled[after[:, None], after] = True
+    assert (pattern.entry[np.triu(filled)] >= 0).all()
+    for i in range(n):
+        own = pattern.columns[pattern.begins[i] : pattern.begins[i + 1]]
+        assert own[0] == i
+        assert (np.diff(own) > 0).all()
+        np.testing.assert_array_equal(pattern.entry[i, own], np.arange(pattern.begins[i], pattern.begins[i + 1]))
 
 
 @pytest.mark.parametrize("shape", PAIRS)
 def test_sources_that_move_some_rows_only(shape: str) -> None:
-    """Fronts carry the columns of sources among their bodies alone; answers know nothing of it."""
     rng = np.random.default_rng(7)
     pairs = PAIRS[shape]
     elements, n = room(rng, pairs), len(pairs)
@@ -98,20 +118,22 @@ def test_sources_that_move_some_rows_only(shape: str) -> None:
     assert not found[:, :, 3].any()
 
 
-def test_answers_do_not_depend_on_how_many_frequencies_are_solved_together(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("n_f", [1, 2, 3, 4, 5])
+def test_answers_do_not_depend_on_how_many_frequencies_are_solved_together(n_f: int) -> None:
     rng = np.random.default_rng(2)
     elements = room(rng, PAIRS["ring"])
     compliance = 4 + rng.normal(size=(9, N_F)) + 1j * rng.normal(size=(9, N_F))
     free = np.sign(rng.normal(size=(9, 2)))
-    at_once = solve(elements, compliance, free)
-    monkeypatch.setattr(elimination, "ROOM", 1)
-    monkeypatch.setattr(elimination, "_FEWEST", 7)
-    np.testing.assert_allclose(solve(elements, compliance, free), at_once, rtol=1e-12)
+    few = [Element(one.rows, one.signs, one.receptance[3 : 3 + n_f]) for one in elements]
+    found = solve(few, compliance[:, 3 : 3 + n_f], free)
+    np.testing.assert_allclose(found, solve(elements, compliance, free)[:, :, 3 : 3 + n_f], rtol=1e-12)
 
 
-def test_memory_is_given_out_again_and_never_twice() -> None:
-    room_ = workspace()
-    first, second = room_.array(3, 4), room_.array(5)
-    assert not np.shares_memory(first, second)
-    assert room_.array(ROOM).size == ROOM  # of its own
-    assert np.shares_memory(workspace().array(12), first)
+def test_dense_systems_are_solved_a_few_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(4)
+    elements, n = room(rng, PAIRS["chain"]), 12
+    diagonal = 4 + rng.normal(size=(n, N_F)) + 1j * rng.normal(size=(n, N_F))
+    free = np.sign(rng.normal(size=(n, 2)))
+    expected = whole(elements, diagonal, free).transpose(1, 2, 0)[:, :, 5:30]
+    monkeypatch.setattr(elimination, "_DENSE", 3 * n**2)
+    np.testing.assert_allclose(elimination.dense(elements, diagonal, free, np.arange(5, 30)), expected, rtol=1e-9)
