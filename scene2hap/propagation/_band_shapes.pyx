@@ -37,7 +37,7 @@ cdef class BandLengths:
         cdef float* turned = &self.turned[0]
         cdef float* sides = &self.sides[0]
         found = np.empty((given.shape[0], n_each, self.n_spaces))
-        cdef double[:, :, ::1] told = found
+        cdef double[:, :, ::1] out = found
         for point in range(given.shape[0]):
             for k in range(self.mixing.shape[1]):
                 sides[k] = 0
@@ -53,7 +53,7 @@ cdef class BandLengths:
                     factor += (k + 1) * n_each
                 self.sum_squares(n)
                 for each in range(n_each):
-                    told[point, each, space] = sqrt(self.squares[each])
+                    out[point, each, space] = sqrt(self.squares[each])
                 begin += n
         return found
 

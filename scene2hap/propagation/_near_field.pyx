@@ -17,21 +17,21 @@ cdef class Dimples:
     def at(self, const double[:, :] points_m):
         cdef Py_ssize_t n_points = points_m.shape[0], n_drives = self.cut2.shape[0], i, k
         found = np.empty((2, n_points, n_drives))
-        cdef double[:, :, ::1] told = found
+        cdef double[:, :, ::1] out = found
         cdef double here2, cut
         for i in range(n_points):
             here2 = self.cutoff_squared(points_m[i, 0], points_m[i, 1])
             for k in range(n_drives):
                 # K^2 between two points is the geometric mean of both.
                 cut = sqrt(here2 * self.cut2[k])
-                told[0, i, k] = self.share(points_m[i, 0], points_m[i, 1], k, cut)
-                told[1, i, k] = cut
+                out[0, i, k] = self.share(points_m[i, 0], points_m[i, 1], k, cut)
+                out[1, i, k] = cut
         return found[0], found[1]
 
     def near(self, const double[:, :] points_m, const double[::1] k2):
         cdef Py_ssize_t n_points = points_m.shape[0], n_drives = self.cut2.shape[0], n_k2 = k2.shape[0], i, drive, k
         found = np.empty((n_points, n_drives, n_k2))
-        cdef double[:, :, ::1] told = found
+        cdef double[:, :, ::1] out = found
         cdef double here2, cut, share
         for i in range(n_points):
             here2 = self.cutoff_squared(points_m[i, 0], points_m[i, 1])
@@ -39,7 +39,7 @@ cdef class Dimples:
                 cut = sqrt(here2 * self.cut2[drive])
                 share = self.share(points_m[i, 0], points_m[i, 1], drive, cut)
                 for k in range(n_k2):
-                    told[i, drive, k] = near_of(k2[k], cut, share)
+                    out[i, drive, k] = near_of(k2[k], cut, share)
         return found
 
     cdef double cutoff_squared(self, double x, double y) noexcept:

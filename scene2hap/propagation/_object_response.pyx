@@ -1,4 +1,4 @@
-"""The compiled twins of the kernels in `asked`."""
+"""The compiled twins of the kernels in `object_response`."""
 
 import numpy as np
 
@@ -18,14 +18,14 @@ cdef class ObjectResponse:
         cdef Py_ssize_t n_points = len(points_m), point, k, band
         cdef const double[:, :, :] arriving = self.gains(self.place(points_m))
         found = np.zeros((n_points, self.n_sources, self.n_bands))
-        cdef double[:, :, ::1] told = found
+        cdef double[:, :, ::1] out = found
         for point in range(n_points):
             for k in range(self.columns.shape[0]):
                 for band in range(self.n_bands):
-                    told[point, self.columns[k], band] = arriving[point, k, band]
+                    out[point, self.columns[k], band] = arriving[point, k, band]
             if self.own >= 0:
                 for band in range(self.n_bands):
-                    told[point, self.own, band] = 1.0
+                    out[point, self.own, band] = 1.0
         return found
 
 
@@ -39,10 +39,10 @@ cdef class Magnitudes:
         cdef const double[:, :] given = self.pairs(points_m)
         cdef Py_ssize_t point, k, n = given.shape[1] // 2
         sizes = np.empty((given.shape[0], n, 1))
-        cdef double[:, :, ::1] told = sizes
+        cdef double[:, :, ::1] out = sizes
         for point in range(given.shape[0]):
             for k in range(n):
-                told[point, k, 0] = sqrt(
+                out[point, k, 0] = sqrt(
                     given[point, 2 * k] * given[point, 2 * k] + given[point, 2 * k + 1] * given[point, 2 * k + 1]
                 )
         return sizes

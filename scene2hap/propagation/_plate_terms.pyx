@@ -31,7 +31,7 @@ cdef class ContractedShapes:
 
     def __call__(self, const double[:, :] points_m):
         cdef Py_ssize_t point
-        cdef double[:, ::1] told
+        cdef double[:, ::1] out
         cdef float[:, ::1] told_single
         found = np.zeros((points_m.shape[0], self.n), np.float32 if self.is_single else np.float64)
         if self.n == 0:
@@ -46,11 +46,11 @@ cdef class ContractedShapes:
                     points_m[point, 0], points_m[point, 1],
                 )
         else:
-            told = found
+            out = found
             for point in range(points_m.shape[0]):
                 self.fill(points_m[point, 0], points_m[point, 1])
                 fold(
-                    self, &told[point, 0], &self.smooth[0, 0], &self.cosines[0],
+                    self, &out[point, 0], &self.smooth[0, 0], &self.cosines[0],
                     &self.beyond[0, 0] if self.beyond.shape[0] else NULL, &self.nears[0],
                     points_m[point, 0], points_m[point, 1],
                 )
@@ -67,7 +67,7 @@ cdef class ContractedShapes:
 
 cdef void fold(
     ContractedShapes self,
-    real* told,
+    real* out,
     const real* smooth,
     const real* cosines,
     const real* beyond,
@@ -78,7 +78,7 @@ cdef void fold(
     """Add what a plate does at a point: what its cosines tell, and near fields."""
     cdef Py_ssize_t drive, node, n_k2 = self.k2.shape[0]
     cdef double cut, share, here2
-    add_rows(told, smooth, cosines, self.cosines.shape[0], self.n)
+    add_rows(out, smooth, cosines, self.cosines.shape[0], self.n)
     if beyond is NULL:
         return
     here2 = self.dimples.cutoff_squared(x, y)
@@ -89,7 +89,7 @@ cdef void fold(
             continue
         for node in range(n_k2):
             nears[node] = <real>near_of(self.k2[node], cut, share)
-        add_rows(told, beyond + drive * n_k2 * self.n, nears, n_k2, self.n)
+        add_rows(out, beyond + drive * n_k2 * self.n, nears, n_k2, self.n)
 
 
 def fill_cosines(

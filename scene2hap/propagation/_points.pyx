@@ -16,11 +16,11 @@ def of_tuples(points_m, Py_ssize_t dimensions):
             if type(x) is not float or not isfinite(<double>x):
                 return None
     found = np.empty((len(points_m), dimensions))
-    cdef double[:, ::1] told = found
-    for i in range(told.shape[0]):
+    cdef double[:, ::1] out = found
+    for i in range(out.shape[0]):
         place = points_m[i]
         for k in range(dimensions):
-            told[i, k] = place[k]
+            out[i, k] = place[k]
     return found
 
 
@@ -49,11 +49,11 @@ cdef class InRectangle:
         cdef double a, b, c
         cdef Py_ssize_t i, n = points_m.shape[0]
         found = np.empty((n, 2))
-        cdef double[:, ::1] told = found
+        cdef double[:, ::1] out = found
         for i in range(n):
             a, b, c = points_m[i, 0] - self.px, points_m[i, 1] - self.py, points_m[i, 2] - self.pz
-            told[i, 0] = fmin(fmax(along(self.axes[0], a, b, c), 0.0), self.length_m)
-            told[i, 1] = fmin(fmax(along(self.axes[1], a, b, c), 0.0), self.width_m)
+            out[i, 0] = fmin(fmax(along(self.axes[0], a, b, c), 0.0), self.length_m)
+            out[i, 1] = fmin(fmax(along(self.axes[1], a, b, c), 0.0), self.width_m)
         return found
 
 

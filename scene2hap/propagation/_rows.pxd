@@ -5,15 +5,15 @@ ctypedef fused real:
     double
 
 
-cdef inline void add_row(real* told, const real* row, real share, Py_ssize_t n) noexcept nogil:
+cdef inline void add_row(real* out, const real* row, real share, Py_ssize_t n) noexcept nogil:
     """Add a row (n,) times a share."""
     cdef Py_ssize_t k
     for k in range(n):
-        told[k] += share * row[k]
+        out[k] += share * row[k]
 
 
 cdef inline void add_rows(
-    real* told, const real* rows, const real* shares, Py_ssize_t n_rows, Py_ssize_t n
+    real* out, const real* rows, const real* shares, Py_ssize_t n_rows, Py_ssize_t n
 ) noexcept nogil:
     """Add rows (n_rows, n), each times its share: four at once, since reading and writing the sum takes as long as the
     product."""
@@ -22,10 +22,10 @@ cdef inline void add_rows(
     while row + 4 <= n_rows:
         a, b, c, d = shares[row], shares[row + 1], shares[row + 2], shares[row + 3]
         for k in range(n):
-            told[k] += (a * rows[k] + b * rows[n + k]) + (c * rows[2 * n + k] + d * rows[3 * n + k])
+            out[k] += (a * rows[k] + b * rows[n + k]) + (c * rows[2 * n + k] + d * rows[3 * n + k])
         rows += 4 * n
         row += 4
     while row < n_rows:
-        add_row(told, rows, shares[row], n)
+        add_row(out, rows, shares[row], n)
         rows += n
         row += 1

@@ -38,7 +38,7 @@ SAMPLING_SHARE = 0.2
 
 @dataclass(frozen=True, eq=False)
 class AutoField(CoupledField):
-    """A prepared scene that tells what each of its objects is modelled by."""
+    """A prepared scene, with the model of each object in `choices`."""
 
     choices: Mapping[str, Choice] = field(default_factory=dict)
 
@@ -69,7 +69,7 @@ class AutoFidelity:
         object.__setattr__(self, "contact", checked_law(self.contact, self.outside_domain, self.loss_floor))
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> AutoField:
-        """The field of a scene; `AutoField.choices` tells each object's rung. Errors, warnings: as of `ModalPlate`."""
+        """The field of a scene; `AutoField.choices` holds each object's rung. Errors, warnings: as of `ModalPlate`."""
         scene = assemble(network, excitations, bands, self.contact, self.outside_domain)
         choices = {key: Choice(key, "rigid", 0.0, "a source, or so stiff that every rung is") for key in scene.rigid}
         for object_id, tolerance_db in self._tolerances(scene).items():
@@ -89,7 +89,7 @@ class AutoFidelity:
         )
 
     def choose(self, plate: Plate, max_frequency_hz: float) -> Choice:
-        """What one plate by itself is modelled by, for frequencies up to `max_frequency_hz` [Hz]."""
+        """Choose the model of a single plate, for frequencies up to `max_frequency_hz` [Hz]."""
         situation = Situation(plate, self._loss_factor(plate), max_frequency_hz)
         return situation.choose("plate", self.tolerance_db, may_be_infinite=False)
 
@@ -133,8 +133,8 @@ class AutoFidelity:
         warn_if_thick(plate, f)
         top = float(f.max(initial=0.0))
         # 1e-9 of the top frequency stands for 0 Hz, where a loose plate has a limit but no value.
-        asked = np.maximum(f, max(1e-9 * top, 1e-9))
-        return self.elastic_body(plate, max(top, 1e-9)).receptance(points_m, drive_m, asked)[:, :, 0].T
+        positive = np.maximum(f, max(1e-9 * top, 1e-9))
+        return self.elastic_body(plate, max(top, 1e-9)).receptance(points_m, drive_m, positive)[:, :, 0].T
 
     def _scale(self, plate: Plate, f: NDArray[np.float64]) -> NDArray[np.float64]:
         """Receptance of the plate without edges [m/N], 1 at 0 Hz."""
@@ -143,7 +143,7 @@ class AutoFidelity:
         return scale
 
     def _tolerances(self, scene: Assembly) -> dict[str, float]:
-        """What each plate may be wrong by [dB]."""
+        """Tolerance of each plate [dB]."""
         tolerances: dict[str, float] = {}
         for sources, joints in scene.groups:
             depth = _chain(sources, joints, scene.plates)

@@ -34,8 +34,8 @@ def peak_level_db(
 ) -> float:
     """Bound on the gain anywhere on a plate that sources push [dB].
 
-    Parameters: pushed_by : mass [kg] of each source on the plate, and its joints there; own_hz : what sources are asked
-    at if there are no bands.
+    Parameters: pushed_by : mass [kg] of each source on the plate, and its joints there; own_hz : frequencies of the
+    sources, used without bands.
     """
     edges = bands.widths_hz()
     f = np.geomspace(edges[0, 0], edges[-1, 1], N_FREQUENCIES) if len(edges) else np.array(own_hz)

@@ -52,7 +52,7 @@ QUIET_DB = 5.0
 
 @dataclass(frozen=True)
 class Choice:
-    """What an object of a scene is modelled by: its rung, the bound on its error [dB], and why."""
+    """Model of an object: its rung, the bound on its error [dB], and why."""
 
     object_id: str
     rung: str
@@ -65,8 +65,8 @@ class Choice:
 
 @dataclass(frozen=True)
 class Situation:
-    """What a choice rests on: a plate, its loss factor [-], the top frequency [Hz], and a bound on its gain [dB]
-    (`auto_level`), infinite if nothing is known of it."""
+    """Input of a choice: a plate, its loss factor [-], the top frequency [Hz], and a bound on its gain [dB]
+    (`auto_level`), infinite if unknown."""
 
     plate: Plate
     loss_factor: float

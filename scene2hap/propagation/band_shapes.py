@@ -1,4 +1,4 @@
-"""The rms over bands of what known forces do to a body, as lengths of short vectors.
+"""The rms of a body's deflection under known forces over bands, as lengths of short vectors.
 
     g_b(x)^2 = sum over f in b of w_f |u(x, f)|^2 = |R_b Q_b^T P^T s(x)|^2       u(x, f) = sum over i of s_i(x) W_i(f)
 
@@ -70,7 +70,7 @@ class BandLengths:
 
 
 def band_gains(response: ResponseBasis, forces: Complex, sampling: Sampling) -> Gains:
-    """Gains of sources at points of a body, by the forces that each of them makes there.
+    """Gains of sources at points of a body, from the contact forces of each source.
 
     Parameters: forces : (n_frequencies, n_forces, n_sources).
     """

@@ -1,7 +1,4 @@
-"""Remembering what a function said about the arrays that it was asked last.
-
-All that is remembered together is bounded, `MOST_BYTES`; what was asked for longest ago is forgotten first.
-"""
+"""LRU caches of functions of arrays, bounded in bytes over all instances (`MOST_BYTES`)."""
 
 from __future__ import annotations
 
@@ -17,7 +14,7 @@ MOST_BYTES = 128 * 2**20
 
 
 class Sized(Protocol):
-    """What tells how much memory it holds, as arrays do."""
+    """A value with a known size in memory, such as an array."""
 
     @property
     def nbytes(self) -> int:
@@ -30,12 +27,12 @@ _Key = tuple[Any, ...]
 
 
 class ByteBoundedLru(Generic[Answer]):
-    """A function of arrays that remembers its last answers, `room` of them at most.
+    """LRU cache of a function of arrays: `room` values at most, and `MOST_BYTES` over all instances.
 
-    A worker may prepare a field while the game's thread asks another, so that both may call.
+    Safe to call from several threads: a worker prepares a field while the game's thread evaluates another.
     """
 
-    # Of all: the answers and their sizes, by who remembers them and what was asked, the last asked for last.
+    # Of all instances: values and sizes by instance and arguments, the most recently used last.
     _shelf: ClassVar[OrderedDict[_Key, tuple[Any, int]]] = OrderedDict()
     _held_bytes: ClassVar[int] = 0
     _lock: ClassVar[Lock] = Lock()
@@ -45,7 +42,7 @@ class ByteBoundedLru(Generic[Answer]):
         self._own: OrderedDict[_Key, None] = OrderedDict()
 
     def __call__(self, *arrays: NDArray[np.float64]) -> Answer:
-        """What the function says of these arrays; those of equal bytes are the same, so shapes must not vary."""
+        """The function's value for these arrays. Arrays of equal bytes count as equal, so shapes must not vary."""
         key = (self, *[array.tobytes() for array in arrays])
         with self._lock:
             found = self._shelf.get(key)

@@ -31,7 +31,8 @@ class NoPropagation:
 
 @dataclass(frozen=True)
 class FullPropagation:
-    """Whatever a source reaches over contacts vibrates as strongly as the source; `max_hops` as in the paper's law."""
+    """Every object that a source reaches over contacts vibrates as strongly as the source; `max_hops` as in the paper's
+    law."""
 
     max_hops: int | None = None
     kind: Literal["full_propagation"] = "full_propagation"

@@ -1,7 +1,7 @@
 """Any number of bodies joined at points, by frequency-based substructuring.
 
-Each body alone tells its receptance: deflection at points per force at points. Between bodies act joints, springs with
-loss. With the forces g of all joints,
+Each body alone gives its receptance: deflection at points per force at points. Joints, springs with loss, act between
+bodies. With the forces g of all joints,
 
     (B Y B^T + Z) g = B u_free                      Z = 1 / (k (1 + j eta) + j omega c)
     u(x) = u_free - sum over the body's joints of +-Y(x, x_j) g_j

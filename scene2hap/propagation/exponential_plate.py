@@ -89,9 +89,9 @@ class ExponentialPlate:
         return gamma
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> ExponentialField:
-        """The field of a scene: the cheapest way from every source to every object.
+        """The field of a scene: the cheapest path from every source to every object.
 
-        Since k = c sqrt(omega) on every plate, the cheapest way is the same at all frequencies, and one search per
+        Since k = c sqrt(omega) on every plate, the cheapest path is the same at all frequencies, and one search per
         source serves all bands. A rigid body passes vibration on undiminished.
 
         Raises: ModelDomainError, warns: ThinPlateWarning, for an object outside the domain, if so configured.
@@ -106,7 +106,7 @@ class ExponentialPlate:
     def live(
         self, graph: ContactGraph, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands
     ) -> LiveLaw:
-        """The same law over a graph that changes while one asks; see `LiveModel`.
+        """The same law over a contact graph that changes between queries; see `LiveModel`.
 
         Raises, warns: as `prepare`, but of all bodies at once.
         """
@@ -121,7 +121,7 @@ class ExponentialPlate:
         return LiveLaw(paths, source_ids, gamma, self._floor)
 
     def _prices(self, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands) -> dict[str, float]:
-        """What a metre through each body costs, after a look at whether the law's theory holds for it."""
+        """Cost of a metre through each body, after checking that the law's theory holds for it."""
         top_hz = max(bands.edges_hz, default=max((self._frequency_hz(item) for item in excitations), default=0.0))
         prices = {}
         for object_id, body in bodies.items():

@@ -67,7 +67,7 @@ def spreading(kr: NDArray[np.complex128]) -> NDArray[np.complex128]:
 
 @dataclass(frozen=True)
 class InfinitePlate:
-    """The damped Green's function of the infinite plate; length, width and edges of a plate do not matter to it.
+    """The damped Green's function of the infinite plate; it ignores length, width and edges of a plate.
 
     Parameters: contact : stiffness of contacts, or its settings; outside_domain : what to do about an object of a scene
     that is thicker than thin-plate theory allows (`domain.THIN_WAVELENGTHS`): "warn" once per object, "raise" or
@@ -144,7 +144,8 @@ TABLE_X = 100.0
 
 
 def _looked_up(x: NDArray[np.float64], eta: float) -> NDArray[np.complex128]:
-    """Pi(k_c r) for x = k r, to 1e-4: a scene asks for millions of them, and Hankel functions take a microsecond."""
+    """Pi(k_c r) for x = k r, to 1e-4, from a table: a scene needs millions of values, and a Hankel function takes a
+    microsecond."""
     ray = complex(1, eta) ** -0.25
     # Told without its phase and decay, Pi is smooth.
     spread: NDArray[np.complex128] = np.interp(x, *_table(eta)) * np.exp(-1j * ray * x)

@@ -1,4 +1,4 @@
-"""From the contacts of a scene to the joints that couple its bodies, and to what a source can reach through them."""
+"""The joints that couple the bodies of a scene, from its contacts, and the groups that they connect to sources."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
 
 
 def source_groups(joints: Sequence[Joint], source_ids: Iterable[str]) -> list[tuple[list[str], list[Joint]]]:
-    """Groups of bodies that hang together and hold a source: their sources, and all of their joints."""
+    """Connected groups of bodies that contain a source: the sources and the joints of each."""
     beside: Mapping[str, list[int]] = defaultdict(list)
     for row, joint in enumerate(joints):
         beside[joint.a].append(row)
@@ -85,7 +85,7 @@ def _remembered(
 def _on_body(
     network: ContactNetwork, object_id: str, points_m: tuple[tuple[float, float, float], ...]
 ) -> tuple[tuple[float, float], ...]:
-    """As `ContactNetwork.on_body`; most things stay where they were."""
+    """As `ContactNetwork.on_body`, cached: most objects stay where they are."""
     return _remembered(network.bodies.get(object_id), network.poses.get(object_id), points_m)
 
 

@@ -24,7 +24,7 @@ from scene2hap.propagation.response_basis import AnyFloat, real_times
 
 @lru_cache(maxsize=32)
 def lattice_body(plate: Plate, resolution: int, max_frequency_hz: float, loss_factor: float) -> LatticeBody:
-    """The body of a plate; remembered, since scenes are prepared anew whenever a contact changes."""
+    """The body of a plate. Cached, since every change of a contact prepares the scene again."""
     return LatticeBody(plate, resolution, max_frequency_hz, loss_factor)
 
 

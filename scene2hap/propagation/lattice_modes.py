@@ -5,7 +5,7 @@
 
 for (K - z A) u = p, where A holds the areas of the nodes. The series is that of the modes left out, which lie above z;
 each term leaves less than half of the error before. One factorisation of K + s A gives the modes,
-by Lanczos' method, and the series; another tells how many modes there are.
+by Lanczos' method, and the series; another counts the modes.
 
 The stiffest springs of a lattice are up to 1e16 times as stiff as its longest wave, so one solve alone would bury that
 wave in rounding. Each is refined by its own residual, computed from the springs (`Lattice.restoring`).
@@ -162,7 +162,7 @@ def _modes_up_to(plate: Plate, resolution: int, top_frequency_hz: float) -> Latt
 def _factorised(plate: Plate, resolution: int, top_k4: float) -> tuple[Lattice, SuperLU, float]:
     """The lattice, the factors of K + s A, and s, for modes up to k^4."""
     lattice = bending_lattice(plate, resolution)
-    # Large enough beside the stiffest springs for refinement to converge, small beside the modes that matter.
+    # Large enough beside the stiffest springs for refinement to converge, small beside the modes of interest.
     shift = max(1e-2 * top_k4, STIFFEST * lattice.stiffest_k4)
     return lattice, _factors(lattice, shift), shift
 
@@ -179,8 +179,8 @@ def _factors(lattice: Lattice, shift_k4: float) -> SuperLU:
 def n_modes_below(lattice: Lattice, k4: float) -> int:
     """How many modes lie below k^4: the negative pivots of K - k^4 A, by Sylvester's law of inertia.
 
-    Lanczos' method may miss one of a pair of equal modes, as square plates have them, and this tells. 0 where rounding
-    of the stiffest springs would tell instead.
+    Lanczos' method may miss one of a pair of equal modes, as square plates have them; this count shows it. 0 where
+    rounding of the stiffest springs would decide the count.
     """
     if k4 < STIFFEST * lattice.stiffest_k4:
         return 0

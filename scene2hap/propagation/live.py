@@ -1,9 +1,8 @@
 """Fields that follow the contacts by themselves.
 
-Most models prepare a field for one moment, in a worker, and are asked of it while things move on (`protocol`). A model
-whose answer is put together from a few contacts may offer a live field besides: it reads the contact graph as it is
-when asked, so that there is nothing to prepare and nothing that could be out of date. Sessions take it where a model
-offers one.
+Most models prepare a field for one moment on a worker thread (`protocol`). A model whose result depends on a few
+contacts may offer a live field instead. A live field reads the contact graph at each query, so it needs no preparation
+and is never out of date. Sessions use it where a model offers one.
 """
 
 from __future__ import annotations
@@ -26,11 +25,11 @@ TouchedPoint = tuple[str, tuple[float, float, float]]
 
 
 Prices = list[list[float]]
-"""For each hand, what the cheapest way from each source costs: 0 on the source itself, infinite where none leads."""
+"""For each hand, the cost of the cheapest path from each source: 0 on the source itself, infinite without a path."""
 
 
 def checked(found: ArrayLike, shape: tuple[int, int, int]) -> NDArray[np.float64]:
-    """What a field answered. Raises: ModelDomainError: it has another shape; kernels take it as it is told."""
+    """A field's result as an array. Raises: ModelDomainError: it has another shape, which kernels do not check."""
     gains: NDArray[np.float64] = np.asarray(found, dtype=np.float64)
     if gains.shape != shape:
         raise ModelDomainError(
@@ -41,7 +40,7 @@ def checked(found: ArrayLike, shape: tuple[int, int, int]) -> NDArray[np.float64
 
 
 class LiveField(Protocol):
-    """What arrives now."""
+    """Gains over the contacts as they are now."""
 
     @property
     def source_ids(self) -> tuple[str, ...]:
@@ -50,7 +49,7 @@ class LiveField(Protocol):
 
     @property
     def most(self) -> float:
-        """What no answer exceeds [-]; infinity if nothing is known of it, or where an answer might be no number."""
+        """Upper bound of all gains [-]; infinity if unknown, or if a gain might be no number."""
         ...
 
     def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> NDArray[np.float64]:
@@ -64,8 +63,8 @@ class LiveField(Protocol):
 
 @runtime_checkable
 class PricedField(LiveField, Protocol):
-    """A live field whose answers fall as a price rises, so that what is too faint to matter is known by its price
-    alone, before anything is worked out. `strongest(hands)` is `at(prices(hands))`."""
+    """A live field whose gains fall as the cost of a path rises, so that cost alone shows which sources are too faint.
+    `strongest(hands)` is `at(prices(hands))`."""
 
     def prices(
         self,
@@ -73,16 +72,16 @@ class PricedField(LiveField, Protocol):
         limits: Sequence[float] | None = None,
         among: Sequence[Collection[int]] | None = None,
     ) -> Prices:
-        """The price of each source at each hand; one that feels it at several points has the least of them.
+        """Cost of each source at each hand: the least over the points that the hand touches.
 
-        Parameters: limits : for each source, a price above which it may as well be infinite; what is farther is not
-        looked for then; among : for each hand, the columns of the sources that hang together with what it touches, so
-        that no other is looked for.
+        Parameters: limits : for each source, the highest cost of interest; higher ones may be returned as infinite;
+        among : for each hand, the columns of the sources that are connected to the touched objects; no other is
+        searched.
         """
         ...
 
     def at(self, prices: Prices, columns: Sequence[int] | None = None) -> NDArray[np.float64]:
-        """The response at such prices, of the sources in some columns alone; else as `strongest`."""
+        """The response at given costs, of the sources in some columns only; otherwise as `strongest`."""
         ...
 
 
@@ -93,5 +92,5 @@ class LiveModel(Protocol):
     def live(
         self, graph: ContactGraph, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands
     ) -> LiveField:
-        """A field over a graph that is read at every question, and changes between them; the bodies stay."""
+        """A field over a graph that is read at every query and may change between queries; the bodies stay."""
         ...

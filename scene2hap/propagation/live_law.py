@@ -1,9 +1,9 @@
-"""The paper's law over a contact graph that changes while one asks.
+"""The paper's law over a contact graph that changes between queries.
 
-    Gamma = exp(-L sqrt(omega)),  L the price of the cheapest way (`live_paths`)
+    Gamma = exp(-L sqrt(omega)),  L the cost of the cheapest path (`live_paths`)
 
-falls with L, so that the nearest of a hand's touches is the loudest: prices are compared first, and what is felt is
-worked out once for each hand and source.
+falls with L, so the nearest of a hand's touches is the loudest. Costs are compared first, and the law is evaluated
+once for each hand and source.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 
 
 class Gamma(Protocol):
-    """What arrives by the price of the way."""
+    """Attenuation by the cost of the path."""
 
     def __call__(self, prices: Prices, columns: Sequence[int] | None) -> Floats:
         """Attenuation (n, n_columns, n_bands) [-] for n prices of each of some sources, None for all in order."""

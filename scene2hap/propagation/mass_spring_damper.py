@@ -217,9 +217,9 @@ class MassSpringDamper:
         self._check_cells(plate, f)
         top = float(f.max(initial=0.0))
         # 1e-9 of the top frequency stands for 0 Hz, where a loose plate has a limit but no value.
-        asked = np.maximum(f, max(1e-9 * top, 1e-9))
+        positive = np.maximum(f, max(1e-9 * top, 1e-9))
         body = lattice_body(plate, self.resolution, top, self._loss_factor(plate))
-        found: NDArray[np.complex128] = body.receptance(points_m, drive_m, asked)[:, :, 0].T
+        found: NDArray[np.complex128] = body.receptance(points_m, drive_m, positive)[:, :, 0].T
         return found
 
     def _loss_factor(self, plate: Plate) -> float:

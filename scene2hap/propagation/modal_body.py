@@ -1,4 +1,4 @@
-"""A plate with edges, ready to be coupled and to be asked often."""
+"""A plate with edges as an elastic body for coupling, fast at repeated queries."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ that matters."""
 def modal_body(
     plate: Plate, max_frequency_hz: float, loss_factor: float, fineness: Fineness = FINE
 ) -> ModalBody | SplitBody:
-    """The body of a plate; remembered, since scenes are prepared anew whenever a contact changes.
+    """The body of a plate. Cached, since every change of a contact prepares the scene again.
 
     Where a rug or a foil has too many modes to solve for, or so much loss that nothing comes back from its edges, it is
     a `SplitBody`, whose upper frequencies see no edges.
@@ -48,7 +48,7 @@ def modal_body(
 
 @dataclass(frozen=True, eq=False)
 class ModalBasis:
-    """A `ResponseBasis`: the plate's modes, and what else each force does."""
+    """A `ResponseBasis`: the plate's modes, and the remaining response to each force."""
 
     pushed: ForcedPlate
     spectrum: Callable[[NDArray[np.float64]], NDArray[np.complex128]]

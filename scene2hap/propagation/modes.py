@@ -6,7 +6,7 @@ K is the Ritz stiffness of `ritz`. A plate with alike edges on both ends of an a
 along it, so the eigenproblem falls into up to four smaller ones. Each is solved for the compliance (K + s)^-1, whose
 largest eigenvalues are the lowest modes: those of K grow as the eighth power of the basis size, and would bury rigid
 motions and the lowest modes of large or slender plates in rounding. What is stiffer than the modes is never solved for:
-powers of the compliance tell its answer.
+powers of the compliance approximate its response.
 
 Letters: k [rad/m] wavenumber, D [N m], m [kg/m2] mass per area, omega [rad/s], phi [kg^-1/2] shape, s [m^-4] shift.
 Source: as `ritz`.
@@ -58,7 +58,7 @@ class Fineness:
 
 
 FINE = Fineness()
-"""What `plate_modes` takes; the least is tuned for what `modal_plate` asks of small plates."""
+"""What `plate_modes` takes; the least is tuned for the small plates of `modal_plate`."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -120,8 +120,8 @@ def _images(at_m: Floats, length_m: float, edges: str) -> tuple[Floats, Floats]:
 def beyond_cutoff_of_square(a2: Floats, pieces: Floats) -> Floats:
     """g(a) by a^2 from a table of it, true to 1e-6; the array that it is given is used up.
 
-    Not by numpy's interp, which gives the interpreter's lock away: a game's thread that asks beside a worker would wait
-    5 ms for it.
+    Not by numpy's interp, which releases the interpreter's lock: a game's thread that queries beside a worker would
+    wait 5 ms for it.
     """
     t = np.sqrt(a2, out=a2)
     np.sqrt(t, out=t)
@@ -159,7 +159,7 @@ def _cutoffs_squared(points_m: Floats, extent: _Extent) -> Floats:
 
 
 def _cutoff_squared(x_m: float, y_m: float, per_length: float, per_width: float, kx: float, ky: float) -> float:
-    # One number at a time: a hand asks for one point, where an array costs as much as ten points do.
+    # One number at a time: a hand touches one point, where an array costs as much as ten points do.
     xi, eta = x_m * per_length - 1, y_m * per_width - 1
     kx /= math.sqrt(max(1 - xi * xi, 1e-30))
     ky /= math.sqrt(max(1 - eta * eta, 1e-30))

@@ -1,4 +1,4 @@
-"""An object of a solved scene, asked about points of the world."""
+"""Gains at points of one object, after the scene is solved."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Gains = Callable[[Floats], Floats]
 
 @compiled
 class ObjectResponse:
-    """What arrives at points of one object.
+    """Evaluates gains at points of one object after the scene is solved.
 
     Parameters: place : from points of the world (n_points, 3) to those on its body (n_points, 2) [m]; gains : of the
     sources that reach it; columns : (n_own,) where they are among all sources; shape : (n_sources, n_bands) of all;
@@ -45,8 +45,8 @@ class ObjectResponse:
 
 @compiled
 class Magnitudes:
-    """The size of complex numbers that are told by real and imaginary part, by turns: from points (n_points, 2) to
-    (n_points, n, 1)."""
+    """Magnitudes of complex numbers given as real and imaginary parts by turns: from points (n_points, 2) to (n_points,
+    n, 1)."""
 
     def __init__(self, pairs: Callable[[Floats], Floats]) -> None:
         self._pairs = pairs

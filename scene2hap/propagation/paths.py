@@ -1,12 +1,13 @@
-"""The cheapest way from each source over contacts to each object.
+"""The cheapest path from each source over contacts to each object of a scene, for prepared fields.
 
-A way runs from contact to contact. Crossing a contact leads from one object to the next; between two contacts it runs
-straight through the object that has both, at that object's price per metre. Inside the source's own body distance
-is free, since the source vibrates as a whole.
+A path runs from contact to contact. Crossing a contact leads from one object to the next; between two contacts it runs
+straight through the object that has both, at that object's price per metre. Inside the source's own body distance is
+free, since the source vibrates as a whole.
 
 The paper collects all paths by depth-first search and knows one object between source and hand. The cheapest path is
-the loudest one, so it is enough to improve, round by round, what it costs to arrive over each contact (Bellman-Ford):
-after n rounds all ways over at most n contacts are known, and when a round improves nothing, all ways are.
+the loudest one, so it is enough to lower, round by round, the cost of arriving over each contact (Bellman-Ford,
+vectorised over sources and contacts): after n rounds all paths over at most n contacts are known, and when a round
+improves nothing, all paths are.
 """
 
 from __future__ import annotations
@@ -25,8 +26,8 @@ from scene2hap.scene.snapshot import Contact
 class Arrivals:
     """How the sources reach one object.
 
-    `points_m` (n_contacts, 3) [m] : the contacts by which they come in; `costs` (n_sources, n_contacts) : price of the
-    cheapest way up to that contact, infinite where there is none.
+    `points_m` (n_contacts, 3) [m] : its contacts; `costs` (n_sources, n_contacts) : cost of the cheapest path up to
+    that contact, infinite without one.
     """
 
     points_m: NDArray[np.float64]
@@ -42,9 +43,9 @@ def cheapest_arrivals(
 ) -> dict[str, Arrivals]:
     """Arrivals at every object that has a price.
 
-    Parameters: price_per_m : what a metre through an object costs, >= 0; an object without a price carries nothing on
-    (it may be a source); crossing_cost : what each contact costs, >= 0; max_hops : contacts that a way may cross,
-    None for any number.
+    Parameters: price_per_m : cost of a metre through an object, >= 0; an object without a price passes nothing on (it
+    may be a source); crossing_cost : cost of each contact, >= 0; max_hops : contacts that a path may cross, None for
+    any number.
     """
     pairs = [(contact.a, contact.b) for contact in contacts]
     points_m = [contact.point_m for contact in contacts]
@@ -59,7 +60,7 @@ def cheapest_over(
     source_ids: Sequence[str],
     max_hops: int | None,
 ) -> dict[str, Arrivals]:
-    """The same for contacts that are told as the two objects of each, and where [m]."""
+    """The same for contacts given as pairs of objects and points [m]."""
     # A contact has two sides, numbered 2 i on its object a and 2 i + 1 on b: side ^ 1 is the one across.
     owner = [object_id for pair in pairs for object_id in pair]
     sides_of: dict[str, list[int]] = defaultdict(list)
@@ -94,8 +95,8 @@ def cheapest_over(
 def _useful(costs: NDArray[np.float64], crossing: NDArray[np.float64], entered: NDArray[np.intp]) -> NDArray[np.bool_]:
     """Which of the sides are entered more cheaply than they were reached from within their own object.
 
-    The others lead nowhere new: a straight way is never longer than one by another point. This is what keeps a floor
-    with a thousand things on it from being searched from every one of them.
+    The others lead nowhere new: a straight line is never longer than one by another point. This keeps a floor with a
+    thousand objects on it from being searched from each of them.
     """
     with np.errstate(invalid="ignore"):  # a contact of weight 0 costs inf, and inf - inf is nan
         within = costs[:, entered ^ 1] - crossing[entered // 2]

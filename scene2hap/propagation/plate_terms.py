@@ -96,7 +96,7 @@ class ForcedPlate:
 
 @compiled
 class ContractedShapes(Generic[AnyFloat]):
-    """What known forces do at points that are not known yet.
+    """Deflection under known forces, summed in advance and evaluated at points given later.
 
     Parameters: size : of `fill_cosines`; smooth : (n_products, n) what each of those products adds; dimples, k2 : near
     fields (n_forces, n_k2), and beyond : (n_forces n_k2, n) what each of them adds; both in the precision in which sums
@@ -127,7 +127,7 @@ class ContractedShapes(Generic[AnyFloat]):
 @compiled
 def fill_cosines(found: Floats, points_m: Floats, per_length: float, per_width: float, n_x: int, n_y: int) -> None:
     """Fill (n_points, n_x n_y) with cos(i acos(xi)) cos(j acos(eta)), xi and eta from -1 to 1 along both sides."""
-    # Numbers one by one: a hand asks for one point, for which five calls of numpy take longer.
+    # Numbers one by one: a hand touches one point, for which five calls of numpy take longer.
     angles = np.array(
         [
             (math.acos(min(max(x * per_length - 1, -1.0), 1.0)), math.acos(min(max(y * per_width - 1, -1.0), 1.0)))
@@ -183,7 +183,7 @@ class PlateTerms:
         return between
 
     def of_forces(self, forces_m: Floats) -> ForcedPlate:
-        """What forces at points (n_forces, 2) [m] do."""
+        """The plate under forces at points (n_forces, 2) [m]."""
         phi = self.cosines(forces_m) @ self._phi
         by_axes = self._basis(forces_m).reshape(-1, *self.modes.terms)
         stiff = []
@@ -201,8 +201,8 @@ class PlateTerms:
         return found
 
     def _in_cosines(self, columns: Floats) -> Floats:
-        """Columns told in products of the axes' functions, told in those of `cosines`: a hand asks for one point at a
-        time, and few calls take less time than few products."""
+        """Columns in products of the axes' functions, converted to those of `cosines`: a hand touches one point at a
+        time, where few calls take less time than few products."""
         x, y = (axis.family.chebyshev * math.sqrt(2 / axis.length_m) for axis in self._axes)
         along = x @ columns.reshape(x.shape[1], -1)
         both = y @ along.reshape(len(x), y.shape[1], -1)
@@ -214,7 +214,8 @@ class PlateTerms:
         return (x[:, :, None] * y[:, None, :]).reshape(len(points_m), -1)
 
     def _spread(self, by_block: list[Floats], *, side_by_side: bool = True) -> Floats:
-        """Columns told in each block's own products, told in all: beside those of other blocks, or added to them."""
+        """Columns in each block's own products, converted to all products: beside those of other blocks, or added to
+        them."""
         widths = [columns.shape[1] for columns in by_block]
         ends = np.cumsum(widths) if side_by_side else np.array(widths)
         spread = np.zeros((*self.modes.terms, int(ends[-1])))

@@ -1,4 +1,4 @@
-"""Points that callers hand in, and what arrives there over the contacts of their object."""
+"""Points given by callers, and the cost of reaching them over the contacts of their object."""
 
 from __future__ import annotations
 
@@ -71,8 +71,8 @@ def arrivals_at(
     object_id: str,
     points_m: ArrayLike,
 ) -> NDArray[np.float64]:
-    """Price of the cheapest way from each source to each point (n_points, n_sources): 0 on the source itself,
-    infinite where nothing arrives."""
+    """Cost of the cheapest path from each source to each point (n_points, n_sources): 0 on the source itself, infinite
+    without a path."""
     points = as_points(points_m, 3)
     costs = np.full((len(points), len(source_ids)), np.inf)
     if object_id in arrivals:

@@ -1,7 +1,7 @@
-"""What every propagation model answers: how much of each source arrives at a point of an object.
+"""The interface of propagation models: how much of each source arrives at a point of an object.
 
-Two phases, since a scene is prepared seldom and asked often: ``prepare`` does what depends on the scene and its
-contacts, ``PropagationField.attenuation`` what depends on where a hand is.
+Two phases, since a scene is prepared seldom and evaluated often: ``prepare`` computes what depends on the scene and its
+contacts, ``PropagationField.attenuation`` what depends on the touched point.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class ContactNetwork:
         return self.placing(object_id)(as_points(points_m, 3))
 
     def placing(self, object_id: str) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
-        """What does that for points (n_points, 3) of one body that were looked through already."""
+        """A function that does so for points (n_points, 3) of one body that are already checked."""
         pose, body = self.poses.get(object_id), self.bodies.get(object_id)
         size_m = (body.length_m, body.width_m) if isinstance(body, Plate) else body and body.size_m
         if size_m:
@@ -88,11 +88,11 @@ class PropagationField(Protocol):
 
 @runtime_checkable
 class ExpectantField(PropagationField, Protocol):
-    """A field that answers sooner about objects it was told to expect questions about; it need not be one."""
+    """A field that is faster at objects announced by `expect`. Optional."""
 
     def expect(self, object_id: str) -> None:
-        """Work out now what makes questions about an object quick. May take as long as many questions, and may run in
-        one thread while another asks; answers stay what they are but for rounding."""
+        """Prepare an object for many queries. May take as long as many queries, and may run in one thread while another
+        queries; results change by rounding only."""
         ...
 
 
@@ -111,7 +111,7 @@ class Carrier:
 
 @runtime_checkable
 class CarryingField(PropagationField, Protocol):
-    """A field in which a source arrives over all ways at once, so that none of them alone explains it."""
+    """A field in which a source arrives over all paths at once, so that no single path explains it."""
 
     def carriers(self, object_id: str, source_id: str, band: int) -> tuple[Carrier, ...]:
         """The contacts through which a source comes into an object in a band, the strongest first; shares add up to 1.

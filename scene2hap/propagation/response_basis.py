@@ -1,7 +1,7 @@
-"""The shapes that a body can take under forces at known points.
+"""Shape functions that span a body's deflection under forces at given points.
 
-What it does at any frequency is a sum of them. So all that does not depend on where a hand is, contacts, sources and
-frequencies, is summed before one touches.
+Deflection at any frequency is a sum of them. Everything that does not depend on the touched point (contacts, sources,
+frequencies) is summed before a touch.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ AnyFloat = TypeVar("AnyFloat", np.float32, np.float64)
 
 
 class ResponseBasis(Protocol):
-    """Shapes s_i(x), of which deflection is the sum  u(x, f) = sum over i of s_i(x) W_i(f)."""
+    """Shape functions s_i(x) that span a body's deflection under forces:  u(x, f) = sum over i of s_i(x) W_i(f)."""
 
     @property
     def sizes(self) -> Floats:
-        """About how large each shape is (n_shapes,), so that what it adds can be compared."""
+        """Typical magnitude of each shape (n_shapes,), to compare their contributions."""
         ...
 
     def weights(self, frequencies_hz: Floats, forces: Complex) -> Complex:
@@ -31,14 +31,14 @@ class ResponseBasis(Protocol):
         ...
 
     def mixed(self, weights: NDArray[AnyFloat]) -> Callable[[Floats], NDArray[AnyFloat]]:
-        """Sums of the shapes (n_shapes, n), thought out but for the point: from points (n_points, 2) [m] to
-        (n_points, n), in the precision of the weights."""
+        """Sums of the shapes with weights (n_shapes, n), as a function from points (n_points, 2) [m] to (n_points, n),
+        in the precision of the weights."""
         ...
 
 
 @runtime_checkable
 class HasResponseBasis(Protocol):
-    """A body whose deflection under any forces is a sum of some shapes."""
+    """A body whose deflection under any forces is a sum of shape functions."""
 
     def response_basis(self, forces_m: Floats) -> ResponseBasis:
         """The shapes for forces at points (n_forces, 2) [m]."""

@@ -44,7 +44,7 @@ def is_compact(plate: Plate) -> bool:
 class RigidMotion:
     """A rigid body, ready to be coupled: up and down, and, where its size is known, rocking.
 
-    `size_m` as of `RigidBody`; points are told from its corner.
+    `size_m` as of `RigidBody`; points count from its corner.
     """
 
     mass_kg: float

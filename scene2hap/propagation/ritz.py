@@ -69,7 +69,7 @@ class AxisBasis:
 
     def values(self, x_m: NDArray[np.float64]) -> NDArray[np.float64]:
         """The functions at (n_points,) [m] -> (n_points, n_functions) [m^-1/2]."""
-        # As cosines, since a hand asks for one point at a time and the Legendre recurrence is a loop.
+        # As cosines, since a hand touches one point at a time and the Legendre recurrence is a loop.
         chebyshev = self.family.chebyshev
         angle = np.arccos(np.clip(2 * x_m / self.length_m - 1, -1.0, 1.0))
         values: NDArray[np.float64] = np.cos(angle[:, None] * np.arange(len(chebyshev))) @ chebyshev

@@ -41,7 +41,7 @@ Pairs = Callable[[Floats], Floats]
 
 @runtime_checkable
 class Contractible(Protocol):
-    """A body that can sum over known forces before it knows where it is asked, though it is not `HasResponseBasis`."""
+    """A body without a `ResponseBasis` that can sum over known forces before the point is known."""
 
     def under(
         self, forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]
@@ -52,7 +52,7 @@ class Contractible(Protocol):
 
 @runtime_checkable
 class Piecewise(Protocol):
-    """A body that tells its receptance a few frequencies at a time, while they are at hand."""
+    """A body that gives its receptance a few frequencies at a time, while they are in the cache."""
 
     def pieces(
         self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
@@ -67,7 +67,7 @@ def pieces(
     forces_m: NDArray[np.float64],
     frequencies_hz: NDArray[np.float64],
 ) -> Iterator[tuple[slice, NDArray[np.complex128]]]:
-    """See `Piecewise.pieces`; a body that is none tells all at once."""
+    """See `Piecewise.pieces`; any other body gives all frequencies at once."""
     if isinstance(body, Piecewise):
         return body.pieces(points_m, forces_m, frequencies_hz)
     return iter([(slice(None), np.ascontiguousarray(body.receptance(points_m, forces_m, frequencies_hz)))])
@@ -79,7 +79,8 @@ def contracted(
     frequencies_hz: NDArray[np.float64],
     forces: NDArray[np.complex128],
 ) -> Pairs:
-    """See `Contractible.under`; a body that can do neither is asked for every contact."""
+    """Deflection under known forces as a function of points, see `Contractible.under`; other bodies sum over contacts
+    at each query."""
     if len(frequencies_hz) <= MOST_CONTRACTED:
         if isinstance(body, HasResponseBasis):
             basis = body.response_basis(forces_m)
@@ -114,8 +115,8 @@ class SolvedObject:
 
     @property
     def own_forces(self) -> NDArray[np.complex128]:
-        """Forces that act on this object at its joints ([n_frequencies,] n_joints, n_sources); taken out of its
-        group's when first asked for."""
+        """Forces that act on this object at its joints ([n_frequencies,] n_joints, n_sources); taken out of its group's
+        at first use."""
         if self._own is None:
             taken = self.forces[self.rows]
             taken *= -self.signs.reshape(-1, *[1] * (taken.ndim - 1))
@@ -133,7 +134,7 @@ class SolvedObject:
 
         The power through a joint is Re(g* j omega u) / 2, with u the deflection there. What an object brings through
         one joint and takes away through another does not count, and one that takes away more brings nothing. It is 0
-        for all joints of a body without loss that passes nothing on; there the part of |g u| is told, by which it is
+        for all joints of a body without loss that passes nothing on; there the part of |g u| counts, by which it is
         held.
         """
         mine = np.flatnonzero(self.columns == column)

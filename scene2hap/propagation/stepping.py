@@ -18,7 +18,7 @@ s = K u is carried along: a body that nothing holds moves ever farther, and roun
 push it as no spring does; K w stays as small as its motion.
 
 The loss of a plate, D (1 + j eta), has no causal counterpart in time. Stepping uses viscous modal damping of ratio
-zeta = eta/2, equal to it at each resonance; `viscous_difference_db` tells what that changes elsewhere.
+zeta = eta/2, equal to it at each resonance; `viscous_difference_db` gives the difference elsewhere.
 
 Letters: u, q [m], v [m/s], f [N], omega [rad/s], zeta [-], dt [s].
 Source: Newmark, J. Eng. Mech. Div. ASCE 85 (1959); Craig and Kurdila, Fundamentals of Structural Dynamics, for the

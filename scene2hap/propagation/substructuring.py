@@ -40,8 +40,8 @@ from scene2hap.scene.pose import Pose
 class Assembly:
     """A scene whose plates are not solved yet.
 
-    groups : bodies that hang together, by their sources and joints; rigid : those that move as a whole, sources among
-    them; plates : those that bend and that a source can reach; top_hz : highest frequency that is asked for.
+    groups : connected bodies, by their sources and joints; rigid : those that move as a whole, sources among
+    them; plates : those that bend and that a source can reach; top_hz : highest frequency of interest.
     """
 
     network: ContactNetwork
@@ -76,7 +76,7 @@ def assemble(
     law: ContactLaw,
     outside_domain: OutsideDomain = "warn",
 ) -> Assembly:
-    """What hangs together and what bends. Parameters, errors and warnings as `prepare_coupled`."""
+    """Find connected groups, rigid bodies and plates. Parameters, errors and warnings as `prepare_coupled`."""
     mass_kg = {item.source_id: item.mass_kg for item in excitations}
     joints = joints_of(network, network.bodies.keys() | mass_kg.keys(), law)
     groups = source_groups(joints, mass_kg)
@@ -119,7 +119,7 @@ def prepare_coupled(
 
 
 def _next_step_hz(frequency_hz: float) -> float:
-    """The next of twenty steps per decade: sources come and go, and their bodies need not be made anew for each."""
+    """The next of twenty steps per decade: sources come and go, and bodies are reused between them."""
     return 10 ** (math.ceil(20 * math.log10(frequency_hz)) / 20) if frequency_hz > 0 else 0.0
 
 
@@ -146,7 +146,7 @@ def _solved(
 class CoupledField:
     """A scene, prepared: the forces in all contacts of the objects that a source reaches.
 
-    What makes an object quick to ask is worked out when it is first asked about, or expected to be.
+    An object's response is prepared at the first query, or when it is expected.
     """
 
     source_ids: tuple[str, ...]
@@ -167,8 +167,8 @@ class CoupledField:
         return found(points)
 
     def expect(self, object_id: str) -> None:
-        """Be ready to be asked about an object often, see `ExpectantField`."""
-        # If each source has one frequency, what was asked about is as quick as it can be.
+        """Prepare an object for many queries, see `ExpectantField`."""
+        # If each source has one frequency, a response that exists is as fast as it can be.
         ready = self._responses if self.sampling.starts is None else self._expected
         if object_id not in ready:
             self._responses[object_id] = self._response(object_id, is_expected=True)
