@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from kernels import both, seeds, steady
 from scene2hap.contact.junction import Junction
-from scene2hap.propagation.elimination import Element
+from scene2hap.propagation.elimination import Element, dense
 from scene2hap.propagation.elimination_order import pattern_of
 from scene2hap.propagation.near_field import table
 from scene2hap.scene.pose import Pose
@@ -195,9 +195,22 @@ def test_points_in_a_rectangle(seed: int, n: int) -> None:
     np.testing.assert_allclose(compiled, told, atol=1e-14)
 
 
-def test_without_a_compiled_factorisation_every_frequency_is_solved_dense() -> None:
-    plain, _ = both("propagation.elimination.factored")
-    element = Element(np.array([0]), np.array([1.0]), np.ones((5, 1, 1), dtype=np.complex128))
-    forces = np.empty((1, 1, 5), dtype=np.complex128)
-    pattern = pattern_of(((0,), (0,)))
-    assert not plain([element, element], np.ones((1, 5), np.complex128), np.ones((1, 1)), pattern, 1e4, forces).any()
+def test_a_compiled_factorisation_solves_what_the_plain_one_leaves_to_dense_systems() -> None:
+    rng = np.random.default_rng(5)
+    rows = [[0, 1, 2, 3], [0, 4], [1, 5], [2, 3, 4, 5]]
+    elements = []
+    for own in rows:
+        real, imaginary = rng.normal(size=(2, 6, len(own), len(own)))
+        receptance = real + real.transpose(0, 2, 1) + 1j * (imaginary + imaginary.transpose(0, 2, 1))
+        elements.append(Element(np.array(own), rng.choice([-1.0, 1.0], len(own)), receptance))
+    diagonal = 9.0 + rng.normal(size=(6, 6)) + 0j
+    free, pattern = rng.normal(size=(6, 2)), pattern_of(tuple(map(tuple, rows)))
+    forces = np.full((6, 2, 6), np.nan, dtype=np.complex128)
+    plain, twin = both("propagation.elimination.factored")
+    assert not plain(elements, diagonal, free, pattern, 1e4, forces).any()
+    assert twin(elements, diagonal, free, pattern, 1e4, forces).all()
+    np.testing.assert_allclose(forces, dense(elements, diagonal, free, np.arange(6)), rtol=1e-12)
+    assert not twin(elements, diagonal, free, pattern, 1e-9, forces).any()
+    forces[:] = 0.0
+    diagonal[:, 2] = np.nan
+    assert twin(elements, diagonal, free, pattern, 1e4, forces).tolist() == [k != 2 for k in range(6)]
