@@ -44,16 +44,15 @@ class ContactEdge:
 class Target:
     """A source that a search has not reached at its lowest cost yet.
 
-    at_most : the highest cost of a path that still improves the result; middle, radius_m : a ball around all contact
+    at_most : the highest cost of a path that still improves the result; middle_m, radius_m : a ball around all contact
     points of the source.
     """
 
-    __slots__ = ("at_most", "middle", "radius_m", "row")
+    __slots__ = ("at_most", "middle_m", "radius_m", "row")
 
-    def __init__(self, row: int, at_most: float, points_m: Sequence[Triple]) -> None:
-        x, y, z = (sum(axis) / len(points_m) for axis in zip(*points_m, strict=True))
-        self.row, self.at_most, self.middle = row, at_most, (x, y, z)
-        self.radius_m = max([math.dist(self.middle, point) for point in points_m])
+    def __init__(self, row: int, at_most: float, ball: tuple[Triple, float]) -> None:
+        self.row, self.at_most = row, at_most
+        self.middle_m, self.radius_m = ball
 
 
 @compiled
@@ -76,15 +75,20 @@ class ContactPaths:
         self._least_price_per_m = min(price_per_m.values(), default=0.0)
         self._max_hops = max_hops
         self._edges: dict[str, dict[str, list[ContactEdge]]] = {}
+        # Of these, the neighbours through which a path may lead on.
+        self._onward: dict[str, dict[str, list[ContactEdge]]] = {}
+        self._balls: dict[str, tuple[Triple, float]] = {}
 
     def update(self, pairs: Iterable[Pair] | None, beside: Mapping[str, Mapping[str, Junction]]) -> None:
         """Read the contacts of changed pairs, None for all, from `ContactGraph.beside`."""
         if pairs is None:
-            self._edges.clear()
+            for known in (self._edges, self._onward, self._balls):
+                known.clear()
             pairs = [(a, b) for a, around in beside.items() for b in around if a < b]
         for a, b in pairs:
             junction = beside.get(a, {}).get(b)
             for x, y in ((a, b), (b, a)):
+                self._balls.pop(x, None)
                 neighbours = self._edges.setdefault(x, {})
                 neighbours.pop(y, None)
                 if junction is not None:
@@ -92,6 +96,27 @@ class ContactPaths:
                     neighbours[y] = [ContactEdge(x, y, point, self._crossing_costs[w]) for point, w in contacts]
                 elif not neighbours:
                     del self._edges[x]
+            for x, y in ((a, b), (b, a)):
+                self._sort_in(x, y)
+                # Whether an object leads on depends on whether it has one neighbour or more.
+                if len(self._edges.get(x, ())) <= 2:
+                    for other in self._edges.get(x, ()):
+                        self._sort_in(other, x)
+
+    def _sort_in(self, here: str, other: str) -> None:
+        """Put a neighbour among those through which a path may lead on, or take it out."""
+        if here not in self._edges:
+            self._onward.pop(here, None)
+            return
+        onward, across = self._onward.setdefault(here, {}), self._edges[here].get(other)
+        price, leads_on = self._price_per_m.get(other), False
+        if across is not None and price is not None:
+            is_cheaper = price < self._price_per_m.get(here, 0.0)
+            leads_on = len(self._edges[other]) > 1 or (is_cheaper and len(across) > 1)
+        if across is not None and leads_on:
+            onward[other] = across
+        else:
+            onward.pop(other, None)
 
     def cheapest(
         self,
@@ -114,9 +139,7 @@ class ContactPaths:
             if object_id in prices and object_id in edges:
                 waiting.append((0.0, len(waiting), 0, ContactEdge("", object_id, point_m, 0.0)))
         targets = {
-            x: Target(
-                row, math.inf if limits is None else limits[row], [e.point_m for es in edges[x].values() for e in es]
-            )
+            x: Target(row, math.inf if limits is None else limits[row], self._ball(x))
             for x, row in rows.items()
             if found[row] > 0.0 and (among is None or row in among) and x in edges
         }
@@ -133,17 +156,15 @@ class ContactPaths:
             if not self._may_reach(targets, point, cost):
                 continue
             known.append((point, cost, hops))
-            for other, across in edges[here].items():
-                if other in targets:
-                    target = targets[other]
-                    for onward in across:
-                        further = cost + price * math.dist(point, onward.point_m) + onward.crossing_cost
-                        if further < found[target.row] and further <= target.at_most:
-                            found[target.row] = target.at_most = further
+            for other, target in targets.items():
+                for onward in edges[here].get(other, ()):
+                    further = cost + price * math.dist(point, onward.point_m) + onward.crossing_cost
+                    if further < found[target.row] and further <= target.at_most:
+                        found[target.row] = target.at_most = further
             limit = max([target.at_most for target in targets.values()])
             onward_hops = 0 if self._max_hops is None else hops + 1
-            for other, across in edges[here].items():
-                if not self._leads_on(here, other, onward_hops) or (other == edge.out_of and price >= prices[other]):
+            for other, across in self._neighbours_onward(here, onward_hops):
+                if other == edge.out_of and price >= prices[other]:
                     continue
                 beyond, price_beyond = entries.get(other, []), prices[other]
                 for onward in across:
@@ -159,24 +180,30 @@ class ContactPaths:
                     heapq.heappush(waiting, (further, n_labels, onward_hops, onward))
         return found
 
-    def _leads_on(self, here: str, other: str, hops: int) -> bool:
-        """Whether a path may go on through a neighbour, after so many contacts, to a source or back at a lower cost."""
-        price, neighbours = self._price_per_m.get(other), self._edges[other]
-        if price is None:
-            return False
-        if self._max_hops is not None:
-            if hops >= self._max_hops:
-                return False
-            if hops + 1 == self._max_hops:
-                return any(x in self._rows for x in neighbours)
-        return len(neighbours) > 1 or (price < self._price_per_m[here] and len(neighbours[here]) > 1)
+    def _neighbours_onward(self, here: str, hops: int) -> Iterable[tuple[str, list[ContactEdge]]]:
+        """The neighbours of an object through which a path may lead to a source, after so many contacts."""
+        onward = self._onward.get(here, {}).items()
+        if self._max_hops is None or hops + 1 < self._max_hops:
+            return onward
+        if hops + 1 > self._max_hops:
+            return ()
+        return [(other, across) for other, across in onward if any(x in self._rows for x in self._edges[other])]
+
+    def _ball(self, source_id: str) -> tuple[Triple, float]:
+        """Middle and radius [m] of a ball around all contact points of a source."""
+        found = self._balls.get(source_id)
+        if found is None:
+            points_m = [edge.point_m for across in self._edges[source_id].values() for edge in across]
+            x, y, z = (sum(axis) / len(points_m) for axis in zip(*points_m, strict=True))
+            found = self._balls[source_id] = ((x, y, z), max([math.dist((x, y, z), point) for point in points_m]))
+        return found
 
     def _may_reach(self, targets: Mapping[str, Target], point_m: Triple, cost: float) -> bool:
         """Whether a path on from a point may reach a target at a useful cost."""
         price = self._least_price_per_m
         for target in targets.values():
             # Rounding must not prune a path of equal cost: its last digit would depend on the order of the search.
-            if cost + price * (math.dist(point_m, target.middle) - target.radius_m) <= target.at_most * _ROUNDED_UP:
+            if cost + price * (math.dist(point_m, target.middle_m) - target.radius_m) <= target.at_most * _ROUNDED_UP:
                 return True
         return False
 

@@ -170,9 +170,9 @@ class Noted(PlainPaths):  # type: ignore[misc, valid-type]
 
     left: tuple[str, ...] = ()
 
-    def _leads_on(self, here: str, other: str, hops: int) -> bool:
+    def _neighbours_onward(self, here: str, hops: int) -> object:
         self.left += (here,)
-        return bool(super()._leads_on(here, other, hops))
+        return super()._neighbours_onward(here, hops)
 
 
 def floor_with_cups() -> tuple[ContactGraph, dict[str, float]]:
