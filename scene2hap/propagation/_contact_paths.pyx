@@ -383,7 +383,8 @@ cdef class ContactPaths:
                     edge.search, edge.least, edge.least_hops = self.search, INFINITY, 2147483647
                 if further >= edge.least and hops >= edge.least_hops:
                     continue
-                if beyond.dominates(self.search, edge, further, hops):
+                # The bound costs less than a label in the heap, which it would prune later.
+                if not self.may_reach(edge, further) or beyond.dominates(self.search, edge, further, hops):
                     continue
                 if further <= edge.least and hops <= edge.least_hops:
                     edge.least, edge.least_hops = further, hops
