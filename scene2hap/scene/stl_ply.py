@@ -19,6 +19,8 @@ from scene2hap.scene.colors import painted
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Piece
 
 _HEADER_BYTES = 1 << 16
+# Where one solid of a text STL ends and the next begins.
+_NEXT_SOLID = re.compile(rb"\n[ \t]*endsolid[^\n]*(?:\n[ \t\r]*)*\n[ \t]*solid\b[^\n]*(?=\n)", re.IGNORECASE)
 
 
 def read_stl_ply(data: bytes, file_type: str, name: str) -> AuthoredScene:
