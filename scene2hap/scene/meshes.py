@@ -93,7 +93,7 @@ class MeshPool:
             if piece.key not in self._stored:
                 self._stored.add(piece.key)
                 self._baked.stored += len(piece.faces)
-                self.surfaces.work.stored += len(piece.vertices)
+                self.surfaces.work.stored += 0 if piece.is_made else len(piece.vertices)
         self._baked.spend(sum(len(piece.faces) for piece in pieces), f"object {group.name!r}")
         baked = [_baked(piece, matrix) for piece, matrix in zip(pieces, own, strict=True)]
         starts = np.cumsum([0, *(len(vertices) for vertices, _ in baked)])
