@@ -346,6 +346,21 @@ def json_names(rng: random.Random) -> Files:
     return _json(objects)
 
 
+def json_sources(rng: random.Random) -> Files:
+    """Things that all vibrate, and that each need something that is not there."""
+    kinds = ["frying pan", "soup pot", "smartphone", "microwave oven", "kettle", "toothbrush"]
+    objects = [
+        {
+            "id": f"{kinds[i % 6]} {i}",
+            "name": kinds[i % 6],
+            "pose": {"position_m": [2 * i, 0, 0]},
+            "geometry": {"kind": "box", "size_m": [0.3, 0.2, 0.1]},
+        }
+        for i in range(3990)
+    ]
+    return _json(objects)
+
+
 def _json(objects: list[dict[str, Any]], **more: Any) -> Files:
     document = {"format": "scene2hap/scene", "version": 1, "name": "a", "up_axis": "y", "objects": objects, **more}
     return {"case.json": json.dumps(document).encode()}
@@ -380,4 +395,5 @@ CASES: tuple[Case, ...] = (
     json_contacts,
     json_meshes,
     json_names,
+    json_sources,
 )
