@@ -298,9 +298,7 @@ class _Chain:
             provenance=provenance,
         )
 
-    def _with_unmet_needs(
-        self, object_id: str, haptics: ObjectHaptics, categories: Mapping[str, str]
-    ) -> ObjectHaptics:
+    def _with_unmet_needs(self, object_id: str, haptics: ObjectHaptics, categories: Mapping[str, str]) -> ObjectHaptics:
         """With a word on each state whose contact nothing here can give; it is silent until something can."""
         doubts = unmet_needs(object_id, haptics.states, categories)
         if not doubts:

@@ -13,6 +13,7 @@ _FACES = 12
 # A corner stands in its place within this part of the longest edge.
 _SAME_PLACE = 1e-9
 _SIDES = np.array([1, 2, 4])
+_IS_SIDE = np.isin(np.arange(8), _SIDES)
 
 
 def cuboid_bounds_m(mesh: TriMesh) -> Floats | None:
@@ -31,7 +32,7 @@ def cuboid_bounds_m(mesh: TriMesh) -> Floats | None:
     # Corners are numbered by bits, one for each axis; those of a side share one bit.
     a, b, c = (is_high @ _SIDES).T
     side = (a & b & c) | (7 & ~(a | b | c))
-    if not np.isin(side, _SIDES).all() or (a == b).any() or (b == c).any() or (c == a).any():
+    if not _IS_SIDE[side].all():
         return None
     # Each of the six sides has two triangles, which lack opposite corners.
     lacking = a ^ b ^ c
@@ -40,9 +41,8 @@ def cuboid_bounds_m(mesh: TriMesh) -> Floats | None:
         return None
     if len(set(((lacking & side) * 8 + side).tolist())) < _FACES // 2:
         return None
-    # All face outwards, or all inwards.
-    p, q, r = np.moveaxis(corners - (low + high) / 2, 1, 0)
-    outward = np.einsum("ij,ij->i", np.cross(q - p, r - p), p)
+    # All face outwards, or all inwards; none has a corner twice.
+    outward = np.linalg.det(corners - (low + high) / 2)
     if not ((outward > 0).all() or (outward < 0).all()):
         return None
     return np.array([low, high])
