@@ -70,7 +70,7 @@ def _decoded(file: GltfFile, number: object, place: str) -> DracoMesh:
     try:
         n_faces, n_points = _promised(data)
     except (IndexError, ValueError, RecursionError) as cause:
-        raise SceneFormatError(f"{place}: its Draco data has no header that is understood: {cause}.") from cause
+        raise SceneFormatError(f"{place}: its Draco data cannot be decoded, by its header: {cause}.") from cause
     file.packed_triangles.spend(max(n_faces, n_points), place)
     try:
         decoded = DracoPy.decode(data)

@@ -247,7 +247,7 @@ def test_a_draco_header_that_promises_too_much(tmp_path: Path, header: bytes) ->
 )
 def test_a_draco_header_that_is_none(tmp_path: Path, data: bytes) -> None:
     pytest.importorskip("DracoPy")
-    with pytest.raises(SceneError, match="no header that is understood"):
+    with pytest.raises(SceneError, match="Draco data cannot be decoded, by its header"):
         load_scene(draco_scene(tmp_path, data, 1))
 
 
