@@ -90,11 +90,13 @@ def _write(bundle: HapticBundle, folder: Path) -> None:
         written.append(name)
 
     scene = scene_json.to_document(bundle.snapshot)
+    shared: set[str] = set()
     for item, row in zip(bundle.snapshot.objects, scene["objects"], strict=True):
         if item.geometry.kind == "mesh":
             name = f"meshes/{scene_json.geometry_key(item.geometry)}.ply"
             row["geometry"] = name
-            if name not in written:
+            if name not in shared:
+                shared.add(name)
                 put_bytes(name, encode_ply(item.geometry))
     put("scene.json", {"format": scene_json.FORMAT, "version": scene_json.VERSION, **scene})
     put("objects.json", _objects.dump_python(dict(bundle.objects), mode="json"))

@@ -69,6 +69,8 @@ class Console:
 
     def table(self, title: str, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
         """A table; a column whose name starts with ">" is set to the right."""
+        if self._out.quiet:  # a table of thousands of rows takes seconds to lay out
+            return
         table = Table(title=_safe(title), title_justify="left", title_style="bold")
         for column in columns:
             table.add_column(_safe(column.removeprefix(">")), justify="right" if column.startswith(">") else "left")

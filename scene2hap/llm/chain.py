@@ -171,7 +171,8 @@ class _Chain:
         of_member = {item.id: analyses[first] for first, members in firsts.items() for item in members}
         estimates = await self._estimates(of_member)
         said = {item.id: self._haptics(item, of_member[item.id], estimates) for item in wanted}
-        return {key: self._with_unmet_needs(key, haptics, said) for key, haptics in said.items()}
+        categories = {item.id: said[item.id].object_category if item.id in said else "" for item in self._scene.objects}
+        return {key: self._with_unmet_needs(key, haptics, categories) for key, haptics in said.items()}
 
     async def _analyse(self, item: SceneObject) -> _Analysis:
         length, width, thickness = item.size_m
@@ -297,11 +298,8 @@ class _Chain:
             provenance=provenance,
         )
 
-    def _with_unmet_needs(
-        self, object_id: str, haptics: ObjectHaptics, said: Mapping[str, ObjectHaptics]
-    ) -> ObjectHaptics:
+    def _with_unmet_needs(self, object_id: str, haptics: ObjectHaptics, categories: Mapping[str, str]) -> ObjectHaptics:
         """With a word on each state whose contact nothing here can give; it is silent until something can."""
-        categories = {item.id: said[item.id].object_category if item.id in said else "" for item in self._scene.objects}
         doubts = unmet_needs(object_id, haptics.states, categories)
         if not doubts:
             return haptics

@@ -17,6 +17,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.scene import limits
 from scene2hap.scene.tree import Matrix, Piece
 
 # Two items stand apart if their boxes do, by more than this share of the group's diagonal (assumed).
@@ -62,11 +63,13 @@ def split(group_name: str, members: Sequence[Member]) -> list[list[Member]]:
     items = [member for member in some if member.name == group_name or has_own_noun(member.name, group_name)]
     if len(items) < 2 or not _stand_apart(some, items):
         return [list(members)]
+    limits.at_most(f"the number of items in the group {group_name[:80]!r}", len(items), "MAX_OBJECTS")
     found = [[item] for item in items]
+    lows, highs = _boxes(items)
+    is_item = {id(item) for item in items}
     for member in some:
-        if not any(member is item for item in items):
-            gaps = [_gap(member, item) for item in items]
-            found[gaps.index(min(gaps))].append(member)
+        if id(member) not in is_item:
+            found[int(_gaps(member, lows, highs).argmin())].append(member)
     return found
 
 
@@ -80,18 +83,26 @@ def has_own_noun(name: str, group_name: str) -> bool:
 
 def _stand_apart(members: Sequence[Member], items: Sequence[Member]) -> bool:
     """Whether the items fall into two sets at least whose boxes are apart."""
-    low = np.min([member.box[0] for member in members], axis=0)
-    high = np.max([member.box[1] for member in members], axis=0)
-    reach = _APART * float(np.linalg.norm(high - low))
-    joined, left = [items[0]], list(items[1:])
+    lows, highs = _boxes(members)
+    reach = _APART * float(np.linalg.norm(highs.max(axis=0) - lows.min(axis=0)))
+    lows, highs = _boxes(items)
+    joined, left = [0], np.arange(1, len(items))
     for one in joined:
-        near = [other for other in left if _gap(one, other) <= reach]
-        joined += near
-        left = [other for other in left if not any(other is some for some in near)]
-    return bool(left)
+        is_near = _gaps(items[one], lows[left], highs[left]) <= reach
+        joined += left[is_near].tolist()
+        left = left[~is_near]
+        if not len(left):
+            return False
+    return True
 
 
-def _gap(one: Member, other: Member) -> float:
-    """Distance of two bounding boxes."""
-    (a, b), (c, d) = one.box, other.box
-    return float(np.linalg.norm(np.maximum(np.maximum(a - d, c - b), 0.0)))
+def _boxes(members: Sequence[Member]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Lowest and highest corners (n, 3) in the world."""
+    return np.array([member.box[0] for member in members]), np.array([member.box[1] for member in members])
+
+
+def _gaps(one: Member, lows: NDArray[np.float64], highs: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Distances (n,) of a member's bounding box to others (n, 3)."""
+    a, b = one.box
+    gaps: NDArray[np.float64] = np.linalg.norm(np.maximum(np.maximum(a - highs, lows - b), 0.0), axis=1)
+    return gaps

@@ -101,6 +101,7 @@ class _Reader:
         if isinstance(compressed, dict):
             mesh, numbers = draco(self._file, compressed, place), compressed.get("attributes")
             points, faces = mesh.points, mesh.faces
+            self._file.triangles.spend(len(faces), place)
 
             def attribute(name: str, types: tuple[str, ...]) -> NDArray[np.float64]:
                 number = numbers.get(name) if isinstance(numbers, dict) else None

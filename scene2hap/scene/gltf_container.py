@@ -44,9 +44,11 @@ class GltfFile:
         self._buffers: dict[int, bytes] = {}
         self._files: dict[str, bytes] = {}
         self.vectors: dict[int, NDArray[np.float64]] = {}
+        self.unpacked: dict[object, Any] = {}
         stored = len(text) + len(self._binary or b"")
         self.values = limits.Budget("the numbers in its accessors", 1_000_000, 2.0, stored=stored)
         self.triangles = limits.Budget("its triangles", 100_000, 0.5, stored=stored)
+        self.packed_triangles = limits.Budget("its packed triangles", 1_000_000, 1.0, stored=stored)
         self.image_bytes = limits.Budget("the bytes of its images", 16 << 20, 4.0, stored=stored)
 
     def table(self, name: str) -> list[Json]:
@@ -95,7 +97,7 @@ class GltfFile:
                 "the bytes of its buffers", sum(map(len, self._files.values())) + len(data), "MAX_FILE_BYTES"
             )
             self._files[uri] = data
-            for budget in (self.values, self.triangles, self.image_bytes):
+            for budget in (self.values, self.triangles, self.packed_triangles, self.image_bytes):
                 budget.stored += len(data)
         return self._files[uri]
 

@@ -2,7 +2,8 @@
 
 Read here rather than by trimesh (5.2), which turns data that it cannot decode into zeros without an error.
 
-Source: glTF extension KHR_draco_mesh_compression.
+Source: glTF extension KHR_draco_mesh_compression, whose bitstreams are of version 2.2; Draco bitstream specification,
+sections 4 (header, metadata) and 5 (connectivity).
 """
 
 from __future__ import annotations
@@ -14,11 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import MissingExtra, SceneFormatError
-from scene2hap.scene import limits
 from scene2hap.scene.gltf_accessors import unpacked, view
 from scene2hap.scene.gltf_container import GltfFile, Json
 
 DRACO = "KHR_draco_mesh_compression"
+_VERSION = (2, 2)
+_MESH, _EDGEBREAKER, _HAS_METADATA = 1, 1, 0x8000
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,19 +44,36 @@ class DracoMesh:
 
 
 def draco(file: GltfFile, extension: Json, place: str) -> DracoMesh:
-    """The primitive that `extension` refers to.
+    """The primitive that `extension` refers to; those that share a buffer view share what is decoded.
 
-    Raises: MissingExtra: DracoPy is not installed. SceneFormatError: the data is broken.
+    Raises: MissingExtra: DracoPy is not installed. SceneFormatError: the data is broken. SceneError: it would unpack
+    to too much.
     """
+    number = extension.get("bufferView")
+    file.row("bufferViews", number, place)
+    if number not in file.unpacked:
+        mesh = file.unpacked[number] = _decoded(file, number, place)
+        # Drawn once, it was within the budget of what is packed; only drawing it again is held against the other.
+        file.triangles.stored += 2 * len(mesh.faces)
+    known: DracoMesh = file.unpacked[number]
+    return known
+
+
+def _decoded(file: GltfFile, number: object, place: str) -> DracoMesh:
     try:
         import DracoPy
     except ImportError as cause:
         raise MissingExtra(
             f"{place} is compressed with {DRACO}, and the decoder is not installed. Run: pip install DracoPy"
         ) from cause
-    data = view(file, extension.get("bufferView"), place)[0]
+    data = bytes(view(file, number, place)[0])
     try:
-        decoded = DracoPy.decode(bytes(data))
+        n_faces, n_points = _promised(data)
+    except (IndexError, ValueError, RecursionError) as cause:
+        raise SceneFormatError(f"{place}: its Draco data cannot be decoded, by its header: {cause}.") from cause
+    file.packed_triangles.spend(max(n_faces, n_points), place)
+    try:
+        decoded = DracoPy.decode(data)
         points = np.asarray(decoded.points, dtype=np.float64).reshape(-1, 3)
         faces = np.asarray(decoded.faces, dtype=np.int64).reshape(-1, 3)
         # Releases before 1.5 tell positions alone.
@@ -62,5 +81,46 @@ def draco(file: GltfFile, extension: Json, place: str) -> DracoMesh:
     # DracoPy raises its own classes, ValueError and plain Exception for broken data.
     except Exception as cause:
         raise SceneFormatError(f"{place}: its Draco data cannot be decoded: {cause}.") from cause
-    limits.at_most(f"the triangles of {place}", len(faces), "MAX_TRIANGLES")
     return DracoMesh(points, faces, attributes)
+
+
+def _promised(data: bytes) -> tuple[int, int]:
+    """How many triangles and points the header of Draco data tells, which the decoder allocates before it reads on.
+
+    Raises: ValueError, IndexError: it is no header of a mesh.
+    """
+    if data[:5] != b"DRACO" or (data[5], data[6]) != _VERSION or data[7] != _MESH:
+        raise ValueError("it must be a mesh of bitstream version 2.2")
+    at = 11
+    if int.from_bytes(data[9:11], "little") & _HAS_METADATA:
+        n_of_attributes, at = _number(data, at)
+        for _ in range(n_of_attributes):
+            at = _behind_metadata(data, _number(data, at)[1])
+        at = _behind_metadata(data, at)
+    if data[8] == _EDGEBREAKER:
+        n_points, at = _number(data, at + 1)
+        return _number(data, at)[0], n_points
+    n_faces, at = _number(data, at)
+    return n_faces, _number(data, at)[0]
+
+
+def _number(data: bytes, at: int) -> tuple[int, int]:
+    """A whole number of seven bits a byte, the lowest first, and where it ends."""
+    value = 0
+    for i in range(10):
+        value |= (data[at + i] & 0x7F) << (7 * i)
+        if data[at + i] < 0x80:
+            return value, at + i + 1
+    raise ValueError("a number has more than ten bytes")
+
+
+def _behind_metadata(data: bytes, at: int) -> int:
+    """Where the element of metadata that begins at a byte ends: names with values, then names with elements."""
+    n_values, at = _number(data, at)
+    for _ in range(n_values):
+        length, at = _number(data, at + 1 + data[at])
+        at += length
+    n_elements, at = _number(data, at)
+    for _ in range(n_elements):
+        at = _behind_metadata(data, at + 1 + data[at])
+    return at

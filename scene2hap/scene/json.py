@@ -114,10 +114,6 @@ def _told(row: Any) -> Any:
     return {"surface": _UNMEASURED, **{key: value for key, value in row.items() if value is not None}}
 
 
-_PER_SURFACE = 250
-"""What a surface costs however few triangles it has, in triangles."""
-
-
 def _require_plausible_thickness(item: SceneObject) -> None:
     """Hold a stated thickness against the geometry, which bounds it: no slab is many times thicker than its mesh."""
     normal = np.abs(item.surface.pose.rotation[:, 2])
@@ -140,31 +136,21 @@ def _bounds_m(geometry: Geometry) -> NDArray[np.float64]:
 
 def _measured(scene: SceneSnapshot, rows: Sequence[dict[str, Any]]) -> SceneSnapshot:
     """The scene with what its rows leave out."""
-    measured_before: dict[tuple[object, ...], DominantSurface] = {}
-    stored = {item.geometry.mesh.digest: len(item.geometry.mesh.faces) + _PER_SURFACE for item in scene.objects}
-    budget = limits.Budget("the triangles to measure", 250_000, 2.0, stored=sum(stored.values()), unit="triangles")
-    objects = [replace(item, surface=_surface(item, scene, measured_before, budget)) for item in scene.objects]
+    # Imported by need: what this library wrote is never measured again.
+    from scene2hap.scene.surfaces import Surfaces
+
+    surfaces = Surfaces()
+    stored = {item.geometry.mesh.digest: len(item.geometry.mesh.vertices_m) for item in scene.objects}
+    surfaces.work.stored = sum(stored.values())
+    objects = []
+    for item in scene.objects:
+        if item.surface is _UNMEASURED:
+            up = item.pose.rotation.T[:, {"y": 1, "z": 2}[scene.up_axis]]
+            item = replace(item, surface=surfaces.of(item.geometry.mesh, up, f"object {item.id!r}", turns=True))
+        objects.append(item)
     above = with_relative_heights(objects, scene.up_axis)
     objects = [
         measured if row.get("relative_height_m") is None else item
         for item, measured, row in zip(objects, above, rows, strict=True)
     ]
     return replace(scene, objects=tuple(objects))
-
-
-def _surface(
-    item: SceneObject, scene: SceneSnapshot, before: dict[tuple[object, ...], DominantSurface], budget: limits.Budget
-) -> DominantSurface:
-    if item.surface is not _UNMEASURED:
-        return item.surface
-    # Imported by need: what this library wrote is never measured again.
-    from scene2hap.scene.geometry import dominant_surface
-
-    up = item.pose.rotation.T[:, {"y": 1, "z": 2}[scene.up_axis]]
-    # Copies that stand alike are measured once.
-    mesh = item.geometry.mesh
-    key = (mesh.digest, *np.round(up, 6).tolist())
-    if key not in before:
-        budget.spend(len(mesh.faces) + _PER_SURFACE, f"object {item.id!r}")
-        before[key] = dominant_surface(mesh, up=up)
-    return before[key]

@@ -13,10 +13,9 @@ from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.printable import writable
 from scene2hap.scene import limits
 from scene2hap.scene.files import read_bytes
-from scene2hap.scene.geometry import dominant_surface
 from scene2hap.scene.grouping import Grouping, group_objects, unique_ids
 from scene2hap.scene.meshes import MeshPool
-from scene2hap.scene.snapshot import DominantSurface, SceneObject, SceneSnapshot, UpAxis, with_relative_heights
+from scene2hap.scene.snapshot import SceneObject, SceneSnapshot, UpAxis, with_relative_heights
 from scene2hap.scene.texture_files import TextureFiles
 from scene2hap.scene.textures import TextureWarning
 from scene2hap.scene.tree import AuthoredScene
@@ -133,20 +132,17 @@ def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float
     limits.at_most("the number of objects", len(groups), "MAX_OBJECTS")
     pool = MeshPool(unit_m)
     up = np.array({"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}[up_axis])
-    surfaces: dict[str, DominantSurface] = {}
     objects = []
     for item, object_id in zip(groups, unique_ids([item.name for item in groups]), strict=True):
         placed = pool.place(item)
-        key = placed.mesh.digest
-        if key not in surfaces:
-            surfaces[key] = dominant_surface(placed.mesh, up=placed.pose.rotation.T @ up)
+        surface = pool.surfaces.of(placed.mesh, placed.pose.rotation.T @ up, f"object {object_id!r}")
         objects.append(
             SceneObject(
                 id=object_id,
                 name=item.name,
                 pose=placed.pose,
                 geometry=placed.mesh,
-                surface=surfaces[key],
+                surface=surface,
                 instance_key=placed.instance_key,
                 appearance=placed.appearance,
             )

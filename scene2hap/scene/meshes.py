@@ -18,6 +18,7 @@ from scene2hap.scene.appearance import Appearance, joined
 from scene2hap.scene.grouping import Group
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import TriMesh
+from scene2hap.scene.surfaces import Surfaces
 from scene2hap.scene.tree import Matrix, Piece, digest
 
 # Matrices that went through float32 differ in the seventh digit; instances may differ by this part of their size.
@@ -42,9 +43,13 @@ class Placed:
 
 @dataclass(eq=False)
 class MeshPool:
-    """Bakes groups, and gives groups that bake to the same mesh one and the same TriMesh; copies share their looks."""
+    """Bakes groups, and gives groups that bake to the same mesh one and the same TriMesh; copies share their looks.
+
+    `surfaces` measures the meshes, and is told of each vertex that the file stores.
+    """
 
     unit_m: float
+    surfaces: Surfaces = field(default_factory=Surfaces)
     _copies: dict[tuple[object, ...], _Copies] = field(default_factory=dict)
     _by_faces: dict[bytes, _Copies] = field(default_factory=dict)
     _looks: dict[tuple[object, ...], Appearance | None] = field(default_factory=dict)
@@ -88,6 +93,7 @@ class MeshPool:
             if piece.key not in self._stored:
                 self._stored.add(piece.key)
                 self._baked.stored += len(piece.faces)
+                self.surfaces.work.stored += 0 if piece.is_made else len(piece.vertices)
         self._baked.spend(sum(len(piece.faces) for piece in pieces), f"object {group.name!r}")
         baked = [_baked(piece, matrix) for piece, matrix in zip(pieces, own, strict=True)]
         starts = np.cumsum([0, *(len(vertices) for vertices, _ in baked)])

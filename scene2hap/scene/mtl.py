@@ -27,6 +27,8 @@ _OPTIONS = {
     **dict.fromkeys(("-mm",), 2),
     **dict.fromkeys(("-o", "-s", "-t"), 3),
 }
+MAX_LIBRARIES = 1_000
+"""Libraries that one OBJ file may name (assumed: a hundred times what exporters write)."""
 _WORD = re.compile(r"\S+")
 _WORDS_AS_VALUES = ("-blendu", "-blendv", "-cc", "-clamp", "-imfchan", "-type")
 
@@ -61,10 +63,16 @@ class MtlLibraries:
         """Read the libraries that a `mtllib` statement names: one name with blanks, or several.
 
         One that is missing, broken or outside the assets root is refused in `textures`.
+        Raises: SceneError: the file names too many.
         """
         for name in (names,) if names.lower().endswith(".mtl") and not self._are_many(names) else names.split():
             if name in self._read:
                 continue
+            if len(self._read) == MAX_LIBRARIES:
+                raise SceneError(
+                    f"mtllib names {names[:40]!r} and more: over {MAX_LIBRARIES:,} material libraries in all. "
+                    "Join them into one, or remove the statements."
+                )
             self._read.add(name)
             uri = _uri(name)
             try:

@@ -9,6 +9,7 @@ coordinate, corner and triangle, so that arithmetic runs along the triangles.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -49,10 +50,11 @@ class Hits:
         return np.flatnonzero(np.diff(self.ray, prepend=-1))
 
 
-def cast_grid(triangles: Floats, n: int) -> Hits:
+def cast_grid(triangles: Floats, n: int, spend: Callable[[int], None] = lambda n_pairs: None) -> Hits:
     """Hits of n x n rays that run along w through the bounding rectangle of triangles (3, 3, m) [m].
 
-    None for a line, and for more than some thousand layers of triangles.
+    None for a line, and for more than some thousand layers of triangles. `spend` is told how many pairs of a ray and a
+    triangle will be tested, and may raise to prevent it.
     """
     corners = triangles.reshape(3, -1)
     low = corners.min(axis=1)
@@ -70,6 +72,7 @@ def cast_grid(triangles: Floats, n: int) -> Hits:
     pairs = span[0] * span[1]
     if pairs.sum() > _MAX_LAYERS * n * n + _MAX_PAIRS_PER_TRIANGLE * len(pairs):
         return Hits(np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))
+    spend(int(pairs.sum()))
     drawn = np.flatnonzero(pairs)
     breaks = np.flatnonzero(np.diff(np.cumsum(pairs[drawn]) // _MAX_PAIRS)) + 1
     found = [

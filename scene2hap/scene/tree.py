@@ -24,7 +24,8 @@ class Piece:
 
     Parameters: key : equal for pieces that were read from the same place in the file, so for instances;
     vertices : (n, 3) float64 in the file's unit, all of them used and finite; faces : (m, 3) int32; material : what the
-    file calls its material; appearance : the looks of its m faces, None where unknown.
+    file calls its material; appearance : the looks of its m faces, None where unknown; is_made : whether the file holds
+    a few numbers for it, such as a radius, and no vertices.
     """
 
     key: Hashable
@@ -32,6 +33,7 @@ class Piece:
     faces: NDArray[np.int32]
     material: str = ""
     appearance: Appearance | None = None
+    is_made: bool = False
 
     @property
     def paint(self) -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from scene2hap import load_scene
-from scene2hap.cli import main
+from scene2hap.cli import console, main
 from scene2hap.scene import json as scene_json
 from scenes import box, scene
 
@@ -148,3 +148,11 @@ def test_a_bake_is_refused_before_it_begins(
 def test_a_grouping_that_is_none(room: Path, group: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["inspect", str(room), f"--group={group}"]) in (0, 1)
     assert "Traceback" not in capsys.readouterr().err
+
+
+def test_a_quiet_console_lays_out_no_table(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Thousands of rows would take seconds that nobody sees."""
+    monkeypatch.setattr(console, "Table", None)
+    console.Console(quiet=True).table("objects", ("id",), [("a",)])
+    with pytest.raises(TypeError):
+        console.Console(quiet=False).table("objects", ("id",), [("a",)])

@@ -33,15 +33,23 @@ MAX_CELLS = 1 << 25
 """Cells of all textures and height fields together, those that pictures store apart (assumed: eight of 2048 x 2048)."""
 _CELLS_PER_BYTE = 20.0
 """What a byte of a picture may unpack to, in cells (assumed: ten times what photographs do)."""
+MAX_INCLUDED = 1_000
+"""Files that one model includes (assumed: a kitchen of hundreds of things has as many)."""
 MAX_MODELS = 200
 """Models within models, each as often as it is named (assumed)."""
 MAX_RESERVED = 1_000
 """Numbers for which <size> may reserve room in each element, or for key frames (assumed)."""
 MAX_MESH_STEPS = 200
 """Steps that a built-in mesh may be divided into (assumed: 80,000 triangles)."""
+MAX_MADE_TRIANGLES = 400_000
+"""Triangles of all built-in meshes together (assumed: MuJoCo takes 600 bytes for each while it compiles)."""
+FREE_MESH_BYTES, MESH_BYTES_PER_STORED = 8 << 20, 2.0
+"""What all rows that name mesh files may read, each for itself, and how much more for each byte that there is
+(assumed: MuJoCo decodes a file anew for every row, a megabyte in 0.2 s)."""
 
 # Whatever multiplies what it holds, and whatever makes a grid of that many cells.
 _COPIES = {"replicate": "count", "composite": "count", "flexcomp": "count"}
+_BODIES = frozenset({"body", "composite", "flexcomp"})
 _GRIDS = {"texture": ("width", "height"), "hfield": ("nrow", "ncol")}
 
 
@@ -76,7 +84,19 @@ class _Totals:
             "the cells of textures and height fields", MAX_CELLS, _CELLS_PER_BYTE, unit="bytes of pictures"
         )
     )
+    made: limits.Budget = field(
+        default_factory=lambda: limits.Budget("the triangles of built-in meshes", MAX_MADE_TRIANGLES)
+    )
+    mesh_bytes: limits.Budget = field(
+        default_factory=lambda: limits.Budget(
+            "the bytes of mesh files, as often as they are named,",
+            FREE_MESH_BYTES,
+            MESH_BYTES_PER_STORED,
+            advice="Name each file in one <mesh>, and use that mesh in all geoms.",
+        )
+    )
     n_copied: int = 0
+    n_bodies: int = 0
     n_models: int = 0
 
     def add_copies(self, n: int, place: str) -> None:
@@ -87,6 +107,11 @@ class _Totals:
                 f"{place} is copied {n:,} times, and all copies have {self.n_copied:,} elements; up to "
                 f"{MAX_COPIED_ELEMENTS:,} are read. Copy less."
             )
+
+    def add_bodies(self, n: int) -> None:
+        """Raises: SceneError: there are more bodies than objects are read."""
+        self.n_bodies += n
+        limits.at_most("the number of bodies", self.n_bodies, "MAX_OBJECTS")
 
     def add_model(self, place: str) -> None:
         """Raises: SceneError: too many models stand in models."""
@@ -114,17 +139,23 @@ class _Model:
         _not_too_deep(self.path, len(self.around))
         self.read(self.path, copies=1, depth=0)
         # Only now are the folders known: the last <compiler> that names one decides for all that stand before it too.
+        read: set[Path] = set()
         for wanted in self.assets:
             found = self.find(wanted)
             if found is None:
                 continue
-            limits.at_most(f"the size of {found.name!r} in bytes", found.stat().st_size, "MAX_FILE_BYTES")
+            size = found.stat().st_size
+            limits.at_most(f"the size of {found.name!r} in bytes", size, "MAX_FILE_BYTES")
             if wanted.kind == "model":
                 self.totals.add_model(wanted.place)
                 _Model(found, self.root, (*self.around, self.path), totals=self.totals).check()
             elif wanted.kind in _GRIDS:
-                self.totals.cells.stored += found.stat().st_size
+                self.totals.cells.stored += size
                 self.totals.cells.spend(_png_cells(found), wanted.place)
+            else:
+                self.totals.mesh_bytes.stored += 0 if found in read else size
+                self.totals.mesh_bytes.spend(size, wanted.place)
+                read.add(found)
         if self.outside:
             raise SceneError(self._refusal())
 
@@ -134,6 +165,8 @@ class _Model:
         if path in self.seen or path in self.around:
             raise SceneFormatError(f"{path.name!r} is included twice; MuJoCo takes every file once.")
         self.seen.add(path)
+        if len(self.seen) > MAX_INCLUDED:
+            raise SceneError(f"{path.name!r} is one of more than {MAX_INCLUDED:,} included files. Join them.")
         _Reader(self, path, copies, depth).read()
 
     def find(self, wanted: _Wanted) -> Path | None:
@@ -223,6 +256,10 @@ class _Reader:
         if tag == "mesh" and "builtin" in attributes:
             for number in attributes.get("params", "").split():
                 _at_most(f"a parameter of {place}", number, MAX_MESH_STEPS)
+            self.model.totals.made.spend(_made_triangles(attributes), place)
+        # The longest row of numbers for the user is reserved in each element of its kind.
+        if "user" in attributes and (n := len(attributes["user"].split())) > MAX_RESERVED:
+            raise SceneError(f"user of {place} has {n:,} numbers; up to {MAX_RESERVED:,} are read.")
         for key, name in attributes.items():
             # A cube's sides are called fileright, fileleft, ...
             if key.startswith("file") and name:
@@ -244,6 +281,8 @@ class _Reader:
                 # The six sides of a cube are as high as they are wide.
                 cells = max(cells, 6 * _product(attributes.get("width", "")) ** 2)
             self.model.totals.cells.spend(cells, place)
+        if tag in _BODIES:
+            self.model.totals.add_bodies(around)
         if around > 1:
             self.model.totals.add_copies(around, place)
         return around
@@ -274,6 +313,12 @@ def _png_cells(path: Path) -> int:
     if not start.startswith(b"\x89PNG\r\n\x1a\n"):
         return 0
     return int.from_bytes(start[16:20], "big") * int.from_bytes(start[20:24], "big")
+
+
+def _made_triangles(attributes: Mapping[str, str]) -> int:
+    """About how many triangles a built-in mesh has: spheres are divided again and again, all else into squares."""
+    steps = max((_product(number) for number in attributes.get("params", "").split()), default=1)
+    return 20 * 4 ** min(steps, 10) if attributes["builtin"] == "sphere" else 4 * steps**2
 
 
 def _at_most(what: str, number: str, most: int) -> None:

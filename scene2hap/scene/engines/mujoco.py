@@ -30,6 +30,7 @@ from numpy.typing import NDArray
 
 from scene2hap import checks
 from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene import limits
 from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.mjcf_files import check_files
 from scene2hap.scene.engines.mujoco_geoms import GeomReader, authored_pose, colours_rgba
@@ -71,6 +72,7 @@ def snapshot(
     if contacts not in (None, "engine"):
         raise SceneError(f"contacts is {contacts!r}; it must be 'engine', or None to find them from geometry.")
     items = _layout(mujoco, model, geom_groups, anew=True)
+    limits.at_most("the number of objects", len(items.all), "MAX_OBJECTS")
     placed = _poses(model, data, items, unit_m)
     reader, maker = GeomReader(model), ObjectMaker("z", unit_m)
     objects = []

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.scene import limits
 from scene2hap.scene.appearance import Appearance, FaceMaterial
 from scene2hap.scene.engines import solids
 from scene2hap.scene.pose import Pose
@@ -27,6 +28,10 @@ _NO_COLOUR = (0.5, 0.5, 0.5, 1.0)
 # A plane without end is cut to this many times the model's own extent, and to no less than this [model unit] (assumed:
 # whatever moves about stays over it).
 _PLANE_EXTENTS, _MIN_PLANE = 2.0, 5.0
+# Triangles to draw of what is no mesh, and how many for each that a mesh has (assumed: a height field of 1,000 x 1,000,
+# or two thousand spheres).
+_FREE_TRIANGLES, _PER_TRIANGLE = 2_000_000, 4.0
+_TRIANGLES_OF_A_SOLID = 2 * solids.SIDES**2
 
 
 @dataclass(eq=False)
@@ -35,11 +40,20 @@ class GeomReader:
 
     model: Any
     _colours: NDArray[np.float64] = field(init=False)
+    _drawn: limits.Budget = field(init=False)
     _materials: dict[tuple[object, ...], FaceMaterial] = field(default_factory=dict)
     _textures: dict[int, NDArray[np.uint8]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._colours = colours_rgba(self.model)
+        self._drawn = limits.Budget(
+            "the triangles of its geoms",
+            _FREE_TRIANGLES,
+            _PER_TRIANGLE,
+            stored=int(self.model.nmeshface),
+            unit="triangles of meshes",
+            advice="Draw fewer round geoms, a smaller height field, or fewer copies of large meshes.",
+        )
 
     def piece(self, geom: int) -> Piece:
         """The geom in the frame of its body; a geom of the world body in its own frame, as authored.
@@ -55,9 +69,10 @@ class GeomReader:
             frame = pose(model.mesh_pos[mesh], model.mesh_quat[mesh])
         size = tuple(model.geom_size[geom].tolist())
         key = (kind, int(model.geom_dataid[geom]), size, frame.position_m, frame.rotation_xyzw)
+        self._drawn.spend(self._n_triangles(geom), f"geom {geom}")
         vertices, faces = self._shape(geom)
         piece = Piece.checked(key, frame.to_world(vertices), faces, "", f"geom {geom}")
-        return replace(piece, appearance=self._appearance(geom, len(faces)))
+        return replace(piece, appearance=self._appearance(geom, len(faces)), is_made=mesh is None)
 
     # -- shapes ------------------------------------------------------------------------------------------------------
 
@@ -83,6 +98,16 @@ class GeomReader:
             return solids.box(size)
         first, n = model.mesh_vertadr[mesh], model.mesh_vertnum[mesh]
         return model.mesh_vert[first : first + n].astype(np.float64), self._of_faces(model.mesh_face, mesh)
+
+    def _n_triangles(self, geom: int) -> int:
+        """At most how many triangles the geom has, before there are any."""
+        model, kind, mesh = self.model, int(self.model.geom_type[geom]), self._mesh(geom)
+        if kind == _TERRAIN:
+            number = int(model.geom_dataid[geom])
+            return 2 * int(model.hfield_nrow[number]) * int(model.hfield_ncol[number])
+        if mesh is not None:
+            return int(model.mesh_facenum[mesh])
+        return 12 if kind in (_PLANE, _BOX) else _TRIANGLES_OF_A_SOLID
 
     def _terrain(self, number: int) -> solids.Triangles:
         model = self.model

@@ -8,11 +8,10 @@ import numpy as np
 
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
-from scene2hap.scene.geometry import dominant_surface
 from scene2hap.scene.grouping import Group
 from scene2hap.scene.meshes import MeshPool
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import DominantSurface, SceneObject, UpAxis
+from scene2hap.scene.snapshot import SceneObject, UpAxis
 
 _UP = {"y": np.array([0.0, 1.0, 0.0]), "z": np.array([0.0, 0.0, 1.0])}
 
@@ -24,7 +23,6 @@ class ObjectMaker:
     up_axis: UpAxis
     unit_m: float = 1.0
     _pool: MeshPool = field(init=False)
-    _surfaces: dict[str, DominantSurface] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._pool = MeshPool(self.unit_m)
@@ -41,15 +39,14 @@ class ObjectMaker:
                 "Has the simulation blown up?"
             )
         placed = self._pool.place(group)
-        key = placed.mesh.digest
-        if key not in self._surfaces:
-            self._surfaces[key] = dominant_surface(placed.mesh, up=pose.rotation.T @ _UP[self.up_axis])
+        up = pose.rotation.T @ _UP[self.up_axis]
+        surface = self._pool.surfaces.of(placed.mesh, up, f"object {object_id!r}")
         return SceneObject(
             id=object_id,
             name=name,
             pose=pose,
             geometry=placed.mesh,
-            surface=self._surfaces[key],
+            surface=surface,
             instance_key=placed.instance_key,
             appearance=placed.appearance,
         )

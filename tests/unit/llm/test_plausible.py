@@ -8,6 +8,7 @@ import pytest
 
 from llm_server import GOOD, request
 from scene2hap import FunctionBackend, LLMReply, LLMRequest, RepairBackend, materials
+from scene2hap.llm import chain
 from scene2hap.llm.chain import infer_scene
 from scene2hap.llm.plausible import constants, row_of
 from scene2hap.llm.validation import find_fault
@@ -135,6 +136,15 @@ def test_a_need_that_nothing_meets_is_in_the_account() -> None:
     assert "needs contact with 'stove'" in found.report.doubts["phone"][0]
     assert found.objects["phone"].states[0].needs_contact == "stove"
     assert "stove" in found.objects["phone"].reasons["contact"]
+
+
+def test_what_everything_is_gets_listed_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not for each object anew: a scene of thousands would take seconds."""
+    given: list[object] = []
+    monkeypatch.setattr(chain, "unmet_needs", lambda key, states, categories: given.append(categories) or ())
+    asyncio.run(infer_scene(SCENE, Scripted()))
+    assert len(given) == len(SCENE.objects) > 1
+    assert all(one is given[0] for one in given)
 
 
 def test_the_table_takes_the_place_of_what_steel_cannot_have() -> None:

@@ -290,7 +290,7 @@ def test_without_its_decoder_draco_is_refused_and_the_cure_is_told(
 def test_broken_draco_is_refused(tmp_path: Path) -> None:
     gltf = compressed_cube()
     gltf.buffer[:] = bytes(len(gltf.buffer))
-    with pytest.raises(SceneFormatError, match="Draco data cannot be decoded"):
+    with pytest.raises(SceneFormatError, match="Draco data cannot be decoded, by its header: it must be a mesh"):
         load_scene(gltf.write(tmp_path / "scene.glb"))
 
 

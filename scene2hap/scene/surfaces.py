@@ -1,0 +1,44 @@
+"""The dominant surfaces of one scene: each mesh is measured once, and all of them within a budget."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.scene import limits
+from scene2hap.scene.geometry import dominant_surface
+from scene2hap.scene.snapshot import DominantSurface, TriMesh
+
+_FREE = 18_000_000
+"""Tests of a ray against a triangle (measured: two seconds; some 700 small meshes, no two of one shape)."""
+_PER_VERTEX = 100.0
+"""Further tests for each vertex that the file stores (assumed: 4,000 meshes of 200 vertices, each of its own)."""
+
+
+@dataclass(eq=False)
+class Surfaces:
+    """Measures meshes. `work` counts what that takes; whoever reads a file adds the vertices that it stores."""
+
+    work: limits.Budget = field(
+        default_factory=lambda: limits.Budget(
+            "the rays that measure its shapes, times their triangles,",
+            _FREE,
+            _PER_VERTEX,
+            unit="vertices",
+            advice="Simplify the meshes, use copies of fewer shapes, or split the scene.",
+        )
+    )
+    _measured: dict[tuple[object, ...], DominantSurface] = field(default_factory=dict)
+
+    def of(self, mesh: TriMesh, up: NDArray[np.float64], place: str, *, turns: bool = False) -> DominantSurface:
+        """The surface of a mesh whose object has `up` (3,) above it; see `dominant_surface`.
+
+        Copies take that of the first. With `turns`, copies that stand otherwise are measured for themselves.
+        Raises: SceneError: measuring all shapes of the scene takes too long; the message names `place`.
+        """
+        key = (mesh.digest, *(np.round(up, 6).tolist() if turns else ()))
+        if key not in self._measured:
+            self._measured[key] = dominant_surface(mesh, up=up, spend=lambda work: self.work.spend(work, place))
+        return self._measured[key]

@@ -1,0 +1,33 @@
+"""Scene files of a megabyte whose rows are small and whose sums are not: read by `inspect`, then by `bake`.
+
+Where `scene_files` draws its cases from the seed, these are the same in every campaign but for their random numbers.
+"""
+
+from __future__ import annotations
+
+import itertools
+import random
+from collections.abc import Iterator
+from pathlib import Path
+
+from attacks import mjcf_sums, node_sums, text_sums
+from attacks.attack import Attack
+
+BAKE_SECONDS = 15.0
+"""Processor time of a bake, which answers for each object and makes sounds besides reading the file."""
+CASES = (*node_sums.CASES, *text_sums.CASES, *mjcf_sums.CASES)
+
+
+def attacks(seed: int, work: Path) -> Iterator[Attack]:
+    """Every case by `inspect`, then every case by `bake`."""
+    for number, (command, case) in enumerate(itertools.product(("inspect", "bake"), CASES)):
+        files = case(random.Random(f"scene_sums/{seed}/{case.__name__}"))
+        folder = work / str(number)
+        folder.mkdir()
+        for file, data in files.items():
+            (folder / file).write_bytes(data)
+        argv = ("scene2hap", command, str(folder / next(iter(files))))
+        if command == "bake":
+            yield Attack("scene_sums", f"bake {case.__name__}", (*argv, "-o", "bundle"), seconds=BAKE_SECONDS)
+        else:
+            yield Attack("scene_sums", f"inspect {case.__name__}", argv)
