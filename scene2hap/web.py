@@ -8,6 +8,9 @@ when the first request is sent.
 from __future__ import annotations
 
 import asyncio
+import contextlib
+import socket
+import threading
 import zlib
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -15,6 +18,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from typing import TYPE_CHECKING, TypeAlias
 from urllib.parse import urlsplit
+from urllib.request import getproxies
 
 from scene2hap.errors import BackendUnavailable, ConfigError
 
@@ -150,6 +154,8 @@ async def exchange(
     async def check(request: httpx.Request) -> None:
         if safe_only and not is_safe(str(request.url)):
             raise httpx.UnsupportedProtocol(f"it leads to {request.url.scheme}://{request.url.host}, which is not safe")
+        if transport is None and not getproxies():  # a proxy looks names up itself
+            await _look_up(request.url.host)
 
     # Nothing to unpack is asked for; a server or proxy that packs all the same is unpacked within the limit.
     headers = {"accept-encoding": "identity"}
@@ -188,6 +194,29 @@ async def exchange(
     return WebReply(url, response.status_code, content, dict(response.headers))
 
 
+async def _look_up(host: str) -> None:
+    """Wait until the resolver knows a name, or that there is none, as the connection tells then.
+
+    In a thread that nobody waits for: a look-up cannot be interrupted, and those of an event loop are waited for when
+    it closes, and by Python at its end, whatever time is left.
+    """
+    loop = asyncio.get_running_loop()
+    known = loop.create_future()
+
+    def tell() -> None:
+        if not known.done():
+            known.set_result(None)
+
+    def ask() -> None:
+        with contextlib.suppress(OSError, UnicodeError):
+            socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)
+        with contextlib.suppress(RuntimeError):  # the loop is closed: it did not wait
+            loop.call_soon_threadsafe(tell)
+
+    threading.Thread(target=ask, name=f"look up {host[:40]}", daemon=True).start()
+    await known
+
+
 async def _body(response: httpx.Response, url: str, max_bytes: int) -> bytes:
     """The body, unpacked. Raises: BackendUnavailable: it is too large, or packed in a way that is not read."""
     if response.is_stream_consumed:
@@ -208,6 +237,8 @@ async def _body(response: httpx.Response, url: str, max_bytes: int) -> bytes:
                 f"{url} says that its answer is packed as {packing!r}, and it is not.", retryable=True
             ) from cause
         _require_at_most(max(len(content), n_raw), url, max_bytes)
+    if unpack is not None and n_raw and not unpack.eof:
+        raise BackendUnavailable(f"{url} packs its answer as {packing!r} and sends a part of it.", retryable=True)
     return bytes(content)
 
 

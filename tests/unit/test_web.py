@@ -3,6 +3,8 @@
 import asyncio
 import gzip
 import resource
+import socket
+import threading
 import zlib
 from collections.abc import AsyncIterator
 
@@ -97,3 +99,30 @@ def test_json_is_utf_8_whatever_the_server_says(charset: str) -> None:
     body = httpx.ByteStream('{"a": "\u00fc"}'.encode())
     headers = {"content-type": f"application/json; charset={charset}"}
     assert posted(httpx.Response(200, headers=headers, stream=body)).json() == {"a": "\u00fc"}
+
+
+def test_a_part_of_what_was_packed_is_no_answer() -> None:
+    packed = gzip.compress(b'{"a": 1}' * 100)[:-12]
+    response = httpx.Response(200, stream=httpx.ByteStream(packed), headers={"content-encoding": "gzip"})
+    with pytest.raises(BackendUnavailable, match="sends a part of it") as caught:
+        asked(response)
+    assert caught.value.retryable
+
+
+def test_a_look_up_of_a_name_that_does_not_end_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("ALL_PROXY", "HTTP_PROXY", "HTTPS_PROXY", "all_proxy", "http_proxy", "https_proxy"):
+        monkeypatch.delenv(name, raising=False)
+    over = threading.Event()
+    ended: list[bool] = []
+
+    def look_up(*_: object, **__: object) -> list[object]:
+        ended.append(over.wait(20.0))
+        return []
+
+    monkeypatch.setattr(socket, "getaddrinfo", look_up)
+    try:
+        with pytest.raises(BackendUnavailable, match=r"did not answer within 0\.2 s"):
+            web.get("http://localhost:9/", web.Limits(0.2, 1000))
+        assert not ended  # the look-up still goes on
+    finally:
+        over.set()
