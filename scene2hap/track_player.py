@@ -18,7 +18,6 @@ from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session import HapticFrame, HapticSession, Touch
 from scene2hap.touch_track import LiftStep, MoveStep, TouchStep, TouchTrack
 
-
 MAX_UPDATE_RATE_HZ = 1000.0
 """Assumed: trackers and haptic loops run at 1 kHz at most."""
 

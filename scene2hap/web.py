@@ -21,6 +21,7 @@ from urllib.parse import urlsplit
 from urllib.request import getproxies
 
 from scene2hap.errors import BackendUnavailable, ConfigError
+from scene2hap.quiet_logs import scrubbed
 
 if TYPE_CHECKING:
     import ssl
@@ -97,6 +98,7 @@ def get(
     *,
     params: Mapping[str, str] | None = None,
     authorization: Callable[[], str] | None = None,
+    scrub: Callable[[str], str] = str,
     transport: Transport | None = None,
 ) -> WebReply:
     """What lies at a safe address; every status is a reply.
@@ -113,6 +115,7 @@ def get(
                 limits,
                 params=params,
                 authorization=authorization,
+                scrub=scrub,
                 follow_redirects=authorization is None,
                 safe_only=True,
                 transport=transport,
@@ -140,7 +143,7 @@ async def exchange(
     """Send one request and read its reply within the limits; every status is a reply.
 
     `authorization` gives the header of that name, "" for none; `safe_only` refuses addresses that are not `is_safe`,
-    those of redirects too; `scrub` is applied to what the HTTP library says of an error.
+    those of redirects too; `scrub` takes a key out of what the HTTP library logs, and says of an error and its causes.
     Raises: BackendUnavailable: no whole reply came; tells whether trying again can help. ConfigError: the proxy that
     the environment names cannot be used.
     """
@@ -163,26 +166,27 @@ async def exchange(
         headers["content-type"] = "application/json"
     client = _client(transport, limits.timeout_s, check)
     try:
-        async with (
-            asyncio.timeout(limits.timeout_s),
-            client,
-            client.stream(
-                method,
-                url,
-                content=json_body,
-                params=params,
-                headers=headers,
-                auth=authorise,
-                follow_redirects=follow_redirects,
-            ) as response,
-        ):
-            content = await _body(response, url, limits.max_bytes)
+        with scrubbed(scrub):
+            async with (
+                asyncio.timeout(limits.timeout_s),
+                client,
+                client.stream(
+                    method,
+                    url,
+                    content=json_body,
+                    params=params,
+                    headers=headers,
+                    auth=authorise,
+                    follow_redirects=follow_redirects,
+                ) as response,
+            ):
+                content = await _body(response, url, limits.max_bytes)
     except (TimeoutError, httpx.TimeoutException) as cause:
         raise BackendUnavailable(
             f"{url} did not answer within {limits.timeout_s:g} s. Try later, raise timeout_s, or lower the "
             "concurrency.",
             retryable=True,
-        ) from _without_frames(cause)
+        ) from _without_frames(cause, scrub)
     except (httpx.HTTPError, httpx.StreamError, httpx.InvalidURL) as cause:
         never = isinstance(
             cause, httpx.UnsupportedProtocol | httpx.LocalProtocolError | httpx.InvalidURL | httpx.TooManyRedirects
@@ -190,7 +194,7 @@ async def exchange(
         problem = scrub(str(cause)) or type(cause).__name__
         raise BackendUnavailable(
             f"{url} cannot be reached: {problem}. Check the network, the server and the address.", retryable=not never
-        ) from _without_frames(cause)
+        ) from _without_frames(cause, scrub)
     return WebReply(url, response.status_code, content, dict(response.headers))
 
 
@@ -277,13 +281,19 @@ def _ssl_context() -> ssl.SSLContext:
     return httpx.create_ssl_context()
 
 
-def _without_frames(error: BaseException) -> BaseException:
-    """The error, its causes and contexts without their tracebacks.
+def _without_frames(error: BaseException, scrub: Callable[[str], str]) -> BaseException:
+    """The error, its causes and contexts without their tracebacks, and without the key that a server put into them.
 
     The frames of the HTTP library have the header among their local variables, which reporters of errors show.
     """
-    seen: BaseException | None = error
-    while seen is not None:
-        seen.__traceback__ = None
-        seen = seen.__cause__ or seen.__context__
+    waiting: list[BaseException | None] = [error]
+    seen: set[int] = set()
+    while waiting:
+        found = waiting.pop()
+        if found is None or id(found) in seen:
+            continue
+        seen.add(id(found))
+        found.__traceback__ = None
+        found.args = tuple(scrub(f"{part}") if isinstance(part, str | bytes) else part for part in found.args)
+        waiting += [found.__cause__, found.__context__]
     return error

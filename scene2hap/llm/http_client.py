@@ -19,7 +19,6 @@ from scene2hap.errors import BackendError, ConfigError
 from scene2hap.llm import waits
 from scene2hap.llm.http_reply import HttpReply as HttpReply
 from scene2hap.llm.pace import Pace
-from scene2hap.llm.quiet_logs import scrubbed
 from scene2hap.secret import Secret as Secret
 
 if TYPE_CHECKING:
@@ -64,16 +63,15 @@ class Endpoint:
 
     async def _send(self, method: str, path: str, content: bytes | None, timeout_s: float) -> HttpReply:
         url = f"{self.base_url}/{path}"
-        with scrubbed(self.secret):
-            reply = await web.exchange(
-                method,
-                url,
-                web.Limits(timeout_s, MAX_REPLY_BYTES),
-                json_body=content,
-                authorization=self._authorization,
-                scrub=self.secret.scrub,
-                transport=self.transport,
-            )
+        reply = await web.exchange(
+            method,
+            url,
+            web.Limits(timeout_s, MAX_REPLY_BYTES),
+            json_body=content,
+            authorization=self._authorization,
+            scrub=self.secret.scrub,
+            transport=self.transport,
+        )
         headers = {name: self.secret.scrub(reply.headers[name]) for name in _HEADERS_READ if name in reply.headers}
         _LOG.debug("%s answered %d, request id %s", url, reply.status, headers.get("x-request-id", "unknown"))
         return HttpReply(url, reply.status, self.secret.scrub(reply.text), headers)

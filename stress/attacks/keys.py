@@ -1,5 +1,7 @@
 """Keys that a server, a library or a program tells again in other spellings: none may be read from what is shown or kept."""
 
+# ruff: noqa: E501  # tables of cases
+
 from __future__ import annotations
 
 import base64

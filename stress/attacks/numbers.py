@@ -1,5 +1,7 @@
 """Hostile numbers and arrays at the public names of the library: refused with an error of ours, or harmless."""
 
+# ruff: noqa: E501  # tables of cases
+
 from __future__ import annotations
 
 import itertools
@@ -91,14 +93,22 @@ def arrays(rows: int, columns: int) -> dict[str, Any]:
 def _plate(**fields: Any) -> Any:
     from scene2hap import Material, Plate
 
-    given = {"length_m": 1.0, "width_m": 0.5, "thickness_m": 0.02, "material": Material("oak", 700.0, 1e10, 0.3), **fields}
+    given = {
+        "length_m": 1.0,
+        "width_m": 0.5,
+        "thickness_m": 0.02,
+        "material": Material("oak", 700.0, 1e10, 0.3),
+        **fields,
+    }
     return Plate(**given)
 
 
 def _material(**fields: Any) -> Any:
     from scene2hap import Material
 
-    return Material(**{"name": "oak", "density_kg_m3": 700.0, "youngs_modulus_pa": 1e10, "poisson_ratio": 0.3, **fields})
+    return Material(
+        **{"name": "oak", "density_kg_m3": 700.0, "youngs_modulus_pa": 1e10, "poisson_ratio": 0.3, **fields}
+    )
 
 
 def _clip(**fields: Any) -> Any:
@@ -111,26 +121,44 @@ def _scene_object(**fields: Any) -> Any:
     from scene2hap import Box, DominantSurface, Pose, SceneObject
 
     surface = DominantSurface(Pose(), 1.0, 1.0, 0.1)
-    return SceneObject(**{"id": "a", "name": "a", "pose": Pose(), "geometry": Box((1, 1, 1)), "surface": surface, **fields})
+    return SceneObject(
+        **{"id": "a", "name": "a", "pose": Pose(), "geometry": Box((1, 1, 1)), "surface": surface, **fields}
+    )
 
 
 def _haptics(**fields: Any) -> Any:
     from scene2hap import ObjectHaptics
 
-    given = {"object_category": "a", "material_category": "oak", "material": None, "estimated_size_m": (1.0, 1.0, 1.0), "usage": "", "vibrates": False}
+    given = {
+        "object_category": "a",
+        "material_category": "oak",
+        "material": None,
+        "estimated_size_m": (1.0, 1.0, 1.0),
+        "usage": "",
+        "vibrates": False,
+    }
     return ObjectHaptics(**{**given, **fields})
 
 
 def _state(**fields: Any) -> Any:
     from scene2hap import SourceState
 
-    return SourceState(**{"name": "on", "intensity": 0.5, "sentence": "a fan hums", "keywords": "fan humming", **fields})
+    return SourceState(
+        **{"name": "on", "intensity": 0.5, "sentence": "a fan hums", "keywords": "fan humming", **fields}
+    )
 
 
 def _description(**fields: Any) -> Any:
     from scene2hap import VibrationDescription
 
-    given = {"object_category": "fan", "state": "on", "sentence": "", "keywords": "fan", "intensity": 0.5, "size_m": (0.1, 0.1, 0.1)}
+    given = {
+        "object_category": "fan",
+        "state": "on",
+        "sentence": "",
+        "keywords": "fan",
+        "intensity": 0.5,
+        "size_m": (0.1, 0.1, 0.1),
+    }
     return VibrationDescription(**{**given, **fields})
 
 
@@ -190,12 +218,23 @@ def _field(kind: str, **how: Any) -> Callable[[Any, Path], object]:
 def _network(value: Any, room: Path, place: str) -> object:
     from scene2hap import Bands, Contact, ContactNetwork, Excitation, ExponentialPlate, ModalPlate, Pose, RigidBody
 
-    given: dict[str, Any] = {"point": (0.1, 0.1, 0.0), "weight": 1.0, "hz": 100.0, "mass": 1.0, "ask": [(0.1, 0.1, 0.0)]}
+    given: dict[str, Any] = {
+        "point": (0.1, 0.1, 0.0),
+        "weight": 1.0,
+        "hz": 100.0,
+        "mass": 1.0,
+        "ask": [(0.1, 0.1, 0.0)],
+    }
     given[place] = (value, 0.1, 0.0) if place == "point" else [(value, 0.1, 0.0)] if place == "ask" else value
     bodies = {"a": _plate(), "b": RigidBody(1.0)}
-    network = ContactNetwork(bodies, [Contact("a", "b", given["point"], weight=given["weight"])], {"a": Pose(), "b": Pose()})
+    network = ContactNetwork(
+        bodies, [Contact("a", "b", given["point"], weight=given["weight"])], {"a": Pose(), "b": Pose()}
+    )
     excitations = [Excitation("b", given["hz"], given["hz"], given["mass"])]
-    return [model().prepare(network, excitations, Bands.dominant()).attenuation("a", given["ask"]) for model in (ExponentialPlate, ModalPlate)]
+    return [
+        model().prepare(network, excitations, Bands.dominant()).attenuation("a", given["ask"])
+        for model in (ExponentialPlate, ModalPlate)
+    ]
 
 
 def _s(name: str) -> Any:
@@ -488,7 +527,10 @@ def every() -> Iterator[tuple[str, Callable[[Path], object]]]:
         yield f"{name} = {value}", partial(entry, SCALARS[value])
     for name, (rows, columns, entry) in ARRAYS.items():
         for value in arrays(rows, columns):
-            yield f"{name} of array: {value}", lambda room, e=entry, v=value, r=rows, c=columns: e(arrays(r, c)[v], room)
+            yield (
+                f"{name} of array: {value}",
+                lambda room, e=entry, v=value, r=rows, c=columns: e(arrays(r, c)[v], room),
+            )
 
 
 def attacks(seed: int, work: Path) -> Iterator[Attack]:

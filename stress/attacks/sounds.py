@@ -1,5 +1,7 @@
 """Sound files that claim or hold hours, or are no sound: in `convert`, as a folder of sounds, and as a clip of a person's."""
 
+# ruff: noqa: E501  # tables of cases
+
 from __future__ import annotations
 
 import itertools
@@ -40,7 +42,19 @@ def _used(path: Path, use: str, work: Path, room: Path) -> int:
         return _clip(path, room)
     out, argv = Path("out"), ["convert", str(path), "-o", "out.wav", "--workers", "1"]
     if use == "more":
-        argv = ["convert", str(path), str(path), "-o", "out", "--mono", "--picture", "--workers", "1", "--format", "flac"]
+        argv = [
+            "convert",
+            str(path),
+            str(path),
+            "-o",
+            "out",
+            "--mono",
+            "--picture",
+            "--workers",
+            "1",
+            "--format",
+            "flac",
+        ]
     elif use == "convert folder":
         argv = ["convert", str(path.parent), "-o", "out", "--workers", "1"]
     elif use == "folder":
@@ -50,7 +64,9 @@ def _used(path: Path, use: str, work: Path, room: Path) -> int:
         folder.mkdir()
         for given in path.parent.iterdir():
             (folder / given.name).symlink_to(given)
-        (folder / "sounds.csv").write_text(f"file,keywords\n{path.name},fan humming\n../../thesis.txt,phone vibrating\n/dev/zero,phone\n")
+        (folder / "sounds.csv").write_text(
+            f"file,keywords\n{path.name},fan humming\n../../thesis.txt,phone vibrating\n/dev/zero,phone\n"
+        )
         argv = ["bake", str(work / "scene.json"), "-o", "out", "--sounds", "sounds"]
     try:
         status = main(argv)
@@ -80,7 +96,15 @@ def _clip(path: Path, room: Path) -> int:
 def _header(rate: int, channels: int, bits: int, code: int, size: int, riff: bytes = b"RIFF") -> bytes:
     align = channels * bits // 8
     rest = struct.pack("<HHIIHH", code, channels & 0xFFFF, rate, rate * align & 0xFFFFFFFF, align & 0xFFFF, bits)
-    return riff + struct.pack("<I", 0xFFFFFFFF) + b"WAVEfmt " + struct.pack("<I", 16) + rest + b"data" + struct.pack("<I", size)
+    return (
+        riff
+        + struct.pack("<I", 0xFFFFFFFF)
+        + b"WAVEfmt "
+        + struct.pack("<I", 16)
+        + rest
+        + b"data"
+        + struct.pack("<I", size)
+    )
 
 
 def _lying_wave(folder: Path, rng: random.Random) -> Path:
@@ -88,7 +112,10 @@ def _lying_wave(folder: Path, rng: random.Random) -> Path:
     bits, code = rng.choice([0, 1, 8, 16, 24, 32, 64, 999]), rng.choice([1, 3, 2, 6, 17, 0xFFFE, 0x55])
     size = rng.choice([0, 1, 2**31, 2**32 - 1])
     path = folder / "fan humming.wav"
-    path.write_bytes(_header(rate, channels, bits, code, size, rng.choice([b"RIFF", b"RIFX", b"RF64"])) + rng.randbytes(rng.choice([0, 3, 99_999])))
+    path.write_bytes(
+        _header(rate, channels, bits, code, size, rng.choice([b"RIFF", b"RIFX", b"RF64"]))
+        + rng.randbytes(rng.choice([0, 3, 99_999]))
+    )
     return path
 
 
@@ -120,7 +147,9 @@ def _flac(path: Path, rate: int, channels: int, seconds: float) -> Path:
 
 
 def _long_flac(folder: Path, rng: random.Random) -> Path:
-    rate, channels, hours = rng.choice([(1000, 1, 12.0), (8000, 1, 3.0), (8000, 8, 1.0), (96_000, 2, 0.2), (655_350, 8, 0.02)])
+    rate, channels, hours = rng.choice(
+        [(1000, 1, 12.0), (8000, 1, 3.0), (8000, 8, 1.0), (96_000, 2, 0.2), (655_350, 8, 0.02)]
+    )
     return _flac(folder / "fan humming.flac", rate, channels, hours * 3600)
 
 
@@ -172,7 +201,17 @@ def _long_mp3(folder: Path, rng: random.Random) -> Path:
 
 def _other_formats(folder: Path, rng: random.Random) -> Path:
     """What the library beneath reads, by its content, whatever the file is called."""
-    kind, subtype = rng.choice([("AIFF", "PCM_16"), ("W64", "PCM_16"), ("CAF", "PCM_16"), ("AU", "FLOAT"), ("RF64", "DOUBLE"), ("MAT5", "DOUBLE"), ("PAF", "PCM_16")])
+    kind, subtype = rng.choice(
+        [
+            ("AIFF", "PCM_16"),
+            ("W64", "PCM_16"),
+            ("CAF", "PCM_16"),
+            ("AU", "FLOAT"),
+            ("RF64", "DOUBLE"),
+            ("MAT5", "DOUBLE"),
+            ("PAF", "PCM_16"),
+        ]
+    )
     path = folder / f"fan humming.{rng.choice(['wav', 'flac', 'ogg', 'mp3', 'raw', 'aiff'])}"
     soundfile.write(path, np.zeros((4000, 2)), 8000, subtype=subtype, format=kind)
     data = bytearray(path.read_bytes())
@@ -184,7 +223,12 @@ def _other_formats(folder: Path, rng: random.Random) -> Path:
 
 def _short(folder: Path, rng: random.Random) -> Path:
     path = folder / "fan humming.wav"
-    soundfile.write(path, np.full((rng.choice([0, 1, 2, 9, 100]), rng.choice([1, 2])), 0.5), rng.choice([1, 100, 8000, 48_000]), subtype="PCM_16")
+    soundfile.write(
+        path,
+        np.full((rng.choice([0, 1, 2, 9, 100]), rng.choice([1, 2])), 0.5),
+        rng.choice([1, 100, 8000, 48_000]),
+        subtype="PCM_16",
+    )
     return path
 
 
@@ -223,7 +267,15 @@ def _many(folder: Path, rng: random.Random) -> Path:
         for number in range(2000):
             os.link(first, folder / f"fan humming {number}.wav")
     else:
-        for name in (b"fan \xff.wav", b"fan \x1b[2J.wav", b"fan\nhum.wav", b"-o.wav", b"FAN HUMMING.wav", "fan é.wav".encode(), b"fan" * 60 + b".wav"):
+        for name in (
+            b"fan \xff.wav",
+            b"fan \x1b[2J.wav",
+            b"fan\nhum.wav",
+            b"-o.wav",
+            b"FAN HUMMING.wav",
+            "fan é.wav".encode(),
+            b"fan" * 60 + b".wav",
+        ):
             os.link(os.fsencode(first), os.fsencode(folder) + b"/" + name)
     return first
 

@@ -1,5 +1,7 @@
 """Files of touches whose durations, rates and numbers of steps ask for more than there is; what is written is judged."""
 
+# ruff: noqa: E501  # tables of cases
+
 from __future__ import annotations
 
 import itertools
@@ -18,7 +20,24 @@ _ODD: tuple[Any, ...] = (
     1e9, 1e308, 1e12, 3e6, 86_400.0, 1e-308, 5e-324, 0, -0.0, -1, float("nan"), float("inf"), -float("inf"), True, None, "1e9", "",
     "nan", 10**400, -(10**400), [1], {}, 2**63, 1e-3, 1e200, -1e308,
 )  # fmt: skip
-_RATES = ("0", "-1", "nan", "inf", "1e308", "1e9", "1e6", "1e-300", "1e-9", "5e-324", "0.001", "48001", "", "x", "1_0", "٣")
+_RATES = (
+    "0",
+    "-1",
+    "nan",
+    "inf",
+    "1e308",
+    "1e9",
+    "1e6",
+    "1e-300",
+    "1e-9",
+    "5e-324",
+    "0.001",
+    "48001",
+    "",
+    "x",
+    "1_0",
+    "٣",
+)
 _CONFIGS: tuple[dict[str, Any], ...] = (
     {"bands": {"kind": "edges", "edges_hz": [10.0, 1e308]}}, {"bands": [1e-300, 1.0]}, {"control_period_s": 1e308},
     {"control_period_s": 1e-308}, {"contact_tolerance_m": 1e308}, {"contact_tolerance_m": -1}, {"gain_db": 1e308},
@@ -72,7 +91,10 @@ def _duration(folder: Path, rng: random.Random) -> Made:
 
 def _time(folder: Path, rng: random.Random) -> Made:
     value = rng.choice(_ODD)
-    steps = [{"time_s": value, "hand": "left", "touch": "fan"}, {"time_s": rng.choice(_ODD), "hand": "left", "lift": True}]
+    steps = [
+        {"time_s": value, "hand": "left", "touch": "fan"},
+        {"time_s": rng.choice(_ODD), "hand": "left", "lift": True},
+    ]
     return f"time_s = {str(value)[:9]}", _document(folder, 0.2, steps), ()
 
 
@@ -93,14 +115,24 @@ def _place(folder: Path, rng: random.Random) -> Made:
         step = {"time_s": 0.01, "move": "fan", "by_m": [0, 0, 0], "glide_s": rng.choice([0.0, 0.05])}
         if where == "to_m":
             del step["by_m"]
-        step[where if where != "whole" else "by_m"] = {"rotation_xyzw": [0, 0, value, 0], "whole": value}.get(where, [value] * 3)
-    steps = [{"time_s": 0.0, "hand": "left", "touch": "table"}, step, dict(step, time_s=0.02), {"time_s": 0.03, "hand": "left", "touch": "fan"}]
+        step[where if where != "whole" else "by_m"] = {"rotation_xyzw": [0, 0, value, 0], "whole": value}.get(
+            where, [value] * 3
+        )
+    steps = [
+        {"time_s": 0.0, "hand": "left", "touch": "table"},
+        step,
+        dict(step, time_s=0.02),
+        {"time_s": 0.03, "hand": "left", "touch": "fan"},
+    ]
     return f"{where} = {str(value)[:9]}", _document(folder, 0.1, steps), ()
 
 
 def _source(folder: Path, rng: random.Random) -> Made:
     name, value = rng.choice(["on", "state", "gain_db", "source"]), rng.choice(_ODD)
-    steps = [{"time_s": 0.0, "hand": "left", "touch": "fan"}, {"time_s": 0.01, "source": "fan", "gain_db": 60.0, name: value}]
+    steps = [
+        {"time_s": 0.0, "hand": "left", "touch": "fan"},
+        {"time_s": 0.01, "source": "fan", "gain_db": 60.0, name: value},
+    ]
     return f"{name} = {str(value)[:9]}", _document(folder, 0.2, steps), ()
 
 
@@ -113,12 +145,26 @@ def _many(folder: Path, rng: random.Random) -> Made:
     )  # fmt: skip
     path = folder / "touches.json"
     rows = itertools.islice(itertools.cycle(map(json.dumps, steps)), n)
-    path.write_text('{"format": "scene2hap/touches", "version": 1, "duration_s": 0.05, "steps": [' + ",".join(rows) + "]}")
+    path.write_text(
+        '{"format": "scene2hap/touches", "version": 1, "duration_s": 0.05, "steps": [' + ",".join(rows) + "]}"
+    )
     return f"{n} of {len(steps)} steps {str(steps[0])[:40]}", path, ()
 
 
 def _hands(folder: Path, rng: random.Random) -> Made:
-    hands = rng.choice([["\ud800"], [""], ["a" * 10**6], [f"h{i}" for i in range(2000)], ["left", "LEFT"], ["../x"], ["\x1b[2J"], [1], [None]])
+    hands = rng.choice(
+        [
+            ["\ud800"],
+            [""],
+            ["a" * 10**6],
+            [f"h{i}" for i in range(2000)],
+            ["left", "LEFT"],
+            ["../x"],
+            ["\x1b[2J"],
+            [1],
+            [None],
+        ]
+    )
     steps = [{"time_s": 0.0, "hand": hand, "touch": "fan"} for hand in hands]
     return f"{len(hands)} hands {hands[0]!a:.20}", _document(folder, 0.1, steps), ()
 
@@ -160,7 +206,22 @@ def _csv(folder: Path, rng: random.Random) -> Made:
 
 
 def _no_file(folder: Path, rng: random.Random) -> Made:
-    name = rng.choice(["/dev/zero", "/dev/null", "/dev/stdin", str(folder), "", ".", "nowhere.json", "a" * 5000, "\udcff.json", "pipe.json", "big.json", "loop.json"])
+    name = rng.choice(
+        [
+            "/dev/zero",
+            "/dev/null",
+            "/dev/stdin",
+            str(folder),
+            "",
+            ".",
+            "nowhere.json",
+            "a" * 5000,
+            "\udcff.json",
+            "pipe.json",
+            "big.json",
+            "loop.json",
+        ]
+    )
     if name in ("pipe.json", "big.json", "loop.json"):
         path = folder / name
         if name == "pipe.json":

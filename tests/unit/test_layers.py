@@ -9,7 +9,7 @@ PACKAGE = Path(__file__).parents[2] / "scene2hap"
 
 # Bottom to top; rooms of one row never import each other.
 LAYERS = [
-    {"errors", "printable"},
+    {"errors", "printable", "quiet_logs"},
     {"checks", "compiled", "echoes"},
     {"plugins", "settings", "secret", "text_files", "web"},
     {"scene"},

@@ -2,9 +2,11 @@
 
 import asyncio
 import gzip
+import logging
 import resource
 import socket
 import threading
+import traceback
 import zlib
 from collections.abc import AsyncIterator
 
@@ -126,3 +128,25 @@ def test_a_look_up_of_a_name_that_does_not_end_is_not_waited_for(monkeypatch: py
         assert not ended  # the look-up still goes on
     finally:
         over.set()
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["HTTP/1.1 {} OK\r\n\r\n", "HTTP/1.1 200 OK\r\nbad {}\r\n\r\n", "HTTP/1.1 302 x\r\nlocation: x{}://a\r\n\r\n"],
+)
+def test_a_key_in_a_broken_reply_is_in_no_cause_and_no_log(line: str, caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level(logging.DEBUG)
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def answer() -> None:
+            connection, _ = server.accept()
+            with connection:
+                connection.recv(65536)
+                connection.sendall(line.format(KEY).encode())
+
+        threading.Thread(target=answer, daemon=True).start()
+        url = f"http://127.0.0.1:{server.getsockname()[1]}/"
+        with pytest.raises(BackendUnavailable) as caught:
+            web.get(url, LIMITS, scrub=Secret(KEY).scrub)
+    assert KEY not in "".join(traceback.format_exception(caught.value))
+    assert KEY not in caplog.text
