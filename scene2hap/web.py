@@ -294,6 +294,6 @@ def _without_frames(error: BaseException, scrub: Callable[[str], str]) -> BaseEx
             continue
         seen.add(id(found))
         found.__traceback__ = None
-        found.args = tuple(scrub(f"{part}") if isinstance(part, str | bytes) else part for part in found.args)
+        found.args = tuple(scrub(part) if isinstance(part, str) else part for part in found.args)
         waiting += [found.__cause__, found.__context__]
     return error

@@ -91,7 +91,12 @@ def _encoded(body: Mapping[str, Any]) -> bytes:
 
 
 def _checked_url(base_url: str) -> str:
-    parts = urlsplit(base_url)
+    if not isinstance(base_url, str):
+        raise ConfigError(f"base_url is {checks.represented(base_url)}; it must be a text with the server's address.")
+    try:
+        parts = urlsplit(base_url)
+    except ValueError as cause:
+        raise ConfigError(f"base_url is no address: {cause}. It must look like 'https://api.openai.com/v1'.") from cause
     if "@" in parts.netloc or parts.query:
         raise ConfigError("base_url carries credentials or a query; give the key as api_key, where it stays hidden.")
     if parts.scheme not in ("http", "https") or not parts.hostname:

@@ -57,13 +57,13 @@ class Pose:
 
     def to_world(self, points_own_m: ArrayLike) -> NDArray[np.float64]:
         """Points (n, 3) [m] of the own frame, in the world."""
-        points: NDArray[np.float64] = np.asarray(points_own_m, dtype=np.float64)
+        points = checks.floats("points_own_m", points_own_m, "m", error=SceneError)
         moved: NDArray[np.float64] = points @ self.rotation.T + self._position
         return moved
 
     def to_own(self, points_m: ArrayLike) -> NDArray[np.float64]:
         """Points (n, 3) [m] of the world, in the own frame."""
-        points: NDArray[np.float64] = np.asarray(points_m, dtype=np.float64)
+        points = checks.floats("points_m", points_m, "m", error=SceneError)
         own: NDArray[np.float64] = (points - self._position) @ self.rotation
         return own
 
@@ -86,9 +86,11 @@ class Pose:
 
         Raises: SceneError: the upper left 3 x 3 block is not a rotation.
         """
-        m = np.asarray(matrix, dtype=np.float64)
+        m = checks.floats("matrix", matrix, "-", error=SceneError)
+        if m.shape != (4, 4) or not np.isfinite(m).all():
+            raise SceneError(f"matrix has shape {m.shape}; it must be (4, 4) and finite.")
         r = m[:3, :3]
-        if m.shape != (4, 4) or not np.allclose(r @ r.T, np.eye(3), atol=1e-6) or np.linalg.det(r) < 0:
+        if np.abs(r).max() > 2.0 or not np.allclose(r @ r.T, np.eye(3), atol=1e-6) or np.linalg.det(r) < 0:
             raise SceneError("matrix is not rigid: bake its scale or mirroring into the mesh first.")
         return cls(_triple(m[:3, 3]), _quaternion(r))
 
