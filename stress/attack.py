@@ -24,7 +24,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 from attacks.running import Verdict, run
 
-FAMILIES = ("scene_files", "servers", "bundles", "names", "command_line", "touch_files", "sounds", "keys", "numbers")
+FAMILIES = ("scene_files", "servers", "bundles", "names", "command_line", "touch_files", "sounds", "keys", "library")
 
 
 def campaign(family: str, seed: int, cases: int, work: Path) -> list[Verdict] | None:

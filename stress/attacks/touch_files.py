@@ -60,10 +60,11 @@ def attacks(seed: int, work: Path) -> Iterator[Attack]:
         told, path, more = kind(folder, rng)
         argv = ("render", str(room), "--touches", str(path), "-o", "out.wav", *more)
         name = f"{number} {kind.__name__.strip('_')} {told}"
-        yield Attack("touch_files", name, argv, call=partial(_judged, argv), untouched=(room,))
+        yield Attack("touch_files", name, argv, call=partial(judged, argv), untouched=(room,))
 
 
-def _judged(argv: tuple[str, ...]) -> int:
+def judged(argv: tuple[str, ...]) -> int:
+    """Run a command of this package; what it writes is held against the bounds of an actuator."""
     from scene2hap.cli import main
 
     try:

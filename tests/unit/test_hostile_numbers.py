@@ -65,6 +65,7 @@ REFUSED: dict[str, Callable[[], object]] = {
     "points of huge numbers": lambda: Pose().to_world([10**400, 0, 0]),
     "complex points": lambda: Pose().to_world(np.array([1j, 0, 0])),
     "masked points": lambda: Pose().to_world(np.ma.masked_all((2, 3))),
+    "points of two numbers": lambda: Pose().to_world([[0.0, 1.0]]),
     "a matrix of one number": lambda: Pose.from_matrix(1.0),
     "a matrix that is too large": lambda: Pose.from_matrix(np.eye(4) * 1e308),
     "vertices of huge numbers": lambda: TriMesh([[10**400, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]),

@@ -355,7 +355,6 @@ NUMBERS: dict[str, Entry] = {
     "session bands": lambda v, room: _played(room, lambda s: None, bands=v),
     "session bands edges": lambda v, room: _played(room, lambda s: None, bands=(10.0, v)),
     "session actuator": lambda v, room: _played(room, lambda s: None, actuator=v),
-    "session propagation": lambda v, room: _played(room, lambda s: None, propagation=v),
     "session tolerance": lambda v, room: _played(room, lambda s: None, contact_tolerance_m=v),
     "session period": lambda v, room: _played(room, lambda s: None, control_period_s=v),
     "session config": lambda v, room: _s("HapticSession")(_s("HapticBundle").load(room).snapshot, _s("HapticBundle").load(room), v),
@@ -389,10 +388,7 @@ NUMBERS: dict[str, Entry] = {
     "standard_stack": lambda v, _: _s("standard_stack")("lexicon", retries=v),
     "bake config": lambda v, room: _s("bake")(_scene(room), v),
     "bake temperature": lambda v, room: _s("bake")(_scene(room), {"temperature": v}),
-    "bake audio": lambda v, room: _s("bake")(_scene(room), {"audio": v}),
-    "bake llm": lambda v, room: _s("bake")(_scene(room), {"llm": v}),
     "bake actuator": lambda v, room: _s("bake")(_scene(room), {"actuator": v}),
-    "bake tactile": lambda v, room: _s("bake")(_scene(room), {"tactile": v}),
     "bake spread": lambda v, room: _s("bake")(_scene(room), {"spread": {"octaves": v, "level_db": v}}),
     "bake concurrency": lambda v, room: _s("bake")(_scene(room), {"concurrency": v}),
     "rebake config": lambda v, room: _s("rebake")(_s("HapticBundle").load(room), v),
@@ -466,10 +462,10 @@ def attacks(seed: int, work: Path) -> Iterator[Attack]:
     room = bundles.sound(work)
     cases = list(every())
     for number in itertools.count():
-        rng = random.Random(f"numbers/{seed}/{number}")
+        rng = random.Random(f"library/{seed}/{number}")
         drawn = rng.sample(cases, 8)
         name = f"{number} {', '.join(name for name, _ in drawn[:1])} and others"
-        yield Attack("numbers", name, (), call=partial(_tried, drawn, room), untouched=(room,))
+        yield Attack("library", name, (), call=partial(_tried, drawn, room), untouched=(room,))
 
 
 def _tried(drawn: list[tuple[str, Callable[[Path], object]]], room: Path) -> int:
