@@ -146,7 +146,7 @@ def floats(name: str, value: object, unit: str, *, error: type[Scene2HapError]) 
             return np.asarray(found, dtype=np.float64)
     except Exception as cause:  # ragged, too many digits, or a type of somebody else's that raises what it likes
         told = str(cause)[:_LONGEST_SHOWN] or type(cause).__name__
-        raise error(f"{name} is no table of numbers{_in(unit)}: {told}.") from cause
+        raise error(f"{name} is not a table of numbers{_in(unit)}: {told}.") from cause
 
 
 def whole(name: str, value: object, unit: str, *, at_least: int, at_most: int, error: type[Scene2HapError]) -> int:

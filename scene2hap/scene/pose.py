@@ -88,7 +88,7 @@ class Pose:
         """
         m = checks.floats("matrix", matrix, "-", error=SceneError)
         if m.shape != (4, 4) or not np.isfinite(m).all():
-            raise SceneError(f"matrix has shape {m.shape}; it must be (4, 4) and finite.")
+            raise SceneError(f"matrix is not rigid: its shape is {m.shape}; it must be (4, 4) and finite.")
         r = m[:3, :3]
         if np.abs(r).max() > 2.0 or not np.allclose(r @ r.T, np.eye(3), atol=1e-6) or np.linalg.det(r) < 0:
             raise SceneError("matrix is not rigid: bake its scale or mirroring into the mesh first.")
