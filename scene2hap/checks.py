@@ -8,12 +8,15 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import islice
 from numbers import Real
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from scene2hap.errors import ConfigError, Scene2HapError
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
     from pydantic import ValidationError
 
 
@@ -28,7 +31,19 @@ def shown(value: object, name: object = "") -> str:
         return "{" + ", ".join(f"{key!r}: {shown(item, key)}" for key, item in value.items()) + "}"
     if isinstance(value, list | tuple):
         return "[" + ", ".join(map(shown, value)) + "]"
-    return repr(value)
+    return represented(value)
+
+
+_LONGEST_SHOWN = 200
+
+
+def represented(value: object) -> str:
+    """`repr` as an error may show it: not of a megabyte, and of a value that cannot be shown its type."""
+    try:
+        told = repr(value)
+    except Exception:  # a whole number of more than 4300 digits, or whatever a `__repr__` of somebody raises
+        return f"a {type(value).__name__}"
+    return told if len(told) <= _LONGEST_SHOWN else f"{told[:_LONGEST_SHOWN]}..."
 
 
 class Problem(NamedTuple):
@@ -66,11 +81,13 @@ def number(
     """Return `value` as a finite float inside its bounds, or raise `error` naming value, unit and bound."""
     # numpy scalars register as Real; bool is an int by accident of history and never a measurement.
     if isinstance(value, bool) or not isinstance(value, Real):
-        raise error(_sentence(f"{name} is {value!r}; it must be a number{_in(unit)}", hint))
+        raise error(_sentence(f"{name} is {represented(value)}; it must be a number{_in(unit)}", hint))
     try:
         result = float(value)
     except OverflowError:  # a whole number of more than 308 digits
         result = math.inf
+    except Exception as cause:  # a type of somebody else's, whose `__float__` raises what it likes
+        raise error(_sentence(f"{name} is a {type(value).__name__} that gives no number{_in(unit)}", hint)) from cause
     bounds = [
         (not math.isfinite(result), "finite"),
         (above is not None and result <= above, f"above {above}"),
@@ -99,15 +116,63 @@ def vector(
     """Return `value` as `size` finite floats, or raise `error` naming the component that is wrong."""
     items: Sequence[object]
     try:
-        items = tuple(value)  # type: ignore[arg-type]  # any iterable will do; the rest is the error below
-    except TypeError:
+        items = tuple(islice(value, size + 1))  # type: ignore[call-overload]  # any iterable; if none, see below
+    except Exception:  # a type of somebody else's, whose `__iter__` raises what it likes
         items = ()
     if len(items) != size or isinstance(value, str):
-        raise error(_sentence(f"{name} is {value!r}; it must be {size} numbers{_in(unit)}", hint))
+        raise error(_sentence(f"{name} is {represented(value)}; it must be {size} numbers{_in(unit)}", hint))
     return tuple(
         number(f"{name}[{i}]", item, unit, above=above, at_least=at_least, error=error, hint=hint)
         for i, item in enumerate(items)
     )
+
+
+def floats(name: str, value: object, unit: str, *, error: type[Scene2HapError]) -> NDArray[np.float64]:
+    """Return `value` as an array of float64, the same where it is one; the caller looks at its shape and its numbers.
+
+    Raises: `error`: it is no table of real numbers, or some of them are masked.
+    """
+    import numpy as np
+
+    if type(value) is np.ndarray and value.dtype == np.float64:
+        return value
+    try:
+        found = np.asanyarray(value)
+        if found.dtype.kind not in "biufO":
+            raise TypeError(f"{found.dtype} is no type of real numbers")
+        if isinstance(found, np.ma.MaskedArray) and np.ma.is_masked(found):
+            raise TypeError("some of them are masked")
+        with np.errstate(over="ignore"):
+            return np.asarray(found, dtype=np.float64)
+    except Exception as cause:  # ragged, too many digits, or a type of somebody else's that raises what it likes
+        told = str(cause)[:_LONGEST_SHOWN] or type(cause).__name__
+        raise error(f"{name} is not a table of numbers{_in(unit)}: {told}.") from cause
+
+
+def whole(name: str, value: object, unit: str, *, at_least: int, at_most: int, error: type[Scene2HapError]) -> int:
+    """Return `value` as a whole number inside its bounds, or raise `error` naming value, unit and bound."""
+    result = number(name, value, unit, at_least=at_least, at_most=at_most, error=error)
+    if result != int(result):
+        raise error(f"{name} is {represented(value)}; it must be a whole number{_in(unit)}.")
+    return int(result)
+
+
+def text(name: str, value: object, *, error: type[Scene2HapError]) -> str:
+    """Return `value`, or raise `error`: it is no text."""
+    if not isinstance(value, str):
+        raise error(f"{name} is {represented(value)}; it must be a text.")
+    return value
+
+
+def items(name: str, value: object, *, at_most: int = 10_000, error: type[Scene2HapError]) -> tuple[Any, ...]:
+    """Return what a sequence holds, or raise `error`: it is none, or holds more than `at_most`."""
+    try:
+        found = tuple(islice(value, at_most + 1))  # type: ignore[call-overload]  # if it cannot, see below
+    except Exception as cause:  # a type of somebody else's, whose `__iter__` raises what it likes
+        raise error(f"{name} is {represented(value)}; it must be a sequence.") from cause
+    if len(found) > at_most:
+        raise error(f"{name} has more than {at_most} items. Give fewer.")
+    return found
 
 
 def names(name: str, value: object, *, error: type[Scene2HapError] = ConfigError) -> tuple[str, ...]:

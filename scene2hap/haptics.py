@@ -40,6 +40,10 @@ class SourceState:
     def __post_init__(self) -> None:
         intensity = checks.number("intensity", self.intensity, "-", above=0.0, at_most=1.0, error=ConfigError)
         object.__setattr__(self, "intensity", intensity)
+        for name in ("name", "sentence", "keywords"):
+            checks.text(name, getattr(self, name), error=ConfigError)
+        if self.needs_contact is not None:
+            checks.text("needs_contact", self.needs_contact, error=ConfigError)
         object.__setattr__(self, "needs_contact", stated(self.needs_contact))
 
 
@@ -108,6 +112,11 @@ class VibrationDescription:
     material: str = ""
     seed: int = 0
 
+    def __post_init__(self) -> None:
+        for name in ("object_category", "state", "sentence", "keywords", "material"):
+            checks.text(name, getattr(self, name), error=ConfigError)
+        checks.whole("seed", self.seed, "-", at_least=-(2**63), at_most=2**64, error=ConfigError)
+
 
 @dataclass(frozen=True)
 class ActuatorProfile:
@@ -138,7 +147,10 @@ class ActuatorProfile:
         for name, unit in (("resonance_hz", "Hz"), ("q", "-")):
             if getattr(self, name) is not None:
                 checks.number(name, getattr(self, name), unit, above=0.0, error=ConfigError)
-        points = tuple(self._point(i, point) for i, point in enumerate(self.response_db))
+        points = tuple(
+            self._point(i, point)
+            for i, point in enumerate(checks.items("response_db", self.response_db, at_most=100_000, error=ConfigError))
+        )
         if len(points) == 1 or any(one[0] >= other[0] for one, other in pairwise(points)):
             raise ConfigError(f"response_db has frequencies {[f for f, _ in points]}; it must be at least two, rising.")
         object.__setattr__(self, "response_db", points)
@@ -184,8 +196,8 @@ class Bands:
 
         Source: IEC 61260-1 (2014), section 5: edges a ratio of 10^(1/10) apart.
         """
-        low = checks.number("low_hz", low_hz, "Hz", above=0.0, error=ConfigError)
-        high = checks.number("high_hz", high_hz, "Hz", above=low, error=ConfigError)
+        low = checks.number("low_hz", low_hz, "Hz", above=0.0, at_least=1e-3, error=ConfigError)
+        high = checks.number("high_hz", high_hz, "Hz", above=low, at_most=1e9, error=ConfigError)
         n = max(1, round(10 * math.log10(high / low)))
         return cls(tuple(float(edge) for edge in np.geomspace(low, high, n + 1)))
 

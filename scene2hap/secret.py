@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import base64
 import os
-import re
-from functools import lru_cache
 from typing import NoReturn
 
+from scene2hap.echoes import masked
 from scene2hap.errors import ConfigError
 
 MASK = "******"
@@ -51,50 +49,8 @@ class Secret:
         return value
 
     def scrub(self, text: str) -> str:
-        """The text without the key, should somebody have echoed it: as it is, escaped, or as base64 or hex digits."""
+        """The text without the key, should somebody have echoed it, in whatever spelling (`scene2hap.echoes`)."""
         value = self.reveal()
         if len(value) < _SHORTEST_SCRUBBED:
             return text
-        for spelling in _spellings(value):
-            text = spelling.sub(MASK, text)
-        return text
-
-
-@lru_cache(maxsize=4)
-def _spellings(value: str) -> tuple[re.Pattern[str], ...]:
-    """What a key looks like in an answer: plain, in hex digits, and in base64 at each of the three places of a byte.
-
-    Each is recognised under the escapes of JSON, addresses and HTML as well, mixed or not, and folded over lines.
-    """
-    raw = value.encode("ascii")
-    digits = r"(?:\s|\\[rn]|:|%20|,|0x|\\x)*".join(re.escape(digit) for digit in raw.hex())
-    told = ["".join(map(_escaped, value)), digits]
-    for before in range(3):
-        # The characters that hold bits of the neighbours are left out, and taken along by what stands around.
-        first = (before * 8 + 5) // 6
-        last = (before + len(raw)) * 8 // 6
-        core = base64.b64encode(bytes(before) + raw).decode("ascii")[first:last]
-        around = r"[\w+/-]"
-        told.append(f"{around}{{0,2}}{_FOLD.join(map(_escaped_base64, core))}{around}{{0,2}}={{0,2}}")
-    return tuple(re.compile(pattern, re.IGNORECASE) for pattern in told)
-
-
-_FOLD = r"(?:\s|\\[rn])*"
-
-
-def _escaped(character: str) -> str:
-    """A pattern for one character and its escapes."""
-    code = ord(character)
-    names = {"&": "|&amp;", "<": "|&lt;", ">": "|&gt;", '"': "|&quot;", "'": "|&apos;"}.get(character, "")
-    # Bounded, or a text of backslashes or zeros would take time by the square of its length.
-    slashes, zeros = r"\\{1,4}", "0{0,6}"
-    return (
-        rf"(?:(?:{slashes})?{re.escape(character)}|%(?:25){{0,4}}{code:02x}|{slashes}u\{{?{zeros}{code:x}\}}?"
-        rf"|{slashes}x{code:02x}|&#{zeros}{code};|&#x{zeros}{code:x};{names})"
-    )
-
-
-def _escaped_base64(character: str) -> str:
-    """The same for a character of base64, in the alphabet of RFC 4648 or that for addresses."""
-    other = {"+": "-", "/": "_"}.get(character)
-    return _escaped(character) if other is None else rf"(?:{_escaped(character)}|{_escaped(other)})"
+        return masked(text, value, MASK)

@@ -33,6 +33,10 @@ class Settings(BaseModel):
         wanted = {name: value for name, value in changes.items() if value is not None}
         if isinstance(settings, cls) and not wanted:
             return settings
+        if settings is not None and not isinstance(settings, Settings | Mapping):
+            raise ConfigError(
+                f"{cls.of_what} settings are {checks.shown(settings)}; they must be a mapping of names to values."
+            )
         base: Mapping[str, Any] = (
             {name: getattr(settings, name) for name in cls.model_fields}
             if isinstance(settings, Settings)

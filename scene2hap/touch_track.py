@@ -17,9 +17,15 @@ from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, Validatio
 
 from scene2hap import checks
 from scene2hap.errors import SessionError
+from scene2hap.text_files import read_small_text
 
 FORMAT: Literal["scene2hap/touches"] = "scene2hap/touches"
 VERSION: Literal[1] = 1
+
+MAX_DURATION_S = 600.0
+"""Assumed: what is written for a demonstration or a trial takes minutes; as long as a sound may be."""
+MAX_STEPS = 100_000
+"""Assumed: more than two hands, both moved at each of 60 frames a second for `MAX_DURATION_S`, would ask for."""
 
 _Point = tuple[float, float, float]
 _ACTIONS = ("touch", "lift", "move", "source")
@@ -96,8 +102,8 @@ class TouchTrack(BaseModel):
 
     format: Literal["scene2hap/touches"] = FORMAT
     version: Literal[1] = VERSION
-    duration_s: float = Field(gt=0.0, allow_inf_nan=False)
-    steps: tuple[Step, ...]
+    duration_s: float = Field(gt=0.0, le=MAX_DURATION_S, allow_inf_nan=False)
+    steps: tuple[Step, ...] = Field(max_length=MAX_STEPS)
 
     @model_validator(mode="after")
     def _in_order(self) -> TouchTrack:
@@ -116,9 +122,9 @@ class TouchTrack(BaseModel):
         """
         path = Path(path)
         try:
-            text = path.read_text(encoding="utf-8-sig")
+            text = read_small_text(path)
             document = _from_csv(text) if path.suffix.lower() == ".csv" else json.loads(text)
-        except (OSError, UnicodeDecodeError, ValueError, RecursionError, csv.Error) as cause:
+        except (OSError, ValueError, RecursionError, csv.Error) as cause:
             raise SessionError(f"{path} cannot be read as touches: {cause}. See docs/touches.md.") from cause
         return cls.parse(document, str(path))
 

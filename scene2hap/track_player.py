@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
@@ -9,11 +10,16 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap import checks
 from scene2hap.devices.protocol import Block
+from scene2hap.errors import SessionError
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session import HapticFrame, HapticSession, Touch
 from scene2hap.touch_track import LiftStep, MoveStep, TouchStep, TouchTrack
+
+MAX_UPDATE_RATE_HZ = 1000.0
+"""Assumed: trackers and haptic loops run at 1 kHz at most."""
 
 
 class PullSink(Protocol):
@@ -44,17 +50,21 @@ def play_track(
 ) -> None:
     """Play a track on a started session, as a game of `update_rate_hz` frames per second would, into its sink.
 
-    Raises: SessionError, UnknownObject: a step names a hand or an object that is not there.
+    Raises: SessionError, UnknownObject: a step names a hand or an object that is not there; SessionError: a rate
+    outside of 1 to `MAX_UPDATE_RATE_HZ`.
     """
+    update_rate_hz = checks.number(
+        "update_rate_hz", update_rate_hz, "Hz", at_least=1.0, at_most=MAX_UPDATE_RATE_HZ, error=SessionError
+    )
     stage = _Stage(session.snapshot)
     rate = session.config.sample_rate_hz
     origin = session.position
     n_frames = max(1, round(track.duration_s * update_rate_hz))
-    waiting = list(track.steps)
+    waiting = deque(track.steps)
     for i in range(n_frames):
         time_s = i / update_rate_hz
         while waiting and waiting[0].time_s <= time_s + 1e-9:
-            stage.take(waiting.pop(0), session)
+            stage.take(waiting.popleft(), session)
         begin = origin + round(time_s * rate)
         end = origin + round(min((i + 1) / update_rate_hz, track.duration_s) * rate)
         touches = stage.touches(time_s)

@@ -8,6 +8,9 @@ when the first request is sent.
 from __future__ import annotations
 
 import asyncio
+import contextlib
+import socket
+import threading
 import zlib
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -15,8 +18,10 @@ from dataclasses import dataclass, field
 from functools import cache
 from typing import TYPE_CHECKING, TypeAlias
 from urllib.parse import urlsplit
+from urllib.request import getproxies
 
 from scene2hap.errors import BackendUnavailable, ConfigError
+from scene2hap.quiet_logs import scrubbed
 
 if TYPE_CHECKING:
     import ssl
@@ -93,6 +98,7 @@ def get(
     *,
     params: Mapping[str, str] | None = None,
     authorization: Callable[[], str] | None = None,
+    scrub: Callable[[str], str] = str,
     transport: Transport | None = None,
 ) -> WebReply:
     """What lies at a safe address; every status is a reply.
@@ -109,6 +115,7 @@ def get(
                 limits,
                 params=params,
                 authorization=authorization,
+                scrub=scrub,
                 follow_redirects=authorization is None,
                 safe_only=True,
                 transport=transport,
@@ -136,7 +143,7 @@ async def exchange(
     """Send one request and read its reply within the limits; every status is a reply.
 
     `authorization` gives the header of that name, "" for none; `safe_only` refuses addresses that are not `is_safe`,
-    those of redirects too; `scrub` is applied to what the HTTP library says of an error.
+    those of redirects too; `scrub` takes a key out of what the HTTP library logs, and says of an error and its causes.
     Raises: BackendUnavailable: no whole reply came; tells whether trying again can help. ConfigError: the proxy that
     the environment names cannot be used.
     """
@@ -150,6 +157,8 @@ async def exchange(
     async def check(request: httpx.Request) -> None:
         if safe_only and not is_safe(str(request.url)):
             raise httpx.UnsupportedProtocol(f"it leads to {request.url.scheme}://{request.url.host}, which is not safe")
+        if transport is None and not getproxies():  # a proxy looks names up itself
+            await _look_up(request.url.host)
 
     # Nothing to unpack is asked for; a server or proxy that packs all the same is unpacked within the limit.
     headers = {"accept-encoding": "identity"}
@@ -157,26 +166,27 @@ async def exchange(
         headers["content-type"] = "application/json"
     client = _client(transport, limits.timeout_s, check)
     try:
-        async with (
-            asyncio.timeout(limits.timeout_s),
-            client,
-            client.stream(
-                method,
-                url,
-                content=json_body,
-                params=params,
-                headers=headers,
-                auth=authorise,
-                follow_redirects=follow_redirects,
-            ) as response,
-        ):
-            content = await _body(response, url, limits.max_bytes)
+        with scrubbed(scrub):
+            async with (
+                asyncio.timeout(limits.timeout_s),
+                client,
+                client.stream(
+                    method,
+                    url,
+                    content=json_body,
+                    params=params,
+                    headers=headers,
+                    auth=authorise,
+                    follow_redirects=follow_redirects,
+                ) as response,
+            ):
+                content = await _body(response, url, limits.max_bytes)
     except (TimeoutError, httpx.TimeoutException) as cause:
         raise BackendUnavailable(
             f"{url} did not answer within {limits.timeout_s:g} s. Try later, raise timeout_s, or lower the "
             "concurrency.",
             retryable=True,
-        ) from _without_frames(cause)
+        ) from _without_frames(cause, scrub)
     except (httpx.HTTPError, httpx.StreamError, httpx.InvalidURL) as cause:
         never = isinstance(
             cause, httpx.UnsupportedProtocol | httpx.LocalProtocolError | httpx.InvalidURL | httpx.TooManyRedirects
@@ -184,8 +194,31 @@ async def exchange(
         problem = scrub(str(cause)) or type(cause).__name__
         raise BackendUnavailable(
             f"{url} cannot be reached: {problem}. Check the network, the server and the address.", retryable=not never
-        ) from _without_frames(cause)
+        ) from _without_frames(cause, scrub)
     return WebReply(url, response.status_code, content, dict(response.headers))
+
+
+async def _look_up(host: str) -> None:
+    """Wait until the resolver knows a name, or that there is none, as the connection tells then.
+
+    In a thread that nobody waits for: a look-up cannot be interrupted, and those of an event loop are waited for when
+    it closes, and by Python at its end, whatever time is left.
+    """
+    loop = asyncio.get_running_loop()
+    known = loop.create_future()
+
+    def tell() -> None:
+        if not known.done():
+            known.set_result(None)
+
+    def ask() -> None:
+        with contextlib.suppress(OSError, UnicodeError):
+            socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)
+        with contextlib.suppress(RuntimeError):  # the loop is closed: it did not wait
+            loop.call_soon_threadsafe(tell)
+
+    threading.Thread(target=ask, name=f"look up {host[:40]}", daemon=True).start()
+    await known
 
 
 async def _body(response: httpx.Response, url: str, max_bytes: int) -> bytes:
@@ -208,6 +241,8 @@ async def _body(response: httpx.Response, url: str, max_bytes: int) -> bytes:
                 f"{url} says that its answer is packed as {packing!r}, and it is not.", retryable=True
             ) from cause
         _require_at_most(max(len(content), n_raw), url, max_bytes)
+    if unpack is not None and n_raw and not unpack.eof:
+        raise BackendUnavailable(f"{url} packs its answer as {packing!r} and sends a part of it.", retryable=True)
     return bytes(content)
 
 
@@ -246,13 +281,19 @@ def _ssl_context() -> ssl.SSLContext:
     return httpx.create_ssl_context()
 
 
-def _without_frames(error: BaseException) -> BaseException:
-    """The error, its causes and contexts without their tracebacks.
+def _without_frames(error: BaseException, scrub: Callable[[str], str]) -> BaseException:
+    """The error, its causes and contexts without their tracebacks, and without the key that a server put into them.
 
     The frames of the HTTP library have the header among their local variables, which reporters of errors show.
     """
-    seen: BaseException | None = error
-    while seen is not None:
-        seen.__traceback__ = None
-        seen = seen.__cause__ or seen.__context__
+    waiting: list[BaseException | None] = [error]
+    seen: set[int] = set()
+    while waiting:
+        found = waiting.pop()
+        if found is None or id(found) in seen:
+            continue
+        seen.add(id(found))
+        found.__traceback__ = None
+        found.args = tuple(scrub(part) if isinstance(part, str) else part for part in found.args)
+        waiting += [found.__cause__, found.__context__]
     return error

@@ -24,7 +24,18 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 from attacks.running import Verdict, run
 
-FAMILIES = ("scene_files", "scene_sums", "servers", "bundles", "names", "command_line")
+FAMILIES = (
+    "scene_files",
+    "scene_sums",
+    "servers",
+    "bundles",
+    "names",
+    "command_line",
+    "touch_files",
+    "sounds",
+    "keys",
+    "library",
+)
 
 
 def campaign(family: str, seed: int, cases: int, work: Path) -> list[Verdict] | None:

@@ -23,6 +23,7 @@ from scene2hap import checks
 from scene2hap.audio.clip import Samples
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import ActuatorProfile
+from scene2hap.text_files import read_small_text
 
 MAX_BOOST_DB = 12.0
 """How far a weak answer is lifted [dB]; assumed: a factor of four in amplitude."""
@@ -66,9 +67,9 @@ def read_response_csv(path: str | Path) -> ActuatorProfile:
     """
     path = Path(path)
     try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            rows = [row for row in csv.reader(file) if row and not row[0].lstrip().startswith("#")]
-    except (OSError, UnicodeDecodeError, csv.Error) as cause:
+        table = csv.reader(read_small_text(path).splitlines())
+        rows = [row for row in table if row and not row[0].lstrip().startswith("#")]
+    except (OSError, ValueError, csv.Error) as cause:
         raise ConfigError(f"{path} cannot be read: {cause}. Give a CSV file with columns Hz and dB.") from cause
     if rows and not _is_number(rows[0][0]):
         rows = rows[1:]

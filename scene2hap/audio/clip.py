@@ -42,7 +42,7 @@ class AudioClip:
     def __post_init__(self) -> None:
         rate = checks.number("sample_rate_hz", self.sample_rate_hz, "Hz", at_least=1, error=AudioError)
         # Samples of another clip are shared: one recording may serve many sources.
-        samples = self.samples if _is_frozen(self.samples) else np.array(self.samples, dtype=np.float32)
+        samples = self.samples if _is_frozen(self.samples) else _as_float32(self.samples)
         if samples.ndim != 1:
             raise AudioError(f"samples has shape {samples.shape}; a clip is mono, (n_samples,). Mix channels first.")
         if samples.size == 0:
@@ -68,3 +68,13 @@ def _is_frozen(samples: object) -> bool:
         and samples.base is None
         and not samples.flags.writeable
     )
+
+
+def _as_float32(samples: object) -> Samples:
+    """A copy. Raises: AudioError: it is no table of numbers; what is too large becomes infinite."""
+    if isinstance(samples, np.ndarray) and type(samples) is np.ndarray and samples.dtype.kind == "f":
+        table = samples
+    else:
+        table = checks.floats("samples", samples, "-", error=AudioError)
+    with np.errstate(over="ignore"):
+        return np.array(table, dtype=np.float32)

@@ -49,7 +49,6 @@ def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
                 f"{path} lasts {file.frames / rate:.0f} s; it must be at most {MAX_FILE_S:.0f} s. "
                 "Cut out the part you want."
             )
-        require_bounded(path, file)
         blocks: list[np.ndarray[tuple[int, ...], np.dtype[np.float32]]] = []
         n_read = 0
         while len(block := file.read(_BLOCK_FRAMES, dtype="float32", always_2d=True)):
@@ -61,7 +60,7 @@ def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
     return AudioClip(np.concatenate(blocks), rate, credit or Credit(path.stem, "unknown", "unknown"))
 
 
-def require_bounded(path: Path, file: soundfile.SoundFile) -> None:
+def _require_bounded(path: Path, file: soundfile.SoundFile) -> None:
     """Raises: AudioError: the header promises more samples, of all channels together, than `MAX_FILE_SAMPLES`."""
     n_samples = file.frames * file.channels
     if n_samples > MAX_FILE_SAMPLES:
@@ -73,13 +72,17 @@ def require_bounded(path: Path, file: soundfile.SoundFile) -> None:
 
 @contextmanager
 def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
-    """A sound file to read from. Raises: AudioError: it is absent, no sound, or cut short, now or while it is read."""
+    """A sound file to read from, of at most `MAX_FILE_SAMPLES`.
+
+    Raises: AudioError: it is absent, no sound, longer than that, or cut short, now or while it is read.
+    """
     if not path.is_file():
         raise AudioError(f"{path} is not a file. Give the path of an existing sound file.")
     try:
         if _is_cut_short(path):
             raise AudioError(f"{path} is cut short: fewer bytes than its header says. Copy it again.")
         with soundfile.SoundFile(path) as file:
+            _require_bounded(path, file)
             yield file
     except OSError as cause:
         raise AudioError(f"{path} cannot be read ({cause.strerror}). Choose a file that is yours.") from cause

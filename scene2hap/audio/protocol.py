@@ -40,7 +40,7 @@ class ConversionContext:
         for name in ("own_hz", "target_hz"):
             if getattr(self, name) is not None:
                 checks.number(name, getattr(self, name), "Hz", above=0.0, error=AudioError)
-        for i, neighbour in enumerate(self.neighbours_hz):
+        for i, neighbour in enumerate(checks.items("neighbours_hz", self.neighbours_hz, error=AudioError)):
             checks.number(f"neighbours_hz[{i}]", neighbour, "Hz", above=0.0, error=AudioError)
 
 

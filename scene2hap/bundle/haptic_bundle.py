@@ -81,7 +81,7 @@ class HapticBundle:
 
     def gain_db(self, object_id: str) -> float:
         """The level of a source at the hand against the inferred one [dB]."""
-        wish = self.overrides.get(object_id)
+        wish = self.overrides.get(object_id) if isinstance(object_id, str) else None
         return wish.gain_db if wish is not None and wish.gain_db is not None else 0.0
 
     def save(self, folder: str | os.PathLike[str]) -> Path:

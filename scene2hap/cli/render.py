@@ -41,8 +41,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     track = TouchTrack.load(arguments.touches)
     bundle = HapticBundle.load(arguments.bundle)
     frames = render_track(console, bundle, track, arguments.output, config, arguments.update_rate_hz)
-    samples = np.concatenate([frame.samples for frame in frames])
-    peaks = {hand: float(np.abs(samples[:, i]).max()) for i, hand in enumerate(("left", "right"))}
+    highest = np.max([np.abs(frame.samples).max(axis=0) for frame in frames if len(frame.samples)], axis=0)
+    peaks = {hand: float(highest[i]) for i, hand in enumerate(("left", "right"))}
     console.table(
         arguments.output,
         ("hand", ">peak"),

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 import tomllib
-from pathlib import Path
 from typing import Any
 
 from scene2hap.errors import ConfigError
+from scene2hap.text_files import read_small_text
 
 
 def read_settings(path: str | None, section: str) -> dict[str, Any]:
@@ -18,7 +18,7 @@ def read_settings(path: str | None, section: str) -> dict[str, Any]:
     if path is None:
         return {}
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        text = read_small_text(path)
         document = json.loads(text) if path.lower().endswith(".json") else tomllib.loads(text)
     except (OSError, ValueError, RecursionError) as cause:
         raise ConfigError(

@@ -364,10 +364,10 @@ def _latest(log: deque[list[Pair]], n: int) -> list[Pair] | None:
 
 
 def _demand(object_id: str, known: Mapping[str, object]) -> None:
-    if object_id not in known:
+    if not isinstance(object_id, str) or object_id not in known:
         raise UnknownObject(unknown_object(object_id, known))
 
 
 def _demand_pose(object_id: str, pose: object) -> None:
     if not isinstance(pose, Pose):
-        raise SceneError(f"the pose of {object_id!r} is {pose!r}; it must be a Pose.")
+        raise SceneError(f"the pose of {object_id!r} is {checks.represented(pose)}; it must be a Pose.")

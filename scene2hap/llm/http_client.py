@@ -19,7 +19,6 @@ from scene2hap.errors import BackendError, ConfigError
 from scene2hap.llm import waits
 from scene2hap.llm.http_reply import HttpReply as HttpReply
 from scene2hap.llm.pace import Pace
-from scene2hap.llm.quiet_logs import scrubbed
 from scene2hap.secret import Secret as Secret
 
 if TYPE_CHECKING:
@@ -64,16 +63,15 @@ class Endpoint:
 
     async def _send(self, method: str, path: str, content: bytes | None, timeout_s: float) -> HttpReply:
         url = f"{self.base_url}/{path}"
-        with scrubbed(self.secret):
-            reply = await web.exchange(
-                method,
-                url,
-                web.Limits(timeout_s, MAX_REPLY_BYTES),
-                json_body=content,
-                authorization=self._authorization,
-                scrub=self.secret.scrub,
-                transport=self.transport,
-            )
+        reply = await web.exchange(
+            method,
+            url,
+            web.Limits(timeout_s, MAX_REPLY_BYTES),
+            json_body=content,
+            authorization=self._authorization,
+            scrub=self.secret.scrub,
+            transport=self.transport,
+        )
         headers = {name: self.secret.scrub(reply.headers[name]) for name in _HEADERS_READ if name in reply.headers}
         _LOG.debug("%s answered %d, request id %s", url, reply.status, headers.get("x-request-id", "unknown"))
         return HttpReply(url, reply.status, self.secret.scrub(reply.text), headers)
@@ -93,7 +91,12 @@ def _encoded(body: Mapping[str, Any]) -> bytes:
 
 
 def _checked_url(base_url: str) -> str:
-    parts = urlsplit(base_url)
+    if not isinstance(base_url, str):
+        raise ConfigError(f"base_url is {checks.represented(base_url)}; it must be a text with the server's address.")
+    try:
+        parts = urlsplit(base_url)
+    except ValueError as cause:
+        raise ConfigError(f"base_url is no address: {cause}. It must look like 'https://api.openai.com/v1'.") from cause
     if "@" in parts.netloc or parts.query:
         raise ConfigError("base_url carries credentials or a query; give the key as api_key, where it stays hidden.")
     if parts.scheme not in ("http", "https") or not parts.hostname:

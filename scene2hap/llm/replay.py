@@ -19,6 +19,10 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from scene2hap.errors import BadAnswer, ConfigError, ReplayMiss
 from scene2hap.llm.protocol import LLMBackend, LLMReply, LLMRequest
 from scene2hap.llm.request_key import canonical, part_names, plain, request_key
+from scene2hap.text_files import read_small
+
+MAX_RECORDING_BYTES = 1 << 28
+"""Of a file of answers; assumed: those of some 50,000 objects."""
 
 
 class _Entry(BaseModel):
@@ -154,8 +158,8 @@ class RecordingBackend:
 
 def _read(path: Path) -> list[_Entry]:
     try:
-        content = path.read_bytes()
-    except OSError as cause:
+        content = read_small(path, MAX_RECORDING_BYTES)
+    except (OSError, ValueError) as cause:
         raise ConfigError(f"cannot read the recording {path}: {cause}. Make one with RecordingBackend.") from cause
     return list(_entries(path, content))
 

@@ -34,7 +34,9 @@ class Material:
 
     def __post_init__(self) -> None:
         if not isinstance(self.name, str):
-            raise MaterialError(f"name is {self.name!r}; it must be a text. Say what the material is called.")
+            raise MaterialError(
+                f"name is {checks.represented(self.name)}; it must be a text. Say what the material is called."
+            )
         hint = f"Material {self.name!r}; `materials.lookup` knows usual values."
 
         def bound(field: str, unit: str, **bounds: float) -> None:

@@ -10,8 +10,9 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap import checks
 from scene2hap.errors import ConfigError, ModelDomainError
-from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.plate import MAX_FREQUENCY_HZ, Plate
 
 THIN_WAVELENGTHS = 6.0
 """Shortest wavelength that thin-plate theory serves, in thicknesses. There its frequencies are already 15 % above those
@@ -31,11 +32,13 @@ def as_frequencies(frequencies_hz: ArrayLike, *, positive_because: str = "") -> 
     Parameters: positive_because : why 0 Hz cannot be answered; empty where it can.
     Raises: ModelDomainError: another shape; a frequency that is negative, not finite, or 0 where that has no answer.
     """
-    f = np.atleast_1d(np.asarray(frequencies_hz, dtype=np.float64))
+    f = np.atleast_1d(checks.floats("frequencies_hz", frequencies_hz, "Hz", error=ModelDomainError))
     if f.ndim != 1:
         raise ModelDomainError(f"frequencies_hz has shape {f.shape}; it must be (n_frequencies,) [Hz].")
-    if not np.isfinite(f).all() or (f < 0).any():
-        raise ModelDomainError("frequencies_hz holds a negative or infinite value; it must be >= 0 and finite [Hz].")
+    if not ((f >= 0) & (f <= MAX_FREQUENCY_HZ)).all():
+        raise ModelDomainError(
+            f"frequencies_hz holds a negative or infinite value; it must be 0 to {MAX_FREQUENCY_HZ:g} [Hz]."
+        )
     if positive_because and (f == 0).any():
         raise ModelDomainError(f"frequencies_hz holds 0 Hz; it must be above 0 [Hz], since {positive_because}.")
     return f
@@ -102,3 +105,9 @@ def driven_on_held_edge(plate: Plate, drive_m: NDArray[np.float64]) -> ModelDoma
         f"the driven point ({drive_m[0, 0]:g}, {drive_m[0, 1]:g}) m lies on an edge that does not move (boundary "
         f"{plate.boundary!r}), so nothing can be related to its amplitude. Drive a point off the edge."
     )
+
+
+def check_hops(max_hops: int | None) -> None:
+    """Raises: ConfigError: it is neither None nor a whole number of at least 1 contact."""
+    if max_hops is not None:
+        checks.whole("max_hops", max_hops, "contacts", at_least=1, at_most=2**31 - 1, error=ConfigError)

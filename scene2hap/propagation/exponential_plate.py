@@ -23,7 +23,7 @@ from scene2hap import checks
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.band_rms import BandRms, band_rms
-from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_thin
+from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_hops, check_thin
 from scene2hap.propagation.live_law import GammaAt, GammaOver, LiveLaw
 from scene2hap.propagation.live_paths import LivePaths
 from scene2hap.propagation.paths import Arrivals, cheapest_arrivals
@@ -66,8 +66,7 @@ class ExponentialPlate:
     def __post_init__(self) -> None:
         if self.frequency not in ("tactile", "raw"):
             raise ConfigError(f"frequency is {self.frequency!r}; it must be 'tactile' or 'raw'.")
-        if self.max_hops is not None and self.max_hops < 1:
-            raise ConfigError(f"max_hops is {self.max_hops}; it must be at least 1 contact, or None for any number.")
+        check_hops(self.max_hops)
         checks.number("interface_loss_db", self.interface_loss_db, "dB", at_least=0.0, error=ConfigError)
         if self.floor_db is not None:
             checks.number("floor_db", self.floor_db, "dB", at_most=0.0, error=ConfigError, hint="None is no floor.")

@@ -180,12 +180,14 @@ class MassSpringDamper:
         Parameters: force_n : (n_samples,) [N], straight between samples; the rest as `plate_transfer`.
         Returns: (n_points, n_samples) float64 [m], the first at rest but for the static share.
         """
-        force = np.asarray(force_n, dtype=np.float64)
+        force = checks.floats("force_n", force_n, "N", error=ModelDomainError)
         if force.ndim != 1 or not np.isfinite(force).all():
             raise ModelDomainError(f"force_n has shape {force.shape}; it must be (n_samples,) finite numbers [N].")
         rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=ModelDomainError)
         drive, points = points_on(plate, drive_m), points_on(plate, points_m)
         top = as_frequencies(max_frequency_hz)
+        if len(top) != 1:
+            raise ModelDomainError(f"max_frequency_hz has {len(top)} values; it must be one number [Hz].")
         self._check_cells(plate, top)
         modes = lattice_modes(plate, self.resolution, float(top[0]))
         lattice, m = modes.lattice, plate.material.density_kg_m3 * plate.thickness_m

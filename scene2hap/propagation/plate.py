@@ -17,6 +17,12 @@ from scene2hap import checks
 from scene2hap.errors import ModelDomainError
 from scene2hap.materials import Material
 
+MAX_FREQUENCY_HZ = 1e9
+"""Far beyond any vibration; assumed, so that no square of a frequency is too large for a number."""
+
+_SIZES_M = {"at_least": 1e-30, "at_most": 1e6}
+"""Far beyond any plate; assumed, so that no third power of a size is too small or too large for a number [m]."""
+
 _EDGES = {"free": "FFFF", "simply-supported": "SSSS", "clamped": "CCCC"}
 
 
@@ -38,11 +44,13 @@ class Plate:
     def __post_init__(self) -> None:
         hint = "A mesh without thickness needs an estimated one (ObjectHaptics.estimated_size_m)."
         for name in ("length_m", "width_m", "thickness_m"):
-            value = checks.number(name, getattr(self, name), "m", above=0.0, error=ModelDomainError, hint=hint)
+            value = checks.number(
+                name, getattr(self, name), "m", above=0.0, **_SIZES_M, error=ModelDomainError, hint=hint
+            )
             object.__setattr__(self, name, value)
-        if len(self.edges) != 4 or set(self.edges) - set("FSC"):
+        if not isinstance(self.boundary, str) or len(self.edges) != 4 or set(self.edges) - set("FSC"):
             raise ModelDomainError(
-                f"boundary is {self.boundary!r}; it must be one of {', '.join(map(repr, _EDGES))}, "
+                f"boundary is {checks.represented(self.boundary)}; it must be one of {', '.join(map(repr, _EDGES))}, "
                 "or four letters F, S, C for the edges x=0, x=length, y=0, y=width."
             )
 
@@ -76,9 +84,11 @@ class Plate:
 
         Source: Scene2Hap, CHI 2026, second equation of the propagation model.
         """
-        f = np.asarray(frequency_hz, dtype=np.float64)
-        if not np.isfinite(f).all() or (f < 0).any():
-            raise ModelDomainError("frequency_hz holds a negative or infinite value; it must be >= 0 and finite [Hz].")
+        f = checks.floats("frequency_hz", frequency_hz, "Hz", error=ModelDomainError)
+        if not ((f >= 0) & (f <= MAX_FREQUENCY_HZ)).all():
+            raise ModelDomainError(
+                f"frequency_hz holds a negative or infinite value; it must be 0 to {MAX_FREQUENCY_HZ:g} [Hz]."
+            )
         k: NDArray[np.float64] = self.wavenumber_per_root_omega * np.sqrt(2 * math.pi * f)
         return k
 

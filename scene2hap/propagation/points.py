@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap import checks
 from scene2hap.compiled import compiled
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.paths import Arrivals
@@ -21,7 +22,7 @@ def as_points(points_m: ArrayLike, dimensions: int) -> NDArray[np.float64]:
     """
     if (found := of_tuples(points_m, dimensions)) is not None:
         return found
-    points: NDArray[np.float64] = np.asarray(points_m, dtype=np.float64)
+    points = checks.floats("points", points_m, "m", error=ModelDomainError)
     if points.ndim < 2:
         points = points.reshape(1, -1)
     if points.ndim != 2 or points.shape[1] != dimensions:

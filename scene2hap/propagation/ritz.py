@@ -122,7 +122,7 @@ def stiffness(x: AxisBasis, y: AxisBasis, poisson_ratio: float) -> NDArray[np.fl
 def products(x: AxisBasis, y: AxisBasis, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
     """Every X_i(x) Y_j(y) at points (n_points, 2) [m] -> (n_points, n_x n_y) [1/m]."""
     values = x.values(points_m[:, 0])[:, :, None] * y.values(points_m[:, 1])[:, None, :]
-    return values.reshape(len(points_m), -1)
+    return values.reshape(len(points_m), values.shape[1] * values.shape[2])
 
 
 @lru_cache(maxsize=512)

@@ -57,13 +57,13 @@ class Pose:
 
     def to_world(self, points_own_m: ArrayLike) -> NDArray[np.float64]:
         """Points (n, 3) [m] of the own frame, in the world."""
-        points: NDArray[np.float64] = np.asarray(points_own_m, dtype=np.float64)
+        points = _points("points_own_m", points_own_m)
         moved: NDArray[np.float64] = points @ self.rotation.T + self._position
         return moved
 
     def to_own(self, points_m: ArrayLike) -> NDArray[np.float64]:
         """Points (n, 3) [m] of the world, in the own frame."""
-        points: NDArray[np.float64] = np.asarray(points_m, dtype=np.float64)
+        points = _points("points_m", points_m)
         own: NDArray[np.float64] = (points - self._position) @ self.rotation
         return own
 
@@ -86,11 +86,20 @@ class Pose:
 
         Raises: SceneError: the upper left 3 x 3 block is not a rotation.
         """
-        m = np.asarray(matrix, dtype=np.float64)
+        m = checks.floats("matrix", matrix, "-", error=SceneError)
+        if m.shape != (4, 4) or not np.isfinite(m).all():
+            raise SceneError(f"matrix is not rigid: its shape is {m.shape}; it must be (4, 4) and finite.")
         r = m[:3, :3]
-        if m.shape != (4, 4) or not np.allclose(r @ r.T, np.eye(3), atol=1e-6) or np.linalg.det(r) < 0:
+        if np.abs(r).max() > 2.0 or not np.allclose(r @ r.T, np.eye(3), atol=1e-6) or np.linalg.det(r) < 0:
             raise SceneError("matrix is not rigid: bake its scale or mirroring into the mesh first.")
         return cls(_triple(m[:3, 3]), _quaternion(r))
+
+
+def _points(name: str, value: ArrayLike) -> NDArray[np.float64]:
+    points = checks.floats(name, value, "m", error=SceneError)
+    if points.shape[-1:] != (3,):
+        raise SceneError(f"{name} has shape {points.shape}; it must be (n, 3) [m].")
+    return points
 
 
 def _triple(values: Sequence[float] | NDArray[np.float64]) -> tuple[float, float, float]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap import checks
 from scene2hap.errors import SceneError
 from scene2hap.scene.pose import Pose
 
@@ -64,10 +65,7 @@ class PoseTable(Mapping[str, Pose]):
         return len(self.ids)
 
     def _rows(self, name: str, values: ArrayLike, shape: tuple[int, int]) -> NDArray[np.float64]:
-        try:
-            rows = np.array(values, dtype=np.float64, order="C")
-        except (TypeError, ValueError) as error:
-            raise SceneError(f"{name} is no table of numbers; give {shape[0]} rows of {shape[1]}.") from error
+        rows = np.array(checks.floats(name, values, "m" if shape[1] == 3 else "-", error=SceneError), order="C")
         if rows.shape != shape:
             raise SceneError(f"{name} has shape {rows.shape}; it must be {shape}, one row for each id.")
         if not np.isfinite(rows).all():

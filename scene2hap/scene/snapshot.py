@@ -169,6 +169,9 @@ class Contact:
     weight: float = 1.0
 
     def __post_init__(self) -> None:
+        for name in (self.a, self.b):
+            if not isinstance(name, str):
+                raise SceneError(f"contact of {checks.represented(name)}; give the ids of two objects.")
         if self.a == self.b:
             raise SceneError(f"contact of {self.a!r} with itself; a contact joins two objects.")
         point = checks.vector("point_m", self.point_m, "m", size=3, error=SceneError)
@@ -180,7 +183,8 @@ class Contact:
             area = checks.number("area_m2", self.area_m2, "m2", at_least=0.0, error=SceneError)
             object.__setattr__(self, "area_m2", area)
         weight = checks.number("weight", self.weight, "-", at_least=0.0, at_most=1.0, error=SceneError)
-        object.__setattr__(self, "weight", weight)
+        # So little is nothing; its square would be too small for a number.
+        object.__setattr__(self, "weight", weight if weight > _LEAST_WEIGHT else 0.0)
 
 
 @dataclass(frozen=True)
@@ -204,8 +208,8 @@ class SceneObject:
     images: InstanceOf[ObjectImages] | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
-        if not self.id:
-            raise SceneError(f"object {self.name!r} has an empty id; give every object its own.")
+        if not isinstance(self.id, str) or not self.id:
+            raise SceneError(f"object {checks.represented(self.name)} has an empty id; give every object its own.")
         height = checks.number("relative_height_m", self.relative_height_m, "m", error=SceneError)
         object.__setattr__(self, "relative_height_m", height)
 
@@ -235,7 +239,10 @@ class SceneObject:
 
         Points beside the plate are taken to its nearest edge.
         """
-        flat = self.surface.pose.to_own(self.pose.to_own(np.atleast_2d(points_m)))[:, :2]
+        points = np.atleast_2d(checks.floats("points_m", points_m, "m", error=SceneError))
+        if points.ndim != 2 or points.shape[1] != 3 or not np.isfinite(points).all():
+            raise SceneError(f"points_m has shape {points.shape}; it must be (n, 3) finite numbers [m].")
+        flat = self.surface.pose.to_own(self.pose.to_own(points))[:, :2]
         return np.clip(flat, 0.0, [self.surface.length_m, self.surface.width_m])
 
 
@@ -256,8 +263,8 @@ class SceneSnapshot:
     _by_id: Mapping[str, SceneObject] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def __post_init__(self) -> None:
-        if self.up_axis not in ("y", "z"):
-            raise SceneError(f"up_axis is {self.up_axis!r}; it must be 'y' or 'z'.")
+        if not isinstance(self.up_axis, str) or self.up_axis not in ("y", "z"):
+            raise SceneError(f"up_axis is {checks.represented(self.up_axis)}; it must be 'y' or 'z'.")
         object.__setattr__(self, "objects", tuple(self.objects))
         if not self.objects:
             raise SceneError(f"scene {self.name!r} has no object with a surface; nothing in it can be touched.")
@@ -277,10 +284,9 @@ class SceneSnapshot:
 
         Raises: UnknownObject: there is none; the message names the nearest ids.
         """
-        try:
-            return self._by_id[object_id]
-        except KeyError:
-            raise UnknownObject(unknown_object(object_id, self._by_id)) from None
+        if not isinstance(object_id, str) or object_id not in self._by_id:
+            raise UnknownObject(unknown_object(object_id, self._by_id))
+        return self._by_id[object_id]
 
     def with_poses(self, moved: Mapping[str, Pose]) -> SceneSnapshot:
         """The same scene with some objects elsewhere; heights are told anew, given contacts and images are dropped."""
@@ -306,13 +312,20 @@ class SceneSnapshot:
         return parse(text)
 
 
+_LEAST_WEIGHT = 1e-30
+_LONGEST_COMPARED = 200
+"""Characters of an id that is looked for among those that there are; comparing takes the square of their number."""
+
+
 def unknown_object(object_id: str, known: Mapping[str, object]) -> str:
     """The sentence for an id that a scene does not have."""
     from difflib import get_close_matches
 
-    near = get_close_matches(object_id, list(known), n=3)
+    if not isinstance(object_id, str):
+        return f"an object's id is {checks.represented(object_id)}; it must be a text."
+    near = get_close_matches(object_id[:_LONGEST_COMPARED], list(known), n=3)
     hint = f"Did you mean {', '.join(map(repr, near))}?" if near else f"`inspect` lists the {len(known)} objects."
-    return f"the scene has no object {object_id!r}. {hint}"
+    return f"the scene has no object {checks.represented(object_id)}. {hint}"
 
 
 def with_relative_heights(objects: list[SceneObject], up_axis: UpAxis) -> tuple[SceneObject, ...]:
@@ -326,10 +339,7 @@ def with_relative_heights(objects: list[SceneObject], up_axis: UpAxis) -> tuple[
 
 
 def _frozen_array(name: str, value: object, dtype: type[np.generic]) -> NDArray[Any]:
-    try:
-        array = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError) as cause:
-        raise SceneError(f"{name} is not a table of numbers with three columns: {cause}.") from cause
+    array = np.array(checks.floats(name, value, "m" if dtype is np.float64 else "-", error=SceneError))
     if array.size == 0:
         array = array.reshape(0, 3)
     if array.ndim != 2 or array.shape[1] != 3:

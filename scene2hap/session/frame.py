@@ -115,10 +115,10 @@ class SessionStats:
 
 def unknown_hand(hand: str, hands: Sequence[str]) -> str:
     """The sentence for a name that is no hand."""
-    return f"no hand {hand!r}; this session has {', '.join(map(repr, hands))}."
+    return f"no hand {checks.represented(hand)}; this session has {', '.join(map(repr, hands))}."
 
 
 def unknown_source(source_id: str, source_ids: Sequence[str]) -> str:
     """The sentence for an id that is not a source."""
     known = ", ".join(map(repr, source_ids)) or "none: nothing in this scene vibrates"
-    return f"no source {source_id!r}; the sources are {known}."
+    return f"no source {checks.represented(source_id)}; the sources are {known}."

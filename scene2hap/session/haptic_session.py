@@ -33,6 +33,9 @@ from scene2hap.session.playback import Playback
 from scene2hap.session.sources import Sources
 from scene2hap.session.stage import Stage
 
+MAX_RENDERED_FRAMES = 1 << 24
+"""At once; assumed: minutes, where a sink asks for milliseconds."""
+
 
 class HapticSession:
     """A scene under hands.
@@ -204,13 +207,22 @@ class HapticSession:
     def wait_prepared(self, timeout_s: float | None = None) -> bool:
         """Wait until the workers have prepared the scene as it is, and all loops; false after the timeout [s]. For
         loading screens."""
+        if timeout_s is not None:
+            timeout_s = checks.number("timeout_s", timeout_s, "s", at_least=0.0, at_most=86_400.0, error=SessionError)
         end_s = None if timeout_s is None else time.monotonic() + timeout_s
         if not self._playback.wait(timeout_s):
             return False
         return self._listening.wait(None if end_s is None else max(0.0, end_s - time.monotonic()))
 
     def render(self, n_frames: int) -> Block:
-        """The next samples of the mix (n_frames, n_hands) float32 in [-1, 1]."""
+        """The next samples of the mix (n_frames, n_hands) float32 in [-1, 1].
+
+        Raises: SessionError: more than `MAX_RENDERED_FRAMES` at once.
+        """
+        if type(n_frames) is not int or not 0 <= n_frames <= MAX_RENDERED_FRAMES:
+            n_frames = checks.whole(
+                "n_frames", n_frames, "-", at_least=0, at_most=MAX_RENDERED_FRAMES, error=SessionError
+            )
         return self._playback.render(n_frames)
 
     @property
@@ -262,6 +274,8 @@ class HapticSession:
         return max(self._playback.position, self._last_stamp)
 
     def _stamp(self, at_sample: int | None) -> int:
+        if at_sample is not None and type(at_sample) is not int:
+            at_sample = checks.whole("at_sample", at_sample, "-", at_least=0, at_most=2**62, error=SessionError)
         if at_sample is not None and at_sample < self._last_stamp:
             raise SessionError(
                 f"at_sample is {at_sample}; the last update was at {self._last_stamp}, and time cannot go back. "
@@ -281,7 +295,9 @@ class HapticSession:
                 if touch.object_id not in self._stage.objects:
                     raise UnknownObject(unknown_object(touch.object_id, self._stage.objects))
                 by_hand.setdefault(touch.hand, []).append(touch)
-        except (TypeError, AttributeError):
+        except UnknownObject:
+            raise
+        except Exception:  # whatever is no list of touches raises what it likes
             raise SessionError(
                 f"touches is {checks.shown(touches)}; it must be a list of Touch, as [Touch(...)]."
             ) from None

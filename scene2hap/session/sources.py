@@ -91,10 +91,9 @@ class Sources:
 
     def __getitem__(self, source_id: str) -> Source:
         """A source. Raises: UnknownObject."""
-        try:
-            return self._sources[source_id]
-        except KeyError:
-            raise UnknownObject(unknown_source(source_id, self.ids)) from None
+        if not isinstance(source_id, str) or source_id not in self._sources:
+            raise UnknownObject(unknown_source(source_id, self.ids))
+        return self._sources[source_id]
 
     def rows(self) -> list[LoopRow]:
         """The row of every state of every source."""
@@ -110,8 +109,9 @@ class Sources:
         Raises: UnknownObject; SessionError: it has no such state, or the gain is out of bounds.
         """
         source = self[source_id]
-        if state is not None and state not in source.rows:
-            raise SessionError(f"{source_id!r} has no state {state!r}; it has {', '.join(map(repr, source.rows))}.")
+        if state is not None and not (isinstance(state, str) and state in source.rows):
+            told = checks.represented(state)
+            raise SessionError(f"{source_id!r} has no state {told}; it has {', '.join(map(repr, source.rows))}.")
         source.level.set(gain_db, mute)
         if on is not None:
             source.is_on = on

@@ -6,16 +6,17 @@ python ask.py openai|ollama|page|sound WHERE
 from __future__ import annotations
 
 import asyncio
-import base64
 import logging
 import sys
+import traceback
 from pathlib import Path
-from urllib.parse import quote
 
 from scene2hap.errors import Scene2HapError
 from scene2hap.printable import printable
 
-KEY = "sk-attack-0123456789/abcdef+ghij=="
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from attacks.keys import KEY, NOT_COVERED, SPELLINGS, is_shown
 
 
 def main(kind: str, where: str) -> None:
@@ -43,9 +44,8 @@ if __name__ == "__main__":
     try:
         main(*sys.argv[1:])
     except Scene2HapError as error:
-        told = f"{error} {getattr(error, 'raw_text', '')}"
-        forms = (KEY, quote(KEY, safe=""), base64.b64encode(KEY.encode()).decode()[:-4], KEY.encode().hex())
-        if any(form in told for form in forms):
+        told = "".join(traceback.format_exception(error)) + getattr(error, "raw_text", "")
+        if any(is_shown(name, told) for name in SPELLINGS if name not in NOT_COVERED):
             sys.exit(f"the key is shown: {told}")
         print(f"scene2hap: error: {printable(str(error))[:2000]}", file=sys.stderr)
         sys.exit(1)

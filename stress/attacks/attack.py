@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,14 +11,16 @@ from pathlib import Path
 class Attack:
     """A command and what it may take.
 
-    argv : what is run; "scene2hap" first means the command line of this package, which is forked for speed. seconds :
-    of processor time; memory_bytes : resident; untouched : further paths that must not change.
+    argv : what is run; "scene2hap" first means the command line of this package, which is forked for speed. call : what
+    the child calls instead, its status returned. seconds : of processor time; memory_bytes : resident; untouched :
+    further paths that must not change.
     """
 
     family: str
     name: str
     argv: tuple[str, ...]
     stdin: bytes = b""
+    call: Callable[[], int] | None = None
     seconds: float = 5.0
     memory_bytes: int = 1 << 30
     untouched: tuple[Path, ...] = ()

@@ -6,8 +6,10 @@ import itertools
 import json
 import os
 import random
+import re
 import shutil
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -43,6 +45,13 @@ def attacks(seed: int, work: Path) -> Iterator[Attack]:
         elif what == "bake":
             argv = ("scene2hap", "bake", str(scene), "-o", str(folder))
         more = ("--json",) if rng.random() < 0.3 else ()
+        if what == "render":
+            from attacks.touch_files import judged
+
+            name = f"{number} {what}: {', '.join(done)}"
+            call = partial(judged, (*argv[1:], *more))
+            yield Attack("bundles", name, (), call=call, untouched=(outside,))
+            continue
         yield Attack("bundles", f"{number} {what}: {', '.join(done)}", (*argv, *more), untouched=(outside,))
 
 
@@ -188,6 +197,46 @@ def _wave(folder: Path, rng: random.Random) -> str:
     return f"header of {path.name} at {at}"
 
 
+def _loop(folder: Path, rng: random.Random) -> str:
+    """A loop of numbers that are none, of an odd rate, or of no length."""
+    import numpy as np
+    import soundfile
+
+    paths = sorted(path for path in (folder / "sounds").glob("*.wav") if path.is_file() and not path.is_symlink())
+    if not paths:
+        return "nothing"
+    path = rng.choice(paths)
+    rate = rng.choice([1, 100, 8000, 48_000, 2**31 - 1])
+    value = rng.choice([float("nan"), float("inf"), 1e38, -2.0, 0.0, 1e-45])
+    samples = np.zeros((rng.choice([1, 2, 100, 100_000]), rng.choice([1, 1, 8])))
+    samples[:: rng.choice([1, 7])] = value
+    path.unlink()
+    soundfile.write(path, samples, rate, subtype=rng.choice(["FLOAT", "DOUBLE", "PCM_16", "PCM_U8"]))
+    return f"{path.name[:20]} of {value} at {rate} Hz"
+
+
+def _spell(folder: Path, rng: random.Random) -> str:
+    """Names that differ by case, lead elsewhere or stand twice, and numbers of thousands of digits, as text."""
+    path = _document(folder, rng)
+    try:
+        text = path.read_text()
+    except (OSError, ValueError):
+        return "nothing"
+    number = rng.choice(["1e400", "9" * 5000, "-0", "1E-400", "NaN", "-Infinity", "0x1", "1" + "0" * 400])
+    name = rng.choice(
+        ["PHONE", "../phone", "a/b", "CON", "phone\\ud800", "phone\\u0000", "phone ", "fan", "\u0444\u0430\u043d"]
+    )
+    key = rng.choice(['"phone"', '"fan"', '"id"', '"gain_db"', '"intensity"', '"file"', '"files"'])
+    how = rng.random()
+    if how < 0.4:
+        path.write_text(re.sub(r": -?\d[\d.e+-]*", lambda found: rng.choice([found[0]] * 3 + [f": {number}"]), text))
+    elif how < 0.8:
+        path.write_text(text.replace('"phone"', f'"{name}"'))
+    else:
+        path.write_text(text.replace(f"{key}:", f"{key}: null, {key}: [], {key}:"))
+    return f"{path.name} {number[:9] if how < 0.4 else name if how < 0.8 else key + ' twice'!a}"
+
+
 def _mesh(folder: Path, rng: random.Random) -> str:
     """A PLY file whose header lies."""
     paths = sorted(path for path in (folder / "meshes").glob("*.ply") if path.is_file() and not path.is_symlink())
@@ -252,5 +301,5 @@ def _new(path: Path) -> Path:
 
 _DAMAGES: list[Callable[[Path, random.Random], str]] = [
     _cut, _flip, _flip, _retype, _retype, _retype, _retype, _whole, _nest, _encode, _replace, _replace, _wave, _mesh,
-    _newer, _many,
+    _loop, _loop, _spell, _spell, _newer, _many,
 ]  # fmt: skip

@@ -123,6 +123,8 @@ def _in_child(attack: Attack, folder: Path, logs: Path) -> int:
     resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 1))
     resource.setrlimit(resource.RLIMIT_DATA, (2 * attack.memory_bytes,) * 2)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    if attack.call is not None:
+        return attack.call()
     if attack.argv[0] != "scene2hap" and shutil.which(attack.argv[0]):
         os.execvp(attack.argv[0], attack.argv)
     from scene2hap.cli import main

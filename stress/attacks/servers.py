@@ -1,9 +1,10 @@
 """Servers that answer too much, too slowly, in odd codes, or with the key; and sound files that unpack to hours."""
 
+# ruff: noqa: E501  # tables of cases
+
 from __future__ import annotations
 
-import base64
-import html
+import gzip
 import itertools
 import json
 import random
@@ -15,11 +16,11 @@ import time
 import zlib
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from urllib.parse import quote
 
 import numpy as np
 import soundfile
 
+from attacks import keys
 from attacks.ask import KEY
 from attacks.attack import Attack
 
@@ -27,15 +28,7 @@ _ASK = str(Path(__file__).with_name("ask.py"))
 _SECONDS = 8.0
 Send = Callable[[bytes], object]
 
-ECHOES: tuple[Callable[[str], str], ...] = (
-    str,
-    lambda key: quote(key, safe=""),
-    lambda key: base64.b64encode(key.encode()).decode(),
-    lambda key: base64.urlsafe_b64encode(f"Bearer {key}".encode()).decode(),
-    lambda key: key.encode().hex(),
-    lambda key: "".join(f"\\u{ord(letter):04x}" for letter in key),
-    html.escape,
-)
+ECHOES = tuple(spelling for name, spelling in keys.SPELLINGS.items() if name not in keys.NOT_COVERED)
 
 
 def attacks(seed: int, work: Path) -> Iterator[Attack]:
@@ -92,11 +85,46 @@ class _Handler(socketserver.StreamRequestHandler):
         _play(rng, self.wfile.write)
 
 
+def _play_raw(rng: random.Random, send: Send) -> None:
+    """What is hardly HTTP: heads without end, or drop by drop, lengths that lie, packs within packs, the key in a line."""
+    ok, length = b"HTTP/1.1 200 OK\r\n", b"content-length: "
+    twice = gzip.compress(gzip.compress(bytes(1 << 24)))
+    once = rng.choice(
+        [
+            b"HTTP/1.0 200 OK\r\n\r\n{}", b"hello", ok + length + b"100\r\n\r\n{}", ok + length + b"1\r\n\r\n{}{}",
+            ok + length + b"1\r\n" + length + b"2\r\n\r\n{}", ok + b"content-encoding: gzip, gzip\r\n\r\n" + twice,
+            ok + b"content-encoding: gzip\r\n\r\n" + twice, ok + b"content-encoding: gzip\r\n\r\n" + twice[:-20],
+            ok + b"transfer-encoding: chunked\r\n\r\n-5\r\nx\r\n", b"HTTP/1.1 -20 x\r\n\r\n", ok + b"x: a\0b\r\n\r\n",
+            f"HTTP/1.1 {KEY} x\r\n\r\n".encode(), ok + f"bad {KEY}\r\n\r\n".encode(), b"HTTP/1.1 101 x\r\nupgrade: x\r\n\r\n",
+            b"HTTP/1.1 302 x\r\nlocation: http://[::1\r\n\r\n", b"HTTP/1.1 204 x\r\ncontent-length: 5\r\n\r\nxxxxx", b"",
+        ]
+    )  # fmt: skip
+    more, pause_s = rng.choice(
+        [
+            (b"", 0.0), (b"", 0.0), (b"", 0.0), (b"HTTP/1.1 100 Continue\r\n\r\n" * 100, 0.0), (b"HTTP/1.1 200", 0.3),
+            (b"HTTP/1.1 103 Early\r\nlink: " + b"a" * 999 + b"\r\n\r\n", 0.0), (ok + b"a: b\r\n", 0.2),
+            (ok + b"transfer-encoding: chunked\r\n\r\n1;" + b"e" * 900 + b"\r\nx\r\n", 0.0),
+        ]
+    )  # fmt: skip
+    if not more:
+        send(once)
+        return
+    first, _, rest = more.partition(ok)
+    send(ok if rest else first)
+    while True:
+        send(rest or more)
+        time.sleep(pause_s)
+
+
 def _play(rng: random.Random, send: Send) -> None:
     """One reply: a head that may lie, and a body."""
-    kind = rng.choice(["bomb", "endless", "drip", "headers", "charset", "echo", "odd", "deep", "cut", "redirect"])
+    kind = rng.choice(
+        ["bomb", "endless", "drip", "headers", "charset", "echo", "odd", "deep", "cut", "redirect", "raw"]
+    )
+    if kind == "raw":
+        return _play_raw(rng, send)
     status = rng.choice([200, 200, 200, 401, 404, 429, 500])
-    echoed = rng.choice(ECHOES)(KEY)
+    echoed = rng.choice(ECHOES)(KEY).encode("latin-1", "replace").decode("latin-1")
     good = json.dumps({"choices": [{"message": {"content": '{"scene_category": "kitchen"}'}}]}).encode()
     packings = ["gzip", "deflate", "br", "zstd", "identity", "rot13"]
     charsets = ["rot13", "idna", "zlib", "hex", "utf-7", "%"]

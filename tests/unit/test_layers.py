@@ -9,9 +9,9 @@ PACKAGE = Path(__file__).parents[2] / "scene2hap"
 
 # Bottom to top; rooms of one row never import each other.
 LAYERS = [
-    {"errors", "printable"},
-    {"checks", "compiled"},
-    {"plugins", "settings", "secret", "web"},
+    {"errors", "printable", "quiet_logs"},
+    {"checks", "compiled", "echoes"},
+    {"plugins", "settings", "secret", "text_files", "web"},
     {"scene"},
     {"contact", "materials", "needs"},
     {"haptics"},

@@ -5,7 +5,7 @@ import html
 import json
 import pickle
 import traceback
-from base64 import b64encode, encodebytes, urlsafe_b64encode
+from base64 import b32encode, b64encode, encodebytes, urlsafe_b64encode
 from collections.abc import Callable
 from typing import Any
 from urllib.parse import quote
@@ -55,6 +55,27 @@ ECHOES: dict[str, Callable[[str], str]] = {
     "HTML hex numbers": lambda key: "".join(f"&#x{ord(letter):x};" for letter in key),
     "capitals": lambda key: key.upper(),
     "JSON in JSON": lambda key: json.dumps(json.dumps(key)),
+    "backwards": lambda key: key[::-1],
+    "base64 of UTF-16": lambda key: b64encode(key.encode("utf-16")).decode(),
+    "base64 of UTF-16, big endian": lambda key: b64encode(key.encode("utf-16-be")).decode(),
+    "base64 of UTF-32": lambda key: b64encode(key.encode("utf-32")).decode(),
+    "base64 twice": lambda key: b64encode(b64encode(key.encode())).decode(),
+    "base64 of hex": lambda key: b64encode(key.encode().hex().encode()).decode(),
+    "base64, backwards": lambda key: b64encode(key[::-1].encode()).decode(),
+    "base64 in lines of JSON": lambda key: encodebytes(f"{'.' * 50}{key}".encode()).decode().replace("\n", "\\n"),
+    "base32": lambda key: b32encode(f"xy{key}".encode()).decode(),
+    "hex of UTF-16": lambda key: key.encode("utf-16-le").hex(),
+    "hex as in C": lambda key: ", ".join(f"0x{byte:02x}" for byte in key.encode()),
+    "quoted-printable": lambda key: "".join(f"={byte:02X}" for byte in key.encode()),
+    "quoted-printable in lines": lambda key: "=\r\n".join([key[:7], key[7:14], key[14:]]),
+    "lines": lambda key: "\n    ".join([key[:7], key[7:14], key[14:]]),
+    "letters": lambda key: str(list(key)),
+    "numbers": lambda key: str(list(key.encode())),
+    "octal": lambda key: "".join(f"\\{byte:03o}" for byte in key.encode()),
+    "HTML twice": lambda key: html.escape("".join(f"&#{ord(letter)};" for letter in key)),
+    "full width": lambda key: "".join(chr(ord(letter) + 0xFEE0) for letter in key),
+    "colours of a terminal": lambda key: "\x1b[0m".join(key),
+    "UTF-16 as bytes of Python": lambda key: repr(key.encode("utf-16-le")),
 }
 
 
@@ -74,8 +95,24 @@ def test_a_key_is_found_however_it_is_written(form: str, key: str) -> None:
 
 
 def test_text_without_the_key_stays_as_it_is() -> None:
-    text = "sk-0123456789abcde c2stMDEyMzQ1Njc4OWFiY2Rl 73 6b 2d &amp; %2F \\u0041"
+    text = "sk-0123456 c2stMDEyMzQ1 73 6b 2d &amp; %2F \\u0041 \x1b[2J &#65; =3D ＡＢＣ"
     assert Secret(KEY).scrub(text) == text
+
+
+@pytest.mark.parametrize("part", [KEY[1:], KEY[:-2], KEY[3:-1]])
+def test_most_of_a_key_counts_as_the_key(part: str) -> None:
+    assert Secret(KEY).scrub(f"You sent {part}.") == "You sent ******."
+
+
+def test_what_stands_around_a_key_stays_parts_of_escapes_included() -> None:
+    text = f'{{"a": "%41{KEY}&amp;", "b": "\\u0041\\u0073{KEY[1:]}\\n"}}'
+    assert Secret(KEY).scrub(text) == '{"a": "%41******&amp;", "b": "\\u0041******\\n"}'
+
+
+@pytest.mark.parametrize("piece", ["\\", "&#", "0", "%25", "\x1b[0;", KEY[:9], "=", "&amp;"])
+def test_a_long_text_is_read_in_time_of_its_length(piece: str) -> None:
+    secret = Secret(KEY)
+    assert secret.scrub(piece * 200_000) == piece * 200_000
 
 
 def test_a_short_key_is_a_word_that_answers_may_hold() -> None:

@@ -1,6 +1,7 @@
 """Touch files: both forms say the same, and what is wrong is named."""
 
 import json
+import os
 from pathlib import Path
 
 import pytest
@@ -98,6 +99,9 @@ def test_a_hand_goes_along_with_the_object_it_holds() -> None:
         ({**DOCUMENT, "steps": [{"time_s": 1.0, "hand": "left"}]}, r"step 1"),
         ({**DOCUMENT, "version": 2}, "version"),
         ({**DOCUMENT, "duration_s": 0}, "duration_s"),
+        ({**DOCUMENT, "duration_s": 1e9}, r"duration_s: .*less than or equal to 600"),
+        ({**DOCUMENT, "duration_s": 10**400}, "duration_s"),
+        ({**DOCUMENT, "steps": [DOCUMENT["steps"][0]] * 100_001}, r"steps: .*at most 100000 items"),
         ([], "whole file"),
     ],
 )
@@ -123,3 +127,20 @@ def test_a_file_that_is_missing(tmp_path: Path) -> None:
 def test_touch_on_an_unknown_object() -> None:
     with pytest.raises(UnknownObject, match="no object 'tabel'"):
         play(changed(1, touch="tabel"))
+
+
+@pytest.mark.parametrize("rate_hz", [1e308, 5e-324, 0.0, float("nan"), 48_001])
+def test_a_rate_that_no_game_has_is_refused(rate_hz: float) -> None:
+    sink = MemorySink()
+    with (
+        HapticSession(*table_with_two_phones(), {"prepare": "blocking"}, sink=sink) as session,
+        pytest.raises(SessionError, match=r"update_rate_hz is .*; it must be"),
+    ):
+        play_track(session, TouchTrack.parse({"duration_s": 0.1, "steps": []}), sink, update_rate_hz=rate_hz)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "touches.json")
+    with pytest.raises(SessionError, match="a pipe or a device"):
+        TouchTrack.load(tmp_path / "touches.json")

@@ -2,7 +2,11 @@
 
 import asyncio
 import gzip
+import logging
 import resource
+import socket
+import threading
+import traceback
 import zlib
 from collections.abc import AsyncIterator
 
@@ -97,3 +101,52 @@ def test_json_is_utf_8_whatever_the_server_says(charset: str) -> None:
     body = httpx.ByteStream('{"a": "\u00fc"}'.encode())
     headers = {"content-type": f"application/json; charset={charset}"}
     assert posted(httpx.Response(200, headers=headers, stream=body)).json() == {"a": "\u00fc"}
+
+
+def test_a_part_of_what_was_packed_is_no_answer() -> None:
+    packed = gzip.compress(b'{"a": 1}' * 100)[:-12]
+    response = httpx.Response(200, stream=httpx.ByteStream(packed), headers={"content-encoding": "gzip"})
+    with pytest.raises(BackendUnavailable, match="sends a part of it") as caught:
+        asked(response)
+    assert caught.value.retryable
+
+
+def test_a_look_up_of_a_name_that_does_not_end_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("ALL_PROXY", "HTTP_PROXY", "HTTPS_PROXY", "all_proxy", "http_proxy", "https_proxy"):
+        monkeypatch.delenv(name, raising=False)
+    over = threading.Event()
+    ended: list[bool] = []
+
+    def look_up(*_: object, **__: object) -> list[object]:
+        ended.append(over.wait(20.0))
+        return []
+
+    monkeypatch.setattr(socket, "getaddrinfo", look_up)
+    try:
+        with pytest.raises(BackendUnavailable, match=r"did not answer within 0\.2 s"):
+            web.get("http://localhost:9/", web.Limits(0.2, 1000))
+        assert not ended  # the look-up still goes on
+    finally:
+        over.set()
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["HTTP/1.1 {} OK\r\n\r\n", "HTTP/1.1 200 OK\r\nbad {}\r\n\r\n", "HTTP/1.1 302 x\r\nlocation: x{}://a\r\n\r\n"],
+)
+def test_a_key_in_a_broken_reply_is_in_no_cause_and_no_log(line: str, caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level(logging.DEBUG)
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def answer() -> None:
+            connection, _ = server.accept()
+            with connection:
+                connection.recv(65536)
+                connection.sendall(line.format(KEY).encode())
+
+        threading.Thread(target=answer, daemon=True).start()
+        url = f"http://127.0.0.1:{server.getsockname()[1]}/"
+        with pytest.raises(BackendUnavailable) as caught:
+            web.get(url, LIMITS, scrub=Secret(KEY).scrub)
+    assert KEY not in "".join(traceback.format_exception(caught.value))
+    assert KEY not in caplog.text

@@ -75,7 +75,8 @@ def convert(
     """Turn a sound file into a tactile one, equally long, at the same rate and not scaled; written whole or not at all.
 
     Parameters:
-    source : WAV, FLAC, Ogg or MP3 of any length; output : its suffix (`FORMATS`) chooses the format.
+    source : WAV, FLAC, Ogg or MP3, of at most `audio.files.MAX_FILE_SAMPLES`.
+    output : its suffix (`FORMATS`) chooses the format.
     converter : a kind, a mapping with a `kind` and its settings, or one ready made; each channel gets its own stream.
     actuator : a profile, its name, or a CSV file of its response; intensity : of the source, 0..1 [-].
     mono : mix the channels by their mean first; overwrite : replace files that exist.

@@ -14,6 +14,7 @@ from scene2hap.audio.sources.candidates import MAX_CANDIDATES
 from scene2hap.audio.sources.words import noun_phrase, stems
 from scene2hap.errors import AudioError, ConfigError
 from scene2hap.haptics import VibrationDescription
+from scene2hap.text_files import read_small_text
 
 INDEX_NAME = "sounds.csv"
 
@@ -77,8 +78,8 @@ class FolderLibrary:
     def _listed(self, index: Path) -> Iterator[tuple[Path, set[str], Credit]]:
         try:
             # utf-8-sig: spreadsheets put a byte-order mark in front.
-            text = index.read_text(encoding="utf-8-sig")
-        except (OSError, UnicodeDecodeError) as cause:
+            text = read_small_text(index)
+        except (OSError, ValueError) as cause:
             raise ConfigError(f"{index}: cannot be read as UTF-8 text ({cause}). Save it as CSV in UTF-8.") from cause
         table = csv.DictReader(text.splitlines())
         try:

@@ -21,6 +21,7 @@ from typing import Any
 from scene2hap.errors import ConfigError
 from scene2hap.llm.protocol import COMPONENTS, Component
 from scene2hap.llm.quoting import IS_DATA, as_data
+from scene2hap.text_files import read_small_text
 
 VERSION = "3"
 
@@ -63,7 +64,7 @@ def _built_in() -> Prompts:
 
 def _read(path: Path, component: Component) -> str:
     try:
-        text = path.read_text(encoding="utf-8")
+        text = read_small_text(path)
         named = placeholders(text)
     except (OSError, ValueError) as cause:
         raise ConfigError(f"prompt {path} cannot be used: {cause}. Write a brace as {{{{ or }}}}.") from cause

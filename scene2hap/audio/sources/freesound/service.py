@@ -117,6 +117,7 @@ class Service:
             web.Limits(self.timeout_s, MAX_ANSWER_BYTES),
             params=params,
             authorization=lambda: f"Token {self.token.reveal()}",
+            scrub=self.token.scrub,
             transport=self.transport,
         )
         # Whatever the service echoes would reach titles and credits.

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from scene2hap.audio.sources.store import plain_line
+from scene2hap.echoes import masked
 from scene2hap.errors import BackendUnavailable
 from scene2hap.secret import MASK
 
@@ -52,7 +53,7 @@ def scrubbed(text: str, variables: Mapping[str, str]) -> str:
     """The text without the keys that the program was given, should it have printed them."""
     for name, value in variables.items():
         if _SECRET_NAME.search(name) and len(value) >= _SHORTEST_SCRUBBED:
-            text = text.replace(value, MASK)
+            text = masked(text, value, MASK)
     return text
 
 

@@ -226,3 +226,13 @@ def test_the_picture_shows_both_sounds(tmp_path: Path) -> None:
     before = pixels[62 : 62 + 240, 85:970]
     assert np.argmax(before.mean(axis=1)) / 239 == pytest.approx(np.log(4000 / 93.7) / np.log(400), abs=0.02)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.ogg", "b.png", "b.wav"]
+
+
+def test_hours_of_silence_in_a_small_file_are_refused_before_they_are_converted(tmp_path: Path) -> None:
+    source = tmp_path / "hours.flac"
+    with soundfile.SoundFile(source, "w", 1000, 8, "PCM_16", format="FLAC") as file:
+        for _ in range(9):
+            file.write(np.zeros((1 << 20, 8), np.int16))
+    with pytest.raises(AudioError, match=r"75,497,472 samples; it must have at most 67,108,864"):
+        audio.convert(source, tmp_path / "felt.wav")
+    assert not (tmp_path / "felt.wav").exists()

@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-
-from scene2hap.secret import Secret
 
 _FAMILIES = ("httpx", "httpcore", "httpx2", "httpcore2", "httpxyz", "httpcorexyz", "hpack", "h11", "h2", "socksio")
 """The HTTP library, what it builds on, and the names under which forks of it go on (pydantic/httpx2, httpxyz)."""
 _MODULES = ("connection", "http11", "http2", "proxy", "socks", "hpack", "table")
 """Loggers below a family. Some come into being with the first request, when it is too late to look for them."""
-_IN_USE: ContextVar[Secret | None] = ContextVar("secret in use", default=None)
+_IN_USE: ContextVar[Callable[[str], str] | None] = ContextVar("what takes the key out", default=None)
 
 
 class _Scrub(logging.Filter):
     def filter(self, record: logging.LogRecord) -> bool:
-        secret = _IN_USE.get()
-        if secret is not None:
-            record.msg, record.args = secret.scrub(record.getMessage()), ()
+        scrub = _IN_USE.get()
+        if scrub is not None:
+            record.msg, record.args = scrub(record.getMessage()), ()
         return True
 
 
@@ -28,11 +26,11 @@ _SCRUB = _Scrub()
 
 
 @contextmanager
-def scrubbed(secret: Secret) -> Iterator[None]:
-    """While a request is under way, what the HTTP library logs for it is searched for the key."""
+def scrubbed(scrub: Callable[[str], str]) -> Iterator[None]:
+    """While a request is under way, `scrub` takes the key out of what the HTTP library logs for it."""
     for name in _loggers():
         logging.getLogger(name).addFilter(_SCRUB)  # once: the same filter is not added again
-    token = _IN_USE.set(secret)
+    token = _IN_USE.set(scrub)
     try:
         yield
     finally:

@@ -1,0 +1,132 @@
+"""Numbers and arrays that are none, at the public names: refused with an error of ours that tells of which."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from scene2hap import (
+    ActuatorProfile,
+    AudioClip,
+    Bands,
+    Contact,
+    ConversionContext,
+    ExponentialPlate,
+    HapticSession,
+    LocalBackend,
+    Material,
+    ModalPlate,
+    Plate,
+    Pose,
+    PoseTable,
+    SceneSnapshot,
+    SessionConfig,
+    SourceState,
+    TriMesh,
+    plate_modes,
+)
+from scene2hap.errors import Scene2HapError
+from scenes import table_with_two_phones
+
+OAK = Material("oak", 700.0, 1e10, 0.3)
+
+
+class Raising(float):
+    """A number that cannot be had."""
+
+    def __float__(self) -> float:
+        raise ZeroDivisionError("no number")
+
+
+class NoSequence:
+    """A sequence that cannot be had."""
+
+    def __iter__(self) -> Any:
+        raise RuntimeError("no sequence")
+
+
+def plate(**fields: Any) -> Plate:
+    return Plate(**{"length_m": 1.0, "width_m": 0.5, "thickness_m": 0.02, "material": OAK, **fields})
+
+
+def playing(act: Callable[[HapticSession], object]) -> object:
+    return act(HapticSession(*table_with_two_phones(), {"prepare": "blocking"}))
+
+
+REFUSED: dict[str, Callable[[], object]] = {
+    "a number that raises": lambda: Pose((Raising(1.0), 0, 0)),
+    "a number of 5000 digits as a vector": lambda: Pose(10**5000),  # type: ignore[arg-type]
+    "a number of 5000 digits as a name": lambda: Material(10**5000, 1.0, 1.0, 0.3),  # type: ignore[arg-type]
+    "a vector without end": lambda: Pose(range(10**18)),  # type: ignore[arg-type]
+    "a vector that raises": lambda: Pose(NoSequence()),  # type: ignore[arg-type]
+    "points of texts": lambda: Pose().to_world(["x", "y", "z"]),  # type: ignore[list-item]
+    "ragged points": lambda: Pose().to_own([[0.0, 1.0, 2.0], [0.0]]),  # type: ignore[list-item]
+    "points of huge numbers": lambda: Pose().to_world([10**400, 0, 0]),
+    "complex points": lambda: Pose().to_world(np.array([1j, 0, 0])),
+    "masked points": lambda: Pose().to_world(np.ma.masked_all((2, 3))),
+    "points of two numbers": lambda: Pose().to_world([[0.0, 1.0]]),
+    "a matrix of one number": lambda: Pose.from_matrix(1.0),
+    "a matrix that is too large": lambda: Pose.from_matrix(np.eye(4) * 1e308),
+    "vertices of huge numbers": lambda: TriMesh([[10**400, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]),
+    "dates as vertices": lambda: TriMesh(np.zeros((3, 3), "M8[s]"), [[0, 1, 2]]),
+    "poses of huge numbers": lambda: PoseTable(["a"], [[10**400, 0, 0]], [[0, 0, 0, 1]]),
+    "samples of texts": lambda: AudioClip(np.array(["a"]), 48_000),
+    "masked samples": lambda: AudioClip(np.ma.masked_all(9), 48_000),
+    "an id that is a list": lambda: playing(lambda session: session.snapshot.object([])),  # type: ignore[arg-type]
+    "a contact of numbers": lambda: Contact(1, 2, (0, 0, 0)),  # type: ignore[arg-type]
+    "an axis of 5000 digits": lambda: SceneSnapshot("a", 10**5000, ()),  # type: ignore[arg-type]
+    "a plate thicker than the earth": lambda: plate(thickness_m=1e200),
+    "a plate thinner than anything": lambda: plate(thickness_m=1e-320),
+    "edges that are no text": lambda: plate(boundary=[]),
+    "frequencies of texts": lambda: plate().wavenumber_rad_m(["x"]),
+    "a frequency beyond any": lambda: plate().wavenumber_rad_m(1e308),
+    "modes up to a frequency beyond any": lambda: plate_modes(plate(), max_frequency_hz=1e308),
+    "points of dicts": lambda: ModalPlate().plate_transfer(plate(), (0.1, 0.1), [{}], [100.0]),  # type: ignore[list-item]
+    "hops of texts": lambda: ExponentialPlate(max_hops="x"),  # type: ignore[arg-type]
+    "hops that are not a number": lambda: ExponentialPlate(max_hops=float("nan")),  # type: ignore[arg-type]
+    "bands from almost nothing": lambda: Bands.third_octaves(1e-320, 1000.0),
+    "a response that is a number": lambda: ActuatorProfile(response_db=1.0),  # type: ignore[arg-type]
+    "neighbours that are a number": lambda: ConversionContext(neighbours_hz=1.0),  # type: ignore[arg-type]
+    "a need that is a number": lambda: SourceState("on", 0.5, "", "", 1.0),  # type: ignore[arg-type]
+    "settings that are a number": lambda: SessionConfig.parse(1.0),  # type: ignore[arg-type]
+    "an address that is a number": lambda: LocalBackend("m", base_url=1.0),  # type: ignore[arg-type]
+    "an address without its bracket": lambda: LocalBackend("m", base_url="http://[::1"),
+    "frames below 0": lambda: playing(lambda session: session.render(-1)),
+    "frames beyond any": lambda: playing(lambda session: session.render(10**12)),
+    "frames that are a text": lambda: playing(lambda session: session.render("x")),  # type: ignore[arg-type]
+    "a sample that is not a number": lambda: playing(
+        lambda session: session.update(at_sample=float("nan"))  # type: ignore[arg-type]
+    ),
+    "a time that is not a number": lambda: playing(lambda session: session.wait_prepared(float("nan"))),
+    "a source that is a list": lambda: playing(lambda session: session.set_source([], on=True)),  # type: ignore[arg-type]
+    "a state that is a list": lambda: playing(
+        lambda session: session.set_source("phone", state=[])  # type: ignore[arg-type]
+    ),
+    "touches that raise": lambda: playing(lambda session: session.update({}, NoSequence())),  # type: ignore[arg-type]
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_it_is_refused_with_a_sentence(case: str) -> None:
+    with pytest.raises(Scene2HapError) as caught:
+        REFUSED[case]()
+    assert 20 < len(str(caught.value)) < 2000
+
+
+def test_arrays_in_any_order_of_bytes_and_rows_are_taken() -> None:
+    points = np.arange(12.0).reshape(4, 3)
+    read_only = points.copy()
+    read_only.setflags(write=False)
+    for other in (
+        np.asfortranarray(points),
+        points.astype(">f8"),
+        points.astype(np.float32),
+        read_only,
+        points.tolist(),
+    ):
+        np.testing.assert_array_equal(Pose((1, 2, 3)).to_world(other), np.add(points, [1, 2, 3]))
+
+
+def test_a_contact_of_almost_no_weight_carries_nothing() -> None:
+    assert Contact("a", "b", (0, 0, 0), weight=1e-320).weight == 0.0

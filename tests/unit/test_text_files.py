@@ -1,0 +1,40 @@
+"""Small files that a person wrote: bounded, and never waited for."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from scene2hap.text_files import read_small, read_small_text
+
+
+def test_a_file_of_just_the_bound_is_read_and_one_more_byte_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "settings.toml"
+    path.write_bytes(b"a" * 10)
+    assert read_small(path, 10) == b"a" * 10
+    path.write_bytes(b"a" * 11)
+    with pytest.raises(ValueError, match="it has 11 bytes; it must have at most 10"):
+        read_small(path, 10)
+
+
+def test_a_byte_order_mark_is_left_out(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_bytes("\ufeffHz".encode())
+    assert read_small_text(tmp_path / "a.csv") == "Hz"
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe.json")
+    with pytest.raises(ValueError, match="a pipe or a device"):
+        read_small(tmp_path / "pipe.json")
+
+
+@pytest.mark.skipif(not Path("/dev/zero").exists(), reason="no devices here")
+def test_a_device_without_end_is_refused() -> None:
+    with pytest.raises(ValueError, match="a pipe or a device"):
+        read_small("/dev/zero")
+
+
+def test_a_folder_is_refused(tmp_path: Path) -> None:
+    with pytest.raises((OSError, ValueError)):
+        read_small(tmp_path)
