@@ -293,7 +293,6 @@ cdef class ContactPaths:
         cdef Neighbour start
         cdef list starts = []
         cdef double limit = INFINITY
-        cdef Target* target
         self.search += 1
         self.n_labels = self.n_targets = 0
         for k in range(n):

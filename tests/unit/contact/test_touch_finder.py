@@ -99,7 +99,7 @@ def test_an_id_may_leave_and_another_thing_take_its_place() -> None:
         (["a"], [[0, 0]], [[0, 0, 0, 1]], "positions_m has shape"),
         (["a"], [[0, 0, np.nan]], [[0, 0, 0, 1]], "must be finite"),
         (["a"], [[0, 0, 0]], [[0, 0, 0, 0]], "length 0"),
-        (["a"], [["x", 0, 0]], [[0, 0, 0, 1]], "no table of numbers"),
+        (["a"], [["x", 0, 0]], [[0, 0, 0, 1]], "not a table of numbers"),
     ],
 )
 def test_a_table_that_is_none_is_refused(ids: list[str], positions: object, rotations: object, words: str) -> None:

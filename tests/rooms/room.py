@@ -1,0 +1,143 @@
+"""A room for tests: what stands in it, what is true of it, and how it is written as a file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from math import cos, pi, sin
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_builder import Gltf
+from scene2hap import Pose, SceneObject, SceneSnapshot, TriMesh
+from scene2hap.contact.junction import Pair, pair_of
+from scene2hap.scene.geometry import dominant_surface
+from scene2hap.scene.snapshot import Box, with_relative_heights
+
+Triple = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Thing:
+    """An object: its mesh, the place of its origin [m] and its turn about the vertical [rad]."""
+
+    id: str
+    mesh: TriMesh
+    at_m: Triple
+    yaw_rad: float = 0.0
+    colour: Triple = (0.6, 0.6, 0.6)
+
+
+@dataclass(frozen=True)
+class Room:
+    """Things and what is true of them by construction.
+
+    contacts : the pairs that touch; sources : the ids that vibrate; sizes_m : length, width and thickness of some
+    dominant surfaces; copies : groups of ids that share a mesh.
+    """
+
+    name: str
+    things: tuple[Thing, ...]
+    contacts: frozenset[Pair] = frozenset()
+    sources: frozenset[str] = frozenset()
+    sizes_m: Mapping[str, Triple] = field(default_factory=dict)
+    copies: tuple[tuple[str, ...], ...] = ()
+    up_axis: str = "y"
+
+    @property
+    def ids(self) -> list[str]:
+        """The ids of all things, in the order of the file."""
+        return [thing.id for thing in self.things]
+
+    def triangles_m(self) -> NDArray[np.float64]:
+        """World corners (m, 3, 3) [m] of all triangles, from the construction alone."""
+        placed = []
+        for thing in self.things:
+            c, s = cos(thing.yaw_rad), sin(thing.yaw_rad)
+            turn = ((c, 0, s), (0, 1, 0), (-s, 0, c)) if self.up_axis == "y" else ((c, -s, 0), (s, c, 0), (0, 0, 1))
+            placed.append((thing.mesh.vertices_m @ np.array(turn).T + thing.at_m)[thing.mesh.faces])
+        return np.concatenate(placed)
+
+    def write(self, folder: Path) -> Path:
+        """The room as a file that `load_scene` reads: a GLB, or scene JSON where z is up."""
+        return self._json(folder / f"{self.name}.json") if self.up_axis == "z" else self._glb(folder)
+
+    def _glb(self, folder: Path) -> Path:
+        gltf, numbers = Gltf(), dict[int, int]()
+        gltf.header["materials"] = []
+        for thing in self.things:
+            if id(thing.mesh) not in numbers:
+                numbers[id(thing.mesh)] = self._mesh(gltf, thing)
+            turn = [0.0, sin(thing.yaw_rad / 2), 0.0, cos(thing.yaw_rad / 2)]
+            gltf.node(thing.id, mesh=numbers[id(thing.mesh)], root=True, translation=list(thing.at_m), rotation=turn)
+        return gltf.write(folder / f"{self.name}.glb")
+
+    def _mesh(self, gltf: Gltf, thing: Thing) -> int:
+        gltf.header["materials"].append({"pbrMetallicRoughness": {"baseColorFactor": [*thing.colour, 1.0]}})
+        corners = thing.mesh.vertices_m
+        bounds = {"min": corners.min(axis=0).tolist(), "max": corners.max(axis=0).tolist()}
+        positions = gltf.accessor(corners, "f4", "VEC3", **bounds)
+        indices = gltf.accessor(thing.mesh.faces.reshape(-1), "u4", "SCALAR")
+        number = len(gltf.header["materials"]) - 1
+        return gltf.mesh({"attributes": {"POSITION": positions}, "indices": indices, "material": number})
+
+    def _json(self, path: Path) -> Path:
+        up = (0.0, 0.0, 1.0)
+        objects = [
+            SceneObject(
+                thing.id,
+                thing.id,
+                Pose(thing.at_m, (0.0, 0.0, sin(thing.yaw_rad / 2), cos(thing.yaw_rad / 2))),
+                thing.mesh,
+                dominant_surface(thing.mesh, up=up),
+            )
+            for thing in self.things
+        ]
+        path.write_text(SceneSnapshot(self.name, "z", with_relative_heights(objects, "z")).to_json(), encoding="utf-8")
+        return path
+
+
+def pairs(text: str) -> frozenset[Pair]:
+    """Lines of "thing thing ...: other" as pairs."""
+    rows = (line.split(":") for line in text.strip().splitlines())
+    return frozenset(pair_of(thing, other.strip()) for things, other in rows for thing in things.split())
+
+
+def cuboid(size_m: Triple, middle_m: Triple = (0.0, 0.0, 0.0)) -> TriMesh:
+    """A cuboid about a point of its own frame."""
+    mesh = Box(size_m).mesh
+    return TriMesh(mesh.vertices_m + np.array(middle_m), mesh.faces)
+
+
+def cylinder(radius_m: float, height_m: float, n: int = 24) -> TriMesh:
+    """A closed round body whose bottom is at y = 0."""
+    around = 2 * pi * np.arange(n) / n
+    ring = np.stack([radius_m * np.cos(around), np.zeros(n), radius_m * np.sin(around)], axis=1)
+    top = ring + np.array((0.0, height_m, 0.0))
+    k, after = np.arange(n), (np.arange(n) + 1) % n
+    sides = [np.stack([k, k + n, after], axis=1), np.stack([after, k + n, after + n], axis=1)]
+    lids = [
+        np.stack([np.full(n, 2 * n), k, after], axis=1),
+        np.stack([np.full(n, 2 * n + 1), after + n, k + n], axis=1),
+    ]
+    corners = np.concatenate([ring, top, [(0.0, 0.0, 0.0), (0.0, height_m, 0.0)]])
+    return TriMesh(corners, np.concatenate(sides + lids))
+
+
+def joined(*parts: TriMesh) -> TriMesh:
+    """One mesh of several."""
+    starts = np.cumsum([0, *[len(part.vertices_m) for part in parts]])
+    faces = [part.faces.astype(np.int64) + start for part, start in zip(parts, starts, strict=False)]
+    return TriMesh(np.concatenate([part.vertices_m for part in parts]), np.concatenate(faces))
+
+
+def swapped(mesh: TriMesh) -> TriMesh:
+    """A mesh with y up as one with z up."""
+    return TriMesh(Pose((0.0, 0.0, 0.0), (0.5**0.5, 0.0, 0.0, 0.5**0.5)).to_world(mesh.vertices_m), mesh.faces)
+
+
+def moved(mesh: TriMesh, by_m: Sequence[float]) -> TriMesh:
+    """A mesh elsewhere in its own frame."""
+    return TriMesh(mesh.vertices_m + np.array(by_m), mesh.faces)
