@@ -2,7 +2,8 @@
 
 1. Box the mesh in a frame of its own (`_frame`), so that a shelf authored at 30 degrees measures like a straight one.
 2. Send a grid of parallel rays through the box along each of the three axes. The axis along which the mesh hides most
-   area is the plate's normal.
+   area is the plate's normal. Where what is level on that side leaves a third of its rectangle open, as a chair's
+   front does, a thin flat plate that lies, and is not what the whole stands on, comes first: the seat.
 3. Thickness is the median length of the first solid that the rays meet from above. Table legs, knobs and back-rests
    are met by few rays and do not move the median.
    A mesh that is open below has no such solid; its thickness reaches from its top, or from the sheet that most of it
