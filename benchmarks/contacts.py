@@ -10,10 +10,12 @@ from __future__ import annotations
 import csv
 import sys
 import warnings
+from collections import defaultdict
 from pathlib import Path
 
 from scene2hap import load_scene
 from scene2hap.contact.graph import ContactGraph
+from scene2hap.scene.grouping import Grouping
 
 LISTS = Path(__file__).parent / "contacts"
 SCENES = Path(__file__).parents[2] / "shared" / "scenes"
@@ -29,6 +31,10 @@ TABLE = {
 }
 
 
+# Files of parts (doors, drawers, knobs, covers): the packs' own scales, and every node an object.
+PARTS = "fitted_parts.csv"
+PARTS_UNIT_M = {"lib_kenney_furniture": 1.8, "lib_kaykit_restaurant": 0.5, "furniture_sim": 1 / 1.8}
+
 Pairs = set[tuple[str, str]]
 
 
@@ -43,6 +49,33 @@ def judged(name: str, scenes: Path) -> tuple[Pairs, Pairs, Pairs]:
     true = {(row["a"], row["b"]) for row in rows if row["truth"] == "true"}
     either = {(row["a"], row["b"]) for row in rows if row["truth"] == "either"}
     return true, set(graph.junctions) - either, set(graph.junctions) & either
+
+
+def parts(scenes: Path) -> None:
+    """Print the same of the parts of single pieces of furniture, all files together."""
+    listed: dict[str, dict[str, Pairs]] = defaultdict(lambda: {"true": set(), "either": set()})
+    with (LISTS / PARTS).open(encoding="utf-8", newline="") as lines:
+        for row in csv.DictReader(lines):
+            listed[row["file"]][row["truth"]].add((row["a"], row["b"]))
+    true: set[tuple[str, str, str]] = set()
+    found: set[tuple[str, str, str]] = set()
+    for file, truths in listed.items():
+        unit_m = PARTS_UNIT_M[file.partition("/")[0]]
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            group: Grouping = "authored" if file.endswith(".xml") else "leaf"
+            graph = ContactGraph(load_scene(scenes / file, unit_m=unit_m, group=group, assets_root=scenes))
+        true |= {(file, a, b) for a, b in truths["true"]}
+        found |= {(file, a, b) for a, b in set(graph.junctions) - truths["either"]}
+    right = true & found
+    wrong, missing = (
+        "; ".join(f"{file}: {a}–{b}" for file, a, b in sorted(some)) for some in (found - true, true - found)
+    )
+    print(
+        f"\nFitted parts, {len(listed)} files: {len(true)} true pairs, {len(found)} found, "
+        f"precision {len(right) / len(found):.3f}, recall {len(right) / len(true):.3f}.\n"
+        f"Wrong: {wrong}.\nMissing: {missing}."
+    )
 
 
 def main() -> None:
@@ -62,6 +95,8 @@ def main() -> None:
             f"{len(right) / len(true):.3f} | {wrong} | {missing} |"
         )
     print(f"\nReported, together: precision {n_right / n_found:.3f}, recall {n_right / n_true:.3f}.")
+    if (scenes / "lib_kenney_furniture").is_dir():
+        parts(scenes)
 
 
 if __name__ == "__main__":

@@ -42,6 +42,9 @@ _FALL_REACH_M, _FALL_REACH_SIZES = 0.090, 0.25
 # Tuned likewise: a television of 1.5 m hangs 49 mm off its wall, a shelf board 12 mm, a handle of 0.16 m 16 mm before
 # its leaf. Six scenes listed by hand give the same from a share of 0.05 to 0.18; from 0.2 a picture hangs on a table.
 HANG_REACH_M, _HANG_REACH_SIZES = 0.075, 0.15
+# A grip leaves room for fingers however short it is: up to 16 mm off its leaf weigh 1. Not more than this share of its
+# size, or a crumb reaches farther than it is long; less than that of falling.
+_GRIP_REACH_M, _GRIP_REACH_SIZES = 0.024, 0.24
 # What hangs may be held by several: a wall cabinet by the tall one that it touches and by the wall 5 mm behind it. So
 # much more of its reach than the nearest may others be away (tuned: the same six scenes; from 1/4 pairs are wrong).
 _HANG_SHARE = 1 / 6
@@ -78,7 +81,7 @@ def fall_reach_m(size_m: float) -> float:
 
 def hang_reach_m(size_m: float) -> float:
     """How far a thing of that diagonal may stand off what it hangs from [m]; less than its `fall_reach_m`."""
-    return min(HANG_REACH_M, _HANG_REACH_SIZES * size_m)
+    return min(HANG_REACH_M, max(_HANG_REACH_SIZES * size_m, min(_GRIP_REACH_M, _GRIP_REACH_SIZES * size_m)))
 
 
 def margins_m(body: Body) -> tuple[float, float]:

@@ -2,7 +2,8 @@
 
 1. Box the mesh in a frame of its own (`_frame`), so that a shelf authored at 30 degrees measures like a straight one.
 2. Send a grid of parallel rays through the box along each of the three axes. The axis along which the mesh hides most
-   area is the plate's normal.
+   area is the plate's normal. Where what is level on that side leaves a third of its rectangle open, as a chair's
+   front does, a thin flat plate that lies, and is not what the whole stands on, comes first: the seat.
 3. Thickness is the median length of the first solid that the rays meet from above. Table legs, knobs and back-rests
    are met by few rays and do not move the median.
    A mesh that is open below has no such solid; its thickness reaches from its top, or from the sheet that most of it
@@ -19,6 +20,7 @@ Differs: the paper does not say in which frame or on which side the rays start; 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -46,11 +48,33 @@ _FILLED_OUTLINE = 0.5  # the rectangle of an outline, of all that they see
 _PAIRED_SHARE = 0.5  # and has a thickness if this part of its rays comes out again
 _OWN_FRAME_GAIN = 0.95  # another frame must make the box smaller than this to replace the author's axes
 _SAME_AREA = 0.99  # sides this near in area are equal, and the more upright normal wins
+_UPRIGHT = 0.9  # a plate lies if its normal is as upright as this (26 degrees) ...
+_THIN = 1 / 3  # ... and it is no thicker than this part of its width. It wins over the side that hides most ...
+_LYING_AREA = 0.6  # ... if it hides this part of that side's area (chairs 0.71-0.93) ...
+# ... and that is level in less than this part of its rectangle (chairs <= 0.58, cupboards >= 0.74).
+_FILLED_PLATE = 2 / 3
 _SAME_DIRECTION_RAD = np.deg2rad(1.0)
 _SIDES_TRIED = 12
 # What a mesh takes however few triangles it has, and each of these, in tests of a ray against a triangle (measured: 1.5
 # ms, 1 us and 0.1 us).
 _WORK_OF_A_MESH, _WORK_OF_A_FACE = 15_000, 10
+
+
+class _Side(NamedTuple):
+    """A mesh along one axis: what it hides [m2], a frame with that axis as w, and the hits of rays along it."""
+
+    area_m2: float
+    own_to_plate: Floats
+    hits: Hits
+
+    def level_area_m2(self, size_m: float) -> float:
+        """How much of that area is met at one level, give or take half the plate's thickness; all of a sheet."""
+        solids = first_solids(self.hits, _SAME_DEPTH * size_m)
+        thickness = (solids.top - solids.bottom)[np.isfinite(solids.bottom)]
+        if len(thickness) < _PAIRED_SHARE * len(solids.top):
+            return self.area_m2
+        level = np.abs(solids.top - np.median(solids.top)) <= np.median(thickness) / 2
+        return self.area_m2 * float(level.mean())
 
 
 def dominant_surface(
@@ -75,20 +99,52 @@ def dominant_surface(
     points, faces = mesh.vertices_m[used].T.copy(), faces.reshape(-1, 3).T.copy()
     axes = _pointing(_frame(points, faces), up)
     is_open = False
-    best: tuple[float, Floats, Hits] | None = None
+    best: _Side | None = None
+    most_upright: _Side | None = None
     for axis in _by_uprightness(axes, up):
         own_to_plate = _facing(axes, axis)
         placed = own_to_plate @ points
         hits = cast_grid(placed[:, faces], RAYS_PER_SIDE, spend)
         area = float(np.prod(np.ptp(placed[:2], axis=1))) * len(hits.starts) / RAYS_PER_SIDE**2
         is_open |= share_open(hits) > _OPEN_SHARE
-        if len(hits.ray) and (best is None or area > best[0] * _SAME_AREA):
-            best = (area, own_to_plate, hits)
+        if len(hits.ray):
+            most_upright = _Side(area, own_to_plate, hits)
+            if best is None or area > best.area_m2 * _SAME_AREA:
+                best = most_upright
     flags: tuple[SurfaceFlag, ...] = ("open-mesh",) if is_open else ()
-    if best is None:
+    if best is None or most_upright is None:
         return _box(points, axes, flags)
-    _, own_to_plate, hits = best
-    return _plate((own_to_plate @ points)[:, faces], own_to_plate, hits, flags)
+    plate = _side_plate(best, points, faces, flags)
+    if up is None or most_upright is best:
+        return plate
+    is_upright = abs(float(most_upright.own_to_plate[2] @ np.asarray(up, dtype=np.float64))) > _UPRIGHT
+    return (is_upright and _lying_plate(most_upright, best, plate, points, faces)) or plate
+
+
+def _side_plate(side: _Side, points: Floats, faces: Ints, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
+    return _plate((side.own_to_plate @ points)[:, faces], side.own_to_plate, side.hits, flags)
+
+
+def _lying_plate(
+    side: _Side, largest: _Side, standing: DominantSurface, points: Floats, faces: Ints
+) -> DominantSurface | None:
+    """The plate across the most upright axis where the side that hides most is none: a chair's seat.
+
+    A chair hides more from the front, where legs, rungs and back stand beside and behind each other, than from above.
+    What is level in front fills too little of its own rectangle. From above there is one thin flat plate, and it is
+    not what the whole stands on, as a cup's bottom is.
+    """
+    size_m = float(np.ptp(points, axis=1).max())
+    is_plate = largest.level_area_m2(size_m) >= _FILLED_PLATE * standing.length_m * standing.width_m
+    is_flat = side.level_area_m2(size_m) >= _FLAT_SHARE * side.area_m2
+    if is_plate or not is_flat or side.area_m2 < _LYING_AREA * largest.area_m2:
+        return None
+    flags: tuple[SurfaceFlag, ...] = ("open-mesh",) if "open-mesh" in standing.flags else ()
+    plate = _side_plate(side, points, faces, flags)
+    is_thin = plate.thickness_m <= _THIN * plate.width_m
+    middle_m = float(plate.pose.rotation[:, 2] @ np.asarray(plate.pose.position_m))
+    is_raised = middle_m - float((side.own_to_plate[2] @ points).min()) > 1.5 * plate.thickness_m
+    return plate if is_thin and is_raised and "box-fallback" not in plate.flags else None
 
 
 def _cuboid(bounds_m: Floats, up: ArrayLike | None) -> DominantSurface:

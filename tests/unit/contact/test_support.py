@@ -181,11 +181,20 @@ def test_a_lamp_hangs_from_the_ceiling() -> None:
     assert graph.contacts[0].normal == pytest.approx((0, -1, 0))
 
 
-@pytest.mark.parametrize("length_m", [0.16, 0.25])
+@pytest.mark.parametrize("length_m", [0.1, 0.16, 0.25])
 def test_a_handle_hangs_before_its_leaf(length_m: float) -> None:
     leaf = box("leaf", (0.6, 0.7, 0.018), (0, 0.5, 0))
     handle = box("handle", (0.012, length_m, 0.012), (0.25, 0.5, 0.009 + 0.016 + 0.006))
     assert weights_of(leaf, handle) == {("handle", "leaf"): 1.0}
+
+
+@pytest.mark.parametrize(("edge_m", "hangs"), [(0.05, True), (0.03, False)])
+def test_a_knob_hangs_before_its_leaf_if_it_is_no_farther_off_than_a_quarter_of_its_size(
+    edge_m: float, hangs: bool
+) -> None:
+    leaf = box("leaf", (0.6, 0.7, 0.018), (0, 0.5, 0))
+    knob = box("knob", (edge_m, edge_m, edge_m), (0.25, 0.5, 0.009 + 0.016 + edge_m / 2))
+    assert (("knob", "leaf") in weights_of(leaf, knob)) == hangs
 
 
 def test_what_is_farther_off_a_leaf_than_handles_are_does_not_hang_on_it() -> None:

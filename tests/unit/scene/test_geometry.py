@@ -95,6 +95,42 @@ def test_among_equal_sides_the_upright_normal_wins() -> None:
         np.testing.assert_allclose(dominant_surface(cube, up=up).pose.rotation[:, 2], up, atol=1e-12)
 
 
+SEAT = ((0.4, 0.4, 0.04), (0.0, 0.0, 0.46))
+CHAIR = (
+    SEAT,
+    *(((0.06, 0.06, 0.44), (x, y, 0.22)) for x in (-0.17, 0.17) for y in (-0.17, 0.17)),
+    *(((0.06, 0.06, 0.44), (x, 0.17, 0.70)) for x in (-0.17, 0.17)),
+    *(((0.28, 0.03, 0.08), (0.0, 0.17, z)) for z in (0.58, 0.72, 0.86)),
+    *(((0.28, 0.02, 0.04), (0.0, y, 0.15)) for y in (-0.17, 0.17)),
+)
+
+
+@pytest.mark.parametrize("pose", [Pose(), Pose((0.0, 0.0, 0.0), (0.0, 0.0, np.sin(0.3), np.cos(0.3)))])
+def test_a_chair_is_its_seat_though_legs_and_back_hide_more_from_the_front(pose: Pose) -> None:
+    chair = turned(boxes(*CHAIR), pose)
+    assert size(dominant_surface(chair, up=(0, 0, 1))) == pytest.approx(list(SEAT[0]), rel=0.01)
+
+
+def test_without_up_no_plate_is_said_to_lie() -> None:
+    assert dominant_surface(boxes(*CHAIR)).length_m > 0.5
+
+
+SIDES = tuple(((0.02, 0.6, 0.9), (x, 0.0, 0.45)) for x in (-0.34, 0.34))
+BOARDS = tuple(((0.66, 0.6, 0.02), (0.0, 0.0, z)) for z in (0.01, 0.89))
+
+
+def test_a_cupboard_is_its_back_whose_area_is_larger_than_its_top() -> None:
+    cupboard = boxes(*SIDES, *BOARDS, ((0.7, 0.02, 0.9), (0.0, 0.31, 0.45)))
+    assert size(dominant_surface(cupboard, up=(0, 0, 1))) == pytest.approx([0.9, 0.7, 0.02])
+
+
+def test_the_bottom_of_a_bin_is_not_its_plate() -> None:
+    walls = [((0.006, 0.3, 0.4), (x, 0.0, 0.2)) for x in (-0.147, 0.147)]
+    walls += [((0.288, 0.006, 0.4), (0.0, y, 0.2)) for y in (-0.147, 0.147)]
+    bin_ = boxes(*walls, ((0.288, 0.288, 0.006), (0.0, 0.0, 0.003)))
+    assert dominant_surface(bin_, up=(0, 0, 1)).length_m == pytest.approx(0.4)
+
+
 def test_legs_that_reach_into_the_top_do_not_thicken_it() -> None:
     stuck = boxes(((1.6, 0.8, 0.04), (0.0, 0.0, 0.72)), ((1.2, 0.7, 0.03), (0.0, 0.0, 0.725)), *LEGS)
     assert dominant_surface(stuck).thickness_m == pytest.approx(0.04)
