@@ -43,7 +43,7 @@ class Anchor:
 def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile) -> Anchor | None:
     """The anchor of a whole sound (n_samples,) that is to be felt at a sensation level; None where there is none."""
     x = np.asarray(samples, dtype=np.float64)
-    spectrum = scipy.fft.rfft(x - x.mean())
+    spectrum = np.asarray(scipy.fft.rfft(x - x.mean()), dtype=np.complex128)
     f = scipy.fft.rfftfreq(len(x), 1.0 / sample_rate_hz)
     best: tuple[float, Anchor] | None = None
     for own_hz in _components(x, sample_rate_hz, actuator):
