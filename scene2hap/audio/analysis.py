@@ -67,7 +67,7 @@ def sounding_span(samples: ArrayLike, sample_rate_hz: float) -> tuple[int, int]:
     return int(starts[audible[0]]), min(len(x), int(starts[audible[-1]]) + frame)
 
 
-def dynamic_range_db(samples: ArrayLike, sample_rate_hz: float) -> float:
+def dynamic_range_db(samples: ArrayLike, sample_rate_hz: float, *, dominant_hz: float | None = None) -> float:
     """How much the level of a sound varies: 95th minus 10th percentile of its short-time RMS level [dB].
 
     Frames of 50 ms (100 ms below `SLOW_HZ`), overlapping by half. Frames more than 60 dB below the loudest are gated:
@@ -75,11 +75,12 @@ def dynamic_range_db(samples: ArrayLike, sample_rate_hz: float) -> float:
     steady, and not at all in the high one, since where nearly all is silence it would lie in the silence too.
     Measured on 5 s: sine 0, white noise 0.3, a 20 dB decay 17, clicks above 25. (Loudness range after EBU R 128 takes
     3 s blocks and cannot see clicks; the crest factor gives 13 dB to steady noise.)
+    Parameters: dominant_hz : the sound's dominant frequency where it is known already [Hz].
     Raises: AudioError: the samples are empty or all equal.
     """
     x, rate = _sounding(samples, sample_rate_hz)
     x = x - np.median(x)
-    is_slow = dominant_frequency_hz(x, rate) < SLOW_HZ
+    is_slow = (dominant_frequency_hz(x, rate) if dominant_hz is None else dominant_hz) < SLOW_HZ
     frames = _frames(x, round((SLOW_LEVEL_FRAME_S if is_slow else LEVEL_FRAME_S) * rate))
     power = np.mean(frames**2, axis=1)
     level_db = 10 * np.log10(np.maximum(power / power.max(), 10 ** (LEVEL_FLOOR_DB / 10)))
@@ -130,18 +131,28 @@ def dominant_frequency_hz(
     true peaks count: the flank of something louder outside the range does not, unless the range holds nothing else.
     Raises: AudioError: the samples are empty or all equal, or the range does not begin below half the rate.
     """
+    return dominant_frequencies_hz(samples, sample_rate_hz, range_hz)[0]
+
+
+def dominant_frequencies_hz(
+    samples: ArrayLike, sample_rate_hz: float, *ranges_hz: tuple[float, float]
+) -> tuple[float, ...]:
+    """`dominant_frequency_hz` of several ranges at the price of one [Hz]. Raises: AudioError: as there."""
     x, rate = _sounding(samples, sample_rate_hz)
-    low, high = range_hz
-    checks.number("range_hz[0]", low, "Hz", above=0.0, below=min(high, rate / 2), error=AudioError)
+    for low, high in ranges_hz:
+        checks.number("range_hz[0]", low, "Hz", above=0.0, below=min(high, rate / 2), error=AudioError)
     n = scipy.fft.next_fast_len(2 * len(x), real=True)
     magnitude = np.abs(scipy.fft.rfft(x * np.hanning(len(x) + 2)[1:-1], n))
-    found = peak_frequency_hz(magnitude, rate / n, range_hz)
-    if found is None:
-        raise AudioError(
-            f"a sound of {len(x) / rate:g} s does not resolve {low:g} to {high:g} Hz. "
-            "Use a longer sound or a wider range."
-        )
-    return found
+    found = []
+    for low, high in ranges_hz:
+        frequency_hz = peak_frequency_hz(magnitude, rate / n, (low, high))
+        if frequency_hz is None:
+            raise AudioError(
+                f"a sound of {len(x) / rate:g} s does not resolve {low:g} to {high:g} Hz. "
+                "Use a longer sound or a wider range."
+            )
+        found.append(frequency_hz)
+    return tuple(found)
 
 
 def peak_frequency_hz(magnitude: ArrayLike, bin_hz: float, range_hz: tuple[float, float]) -> float | None:

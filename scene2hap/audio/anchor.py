@@ -16,7 +16,7 @@ import numpy as np
 import scipy.fft
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap.audio.levels import drive_db, felt_level_db
+from scene2hap.audio.levels import drive_db, felt_level_of_spectrum_db
 from scene2hap.haptics import ActuatorProfile
 
 BAND_Q = 2.0
@@ -43,12 +43,13 @@ class Anchor:
 def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile) -> Anchor | None:
     """The anchor of a whole sound (n_samples,) that is to be felt at a sensation level; None where there is none."""
     x = np.asarray(samples, dtype=np.float64)
-    spectrum = scipy.fft.rfft(x - x.mean())
+    spectrum = np.asarray(scipy.fft.rfft(x - x.mean()), dtype=np.complex128)
     f = scipy.fft.rfftfreq(len(x), 1.0 / sample_rate_hz)
     best: tuple[float, Anchor] | None = None
     for own_hz in _components(x, sample_rate_hz, actuator):
-        band = scipy.fft.irfft(spectrum * _band(f, own_hz), len(x))
-        reached_db = felt_level_db(band, sample_rate_hz, actuator) - 20.0 * np.log10(np.abs(band).max())
+        band = spectrum * _band(f, own_hz)
+        peak = np.abs(scipy.fft.irfft(band, len(x))).max()
+        reached_db = felt_level_of_spectrum_db(band, len(x), sample_rate_hz, actuator) - 20.0 * np.log10(peak)
         needed_db = level_db - reached_db
         crest_db = needed_db - float(drive_db(own_hz, level_db, actuator))
         if needed_db <= HIGHEST_PEAK_DB:

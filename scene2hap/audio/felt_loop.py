@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from scene2hap.audio.actuators import MAX_BOOST_DB, equalize_loop
-from scene2hap.audio.analysis import dominant_frequency_hz
 from scene2hap.audio.anchor import Anchor, anchor_of
-from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import at_level, felt_level_db, sensation_level_db
 from scene2hap.audio.loops import TACTILE_HEADROOM_DB, loop_pair
@@ -105,12 +104,9 @@ def felt_loop(
     The level is a bound from above only: no peak exceeds full scale less `TACTILE_HEADROOM_DB`.
     Raises: AudioError: the clip is too short or silent, or its conversion is.
     """
-    pair = loop_pair(clip, converter, plan.context)
-    actuator, rate = plan.context.actuator, pair.tactile.sample_rate_hz
-    samples = equalize_loop(pair.tactile.samples, rate, actuator, max_boost_db)
-    samples = at_level(samples, rate, plan.level_db, actuator, _PEAK)
-    return replace(
-        pair,
-        tactile=replace(pair.tactile, samples=samples),
-        frequency_tactile_hz=dominant_frequency_hz(samples, rate),
-    )
+    actuator, rate = plan.context.actuator, clip.sample_rate_hz
+
+    def at_planned_level(samples: Samples) -> Samples:
+        return at_level(equalize_loop(samples, rate, actuator, max_boost_db), rate, plan.level_db, actuator, _PEAK)
+
+    return loop_pair(clip, converter, plan.context, at_planned_level)

@@ -67,17 +67,34 @@ def felt_spectrum(
     Without a window, since a loop is periodic; 10 to 1000 Hz.
     """
     x = np.asarray(samples, dtype=np.float64)
-    f = np.fft.rfftfreq(len(x), 1.0 / sample_rate_hz).astype(np.float64)
-    amplitude = 2.0 * np.abs(np.fft.rfft(x)) / len(x)
-    inside = (f >= TACTILE_RANGE_HZ[0]) & (f <= min(TACTILE_RANGE_HZ[1], 0.5 * sample_rate_hz))
-    f = f[inside]
-    weight_db = (response_db(actuator, f) if actuator else 0.0) - threshold_db(f)
-    return f, amplitude[inside] ** 2 * 10 ** (weight_db / 10)
+    return _felt(np.fft.rfft(x), len(x), sample_rate_hz, actuator)
 
 
 def felt_level_db(samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorProfile | None = None) -> float:
     """Sensation level of a loop (n_samples,) [dB]; minus infinity where there is nothing to feel."""
-    total = float(felt_spectrum(samples, sample_rate_hz, actuator)[1].sum())
+    return _level_db(felt_spectrum(samples, sample_rate_hz, actuator)[1])
+
+
+def felt_level_of_spectrum_db(
+    spectrum: NDArray[np.complex128], n_samples: int, sample_rate_hz: float, actuator: ActuatorProfile | None = None
+) -> float:
+    """`felt_level_db` of a loop of which the real Fourier transform (n_samples // 2 + 1,) is known [dB]."""
+    return _level_db(_felt(spectrum, n_samples, sample_rate_hz, actuator)[1])
+
+
+def _felt(
+    spectrum: NDArray[np.complex128], n_samples: int, sample_rate_hz: float, actuator: ActuatorProfile | None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    f = np.fft.rfftfreq(n_samples, 1.0 / sample_rate_hz).astype(np.float64)
+    inside = (f >= TACTILE_RANGE_HZ[0]) & (f <= min(TACTILE_RANGE_HZ[1], 0.5 * sample_rate_hz))
+    f = f[inside]
+    amplitude = 2.0 * np.abs(spectrum[inside]) / n_samples
+    weight_db = (response_db(actuator, f) if actuator else 0.0) - threshold_db(f)
+    return f, amplitude**2 * 10 ** (weight_db / 10)
+
+
+def _level_db(felt: NDArray[np.float64]) -> float:
+    total = float(felt.sum())
     return 10.0 * math.log10(total) if total > 0.0 else -math.inf
 
 

@@ -61,5 +61,5 @@ class TactileConverter(Protocol):
     """Turns sound into a vibrotactile signal. One that moves a source to `target_hz` says `follows_target = True`."""
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> TactileStream:
-        """A fresh conversion at that rate."""
+        """A fresh conversion at that rate. Several may run at once, in threads of their own."""
         ...

@@ -143,11 +143,12 @@ class _Scores:
 
     @classmethod
     def of(cls, samples: Samples, rate: int, band_hz: tuple[float, float]) -> _Scores:
+        raw_hz, tactile_hz = analysis.dominant_frequencies_hz(samples, rate, HEARD_RANGE_HZ, analysis.TACTILE_RANGE_HZ)
         return cls(
-            analysis.dynamic_range_db(samples, rate),
+            analysis.dynamic_range_db(samples, rate, dominant_hz=tactile_hz),
             analysis.spectral_flatness(samples, rate, band_hz=band_hz),
-            analysis.dominant_frequency_hz(samples, rate, range_hz=HEARD_RANGE_HZ),
-            analysis.dominant_frequency_hz(samples, rate),
+            raw_hz,
+            tactile_hz,
         )
 
 

@@ -44,15 +44,20 @@ def asked_for(description: VibrationDescription, config: BakeConfig) -> dict[str
     }
 
 
-def made_by(clip: AudioClip, converter: object, plan: Plan) -> dict[str, str]:
-    """The names of what decides how the loops of a clip come out."""
+def converter_name(converter: object) -> str:
+    """The name of a converter and its settings; takes milliseconds, since guests are looked for among packages."""
+    return _name([converter_settings(converter), _told(converter)])
+
+
+def made_by(clip: AudioClip, converter: str, plan: Plan) -> dict[str, str]:
+    """The names of what decides how the loops of a clip come out; `converter` is that of `converter_name`."""
     context = plan.context
     # A converter that is told where a source is to be felt has no need of where the others are.
     neighbours_hz = () if context.target_hz is not None else sorted(context.neighbours_hz)
     places = [context.own_hz, context.target_hz, plan.level_db]
     return {
         "sound": sound_digest(clip),
-        "converter": _name([converter_settings(converter), _told(converter)]),
+        "converter": converter,
         "actuator": _name(asdict(context.actuator)),
         "intensity": f"{context.intensity:g}",
         # To a hundredth of a hertz or decibel: other machines round otherwise, and nobody feels less.

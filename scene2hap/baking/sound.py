@@ -7,8 +7,10 @@ loops. What an earlier bundle has is taken from there where its fingerprint stil
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Collection, Mapping
+import os
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from threading import Lock
 
 import numpy as np
 
@@ -20,7 +22,7 @@ from scene2hap.audio.loops import middle_of
 from scene2hap.audio.select import Choice, explain_choice
 from scene2hap.audio.sources.chain import gather
 from scene2hap.baking.config import BakeConfig
-from scene2hap.baking.fingerprint import OWN_CLIP, asked_for, differences, made_by
+from scene2hap.baking.fingerprint import OWN_CLIP, asked_for, converter_name, differences, made_by
 from scene2hap.bundle import Override
 from scene2hap.haptics import ObjectHaptics, SourceState, VibrationDescription
 
@@ -31,6 +33,8 @@ Remade = Mapping[str, Mapping[str, tuple[str, ...]]]
 """What differed for each loop that was made, by id and state: parts of its fingerprint, or "new"."""
 
 _REPEATED_S = 3.0
+_MOST_THREADS = 4
+"""Assumed: each holds the spectra of a clip, some 100 MB, and Python's own part runs in one thread at a time."""
 _NEW: tuple[str, ...] = ("new",)
 _UNCHANGED: tuple[str, ...] = ()
 
@@ -86,7 +90,6 @@ async def make_loops(
     wanted = [(key, haptics, state) for key, haptics in objects.items() if haptics.vibrates for state in haptics.states]
     before = earlier or Earlier()
     sounds, chooser = Sounds(), _Chooser(config, wishes, before)
-    loops: dict[str, dict[str, HapticLoop]] = {}
     parts = []
     for done, (object_id, haptics, state) in enumerate(wanted, start=1):
         part, why = await asyncio.to_thread(chooser.part, object_id, haptics, state)
@@ -97,21 +100,45 @@ async def make_loops(
     sources = [SourceClip(part.clip, part.state.intensity, part.group, part.keep) for part in parts if part.clip]
     standing = [(part.earlier, part.group) for part in parts if part.clip is None and part.earlier is not None]
     plans = await asyncio.to_thread(plan_scene, sources, config.tactile, config.actuator, config.spread, standing)
-    planned, maker = iter(plans), _Maker(config)
-    for done, part in enumerate(parts, start=1):
-        loop, reasons = part.earlier, _UNCHANGED
-        if part.clip is not None:
-            loop, reasons = await asyncio.to_thread(maker.loop, part, part.clip, next(planned))
-        assert loop is not None  # a part without a clip has an earlier loop
+    made = await _made(parts, plans, config, tell)
+    loops: dict[str, dict[str, HapticLoop]] = {}
+    for part, (loop, reasons) in zip(parts, made, strict=True):
         loops.setdefault(part.object_id, {})[part.state.name] = loop
         if reasons:
             sounds.remade.setdefault(part.object_id, {})[part.state.name] = reasons
-        why = f" ({', '.join(reasons)})" if reasons and reasons != _NEW else ""
-        tell("touch", f"{part.object_id}{why}", done, len(parts))
     for object_id, states in loops.items():
         known = before.loops.get(object_id)
         sounds.loops[object_id] = known if known is not None and _is_same(known, states) else states
     return sounds
+
+
+async def _made(
+    parts: Sequence[_Part], plans: Sequence[Plan], config: BakeConfig, tell: Progress
+) -> list[tuple[HapticLoop, tuple[str, ...]]]:
+    """The loops of each part, and why they were made; several are under way at once, each in a thread."""
+    maker, gate = _Maker(config), asyncio.Semaphore(min(_MOST_THREADS, os.cpu_count() or 1))
+
+    async def one(part: _Part, plan: Plan | None) -> tuple[HapticLoop, tuple[str, ...]]:
+        if part.clip is None or plan is None:
+            assert part.earlier is not None  # a part without a clip has an earlier loop
+            return part.earlier, _UNCHANGED
+        async with gate:
+            return await asyncio.to_thread(maker.loop, part, part.clip, plan)
+
+    planned = iter(plans)
+    tasks = [asyncio.create_task(one(part, next(planned) if part.clip is not None else None)) for part in parts]
+    made = []
+    try:
+        for done, (part, task) in enumerate(zip(parts, tasks, strict=True), start=1):
+            loop, reasons = await task
+            made.append((loop, reasons))
+            why = f" ({', '.join(reasons)})" if reasons and reasons != _NEW else ""
+            tell("touch", f"{part.object_id}{why}", done, len(parts))
+    finally:
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+    return made
 
 
 def _is_same(states: Mapping[str, HapticLoop], others: Mapping[str, HapticLoop]) -> bool:
@@ -172,18 +199,29 @@ class _Chooser:
 
 
 class _Maker:
-    """Makes the loops of each sound, those that come out alike once."""
+    """Makes the loops of each sound, those that come out alike once. Threads may share it."""
 
     def __init__(self, config: BakeConfig) -> None:
         self._config = config
         self._made: dict[tuple[int, Plan], HapticLoop] = {}
         self._names: dict[tuple[int, Plan], dict[str, str]] = {}
+        self._turns: dict[tuple[int, Plan], Lock] = {}
+        self._lock = Lock()
+        self._converter = converter_name(config.tactile)
 
     def loop(self, part: _Part, clip: AudioClip, plan: Plan) -> tuple[HapticLoop, tuple[str, ...]]:
         """The loops of a state, and why they were made; () where the earlier ones hold."""
         key = id(clip), plan
+        with self._lock:
+            turn = self._turns.setdefault(key, Lock())
+        with turn:
+            return self._loop(part, clip, plan, key)
+
+    def _loop(
+        self, part: _Part, clip: AudioClip, plan: Plan, key: tuple[int, Plan]
+    ) -> tuple[HapticLoop, tuple[str, ...]]:
         if key not in self._names:
-            self._names[key] = made_by(clip, self._config.tactile, plan)
+            self._names[key] = made_by(clip, self._converter, plan)
         fingerprint = {**part.asked, **self._names[key]}
         reasons = differences(part.earlier.fingerprint, fingerprint) if part.earlier is not None else _NEW
         if part.earlier is not None and not reasons:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -45,12 +46,19 @@ def make_loop(clip: AudioClip) -> AudioClip:
     return replace(clip, samples=apply_seam(clip.samples, find_seam(clip.samples, clip.sample_rate_hz)))
 
 
-def loop_pair(clip: AudioClip, converter: TactileConverter, context: ConversionContext) -> HapticLoop:
+def loop_pair(
+    clip: AudioClip,
+    converter: TactileConverter,
+    context: ConversionContext,
+    finish: Callable[[Samples], Samples] | None = None,
+) -> HapticLoop:
     """The audible and the tactile loop of a clip, cut at the same place.
 
     The whole clip is converted before it is cut, so that a converter's start-up lies outside the loop. The seam suits
     both signals; each is faded by the law that suits it. The audible loop peaks at `AUDIBLE_PEAK_DBFS`, the tactile one
     at `context.intensity` times full scale less `TACTILE_HEADROOM_DB`.
+
+    Parameters: finish : what is done to the tactile loop last, such as equalizing it for an actuator.
     Raises: AudioError: the clip is shorter than `MIN_CLIP_S` or silent, or its conversion is.
     """
     intensity = checks.number("intensity", context.intensity, "-", above=0.0, at_most=1.0, error=AudioError)
@@ -62,11 +70,13 @@ def loop_pair(clip: AudioClip, converter: TactileConverter, context: ConversionC
     for name, loop in (("sound", audible), ("tactile signal", tactile)):
         if not loop.any():
             raise AudioError(f"{clip.credit.title!r}: the {name} is silent. Choose another sound or converter.")
+    felt = _with_peak(tactile, intensity * 10 ** (-TACTILE_HEADROOM_DB / 20))
+    felt = felt if finish is None else finish(felt)
     return HapticLoop(
         replace(clip, samples=_with_peak(audible, 10 ** (AUDIBLE_PEAK_DBFS / 20))),
-        replace(clip, samples=_with_peak(tactile, intensity * 10 ** (-TACTILE_HEADROOM_DB / 20))),
+        replace(clip, samples=felt),
         analysis.dominant_frequency_hz(audible, rate, range_hz=AUDIBLE_RANGE_HZ),
-        analysis.dominant_frequency_hz(tactile, rate),
+        analysis.dominant_frequency_hz(felt, rate),
     )
 
 

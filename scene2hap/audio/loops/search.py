@@ -162,12 +162,19 @@ def _exactly(x: Signal, weights: Signal, width: int, starts: NDArray[np.int64], 
     """Likeness of the stretches at `starts` and of those `lengths` behind them, (n,)."""
     stretches = sliding_window_view(x, width)
     places, of_start = np.unique(starts, return_inverse=True)
-    ahead = scipy.fft.rfft(stretches[places], axis=1)[of_start]
+    ahead = scipy.fft.rfft(stretches[places], axis=1)
     behind = scipy.fft.rfft(stretches[starts + lengths], axis=1)
-    total = (np.abs(ahead) ** 2 + np.abs(behind) ** 2) @ weights
+    total = _power(ahead, weights)[of_start] + _power(behind, weights)
     is_silent = total <= _SILENT * width * (x @ x) * np.mean(weights)
-    products = (ahead.real * behind.real + ahead.imag * behind.imag) @ weights
+    products = np.empty(len(starts))
+    for place, spectrum in enumerate(ahead):  # few starts, many lengths behind each
+        mine = of_start == place
+        products[mine] = behind.real[mine] @ (spectrum.real * weights) + behind.imag[mine] @ (spectrum.imag * weights)
     return np.where(is_silent, 0.0, 2.0 * products / np.where(is_silent, 1.0, total))
+
+
+def _power(spectra: NDArray[np.complex128], weights: Signal) -> Signal:
+    return np.asarray((spectra.real**2 + spectra.imag**2) @ weights)
 
 
 def _centred(samples: ArrayLike) -> Signal:

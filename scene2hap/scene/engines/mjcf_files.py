@@ -173,7 +173,7 @@ class _Model:
         """The file that is meant; None, with a note, if it lies outside."""
         try:
             candidates = [(base / self._name(wanted)).resolve() for base in self._bases(wanted)]
-            existing = [path for path in candidates if path.exists()]
+            existing = [path for path in candidates if _is_there(path)]
         # What a name that is too long and a ring of links raise.
         except (ValueError, OSError, RuntimeError) as cause:
             raise SceneError(f"{wanted.place} wants {wanted.name!r}, which is no usable file name: {cause}.") from cause
@@ -325,6 +325,15 @@ def _at_most(what: str, number: str, most: int) -> None:
     """Raises: SceneError: a number is larger; what is no number is left to MuJoCo."""
     if _product(number) > most:
         raise SceneError(f"{what} is {number[:40]!r}; up to {most:,} is read.")
+
+
+def _is_there(path: Path) -> bool:
+    """Whether a path leads to something. Raises: OSError: it cannot be one; `exists` is silent there from 3.14 on."""
+    try:
+        path.stat()
+    except (FileNotFoundError, NotADirectoryError):
+        return False
+    return True
 
 
 def _plain(name: str) -> str:

@@ -1,0 +1,118 @@
+"""Many distinct sounds: several are converted at once, and come out as if each had been alone."""
+
+import asyncio
+from dataclasses import dataclass
+from threading import Barrier, BrokenBarrierError
+
+import numpy as np
+import pytest
+
+from scene2hap.audio.clip import AudioClip, Credit, Samples
+from scene2hap.audio.protocol import ConversionContext
+from scene2hap.baking.config import BakeConfig
+from scene2hap.baking.fingerprint import CONVERTERS
+from scene2hap.baking.sound import Sounds, make_loops
+from scene2hap.errors import AudioError
+from scene2hap.haptics import ObjectHaptics, SourceState, VibrationDescription
+from scene2hap.materials import lookup
+
+RATE = 8000
+
+
+class Tones:
+    """A tone of its own for each object, whose frequency stands in its keywords."""
+
+    def find(self, description: VibrationDescription) -> list[AudioClip]:
+        t = np.arange(3 * RATE) / RATE
+        frequency_hz = float(description.keywords.split()[-1])
+        return [AudioClip((0.5 * np.sin(2 * np.pi * frequency_hz * t)).astype(np.float32), RATE, Credit("t", "m", "f"))]
+
+
+@dataclass(frozen=True)
+class Through:
+    """Passes sound on; waits for a second stream where there is a barrier, and fails at one frequency."""
+
+    barrier: Barrier | None = None
+    fails_at_hz: tuple[float, ...] = ()
+
+    def stream(self, sample_rate_hz: int, context: ConversionContext) -> "Through":
+        if self.barrier is not None:
+            self.barrier.wait(timeout=10.0)
+        if context.own_hz is not None and round(context.own_hz) in self.fails_at_hz:
+            raise AudioError(f"no {context.own_hz:.0f} Hz")
+        return self
+
+    def process(self, block: Samples) -> Samples:
+        return block
+
+    def finish(self) -> Samples:
+        return np.zeros(0, np.float32)
+
+
+def loops(n: int, converter: object, told: list[str] | None = None) -> Sounds:
+    objects = {
+        f"fan_{i}": ObjectHaptics(
+            "fan",
+            "steel",
+            lookup("steel"),
+            (0.3, 0.3, 0.01),
+            "",
+            True,
+            (SourceState("on", 0.3, "", f"fan {50 + 7 * i}"),),
+        )
+        for i in range(n)
+    }
+
+    def tell(stage: str, what: str, done: int, total: int) -> None:
+        if stage == "touch" and told is not None:
+            told.append(f"{what} {done} of {total}")
+
+    return asyncio.run(make_loops(objects, {}, BakeConfig(audio=[Tones()], tactile=converter), tell))
+
+
+@pytest.fixture(autouse=True)
+def _two_processors(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("os.cpu_count", lambda: 2)
+
+
+def test_two_sounds_are_converted_at_once() -> None:
+    try:
+        assert len(loops(4, Through(Barrier(2))).loops) == 4
+    except BrokenBarrierError:
+        pytest.fail("each sound waited for the one before")
+
+
+def test_they_come_out_as_each_alone_and_are_told_in_order(monkeypatch: pytest.MonkeyPatch) -> None:
+    told: list[str] = []
+    together = loops(6, Through(), told).loops
+    assert told == [f"fan_{i} {i + 1} of 6" for i in range(6)]
+    monkeypatch.setattr("os.cpu_count", lambda: None)
+    alone = loops(6, Through()).loops
+    assert list(together) == list(alone)
+    for object_id, states in together.items():
+        other = alone[object_id]["on"]
+        assert np.array_equal(states["on"].tactile.samples, other.tactile.samples)
+        assert np.array_equal(states["on"].audible.samples, other.audible.samples)
+        assert states["on"].fingerprint == other.fingerprint
+
+
+def test_of_several_that_fail_the_first_is_told() -> None:
+    told: list[str] = []
+    with pytest.raises(AudioError, match="^no 57 Hz$"):
+        loops(6, Through(fails_at_hz=(57, 64, 85)), told)
+    assert told == ["fan_0 1 of 6"]
+
+
+def test_guests_are_looked_for_once_and_not_for_every_sound(monkeypatch: pytest.MonkeyPatch) -> None:
+    from scene2hap.baking import fingerprint
+
+    asked: list[str] = []
+    real = fingerprint.entry_points
+
+    def counted(*, group: str) -> object:
+        asked.append(group)
+        return real(group=group)
+
+    monkeypatch.setattr(fingerprint, "entry_points", counted)
+    loops(5, Through())
+    assert asked == [CONVERTERS.name]
