@@ -11,7 +11,6 @@ holds for whoever is there: the poses alone decide.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
@@ -19,6 +18,7 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes
 from scene2hap.contact.crowd import SKIN_M
 from scene2hap.contact.enclosure import play_reach_m
+from scene2hap.contact.free_region import FreeRegion
 from scene2hap.contact.ledge import Flat, Upright
 from scene2hap.contact.mesh_distance import INSET, INSET_M
 from scene2hap.contact.relative import box_in_frame
@@ -33,20 +33,11 @@ _ROUNDING_M = 2e-6
 _MOST_SKEW = 1e-5  # A host turned by more about the vertical [rad] is not in line.
 
 
-class Clearing(NamedTuple):
-    """A box (u, v, h), and what of the host is there: nothing, or a ledge of height `top_m`, which covers the stretch
-    `ledge`, and what is no higher. As far beyond a guest as lists of neighbours last."""
-
-    room: Room
-    top_m: float | None
-    ledge: Flat
-
-
 NOWHERE: Room = (math.inf,) * 3, (-math.inf,) * 3
 _NO_LEDGE: Flat = (math.inf, math.inf, -math.inf, -math.inf)
 
 
-def below(guest: Body, host: Body) -> Clearing | None:
+def below(guest: Body, host: Body) -> FreeRegion | None:
     """The clearing that a guest has for falling, or the host for falling onto it: without anything of the host, or with
     a ledge under all of the guest's foot. None where neither is sure."""
     own = _upright(host)
@@ -80,11 +71,11 @@ def is_clear(guest: Body, host: Body) -> bool:
         near = _Near(host, own, taken)
         if near.meets(taken).any():
             return False
-        host.clearings[guest.id] = Clearing(near.cut(taken), None, _NO_LEDGE)
+        host.clearings[guest.id] = FreeRegion(near.cut(taken), None, _NO_LEDGE)
     return True
 
 
-def tray(host: Body, known: Clearing) -> Tray:
+def tray(host: Body, known: FreeRegion) -> Tray:
     """The stretch of a ledge, turned as its host is; see `stance.Tray`."""
     lean = host.stance.lean
     assert known.top_m is not None
@@ -173,11 +164,11 @@ def _holds(room: Room, taken: Room) -> bool:
     return u0 >= a and v0 >= b and h0 >= c and u1 <= d and v1 <= e and h1 <= f
 
 
-def _drawn(host: Body, own: Upright, taken: Room, foot: Flat) -> Clearing | None:
+def _drawn(host: Body, own: Upright, taken: Room, foot: Flat) -> FreeRegion | None:
     near = _Near(host, own, taken)
     meets = np.flatnonzero(near.meets(taken))
     if not len(meets):
-        return Clearing(near.cut(taken), None, _NO_LEDGE)
+        return FreeRegion(near.cut(taken), None, _NO_LEDGE)
     ledges = host.shape.ledges(own)
     numbers, tops = ledges.number[near.rows], near.high[2]
     # Sides reach as high as the ledge that they bound.
@@ -190,7 +181,7 @@ def _drawn(host: Body, own: Upright, taken: Room, foot: Flat) -> Clearing | None
         return None
     room = (u0, v0, _), (u1, v1, _) = near.cut(taken, higher)
     ledge = ledges.stretch(number, foot, (min(u0, foot[0]), min(v0, foot[1]), max(u1, foot[2]), max(v1, foot[3])))
-    return None if ledge is None else Clearing(room, top_m, ledge)
+    return None if ledge is None else FreeRegion(room, top_m, ledge)
 
 
 class _Near:

@@ -6,17 +6,16 @@ alone, so that moving step by step ends exactly where building from nothing does
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.crowd import Crowd
-from scene2hap.contact.cuboid_meeting import gaps_of
 from scene2hap.contact.glides import Glides
 from scene2hap.contact.holding import Holding
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.short_ways import ShortWays
 from scene2hap.contact.support import TOUCH_M, margins_m
-from scene2hap.contact.tie import WITHIN_M, Tie, apart_by
+from scene2hap.contact.tie import Tie, apart_by
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject
 
@@ -95,7 +94,6 @@ class ContactFinder:
         unsure.update(seen)
         if not (unsure or dirty):
             return
-        self._tell_cuboids_apart(seen)
         for x in unsure:
             if x in bodies:
                 self._hold_anew(x, dirty)
@@ -156,13 +154,6 @@ class ContactFinder:
             may_hang = y in loose and body.size_m > other.size_m
             if may_hang or tie.rest(y) is not None or (old is not None and old.rest(y) is not None):
                 unsure.add(y)
-
-    def _tell_cuboids_apart(self, moved: Iterable[str]) -> None:
-        """Find out all at once how far leaning cuboids are from what moved."""
-        ties = {id(tie): tie for x in moved for tie in self._ties[x].values() if tie.asks_apart}
-        if ties:
-            for tie, gap in zip(ties.values(), gaps_of([(t.a, t.b) for t in ties.values()], WITHIN_M), strict=True):
-                tie.tell_apart(gap)
 
     def _hold_anew(self, x: str, dirty: set[Pair]) -> None:
         """Find out what holds a body; the pairs in which another than before does are dirty."""

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, cast
 from scene2hap import checks
 from scene2hap.contact.finder import ContactFinder
 from scene2hap.contact.junction import ContactArrays, Junction, Pair, junctions_of, pair_of
-from scene2hap.contact.touch_finder import TouchFinder
+from scene2hap.contact.toleranced.touch_finder import TouchFinder
 from scene2hap.errors import SceneError, UnknownObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.pose_table import PoseTable

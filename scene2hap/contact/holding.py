@@ -11,7 +11,6 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from scene2hap.contact.body import Body
 from scene2hap.contact.bond import NO_BOND, NO_WAY, Bond, Plan, direction, strength
 from scene2hap.contact.clearing import is_clear
-from scene2hap.contact.cuboid_meeting import points_of
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.support import (
     SLACK_M,
@@ -134,14 +133,8 @@ class Holding:
         return tie
 
     def junctions(self, pairs: Iterable[Pair]) -> dict[Pair, Junction | None]:
-        """Where these pairs touch; points of cuboids are found all at once."""
+        """Where these pairs touch."""
         plans = {pair: self._plan(pair) for pair in pairs}
-        ask = [plan for plan in plans.values() if plan is not None and plan.rest is None and plan.tie.are_cuboids]
-        ask = [plan for plan in ask if plan.side is None]
-        couples = [(plan.tie.a, plan.tie.b) for plan in ask]
-        points = points_of(couples, [plan.bond.way_m for plan in ask], [plan.within_m for plan in ask])
-        for plan, several in zip(ask, points, strict=True):
-            plan.tie.tell_points(plan.bond.way_m, plan.within_m, several)
         return {pair: None if plan is None else plan.junction() for pair, plan in plans.items()}
 
     def _plan(self, pair: Pair) -> Plan | None:

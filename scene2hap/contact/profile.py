@@ -7,15 +7,12 @@ that wherever they are over each other, nothing of the two shapes is nearer.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from scene2hap.contact.spread import spread, spread_few
 from scene2hap.contact.vectors import Floats, Triple, along, frame_along, highest
-
-if TYPE_CHECKING:
-    from scene2hap.contact.body import Shape
 
 # How uneven a level face may be, as a share of the shape's size and at most (assumed).
 _UNEVEN, _UNEVEN_M = 1e-4, 2e-4
@@ -45,25 +42,28 @@ class Sole(NamedTuple):
     is_level: bool
 
 
-def uneven_m(shape: Shape) -> float:
-    """How uneven a level face of a shape may be [m]."""
-    return min(_UNEVEN * shape.size_m, _UNEVEN_M)
+def uneven_m(size_m: float) -> float:
+    """How uneven a level face of a shape of that diagonal may be [m]."""
+    return min(_UNEVEN * size_m, _UNEVEN_M)
 
 
-def sole_of(shape: Shape, up: Triple) -> Sole:
+def sole_of(corners: Floats, triangles: Floats, uneven: float, up: Triple) -> Sole:
     """What a shape stands on when its own direction `up` points up: the lowest level face, if it is no crumb, or the
-    lowest corners."""
+    lowest corners.
+
+    Parameters: corners (n, 3), triangles (3, 3, m) of the shape [m]; uneven : see `uneven_m`.
+    """
     upwards, plane = _frame(up)
-    heights = shape.corners @ upwards
+    heights = corners @ upwards
     # Where normals or colours differ, meshes have several corners at one place.
     least = heights.min()
-    feet = list(dict.fromkeys(triples(shape.corners[heights <= least + _FEET_M])))
+    feet = list(dict.fromkeys(triples(corners[heights <= least + _FEET_M])))
     if len(feet) == 1:
         return Sole((feet[0],), (feet[0],), feet[0], 0.0, False, False)
     corners = np.array(feet)
     around = corners[outline(corners @ plane)]
-    has_face = np.count_nonzero(corners @ upwards <= least + uneven_m(shape)) > 2
-    face = _lowest_face(shape, upwards, plane) if has_face else None
+    has_face = np.count_nonzero(corners @ upwards <= least + uneven) > 2
+    face = _lowest_face(triangles, uneven, upwards, plane) if has_face else None
     if face is not None and polygon_area(face.outline_m @ plane) < _CRUMB * polygon_area(around @ plane):
         face = None
     if face is not None:
@@ -75,11 +75,11 @@ def sole_of(shape: Shape, up: Triple) -> Sole:
     return Sole(points, triples(around), triples(middle[None])[0], radius, is_filled, face is not None)
 
 
-def top_of(shape: Shape, up: Triple) -> tuple[Triple, ...] | None:
+def top_of(triangles: Floats, uneven: float, up: Triple) -> tuple[Triple, ...] | None:
     """The convex outline [m] of the highest level face of a shape when its own direction `up` points up, if it is one
     with an outline that it fills."""
     upwards, plane = _frame(up)
-    face = _lowest_face(shape, -upwards, plane)
+    face = _lowest_face(triangles, uneven, -upwards, plane)
     return triples(face.outline_m) if face is not None and face.is_filled else None
 
 
@@ -102,9 +102,9 @@ class _Face(NamedTuple):
     is_filled: bool
 
 
-def _lowest_face(shape: Shape, upwards: Floats, plane: Floats) -> _Face | None:
-    heights = along(upwards, shape.triangles)
-    level = shape.triangles[..., highest(heights) <= heights.min() + uneven_m(shape)]
+def _lowest_face(triangles: Floats, uneven: float, upwards: Floats, plane: Floats) -> _Face | None:
+    heights = along(upwards, triangles)
+    level = triangles[..., highest(heights) <= heights.min() + uneven]
     a, b, c = np.stack([along(way, level) for way in plane.T], axis=1)
     u, v = b - a, c - a
     area = float(np.abs(u[0] * v[1] - u[1] * v[0]).sum()) / 2

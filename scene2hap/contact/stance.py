@@ -7,16 +7,14 @@ level plane has coordinates (u, v), the world's two axes that are not up.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
 from scene2hap.contact.ledge import Upright
 from scene2hap.contact.profile import across
+from scene2hap.contact.shape import Shape
 from scene2hap.contact.vectors import Triple
-
-if TYPE_CHECKING:
-    from scene2hap.contact.body import Shape
 
 Point = tuple[float, float]
 

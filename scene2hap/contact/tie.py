@@ -11,17 +11,12 @@ from typing import Any
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.clearing import below, is_clear
-from scene2hap.contact.cuboid_meeting import gaps_of, points_of
 from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.level import Aside, Rest, aside, rest_on
 from scene2hap.contact.mesh_distance import Gap, MeshPair
 from scene2hap.contact.relative import roles
-from scene2hap.contact.support import HANG_REACH_M, SLACK_M, TOUCH_M, fall_reach_m, is_over
+from scene2hap.contact.support import SLACK_M, TOUCH_M, fall_reach_m, is_over
 from scene2hap.contact.vectors import Floats, Triple
-
-WITHIN_M = max(TOUCH_M, HANG_REACH_M)
-"""Nobody asks for longer distances."""
-_APART = "apart"
 
 UNCLEAR = Rest(math.nan, False, math.nan)
 """Stands for a fall that only triangles can tell."""
@@ -118,27 +113,8 @@ class Tie:
             return not side.points
         return is_clear(*roles(self.a, self.b))
 
-    @property
-    def are_cuboids(self) -> bool:
-        """Whether both are cuboids, leaning or not."""
-        return self.a.shape.is_cuboid and self.b.shape.is_cuboid
-
-    @property
-    def asks_apart(self) -> bool:
-        """Whether how far they are apart is still to be found out, and a matter of leaning cuboids."""
-        if self._is_in_reserve or not self.are_cuboids or (self.a.stance.is_block and self.b.stance.is_block):
-            return False
-        return self._facts is None or _APART not in self._facts
-
-    def tell_apart(self, gap: Gap | None) -> None:
-        """Take in how far two cuboids are apart, None if by more than `WITHIN_M`."""
-        self._once(_APART, lambda: gap)
-
     def gap(self, within_m: float) -> Gap | None:
         """How far their surfaces are apart; see `MeshPair.gap`."""
-        if self.are_cuboids and within_m <= WITHIN_M:
-            near: Gap | None = self._once(_APART, lambda: gaps_of([(self.a, self.b)], WITHIN_M)[0])
-            return near if near is not None and near.distance_m <= within_m else None
         found: Gap | None = self._once(within_m, lambda: self._meeting.gap(within_m))
         return found
 
@@ -149,16 +125,9 @@ class Tie:
 
     def points(self, way_m: Triple, within_m: float) -> tuple[Triple, ...]:
         """Points half way between their surfaces where these are at most `within_m` apart once a has gone `way_m`."""
-        find = self._points_of_cuboids if self.are_cuboids else self._points_of_triangles
-        found: tuple[Triple, ...] = self._once((*way_m, within_m), lambda: find(way_m, within_m))
+        key = (*way_m, within_m)
+        found: tuple[Triple, ...] = self._once(key, lambda: self._points_of_triangles(way_m, within_m))
         return found
-
-    def tell_points(self, way_m: Triple, within_m: float, points: tuple[Triple, ...]) -> None:
-        """Take in what `points` is to answer."""
-        self._once((*way_m, within_m), lambda: points)
-
-    def _points_of_cuboids(self, way_m: Triple, within_m: float) -> tuple[Triple, ...]:
-        return points_of([(self.a, self.b)], [way_m], [within_m])[0]
 
     def _points_of_triangles(self, way_m: Triple, within_m: float) -> tuple[Triple, ...]:
         return tuple([ends.middle_m for ends in self._meeting.patch(way_m, within_m)])

@@ -3,6 +3,7 @@
 import ast
 from pathlib import Path
 
+import networkx as nx
 import pytest
 
 PACKAGE = Path(__file__).parents[2] / "scene2hap"
@@ -75,3 +76,15 @@ def test_sound_sources_are_imported_by_baking_alone() -> None:
         if "sources" not in path.parts and any(name.startswith("scene2hap.audio.sources") for name in imports_of(path))
     }
     assert users == {"baking"}
+
+
+def test_no_modules_import_each_other_in_a_circle() -> None:
+    """Imports for types and within functions included."""
+    names = {path: ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts) for path in SOURCES}
+    graph: nx.DiGraph[str] = nx.DiGraph()
+    for path, name in names.items():
+        graph.add_edges_from((name, other) for other in imports_of(path) & set(names.values()) if other != name)
+    circles = [group for group in nx.strongly_connected_components(graph) if len(group) > 1]
+    rooms = {name.split(".")[1] for group in circles for name in group}
+    # Methods of `SceneSnapshot` and `HapticBundle` delegate to the modules that read and write them.
+    assert rooms <= {"scene", "bundle"}

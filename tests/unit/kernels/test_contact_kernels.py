@@ -10,8 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kernels import both, seeds, steady
-from scene2hap.contact.body import Body, shape_of
+from scene2hap.contact.body import Body
 from scene2hap.contact.mesh_distance import ROUNDING_M, MeshPair, upright_frame
+from scene2hap.contact.shape import shape_of
 from scene2hap.contact.stance import Stance
 from scene2hap.contact.track import Bounds
 from scene2hap.scene.pose import Pose

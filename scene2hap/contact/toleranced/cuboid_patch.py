@@ -18,7 +18,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap.contact.cuboids import (
+from scene2hap.contact.spread import spread_each
+from scene2hap.contact.toleranced.cuboids import (
     AXES,
     FLUSH_M,
     MIDDLES,
@@ -30,7 +31,6 @@ from scene2hap.contact.cuboids import (
     nearest_axis,
     picked,
 )
-from scene2hap.contact.spread import spread_each
 from scene2hap.contact.vectors import Floats, Indices, Marks, dot
 
 # Faces this much less far apart than others are as good, so that rounding does not choose; and rims this near count.

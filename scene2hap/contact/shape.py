@@ -1,0 +1,137 @@
+"""The triangles of a mesh with what is derived from them, once per mesh: boxes, a tree, soles, tops and ledges."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from typing import TypeVar
+from weakref import WeakValueDictionary
+
+import numpy as np
+
+from scene2hap.contact.broad import Boxes
+from scene2hap.contact.ledge import Ledges, Upright
+from scene2hap.contact.profile import Sole, sole_of, top_of, triples, uneven_m
+from scene2hap.contact.rays import first_hits
+from scene2hap.contact.triangle_tree import TriangleTree
+from scene2hap.contact.vectors import Floats, Triple, cross, dot, highest, lowest
+from scene2hap.scene.snapshot import TriMesh
+
+# Directions that one shape is asked for; past this, things tumble and old ones are forgotten.
+_MOST_WAYS_UP = 64
+# Rays by which a side of the own box is seen, along each of its edges.
+_N_RAYS = 8
+_Derived = TypeVar("_Derived")
+
+
+class Shape:
+    """The triangles of a mesh in its own frame (3, 3, m) [m], in the order of `contact.triangles`: axes, corners,
+    triangles; their boxes; and the corners in use (n, 3) [m]."""
+
+    def __init__(self, triangles: Floats, corners: Floats) -> None:
+        self.triangles = triangles
+        self.boxes = boxes_of(triangles)
+        self.corners = corners
+        self.box: Boxes = self.boxes.hull()
+        self.low, self.high = self.box.low[:, 0], self.box.high[:, 0]
+        # Of the own bounding box, which no motion changes.
+        self.size_m = float(np.linalg.norm(self.high - self.low))
+        self._uneven_m = uneven_m(self.size_m)
+        self.middle: Triple = triples((self.low + self.high)[None] / 2)[0]
+        self.half: Triple = triples((self.high - self.low)[None] / 2)[0]
+        self._soles: dict[Triple, Sole] = {}
+        self._tops: dict[Triple, tuple[Triple, ...] | None] = {}
+        self._ledges: dict[Upright, Ledges] = {}
+
+    @cached_property
+    def tree(self) -> TriangleTree:
+        """A bounding volume hierarchy over the triangles."""
+        return TriangleTree.over(self.triangles, self.boxes)
+
+    @cached_property
+    def is_cuboid(self) -> bool:
+        """Whether the triangles are the six sides of the own bounding box, however cut."""
+        edges = self.high - self.low
+        if not (edges > 0).all():
+            return False
+        near = 1e-9 * float(edges.max())
+        areas = self._areas
+        on_side = np.zeros(len(areas), dtype=bool)
+        for axis in range(3):
+            for end in (self.low[axis], self.high[axis]):
+                side = (np.abs(self.triangles[axis] - end) <= near).all(axis=0)
+                true = edges.prod() / edges[axis]
+                if abs(areas[side].sum() - true) > 1e-6 * true:
+                    return False
+                on_side |= side
+        return bool(on_side.all())
+
+    @cached_property
+    def sides(self) -> Floats:
+        """What is seen of the shape from the six sides of its own box, the lower three first: points (6, 64, 3) [m] on
+        a grid, nan where nothing is."""
+        edges = self.high - self.low
+        grid = (np.arange(_N_RAYS) + 0.5) / _N_RAYS
+        sides = np.empty((2, 3, _N_RAYS**2, 3))
+        for axis in range(3):
+            share = np.zeros((_N_RAYS**2, 3))
+            share[:, (axis + 1) % 3], share[:, (axis + 2) % 3] = np.repeat(grid, _N_RAYS), np.tile(grid, _N_RAYS)
+            for end in (0, 1):
+                share[:, axis] = end
+                # From a little outside, where a level side is surely met.
+                way = np.where(np.arange(3) == axis, (1.02 - 2.04 * end) * edges, 0.0)[None]
+                start = self.low + share * edges - way / 102
+                hits = first_hits(start.T, np.repeat(way.T, len(start), axis=1), self.triangles, self.boxes)
+                sides[end, axis] = start + np.where(np.isfinite(hits), hits, np.nan)[:, None] * way
+        return sides.reshape(6, -1, 3)
+
+    def sole(self, up: Triple) -> Sole:
+        """What it stands on for the own direction `up`, which is rounded by the caller."""
+        return self._known(self._soles, up, lambda: sole_of(self.corners, self.triangles, self._uneven_m, up))
+
+    def top(self, up: Triple) -> tuple[Triple, ...] | None:
+        """The outline of what bears others, likewise, if that is level and convex."""
+        return self._known(self._tops, up, lambda: top_of(self.triangles, self._uneven_m, up))
+
+    def ledges(self, upright: Upright) -> Ledges:
+        """The level faces where up is along an own axis."""
+        found = self._ledges.get(upright)
+        if found is None:
+            found = self._ledges[upright] = Ledges(self.triangles, self.boxes, upright, self._uneven_m)
+        return found
+
+    @staticmethod
+    def _known(known: dict[Triple, _Derived], up: Triple, derive: Callable[[], _Derived]) -> _Derived:
+        if up not in known:
+            if len(known) >= _MOST_WAYS_UP:
+                known.clear()
+            known[up] = derive()
+        return known[up]
+
+    @cached_property
+    def _areas(self) -> Floats:
+        """Area (m,) of each triangle."""
+        a, b, c = self.triangles.transpose(1, 0, 2)
+        normals = cross(b - a, c - a)
+        areas: Floats = np.sqrt(dot(normals, normals)) / 2
+        return areas
+
+
+# Instances share a mesh, and sessions come and go over one scene: a shape lives as long as some body uses it.
+_shapes: WeakValueDictionary[str, Shape] = WeakValueDictionary()
+
+
+def shape_of(mesh: TriMesh) -> Shape:
+    """The shape of a mesh, made once for equal meshes."""
+    shape = _shapes.get(mesh.digest)
+    if shape is None:
+        triangles = np.ascontiguousarray(mesh.vertices_m[mesh.faces].transpose(2, 1, 0))
+        shape = Shape(triangles, mesh.vertices_m[np.unique(mesh.faces)])
+        _shapes[mesh.digest] = shape
+    return shape
+
+
+def boxes_of(triangles: Floats) -> Boxes:
+    """The bounding boxes of triangles (3, 3, m)."""
+    corners = triangles.transpose(1, 0, 2)
+    return Boxes(lowest(corners), highest(corners))

@@ -1,0 +1,1 @@
+"""Contacts within one stated tolerance, all pairs in one sweep of numpy."""
