@@ -31,7 +31,7 @@ import numpy as np
 from busy_room import BusyRoom, busy_room, floor_room, furnished_room, shelf_room
 
 from scene2hap import Bands, HapticSession, Plate, Pose, Touch
-from scene2hap.contact.crowd import Crowd
+from scene2hap.contact.broad_phase import BroadPhase
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.propagation.band_rms import BandRms
 from scene2hap.propagation.live_law import LiveLaw
@@ -243,7 +243,7 @@ def split(n_objects: int, kind: str, n_frames: int) -> None:
     for moved, touches in frames[:20]:
         session.update(moved, touches)
     methods = {
-        "broad": (Crowd, "put"),
+        "broad": (BroadPhase, "update"),
         "narrow": (ContactGraph, "update"),
         "paths": (LivePaths, "least_costs"),
         "gains": (LiveLaw, "at"),

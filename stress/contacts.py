@@ -3,9 +3,9 @@
 python stress/contacts.py SCENE.glb [SCENE.glb ...] [--moves 500] [--seed 0] [--unit-m 0.01]
 
 Things are pushed, lifted, turned about the vertical, now and then tilted, and put onto or into others, one after the
-other; each state is found twice from nothing, as always and with every clearing (`contact.clearing`) left unknown. Now
-and then the graph that went along is compared, to the last bit, with one built there. Prints a line for each pair that
-differs by more than 0.02 in weight, and the shares; exits with 1 if the graph that went along differs.
+other; each state is found twice from nothing, as always and with every clearing (`contact.free_space`) left unknown.
+Now and then the graph that went along is compared, to the last bit, with one built there. Prints a line for each pair
+that differs by more than 0.02 in weight, and the shares; exits with 1 if the graph that went along differs.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ _LARGE_M = 2.0  # Larger things stay where they are.
 def without_clearings() -> Iterator[None]:
     """Triangles tell all that outlines do not."""
     with (
-        mock.patch("scene2hap.contact.tie.below", return_value=None),
-        mock.patch("scene2hap.contact.tie.is_clear", return_value=False),
+        mock.patch("scene2hap.contact.pair.below", return_value=None),
+        mock.patch("scene2hap.contact.pair.is_clear", return_value=False),
         mock.patch("scene2hap.contact.short_ways.is_clear", return_value=False),
         mock.patch("scene2hap.contact.holding.is_clear", return_value=False),
     ):

@@ -1,15 +1,15 @@
 """The compiled twin of the kernel in `slide`."""
 
 
-def lying(tuple position_m, sole, tuple at_m, tray, int up_axis):
+def lying(tuple position_m, base_face, tuple at_m, top_face, int up_axis):
     cdef int flat = 3 - up_axis
     cdef double u = position_m[0], v = position_m[flat], h = position_m[up_axis]
     cdef double over_u = at_m[0], over_v = at_m[flat], over = at_m[up_axis]
     cdef double top_m, fall_m, cu, cv, nu, nv, offset, pu, pv, sole_height, top_height, radius
     cdef bint is_inside = True
-    # Named tuples: footing and tray of `stance`, by their places.
-    points, sole_height, (cu, cv), radius, _ = <tuple>sole
-    _, top_height, edges, _, _ = <tuple>tray
+    # Named tuples: base face and top face of `stance`, by their places.
+    points, sole_height, (cu, cv), radius, _ = <tuple>base_face
+    _, top_height, edges, _, _ = <tuple>top_face
     top_m = over + top_height
     fall_m = h + sole_height - top_m
     cu, cv = cu + (u - over_u), cv + (v - over_v)

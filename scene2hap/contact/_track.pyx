@@ -21,17 +21,17 @@ cdef class Track:
     # n_u, n_v and offset of each edge, one after the other.
     cdef double* edges
     cdef Py_ssize_t n_edges
-    # As it is turned now: box and sole around the body's origin.
+    # As it is turned now: box and base face around the body's origin.
     cdef double low[3]
     cdef double high[3]
-    cdef double sole, mu, mv, radius
+    cdef double base_face, mu, mv, radius
     cdef double pu[MOST_POINTS]
     cdef double pv[MOST_POINTS]
-    # In its own frame, along the two axes that are level while it is upright: middle and half of the box, and the sole.
+    # In its own frame, along the two axes that are level while it is upright: middle and half of the box, and the base face.
     cdef double box_u, box_v, half_u, half_v, own_u, own_v
     cdef double own_pu[MOST_POINTS]
     cdef double own_pv[MOST_POINTS]
-    # The outline of the sole, made when first needed: in its own frame if it is upright, to be turned by these.
+    # The outline of the base face, made when first needed: in its own frame if it is upright, to be turned by these.
     cdef double[:, ::1] outline
     cdef double turned_a, turned_c
 
@@ -64,17 +64,17 @@ cdef class Track:
         self.is_upright = upright(self.rotation_xyzw, self.up)
         for k in range(3):
             self.low[k], self.high[k] = stance.low[k], stance.high[k]
-        points, self.sole, (self.mu, self.mv), self.radius, _ = stance.footing
+        points, self.base_face, (self.mu, self.mv), self.radius, _ = stance.posed_base_face
         self.n_points = len(points)
         for k in range(self.n_points):
             self.pu[k], self.pv[k] = points[k]
         if self.is_upright:
-            shape, sole = stance.shape, stance.shape.sole(stance.way_up)
+            shape, base_face = stance.shape, stance.shape.base_face(stance.way_up)
             self.box_u, self.box_v = shape.middle[0], shape.middle[self.flat]
             self.half_u, self.half_v = shape.half[0], shape.half[self.flat]
-            self.own_u, self.own_v = sole.middle_m[0], sole.middle_m[self.flat]
+            self.own_u, self.own_v = base_face.middle_m[0], base_face.middle_m[self.flat]
             for k in range(self.n_points):
-                self.own_pu[k], self.own_pv[k] = sole.points_m[k][0], sole.points_m[k][self.flat]
+                self.own_pu[k], self.own_pv[k] = base_face.points_m[k][0], base_face.points_m[k][self.flat]
             self.turned_a, self.turned_c = turning(self.rotation_xyzw, self.up)
         else:
             self.turned_a, self.turned_c = 1, 0
@@ -121,7 +121,7 @@ cdef class Track:
         if down < self.lowest or over > self.highest or down + over <= self.middle_m:
             return None
         h, u, v = (y, x, z) if self.up == 1 else (z, x, y)
-        fall_m = h + self.sole - self.top_m
+        fall_m = h + self.base_face - self.top_m
         if not self.least_m < fall_m < self.most_m:
             return None
         cu, cv = self.mu + u, self.mv + v
@@ -130,7 +130,7 @@ cdef class Track:
                 if not self.is_inside(u, v):
                     return None
                 break
-        height = (h + self.sole + self.top_m) / 2
+        height = (h + self.base_face + self.top_m) / 2
         if self.up == 1:
             places = tuple([(u + self.pu[k], height, v + self.pv[k]) for k in range(self.n_points)])
         else:
@@ -138,14 +138,14 @@ cdef class Track:
         return (low[0], low[1], low[2]), (high[0], high[1], high[2]), fall_m, places
 
     cdef bint is_inside(self, double u, double v) except -1:
-        """Whether the sole is surely inside of all edges where the circle around it is not."""
+        """Whether the base face is surely inside of all edges where the circle around it is not."""
         cdef Py_ssize_t i, k
         cdef double pu, pv, a = self.turned_a, c = self.turned_c
         if self.outline is None:
             if self.is_upright:
-                corners = [(x[0], x[self.flat]) for x in self.stance.shape.sole(self.stance.way_up).outline_m]
+                corners = [(x[0], x[self.flat]) for x in self.stance.shape.base_face(self.stance.way_up).outline_m]
             else:
-                corners = self.stance.sole_outline
+                corners = self.stance.base_outline
             numbers = array("d", [number for corner in corners for number in corner])
             self.outline = memoryview(numbers).cast("B").cast("d", (len(corners), 2))
         if self.outline.shape[0] > MOST_CORNERS:

@@ -95,6 +95,6 @@ class Body:
         return self.stance.rows
 
     @cached_property
-    def clearings(self) -> dict[str, FreeRegion]:
-        """What is known, for guests by their ids, of their surroundings; see `contact.clearing`."""
+    def free_regions(self) -> dict[str, FreeRegion]:
+        """What is known, for guests by their ids, of their surroundings; see `contact.free_space`."""
         return {}

@@ -7,14 +7,14 @@ from typing import NamedTuple
 
 from scene2hap.contact.junction import Junction
 from scene2hap.contact.level import Aside, Rest, rest_points
+from scene2hap.contact.pair import BodyPair
 from scene2hap.contact.support import CLEAR_M
-from scene2hap.contact.tie import Tie
 from scene2hap.contact.vectors import Triple
 
 
 class Bond(NamedTuple):
     """How much two objects are in contact, the way [m] that takes the pair's `a` to its `b`, and the normal; whether
-    the faller `lies` on the other with a level sole."""
+    the faller `lies` on the other with a level base face."""
 
     weight: float
     way_m: Triple
@@ -31,7 +31,7 @@ class Bond(NamedTuple):
 class Plan(NamedTuple):
     """How a pair touches: by which bond; its points lie as `rest` or `side` tells, or are to be asked for."""
 
-    tie: Tie
+    body_pair: BodyPair
     bond: Bond
     within_m: float
     rest: Rest | None
@@ -39,14 +39,14 @@ class Plan(NamedTuple):
 
     def junction(self) -> Junction | None:
         """Where the pair touches, None if nowhere."""
-        tie, bond = self.tie, self.bond
+        body_pair, bond = self.body_pair, self.bond
         if self.rest is not None:
-            x, y = (tie.a, tie.b) if bond.faller == tie.a.id else (tie.b, tie.a)
+            x, y = (body_pair.a, body_pair.b) if bond.faller == body_pair.a.id else (body_pair.b, body_pair.a)
             points = rest_points(x, y, self.rest)
         elif self.side is not None:
             points = self.side.points
         else:
-            points = tie.points(bond.way_m, self.within_m)
+            points = body_pair.points(bond.way_m, self.within_m)
         n = len(points)
         return Junction(points, (bond.weight,) * n, (bond.normal,) * n) if points else None
 
@@ -55,8 +55,8 @@ NO_WAY: Triple = (0.0, 0.0, 0.0)
 NO_BOND = Bond(0.0, NO_WAY, None, False, "")
 
 
-def strength(bond: Bond) -> tuple[float, bool]:
-    """By what the stronger of two bonds is told."""
+def priority(bond: Bond) -> tuple[float, bool]:
+    """Sort key: the larger weight wins; on a tie, the bond that has a normal."""
     return (bond.weight, bond.normal is not None)
 
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.clearing import open_box
+from scene2hap.contact.fat_boxes import AABB
+from scene2hap.contact.free_space import open_box
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.rooms import Neighbour, common, gaps_m, sideways_m
 from scene2hap.contact.sides import Sides, SidesOf
 from scene2hap.contact.support import TOUCH_M, fall_reach_m, hang_reach_m
-from scene2hap.contact.zones import Room
 from scene2hap.scene.pose import Pose
 
 
@@ -19,13 +19,13 @@ class Drift:
 
     __slots__ = ("_high", "_low", "_sides", "body", "hosts", "on", "refused")
 
-    def __init__(self, body: Body, free: Room, sides: Sides | None, hosts: Sequence[str]) -> None:
+    def __init__(self, body: Body, free: AABB, sides: Sides | None, hosts: Sequence[str]) -> None:
         self.body, self._sides, self.hosts, self.on, self.refused = body, sides, hosts, "", 0
         self._low, self._high = free
 
     @classmethod
-    def of(cls, body: Body, zone: Room, around: Iterable[Neighbour], sides_of: SidesOf) -> Drift:
-        """The drift of a body that touches nothing, may move in a zone, and has such neighbours. It goes nowhere
+    def of(cls, body: Body, zone: AABB, around: Iterable[Neighbour], sides_of: SidesOf) -> Drift:
+        """The drift of a body that touches nothing, may move in a fat box, and has such neighbours. It goes nowhere
         unless boxes tell where."""
         opens, others, hosts, off_m = [zone], [], [], {}
         up = body.up_axis
@@ -48,7 +48,7 @@ class Drift:
         """Go on from where another way has brought the body."""
         self.body = body
 
-    def minds(self, x: str, _: Room, margin_m: float) -> bool:
+    def minds(self, x: str, _: AABB, margin_m: float) -> bool:
         """Whether it may be another once one may be anywhere in a box, and matters within a margin."""
         return self._sides is None or not self._sides.has(x) or self._sides.minds(x, margin_m)
 
@@ -75,8 +75,8 @@ class Drift:
         return True
 
 
-def _free_box(body: Body, zone: Room, others: Iterable[tuple[Room, float]]) -> Room:
-    """Where a body is in its zone and surely farther from the boxes of others than told with each, as it is now."""
+def _free_box(body: Body, zone: AABB, others: Iterable[tuple[AABB, float]]) -> AABB:
+    """Where a body is in its fat box and surely farther from the boxes of others than told with each, as it is now."""
     low, high = list(zone[0]), list(zone[1])
     for room, margin_m in others:
         gaps = gaps_m(body, room)

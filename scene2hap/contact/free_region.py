@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from scene2hap.contact.fat_boxes import AABB
 from scene2hap.contact.ledge import Flat
-from scene2hap.contact.zones import Room
 
 
 class FreeRegion(NamedTuple):
     """A box (u, v, h) in a host's frame, and what of the host is there: nothing, or a ledge of height `top_m`, which
     covers the rectangle `ledge`, and what is no higher."""
 
-    room: Room
+    room: AABB
     top_m: float | None
     ledge: Flat

@@ -12,19 +12,19 @@ import math
 from collections.abc import Iterable, Sequence
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.clearing import NOWHERE, open_box
+from scene2hap.contact.fat_boxes import AABB
+from scene2hap.contact.free_space import NOWHERE, open_box
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.ledge import Flat
 from scene2hap.contact.level import Rest
+from scene2hap.contact.pair import BodyPair
 from scene2hap.contact.rooms import Neighbour, common, sideways_m, under
 from scene2hap.contact.sides import Sides, SidesOf, are_beside
 from scene2hap.contact.slide import SURE_M, Slide
-from scene2hap.contact.stance import Tray
+from scene2hap.contact.stance import TopFace
 from scene2hap.contact.support import TOUCH_M, fall_reach_m, is_under
-from scene2hap.contact.tie import Tie
 from scene2hap.contact.track import Bounds, Track
 from scene2hap.contact.vectors import Triple
-from scene2hap.contact.zones import Room
 from scene2hap.scene.pose import Pose
 
 _new = tuple.__new__
@@ -34,18 +34,18 @@ _ONES = (1.0,) * 4
 class Glide:
     """A body that slides on another.
 
-    `on` is the other's id, `tray` what of it is below; `sides` are blocks that it may touch as it goes by; `hosts` are
-    those in whose clearings it goes on, as long as they stay where they are; `body` is changed in place as it goes;
-    `refused` counts its owner's vain attempts.
+    `on` is the other's id, `top_face` what of it is below; `sides` are blocks that it may touch as it goes by; `hosts`
+    are those in whose free regions it goes on, as long as they stay where they are; `body` is changed in place as it
+    goes; `refused` counts its owner's vain attempts.
     """
 
     __slots__ = (
+        "_body_pair",
         "_fall_m",
         "_is_a",
         "_lane",
         "_normals",
         "_sides",
-        "_tie",
         "_top_m",
         "_track",
         "body",
@@ -53,25 +53,25 @@ class Glide:
         "on",
         "pair",
         "refused",
-        "tray",
+        "top_face",
     )
 
     def __init__(
         self,
         body: Body,
-        tie: Tie,
-        tray: Tray,
+        body_pair: BodyPair,
+        top_face: TopFace,
         normal: Triple | None,
         bounds: Bounds,
         track: Track,
         sides: Sides | None,
         hosts: Sequence[str],
     ) -> None:
-        self.body, self._tie, self._is_a = body, tie, body.id == tie.a.id
-        self.pair: Pair = (tie.a.id, tie.b.id)
-        self.on = tie.b.id if self._is_a else tie.a.id
-        self.tray = tray
-        self._normals = (normal,) * len(track.stance.footing.points)
+        self.body, self._body_pair, self._is_a = body, body_pair, body.id == body_pair.a.id
+        self.pair: Pair = (body_pair.a.id, body_pair.b.id)
+        self.on = body_pair.b.id if self._is_a else body_pair.a.id
+        self.top_face = top_face
+        self._normals = (normal,) * len(track.stance.posed_base_face.points)
         self._fall_m, self._top_m, self._lane = math.nan, bounds.top_m, bounds.lane
         self._track, self._sides = track, sides
         self.hosts, self.refused = hosts, 0
@@ -80,17 +80,17 @@ class Glide:
     def of(
         cls,
         body: Body,
-        tie: Tie,
+        body_pair: BodyPair,
         slide: Slide,
         normal: Triple | None,
-        zone: Room,
+        zone: AABB,
         around: Iterable[Neighbour],
         track: Track,
         sides_of: SidesOf,
     ) -> Glide:
-        """The glide of a body that slides so, may move in a zone, and has such neighbours; `track` is the body's, and
-        bound here. It goes nowhere unless boxes tell where."""
-        support, up = (tie.b if body.id == tie.a.id else tie.a), body.up_axis
+        """The glide of a body that slides so, may move in a fat box, and has such neighbours; `track` is the body's,
+        and bound here. It goes nowhere unless boxes tell where."""
+        support, up = (body_pair.b if body.id == body_pair.a.id else body_pair.a), body.up_axis
         middle_m = support.low[up] + support.high[up]
         opens, others, hosts = [zone], [], []
         blocks, off_m = [], {}
@@ -121,22 +121,22 @@ class Glide:
                 else:
                     opens.append(open_box(body, other, stands=False))
                     hosts.append(other.id)
-        zone, tray = common(opens), slide.tray
+        zone, top_face = common(opens), slide.top_face
         u, v = support.position_m[0], support.position_m[body.v_axis]
         bounds = Bounds(
             _lane(body, zone, others),
             (zone[0][up], zone[1][up]),
             middle_m,
-            [(nu, nv, offset + nu * u + nv * v) for nu, nv, offset in tray.edges],
-            support.position_m[up] + tray.height,
+            [(nu, nv, offset + nu * u + nv * v) for nu, nv, offset in top_face.edges],
+            support.position_m[up] + top_face.height,
             SURE_M,
             2 / 3 * fall_reach_m(body.size_m),
         )
         track.bind(bounds)
         sides = sides_of(blocks, off_m) if blocks or off_m else None
-        return cls(body, tie, tray, normal, bounds, track, sides, hosts)
+        return cls(body, body_pair, top_face, normal, bounds, track, sides, hosts)
 
-    def minds(self, x: str, room: Room, margin_m: float) -> bool:
+    def minds(self, x: str, room: AABB, margin_m: float) -> bool:
         """Whether it may be another once one may be anywhere in a box, and matters within a margin."""
         if self._sides is not None and self._sides.has(x):
             return self._sides.minds(x, margin_m)
@@ -165,16 +165,16 @@ class Glide:
         body.put(pose, low, high)
         if fall_m != self._fall_m:
             self._fall_m = fall_m
-            self._tie.slide(body, Rest(fall_m, True, self._top_m), self._is_a)
+            self._body_pair.slide(body, Rest(fall_m, True, self._top_m), self._is_a)
         else:
-            self._tie.forget()
+            self._body_pair.forget()
         found[self.pair] = _new(Junction, (places, _ONES[: len(places)], self._normals, ()))
         if sides is not None:
             sides.follow(body, near, found)
         return True
 
 
-def _all_in(body: Body, support: Body) -> Room:
+def _all_in(body: Body, support: Body) -> AABB:
     """Where a body is all in another, with a bottom as low at least and a top that is higher than that."""
     up, low = body.up_axis, list(support.low)
     height_m = body.high[up] - body.low[up]
@@ -182,8 +182,9 @@ def _all_in(body: Body, support: Body) -> Room:
     return (low[0], low[1], low[2]), support.high
 
 
-def _lane(body: Body, zone: Room, others: Iterable[tuple[Room, float]]) -> Flat:
-    """Where a body is in its zone and surely farther beside the boxes of others than told with each, as it is now."""
+def _lane(body: Body, zone: AABB, others: Iterable[tuple[AABB, float]]) -> Flat:
+    """Where a body is in its fat box and surely farther beside the boxes of others than told with each, as it is
+    now."""
     flat, (low, high) = body.v_axis, zone
     u0, v0, u1, v1 = low[0], low[flat], high[0], high[flat]
     for room, margin_m in others:

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Set
 
 from scene2hap.contact.drift import Drift
+from scene2hap.contact.fat_boxes import AABB
 from scene2hap.contact.glide import Glide
-from scene2hap.contact.zones import Room
 
 Draw = Callable[[], Glide | Drift]
 """Draws a glide from where all things are now."""
@@ -23,7 +23,7 @@ class Glides:
         self.of: dict[str, Glide | Drift] = {}
         self._draws: dict[str, Draw] = {}
         self._due: set[str] = set()
-        # By host, in whose clearings they go on.
+        # By host, in whose free regions they go on.
         self._guests: dict[str, set[str]] = {}
 
     def begin(self, x: str, draw: Draw) -> None:
@@ -53,12 +53,12 @@ class Glides:
                 self._due.discard(x)
 
     def stop_in(self, hosts: Set[str]) -> None:
-        """Nor for what goes on in the clearings of these."""
+        """Nor for what goes on in the free regions of these."""
         if self._guests:
             for host in hosts & self._guests.keys():
                 self.stop(*self._guests.pop(host))
 
-    def look_out(self, names: Iterable[str], x: str, room: Room, margin_m: float) -> None:
+    def look_out(self, names: Iterable[str], x: str, room: AABB, margin_m: float) -> None:
         """One may be anywhere in a box now, and matters to these, its neighbours, within a margin around it."""
         for z in names:
             glide = self.of.get(z)

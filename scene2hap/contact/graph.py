@@ -46,7 +46,7 @@ class ContactChange:
 NO_CHANGE = ContactChange()
 
 _MANY_LATE = 8  # So many tables of poses wait at most before they are read.
-_MANY_TURNS = 16  # For so many topologies it is known what changed.
+_LONGEST_LOG = 16  # So many versions back the changes are known.
 
 
 class ContactGraph:
@@ -78,9 +78,7 @@ class ContactGraph:
         self._junctions: dict[Pair, Junction] = {}
         self._beside: dict[str, dict[str, Junction]] = {}
         self._version = self._topology = 0
-        # The pairs of the last topologies that came to touch or ceased to.
-        self._turns: deque[list[Pair]] = deque(maxlen=_MANY_TURNS)
-        self._changes: deque[list[Pair]] = deque(maxlen=_MANY_TURNS)
+        self._change_log: deque[list[Pair]] = deque(maxlen=_LONGEST_LOG)
         self._views: dict[str, object] = {}
         # Whether the junctions are those of an earlier moment, and whether somebody holds them, so that they never are.
         self._is_behind = self._junctions_lent = False
@@ -90,14 +88,14 @@ class ContactGraph:
             self._finder = ContactFinder(up_axis) if tolerance_m is None else TouchFinder(tolerance_m)
             self._replace({}, scene.objects)
         else:
-            self._settle(junctions_of(scene.contacts))
+            self._take_over(junctions_of(scene.contacts))
 
     @property
     def contacts(self) -> tuple[Contact, ...]:
         """All contacts, a < b, sorted by pair; points in world coordinates [m]."""
         found = self._views.get("contacts")
         if found is None:
-            junctions = self._told()
+            junctions = self._current_junctions()
             found = tuple(one for pair in sorted(junctions) for one in junctions[pair].contacts(pair))
             self._views["contacts"] = found
         return cast("tuple[Contact, ...]", found)
@@ -122,7 +120,7 @@ class ContactGraph:
         if found is None:
             drawn: networkx.Graph[str] = networkx.Graph()
             drawn.add_nodes_from(sorted(self._poses))
-            junctions = self._told()
+            junctions = self._current_junctions()
             drawn.add_edges_from((*x, {"contacts": list(junctions[x].contacts(x))}) for x in sorted(junctions))
             found = self._views["graph"] = drawn
         return cast("networkx.Graph[str]", found)
@@ -131,13 +129,13 @@ class ContactGraph:
     def junctions(self) -> Mapping[Pair, Junction]:
         """Where the pairs touch; read-only, and changed by later updates. A junction itself never changes."""
         self._junctions_lent = True
-        return self._told()
+        return self._current_junctions()
 
     @property
     def beside(self) -> Mapping[str, Mapping[str, Junction]]:
         """For each object that touches any: the others, and where; read-only, and changed by later updates."""
         self._junctions_lent = True
-        self._told()
+        self._current_junctions()
         return self._beside
 
     @property
@@ -150,13 +148,9 @@ class ContactGraph:
         """A number that is another after every update by which a pair came to touch or ceased to."""
         return self._topology
 
-    def turned_since(self, topology: int) -> list[Pair] | None:
-        """The pairs that have come to touch or ceased to since then, None if that is too long ago to know."""
-        return _latest(self._turns, self._topology - topology)
-
     def changed_since(self, version: int) -> list[Pair] | None:
         """The pairs that have come to touch, ceased to or shifted since then, None if that is too long ago to know."""
-        return _latest(self._changes, self._version - version)
+        return _latest(self._change_log, self._version - version)
 
     @property
     def poses(self) -> Mapping[str, Pose]:
@@ -181,7 +175,7 @@ class ContactGraph:
         import numpy as np
 
         pose_a, pose_b = self.pose(a), self.pose(b)
-        self._told()
+        self._current_junctions()
         junction = self._beside.get(a, {}).get(b)
         points = np.array(junction.points_m if junction else ()).reshape(-1, 3)
         return pose_a.to_own(points), pose_b.to_own(points)
@@ -192,7 +186,7 @@ class ContactGraph:
         Raises: UnknownObject: the id is not in the scene.
         """
         _demand(object_id, self._known_poses)
-        self._told()
+        self._current_junctions()
         return tuple(sorted(self._beside.get(object_id, ())))
 
     def update(
@@ -231,7 +225,7 @@ class ContactGraph:
             self._known_poses, self._poses_lent = dict(poses), False
         self._known_poses.update(stale)
         if self._finder is None:
-            return self._settle({pair: None for x in stale for pair in self._pairs_of(x)})
+            return self._take_over({pair: None for x in stale for pair in self._pairs_of(x)})
         return self._replace(stale)
 
     def _take(self, table: PoseTable) -> ContactChange:
@@ -281,12 +275,12 @@ class ContactGraph:
 
         before, self._known_poses, self._poses_lent = self._poses, poses, False
         if contacts is not None:
-            self._told()
+            self._current_junctions()
             self._finder = None
-            return self._settle({**dict.fromkeys(self._junctions), **junctions_of(contacts)})
+            return self._take_over({**dict.fromkeys(self._junctions), **junctions_of(contacts)})
         stale = {x for x in before if poses.get(x) != before[x]} | {*removed, *(item.id for item in added)}
         if self._finder is None:
-            return self._settle({pair: None for x in stale for pair in self._pairs_of(x)})
+            return self._take_over({pair: None for x in stale for pair in self._pairs_of(x)})
         new = {item.id for item in added}
         elsewhere = {x: poses[x] for x in stale & poses.keys() if x not in new}
         items = [replace(item, pose=poses[item.id]) for item in added]
@@ -298,15 +292,15 @@ class ContactGraph:
         """Let the finder look anew, and tell what that changes."""
         finder = self._finder
         if isinstance(finder, ContactFinder):
-            return self._settle(finder.replace(moved, added, gone))
+            return self._take_over(finder.replace(moved, added, gone))
         assert finder is not None
         changes = finder.replace(moved, added, gone)
         self._is_behind = True
         if self._junctions_lent:
-            self._told()
-        return self._noted(*changes)
+            self._current_junctions()
+        return self._record(*changes)
 
-    def _told(self) -> dict[Pair, Junction]:
+    def _current_junctions(self) -> dict[Pair, Junction]:
         """The junctions, as they are now."""
         if self._is_behind:
             self._is_behind = False
@@ -317,9 +311,9 @@ class ContactGraph:
     def _pairs_of(self, object_id: str) -> list[Pair]:
         return [pair_of(object_id, other) for other in self._beside.get(object_id, ())]
 
-    def _settle(self, found: Mapping[Pair, Junction | None]) -> ContactChange:
+    def _take_over(self, found: Mapping[Pair, Junction | None]) -> ContactChange:
         """Take over where these pairs touch, None for nowhere, and tell what that changes."""
-        return self._noted(*self._apply(found))
+        return self._record(*self._apply(found))
 
     def _apply(self, found: Mapping[Pair, Junction | None]) -> tuple[list[Pair], list[Pair], list[Pair]]:
         appeared: list[Pair] = []
@@ -343,16 +337,15 @@ class ContactGraph:
                 beside[a][b] = beside[b][a] = junction
         return appeared, vanished, shifted
 
-    def _noted(self, appeared: list[Pair], vanished: list[Pair], shifted: list[Pair]) -> ContactChange:
+    def _record(self, appeared: list[Pair], vanished: list[Pair], shifted: list[Pair]) -> ContactChange:
         if self._views:
             self._views.clear()
         if not (appeared or vanished or shifted):
             return NO_CHANGE
         self._version += 1
-        self._changes.append(appeared + vanished + shifted)
+        self._change_log.append(appeared + vanished + shifted)
         if appeared or vanished:
             self._topology += 1
-            self._turns.append(appeared + vanished)
         return ContactChange(frozenset(appeared), frozenset(vanished), frozenset(shifted))
 
 

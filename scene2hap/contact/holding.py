@@ -1,6 +1,6 @@
 """What holds each body, and how pairs touch by that: it lies on another, hangs from it, or touches it.
 
-Asked for one body or pair at a time; all that is asked depends on ties alone.
+Asked for one body or pair at a time; all that is asked depends on pairs alone.
 """
 
 from __future__ import annotations
@@ -9,9 +9,10 @@ import math
 from collections.abc import Callable, Collection, Iterable, Mapping
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.bond import NO_BOND, NO_WAY, Bond, Plan, direction, strength
-from scene2hap.contact.clearing import is_clear
+from scene2hap.contact.bond import NO_BOND, NO_WAY, Bond, Plan, direction, priority
+from scene2hap.contact.free_space import has_nothing_near
 from scene2hap.contact.junction import Junction, Pair, pair_of
+from scene2hap.contact.pair import NEEDS_TRIANGLES, BodyPair, apart_by
 from scene2hap.contact.support import (
     SLACK_M,
     TOUCH_M,
@@ -23,12 +24,11 @@ from scene2hap.contact.support import (
     supports,
     weight,
 )
-from scene2hap.contact.tie import UNCLEAR, Tie, apart_by
 from scene2hap.contact.vectors import Floats, Triple
 
 
 class Holding:
-    """Bodies, the ties between them and what holds each of them, all by id, as their owner keeps them.
+    """Bodies, the pairs between them and what holds each of them, all by id, as their owner keeps them.
 
     Parameters: near : the neighbours of each body; stop : is told of two that are tied here, since how they go on is
     not sure then.
@@ -37,25 +37,25 @@ class Holding:
     def __init__(self, up_axis: int, near: Mapping[str, Collection[str]], stop: Callable[[str, str], None]) -> None:
         self._up_axis, self._near, self._stop = up_axis, near, stop
         self.bodies: dict[str, Body] = {}
-        self.ties: dict[str, dict[str, Tie]] = {}
+        self.body_pairs: dict[str, dict[str, BodyPair]] = {}
         self.held: dict[str, dict[str, Bond]] = {}
         # Those that nothing wholly supports, so that larger things near them may bear on how they hang.
-        self.loose: set[str] = set()
+        self.unsupported: set[str] = set()
 
     def holders(self, x: str) -> dict[str, Bond]:
         """What holds a body, by support and, as far as that is wanting, by hanging."""
         body = self.bodies[x]
-        below, lies_on = self._below(body) if self.ties[x] else ({}, ())
+        below, lies_on = self._below(body) if self.body_pairs[x] else ({}, ())
         bonds = {}
         for y, support in below.items():
             bonds[y] = self.support(x, y, support, lies=y in lies_on)
         supported = max((bond.weight for bond in bonds.values()), default=0.0)
         if supported < 1:
-            self.loose.add(x)
+            self.unsupported.add(x)
             for y, bond in self._hanging(body, supported).items():
-                bonds[y] = max(bonds.get(y, NO_BOND), bond, key=strength)
+                bonds[y] = max(bonds.get(y, NO_BOND), bond, key=priority)
         else:
-            self.loose.discard(x)
+            self.unsupported.discard(x)
         return bonds
 
     def support(self, x: str, y: str, support: Support, *, lies: bool) -> Bond:
@@ -67,15 +67,15 @@ class Holding:
 
     def _below(self, body: Body) -> tuple[Mapping[str, Support], Collection[str]]:
         """What supports a body, and on which of that it lies level."""
-        ties, reach_m = self.ties[body.id], fall_reach_m(body.size_m)
-        rests = {y: rest for y, tie in ties.items() if (rest := tie.rest(body.id)) is not None}
-        unclear = [y for y, rest in rests.items() if rest is UNCLEAR]
+        body_pairs, reach_m = self.body_pairs[body.id], fall_reach_m(body.size_m)
+        rests = {y: rest for y, body_pair in body_pairs.items() if (rest := body_pair.rest(body.id)) is not None}
+        unclear = [y for y, rest in rests.items() if rest is NEEDS_TRIANGLES]
         if len(unclear) == len(rests) == 1:
             # What is met first holds it, and nothing else is to be seen by other parts of the bottom.
-            fall_m = ties[unclear[0]].first_fall_m(body.id)
+            fall_m = body_pairs[unclear[0]].first_fall_m(body.id)
             share = weight(fall_m, reach_m)
             return ({unclear[0]: Support(share, fall_m)} if share > 0 else {}), ()
-        rests = {y: rest for y, rest in rests.items() if rest is not UNCLEAR}
+        rests = {y: rest for y, rest in rests.items() if rest is not NEEDS_TRIANGLES}
         falls_m = self._falls(body, unclear, min((rest.fall_m for rest in rests.values()), default=math.inf))
         if rests and not falls_m and (below := level_supports(rests, reach_m)) is not None:
             return below, rests
@@ -85,12 +85,12 @@ class Holding:
     def _falls(self, body: Body, onto: Iterable[str], least_m: float = math.inf) -> dict[str, Floats]:
         """How far the triangles of a body are to fall to things below; not to what lies deeper than another, be it
         `least_m` deep, by more than what still counts."""
-        bodies, ties = self.bodies, self.ties[body.id]
+        bodies, body_pairs = self.bodies, self.body_pairs[body.id]
         found: dict[str, Floats] = {}
         for y in sorted(onto, key=lambda y: (-bodies[y].highest_m, y)):
             if body.lowest_m - bodies[y].highest_m > least_m + TOUCH_M:
                 break
-            falls_m = ties[y].falls(body.id)
+            falls_m = body_pairs[y].falls(body.id)
             if falls_m is not None and (first_m := float(falls_m.min())) <= least_m + TOUCH_M:
                 found[y], least_m = falls_m, min(least_m, first_m)
         return found
@@ -103,12 +103,14 @@ class Holding:
         larger = [
             y
             for y in self._near[x]
-            if (other := bodies[y]).size_m > size_m and not apart_by(body, other, reach_m) and not is_clear(body, other)
+            if (other := bodies[y]).size_m > size_m
+            and not apart_by(body, other, reach_m)
+            and not has_nothing_near(body, other)
         ]
         if not larger:
             return {}
         for y in sorted(larger):
-            way = self._apart(self._tie(x, y), reach_m)
+            way = self._apart(self._body_pair(x, y), reach_m)
             if way is not None:
                 ways[y] = way
         shares = hangs({y: distance for y, (distance, _) in ways.items()}, reach_m)
@@ -116,21 +118,23 @@ class Holding:
             y: Bond((1 - supported) * share, ways[y][1], direction(*ways[y]), False, x) for y, share in shares.items()
         }
 
-    def _apart(self, tie: Tie, within_m: float) -> tuple[float, Triple] | None:
+    def _apart(self, body_pair: BodyPair, within_m: float) -> tuple[float, Triple] | None:
         """How far two are apart and which way, if it is at most `within_m`."""
-        side = tie.aside(within_m, SLACK_M)
+        side = body_pair.aside(within_m, SLACK_M)
         if side is not None:
             return (side.distance_m, side.way_m) if side.points else None
-        gap = tie.gap(within_m)
+        gap = body_pair.gap(within_m)
         return None if gap is None else (gap.distance_m, gap.way_m)
 
-    def _tie(self, x: str, y: str) -> Tie:
-        tie = self.ties[x].get(y)
-        if tie is None:
+    def _body_pair(self, x: str, y: str) -> BodyPair:
+        body_pair = self.body_pairs[x].get(y)
+        if body_pair is None:
             a, b = pair_of(x, y)
             self._stop(x, y)
-            tie = self.ties[x][y] = self.ties.setdefault(y, {})[x] = Tie.between(self.bodies[a], self.bodies[b])
-        return tie
+            body_pair = self.body_pairs[x][y] = self.body_pairs.setdefault(y, {})[x] = BodyPair.between(
+                self.bodies[a], self.bodies[b]
+            )
+        return body_pair
 
     def junctions(self, pairs: Iterable[Pair]) -> dict[Pair, Junction | None]:
         """Where these pairs touch."""
@@ -140,28 +144,28 @@ class Holding:
     def _plan(self, pair: Pair) -> Plan | None:
         """How a pair touches by its strongest bond: a by b, b by a, mere touch, or one is built into the other."""
         a, b = pair
-        tie = self.ties.get(a, {}).get(b)
-        if tie is None:
+        body_pair = self.body_pairs.get(a, {}).get(b)
+        if body_pair is None:
             return None
         slack_m = SLACK_M
         bond, is_touch = NO_BOND, False
         for x, y in ((a, b), (b, a)):
             held = self.held.get(x)
             one = held.get(y) if held else None
-            if one is not None and strength(one) > strength(bond):
+            if one is not None and priority(one) > priority(bond):
                 bond = one
-        if bond.weight < 1 and not apart_by(tie.a, tie.b, TOUCH_M):
-            apart = self._apart(tie, TOUCH_M)
+        if bond.weight < 1 and not apart_by(body_pair.a, body_pair.b, TOUCH_M):
+            apart = self._apart(body_pair, TOUCH_M)
             if apart is not None:
                 share = weight(apart[0], TOUCH_M)
                 if share > bond.weight:
                     bond, is_touch = Bond(share, NO_WAY, direction(*apart), False, a), True
                     slack_m += apart[0]
         if bond.weight < 1:
-            share, play_m = tie.enclosed()
+            share, play_m = body_pair.enclosed()
             if share > bond.weight:
                 bond, is_touch, slack_m = Bond(share, NO_WAY, None, False, a), False, SLACK_M + play_m
         if bond.weight <= 0:
             return None
-        side = tie.aside(TOUCH_M, SLACK_M) if is_touch else None
-        return Plan(tie, bond, slack_m, tie.rest(bond.faller) if bond.lies else None, side)
+        side = body_pair.aside(TOUCH_M, SLACK_M) if is_touch else None
+        return Plan(body_pair, bond, slack_m, body_pair.rest(bond.faller) if bond.lies else None, side)

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.outlines import facing
+from scene2hap.contact.polygons import polygon_gap
 from scene2hap.contact.spread import spread_few
 from scene2hap.contact.stance import Point, Stance
 from scene2hap.contact.vectors import Triple
@@ -30,7 +30,7 @@ _SLACK_M = 1e-6  # Bounds by circles are trusted beyond this, so that they never
 
 class Rest(NamedTuple):
     """How far a thing is to fall [m] to what it then lies on, at the height `top_m` [m], with all or with some of its
-    sole."""
+    base face."""
 
     fall_m: float
     wholly: bool
@@ -38,40 +38,40 @@ class Rest(NamedTuple):
 
 
 def rest_on(x: Body, y: Body) -> Rest | None:
-    """How x lies on y, one the sole and one the top of its object; None where that cannot be told from outlines, a
+    """How x lies on y, one the base face and one the top of its object; None where that cannot be told from outlines, a
     fall of inf where they are beside each other."""
-    sole, tray = x.stance.footing, y.stance.tray
-    if tray is None:
+    base_face, top_face = x.stance.posed_base_face, y.stance.top_face
+    if top_face is None:
         return None
     a, v_axis = x.up_axis, x.v_axis
     px, py = x.position_m, y.position_m
-    top_m = py[a] + tray.height
-    fall_m = px[a] + sole.height - top_m
+    top_m = py[a] + top_face.height
+    fall_m = px[a] + base_face.height - top_m
     du, dv = px[0] - py[0], px[v_axis] - py[v_axis]
-    cu, cv = sole.middle[0] + du, sole.middle[1] + dv
-    radius = sole.radius
-    for nu, nv, offset in tray.edges:
+    cu, cv = base_face.middle[0] + du, base_face.middle[1] + dv
+    radius = base_face.radius
+    for nu, nv, offset in top_face.edges:
         if nu * cu + nv * cv - offset < radius:
             break
     else:
         return Rest(fall_m, True, top_m)
     rim = min(_RIM * radius, _RIM_M)
-    mu, mv = tray.middle
-    if math.hypot(cu - mu, cv - mv) > radius + tray.radius + _SLACK_M:
+    mu, mv = top_face.middle
+    if math.hypot(cu - mu, cv - mv) > radius + top_face.radius + _SLACK_M:
         return _beside(x, y)
-    # No corner of the sole is farther from its middle than its radius: most edges of round objects need no more.
-    edges = [edge for edge in tray.edges if edge[0] * cu + edge[1] * cv - edge[2] <= radius + rim + _SLACK_M]
-    outline = [(u + du, v + dv) for u, v in x.stance.sole_outline]
+    # No corner of the base face is farther from its middle than its radius: most edges of round objects need no more.
+    edges = [edge for edge in top_face.edges if edge[0] * cu + edge[1] * cv - edge[2] <= radius + rim + _SLACK_M]
+    outline = [(u + du, v + dv) for u, v in x.stance.base_outline]
     ranges = _inside(outline, edges)
     if any(most <= rim for _, most in ranges):
         return _beside(x, y)
     if all(least >= -_ROUNDING_M for least, _ in ranges):
         return Rest(fall_m, True, top_m)
-    if not sole.is_filled:
+    if not base_face.is_filled:
         return None
-    edges = [(nu, nv, offset + (nu * du + nv * dv)) for nu, nv, offset in x.stance.sole_edges]
-    edges = [edge for edge in edges if edge[0] * mu + edge[1] * mv - edge[2] <= tray.radius + rim + _SLACK_M]
-    if any(most <= rim for _, most in _inside(tray.outline, edges)):
+    edges = [(nu, nv, offset + (nu * du + nv * dv)) for nu, nv, offset in x.stance.base_edges]
+    edges = [edge for edge in edges if edge[0] * mu + edge[1] * mv - edge[2] <= top_face.radius + rim + _SLACK_M]
+    if any(most <= rim for _, most in _inside(top_face.outline, edges)):
         return _beside(x, y)
     return Rest(fall_m, False, top_m)
 
@@ -92,20 +92,20 @@ def _beside(x: Body, y: Body) -> Rest | None:
 
 
 def rest_points(x: Body, y: Body, rest: Rest) -> tuple[Triple, ...]:
-    """Points of the world half way between x's sole and y's top where they are over each other."""
-    sole = x.stance.footing
+    """Points of the world half way between x's base face and y's top where they are over each other."""
+    base_face = x.stance.posed_base_face
     a, v_axis = x.up_axis, x.v_axis
     px, py = x.position_m, y.position_m
-    height = (px[a] + sole.height + rest.top_m) / 2
+    height = (px[a] + base_face.height + rest.top_m) / 2
     u, v = px[0], px[v_axis]
     if rest.wholly:
         if a == 1:
-            return tuple([(u + pu, height, v + pv) for pu, pv in sole.points])
-        level: Sequence[Point] = [(u + pu, v + pv) for pu, pv in sole.points]
+            return tuple([(u + pu, height, v + pv) for pu, pv in base_face.points])
+        level: Sequence[Point] = [(u + pu, v + pv) for pu, pv in base_face.points]
     else:
-        tray = y.stance.tray
-        assert tray is not None
-        ring = clipped([(u + pu - py[0], v + pv - py[v_axis]) for pu, pv in x.stance.sole_outline], tray.edges)
+        top_face = y.stance.top_face
+        assert top_face is not None
+        ring = clipped([(u + pu - py[0], v + pv - py[v_axis]) for pu, pv in x.stance.base_outline], top_face.edges)
         level = [(pu + py[0], pv + py[v_axis]) for pu, pv in _chosen(ring, y.stance)]
     if a == 1:
         return tuple([(pu, height, pv) for pu, pv in level])
@@ -152,7 +152,7 @@ def aside(x: Body, y: Body, within_m: float, slack_m: float) -> Aside | None:
     upright = max(below - above, 0.0)
     if upright > within_m:
         return _FAR
-    found = facing(_placed(x, v_axis), _placed(y, v_axis), upright, within_m, slack_m)
+    found = polygon_gap(_placed(x, v_axis), _placed(y, v_axis), upright, within_m, slack_m)
     if found is None:
         return None
     distance, (du, dv), middles = found
@@ -169,7 +169,7 @@ def aside(x: Body, y: Body, within_m: float, slack_m: float) -> Aside | None:
 
 def _placed(x: Body, v_axis: int) -> list[Point]:
     u, v = x.position_m[0], x.position_m[v_axis]
-    return [(u + pu, v + pv) for pu, pv in x.stance.sole_outline]
+    return [(u + pu, v + pv) for pu, pv in x.stance.base_outline]
 
 
 def _chosen(ring: Sequence[Point], stance: Stance) -> list[Point]:

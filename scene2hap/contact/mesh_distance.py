@@ -5,8 +5,8 @@ other one, out of reach of its surface, does not touch it, as a chair in a room 
 
 The kernels work in the frame of one of the two, the host, so that moving both rigidly changes nothing but the last
 bits. They look at pairs of triangles whose boxes are within reach, in any order: their answers are the least over all
-pairs, with ties broken by coordinates or by the triangles' columns. The compiled kernels find these pairs by descending
-two `TriangleTree`s at once, the plain ones by sorting boxes.
+pairs, with ties broken by coordinates or by the triangles' columns. The compiled kernels find these pairs by
+descending two `TriangleTree`s at once, the plain ones by sorting boxes.
 
     turn, shift : rotation in rows and position [m] of the guest in the host's frame
     p, q        : a triangle of the guest, of the host

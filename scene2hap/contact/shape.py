@@ -1,4 +1,4 @@
-"""The triangles of a mesh with what is derived from them, once per mesh: boxes, a tree, soles, tops and ledges."""
+"""The triangles of a mesh with what is derived from them, once per mesh: boxes, a tree, base faces, tops and ledges."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from weakref import WeakValueDictionary
 
 import numpy as np
 
+from scene2hap.contact.base_face import BaseFace, base_face_of, top_of, triples, uneven_m
 from scene2hap.contact.broad import Boxes
 from scene2hap.contact.ledge import Ledges, Upright
-from scene2hap.contact.profile import Sole, sole_of, top_of, triples, uneven_m
 from scene2hap.contact.rays import first_hits
 from scene2hap.contact.triangle_tree import TriangleTree
 from scene2hap.contact.vectors import Floats, Triple, cross, dot, highest, lowest
@@ -39,7 +39,7 @@ class Shape:
         self._uneven_m = uneven_m(self.size_m)
         self.middle: Triple = triples((self.low + self.high)[None] / 2)[0]
         self.half: Triple = triples((self.high - self.low)[None] / 2)[0]
-        self._soles: dict[Triple, Sole] = {}
+        self._soles: dict[Triple, BaseFace] = {}
         self._tops: dict[Triple, tuple[Triple, ...] | None] = {}
         self._ledges: dict[Upright, Ledges] = {}
 
@@ -85,9 +85,9 @@ class Shape:
                 sides[end, axis] = start + np.where(np.isfinite(hits), hits, np.nan)[:, None] * way
         return sides.reshape(6, -1, 3)
 
-    def sole(self, up: Triple) -> Sole:
+    def base_face(self, up: Triple) -> BaseFace:
         """What it stands on for the own direction `up`, which is rounded by the caller."""
-        return self._known(self._soles, up, lambda: sole_of(self.corners, self.triangles, self._uneven_m, up))
+        return self._known(self._soles, up, lambda: base_face_of(self.corners, self.triangles, self._uneven_m, up))
 
     def top(self, up: Triple) -> tuple[Triple, ...] | None:
         """The outline of what bears others, likewise, if that is level and convex."""

@@ -12,28 +12,28 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from scene2hap.contact.body import Body
 from scene2hap.contact.bond import direction
 from scene2hap.contact.junction import Junction, Pair, pair_of
+from scene2hap.contact.pair import BodyPair, apart_by
 from scene2hap.contact.support import SLACK_M, TOUCH_M, weight
-from scene2hap.contact.tie import Tie, apart_by
 from scene2hap.contact.vectors import Triple
 
 
 class Sides:
     """The blocks that a body may come to touch sideways, and others that it may not.
 
-    Parameters: blocks : their ids; off_m : how far it must stay off others, by their ids; bodies, ties : of all things
-    by id, as their owner keeps them; ties are changed.
+    Parameters: blocks : their ids; off_m : how far it must stay off others, by their ids; bodies, pairs : of all things
+    by id, as their owner keeps them; pairs are changed.
     """
 
-    __slots__ = ("_blocks", "_bodies", "_off_m", "_ties")
+    __slots__ = ("_blocks", "_bodies", "_body_pairs", "_off_m")
 
     def __init__(
         self,
         blocks: Sequence[str],
         off_m: Mapping[str, float],
         bodies: Mapping[str, Body],
-        ties: dict[str, dict[str, Tie]],
+        body_pairs: dict[str, dict[str, BodyPair]],
     ) -> None:
-        self._blocks, self._off_m, self._bodies, self._ties = blocks, off_m, bodies, ties
+        self._blocks, self._off_m, self._bodies, self._body_pairs = blocks, off_m, bodies, body_pairs
 
     def has(self, x: str) -> bool:
         """Whether one is among them."""
@@ -59,18 +59,20 @@ class Sides:
         return near
 
     def follow(self, body: Body, near: Collection[str], found: dict[Pair, Junction | None]) -> None:
-        """Tie a block to those of them that it touches, which may be some that are near; where is added to `found`."""
-        x, bodies, mine = body.id, self._bodies, self._ties[body.id]
+        """Pair a block to those of them that it touches, which may be some that are near; where is added to `found`."""
+        x, bodies, mine = body.id, self._bodies, self._body_pairs[body.id]
         for z in self._blocks:
-            tie = None
+            body_pair = None
             if z in near:
                 other = bodies[z]
-                tie = Tie(body, other, None, None) if x < z else Tie(other, body, None, None)
-            if tie is not None and not (apart_by(tie.a, tie.b, TOUCH_M) or tie.is_clear):
-                mine[z] = self._ties.setdefault(z, {})[x] = tie
-                found[tie.a.id, tie.b.id] = _touch(tie)
+                body_pair = BodyPair(body, other, None, None) if x < z else BodyPair(other, body, None, None)
+            if body_pair is not None and not (
+                apart_by(body_pair.a, body_pair.b, TOUCH_M) or body_pair.has_nothing_near
+            ):
+                mine[z] = self._body_pairs.setdefault(z, {})[x] = body_pair
+                found[body_pair.a.id, body_pair.b.id] = _touch(body_pair)
             elif mine.pop(z, None) is not None:
-                del self._ties[z][x]
+                del self._body_pairs[z][x]
                 found[pair_of(x, z)] = None
 
 
@@ -89,9 +91,9 @@ def _gap_m(low: Triple, high: Triple, other: Body, v_axis: int) -> float:
     return max(low[0] - far[0], near[0] - high[0], low[v_axis] - far[v_axis], near[v_axis] - high[v_axis])
 
 
-def _touch(tie: Tie) -> Junction | None:
+def _touch(body_pair: BodyPair) -> Junction | None:
     """Where two that are not clear of each other touch."""
-    side = tie.aside(TOUCH_M, SLACK_M)
+    side = body_pair.aside(TOUCH_M, SLACK_M)
     share = 0.0 if side is None else weight(side.distance_m, TOUCH_M)
     if side is None or share <= 0:
         return None

@@ -11,8 +11,8 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from scene2hap.contact.base_face import across
 from scene2hap.contact.ledge import Upright
-from scene2hap.contact.profile import across
 from scene2hap.contact.shape import Shape
 from scene2hap.contact.vectors import Triple
 
@@ -26,9 +26,9 @@ _MOST_LEAN = 1e-3  # [rad]; more than this is no rounding.
 _UPRIGHT = 1 - 1e-12  # An own axis this near to upright: the own box has the true height.
 
 
-class Footing(NamedTuple):
-    """A sole, turned [m]: points that stand for it, its least height, a circle around it, and whether its outline is
-    full."""
+class PosedBaseFace(NamedTuple):
+    """A base face, turned [m]: points that stand for it, its least height, a circle around it, and whether its outline
+    is full."""
 
     points: tuple[Point, ...]
     height: float
@@ -37,7 +37,7 @@ class Footing(NamedTuple):
     is_filled: bool
 
 
-class Tray(NamedTuple):
+class TopFace(NamedTuple):
     """A top, turned [m]: its outline, its height, (n_u, n_v, offset) of each edge, inside where n u >= offset, and the
     middle and radius of a circle around it."""
 
@@ -59,12 +59,12 @@ class Stance:
     """A shape with a rotation. `low` and `high` are a box around it, relative to its position [m]."""
 
     __slots__ = (
-        "_footing",
+        "_base_edges",
         "_heading",
         "_lean",
         "_outline",
-        "_sole_edges",
-        "_tray",
+        "_posed_base_face",
+        "_top_face",
         "high",
         "is_block",
         "low",
@@ -94,10 +94,10 @@ class Stance:
         self.way_up: Triple = key
         self.is_block = shape.is_cuboid and key.count(0.0) == 2
         self.low, self.high = self._bounds(up)
-        self._footing: Footing | None = None
-        self._tray: Tray | None = None
+        self._posed_base_face: PosedBaseFace | None = None
+        self._top_face: TopFace | None = None
         self._outline: tuple[Point, ...] = ()
-        self._sole_edges: tuple[Triple, ...] | None = None
+        self._base_edges: tuple[Triple, ...] | None = None
         self._heading: Point | None = None
         self._lean: Lean | Literal[False] | None = False
 
@@ -131,59 +131,61 @@ class Stance:
             self.way_up,
             self.is_block,
         )
-        turned.up_axis, turned.v_axis, turned._tray, turned._outline, turned._heading = 1, 2, None, (), None
-        turned._lean, turned._sole_edges = self._lean, None
+        turned.up_axis, turned.v_axis, turned._top_face, turned._outline, turned._heading = 1, 2, None, (), None
+        turned._lean, turned._base_edges = self._lean, None
         a, c = 1 - 2 * (y * y), 2 * (y * w)
         turned.rows = ((a, 0.0, c), self.rows[1], (-c, 0.0, a))
         (mx, _, mz), (hx, _, hz) = self.shape.middle, self.shape.half
         u, v, over, across = a * mx + c * mz, a * mz - c * mx, abs(a), abs(c)
         x, z = over * hx + across * hz, across * hx + over * hz
         turned.low, turned.high = (u - x, self.low[1], v - z), (u + x, self.high[1], v + z)
-        sole = self.shape.sole(self.way_up)
-        x, _, z = sole.middle_m
-        points = tuple([(a * x + c * z, a * z - c * x) for x, _, z in sole.points_m])
-        _, height, _, radius, is_filled = self.footing
-        turned._footing = Footing(points, height, (a * x + c * z, a * z - c * x), radius, is_filled)
+        base_face = self.shape.base_face(self.way_up)
+        x, _, z = base_face.middle_m
+        points = tuple([(a * x + c * z, a * z - c * x) for x, _, z in base_face.points_m])
+        _, height, _, radius, is_filled = self.posed_base_face
+        turned._posed_base_face = PosedBaseFace(points, height, (a * x + c * z, a * z - c * x), radius, is_filled)
         return turned
 
     @property
-    def footing(self) -> Footing:
+    def posed_base_face(self) -> PosedBaseFace:
         """What it stands on."""
-        if self._footing is None:
-            sole = self.shape.sole(self.way_up)
+        if self._posed_base_face is None:
+            base_face = self.shape.base_face(self.way_up)
             (a, b, c), (d, e, f), (g, h, i) = self.rows[0], self.rows[self.v_axis], self.rows[self.up_axis]
-            x, y, z = sole.middle_m
+            x, y, z = base_face.middle_m
             middle = (a * x + b * y + c * z, d * x + e * y + f * z)
-            height = g * x + h * y + i * z if sole.is_level else self.low[self.up_axis]
-            points = tuple([(a * x + b * y + c * z, d * x + e * y + f * z) for x, y, z in sole.points_m])
-            self._footing = Footing(points, height, middle, sole.radius_m, sole.is_filled)
-        return self._footing
+            height = g * x + h * y + i * z if base_face.is_level else self.low[self.up_axis]
+            points = tuple([(a * x + b * y + c * z, d * x + e * y + f * z) for x, y, z in base_face.points_m])
+            self._posed_base_face = PosedBaseFace(points, height, middle, base_face.radius_m, base_face.is_filled)
+        return self._posed_base_face
 
     @property
-    def sole_outline(self) -> tuple[Point, ...]:
+    def base_outline(self) -> tuple[Point, ...]:
         """The outline of what it stands on."""
         if not self._outline:
-            self._outline = tuple([(u, v) for u, v, _ in map(self._turned, self.shape.sole(self.way_up).outline_m)])
+            self._outline = tuple(
+                [(u, v) for u, v, _ in map(self._turned, self.shape.base_face(self.way_up).outline_m)]
+            )
         return self._outline
 
     @property
-    def sole_edges(self) -> tuple[Triple, ...]:
-        """The edges of that outline, as a `Tray` has them."""
-        if self._sole_edges is None:
-            self._sole_edges = edges_of(self.sole_outline)
-        return self._sole_edges
+    def base_edges(self) -> tuple[Triple, ...]:
+        """The edges of that outline, as a `TopFace` has them."""
+        if self._base_edges is None:
+            self._base_edges = edges_of(self.base_outline)
+        return self._base_edges
 
     @property
-    def tray(self) -> Tray | None:
+    def top_face(self) -> TopFace | None:
         """What it bears others with, if that is level and convex."""
-        if self._tray is None and (top_m := self.shape.top(self.way_up)) is not None:
+        if self._top_face is None and (top_m := self.shape.top(self.way_up)) is not None:
             corners = [self._turned(corner) for corner in top_m]
             outline = tuple([(u, v) for u, v, _ in corners])
             height = sum(h for _, _, h in corners) / len(corners)
             middle = (sum(u for u, _ in outline) / len(outline), sum(v for _, v in outline) / len(outline))
             radius = max([math.dist(middle, corner) for corner in outline])
-            self._tray = Tray(outline, height, edges_of(outline), middle, radius)
-        return self._tray
+            self._top_face = TopFace(outline, height, edges_of(outline), middle, radius)
+        return self._top_face
 
     @property
     def lean(self) -> Lean | None:

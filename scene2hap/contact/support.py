@@ -112,8 +112,8 @@ def supports(falls_m: Mapping[str, Floats], reach_m: float) -> dict[str, Support
 
 
 def level_supports(rests: Mapping[str, Rest], reach_m: float) -> dict[str, Support] | None:
-    """The same for a thing with one level sole, from how it lies on what is level below; None where that depends on
-    which part of the sole sees what."""
+    """The same for a thing with one level base face, from how it lies on what is level below; None where that depends
+    on which part of the base face sees what."""
     first = min(rest.fall_m for rest in rests.values())
     found = {}
     for name, (fall_m, *_) in rests.items():

@@ -14,17 +14,17 @@ Rotation = tuple[float, float, float, float]
 
 
 MOST_CORNERS = 8
-"""An outline of more is taken for the circle around it, as `clearing` does."""
+"""An outline of more is taken for the circle around it, as `free_space` does."""
 SURELY_M = 1e-9
-"""How far inside of all edges a sole is to be, that `rest_on` surely tells so too."""
+"""How far inside of all edges a base face is to be, that `rest_on` surely tells so too."""
 
 
 class Bounds(NamedTuple):
     """Where a slide is sure.
 
     lane : where in the level plane the box of the body may be; heights : between which it may be; middle_m : twice the
-    height of its middle is above this; edges : inside of which its sole is, (n_u, n_v, offset); top_m : how high these
-    are; least_m, most_m : between which the body may be to fall there. All in the world [m].
+    height of its middle is above this; edges : inside of which its base face is, (n_u, n_v, offset); top_m : how high
+    these are; least_m, most_m : between which the body may be to fall there. All in the world [m].
     """
 
     lane: Flat
@@ -70,24 +70,24 @@ class Track:
         down, over = low[up], high[up]
         if down < lowest or over > highest or down + over <= middle_m:
             return None
-        points, sole, (mu, mv), radius, _ = stance.footing
+        points, base_face, (mu, mv), radius, _ = stance.posed_base_face
         h, u, v = position_m[up], x, position_m[flat]
-        fall_m = h + sole - top_m
+        fall_m = h + base_face - top_m
         if not least_m < fall_m < most_m:
             return None
         cu, cv = mu + u, mv + v
         for nu, nv, offset in edges:
             if nu * cu + nv * cv - offset < radius:
-                # The circle around the sole is over an edge; the sole itself need not be.
-                if len(stance.sole_outline) > MOST_CORNERS:
+                # The circle around the base face is over an edge; the base face itself need not be.
+                if len(stance.base_outline) > MOST_CORNERS:
                     return None
-                for pu, pv in stance.sole_outline:
+                for pu, pv in stance.base_outline:
                     for mu, mv, most in edges:
                         if mu * (u + pu) + mv * (v + pv) - most < SURELY_M:
                             return None
                 break
         # As in `rest_points`, to the last bit.
-        height = (h + sole + top_m) / 2
+        height = (h + base_face + top_m) / 2
         if up == 1:
             places = tuple([(u + pu, height, v + pv) for pu, pv in points])
         else:

@@ -11,7 +11,7 @@ from contact_scenes import box, boxes
 from scene2hap.contact.body import Body
 from scene2hap.contact.level import aside, clipped, rest_on, rest_points
 from scene2hap.contact.mesh_distance import MeshPair
-from scene2hap.contact.tie import Tie
+from scene2hap.contact.pair import BodyPair
 from scene2hap.scene.pose import Pose
 
 TURNS = st.floats(-3.0, 3.0)
@@ -31,7 +31,7 @@ def test_a_block_falls_onto_another_as_its_triangles_do(
     upper = block("upper", (0.3, 0.1, 0.2), (at[0], 0.25 + gap, at[1]), turn_x)
     rest = rest_on(upper, lower)
     assert rest is not None
-    least = Tie.between(upper, lower).first_fall_m("upper")
+    least = BodyPair.between(upper, lower).first_fall_m("upper")
     # Rims that overlap by a tenth of a millimetre may or may not count.
     if math.isinf(rest.fall_m) != math.isinf(least):
         moved = block("upper", (0.2998, 0.1, 0.1998), upper.position_m, turn_x)
@@ -90,17 +90,17 @@ def test_what_leans_stands_on_its_lowest_edge() -> None:
         box("leaning", (0.1, 0.2, 0.3), (0, 0, 0), (math.sin(angle / 2), 0.0, 0.0, math.cos(angle / 2))), 1
     )
     assert not leaning.stance.is_block
-    footing = leaning.stance.footing
+    posed_base_face = leaning.stance.posed_base_face
     # The edge along x that is lowest once y has turned to z by the angle.
     height, z = -0.1 * math.cos(angle) - 0.15 * math.sin(angle), -0.1 * math.sin(angle) + 0.15 * math.cos(angle)
-    assert footing.height == pytest.approx(height)
-    assert sorted(footing.points) == [pytest.approx((-0.05, z)), pytest.approx((0.05, z))]
+    assert posed_base_face.height == pytest.approx(height)
+    assert sorted(posed_base_face.points) == [pytest.approx((-0.05, z)), pytest.approx((0.05, z))]
     floor = block("floor", (1, 1, 1), (0, -0.7, 0), 0.0)
     rest = rest_on(leaning, floor)
     assert rest is not None
     assert rest.fall_m == pytest.approx(height + 0.2)
     assert rest.wholly
-    told = Tie.between(leaning, floor).falls("leaning")
+    told = BodyPair.between(leaning, floor).falls("leaning")
     assert told is not None
     assert rest.fall_m == pytest.approx(told.min(), abs=1e-4)  # triangles are tried a little smaller
     # Half over an edge nothing is sure.
@@ -110,14 +110,14 @@ def test_what_leans_stands_on_its_lowest_edge() -> None:
 def test_feet_that_are_a_little_uneven_all_stand() -> None:
     legs = [((0.04, 0.4, 0.04), (x, 0.2 + 0.001 * (x * z > 0), z)) for x in (-0.2, 0.2) for z in (-0.2, 0.2)]
     stool = Body.of(boxes("stool", *legs, ((0.44, 0.04, 0.44), (0.0, 0.42, 0.0))), 1)
-    assert {(round(u, 1), round(v, 1)) for u, v in stool.stance.footing.points} == {
+    assert {(round(u, 1), round(v, 1)) for u, v in stool.stance.posed_base_face.points} == {
         (-0.2, -0.2),
         (-0.2, 0.2),
         (0.2, -0.2),
         (0.2, 0.2),
     }
-    assert stool.stance.footing.height == pytest.approx(0.0, abs=1e-9)
-    assert not stool.stance.footing.is_filled
+    assert stool.stance.posed_base_face.height == pytest.approx(0.0, abs=1e-9)
+    assert not stool.stance.posed_base_face.is_filled
 
 
 def test_a_box_around_a_turned_body_holds_it() -> None:

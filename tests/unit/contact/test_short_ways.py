@@ -9,7 +9,7 @@ import pytest
 from contact_scenes import box, boxes, floor, on_floor, scene
 from scene2hap.contact import finder
 from scene2hap.contact.body import Body
-from scene2hap.contact.crowd import Crowd
+from scene2hap.contact.broad_phase import BroadPhase
 from scene2hap.contact.glide import Glide
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.short_ways import ShortWays
@@ -94,8 +94,8 @@ def test_what_is_lifted_floats_unless_it_may_hang(gap_m: float, floats: bool, mo
 def test_what_is_lifted_and_put_down_again_keeps_its_neighbours(monkeypatch: pytest.MonkeyPatch) -> None:
     """A hand's breadth over the table and higher, over and over: nobody is looked for anew, and no way is long."""
     drawn, long_ways = list[dict[str, set[str]]](), list[bool]()
-    put, take = Crowd.put, ShortWays.take
-    monkeypatch.setattr(Crowd, "put", lambda *given: drawn.append(put(*given)) or drawn[-1])
+    put, take = BroadPhase.update, ShortWays.take
+    monkeypatch.setattr(BroadPhase, "update", lambda *given: drawn.append(put(*given)) or drawn[-1])
     monkeypatch.setattr(ShortWays, "take", lambda *given: long_ways.append(not take(*given)) or not long_ways[-1])
     objects = [floor(), TABLE, CUP, box("wide", (0.3, 0.1, 0.3), (-0.3, 0.75, 0.1))]
     graph = ContactGraph(scene(*objects))

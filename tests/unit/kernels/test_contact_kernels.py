@@ -106,42 +106,14 @@ def test_distances_of_meshes_to_the_last_bit(seed: int) -> None:
 def test_soles_on_tops_to_the_last_bit(seed: int, up_axis: int) -> None:
     plain, twin = both("contact.slide.lying")
     rng = np.random.default_rng(seed)
-    sole, top = (Stance(shape_of(Box(tuple(rng.uniform(0.1, 2, 3))).mesh), turned(rng, up_axis), up_axis) for _ in "xy")
+    base_face, top = (
+        Stance(shape_of(Box(tuple(rng.uniform(0.1, 2, 3))).mesh), turned(rng, up_axis), up_axis) for _ in "xy"
+    )
     places = [tuple(rng.normal(scale=0.3, size=3).tolist()) for _ in "xy"]
-    if top.tray is not None:
-        told = plain(places[0], sole.footing, places[1], top.tray, up_axis)
-        assert twin(places[0], sole.footing, places[1], top.tray, up_axis) == told
-        assert len(told[3]) == len(sole.footing.points)
-
-
-@steady
-@given(seed=seeds, up_axis=st.sampled_from([1, 2]))
-def test_zones_around_what_wanders_to_the_last_bit(seed: int, up_axis: int) -> None:
-    rng = np.random.default_rng(seed)
-    zones = [kind(up_axis, 0.25, (0.25, 0.6)) for kind in both("contact.zones.Zones")]
-    rows: set[int] = set()
-    for row in (*range(70), *rng.integers(0, 70, 40).tolist()):
-        if row in rows and rng.random() < 0.2:
-            for one in zones:
-                one.clear(row)
-            rows.discard(row)
-            continue
-        low = rng.integers(0, 9, 3) + rng.random(3)
-        box = [tuple(corner.tolist()) for corner in (low, low + rng.integers(0, 4, 3))]
-        if row in rows:
-            held = zones[0].holds(row, *box)
-            assert zones[1].holds(row, *box) is held
-            if held:
-                continue
-        for one in zones:
-            one.draw(row, *box, 0.1, 0.3)
-        rows.add(row)
-        assert zones[1].room(row) == zones[0].room(row)
-        assert zones[0].holds(row, *box)
-        assert zones[1].holds(row, *box)
-        assert zones[1].meeting(row) == zones[0].meeting(row)
-    np.testing.assert_array_equal(zones[1].low, zones[0].low)
-    np.testing.assert_array_equal(zones[1].high, zones[0].high)
+    if top.top_face is not None:
+        told = plain(places[0], base_face.posed_base_face, places[1], top.top_face, up_axis)
+        assert twin(places[0], base_face.posed_base_face, places[1], top.top_face, up_axis) == told
+        assert len(told[3]) == len(base_face.posed_base_face.points)
 
 
 @steady
@@ -156,7 +128,7 @@ def test_outlines_beside_each_other_to_the_last_bit(seed: int) -> None:
             # Squares side by side, as things on a grid are: several ways are equally short.
             ring = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]) + rng.choice([0.0, 1.0, 1.25], 2)
         outlines.append([(u, v) for u, v in ring.tolist()])
-    plain, twin = both("contact.outlines.facing")
+    plain, twin = both("contact.polygons.polygon_gap")
     for rise_m in (0.0, 0.1):
         given = (*outlines, rise_m, float(rng.choice([0.1, 0.5, 4.0])), 0.01)
         assert twin(*given) == plain(*given)

@@ -1,9 +1,9 @@
-"""Who may matter to whom: a list of neighbours for every body, wide enough to last while things move a little.
+"""Broad phase: a neighbour list for every body, wide enough to last while bodies move a little.
 
-Every body has a zone, all that it may touch, fall onto or hang from; two whose zones meet are neighbours. The zone of
-what moves is drawn `SKIN_M` too wide, and drawn anew only when it has left it (Verlet's lists); then some of where it
-came from is kept, so that what goes to and fro, or is lifted and put down again, does not leave it over and over. Who
-stands on such a list too much does no harm: the list saves looking and decides nothing.
+Every body has a fat box: its AABB, enlarged by all that the body may touch, fall onto or hang from. Bodies whose fat
+boxes overlap are neighbours. The fat box of a body that moves is drawn `SKIN_M` wider, and drawn again only once the
+body has left it (Verlet's lists). It keeps some of where the body was, so that a body that goes to and fro, or is
+lifted and put down, keeps its list. A list that is too long costs time and decides nothing.
 
 Source: L. Verlet, Computer experiments on classical fluids I, Phys. Rev. 159 (1967) 98.
 """
@@ -16,7 +16,7 @@ import numpy as np
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes, box_pairs
-from scene2hap.contact.zones import Room, Zones
+from scene2hap.contact.fat_boxes import AABB, FatBoxes
 
 SKIN_M = 0.06
 """How far a thing may move before its neighbours are looked for anew (assumed: a hand's way in four or five frames)."""
@@ -28,37 +28,37 @@ _MEMORY_M = (SKIN_M, 0.3)
 _MANY = 16
 
 
-class Crowd:
-    """The bodies' zones as columns of numbers.
+class BroadPhase:
+    """Bodies by id, and the neighbours of each.
 
-    Parameters: margins_m : how far a body's zone reaches beyond it to all sides, and how much farther down [m].
+    Parameters: margins_m : how far a body's fat box reaches beyond it to all sides, and how much farther down [m].
     """
 
     def __init__(self, up_axis: int, margins_m: Callable[[Body], tuple[float, float]]) -> None:
         self._margins_m = margins_m
-        self._zones = Zones(up_axis, SKIN_M, _MEMORY_M)
+        self._zones = FatBoxes(up_axis, SKIN_M, _MEMORY_M)
         self._ids: list[str] = []
         self._rows: dict[str, int] = {}
         self._free: list[int] = []
-        self.near: dict[str, set[str]] = {}
+        self.neighbours: dict[str, set[str]] = {}
 
-    def room(self, object_id: str) -> Room:
-        """Where a body may move without another list."""
+    def room(self, object_id: str) -> AABB:
+        """The box in which a body may move and keep its list [m]."""
         return self._zones.room(self._rows[object_id])
 
-    def take_out(self, object_id: str) -> set[str]:
-        """Forget a body; who were its neighbours."""
+    def remove(self, object_id: str) -> set[str]:
+        """Remove a body. Returns its neighbours."""
         row = self._rows.pop(object_id)
         self._zones.clear(row)
         self._free.append(row)
-        neighbours = self.near.pop(object_id)
+        neighbours = self.neighbours.pop(object_id)
         for other in neighbours:
-            self.near[other].discard(object_id)
+            self.neighbours[other].discard(object_id)
         return neighbours
 
-    def put(self, bodies: Sequence[Body]) -> dict[str, set[str]]:
-        """Place bodies, new ones or ones that moved; by id of those that left their zone, who has ceased to be a
-        neighbour; two that left each other at once are told once."""
+    def update(self, bodies: Sequence[Body]) -> dict[str, set[str]]:
+        """Insert or move bodies. Returns, for each body that left its fat box, the neighbours it lost; two that lose
+        each other are reported once."""
         left: dict[str, set[str]] = {}
         drawn, rows, zones = [], self._rows, self._zones
         for body in bodies:
@@ -73,12 +73,12 @@ class Crowd:
             return left
         found = self._neighbours(drawn)
         for object_id in drawn:
-            before, now = self.near.get(object_id, set()), found[object_id]
-            self.near[object_id] = now
+            before, now = self.neighbours.get(object_id, set()), found[object_id]
+            self.neighbours[object_id] = now
             for other in before - now:
-                self.near[other].discard(object_id)
+                self.neighbours[other].discard(object_id)
             for other in now - before:
-                self.near.setdefault(other, set()).add(object_id)
+                self.neighbours.setdefault(other, set()).add(object_id)
             left[object_id] = before - now
         return left
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from contact_scenes import box
 from scene2hap.contact.body import Body
-from scene2hap.contact.crowd import SKIN_M, Crowd
+from scene2hap.contact.broad_phase import SKIN_M, BroadPhase
 from scene2hap.scene.pose import Pose
 
 
@@ -17,45 +17,45 @@ def test_a_list_holds_all_whose_zones_meet_and_both_know_it() -> None:
     rng = np.random.default_rng(4)
     margin = 0.05
     bodies = {f"b{i}": Body.of(box(f"b{i}", (0.2, 0.1, 0.2), tuple(rng.uniform(0, 2, 3))), 1) for i in range(80)}
-    crowd = Crowd(1, lambda _: (margin, 0.0))
-    crowd.put(list(bodies.values()))
+    crowd = BroadPhase(1, lambda _: (margin, 0.0))
+    crowd.update(list(bodies.values()))
     for step in range(60):
         movers = rng.choice(sorted(bodies), 4, replace=False).tolist()
         if step % 10 == 9:
             gone = movers.pop()
-            neighbours = set(crowd.near[gone])
-            assert crowd.take_out(gone) == neighbours
+            neighbours = set(crowd.neighbours[gone])
+            assert crowd.remove(gone) == neighbours
             del bodies[gone]
         moved = []
         for name in movers:
             at = np.array(bodies[name].position_m) + rng.normal(scale=SKIN_M / 2, size=3)
             bodies[name] = bodies[name].at(Pose(tuple(at.tolist())))
             moved.append(bodies[name])
-        before = {name: set(crowd.near[name]) for name in movers}
-        left = crowd.put(moved)
+        before = {name: set(crowd.neighbours[name]) for name in movers}
+        left = crowd.update(moved)
         # A pair that parted is told once, on either side.
         told = {frozenset((x, y)) for x, others in left.items() for y in others}
-        assert told == {frozenset((x, y)) for x in movers for y in before[x] - crowd.near[x]}
+        assert told == {frozenset((x, y)) for x in movers for y in before[x] - crowd.neighbours[x]}
         assert len(told) == sum(map(len, left.values()))
         for x in bodies:
             must = {y for y in bodies if y != x and meet(bodies[x], bodies[y], 2 * margin)}
-            assert must <= crowd.near[x]
-            assert all(x in crowd.near[y] for y in crowd.near[x])
+            assert must <= crowd.neighbours[x]
+            assert all(x in crowd.neighbours[y] for y in crowd.neighbours[x])
             may = {y for y in bodies if y != x and meet(bodies[x], bodies[y], 2 * margin + 2 * (SKIN_M + 0.36) + 1e-9)}
-            assert crowd.near[x] <= may
+            assert crowd.neighbours[x] <= may
 
 
 def test_what_stays_in_its_zone_is_not_asked_about() -> None:
-    crowd = Crowd(1, lambda _: (0.01, 0.02))
+    crowd = BroadPhase(1, lambda _: (0.01, 0.02))
     body = Body.of(box("b", (0.1, 0.1, 0.1), (0, 0, 0)), 1)
-    assert crowd.put([body]) == {"b": set()}
-    assert crowd.put([body.at(Pose((0.001, 0, 0)))]) == {"b": set()}  # drawn tight at first, wide from now on
-    assert crowd.put([body.at(Pose((0.9 * SKIN_M, 0, 0)))]) == {}
-    assert "b" in crowd.put([body.at(Pose((1.1 * SKIN_M + 0.001, 0, 0)))])
+    assert crowd.update([body]) == {"b": set()}
+    assert crowd.update([body.at(Pose((0.001, 0, 0)))]) == {"b": set()}  # drawn tight at first, wide from now on
+    assert crowd.update([body.at(Pose((0.9 * SKIN_M, 0, 0)))]) == {}
+    assert "b" in crowd.update([body.at(Pose((1.1 * SKIN_M + 0.001, 0, 0)))])
     # It may go back again without another list, and be lifted and put down over and over.
-    assert crowd.put([body.at(Pose((0.2 * SKIN_M, 0, 0)))]) == {}
-    assert "b" in crowd.put([body.at(Pose((0.2 * SKIN_M, 0.25, 0)))])
-    assert crowd.put([body.at(Pose((0.2 * SKIN_M, 0, 0)))]) == {}
-    assert crowd.put([body.at(Pose((0.2 * SKIN_M, 0.25, 0)))]) == {}
-    assert "b" in crowd.put([body.at(Pose((0.2 * SKIN_M, 0.5, 0)))])
-    assert "b" in crowd.put([body.at(Pose((0.2 * SKIN_M, 0, 0)))])
+    assert crowd.update([body.at(Pose((0.2 * SKIN_M, 0, 0)))]) == {}
+    assert "b" in crowd.update([body.at(Pose((0.2 * SKIN_M, 0.25, 0)))])
+    assert crowd.update([body.at(Pose((0.2 * SKIN_M, 0, 0)))]) == {}
+    assert crowd.update([body.at(Pose((0.2 * SKIN_M, 0.25, 0)))]) == {}
+    assert "b" in crowd.update([body.at(Pose((0.2 * SKIN_M, 0.5, 0)))])
+    assert "b" in crowd.update([body.at(Pose((0.2 * SKIN_M, 0, 0)))])

@@ -1,8 +1,9 @@
-"""What a shape has lowest and highest for a way that is up: the sole that it stands on and the top that bears others.
+"""What a shape has lowest and highest for a way that is up: the base face that it stands on and the top that bears
+others.
 
 Most things stand on level faces, and what touches there is a matter of flat convex outlines; only the rest needs
-triangles. A sole is the lowest of a shape, level or a few corners like the feet of a stool, and a top its highest, so
-that wherever they are over each other, nothing of the two shapes is nearer.
+triangles. A base face is the lowest of a shape, level or a few corners like the feet of a stool, and a top its highest,
+so that wherever they are over each other, nothing of the two shapes is nearer.
 """
 
 from __future__ import annotations
@@ -16,17 +17,17 @@ from scene2hap.contact.vectors import Floats, Triple, along, frame_along, highes
 
 # How uneven a level face may be, as a share of the shape's size and at most (assumed).
 _UNEVEN, _UNEVEN_M = 1e-4, 2e-4
-# Corners of a thing without a level sole stand with the lowest up to so much above it (assumed: a little more than the
-# slack that patches of triangles have, since feet of models are often 1 mm uneven).
+# Corners of a thing without a level base face stand with the lowest up to so much above it (assumed: a little more than
+# the slack that patches of triangles have, since feet of models are often 1 mm uneven).
 _FEET_M = 0.0012
-# A face is no sole if it takes up less than this share of what such corners do: a vase may have a crumb of a face that
-# is lowest.
+# A face is no base face if it takes up less than this share of what such corners do: a vase may have a crumb of a face
+# that is lowest.
 _CRUMB = 0.5
 _FEW = 24  # So few points are spread sooner in plain numbers.
 _COVER = 1e-3  # An outline is filled when its triangles' area differs by less than this share.
 
 
-class Sole(NamedTuple):
+class BaseFace(NamedTuple):
     """What a shape stands on, in its own frame [m].
 
     Up to four `points_m` stand for it; `outline_m` is its convex outline, of one corner or two if there are no more;
@@ -47,7 +48,7 @@ def uneven_m(size_m: float) -> float:
     return min(_UNEVEN * size_m, _UNEVEN_M)
 
 
-def sole_of(corners: Floats, triangles: Floats, uneven: float, up: Triple) -> Sole:
+def base_face_of(corners: Floats, triangles: Floats, uneven: float, up: Triple) -> BaseFace:
     """What a shape stands on when its own direction `up` points up: the lowest level face, if it is no crumb, or the
     lowest corners.
 
@@ -59,7 +60,7 @@ def sole_of(corners: Floats, triangles: Floats, uneven: float, up: Triple) -> So
     least = heights.min()
     feet = list(dict.fromkeys(triples(corners[heights <= least + _FEET_M])))
     if len(feet) == 1:
-        return Sole((feet[0],), (feet[0],), feet[0], 0.0, False, False)
+        return BaseFace((feet[0],), (feet[0],), feet[0], 0.0, False, False)
     corners = np.array(feet)
     around = corners[outline(corners @ plane)]
     has_face = np.count_nonzero(corners @ upwards <= least + uneven) > 2
@@ -72,7 +73,7 @@ def sole_of(corners: Floats, triangles: Floats, uneven: float, up: Triple) -> So
     radius = float(np.linalg.norm(around - middle, axis=1).max())
     points = triples(corners[spread_few(feet) if face is None and len(feet) <= _FEW else spread(corners.T)])
     is_filled = face is not None and face.is_filled
-    return Sole(points, triples(around), triples(middle[None])[0], radius, is_filled, face is not None)
+    return BaseFace(points, triples(around), triples(middle[None])[0], radius, is_filled, face is not None)
 
 
 def top_of(triangles: Floats, uneven: float, up: Triple) -> tuple[Triple, ...] | None:

@@ -1,11 +1,11 @@
-"""The compiled twin of the kernel in `outlines`."""
+"""The compiled twin of the kernel in `polygons`."""
 
 from libc.math cimport INFINITY, sqrt
 
 cdef enum:
     MOST = 8
 
-cdef double ROUNDING_M = 1e-9  # as in `outlines`
+cdef double ROUNDING_M = 1e-9  # as in `polygons`
 
 
 cdef struct Ring:
@@ -19,7 +19,7 @@ cdef struct Way:
     double pu, pv, qu, qv, length
 
 
-def facing(x, y, double rise_m, double within_m, double slack_m):
+def polygon_gap(x, y, double rise_m, double within_m, double slack_m):
     cdef Ring one = ring_of(x), other = ring_of(y)
     cdef Way ways[2 * MOST * MOST]
     cdef Way best

@@ -9,9 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contact_scenes import box, boxes, chair, house, pairs, scene
-from scene2hap.contact import holding, short_ways, tie
+from scene2hap.contact import holding, short_ways
+from scene2hap.contact import pair as narrow_phase
 from scene2hap.contact.body import Body
-from scene2hap.contact.clearing import below, is_clear
+from scene2hap.contact.free_space import has_nothing_near, ledge_under
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.support import fall_reach_m, hang_reach_m
@@ -52,16 +53,16 @@ def test_what_is_told_is_what_triangles_tell(
         guest = Body.of(replace(box("guest", size, (0, 0, 0)), pose=all_of_it.compose(place)), 1)
         reach_m = fall_reach_m(guest.size_m)
         meeting = MeshPair(guest, host)
-        told = tie.Tie.between(guest, host).falls("guest")
-        known = below(guest, host)
+        told = narrow_phase.BodyPair.between(guest, host).falls("guest")
+        known = ledge_under(guest, host)
         if known is not None and known.top_m is None:
             assert told is None
         elif known is not None and known.top_m is not None:
-            fall_m = guest.position_m[1] + guest.stance.footing.height - host.position_m[1] - known.top_m
+            fall_m = guest.position_m[1] + guest.stance.posed_base_face.height - host.position_m[1] - known.top_m
             if -0.004 <= fall_m <= reach_m - 1e-9:
                 assert told is not None
                 assert told.min() == pytest.approx(fall_m, abs=1e-9)
-        if is_clear(guest, host):
+        if has_nothing_near(guest, host):
             assert told is None
             assert meeting.gap(hang_reach_m(guest.size_m)) is None
 
@@ -99,12 +100,12 @@ def test_a_thing_between_boards_stands_on_the_lower() -> None:
 
 
 def alone(*things: SceneObject) -> ContactGraph:
-    """The graph that triangles tell without any clearing."""
+    """The graph that triangles tell without any free region."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(tie, "below", lambda guest, host: None)
-        patch.setattr(tie, "is_clear", lambda guest, host: False)
-        patch.setattr(short_ways, "is_clear", lambda guest, host: False)
-        patch.setattr(holding, "is_clear", lambda guest, host: False)
+        patch.setattr(narrow_phase, "ledge_under", lambda guest, host: None)
+        patch.setattr(narrow_phase, "has_nothing_near", lambda guest, host: False)
+        patch.setattr(short_ways, "has_nothing_near", lambda guest, host: False)
+        patch.setattr(holding, "has_nothing_near", lambda guest, host: False)
         return ContactGraph(scene(*things))
 
 
@@ -125,21 +126,21 @@ def test_where_a_step_is_in_the_way_nothing_is_told() -> None:
     on_podium = Body.of(box("a", (0.2, 0.1, 0.2), (-1.1, 0.17, -1.1)), 1)
     beside = Body.of(box("b", (0.2, 0.1, 0.2), (-0.55, 0.05, -1.1)), 1)
     across = Body.of(box("c", (0.2, 0.1, 0.2), (-0.7, 0.17, -1.1)), 1)
-    known = below(on_podium, host)
+    known = ledge_under(on_podium, host)
     assert known is not None
     assert known.top_m == pytest.approx(0.12)
-    known = below(beside, host)
+    known = ledge_under(beside, host)
     assert known is not None
     assert known.top_m == 0.0
-    assert below(across, host) is None
-    assert not is_clear(on_podium, host)
+    assert ledge_under(across, host) is None
+    assert not has_nothing_near(on_podium, host)
 
 
 def test_a_leaning_host_tells_nothing() -> None:
     leaning = Body.of(house((0.05, 0.0, 0.0, 1.0)), 1)
     guest = Body.of(box("a", (0.2, 0.1, 0.2), (0.0, 1.0, 0.0)), 1)
-    assert below(guest, leaning) is None
-    assert not is_clear(guest, leaning)
+    assert ledge_under(guest, leaning) is None
+    assert not has_nothing_near(guest, leaning)
 
 
 NAMES = ["crate", "chair", "pot", "stick", "mat"]

@@ -1,6 +1,7 @@
-"""What is known of two bodies where they are now: who may fall onto whom, how far they are apart, where they meet.
+"""Narrow phase of two bodies: which may rest on the other, their distance, and their contact points.
 
-Level things by their outlines, all others by their triangles, each fact found when first asked for.
+Level faces are compared in closed form, concave hosts by their free regions, everything else by triangles. Each answer
+is computed when it is first needed and kept until one of the two moves.
 """
 
 from __future__ import annotations
@@ -10,20 +11,20 @@ from collections.abc import Callable
 from typing import Any
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.clearing import below, is_clear
 from scene2hap.contact.enclosure import enclosed
+from scene2hap.contact.free_space import has_nothing_near, ledge_under
 from scene2hap.contact.level import Aside, Rest, aside, rest_on
 from scene2hap.contact.mesh_distance import Gap, MeshPair
 from scene2hap.contact.relative import roles
 from scene2hap.contact.support import SLACK_M, TOUCH_M, fall_reach_m, is_over
 from scene2hap.contact.vectors import Floats, Triple
 
-UNCLEAR = Rest(math.nan, False, math.nan)
-"""Stands for a fall that only triangles can tell."""
+NEEDS_TRIANGLES = Rest(math.nan, False, math.nan)
+"""Stands for a fall that only triangles decide."""
 
 
-class Tie:
-    """Two bodies; `a` is the one with the lower id."""
+class BodyPair:
+    """Narrow-phase answers for two posed bodies, computed once and kept until either moves; `a` has the lower id."""
 
     __slots__ = ("_facts", "_is_in_reserve", "_meeting_made", "_rest_a", "_rest_b", "a", "b")
 
@@ -33,22 +34,22 @@ class Tie:
         self._facts: dict[object, Any] | None = None
 
     @classmethod
-    def between(cls, a: Body, b: Body) -> Tie:
-        """What is known of two bodies."""
+    def between(cls, a: Body, b: Body) -> BodyPair:
+        """The pair of two bodies, with how either may rest on the other."""
         rest_a = _rest(a, b)
         return cls(a, b, rest_a, _rest(b, a) if rest_a is None else None)
 
     @classmethod
-    def in_reserve(cls, x: Body, y: Body) -> Tie:
+    def in_reserve(cls, x: Body, y: Body) -> BodyPair:
         """The same of two of which hardly anything is ever asked. They may move without anybody's telling, so that it
         is found out each time."""
-        tie = cls(x, y, None, None) if x.id < y.id else cls(y, x, None, None)
-        tie._is_in_reserve = True
-        return tie
+        body_pair = cls(x, y, None, None) if x.id < y.id else cls(y, x, None, None)
+        body_pair._is_in_reserve = True
+        return body_pair
 
     @property
     def rest_a(self) -> Rest | None:
-        """How a may lie on b: None if not at all, `UNCLEAR` where triangles must tell."""
+        """How a may lie on b: None if not at all, `NEEDS_TRIANGLES` where triangles must tell."""
         return _rest(self.a, self.b) if self._is_in_reserve else self._rest_a
 
     @property
@@ -106,12 +107,12 @@ class Tie:
         return found
 
     @property
-    def is_clear(self) -> bool:
+    def has_nothing_near(self) -> bool:
         """Whether the two have surely nothing near each other, be the smaller amid the larger."""
         side = self.aside(TOUCH_M, SLACK_M)
         if side is not None:
             return not side.points
-        return is_clear(*roles(self.a, self.b))
+        return has_nothing_near(*roles(self.a, self.b))
 
     def gap(self, within_m: float) -> Gap | None:
         """How far their surfaces are apart; see `MeshPair.gap`."""
@@ -173,21 +174,21 @@ def _rest(x: Body, y: Body) -> Rest | None:
         return None
     rest = rest_on(x, y)
     if rest is None or rest.fall_m < -TOUCH_M:
-        return _rest_amid(x, y, reach_m)
+        return _rest_in_free_space(x, y, reach_m)
     return rest if rest.fall_m <= reach_m else None
 
 
-def _rest_amid(x: Body, y: Body, reach_m: float) -> Rest | None:
+def _rest_in_free_space(x: Body, y: Body, reach_m: float) -> Rest | None:
     """The same where one has surroundings in the other."""
     guest, host = roles(x, y)
-    known = below(guest, host)
+    known = ledge_under(guest, host)
     if known is None:
-        return UNCLEAR
+        return NEEDS_TRIANGLES
     if known.top_m is None:
         return None
     up = x.up_axis
     top_m = y.position_m[up] + known.top_m
-    fall_m = x.position_m[up] + x.stance.footing.height - top_m
+    fall_m = x.position_m[up] + x.stance.posed_base_face.height - top_m
     if guest is not x or fall_m < -TOUCH_M:
-        return UNCLEAR
+        return NEEDS_TRIANGLES
     return Rest(fall_m, True, top_m) if fall_m <= reach_m else None

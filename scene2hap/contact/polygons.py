@@ -1,4 +1,4 @@
-"""Two convex outlines in a plane, beside each other: how far they are apart, and where they face each other.
+"""Distance of two disjoint convex polygons in a plane, and the points where they face each other.
 
 The corners of either against the edges of the other.
 """
@@ -14,14 +14,17 @@ from scene2hap.contact.stance import Point, edges_of
 _ROUNDING_M = 1e-9
 
 
-Facing = tuple[float, Point, list[Point]]
+PolygonGap = tuple[float, Point, list[Point]]
 """How far two outlines are apart [m], the way from the first to the second there, and points half way between them
 where they are little farther apart."""
 
 
 @compiled
-def facing(x: Sequence[Point], y: Sequence[Point], rise_m: float, within_m: float, slack_m: float) -> Facing | None:
-    """How two are beside each other, inf apart and nowhere if by more than `within_m`; None where they overlap.
+def polygon_gap(
+    x: Sequence[Point], y: Sequence[Point], rise_m: float, within_m: float, slack_m: float
+) -> PolygonGap | None:
+    """Distance, direction and facing points of two disjoint convex polygons; a distance of inf and no points beyond
+    `within_m`, None where they overlap.
 
     Parameters: x, y : their corners, at most 8, in a row [m]; rise_m : how much higher one is than the other, which
     adds to every distance; slack_m : how much farther apart counts as little.

@@ -1,9 +1,9 @@
-"""Clearings: where a thing moves and all that another has there is nothing, or a ledge for it to stand on.
+"""Free space of concave hosts: a box around a guest in which the host has nothing, or one ledge to stand on.
 
-Rooms are one mesh of walls and floor, floors have nooks, shelves have boards below their top: the boxes of such things
-hold everything, and only triangles tell what they have where. They are asked once for the surroundings of a guest, and
-what they tell is kept with the host, in its own frame, for as long as the guest does not leave the surroundings. It
-holds for whoever is there: the poses alone decide.
+Rooms are one mesh of walls and floor, floors have nooks, shelves have boards below their top. The AABB of such a host
+holds everything around it, so only triangles tell where its surface is. They are searched once around a guest; the box
+found is kept with the host, in the host's frame, until the guest leaves it. It holds for any pose within it, so that
+poses alone decide the contacts.
 
     u, v : the host's own axes that are level; h : the height over its position [m]
 """
@@ -16,16 +16,16 @@ import numpy as np
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes
-from scene2hap.contact.crowd import SKIN_M
+from scene2hap.contact.broad_phase import SKIN_M
 from scene2hap.contact.enclosure import play_reach_m
+from scene2hap.contact.fat_boxes import AABB
 from scene2hap.contact.free_region import FreeRegion
 from scene2hap.contact.ledge import Flat, Upright
 from scene2hap.contact.mesh_distance import INSET, INSET_M
 from scene2hap.contact.relative import box_in_frame
-from scene2hap.contact.stance import Tray
+from scene2hap.contact.stance import TopFace
 from scene2hap.contact.support import TOUCH_M, fall_reach_m, hang_reach_m, is_over
 from scene2hap.contact.vectors import Marks
-from scene2hap.contact.zones import Room
 
 _MOST_TILT_M = 1e-4  # A host may lean by so much over its whole size, which is the error of a ledge's height then.
 _MANY_CORNERS = 8  # An outline of more is taken for a circle.
@@ -33,17 +33,17 @@ _ROUNDING_M = 2e-6
 _MOST_SKEW = 1e-5  # A host turned by more about the vertical [rad] is not in line.
 
 
-NOWHERE: Room = (math.inf,) * 3, (-math.inf,) * 3
+NOWHERE: AABB = (math.inf,) * 3, (-math.inf,) * 3
 _NO_LEDGE: Flat = (math.inf, math.inf, -math.inf, -math.inf)
 
 
-def below(guest: Body, host: Body) -> FreeRegion | None:
-    """The clearing that a guest has for falling, or the host for falling onto it: without anything of the host, or with
-    a ledge under all of the guest's foot. None where neither is sure."""
+def ledge_under(guest: Body, host: Body) -> FreeRegion | None:
+    """The free region that a guest has for falling, or the host for falling onto it: without anything of the host, or
+    with a ledge under all of the guest's foot. None where neither is sure."""
     own = _upright(host)
     if own is None:
         return None
-    known = host.clearings.get(guest.id)
+    known = host.free_regions.get(guest.id)
     taken, foot = _column(guest, host, own), _foot(guest, host, own)
     if known is not None and _holds(known.room, taken):
         if known.top_m is None:
@@ -54,11 +54,11 @@ def below(guest: Body, host: Body) -> FreeRegion | None:
             return known
     found = _drawn(host, own, taken, foot)
     if found is not None:
-        host.clearings[guest.id] = found
+        host.free_regions[guest.id] = found
     return found
 
 
-def is_clear(guest: Body, host: Body) -> bool:
+def has_nothing_near(guest: Body, host: Body) -> bool:
     """Whether a host has surely nothing so near to a guest that the two could touch, in whatever way."""
     own = _upright(host)
     if own is None:
@@ -66,30 +66,30 @@ def is_clear(guest: Body, host: Body) -> bool:
     (u0, v0, h0), (u1, v1, h1) = _column(guest, host, own)
     reach_m = _reach_m(guest)
     taken = (u0 - reach_m, v0 - reach_m, h0 - reach_m), (u1 + reach_m, v1 + reach_m, h1 + reach_m)
-    known = host.clearings.get(guest.id)
+    known = host.free_regions.get(guest.id)
     if known is None or known.top_m is not None or not _holds(known.room, taken):
         near = _Near(host, own, taken)
         if near.meets(taken).any():
             return False
-        host.clearings[guest.id] = FreeRegion(near.cut(taken), None, _NO_LEDGE)
+        host.free_regions[guest.id] = FreeRegion(near.cut(taken), None, _NO_LEDGE)
     return True
 
 
-def tray(host: Body, known: FreeRegion) -> Tray:
-    """The stretch of a ledge, turned as its host is; see `stance.Tray`."""
+def top_face(host: Body, known: FreeRegion) -> TopFace:
+    """The stretch of a ledge, turned as its host is; see `stance.TopFace`."""
     lean = host.stance.lean
     assert known.top_m is not None
     assert lean is not None
     a, b, c, d = _turn(host, lean.own)
     u0, v0, u1, v1 = known.ledge
     corners = tuple([(a * u + c * v, b * u + d * v) for u, v in ((u0, v0), (u1, v0), (u1, v1), (u0, v1))])
-    return Tray(corners, known.top_m, ((a, b, u0), (c, d, v0), (-a, -b, -u1), (-c, -d, -v1)))
+    return TopFace(corners, known.top_m, ((a, b, u0), (c, d, v0), (-a, -b, -u1), (-c, -d, -v1)))
 
 
-def open_box(guest: Body, host: Body, *, stands: bool) -> Room:
+def open_box(guest: Body, host: Body, *, stands: bool) -> AABB:
     """Where in the world, by lowest and highest corners (x, y, z), a guest's box may be if it stands on the host's
     ledge, or else if it is clear of it, as far as is known; `NOWHERE` too if the host is not in line with the world."""
-    known, lean, up = host.clearings.get(guest.id), host.stance.lean, host.up_axis
+    known, lean, up = host.free_regions.get(guest.id), host.stance.lean, host.up_axis
     if known is None or lean is None or stands != (known.top_m is not None) or is_over(host, guest):
         return NOWHERE
     a, b, c, d = _turn(host, lean.own)
@@ -130,7 +130,7 @@ def _reach_m(guest: Body) -> float:
     return max(TOUCH_M, play_reach_m(guest.size_m), hang_reach_m(guest.size_m))
 
 
-def _column(guest: Body, host: Body, own: Upright) -> Room:
+def _column(guest: Body, host: Body, own: Upright) -> AABB:
     """What a guest takes up in its host's frame and where it may fall, or the host onto it."""
     up, h = guest.up_axis, host.position_m[guest.up_axis]
     middle, half = box_in_frame(guest, host)
@@ -148,8 +148,8 @@ def _foot(guest: Body, host: Body, own: Upright) -> Flat:
     v_axis = 3 - guest.up_axis
     x, y = guest.position_m[0] - host.position_m[0], guest.position_m[v_axis] - host.position_m[v_axis]
     a, b, c, d = _turn(host, own)
-    if len(outline := guest.stance.sole_outline) > _MANY_CORNERS:
-        _, _, (p, q), r, _ = guest.stance.footing
+    if len(outline := guest.stance.base_outline) > _MANY_CORNERS:
+        _, _, (p, q), r, _ = guest.stance.posed_base_face
         u, v, hu = a * (x + p) + b * (y + q), c * (x + p) + d * (y + q), max(r - _ROUNDING_M, 0.0)
         return (u - hu, v - hu, u + hu, v + hu)
     us = [a * (x + p) + b * (y + q) for p, q in outline]
@@ -159,12 +159,12 @@ def _foot(guest: Body, host: Body, own: Upright) -> Flat:
     return (u0 + hu, v0 + hv, u1 - hu, v1 - hv)
 
 
-def _holds(room: Room, taken: Room) -> bool:
+def _holds(room: AABB, taken: AABB) -> bool:
     ((a, b, c), (d, e, f)), ((u0, v0, h0), (u1, v1, h1)) = room, taken
     return u0 >= a and v0 >= b and h0 >= c and u1 <= d and v1 <= e and h1 <= f
 
 
-def _drawn(host: Body, own: Upright, taken: Room, foot: Flat) -> FreeRegion | None:
+def _drawn(host: Body, own: Upright, taken: AABB, foot: Flat) -> FreeRegion | None:
     near = _Near(host, own, taken)
     meets = np.flatnonzero(near.meets(taken))
     if not len(meets):
@@ -187,7 +187,7 @@ def _drawn(host: Body, own: Upright, taken: Room, foot: Flat) -> FreeRegion | No
 class _Near:
     """The host's triangles around a guest: their `rows`, and the corners (3, n) of their boxes, as (u, v, h)."""
 
-    def __init__(self, host: Body, own: Upright, taken: Room) -> None:
+    def __init__(self, host: Body, own: Upright, taken: AABB) -> None:
         self._low, self._high = np.array(taken[0]) - SKIN_M, np.array(taken[1]) + SKIN_M
         boxes, order = host.shape.boxes, [own.u, own.v, own.axis]
         one = np.empty((2, 3, 1))
@@ -200,14 +200,14 @@ class _Near:
         if own.sign < 0:
             self.low[2], self.high[2] = -self.high[2], -self.low[2]
 
-    def meets(self, taken: Room) -> Marks:
+    def meets(self, taken: AABB) -> Marks:
         """Which of them (n,) meet a box, touching included."""
         low, high = np.array(taken)[..., None]
         x, y, z = (self.low <= high) & (self.high >= low)
         meets: Marks = x & y & z
         return meets
 
-    def cut(self, taken: Room, others: Marks | slice = slice(None)) -> Room:
+    def cut(self, taken: AABB, others: Marks | slice = slice(None)) -> AABB:
         """A box around another, not beyond the surroundings, that meets none of the others, all of which are beside."""
         low, high = np.array(taken)[..., None]
         sides = np.concatenate([self.low[:, others] - high, low - self.high[:, others]])
