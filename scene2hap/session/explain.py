@@ -16,10 +16,10 @@ from typing import Any
 
 from scene2hap.propagation.protocol import Carrier, CarryingField
 from scene2hap.session.frame import HapticFrame, Touch
+from scene2hap.session.loudest_path import LoudestPath, Point, loudest_path
+from scene2hap.session.scene_state import SceneState
 from scene2hap.session.sources import Sources
-from scene2hap.session.stage import Stage
 from scene2hap.session.touch_gains import TouchGains
-from scene2hap.session.way import Point, Way, best_way
 
 LEAST_SHARE = 0.01
 """Part of the power that is still told in words."""
@@ -108,14 +108,14 @@ class Explainer:
 
     def __init__(
         self,
-        stage: Stage,
+        state: SceneState,
         sources: Sources,
         model: object,
         field: object,
         gains: TouchGains,
         levels: Mapping[str, float],
     ) -> None:
-        self._stage, self._sources, self._model, self._gains, self._levels = stage, sources, model, gains, levels
+        self._state, self._sources, self._model, self._gains, self._levels = state, sources, model, gains, levels
         self._field = field if isinstance(field, CarryingField) else None
 
     def explain(self, hand: str, touches: Sequence[Touch], frame: HapticFrame, is_current: bool) -> Explanation:
@@ -142,7 +142,7 @@ class Explainer:
         if self._field is not None and on != source_id:
             carriers = self._field.carriers(on, source_id, band)
         else:
-            way = best_way(source_id, on, point_m, self._stage.graph.contacts, self._stage.bodies, self._model)
+            way = loudest_path(source_id, on, point_m, self._state.graph.contacts, self._state.bodies, self._model)
             steps = _steps(way, point_m, gain_at) if way is not None else ()
         return FeltSource(source_id, self._sources[source_id].state, on, gain_db, level_db, band, steps, carriers)
 
@@ -152,7 +152,7 @@ def decibels(gain: float) -> float:
     return 20 * math.log10(gain) if gain > 0 else -math.inf
 
 
-def _steps(way: Way, point_m: Point, gain_at: Callable[[str, Point], float]) -> tuple[PathStep, ...]:
+def _steps(way: LoudestPath, point_m: Point, gain_at: Callable[[str, Point], float]) -> tuple[PathStep, ...]:
     """A step runs through its object up to the next contact; what the contact costs counts to the object behind it."""
     steps, before_db = [PathStep(way.objects[0], 0.0, 0.0)], 0.0
     leaves = (*way.entries, point_m)[1:]

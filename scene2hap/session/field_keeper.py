@@ -25,7 +25,7 @@ from scene2hap.propagation.protocol import (
 from scene2hap.session.field_in_use import FieldInUse
 from scene2hap.session.last_field import LastField
 from scene2hap.session.reach import Reach
-from scene2hap.session.stage import Stage
+from scene2hap.session.scene_state import SceneState
 from scene2hap.session.worker import Desk, Prepared, Sign, Situation, put_to_work
 
 
@@ -41,14 +41,14 @@ class FieldKeeper:
         self,
         model: PropagationModel,
         bands: Bands,
-        stage: Stage,
+        state: SceneState,
         excitations: Sequence[Excitation],
         *,
         is_background: bool,
         skips_unreachable: bool,
     ) -> None:
         self._desk = Desk(model, bands)
-        self._stage = stage
+        self._state = state
         self._is_background, self._skips_unreachable = is_background, skips_unreachable
         self._worker: Thread | None = None
         self._is_stranger_touched = self._is_expectant = False
@@ -96,20 +96,20 @@ class FieldKeeper:
             self._put(Sign.TOUCHED)
         self._is_stranger_touched = False
 
-    def hearing(self, source_ids: tuple[str, ...], reach: Reach) -> FieldInUse:
+    def method(self, source_ids: tuple[str, ...], reach: Reach) -> FieldInUse:
         """The field in use, for these sources and what hangs together now; it goes along when another one is."""
         if self._heard is not None and self._heard[1:] == (source_ids, reach):
             return self._heard[0]
-        now, n_bands = self._stage.graph.pose, self._desk.bands.n_bands
+        now, n_bands = self._state.graph.pose, self._desk.bands.n_bands
 
         def as_now(one: Prepared) -> LastField:
             then = one.situation.poses
             return LastField(one.field, then, now, source_ids, n_bands, reach, lambda: one.situation is self._asked)
 
-        heard = FieldInUse(source_ids, as_now, self._note_touched)
-        heard.use(self.in_use, self._whole)
-        self._heard = (heard, source_ids, reach)
-        return heard
+        gained = FieldInUse(source_ids, as_now, self._note_touched)
+        gained.use(self.in_use, self._whole)
+        self._heard = (gained, source_ids, reach)
+        return gained
 
     def take(self) -> bool:
         """Take the newest field that is ready into use; false if it is already."""
@@ -141,9 +141,9 @@ class FieldKeeper:
             self._desk.has_answered.wait(rest_s)
 
     def _situation(self, number: int, excitations: Sequence[Excitation]) -> Situation:
-        now, stage = time.monotonic(), self._stage
+        now, state = time.monotonic(), self._state
         source_ids = [item.source_id for item in excitations] if self._skips_unreachable else None
-        return Situation(number, stage.network(source_ids), excitations, stage.poses, now)
+        return Situation(number, state.network(source_ids), excitations, state.poses, now)
 
     def _use(self, found: Prepared) -> None:
         situation, before = found.situation, self.in_use.situation

@@ -26,12 +26,12 @@ from scene2hap.session.actuator_check import warn_if_other
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.explain import Explanation
 from scene2hap.session.frame import HapticFrame, SessionStats, Touch, unknown_hand
-from scene2hap.session.hearing import Felt
+from scene2hap.session.hand_gains import Felt
 from scene2hap.session.listening import Listening
 from scene2hap.session.output import Output
 from scene2hap.session.playback import Playback
+from scene2hap.session.scene_state import SceneState
 from scene2hap.session.sources import Sources
-from scene2hap.session.stage import Stage
 
 MAX_RENDERED_FRAMES = 1 << 24
 """At once; assumed: minutes, where a sink asks for milliseconds."""
@@ -64,9 +64,9 @@ class HapticSession:
             scene.object(object_id)
             if loops:
                 self._sources.add(object_id, loops, bundle.objects.get(object_id), bundle.gain_db(object_id))
-        self._stage = Stage(scene, bundle)
+        self._state = SceneState(scene, bundle)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
-        self._listening = Listening(self.config, self._stage, self._sources, self._playback.peaks)
+        self._listening = Listening(self.config, self._state, self._sources, self._playback.peaks)
         self._output = Output(sink, self.config)
         self._last_stamp = self._updates = 0
 
@@ -78,7 +78,7 @@ class HapticSession:
     @property
     def snapshot(self) -> SceneSnapshot:
         """The scene as it is now."""
-        return self._stage.snapshot
+        return self._state.snapshot
 
     def update(
         self,
@@ -102,10 +102,10 @@ class HapticSession:
         if self._playback.take_prepared():
             self._listening.loops_came()
         if moved or contacts is not None:
-            self._listening.follow(self._stage.graph.update(moved or {}, contacts=contacts))
-        frame, heard = self._listening.frame(self.hands, felt, moved or (), is_paused=self._playback.is_paused)
-        if heard is not None:
-            self._playback.set_gains(heard.mixed, self._sources.active_rows(), stamp, heard.columns)
+            self._listening.apply(self._state.graph.update(moved or {}, contacts=contacts))
+        frame, gained = self._listening.frame(self.hands, felt, moved or (), is_paused=self._playback.is_paused)
+        if gained is not None:
+            self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
         self._updates += 1
         self._output.feed(frame)
         return frame
@@ -127,25 +127,25 @@ class HapticSession:
         for state, loop in (loops or {}).items():
             if not isinstance(loop, HapticLoop):
                 raise SessionError(f"loops[{state!r}] of {object.id!r} is {loop!r}; it must be a HapticLoop.")
-        change = self._stage.add(object, haptics)
+        change = self._state.add(object, haptics)
         if loops:
             self._sources.add(object.id, loops, haptics, self._bundle.gain_db(object.id))
             self._playback.change_rows(self._sources.rows(), self._now)
-        self._listening.follow(change, is_other_cast=bool(loops))
+        self._listening.apply(change, sources_changed=bool(loops))
 
     def remove(self, object_id: str) -> None:
         """Take an object out of the scene; what is felt of it fades.
 
         Raises: UnknownObject; SessionError: it is the last object.
         """
-        if len(self._stage.objects) == 1 and object_id in self._stage.objects:
+        if len(self._state.objects) == 1 and object_id in self._state.objects:
             raise SessionError(f"{object_id!r} is the last object of the scene; add another one before removing it.")
-        change = self._stage.remove(object_id)
+        change = self._state.remove(object_id)
         is_source = object_id in self._sources
         if is_source:
             self._sources.remove(object_id)
             self._playback.change_rows(self._sources.rows(), self._now)
-        self._listening.follow(change, is_other_cast=is_source)
+        self._listening.apply(change, sources_changed=is_source)
 
     def add_hand(self, name: str) -> None:
         """Add an output. A sink that is running is faded out and opened anew with one channel more.
@@ -292,8 +292,8 @@ class HapticSession:
         by_hand: dict[str, list[Touch]] = {}
         try:
             for touch in touches:
-                if touch.object_id not in self._stage.objects:
-                    raise UnknownObject(unknown_object(touch.object_id, self._stage.objects))
+                if touch.object_id not in self._state.objects:
+                    raise UnknownObject(unknown_object(touch.object_id, self._state.objects))
                 by_hand.setdefault(touch.hand, []).append(touch)
         except UnknownObject:
             raise

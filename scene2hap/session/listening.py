@@ -13,15 +13,15 @@ from scene2hap.propagation.protocol import Excitation
 from scene2hap.session.audibility import Audibility
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.counts import Counts
+from scene2hap.session.cutoff import CutoffCost
 from scene2hap.session.explain import Explainer, Explanation
 from scene2hap.session.field_keeper import FieldKeeper
 from scene2hap.session.frame import HapticFrame, SessionStats
-from scene2hap.session.hearing import Felt, Heard, Hearing, HearingAll, HearingNear, Loudness
-from scene2hap.session.horizon import Horizon
+from scene2hap.session.hand_gains import AllGains, Felt, GainMethod, HandGains, Loudness, PrunedGains
 from scene2hap.session.live_keeper import LiveKeeper
 from scene2hap.session.network import excitations_of
+from scene2hap.session.scene_state import SceneState
 from scene2hap.session.sources import LoopRow, Sources
-from scene2hap.session.stage import Stage
 from scene2hap.session.touch_gains import TouchGains
 
 PeaksOf = Callable[[Sequence[LoopRow]], NDArray[np.float32]]
@@ -34,37 +34,37 @@ class Listening:
     What gains depend on besides the touches is remembered, and forgotten when it changes.
     """
 
-    def __init__(self, config: SessionConfig, stage: Stage, sources: Sources, peaks: PeaksOf) -> None:
-        self._config, self._stage, self._sources, self._peaks = config, stage, sources, peaks
+    def __init__(self, config: SessionConfig, state: SceneState, sources: Sources, peaks: PeaksOf) -> None:
+        self._config, self._state, self._sources, self._peaks = config, state, sources, peaks
         self._counts = Counts()
         self._excitations: Sequence[Excitation] | None = None
-        self._hearing: Hearing | None = None
+        self._method: GainMethod | None = None
         self._hearing_of: LiveField | None = None
         self._n_unreachable: int | None = None
         self._levels, self._are_levels_known = np.empty(0), False
         self._audibility: Audibility | None = None
         self._loudness: Loudness | None = None
-        self._horizon: tuple[PricedField, Horizon] | None = None
+        self._cutoff: tuple[PricedField, CutoffCost] | None = None
         self._felt: Felt = {}
         self._frame = self.silence(())
         self._is_fresh = False
         self._look_around()
-        self.keeper = keeper_of(config, stage, self._known_excitations())
+        self.keeper = keeper_of(config, state, self._known_excitations())
         self._count_unreachable()
 
-    def follow(self, change: ContactChange, *, is_other_cast: bool = False) -> None:
-        """Take in a change of contacts, after objects came or went; `is_other_cast` if sources did."""
-        matters = is_other_cast or not self._config.skip.unreachable or self._reach.concerns(change)
-        if is_other_cast:
+    def apply(self, change: ContactChange, *, sources_changed: bool = False) -> None:
+        """Take in a change of contacts, after objects came or went; `sources_changed` if sources did."""
+        matters = sources_changed or not self._config.skip.unreachable or self._reach.concerns(change)
+        if sources_changed:
             self._forget_cast()
-        if is_other_cast or self._bodies is not self._stage.bodies:
+        if sources_changed or self._bodies is not self._state.bodies:
             self._look_around()
         elif change.appeared or change.vanished:
             self._reach.follow(change)
             self._n_unreachable = None
             if self._sources.need_contacts:
                 self._are_levels_known = False
-        if not change and not is_other_cast:
+        if not change and not sources_changed:
             return
         self._is_fresh = False
         if matters or self._reach.concerns(change):
@@ -74,7 +74,7 @@ class Listening:
 
     def loops_came(self) -> None:
         """Loops can be mixed that could not before."""
-        self._audibility = self._loudness = self._hearing = None
+        self._audibility = self._loudness = self._method = None
         self._is_fresh = False
 
     def levels_changed(self, is_other_state: bool = False) -> None:
@@ -86,7 +86,7 @@ class Listening:
 
     def frame(
         self, hands: tuple[str, ...], felt: Felt, moved: Collection[str], *, is_paused: bool
-    ) -> tuple[HapticFrame, Heard | None]:
+    ) -> tuple[HapticFrame, HandGains | None]:
         """What the hands are given, and what of it is to be mixed: None if nothing has changed."""
         if self.keeper.take():
             self._is_fresh = False
@@ -95,11 +95,11 @@ class Listening:
             self.keeper.order()
             return self._frame, None
         self._felt, self._is_fresh = felt, True
-        heard = None if is_paused else self._hear(len(hands), felt)
-        told = self._nothing(len(hands)) if heard is None else heard.told
+        gained = None if is_paused else self._gains_of_hands(len(hands), felt)
+        told = self._nothing(len(hands)) if gained is None else gained.full
         self._frame = HapticFrame(told, hands, self._sources.ids)
         self.keeper.order()
-        return self._frame, heard
+        return self._frame, gained
 
     def silence(self, hands: tuple[str, ...]) -> HapticFrame:
         """A frame in which no hand is given anything."""
@@ -114,10 +114,10 @@ class Listening:
     def explain(self, hand: str) -> Explanation:
         """Each source that a hand felt at the last frame, and its way there."""
         felt = (touch for touches in self._felt.values() for touch in touches)
-        touches = [touch for touch in felt if touch.hand == hand and touch.object_id in self._stage.objects]
+        touches = [touch for touch in felt if touch.hand == hand and touch.object_id in self._state.objects]
         levels = dict(zip(self._sources.ids, self._known_levels().tolist(), strict=True))
-        gains = self._touch_gains(self.keeper.hearing(self._sources.ids, self._reach), Counts())
-        explainer = Explainer(self._stage, self._sources, self._config.propagation, self.keeper.field, gains, levels)
+        gains = self._touch_gains(self.keeper.method(self._sources.ids, self._reach), Counts())
+        explainer = Explainer(self._state, self._sources, self._config.propagation, self.keeper.field, gains, levels)
         return explainer.explain(hand, touches, self._frame, self.keeper.is_current)
 
     def stats(self, updates: int, rows_not_mixed: int) -> SessionStats:
@@ -127,7 +127,7 @@ class Listening:
             updates,
             keeper.n_prepared,
             self._counts.gains_capped,
-            self._stage.bodiless,
+            self._state.bodiless,
             keeper.age_s,
             keeper.latency_s,
             keeper.n_failed,
@@ -137,14 +137,14 @@ class Listening:
 
     def _look_around(self) -> None:
         """Find out anew what hangs together."""
-        self._bodies, self._reach = self._stage.bodies, self._stage.reach(self._sources.ids)
+        self._bodies, self._reach = self._state.bodies, self._state.reach(self._sources.ids)
         self._bodiless = [x for x in self._sources.ids if x not in self._bodies]
-        self._hearing = self._n_unreachable = None
+        self._method = self._n_unreachable = None
         self._are_levels_known = False
 
     def _forget_cast(self) -> None:
         """Other sources, or other states of them, vibrate."""
-        self._audibility = self._excitations = self._loudness = self._hearing = None
+        self._audibility = self._excitations = self._loudness = self._method = None
 
     def _ask(self) -> None:
         self.keeper.ask(self._known_excitations())
@@ -158,7 +158,7 @@ class Listening:
 
     def _known_excitations(self) -> Sequence[Excitation]:
         if self._excitations is None:
-            self._excitations = excitations_of(self._sources.active_rows(), self._stage.bodies)
+            self._excitations = excitations_of(self._sources.active_rows(), self._state.bodies)
         return self._excitations
 
     def _is_unchanged(self, felt: Felt, moved: Collection[str]) -> bool:
@@ -167,35 +167,35 @@ class Listening:
         # A field that is not of this moment is asked about where the object was then.
         return not moved or not any(touch.object_id in moved for touches in felt.values() for touch in touches)
 
-    def _hear(self, n_hands: int, felt: Felt) -> Heard:
+    def _gains_of_hands(self, n_hands: int, felt: Felt) -> HandGains:
         if not felt:
             silence = self._nothing(n_hands)
             if self._config.skip.idle_hands:
                 self._counts.idle_hands += n_hands
-            return Heard(silence, silence)
+            return HandGains(silence, silence)
         self._known_levels()
-        field = self.keeper.hearing(self._sources.ids, self._reach)
-        if self._hearing is None or self._hearing_of is not field:
-            self._hearing, self._hearing_of = self._new_hearing(field), field
-        return self._hearing.hear(n_hands, felt)
+        field = self.keeper.method(self._sources.ids, self._reach)
+        if self._method is None or self._hearing_of is not field:
+            self._method, self._hearing_of = self._new_hearing(field), field
+        return self._method.of_hands(n_hands, felt)
 
-    def _new_hearing(self, field: LiveField) -> Hearing:
+    def _new_hearing(self, field: LiveField) -> GainMethod:
         skip, counts = self._config.skip, self._counts
         if self._audibility is None:
             self._audibility = Audibility(self._peaks(self._sources.active_rows()), skip, counts)
-            self._horizon = None
+            self._cutoff = None
         if self._loudness is None:
             self._loudness = Loudness(self._levels, self._audibility)
         gains, loudness = self._touch_gains(field, counts), self._loudness
         wants_near = skip.below_threshold and skip.idle_hands and not gains.may_be_capped
         # Only live fields are: asking a prepared one takes longer than hearing it.
         if not (wants_near and isinstance(self.keeper, LiveKeeper) and isinstance(field, PricedField)):
-            return HearingAll(gains, loudness, skip, counts)
-        if self._horizon is None or self._horizon[0] is not field:
-            self._horizon = (field, Horizon(field, self._audibility))
-        horizon = self._horizon[1]
-        return HearingNear(
-            gains, field, horizon, loudness, counts, skips_silent_bands=skip.silent_bands, graph=self._stage.graph
+            return AllGains(gains, loudness, skip, counts)
+        if self._cutoff is None or self._cutoff[0] is not field:
+            self._cutoff = (field, CutoffCost(field, self._audibility))
+        cutoff = self._cutoff[1]
+        return PrunedGains(
+            gains, field, cutoff, loudness, counts, skips_silent_bands=skip.silent_bands, graph=self._state.graph
         )
 
     def _nothing(self, n_hands: int) -> NDArray[np.float32]:
@@ -204,9 +204,9 @@ class Listening:
     def _known_levels(self) -> NDArray[np.float64]:
         """What each source's signal is multiplied with (n_sources,) [-]."""
         if not self._are_levels_known:
-            levels = self._sources.factors(self._stage.graph.neighbours, self._stage.category)
+            levels = self._sources.factors(self._state.graph.neighbours, self._state.category)
             if not np.array_equal(levels, self._levels):
-                self._levels, self._loudness, self._hearing = levels, None, None
+                self._levels, self._loudness, self._method = levels, None, None
             self._are_levels_known = True
         return self._levels
 
@@ -222,12 +222,12 @@ class Listening:
         )
 
 
-def keeper_of(config: SessionConfig, stage: Stage, excitations: Sequence[Excitation]) -> FieldKeeper | LiveKeeper:
+def keeper_of(config: SessionConfig, state: SceneState, excitations: Sequence[Excitation]) -> FieldKeeper | LiveKeeper:
     """What keeps a field of the configured model at hand: a live one where the model offers it."""
     model, bands = config.propagation, config.bands
     if isinstance(model, LiveModel):
-        return LiveKeeper(model, bands, stage, excitations)
+        return LiveKeeper(model, bands, state, excitations)
     is_background, skips_unreachable = config.prepare == "background", config.skip.unreachable
     return FieldKeeper(
-        model, bands, stage, excitations, is_background=is_background, skips_unreachable=skips_unreachable
+        model, bands, state, excitations, is_background=is_background, skips_unreachable=skips_unreachable
     )

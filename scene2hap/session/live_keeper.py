@@ -8,7 +8,7 @@ from scene2hap.haptics import Bands
 from scene2hap.propagation.live import LiveField, LiveModel
 from scene2hap.propagation.protocol import Body, Excitation
 from scene2hap.session.reach import Reach
-from scene2hap.session.stage import Stage
+from scene2hap.session.scene_state import SceneState
 
 
 class LiveKeeper:
@@ -22,8 +22,8 @@ class LiveKeeper:
     n_failed = 0
     last_failure = ""
 
-    def __init__(self, model: LiveModel, bands: Bands, stage: Stage, excitations: Sequence[Excitation]) -> None:
-        self._model, self._bands, self._stage = model, bands, stage
+    def __init__(self, model: LiveModel, bands: Bands, state: SceneState, excitations: Sequence[Excitation]) -> None:
+        self._model, self._bands, self._state = model, bands, state
         self.n_prepared = 0
         self._cast: tuple[Mapping[str, Body], Sequence[Excitation]] | None = None
         self.ask(excitations)
@@ -36,15 +36,15 @@ class LiveKeeper:
     def ask(self, excitations: Sequence[Excitation]) -> None:
         """Go on with what there is now."""
         self.n_prepared += 1
-        bodies = self._stage.bodies
+        bodies = self._state.bodies
         if self._cast is None or self._cast[0] is not bodies or self._cast[1] is not excitations:
             self._cast = (bodies, excitations)
-            self.in_use: LiveField = self._model.live(self._stage.graph, bodies, excitations, self._bands)
+            self.in_use: LiveField = self._model.live(self._state.graph, bodies, excitations, self._bands)
 
     def order(self) -> None:
         """Nothing is left to be prepared."""
 
-    def hearing(self, source_ids: tuple[str, ...], reach: Reach) -> LiveField:
+    def method(self, source_ids: tuple[str, ...], reach: Reach) -> LiveField:
         """What tells of these sources now."""
         return self.in_use
 

@@ -20,7 +20,7 @@ from scene2hap.devices.protocol import Block
 from scene2hap.render.limiter import soft_limit
 from scene2hap.render.loop_bank import position_s
 from scene2hap.session.config import MIN_RAMP_S, SessionConfig
-from scene2hap.session.deck import Deck
+from scene2hap.session.mixer_instance import MixerInstance
 from scene2hap.session.prepared_loops import PreparedLoop, find, order, prepare
 from scene2hap.session.slot_bank import SlotBank
 from scene2hap.session.sources import LoopRow
@@ -32,16 +32,16 @@ Indices = NDArray[np.intp]
 
 _MOST_ROUTES = 64
 
-_Route = tuple[Deck, list[int] | None, list[int], list[int], Indices | None]
-"""A deck, which sources it plays and in which slots, on which of its outputs, and of which channels; None for all."""
+_Route = tuple[MixerInstance, list[int] | None, list[int], list[int], Indices | None]
+"""A mixer, which sources it plays and in which slots, on which of its outputs, and of which channels; None for all."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Plan:
-    """What is played: each deck, the outputs of it that are heard, and the channels to which they go."""
+    """What is played: each mixer, the outputs of it that are heard, and the channels to which they go."""
 
     n_channels: int
-    decks: tuple[tuple[Deck, Indices, Indices], ...]
+    mixers: tuple[tuple[MixerInstance, Indices, Indices], ...]
 
 
 @dataclass(eq=False)
@@ -74,10 +74,10 @@ class Playback:
         self._routes: dict[tuple[int, ...] | None, list[_Route]] = {}
         self._active: Sequence[LoopRow] = ()
         self._banks = [self._new_bank(len(rows))]
-        self._decks = [Deck(config, self._banks[0], tuple(self._hands), 0)]
+        self._mixers = [MixerInstance(config, self._banks[0], tuple(self._hands), 0)]
         self._plan = self._new_plan()
         # Twice the ramp, since gains that come too fast wait for each other.
-        fade_s = 2 * max(config.control_period_s, MIN_RAMP_S) + self._decks[0].mixer.delay_s + 0.01
+        fade_s = 2 * max(config.control_period_s, MIN_RAMP_S) + self._mixers[0].mixer.delay_s + 0.01
         self._fade_frames = round(fade_s * config.sample_rate_hz)
         for row in rows:
             self._prepared(row)
@@ -96,7 +96,7 @@ class Playback:
     @property
     def rows_not_mixed(self) -> int:
         """Rows times cells that the mixers left out, since nothing lets them through."""
-        return sum(deck.mixer.stats.rows_skipped for deck in self._decks)
+        return sum(mixer.mixer.stats.rows_skipped for mixer in self._mixers)
 
     def position_s(self, row: LoopRow) -> float:
         """Where in its loop a row is [s]."""
@@ -130,9 +130,9 @@ class Playback:
         """Move to gains (n_hands, n_columns, n_bands) of some of the active rows, None for all, and to 0 for others."""
         if self._paused_from is not None:
             return
-        for deck, own, slots, outputs, channels in self._routes_of(active, columns):
+        for mixer, own, slots, outputs, channels in self._routes_of(active, columns):
             told = gains if own is None else gains[:, own]
-            deck.move_to(told if channels is None else told[channels], slots, outputs, at_frame)
+            mixer.move_to(told if channels is None else told[channels], slots, outputs, at_frame)
 
     def _routes_of(self, active: Sequence[LoopRow], columns: Sequence[int] | None) -> list[_Route]:
         """How some of the active rows go; the same few come again and again as a source is lifted and put down."""
@@ -143,17 +143,17 @@ class Playback:
         routes = self._routes.get(key)
         if routes is None:
             rows = active if columns is None else [active[x] for x in columns]
-            routes = self._routes[key] = [self._route(rows, *heard) for heard in self._plan.decks]
+            routes = self._routes[key] = [self._route(rows, *gained) for gained in self._plan.mixers]
         return routes
 
-    def _route(self, rows: Sequence[LoopRow], deck: Deck, outputs: Indices, channels: Indices) -> _Route:
+    def _route(self, rows: Sequence[LoopRow], mixer: MixerInstance, outputs: Indices, channels: Indices) -> _Route:
         # Loops that are still being prepared have no place.
         places = [(i, self._places[row]) for i, row in enumerate(rows) if row in self._places]
         # Decks of one bank share its slots.
-        own = [i for i, place in places if place.bank.slots is deck.bank.slots]
-        slots = [place.slot for _, place in places if place.bank.slots is deck.bank.slots]
-        is_alone = len(self._plan.decks) == 1
-        return deck, None if len(own) == len(rows) else own, slots, outputs.tolist(), None if is_alone else channels
+        own = [i for i, place in places if place.bank.slots is mixer.bank.slots]
+        slots = [place.slot for _, place in places if place.bank.slots is mixer.bank.slots]
+        is_alone = len(self._plan.mixers) == 1
+        return mixer, None if len(own) == len(rows) else own, slots, outputs.tolist(), None if is_alone else channels
 
     def change_rows(self, rows: Sequence[LoopRow], at_frame: int) -> None:
         """Go on with other rows; what is not among them any more is faded out.
@@ -165,9 +165,9 @@ class Playback:
         gone = [self._places.pop(row) for row in list(self._places) if row not in wanted]
         for place in gone:
             place.free_at = at_frame + self._fade_frames
-            for deck in self._decks:
-                if deck.bank.slots is place.bank.slots:
-                    deck.fade([place.slot], at_frame)
+            for mixer in self._mixers:
+                if mixer.bank.slots is place.bank.slots:
+                    mixer.fade([place.slot], at_frame)
         self._retired = [place for place in (*self._retired, *gone) if not self._is_emptied(place)]
         self._coming = {row: loop for row, loop in self._coming.items() if row in wanted}
         new = [row for row in rows if row not in self._places and row not in self._coming]
@@ -193,20 +193,20 @@ class Playback:
         """One output more, the last."""
         token, self._next_hand = self._next_hand, self._next_hand + 1
         self._hands.append(token)
-        self._decks += [Deck(self._config, bank, (token,), self._position) for bank in self._banks]
+        self._mixers += [MixerInstance(self._config, bank, (token,), self._position) for bank in self._banks]
         self._plan = self._new_plan()
 
     def remove_hand(self, channel: int) -> None:
         """Take away an output."""
         del self._hands[channel]
-        self._decks = [deck for deck in self._decks if not set(deck.hands).isdisjoint(self._hands)]
+        self._mixers = [mixer for mixer in self._mixers if not set(mixer.hands).isdisjoint(self._hands)]
         self._plan = self._new_plan()
 
     def pause(self, at_frame: int) -> None:
         """Fade to silence and then let the clock stand still."""
         if self._paused_from is None:
-            for deck in self._decks:
-                deck.silence(at_frame)
+            for mixer in self._mixers:
+                mixer.silence(at_frame)
             self._paused_from = at_frame
 
     def resume(self) -> None:
@@ -226,25 +226,25 @@ class Playback:
         return np.concatenate([self._render(plan, n_left), silence])
 
     def _render(self, plan: _Plan, n_frames: int) -> Block:
-        deck, outputs, _ = plan.decks[0]
-        if len(plan.decks) == 1 and len(outputs) == len(deck.hands):
-            mix = deck.render(self._position, n_frames)
+        mixer, outputs, _ = plan.mixers[0]
+        if len(plan.mixers) == 1 and len(outputs) == len(mixer.hands):
+            mix = mixer.render(self._position, n_frames)
         else:
             total = np.zeros((n_frames, plan.n_channels), dtype=np.float32)
-            for deck, outputs, channels in plan.decks:
-                total[:, channels] += deck.render(self._position, n_frames)[:, outputs]
+            for mixer, outputs, channels in plan.mixers:
+                total[:, channels] += mixer.render(self._position, n_frames)[:, outputs]
             mix = soft_limit(total)
         self._position += n_frames
         return mix
 
     def _new_plan(self) -> _Plan:
         self._routes.clear()
-        decks = []
-        for deck in self._decks:
-            heard = [(i, self._hands.index(hand)) for i, hand in enumerate(deck.hands) if hand in self._hands]
-            outputs, channels = np.array(heard, dtype=np.intp).reshape(-1, 2).T
-            decks.append((deck, outputs, channels))
-        return _Plan(len(self._hands), tuple(decks))
+        mixers = []
+        for mixer in self._mixers:
+            gained = [(i, self._hands.index(hand)) for i, hand in enumerate(mixer.hands) if hand in self._hands]
+            outputs, channels = np.array(gained, dtype=np.intp).reshape(-1, 2).T
+            mixers.append((mixer, outputs, channels))
+        return _Plan(len(self._hands), tuple(mixers))
 
     def _new_bank(self, n_rows: int) -> SlotBank:
         n_slots = n_rows + max(SPARE_SLOTS, n_rows)
@@ -263,6 +263,6 @@ class Playback:
                 return _Place(bank, bank.slots.index(None))
         bank = self._new_bank(n_wanted)
         self._banks.append(bank)
-        self._decks.append(Deck(self._config, bank, tuple(self._hands), self._position))
+        self._mixers.append(MixerInstance(self._config, bank, tuple(self._hands), self._position))
         self._plan = self._new_plan()
         return _Place(bank, 0)

@@ -22,7 +22,7 @@ from scene2hap.haptics import Bands
 from scene2hap.propagation.live import TouchedPoint
 from scene2hap.propagation.protocol import Excitation, ExpectantField, PropagationField, PropagationModel
 from scene2hap.scene.pose import Pose
-from scene2hap.session.stage import Told
+from scene2hap.session.scene_state import ModelInput
 
 AT_REST_S = 0.05
 """Time without a change after which everything is prepared, and not only what hands can feel."""
@@ -40,7 +40,7 @@ class Situation:
     """
 
     number: int
-    network: Callable[[Collection[str]], Told]
+    network: Callable[[Collection[str]], ModelInput]
     excitations: Sequence[Excitation]
     poses: Mapping[str, Pose]
     asked_at_s: float

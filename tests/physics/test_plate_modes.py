@@ -208,3 +208,11 @@ def test_points_off_the_plate_are_refused() -> None:
     modes = plate_modes(plate("FFFF", 1.0, 0.7), 4)
     with pytest.raises(ModelDomainError, match=r"\(1.2, 0.1\) m lies outside"):
         modes.shapes([[0.5, 0.5], [1.2, 0.1]])
+
+
+def test_the_first_modes_of_a_small_stiff_plate_are_found_though_the_search_goes_on_beyond_any_vibration() -> None:
+    plate = Plate(0.0144, 0.0144, 0.0104, Material("light and stiff", 1.0, 1e14, 0.3))
+    softer = replace(plate, material=replace(plate.material, youngs_modulus_pa=1e8))
+    found = plate_modes(plate, 8).frequencies_hz
+    assert found[-1] > 1e8
+    np.testing.assert_allclose(found, 1000 * plate_modes(softer, 8).frequencies_hz, rtol=1e-9)

@@ -16,10 +16,10 @@ from kernels import both, seeds, steady
 def test_what_is_within_its_horizon(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
     prices = rng.choice([0.0, 1.0, 2.0, math.inf], (n, 5)).tolist()
-    horizon = rng.choice([-1.0, 0.0, 1.5, math.inf], 5).tolist()
+    cutoff = rng.choice([-1.0, 0.0, 1.5, math.inf], 5).tolist()
     sought = [frozenset(rng.choice(5, int(rng.integers(0, 5)), replace=False).tolist()) for _ in range(n)]
-    plain, twin = both("session.horizon.within")
-    assert twin(prices, horizon, sought) == plain(prices, horizon, sought)
+    plain, twin = both("session.cutoff.within")
+    assert twin(prices, cutoff, sought) == plain(prices, cutoff, sought)
 
 
 @steady

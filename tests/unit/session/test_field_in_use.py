@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from scene2hap.haptics import Bands
 from scene2hap.propagation.live import TouchedPoint
 from scene2hap.session.field_in_use import FieldInUse
-from scene2hap.session.stage import Told
+from scene2hap.session.scene_state import ModelInput
 from scene2hap.session.worker import Prepared, Situation
 
 HERE = (0.0, 0.0, 0.0)
@@ -32,7 +32,7 @@ class Constant:
 
 
 def prepared(gain: float, covers: Collection[str] | None = None) -> Prepared:
-    def told(near: Collection[str]) -> Told:
+    def told(near: Collection[str]) -> ModelInput:
         pytest.fail("is prepared already")
 
     return Prepared(Constant(gain), Situation(0, told, (), {}, 0.0), covers)

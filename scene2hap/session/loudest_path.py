@@ -19,28 +19,28 @@ _END = ""
 
 
 @dataclass(frozen=True)
-class Way:
+class LoudestPath:
     """Objects from a source to a touch, and the point at which each but the source is entered."""
 
     objects: tuple[str, ...]
     entries: tuple[Point, ...] = ()
 
-    def on(self, object_id: str, entry: Point) -> Way:
+    def on(self, object_id: str, entry: Point) -> LoudestPath:
         """One object further."""
-        return Way((*self.objects, object_id), (*self.entries, entry))
+        return LoudestPath((*self.objects, object_id), (*self.entries, entry))
 
 
-def best_way(
+def loudest_path(
     source_id: str,
     target_id: str,
     point_m: Point,
     contacts: Sequence[Contact],
     bodies: Mapping[str, Body],
     model: object,
-) -> Way | None:
+) -> LoudestPath | None:
     """The cheapest way over contacts (Dijkstra), None if there is none; priced as in `propagation.paths`."""
     if source_id == target_id:
-        return Way((source_id,))
+        return LoudestPath((source_id,))
     law = model if isinstance(model, ExponentialPlate) else ExponentialPlate()
     loss = law.interface_loss_db * math.log(10) / 20
     beside: dict[str, list[tuple[str, Point, float]]] = defaultdict(list)
@@ -49,14 +49,14 @@ def best_way(
             crossing = (loss - math.log(contact.weight)) / math.sqrt(2 * math.pi * REFERENCE_HZ)
             beside[contact.a].append((contact.b, contact.point_m, crossing))
             beside[contact.b].append((contact.a, contact.point_m, crossing))
-    waiting: list[tuple[float, int, Way]] = [(0.0, 0, Way((source_id,)))]
+    waiting: list[tuple[float, int, LoudestPath]] = [(0.0, 0, LoudestPath((source_id,)))]
     done: set[tuple[str, Point | None, int]] = set()
     n_pushed = 0
     while waiting:
         cost, _, way = heapq.heappop(waiting)
         here, hops = way.objects[-1], len(way.entries)
         if here == _END:
-            return Way(way.objects[:-1], way.entries[:-1])
+            return LoudestPath(way.objects[:-1], way.entries[:-1])
         entry = way.entries[-1] if way.entries else None
         # The same place after more hops is another state only where hops are counted.
         state = (here, entry, hops if law.max_hops is not None else 0)

@@ -13,7 +13,7 @@ from scene2hap.session.config import MIN_RAMP_S, SessionConfig
 from scene2hap.session.slot_bank import SlotBank
 
 
-class Deck:
+class MixerInstance:
     """A mixer for some hands and a bank.
 
     Parameters: hands : a token for each output; position : the frame of the session's clock at which it may begin.

@@ -1,7 +1,7 @@
 """From touches to what every hand is given, and to what of it is worth mixing.
 
 Any field is asked for everything, and what is too faint is left out afterwards. A field that tells prices is asked for
-these alone: what lies beyond its horizon is left out before it is worked out, which is most of it in a furnished room.
+these alone: what lies beyond its cut-off is left out before it is worked out, which is most of it in a furnished room.
 """
 
 from __future__ import annotations
@@ -19,22 +19,22 @@ from scene2hap.propagation.live import PricedField, Prices
 from scene2hap.session.audibility import SILENT, Audibility
 from scene2hap.session.config import SkipConfig
 from scene2hap.session.counts import Counts
+from scene2hap.session.cutoff import CutoffCost, within
 from scene2hap.session.frame import Gains, Touch
-from scene2hap.session.horizon import Horizon, within
 from scene2hap.session.touch_gains import TouchGains
 
 Felt = dict[int, list[Touch]]
 """The touches of each hand that touches anything, by its number, rising."""
 
 
-class Heard(NamedTuple):
+class HandGains(NamedTuple):
     """What hands are given.
 
-    told : gains (n_hands, n_sources, n_bands), or what works them out; mixed : those (n_hands, n_columns, n_bands) of
+    full : gains (n_hands, n_sources, n_bands), or what works them out; mixed : those (n_hands, n_columns, n_bands) of
     the sources in some columns that are worth mixing, None for all.
     """
 
-    told: Gains | Callable[[], Gains]
+    full: Gains | Callable[[], Gains]
     mixed: Gains
     columns: Sequence[int] | None = None
 
@@ -57,22 +57,22 @@ class Loudness:
         return gains.astype(np.float32)
 
 
-class Hearing(Protocol):
+class GainMethod(Protocol):
     """Hears what hands touch."""
 
-    def hear(self, n_hands: int, felt: Felt) -> Heard:
+    def of_hands(self, n_hands: int, felt: Felt) -> HandGains:
         """What that many hands are given, of which some touch something."""
         ...
 
 
-class HearingAll:
+class AllGains:
     """Asks a field for everything."""
 
     def __init__(self, gains: TouchGains, loudness: Loudness, skip: SkipConfig, counts: Counts) -> None:
         self._gains, self._loudness, self._skip, self._counts = gains, loudness, skip, counts
 
-    def hear(self, n_hands: int, felt: Felt) -> Heard:
-        """See `Hearing`."""
+    def of_hands(self, n_hands: int, felt: Felt) -> HandGains:
+        """See `GainMethod`."""
         given = self._loudness.applied(self._gains.of(list(felt.values())))
         worth = self._loudness.audibility.worth_mixing
         if self._skip.idle_hands:
@@ -81,17 +81,17 @@ class HearingAll:
             mixed = _among(mixed, n_hands, felt)
         else:
             mixed, columns = worth(_among(given, n_hands, felt))
-        return Heard(lambda: _told(given, n_hands, felt), mixed, columns if self._skip.silent_bands else None)
+        return HandGains(lambda: _told(given, n_hands, felt), mixed, columns if self._skip.silent_bands else None)
 
 
-class HearingNear:
-    """Asks a field for prices, and for what lies within the horizon."""
+class PrunedGains:
+    """Asks a field for prices, and for what lies within the cut-off."""
 
     def __init__(
         self,
         gains: TouchGains,
         field: PricedField,
-        horizon: Horizon,
+        cutoff: CutoffCost,
         loudness: Loudness,
         counts: Counts,
         *,
@@ -100,17 +100,17 @@ class HearingNear:
     ) -> None:
         self._gains, self._field, self._loudness, self._counts = gains, field, loudness, counts
         levels = loudness.levels
-        self._horizon, self._arrives = horizon.felt(levels), horizon.arrives(levels)
+        self._cutoff, self._arrives = cutoff.felt(levels), cutoff.arrives(levels)
         self._on = frozenset(np.flatnonzero(levels).tolist())
         self._skips_silent_bands, self._graph = skips_silent_bands, graph
 
-    def hear(self, n_hands: int, felt: Felt) -> Heard:
-        """See `Hearing`."""
-        gains, horizon, on = self._gains, self._horizon, self._on
+    def of_hands(self, n_hands: int, felt: Felt) -> HandGains:
+        """See `GainMethod`."""
+        gains, cutoff, on = self._gains, self._cutoff, self._on
         touches = list(felt.values())
         asked = [gains.asked(touched) for touched in touches]
-        prices = gains.prices(self._field, touches, asked, horizon)
-        columns, each, n_beyond = within(prices, horizon, [among & on for _, among in asked])
+        prices = gains.prices(self._field, touches, asked, cutoff)
+        columns, each, n_beyond = within(prices, cutoff, [among & on for _, among in asked])
         self._counts.below_threshold += n_beyond
         self._counts.idle_hands += n_hands - len(felt)
         mixed = self._loudness.applied(gains.at(self._field, each, columns), columns)
@@ -123,10 +123,10 @@ class HearingNear:
             if self._graph.version == version:
                 everything = gains.prices(self._field, touches, asked, self._arrives)
             else:
-                everything = _without(prices, horizon)
+                everything = _without(prices, cutoff)
             return _told(self._loudness.applied(gains.at(self._field, everything)), n_hands, felt)
 
-        return Heard(told, _among(mixed, n_hands, felt), columns)
+        return HandGains(told, _among(mixed, n_hands, felt), columns)
 
 
 def _without(prices: Prices, limits: Sequence[float]) -> Prices:

@@ -1,9 +1,9 @@
 """How far away each source may be for its vibration to be worth mixing, in prices of the way to it.
 
 Where what arrives falls as the price rises, so does what is felt of it, and somewhere it falls below what `audibility`
-leaves out: there is the source's horizon. A table tells for some prices what is felt of each source at its full level;
-the horizon is the first of them at which too little is, so that at most too much is mixed. Another level is another
-horizon, and a look at the same table.
+leaves out: there is the source's cut-off. A table tells for some prices what is felt of each source at its full level;
+the cut-off is the first of them at which too little is, so that at most too much is mixed. Another level is another
+cut-off, and a look at the same table.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from scene2hap.session.audibility import SILENT, Audibility
 # From 1 to less than exp(-700) for any band between 8 Hz and 1 MHz, in steps of 6 %.
 _PRICES = np.concatenate([[0.0], np.geomspace(1e-4, 100.0, 240)])
 NOWHERE = -1.0
-"""The horizon of what is not felt even where it is."""
+"""The cut-off of what is not felt even where it is."""
 
 
-class Horizon:
+class CutoffCost:
     """What arrives and what is felt of the sources of a field, by price.
 
     Raises: ModelDomainError: the field answers in another shape.
@@ -38,7 +38,7 @@ class Horizon:
         self._arrives = _falling(gains.max(axis=2, initial=0.0))
 
     def felt(self, levels: NDArray[np.float64]) -> list[float]:
-        """The horizon of each source at levels (n_sources,) [-]; infinite where a source is felt however far it is."""
+        """The cut-off of each source at levels (n_sources,) [-]; infinite where a source is felt however far it is."""
         return _last_of(self._felt * levels >= self._least_felt)
 
     def arrives(self, levels: NDArray[np.float64]) -> list[float]:
@@ -48,17 +48,17 @@ class Horizon:
 
 @compiled
 def within(
-    prices: Prices, horizon: Sequence[float], sought: Sequence[Set[int]]
+    prices: Prices, cutoff: Sequence[float], sought: Sequence[Set[int]]
 ) -> tuple[list[int], list[list[float]], int]:
-    """What lies within its horizon: the columns in which any row's does, rising; the prices in these, infinite beyond;
+    """What lies within its cut-off: the columns in which any row's does, rising; the prices in these, infinite beyond;
     and how many of those sought in each row do not."""
     worth, n_beyond = set[int](), 0
     for row, among in zip(prices, sought, strict=True):
-        near = {x for x, price in enumerate(row) if price <= horizon[x]}
+        near = {x for x, price in enumerate(row) if price <= cutoff[x]}
         n_beyond += len(among - near)
         worth |= near
     columns = sorted(worth)
-    return columns, [[row[x] if row[x] <= horizon[x] else math.inf for x in columns] for row in prices], n_beyond
+    return columns, [[row[x] if row[x] <= cutoff[x] else math.inf for x in columns] for row in prices], n_beyond
 
 
 def _falling(table: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -12,7 +12,7 @@ from scene2hap.devices.protocol import Fill, SinkFormat, SinkStats
 from scene2hap.session.audibility import SILENT, Audibility
 from scene2hap.session.config import SkipConfig
 from scene2hap.session.counts import Counts
-from scene2hap.session.horizon import Horizon
+from scene2hap.session.cutoff import CutoffCost
 from scene2hap.session.network import body_of, excitations_of
 from scene2hap.session.peaks import peaks_of
 from scene2hap.session.sources import Sources
@@ -22,7 +22,7 @@ ALL_BANDS = [Bands.dominant(), Bands.third_octaves(10, 1000)]
 LEVELS = np.array([1.0, 0.01])
 
 
-def ears(bands: Bands, **settings: Any) -> tuple[Any, Audibility, Horizon]:
+def ears(bands: Bands, **settings: Any) -> tuple[Any, Audibility, CutoffCost]:
     """A live field of two phones, what of them can be felt, and how far."""
     snapshot, bundle = table_with_two_phones()
     sources = Sources()
@@ -33,7 +33,7 @@ def ears(bands: Bands, **settings: Any) -> tuple[Any, Audibility, Horizon]:
     field = ExponentialPlate(**settings).live(ContactGraph(snapshot), bodies, excitations, bands)
     peaks = np.array([peaks_of(row.loop.tactile, bands) for row in sources.active_rows()], dtype=np.float32)
     audibility = Audibility(peaks, SkipConfig(), Counts())
-    return field, audibility, Horizon(field, audibility)
+    return field, audibility, CutoffCost(field, audibility)
 
 
 def felt_at(field: Any, audibility: Audibility, prices: list[float], levels: np.ndarray) -> np.ndarray:
@@ -44,8 +44,8 @@ def felt_at(field: Any, audibility: Audibility, prices: list[float], levels: np.
 @pytest.mark.parametrize("bands", ALL_BANDS, ids=["dominant", "octaves"])
 @pytest.mark.parametrize("levels", [np.ones(2), LEVELS])
 def test_beyond_the_horizon_nothing_is_felt_and_a_little_nearer_something_is(bands: Bands, levels: np.ndarray) -> None:
-    field, audibility, horizon = ears(bands)
-    edge = horizon.felt(levels)
+    field, audibility, cutoff = ears(bands)
+    edge = cutoff.felt(levels)
     assert (felt_at(field, audibility, edge, levels) < 1).all()
     # The table's steps are 6 %.
     assert (felt_at(field, audibility, [0.94 * price for price in edge], levels) >= 1).all()
@@ -53,17 +53,17 @@ def test_beyond_the_horizon_nothing_is_felt_and_a_little_nearer_something_is(ban
 
 @pytest.mark.parametrize("bands", ALL_BANDS, ids=["dominant", "octaves"])
 def test_what_is_told_beyond_the_horizon_ends_where_it_comes_to_nothing(bands: Bands) -> None:
-    field, _, horizon = ears(bands)
-    edge = horizon.arrives(LEVELS)
+    field, _, cutoff = ears(bands)
+    edge = cutoff.arrives(LEVELS)
     gains = field.at([edge, [0.94 * price for price in edge]]).max(axis=2) * LEVELS
     assert (gains[0] < SILENT).all()
     assert (gains[1] >= SILENT).all()
-    assert np.greater(edge, horizon.felt(LEVELS)).all()
+    assert np.greater(edge, cutoff.felt(LEVELS)).all()
 
 
 def test_a_source_that_is_off_has_no_horizon_and_one_with_a_loud_floor_has_no_end() -> None:
-    _, _, horizon = ears(Bands.dominant(), floor_db=-20.0)
-    off, loud = horizon.felt(np.array([0.0, 1.0]))
+    _, _, cutoff = ears(Bands.dominant(), floor_db=-20.0)
+    off, loud = cutoff.felt(np.array([0.0, 1.0]))
     assert off < 0
     assert loud == math.inf
 

@@ -63,10 +63,10 @@ def test_the_others_play_on_without_a_click_as_sources_come_and_go() -> None:
             s.set_source("phone", on=False)
             s.update(touches=on_alarm)
         parts.append((changing.render(777), still.render(777)))
-    heard, expected = (np.concatenate(part) for part in zip(*parts, strict=True))
+    gained, expected = (np.concatenate(part) for part in zip(*parts, strict=True))
     # The fan reaches the alarm over the table, but faintly; all else is the same to the sample.
-    assert np.abs(np.diff(heard[:, 0])).max() < steepest(160) + steepest(130, amplitude=0.03)
-    assert np.abs(heard[-777:] - expected[-777:]).max() < 0.03
+    assert np.abs(np.diff(gained[:, 0])).max() < steepest(160) + steepest(130, amplitude=0.03)
+    assert np.abs(gained[-777:] - expected[-777:]).max() < 0.03
     assert changing.position_s("alarm") == still.position_s("alarm")
 
 
@@ -151,7 +151,7 @@ def test_slots_are_used_again() -> None:
         s.update(touches=[ON_TABLE])
         s.render(RATE // 10)
         s.remove("fan")
-    assert len(s._playback._decks) == 1
+    assert len(s._playback._mixers) == 1
 
 
 def test_a_hand_that_is_added_feels_what_the_first_ones_feel() -> None:

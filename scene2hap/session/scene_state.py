@@ -18,14 +18,14 @@ from scene2hap.session.reach import Reach, reach_over
 Thing = TypeVar("Thing")
 
 
-class Told(NamedTuple):
+class ModelInput(NamedTuple):
     """What a model is told; `covers` are the objects of which it may say something, None for all."""
 
     network: ContactNetwork
     covers: Collection[str] | None = None
 
 
-class Stage:
+class SceneState:
     """The objects of a session. Its mappings are replaced, never changed, so that another thread may go on reading."""
 
     def __init__(self, scene: SceneSnapshot, bundle: HapticBundle) -> None:
@@ -82,7 +82,7 @@ class Stage:
         """Which of the sources reach what, as things are."""
         return Reach(self.graph.beside, {*self.bodies, *source_ids}, source_ids)
 
-    def network(self, source_ids: Sequence[str] | None) -> Callable[[Collection[str]], Told]:
+    def network(self, source_ids: Sequence[str] | None) -> Callable[[Collection[str]], ModelInput]:
         """What a model is told of this moment: everything, or only what a source reaches; put together when called.
 
         Called with some objects, it tells only of what hangs together with them, if a source does.
@@ -91,17 +91,17 @@ class Stage:
         objects, bodies, poses, junctions = self.objects, self.bodies, self.poses, dict(self.graph.junctions)
         spelling, corners = self._spelling, self._corners
 
-        def put_together(near: Collection[str]) -> Told:
+        def put_together(near: Collection[str]) -> ModelInput:
             if source_ids is None:
                 everywhere = PlatePoses(objects, bodies, poses, corners)
-                return Told(ContactNetwork(bodies, spelling.of(junctions), everywhere))
+                return ModelInput(ContactNetwork(bodies, spelling.of(junctions), everywhere))
             reach = reach_over(junctions, {*bodies, *source_ids}, source_ids)
             everything = reach.objects
             reached = reach.objects_near(near) or everything
             among = {object_id: body for object_id, body in bodies.items() if object_id in reached}
             within = {pair: one for pair, one in junctions.items() if pair[0] in reached}
             network = ContactNetwork(among, spelling.of(within), PlatePoses(objects, among, poses, corners))
-            return Told(network, None if len(reached) == len(everything) else reached)
+            return ModelInput(network, None if len(reached) == len(everything) else reached)
 
         return put_together
 
