@@ -27,7 +27,7 @@ cdef class Track:
     cdef double base_face, mu, mv, radius
     cdef double pu[MOST_POINTS]
     cdef double pv[MOST_POINTS]
-    # In its own frame, along the two axes that are level while it is upright: middle and half of the box, and the base face.
+    # In its own frame, along the two axes that are level while it is upright: middle and half of the box; base face.
     cdef double box_u, box_v, half_u, half_v, own_u, own_v
     cdef double own_pu[MOST_POINTS]
     cdef double own_pv[MOST_POINTS]
