@@ -1,4 +1,4 @@
-"""What a session costs while it is played, as a table in Markdown; docs/playing.md holds the latest.
+"""What a session costs while it is played, as a table in Markdown; docs/figures/playing.md holds the latest.
 
 OMP_NUM_THREADS=1 python benchmarks/session.py
 
