@@ -85,7 +85,8 @@ class Tally:
             raise Hang
 
         before = signal.signal(signal.SIGPROF, alarm)
-        signal.setitimer(signal.ITIMER_PROF, limit_s)
+        # Again and again: a signal that comes to a thread of BLAS is not seen by Python's main thread.
+        signal.setitimer(signal.ITIMER_PROF, limit_s, 0.1)
         begin = time.process_time()
         try:
             answer = question()
