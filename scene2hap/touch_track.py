@@ -131,6 +131,9 @@ class TouchTrack(BaseModel):
     @classmethod
     def parse(cls, document: Any, name: str = "touches") -> TouchTrack:
         """A track from plain values. Raises: SessionError."""
+        steps = document.get("steps") if isinstance(document, dict) else None
+        if isinstance(steps, (list, tuple)) and len(steps) > MAX_STEPS:  # before each of them is looked at
+            raise SessionError(f"{name}: steps: {len(steps)} items; at most {MAX_STEPS} items. See docs/touches.md.")
         try:
             return cls.model_validate(document)
         except ValidationError as cause:

@@ -28,11 +28,16 @@ class Credit:
     origin: str = ""
 
 
+MAX_SAMPLE_RATE_HZ = 1_000_000
+"""Assumed: no recorder samples faster; filters and seams are as long as their times at the clip's rate."""
+
+
 @dataclass(frozen=True, eq=False)
 class AudioClip:
     """A mono sound: float32 samples (n_samples,), nominally in [-1, 1].
 
-    Raises: AudioError: no samples, a value that is not finite, or a sample rate that is not positive.
+    Raises: AudioError: no samples, a value that is not finite, or a sample rate outside of 1 to
+    `MAX_SAMPLE_RATE_HZ`.
     """
 
     samples: Samples
@@ -40,7 +45,8 @@ class AudioClip:
     credit: Credit = field(default_factory=lambda: Credit("untitled", "unknown", "unknown"))
 
     def __post_init__(self) -> None:
-        rate = checks.number("sample_rate_hz", self.sample_rate_hz, "Hz", at_least=1, error=AudioError)
+        most_hz = MAX_SAMPLE_RATE_HZ
+        rate = checks.number("sample_rate_hz", self.sample_rate_hz, "Hz", at_least=1, at_most=most_hz, error=AudioError)
         # Samples of another clip are shared: one recording may serve many sources.
         samples = self.samples if _is_frozen(self.samples) else _as_float32(self.samples)
         if samples.ndim != 1:

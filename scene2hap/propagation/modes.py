@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.plate import MAX_FREQUENCY_HZ, Plate
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.ritz import AxisBasis, axis_bases, products, stiffness
 
@@ -164,9 +164,13 @@ def plate_modes(plate: Plate, n_modes: int | None = None, *, max_frequency_hz: f
             "least 1 or a frequency [Hz]."
         )
     if n_modes is None:
-        f = checks.number("max_frequency_hz", max_frequency_hz, "Hz", at_least=0.0, error=ModelDomainError)
+        most_hz = MAX_FREQUENCY_HZ
+        f = checks.number(
+            "max_frequency_hz", max_frequency_hz, "Hz", at_least=0, at_most=most_hz, error=ModelDomainError
+        )
         return _modes_up_to(plate, f)
-    return _lowest(plate, int(checks.number("n_modes", n_modes, "-", at_least=1, error=ModelDomainError)))
+    n = checks.number("n_modes", n_modes, "-", at_least=1, at_most=LARGEST_BLOCK**2, error=ModelDomainError)
+    return _lowest(plate, int(n))
 
 
 def n_rigid_motions(plate: Plate) -> int:
@@ -186,7 +190,7 @@ def first_bending_hz(plate: Plate) -> float:
 
 def largest_block(plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> int:
     """Functions in the largest eigenproblem of `plate_modes` up to that frequency; its time grows with the cube."""
-    terms = _terms(plate, float(plate.wavenumber_rad_m(max_frequency_hz)), fineness)
+    terms = _terms(plate, _wavenumber(plate, max_frequency_hz), fineness)
     edges = (plate.edges[:2], plate.edges[2:])
     return math.prod(math.ceil(n / 2) if pair[0] == pair[1] else n for n, pair in zip(terms, edges, strict=True))
 
@@ -225,9 +229,14 @@ def modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE
     return _modes_up_to(plate, max_frequency_hz, fineness)
 
 
+def _wavenumber(plate: Plate, frequency_hz: float) -> float:
+    """As `Plate.wavenumber_rad_m`; searches for modes go beyond `MAX_FREQUENCY_HZ`."""
+    return plate.wavenumber_per_root_omega * math.sqrt(2 * math.pi * frequency_hz)
+
+
 @lru_cache(maxsize=128)  # a room full of plates; a sheet of a hundred modes holds some 8 MB
 def _modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> PlateModes:
-    k = float(plate.wavenumber_rad_m(max_frequency_hz))
+    k = _wavenumber(plate, max_frequency_hz)
     terms, largest = _terms(plate, k, fineness), largest_block(plate, max_frequency_hz, fineness)
     if largest > LARGEST_BLOCK:
         raise ModelDomainError(

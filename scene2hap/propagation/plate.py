@@ -85,9 +85,10 @@ class Plate:
         Source: Scene2Hap, CHI 2026, second equation of the propagation model.
         """
         f = checks.floats("frequency_hz", frequency_hz, "Hz", error=ModelDomainError)
-        # Searches for modes go beyond `MAX_FREQUENCY_HZ`, at which models are evaluated at most.
-        if not ((f >= 0) & np.isfinite(f)).all():
-            raise ModelDomainError("frequency_hz holds a negative or infinite value; it must be finite and >= 0 [Hz].")
+        if not ((f >= 0) & (f <= MAX_FREQUENCY_HZ)).all():
+            raise ModelDomainError(
+                f"frequency_hz holds a negative or infinite value; it must be 0 to {MAX_FREQUENCY_HZ:g} [Hz]."
+            )
         k: NDArray[np.float64] = self.wavenumber_per_root_omega * np.sqrt(2 * math.pi * f)
         return k
 

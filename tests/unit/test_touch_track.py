@@ -144,3 +144,8 @@ def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "touches.json")
     with pytest.raises(SessionError, match="a pipe or a device"):
         TouchTrack.load(tmp_path / "touches.json")
+
+
+def test_too_many_steps_are_refused_before_any_is_looked_at() -> None:
+    with pytest.raises(SessionError, match="steps: 100001 items; at most 100000 items"):
+        TouchTrack.parse({**DOCUMENT, "steps": [{}] * 100_001})

@@ -149,3 +149,10 @@ def test_a_file_cut_short_is_refused_and_one_from_a_pipe_is_read(tmp_path: Path)
         read_clip(tmp_path / "a.wav")
     (tmp_path / "a.wav").write_bytes(whole[:4] + b"\xff" * 4 + whole[8:])
     assert len(read_clip(tmp_path / "a.wav").samples) == RATE
+
+
+def test_a_rate_beyond_any_recorder_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "fan.wav"
+    soundfile.write(path, np.zeros(2000), 2**31 - 1, subtype="PCM_16")
+    with pytest.raises(AudioError, match=r"sample_rate_hz is 2\.14748e\+09 Hz; it must be at most 1000000"):
+        read_clip(path)
