@@ -22,6 +22,8 @@ from scene2hap.text_files import read_small_text
 FORMAT: Literal["scene2hap/touches"] = "scene2hap/touches"
 VERSION: Literal[1] = 1
 
+MIN_DURATION_S = 0.001
+"""Shorter than this there may be no sample at all."""
 MAX_DURATION_S = 600.0
 """Assumed: what is written for a demonstration or a trial takes minutes; as long as a sound may be."""
 MAX_STEPS = 100_000
@@ -102,7 +104,7 @@ class TouchTrack(BaseModel):
 
     format: Literal["scene2hap/touches"] = FORMAT
     version: Literal[1] = VERSION
-    duration_s: float = Field(gt=0.0, le=MAX_DURATION_S, allow_inf_nan=False)
+    duration_s: float = Field(ge=MIN_DURATION_S, le=MAX_DURATION_S, allow_inf_nan=False)
     steps: tuple[Step, ...] = Field(max_length=MAX_STEPS)
 
     @model_validator(mode="after")

@@ -149,3 +149,8 @@ def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
 def test_too_many_steps_are_refused_before_any_is_looked_at() -> None:
     with pytest.raises(SessionError, match="steps: 100001 items; at most 100000 items"):
         TouchTrack.parse({**DOCUMENT, "steps": [{}] * 100_001})
+
+
+def test_a_track_without_a_single_sample_is_refused() -> None:
+    with pytest.raises(SessionError, match=r"duration_s: .*0\.001"):
+        TouchTrack.parse({**DOCUMENT, "duration_s": 5e-324, "steps": []})
