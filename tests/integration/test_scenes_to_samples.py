@@ -1,4 +1,4 @@
-"""Scenes made by other people, from file to samples."""
+"""From file to samples: the rooms that the tests build, and scenes made by other people where they are there."""
 
 import warnings
 from pathlib import Path
@@ -6,10 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from others import SCENES, there
+from rooms import ROOMS, room_file
 from scene2hap import HapticBundle, HapticSession, Touch, bake, load_scene
 from scene2hap.scene.load import UnitWarning
 
-SCENES = Path(__file__).parents[3] / "shared" / "scenes"
 FILES = {
     "aws_house_bedroom": "aws_house_bedroom.glb",
     "aws_house_living": "aws_house_living.glb",
@@ -27,13 +28,10 @@ STILL = ("plate", "chair", "wall", "towel")
 
 
 def path_of(name: str) -> Path:
-    path = SCENES / name / FILES[name]
-    if not path.is_file():
-        pytest.skip("needs the shared folder beside the checkout (scenes)")
-    return path
+    return room_file(name) if name in ROOMS else SCENES / name / FILES[name]
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", [*ROOMS, *there(FILES, path_of)])
 def test_from_file_to_samples(name: str, tmp_path: Path) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UnitWarning)
@@ -41,6 +39,8 @@ def test_from_file_to_samples(name: str, tmp_path: Path) -> None:
     bundle = HapticBundle.load(bake(scene).save(tmp_path / "b"))
     assert bundle.snapshot == scene
     session = HapticSession(bundle.snapshot, bundle)
+    if name in ROOMS:
+        assert set(session.source_ids) == ROOMS[name].sources
     for item in scene.objects:
         middle = item.bounds_m.mean(axis=0)
         session.update(touches=[Touch("left", item.id, tuple(middle.tolist()))])
@@ -53,9 +53,12 @@ def test_from_file_to_samples(name: str, tmp_path: Path) -> None:
         assert frame.gain("right", source) == 1.0
 
 
-@pytest.mark.parametrize("name", VIBRATES)
+@pytest.mark.parametrize("name", [*ROOMS, *there(VIBRATES, path_of)])
 def test_machines_vibrate_and_furniture_does_not(name: str) -> None:
     scene = load_scene(path_of(name))
     vibrates = {key for key, haptics in bake(scene).objects.items() if haptics.vibrates}
-    assert vibrates >= VIBRATES[name]
-    assert not [key for key in vibrates if any(word in key for word in STILL)]
+    if name in ROOMS:
+        assert vibrates == ROOMS[name].sources
+    else:
+        assert vibrates >= VIBRATES[name]
+        assert not [key for key in vibrates if any(word in key for word in STILL)]

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from math import cos, sin
 
-from rooms.room import Room, Thing, cuboid, cylinder, joined, moved, pairs, swapped
+from rooms.room import Room, Thing, checked, cuboid, cylinder, joined, moved, pairs, swapped
 
 _GAP_M = 0.001  # what authors leave under things
 _WOOD, _STEEL, _WHITE, _RED = (0.5, 0.33, 0.18), (0.7, 0.72, 0.75), (0.9, 0.9, 0.88), (0.7, 0.15, 0.1)
+_PARQUET, _PAINTED = checked(_WOOD), checked(_RED)
 
 # -- equal cubes -------------------------------------------------------------------------------------------------------
 
@@ -65,14 +66,14 @@ def _on_table(x: float, z: float, height_m: float = 0.0) -> tuple[float, float, 
 dining_room = Room(
     "dining_room",
     (
-        Thing("floor", cuboid((5.0, 0.1, 5.0)), (0.0, -0.05, 0.0), colour=_WOOD),
-        Thing("wooden_table", _TABLE, (0.0, 0.0, 0.0), _TURN, _WOOD),
+        Thing("floor", cuboid((5.0, 0.1, 5.0)), (0.0, -0.05, 0.0), texture=_PARQUET),
+        Thing("wooden_table", _TABLE, (0.0, 0.0, 0.0), _TURN, texture=_PARQUET),
         Thing("chair_left", _CHAIR, (-0.5, 0.0, -1.2), 0.1, _WOOD),
         Thing("chair_right", _CHAIR, (0.7, 0.0, -1.2), -0.2, _WOOD),
         Thing("plate_1", _PLATE, _on_table(-0.5, 0.1), 0.0, _WHITE),
         Thing("plate_2", _PLATE, _on_table(0.0, 0.1), 0.7, _WHITE),
         Thing("cup", _CUP, _on_table(0.0, 0.1, 0.02 + _GAP_M), 0.0, _WHITE),
-        Thing("radio", cuboid((0.24, 0.14, 0.1), (0.0, 0.07, 0.0)), _on_table(0.5, -0.2), 0.9, _RED),
+        Thing("radio", cuboid((0.24, 0.14, 0.1), (0.0, 0.07, 0.0)), _on_table(0.5, -0.2), 0.9, texture=_PAINTED),
         Thing("refrigerator", cuboid((0.6, 1.8, 0.65), (0.0, 0.9, 0.0)), (2.0, 0.0, 1.8), 0.0, _STEEL),
     ),
     contacts=pairs("""
@@ -129,7 +130,7 @@ storage = Room(
     (
         Thing("floor", cuboid((4.0, 0.1, 4.0)), (0.0, -0.05, 0.0), colour=_WOOD),
         Thing("wall", cuboid((4.0, 2.5, 0.1)), (0.0, 1.25, -2.05), colour=_WHITE),
-        Thing("picture", cuboid((0.6, 0.4, 0.02)), (0.3, 1.5, -1.97), colour=_RED),
+        Thing("picture", cuboid((0.6, 0.4, 0.02)), (0.3, 1.5, -1.97), texture=_PAINTED),
         Thing("crate_1", cuboid((0.4, 0.3, 0.4), (0.0, 0.15, 0.0)), (-1.0, 0.0, 0.0), 0.2, _WOOD),
         Thing("crate_2", cuboid((0.3, 0.25, 0.3), (0.0, 0.125, 0.0)), (-1.0, 0.3 + _GAP_M, 0.0), 0.5, _WOOD),
         Thing("stool", cylinder(0.18, 0.45), (0.5, 0.0, 0.5), 0.0, _WOOD),

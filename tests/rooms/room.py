@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import cos, pi, sin
 from pathlib import Path
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_builder import Gltf
+from looks import embedded, image_file
 from scene2hap import Pose, SceneObject, SceneSnapshot, TriMesh
 from scene2hap.contact.junction import Pair, pair_of
 from scene2hap.scene.geometry import dominant_surface
@@ -21,13 +22,17 @@ Triple = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Thing:
-    """An object: its mesh, the place of its origin [m] and its turn about the vertical [rad]."""
+    """An object: its mesh, the place of its origin [m], its turn about the vertical [rad] and its looks.
+
+    texture : pixels (height, width, 3) that a GLB shows on it; scene JSON has no looks.
+    """
 
     id: str
     mesh: TriMesh
     at_m: Triple
     yaw_rad: float = 0.0
     colour: Triple = (0.6, 0.6, 0.6)
+    texture: NDArray[np.uint8] | None = None
 
 
 @dataclass(frozen=True)
@@ -51,6 +56,21 @@ class Room:
         """The ids of all things, in the order of the file."""
         return [thing.id for thing in self.things]
 
+    @property
+    def n_looks(self) -> tuple[int, int]:
+        """How many materials and how many different textures a GLB of it has: one material for each mesh."""
+        meshes = {id(thing.mesh) for thing in self.things}
+        return len(meshes), len({id(thing.texture) for thing in self.things if thing.texture is not None})
+
+    def in_units(self, unit_m: float) -> Room:
+        """The room as someone exports it whose unit is `unit_m` metres and not a metre."""
+        meshes = {id(thing.mesh): scaled(thing.mesh, 1 / unit_m) for thing in self.things}
+        things = [
+            replace(thing, mesh=meshes[id(thing.mesh)], at_m=tuple(x / unit_m for x in thing.at_m))
+            for thing in self.things
+        ]
+        return replace(self, things=tuple(things))
+
     def triangles_m(self) -> NDArray[np.float64]:
         """World corners (m, 3, 3) [m] of all triangles, from the construction alone."""
         placed = []
@@ -65,23 +85,38 @@ class Room:
         return self._json(folder / f"{self.name}.json") if self.up_axis == "z" else self._glb(folder)
 
     def _glb(self, folder: Path) -> Path:
-        gltf, numbers = Gltf(), dict[int, int]()
+        gltf, meshes, images = Gltf(), dict[int, int](), dict[int, int]()
         gltf.header["materials"] = []
         for thing in self.things:
-            if id(thing.mesh) not in numbers:
-                numbers[id(thing.mesh)] = self._mesh(gltf, thing)
+            if thing.texture is not None and id(thing.texture) not in images:
+                images[id(thing.texture)] = self._image(gltf, thing.texture)
+            if id(thing.mesh) not in meshes:
+                meshes[id(thing.mesh)] = self._mesh(gltf, thing, images.get(id(thing.texture)))
             turn = [0.0, sin(thing.yaw_rad / 2), 0.0, cos(thing.yaw_rad / 2)]
-            gltf.node(thing.id, mesh=numbers[id(thing.mesh)], root=True, translation=list(thing.at_m), rotation=turn)
+            gltf.node(thing.id, mesh=meshes[id(thing.mesh)], root=True, translation=list(thing.at_m), rotation=turn)
         return gltf.write(folder / f"{self.name}.glb")
 
-    def _mesh(self, gltf: Gltf, thing: Thing) -> int:
-        gltf.header["materials"].append({"pbrMetallicRoughness": {"baseColorFactor": [*thing.colour, 1.0]}})
+    def _image(self, gltf: Gltf, pixels: NDArray[np.uint8]) -> int:
+        """Its number, of the image as of the texture that shows it."""
+        textures = gltf.header.setdefault("textures", [])
+        gltf.header.setdefault("images", [])
+        embedded(gltf, image_file(pixels))
+        gltf.header["images"][-1]["mimeType"] = "image/png"
+        textures.append({"source": len(textures)})
+        return len(textures) - 1
+
+    def _mesh(self, gltf: Gltf, thing: Thing, image: int | None) -> int:
+        looks: dict[str, object] = {"baseColorFactor": [*thing.colour, 1.0]}
         corners = thing.mesh.vertices_m
         bounds = {"min": corners.min(axis=0).tolist(), "max": corners.max(axis=0).tolist()}
-        positions = gltf.accessor(corners, "f4", "VEC3", **bounds)
+        attributes = {"POSITION": gltf.accessor(corners, "f4", "VEC3", **bounds)}
+        if image is not None:
+            looks["baseColorTexture"] = {"index": image}
+            attributes["TEXCOORD_0"] = gltf.accessor(corners[:, :2] + 0.3 * corners[:, 2:], "f4", "VEC2")
+        gltf.header["materials"].append({"pbrMetallicRoughness": looks})
         indices = gltf.accessor(thing.mesh.faces.reshape(-1), "u4", "SCALAR")
         number = len(gltf.header["materials"]) - 1
-        return gltf.mesh({"attributes": {"POSITION": positions}, "indices": indices, "material": number})
+        return gltf.mesh({"attributes": attributes, "indices": indices, "material": number})
 
     def _json(self, path: Path) -> Path:
         up = (0.0, 0.0, 1.0)
@@ -141,3 +176,16 @@ def swapped(mesh: TriMesh) -> TriMesh:
 def moved(mesh: TriMesh, by_m: Sequence[float]) -> TriMesh:
     """A mesh elsewhere in its own frame."""
     return TriMesh(mesh.vertices_m + np.array(by_m), mesh.faces)
+
+
+def scaled(mesh: TriMesh, factor: float) -> TriMesh:
+    """A mesh larger by a factor."""
+    return TriMesh(mesh.vertices_m * factor, mesh.faces)
+
+
+def checked(colour: Triple, n: int = 8) -> NDArray[np.uint8]:
+    """A chequered texture of a colour and a darker one, with a mark in a corner that tells which way up it is."""
+    odd = np.indices((n, n)).sum(axis=0) % 2
+    pixels = (255 * np.asarray(colour) * np.where(odd, 1.0, 0.6)[:, :, None]).astype(np.uint8)
+    pixels[0, 0] = (0, 0, 255)
+    return pixels

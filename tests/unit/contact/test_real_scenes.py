@@ -1,32 +1,23 @@
-"""Found contacts against pairs listed by hand from the coordinates of scenes made by others."""
+"""Found contacts against pairs known by construction or listed by hand from the coordinates of scenes by others."""
 
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from contact_scenes import pairs, points, weight
+from others import SCENES, needed, there
+from rooms import ROOMS, room_file
+from rooms.room import pairs as listed
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.scene.load import load_scene
 
-SCENES = Path(__file__).parents[4] / "shared" / "scenes"
+COMPOSED = "composed_kitchen_kaykit"
 
 
 @cache
 def graph_of(name: str) -> ContactGraph:
-    path = SCENES / name / f"{name}.glb"
-    if not path.exists():
-        pytest.skip(f"the scene {name} is not beside the repository (../shared/scenes)")
-    return ContactGraph(load_scene(path))
-
-
-def listed(text: str) -> set[tuple[str, str]]:
-    """Lines of "thing thing ...: other" as pairs in order."""
-    rows = (line.split(":") for line in text.strip().splitlines())
-    return {
-        (min(thing, other.strip()), max(thing, other.strip())) for things, other in rows for thing in things.split()
-    }
+    return ContactGraph(load_scene(room_file(name) if name in ROOMS else needed(SCENES / name / f"{name}.glb")))
 
 
 KITCHEN = """
@@ -48,14 +39,26 @@ KITCHEN = """
 """
 
 
-def test_a_composed_kitchen_has_exactly_the_contacts_that_were_composed() -> None:
-    graph = graph_of("composed_kitchen_kaykit")
-    assert pairs(graph) == listed(KITCHEN)
+@pytest.mark.parametrize("name", [*ROOMS, *there([COMPOSED], SCENES.joinpath)])
+def test_exactly_the_composed_contacts_are_found(name: str) -> None:
+    graph = graph_of(name)
+    assert pairs(graph) == (ROOMS[name].contacts if name in ROOMS else listed(KITCHEN))
     assert all(contact.weight == 1.0 for contact in graph.contacts)
 
 
+@pytest.mark.parametrize("name", ROOMS)
+def test_contact_points_lie_where_both_things_are(name: str) -> None:
+    """Within the boxes around both, which were put a millimetre apart at most, and the picture 20 mm off its wall."""
+    scene = load_scene(room_file(name))
+    for contact in graph_of(name).contacts:
+        apart_m = 0.02 if contact.a == "picture" else 0.001
+        low, high = np.array([scene.object(key).bounds_m for key in (contact.a, contact.b)]).swapaxes(0, 1)
+        assert (np.asarray(contact.point_m) >= low - apart_m - 1e-6).all()
+        assert (np.asarray(contact.point_m) <= high + apart_m + 1e-6).all()
+
+
 def test_contact_points_of_the_kitchen_lie_where_things_stand() -> None:
-    graph = graph_of("composed_kitchen_kaykit")
+    graph = graph_of(COMPOSED)
     for a, b, height in (("pot", "stove", 0.864), ("plate_1", "table", 0.723), ("bowl", "cutting_board", 0.774)):
         assert points(graph, a, b)[:, 1] == pytest.approx(height, abs=1e-3)
     chair = points(graph, "chair_left", "floor")

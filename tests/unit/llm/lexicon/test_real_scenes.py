@@ -1,25 +1,39 @@
-"""The names that real scenes carry, read from the files' JSON by hand."""
+"""The names that scenes carry, of own rooms and of scenes by others, read from the files' JSON by hand."""
 
 import json
 import struct
-from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import pytest
 
+from others import SCENES, needed, there
+from rooms import ROOMS
+from scene2hap.demo import kitchen_path
 from scene2hap.llm.lexicon.judging import Measured, judge
 from scene2hap.llm.lexicon.names import read_name
 from scene2hap.llm.lexicon.places import kind_of_place
 
-SCENES = Path(__file__).parents[4].parent / "shared" / "scenes"
+T = TypeVar("T")
 BIG_ENOUGH = (1.0, 0.5, 0.1)
+DEMO = "the built-in kitchen"
+DEMO_SOURCES = {"refrigerator", "cooker_hood", "microwave", "washing_machine", "smartphone"} | {
+    "electric_toothbrush",
+    "handheld_fan",
+}
+
+
+def others(*names: str) -> list[str]:
+    """Those scenes by others that are there."""
+    return there(names, SCENES.joinpath)
+
+
+def known(cases: dict[str, T]) -> list[tuple[str, T]]:
+    """What is known of scenes by others that are there."""
+    return [(name, cases[name]) for name in others(*cases)]
 
 
 def document(relative: str) -> Any:
-    path = SCENES / relative
-    if not path.exists():
-        pytest.skip(f"the shared scene {relative} is not here")
-    content = path.read_bytes()
+    content = (kitchen_path() if relative == DEMO else needed(SCENES / relative)).read_bytes()
     if content[:4] == b"glTF":
         (length,) = struct.unpack_from("<I", content, 12)
         content = content[20 : 20 + length]
@@ -27,6 +41,8 @@ def document(relative: str) -> Any:
 
 
 def node_names(relative: str) -> list[str]:
+    if relative in ROOMS:
+        return ROOMS[relative].ids
     return [node.get("name", "") for node in document(relative)["nodes"]]
 
 
@@ -46,52 +62,70 @@ def vibrates(name: str) -> bool:
 @pytest.mark.parametrize(
     ("scene", "vibrating"),
     [
-        ("composed_kitchen_kaykit", {"fridge", "oven", "stove", "extractor_hood", "radio", "radio(Clone)"}),
-        (
-            "composed_bathroom_kenney",
-            {"washing_machine", "washer(Clone)", "tumble_dryer", "dryer(Clone)", "radio", "radio(Clone)"}
-            | {"small_speaker", "speakerSmall(Clone)"},
+        *((name, room.sources) for name, room in ROOMS.items()),
+        *known(
+            {
+                "composed_kitchen_kaykit/composed_kitchen_kaykit.glb": {"fridge", "oven", "stove", "extractor_hood"}
+                | {"radio", "radio(Clone)"},
+                "composed_bathroom_kenney/composed_bathroom_kenney.glb": {"washing_machine", "washer(Clone)"}
+                | {"tumble_dryer", "dryer(Clone)", "radio", "radio(Clone)", "small_speaker", "speakerSmall(Clone)"},
+            }
         ),
     ],
 )
 def test_exactly_the_machines_vibrate(scene: str, vibrating: set[str]) -> None:
-    names = node_names(f"{scene}/{scene}.glb")
-    assert {name for name in names if vibrates(name)} == vibrating
+    assert {name for name in node_names(scene) if vibrates(name)} == vibrating
 
 
 @pytest.mark.parametrize(
     ("scene", "vibrating"),
     [
-        ("aws_house_living", {"AirconditionerB_01_001", "TV_01_001", "Tablet_01_001"}),
-        ("aws_house_bedroom", {"AirconditionerA_01_001", "TV_02_001"}),
+        (DEMO, DEMO_SOURCES),
+        *known(
+            {
+                "aws_house_living/aws_house_living.glb": {"AirconditionerB_01_001", "TV_01_001", "Tablet_01_001"},
+                "aws_house_bedroom/aws_house_bedroom.glb": {"AirconditionerA_01_001", "TV_02_001"},
+            }
+        ),
     ],
 )
 def test_most_objects_of_authored_rooms_are_recognised(scene: str, vibrating: set[str]) -> None:
-    names = top_level_names(f"{scene}/{scene}.glb")
-    known = [name for name in names if read_name(name).row is not None]
+    names = top_level_names(scene)
+    recognised = [name for name in names if read_name(name).row is not None]
     assert len(names) >= 20
-    assert len(known) / len(names) >= 0.95
+    assert len(recognised) / len(names) >= 0.95
     assert {name for name in names if vibrates(name)} == vibrating
 
 
 @pytest.mark.parametrize(
-    ("relative", "place"),
+    ("scene", "place"),
     [
-        ("composed_kitchen_kaykit/composed_kitchen_kaykit.glb", "kitchen"),
-        ("composed_bathroom_kenney/composed_bathroom_kenney.glb", "bathroom"),
-        ("aws_house_living/aws_house_living.glb", "living room"),
-        ("aws_house_bedroom/aws_house_bedroom.glb", "bedroom"),
-        ("sketchfab_kitchen/scene.gltf", "kitchen"),
-        ("messy_japanese_room/room.glb", "undefined"),
+        (DEMO, "kitchen"),
+        ("storage", "undefined"),
+        ("merged", "undefined"),
+        *known(
+            {
+                "composed_kitchen_kaykit/composed_kitchen_kaykit.glb": "kitchen",
+                "composed_bathroom_kenney/composed_bathroom_kenney.glb": "bathroom",
+                "aws_house_living/aws_house_living.glb": "living room",
+                "aws_house_bedroom/aws_house_bedroom.glb": "bedroom",
+                "sketchfab_kitchen/scene.gltf": "kitchen",
+                "messy_japanese_room/room.glb": "undefined",
+            }
+        ),
     ],
 )
-def test_kind_of_place(relative: str, place: str) -> None:
-    assert kind_of_place("Scene 1", node_names(relative)) == place
+def test_kind_of_place(scene: str, place: str) -> None:
+    assert kind_of_place("Scene 1", node_names(scene)) == place
 
 
-def test_opaque_scene_stays_unknown() -> None:
-    names = [name for name in node_names("messy_japanese_room/room.glb") if name.startswith("Object")]
-    assert len(names) == 17
+@pytest.mark.parametrize(
+    ("scene", "stem", "count"),
+    [("merged", "mesh", 1), *((x, "Object", 17) for x in others("messy_japanese_room/room.glb"))],
+)
+def test_opaque_scene_stays_unknown(scene: str, stem: str, count: int) -> None:
+    names = [name for name in node_names(scene) if name.startswith(stem)]
+    assert len(names) == count
     assert not any(read_name(name).row for name in names)
 
 
@@ -99,9 +133,7 @@ def test_opaque_scene_stays_unknown() -> None:
     ("library", "ending", "count"), [("kaykit_restaurant", "gltf", 144), ("kenney_furniture", "glb", 79)]
 )
 def test_asset_kits_are_covered(library: str, ending: str, count: int) -> None:
-    folder = SCENES / f"lib_{library}"
-    if not folder.exists():
-        pytest.skip(f"the shared library {library} is not here")
+    folder = needed(SCENES / f"lib_{library}")
     names = [path.stem for path in sorted(folder.glob(f"*.{ending}"))]
     assert len(names) == count
     assert sum(read_name(name).row is not None for name in names) / count >= 0.9

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
 from PIL import Image
 from scipy.ndimage import binary_dilation
 
-from rooms import ROOMS
+from others import SCENES, there
+from rooms import room_file
 from scene2hap import SceneSnapshot, load_scene
 from scene2hap.scene.capture import capture_images
 from scene2hap.scene.capture.protocol import Selection
@@ -22,7 +22,6 @@ from scene2hap.scene.images import Shot
 
 pytest.importorskip("embreex", reason="needs the extra `pictures`")
 
-SCENES = Path(__file__).parents[5] / "shared" / "scenes"
 FILES: dict[str, tuple[str, float | None]] = {
     "aws_house_living": ("aws_house_living.glb", None),
     "sketchfab_kitchen": ("scene.gltf", 0.01),
@@ -36,21 +35,17 @@ _loaded: dict[str, SceneSnapshot] = {}
 OWN = ("dining_room", "shelves", "workshop")
 
 
-def scene_of(name: str) -> SceneSnapshot:
-    if name in OWN:
-        with TemporaryDirectory() as folder:
-            return load_scene(ROOMS[name].write(Path(folder)))
-    file, unit_m = FILES[name]
-    path = SCENES / name / file
-    if not path.is_file():
-        pytest.skip("the shared scenes are not beside the repository")
-    return load_scene(path, unit_m=unit_m)
+def file_of(name: str) -> Path:
+    return room_file(name) if name in OWN else SCENES / name / FILES[name][0]
+
+
+NAMES = [*OWN, *there(FILES, file_of)]
 
 
 def studio_of(name: str) -> Studio:
     """The scene captured without its looks, whose textures may have holes that an id pass does not know."""
     if name not in _loaded:
-        snapshot = scene_of(name)
+        snapshot = load_scene(file_of(name), unit_m=FILES[name][1] if name in FILES else None)
         bare = tuple(replace(item, appearance=None) for item in snapshot.objects)
         _loaded[name] = replace(snapshot, objects=bare)
     images = capture_images(_loaded[name], size_px=SIZE_PX).images
@@ -113,12 +108,7 @@ def first_objects(studio: Studio, camera: Camera, selection: Selection, directio
 
 @pytest.mark.parametrize(
     ("name", "every"),
-    [
-        *((name, 2) for name in OWN),
-        ("aws_house_living", 12),
-        ("sketchfab_kitchen", 9),
-        ("composed_kitchen_kaykit", 9),
-    ],
+    [(name, {"aws_house_living": 12}.get(name, 2 if name in OWN else 9)) for name in NAMES],
 )
 def test_the_outline_encloses_exactly_what_is_visible(name: str, every: int) -> None:
     studio = studio_of(name)
@@ -147,7 +137,7 @@ def test_the_outline_encloses_exactly_what_is_visible(name: str, every: int) -> 
     assert common / total >= 0.98
 
 
-@pytest.mark.parametrize("name", [*OWN, *FILES])
+@pytest.mark.parametrize("name", NAMES)
 def test_every_isolated_image_is_framed_and_not_blank(name: str) -> None:
     studio = studio_of(name)
     man = studio._photographer
@@ -161,7 +151,7 @@ def test_every_isolated_image_is_framed_and_not_blank(name: str) -> None:
             assert picture(studio.image(shot)).std() > 2
 
 
-@pytest.mark.parametrize("name", [*OWN, *FILES])
+@pytest.mark.parametrize("name", NAMES)
 def test_targets_are_visible_among_other_things(name: str) -> None:
     studio = studio_of(name)
     man = studio._photographer
@@ -180,7 +170,7 @@ def test_targets_are_visible_among_other_things(name: str) -> None:
     assert np.mean(good) >= 0.95
 
 
-@pytest.mark.parametrize("name", [*OWN, *FILES])
+@pytest.mark.parametrize("name", NAMES)
 def test_scene_pictures_show_most_objects(name: str) -> None:
     studio = studio_of(name)
     seen: set[int] = set()

@@ -1,0 +1,43 @@
+"""What others made and this repository does not hold: scenes, recordings and tables in the folder `shared` beside it.
+
+A test that is true of any scene runs over the rooms of `tests/rooms` everywhere, and over scenes by others where they
+are. `there` leaves out the cases whose files are absent and counts them; `tests/unit/test_without_shared.py` tells how
+many these were, so that nothing is left out unsaid.
+A test of one file alone asks `needed` for it, which skips.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import TypeVar
+
+import pytest
+
+SHARED = Path(__file__).parents[2] / "shared"
+SCENES = SHARED / "scenes"
+RECORDINGS = SHARED / "audio"
+LEFT_OUT: Counter[str] = Counter()
+"""How many cases of the tests collected so far were left out, by the folder within `shared`."""
+
+Case = TypeVar("Case")
+
+
+def there(cases: Iterable[Case], path_of: Callable[[Case], Path]) -> list[Case]:
+    """The cases whose file or folder is there."""
+    found = []
+    for case in cases:
+        path = path_of(case)
+        if path.exists():
+            found.append(case)
+        else:
+            LEFT_OUT[path.relative_to(SHARED).parts[0]] += 1
+    return found
+
+
+def needed(path: Path) -> Path:
+    """A path within `shared` without which a test has nothing to say: skip where it is absent."""
+    if not path.exists():
+        pytest.skip(f"true of ../shared/{path.relative_to(SHARED).as_posix()} alone, which is not beside this checkout")
+    return path
