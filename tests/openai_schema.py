@@ -6,28 +6,21 @@ import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import jsonschema
-import pytest
 from referencing import Registry, Resource
 from referencing.jsonschema import DRAFT202012
 
 from llm_server import Scripted, Server, serving
+from others import SHARED, needed
 
-SCHEMA = Path(__file__).parents[2] / "shared" / "formats" / "openai" / "chat_completions.schema.json"
-
-
-def require_schema() -> None:
-    if not SCHEMA.exists():
-        pytest.skip("needs ../shared/formats/openai, which is not beside this repository")
+SCHEMA = SHARED / "formats" / "openai" / "chat_completions.schema.json"
 
 
 @cache
 def _spec() -> dict[str, Any]:
-    require_schema()
-    found: dict[str, Any] = json.loads(SCHEMA.read_text(encoding="utf-8"))
+    found: dict[str, Any] = json.loads(needed(SCHEMA).read_text(encoding="utf-8"))
     return found
 
 

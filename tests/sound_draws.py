@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from pathlib import Path
+from collections.abc import Callable, Collection, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import butter, sosfilt
 
+from others import RECORDINGS
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import read_clip
 
@@ -16,7 +16,6 @@ Signal = NDArray[np.float64]
 Draw = tuple[str, Signal, int]
 """Kind, samples, rate [Hz]."""
 
-RECORDINGS = Path(__file__).parents[2] / "shared" / "audio"
 HUMS = {"fridge_hum_kitchen.wav", "oven_hum.wav", "computer_fan_hum.wav", "washing_machine_rinse.wav"}
 RATES = (44_100, 48_000)
 
@@ -94,18 +93,20 @@ def hum_in_noise(rng: np.random.Generator) -> tuple[float, Signal, int]:
     return frequency, x + noise, rate
 
 
-def hum_among_decoys(rng: np.random.Generator, real: Mapping[str, tuple[Signal, int]]) -> tuple[str, list[AudioClip]]:
+def hum_among_decoys(
+    rng: np.random.Generator, real: Mapping[str, tuple[Signal, int]], hums: Collection[str] = HUMS
+) -> tuple[str, list[AudioClip]]:
     """The title of a recorded hum, and it in random order among decoys and the recordings that are no hum."""
 
     def clip(title: str, x: Signal, rate: int) -> AudioClip:
         return AudioClip(x / max(1.0, float(np.abs(x).max())), rate, Credit(title, "somebody", "CC0-1.0"))
 
-    hum = str(rng.choice(sorted(HUMS & set(real))))
+    hum = str(rng.choice(sorted(set(hums) & set(real))))
     x, rate = real[hum]
     n = round(rng.uniform(2.6, len(x) / rate) * rate)
     start = int(rng.integers(0, len(x) - n + 1))
     candidates = [clip(hum, 10 ** rng.uniform(-2, 0) * x[start : start + n], rate)]
-    candidates += [clip(name, *real[name]) for name in sorted(set(real) - HUMS)]
+    candidates += [clip(name, *real[name]) for name in sorted(set(real) - set(hums))]
     candidates += [clip(*decoy) for decoy in decoys(rng).values()]
     return hum, [candidates[i] for i in rng.permutation(len(candidates))]
 

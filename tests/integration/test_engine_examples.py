@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 import soundfile
 
+from others import SCENES, there
+from rooms.furniture import write_furniture
 from scene2hap.render.safety import FADE_OUT_S
 
 ROOT = Path(__file__).parents[2]
-SIM = ROOT.parent / "shared" / "scenes" / "furniture_sim"
 
 
 def run(example: str, *arguments: str | Path, folder: Path) -> str:
@@ -41,14 +42,16 @@ def test_a_phone_is_carried_from_table_to_shelf_in_panda3d(tmp_path: Path) -> No
     assert after[1] > 1.5 * before[1] > 0  # to the shelf, where the fan is
 
 
-def test_hands_feel_a_mujoco_dishwasher_while_its_rack_slides(tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", ["own", *there(["furniture_sim"], SCENES.joinpath)])
+def test_hands_feel_a_mujoco_dishwasher_while_its_rack_slides(tmp_path: Path, name: str) -> None:
     pytest.importorskip("mujoco", reason="needs the extra mujoco")
-    if not SIM.is_dir():
-        pytest.skip("the scene furniture_sim is not here")
-    told = run("mujoco_kitchen.py", SIM / "dishwasher.xml", "--seconds", "0.2", "-o", "felt.wav", folder=tmp_path)
+    root = write_furniture(tmp_path / "furniture") if name == "own" else SCENES / name
+    folder = tmp_path / "felt"
+    folder.mkdir()
+    told = run("mujoco_kitchen.py", root / "dishwasher.xml", "--seconds", "0.2", "-o", "felt.wav", folder=folder)
     assert re.search(r"^moved: .*top_rack by 0\.\d+ m", told, re.MULTILINE)
-    samples, rate = soundfile.read(tmp_path / "felt.wav")
+    samples, rate = soundfile.read(folder / "felt.wav")
     assert samples.shape == (round(0.2 * rate) + round(FADE_OUT_S * rate), 2)
     left, right = rms(samples)
     assert left > right > 0  # on the source itself, and on what it touches
-    assert {path.name for path in tmp_path.iterdir()} == {"felt.wav"}
+    assert {path.name for path in folder.iterdir()} == {"felt.wav"}

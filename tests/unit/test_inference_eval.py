@@ -18,13 +18,12 @@ import inference_eval
 from inference import labels, material_table, reading, scoring
 from inference.labels import Label, LabelledScene
 
+from others import SCENES, needed
 from scene2hap import materials
 from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.lexicon.stand_ins import STAND_INS
 from scene2hap.llm.protocol import LLMReply, LLMRequest
-
-SCENES = Path(__file__).parents[3] / "shared" / "scenes"
 
 
 def label(category: str, families: str, vibrates: bool, name: str = "thing", note: str = "") -> Label:
@@ -100,8 +99,7 @@ def test_halves_alternate_by_family() -> None:
 
 @pytest.mark.parametrize("name", ["composed_bathroom_kenney", "furniture_sim_kitchen3", "lib_kenney_furniture"])
 def test_labels_are_those_of_the_scene(name: str) -> None:
-    if not SCENES.is_dir():
-        pytest.skip(f"the real scenes are not there: {SCENES}")
+    needed(SCENES)
     (item,) = [scene for scene in labels.labelled_scenes() if scene.scene == name]
     scene = reading.read(item, SCENES)
     assert {thing.id: thing.name for thing in scene.objects} == {key: one.name for key, one in item.labels.items()}

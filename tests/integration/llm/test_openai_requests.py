@@ -10,7 +10,8 @@ import pytest
 
 from llm_asking import ask, openai
 from llm_server import GOOD, KEY, PNG, Scripted, request, said
-from openai_schema import assert_openai_says, assert_openai_takes, openai_serving, require_schema
+from openai_schema import SCHEMA, assert_openai_says, assert_openai_takes, openai_serving
+from others import needed
 from scene2hap import BackendWarning
 
 
@@ -23,7 +24,7 @@ from scene2hap import BackendWarning
     ids=["plain", "all"],
 )
 def test_request_bodies_fit_the_openai_schema(component: Any, settings: dict[str, Any]) -> None:
-    require_schema()
+    needed(SCHEMA)
     with openai_serving(said()) as server:
         ask(openai(server, **settings), request(component, images=(PNG, PNG)))
     assert_openai_takes(server.bodies[0])
@@ -32,7 +33,7 @@ def test_request_bodies_fit_the_openai_schema(component: Any, settings: dict[str
 
 
 def test_the_schema_check_can_fail() -> None:
-    require_schema()
+    needed(SCHEMA)
     body = {"model": "gpt-4o", "messages": [{"role": "user", "content": "a"}]}
     assert_openai_takes(body)
     with pytest.raises(jsonschema.ValidationError):
@@ -55,7 +56,7 @@ def test_the_schema_check_can_fail() -> None:
     ],
 )
 def test_the_check_of_scripted_answers_can_fail(wrong: dict[str, Any]) -> None:
-    require_schema()
+    needed(SCHEMA)
     with pytest.raises(jsonschema.ValidationError):
         assert_openai_says(Scripted(wrong, claims="CreateChatCompletionResponse"))
 

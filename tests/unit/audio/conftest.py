@@ -1,23 +1,17 @@
-"""Real recordings, which are kept beside the repository and not in it."""
+"""Sounds by name: those that the tests make, and recordings that are kept beside the repository and not in it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
+from others import RECORDINGS, needed
+from own_sounds import OWN_SOUNDS, own_sound
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.files import read_clip
 
-_FOLDER = Path(__file__).parents[4] / "shared" / "audio"
-
 
 @pytest.fixture
-def recording() -> Callable[[str], AudioClip]:
-    def read(name: str) -> AudioClip:
-        if not (_FOLDER / name).is_file():
-            pytest.skip(f"the recording {name} is not beside the repository (../shared/audio)")
-        return read_clip(_FOLDER / name)
-
-    return read
+def sound() -> Callable[[str], AudioClip]:
+    return lambda name: own_sound(name) if name in OWN_SOUNDS else read_clip(needed(RECORDINGS / name))

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from scipy.signal import butter, resample_poly, sosfiltfilt
 
+from others import RECORDINGS, there
+from own_sounds import PITCHES_HZ
 from scene2hap.audio import analysis
 from scene2hap.audio.clip import AudioClip
 from scene2hap.errors import AudioError
@@ -136,21 +138,27 @@ def test_a_wider_range_finds_the_peak_of_the_raw_sound() -> None:
     assert analysis.dominant_frequency_hz(x, RATE, range_hz=(20, 20_000)) == pytest.approx(3210.7, abs=0.01)
 
 
+RECORDED = {
+    # What SOURCE.md beside them says; an octave error would be off by half or double.
+    "fridge_hum_kitchen.wav": (59.0, 1.0),
+    "oven_hum.wav": (100.0, 0.5),
+    # A motor on European mains; and the strongest third octave of a bank of Butterworth filters (stress/audio.py).
+    "washing_machine_rinse.wav": (100.0, 0.5),
+    "computer_fan_hum.wav": (39.8, 5.0),
+}
+
+
 @pytest.mark.parametrize(
     ("name", "expected_hz", "tolerance_hz"),
     [
-        # What SOURCE.md beside them says; an octave error would be off by half or double.
-        ("fridge_hum_kitchen.wav", 59.0, 1.0),
-        ("oven_hum.wav", 100.0, 0.5),
-        # A motor on European mains; and the strongest third octave of a bank of Butterworth filters (stress/audio.py).
-        ("washing_machine_rinse.wav", 100.0, 0.5),
-        ("computer_fan_hum.wav", 39.8, 5.0),
+        *((name, pitch_hz, 0.05) for name, pitch_hz in PITCHES_HZ.items()),
+        *((name, *RECORDED[name]) for name in there(RECORDED, RECORDINGS.joinpath)),
     ],
 )
-def test_real_hums_are_heard_in_the_right_octave(
-    recording: Callable[[str], AudioClip], name: str, expected_hz: float, tolerance_hz: float
+def test_hums_of_machines_are_heard_in_the_right_octave(
+    sound: Callable[[str], AudioClip], name: str, expected_hz: float, tolerance_hz: float
 ) -> None:
-    clip = recording(name)
+    clip = sound(name)
     found = analysis.dominant_frequency_hz(clip.samples, clip.sample_rate_hz)
     assert found == pytest.approx(expected_hz, abs=tolerance_hz)
 

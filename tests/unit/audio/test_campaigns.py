@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from others import RECORDINGS, there
+from own_sounds import OWN_HUMS, OWN_SOUNDS, own_sound
 from scene2hap.audio import analysis
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert_clip
@@ -13,10 +15,11 @@ from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.select import explain_choice
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from seam_judge import judge
-from sound_draws import RATES, chopped, coloured_noise, hum_among_decoys, hum_in_noise, loop_clip, recordings
+from sound_draws import HUMS, RATES, chopped, coloured_noise, hum_among_decoys, hum_in_noise, loop_clip, recordings
 
-RECORDINGS = recordings()
-needs_recordings = pytest.mark.skipif(not RECORDINGS, reason="no recordings beside the repository (../shared/audio)")
+OWN = {name: (own_sound(name).samples.astype(float), own_sound(name).sample_rate_hz) for name in OWN_SOUNDS}
+REAL = {"own": (OWN, OWN_HUMS), "recorded": (recordings(), HUMS)}
+BY_WHOM = ["own", *there(["recorded"], lambda _: RECORDINGS)]
 
 
 def test_the_pitch_of_a_hum_in_noise_is_right_to_a_fiftieth_of_a_hertz() -> None:
@@ -25,12 +28,13 @@ def test_the_pitch_of_a_hum_in_noise_is_right_to_a_fiftieth_of_a_hertz() -> None
         assert analysis.dominant_frequency_hz(x, rate) == pytest.approx(truth, abs=0.02), seed
 
 
-@pytest.mark.parametrize("kind", [pytest.param("recording", marks=needs_recordings), "noise", "tone", "beat"])
+@pytest.mark.parametrize("kind", [*BY_WHOM, "noise", "tone", "beat"])
 def test_the_wrap_of_a_loop_is_a_place_like_any_other_heard_or_felt(kind: str) -> None:
+    real = REAL[kind][0] if kind in REAL else {}
     stands_out = []
     for seed in range(3):
         rng = np.random.default_rng([2, seed])
-        name, x, rate, _ = loop_clip(kind, rng, RECORDINGS)
+        name, x, rate, _ = loop_clip("recording" if real else kind, rng, real)
         x = x[: 2 * rate]
         felt = convert_clip(AudioClip(x, rate), SvfBandpass(), ConversionContext()).samples.astype(float)
         seam = find_seam(x, rate, felt)
@@ -55,11 +59,11 @@ def test_the_judge_notices_tones_and_rumble_chopped_at_random() -> None:
     assert noticed["brown"] >= 4
 
 
-@needs_recordings
-def test_a_recorded_hum_wins_over_whatever_else_a_search_brings_home() -> None:
+@pytest.mark.parametrize("by_whom", BY_WHOM)
+def test_a_hum_wins_over_whatever_else_a_search_brings_home(by_whom: str) -> None:
     lost = []
     for seed in range(1):
-        title, candidates = hum_among_decoys(np.random.default_rng([4, seed]), RECORDINGS)
+        title, candidates = hum_among_decoys(np.random.default_rng([4, seed]), *REAL[by_whom])
         choice = explain_choice(candidates)
         if choice.winner.credit.title != title:
             lost.append(str(choice))

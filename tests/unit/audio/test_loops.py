@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
+from others import RECORDINGS, there
+from own_sounds import OWN_SOUNDS
 from scene2hap.audio.clip import AudioClip, Credit, Samples
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.loops import (
@@ -23,7 +25,7 @@ from scene2hap.errors import AudioError
 
 RATE = 48_000
 CREDIT = Credit("hum", "someone", "CC0-1.0")
-RECORDINGS = [
+RECORDED = [
     "fridge_hum_kitchen.wav",
     "oven_hum.wav",
     "computer_fan_hum.wav",
@@ -99,9 +101,9 @@ def test_noise_keeps_its_level_through_an_equal_power_fade() -> None:
     assert np.mean(levels) == pytest.approx(0.0, abs=0.4)
 
 
-@pytest.mark.parametrize("name", RECORDINGS)
-def test_real_recordings_have_no_step_at_the_wrap(recording: Callable[[str], AudioClip], name: str) -> None:
-    original = recording(name)
+@pytest.mark.parametrize("name", [*OWN_SOUNDS, *there(RECORDED, RECORDINGS.joinpath)])
+def test_sounds_of_machines_have_no_step_at_the_wrap(sound: Callable[[str], AudioClip], name: str) -> None:
+    original = sound(name)
     loop = loop_pair(original, SvfBandpass(), ConversionContext())
     for samples in (loop.audible.samples, loop.tactile.samples):
         around = np.concatenate([samples[-480:], samples[:480]])

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.signal import butter, resample_poly, sosfiltfilt
 
+from others import RECORDINGS, there
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.select import explain_choice, select_clip
 from scene2hap.errors import AudioError
@@ -159,9 +160,16 @@ def test_without_a_long_enough_candidate_the_error_names_the_longest() -> None:
         select_clip([])
 
 
-def test_among_real_recordings_a_steady_hum_wins(recording: Callable[[str], AudioClip]) -> None:
-    names = ["chainsaw_3-118972-A.ogg", "clock_tick_1-62849-A.ogg", "computer_fan_hum.wav", "oven_hum.wav"]
-    choice = explain_choice([recording(name) for name in names])
-    assert choice.winner.credit.title == "oven_hum"
+SAW_CLOCK_FAN_OVEN = {
+    "own": ["own saw", "own clock", "own fan", "own oven"],
+    "recorded": ["chainsaw_3-118972-A.ogg", "clock_tick_1-62849-A.ogg", "computer_fan_hum.wav", "oven_hum.wav"],
+}
+
+
+@pytest.mark.parametrize("by_whom", ["own", *there(["recorded"], lambda _: RECORDINGS)])
+def test_among_machines_a_steady_hum_wins(sound: Callable[[str], AudioClip], by_whom: str) -> None:
+    candidates = [sound(name) for name in SAW_CLOCK_FAN_OVEN[by_whom]]
+    choice = explain_choice(candidates)
+    assert choice.winner.credit.title == candidates[-1].credit.title
     assert choice.rows[2].verdict == "noisier than the chosen one"
     assert all(row.verdict.startswith("not steady") for row in choice.rows[:2])

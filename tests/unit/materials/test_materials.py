@@ -2,15 +2,13 @@
 
 import csv
 import math
-from pathlib import Path
 
 import pytest
 
+from others import SHARED, needed
 from scene2hap import materials
 from scene2hap.errors import MaterialError, UnknownMaterial
 from scene2hap.materials import Material
-
-SHARED_TABLE = Path(__file__).parents[4] / "shared" / "materials.csv"
 
 
 @pytest.mark.parametrize(
@@ -57,9 +55,7 @@ def test_bar_wave_speeds_are_those_of_handbooks() -> None:
 
 
 def test_the_table_is_the_published_one() -> None:
-    if not SHARED_TABLE.is_file():
-        pytest.skip("needs the shared folder beside the checkout (materials.csv)")
-    with SHARED_TABLE.open(encoding="utf-8") as file:
+    with needed(SHARED / "materials.csv").open(encoding="utf-8") as file:
         published = {row["material"]: row for row in csv.DictReader(file)}
     assert {row.material.name for row in materials.table()} == set(published)
     for row in materials.table():

@@ -54,20 +54,20 @@ def voice(thing: str, verb: str, intensity: float, size_m: float, mains_hz: floa
     ids=lambda value: value if isinstance(value, str) else "",
 )
 def test_a_voice_is_near_what_was_recorded(
-    recording: Callable[[str], AudioClip],
+    sound: Callable[[str], AudioClip],
     name: str,
     voiced: tuple[str, str, float, float, float],
     strongest_rel: float,
     centroid_rel: float,
     lines_abs: float,
 ) -> None:
-    real, made = measured(recording(name)), measured(voice(*voiced))
+    real, made = measured(sound(name)), measured(voice(*voiced))
     assert made[0] == pytest.approx(real[0], rel=strongest_rel)
     assert made[1] == pytest.approx(real[1], rel=centroid_rel)
     assert made[2] == pytest.approx(real[2], abs=lines_abs)
 
 
-def test_voices_lie_in_the_order_of_what_was_recorded(recording: Callable[[str], AudioClip]) -> None:
+def test_voices_lie_in_the_order_of_what_was_recorded(sound: Callable[[str], AudioClip]) -> None:
     """From the fridge's hum to the saw: darker to brighter, and the fan is noisier than the hums."""
     things = {
         "fridge_hum_kitchen.wav": ("refrigerator", "humming", 0.1, 0.7, 60.0),
@@ -75,7 +75,7 @@ def test_voices_lie_in_the_order_of_what_was_recorded(recording: Callable[[str],
         "computer_fan_hum.wav": ("computer fan", "humming", 0.1, 0.12, 50.0),
         "chainsaw_1-116765-A.ogg": ("chainsaw", "sawing", 0.75, 0.8, 50.0),
     }
-    for sounds in ([recording(name) for name in things], [voice(*thing) for thing in things.values()]):
+    for sounds in ([sound(name) for name in things], [voice(*thing) for thing in things.values()]):
         numbers = [measured(sound) for sound in sounds]
         centroids = [centroid for _, centroid, _ in numbers]
         assert centroids == sorted(centroids)

@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from others import SCENES, needed, there
+from rooms.furniture import COUNTER_BOUNDS_M, IDS, write_furniture
 from scene2hap import load_scene
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.engines import mjcf_files
@@ -273,43 +275,55 @@ def test_load_scene_reads_xml(home: Path) -> None:
             load_scene(path, **wrong)  # type: ignore[arg-type]
 
 
-# -- real kitchens ---------------------------------------------------------------------------------------------------
+# -- kitchens --------------------------------------------------------------------------------------------------------
 
-SIM = (Path(__file__).parents[5] / "shared" / "scenes" / "furniture_sim").resolve()
+SIM = (SCENES / "furniture_sim").resolve()
+REAL = {
+    "kitchen/kitchen1.xml": (24, {"microroot": "microwave", "wallroot": "backwall", "knob 1": "knob 1"}),
+    "kitchen/kitchen3.xml": (23, {"microroot": "microwave", "kettleroot2": "kettle", "slidelink": "slidelink"}),
+    "dishwasher.xml": (3, {"dishwasher": "dishwasher", "top_rack": "top_rack", "door": "door"}),
+}
+KITCHENS = [name for name in REAL if name.startswith("kitchen/")]
 
 
-def real(name: str) -> Path:
-    if not SIM.is_dir():
-        pytest.skip("the scene furniture_sim is not here")
-    return SIM / name
+@pytest.fixture(scope="module")
+def furniture(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The root of the furniture that the tests build."""
+    return write_furniture(tmp_path_factory.mktemp("furniture"))
 
 
-@pytest.mark.parametrize(
-    ("name", "n_objects", "some"),
-    [
-        ("kitchen/kitchen1.xml", 24, {"microroot": "microwave", "wallroot": "backwall", "knob 1": "knob 1"}),
-        ("kitchen/kitchen3.xml", 23, {"microroot": "microwave", "kettleroot2": "kettle", "slidelink": "slidelink"}),
-        ("dishwasher.xml", 3, {"dishwasher": "dishwasher", "top_rack": "top_rack", "door": "door"}),
-    ],
-)
-def test_real_kitchens_load(name: str, n_objects: int, some: dict[str, str]) -> None:
-    """The numbers are counted in the XML: bodies with visual geoms."""
-    scene = load_mjcf(real(name), assets_root=SIM)
+@pytest.mark.parametrize("name", [*(f"own {name}" for name in IDS), *there(REAL, SIM.joinpath)])
+def test_kitchens_are_loaded_by_their_bodies(furniture: Path, name: str) -> None:
+    """The numbers of real ones are counted in the XML: bodies with visual geoms."""
+    if name.startswith("own "):
+        root, name = furniture, name.removeprefix("own ")
+        n_objects, some = len(IDS[name]), {key: "kettle" if key == "kettleroot" else key for key in IDS[name]}
+    else:
+        root, (n_objects, some) = SIM, REAL[name]
+    scene = load_mjcf(root / name, assets_root=root)
     assert len(scene.objects) == n_objects
     assert {item.id: item.name for item in scene.objects if item.id in some} == some
-    again = load_mjcf(real(name), assets_root=SIM)
+    again = load_mjcf(root / name, assets_root=root)
     assert again == scene
 
 
-@pytest.mark.parametrize("name", ["kitchen/kitchen1.xml", "kitchen/kitchen3.xml"])
-def test_real_kitchens_tell_the_root_that_they_need(name: str) -> None:
+@pytest.mark.parametrize("name", ["own", *there(KITCHENS, SIM.joinpath)])
+def test_kitchens_tell_the_root_that_they_need(furniture: Path, name: str) -> None:
+    root, name = (furniture.resolve(), "kitchen/kitchen.xml") if name == "own" else (SIM, name)
     with pytest.raises(SceneError, match="lies outside") as caught:
-        load_mjcf(real(name))
-    assert f"Give assets_root={str(SIM)!r}" in str(caught.value)
+        load_mjcf(root / name)
+    assert f"Give assets_root={str(root)!r}" in str(caught.value)
+
+
+def test_furniture_is_measured_from_its_visual_geoms(furniture: Path) -> None:
+    model, data = open_mjcf(furniture / "kitchen" / "kitchen.xml", assets_root=furniture)
+    scene = snapshot(model, data, unit_m=0.5)
+    np.testing.assert_allclose(scene.object("counter").bounds_m, np.array(COUNTER_BOUNDS_M) / 2, atol=1e-6)
+    assert len({scene.object(f"knob {i}").instance_key for i in range(4)}) == 1
 
 
 def test_a_real_kitchen_is_measured_from_its_visual_geoms() -> None:
-    model, data = open_mjcf(real("kitchen/kitchen1.xml"), assets_root=SIM)
+    model, data = open_mjcf(needed(SIM / "kitchen" / "kitchen1.xml"), assets_root=SIM)
     scene = snapshot(model, data, unit_m=0.5)
     # box_counter_body.xml: a top of half size 0.463 x 1.08 x 0.03 at z = 1.57 on a base that stands on the floor.
     np.testing.assert_allclose(
