@@ -97,7 +97,7 @@ def test_another_process_reads_the_same() -> None:
         "import sys; from scene2hap.scene.load import load_scene; "
         "print([(i.id, i.instance_key) for p in sys.argv[1:] for i in load_scene(p, unit_m=1.0).objects])"
     )
-    names = (*ROOMS, *others(BATHROOM, MERGED))
+    names = [name for name in (*ROOMS, BATHROOM, MERGED) if file_of(name).exists()]
     paths = [str(file_of(name)) for name in names]
     done = subprocess.run([sys.executable, "-c", code, *paths], capture_output=True, text=True, check=True)
     expected = [(item.id, item.instance_key) for name in names for item in scene(name).objects]

@@ -19,7 +19,10 @@ from sound_draws import HUMS, RATES, chopped, coloured_noise, hum_among_decoys, 
 
 OWN = {name: (own_sound(name).samples.astype(float), own_sound(name).sample_rate_hz) for name in OWN_SOUNDS}
 REAL = {"own": (OWN, OWN_HUMS), "recorded": (recordings(), HUMS)}
-BY_WHOM = ["own", *there(["recorded"], lambda _: RECORDINGS)]
+
+
+def by_whom() -> list[str]:
+    return ["own", *there(["recorded"], lambda _: RECORDINGS)]
 
 
 def test_the_pitch_of_a_hum_in_noise_is_right_to_a_fiftieth_of_a_hertz() -> None:
@@ -28,7 +31,7 @@ def test_the_pitch_of_a_hum_in_noise_is_right_to_a_fiftieth_of_a_hertz() -> None
         assert analysis.dominant_frequency_hz(x, rate) == pytest.approx(truth, abs=0.02), seed
 
 
-@pytest.mark.parametrize("kind", [*BY_WHOM, "noise", "tone", "beat"])
+@pytest.mark.parametrize("kind", [*by_whom(), "noise", "tone", "beat"])
 def test_the_wrap_of_a_loop_is_a_place_like_any_other_heard_or_felt(kind: str) -> None:
     real = REAL[kind][0] if kind in REAL else {}
     stands_out = []
@@ -59,11 +62,11 @@ def test_the_judge_notices_tones_and_rumble_chopped_at_random() -> None:
     assert noticed["brown"] >= 4
 
 
-@pytest.mark.parametrize("by_whom", BY_WHOM)
-def test_a_hum_wins_over_whatever_else_a_search_brings_home(by_whom: str) -> None:
+@pytest.mark.parametrize("maker", by_whom())
+def test_a_hum_wins_over_whatever_else_a_search_brings_home(maker: str) -> None:
     lost = []
     for seed in range(1):
-        title, candidates = hum_among_decoys(np.random.default_rng([4, seed]), *REAL[by_whom])
+        title, candidates = hum_among_decoys(np.random.default_rng([4, seed]), *REAL[maker])
         choice = explain_choice(candidates)
         if choice.winner.credit.title != title:
             lost.append(str(choice))

@@ -39,7 +39,8 @@ def file_of(name: str) -> Path:
     return room_file(name) if name in OWN else SCENES / name / FILES[name][0]
 
 
-NAMES = [*OWN, *there(FILES, file_of)]
+def names() -> list[str]:
+    return [*OWN, *there(FILES, file_of)]
 
 
 def studio_of(name: str) -> Studio:
@@ -108,7 +109,7 @@ def first_objects(studio: Studio, camera: Camera, selection: Selection, directio
 
 @pytest.mark.parametrize(
     ("name", "every"),
-    [(name, {"aws_house_living": 12}.get(name, 2 if name in OWN else 9)) for name in NAMES],
+    [(name, {"aws_house_living": 12}.get(name, 2 if name in OWN else 9)) for name in names()],
 )
 def test_the_outline_encloses_exactly_what_is_visible(name: str, every: int) -> None:
     studio = studio_of(name)
@@ -137,7 +138,7 @@ def test_the_outline_encloses_exactly_what_is_visible(name: str, every: int) -> 
     assert common / total >= 0.98
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", names())
 def test_every_isolated_image_is_framed_and_not_blank(name: str) -> None:
     studio = studio_of(name)
     man = studio._photographer
@@ -151,7 +152,7 @@ def test_every_isolated_image_is_framed_and_not_blank(name: str) -> None:
             assert picture(studio.image(shot)).std() > 2
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", names())
 def test_targets_are_visible_among_other_things(name: str) -> None:
     studio = studio_of(name)
     man = studio._photographer
@@ -170,7 +171,7 @@ def test_targets_are_visible_among_other_things(name: str) -> None:
     assert np.mean(good) >= 0.95
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", names())
 def test_scene_pictures_show_most_objects(name: str) -> None:
     studio = studio_of(name)
     seen: set[int] = set()
