@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 from scene2hap.contact.free_region import FreeRegion
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.contact.stance import Stance
@@ -20,8 +18,8 @@ class Body:
     """
 
     __slots__ = (
-        "__dict__",
         "_stance",
+        "free_regions",
         "high",
         "id",
         "low",
@@ -39,6 +37,7 @@ class Body:
         self.size_m = shape.size_m
         self.pose = pose
         self.up_axis, self.v_axis = up_axis, 3 - up_axis
+        self.free_regions: dict[str, FreeRegion] = {}  # of guests by their ids; see `contact.free_space`
         stance = self._stance = Stance(shape, pose.rotation_xyzw, up_axis)
         x, y, z = self.position_m = pose.position_m
         low, high = stance.low, stance.high
@@ -56,20 +55,16 @@ class Body:
         body = Body.__new__(Body)
         body.id, body.shape, body.size_m = self.id, self.shape, self.size_m
         body.up_axis, body.v_axis = self.up_axis, self.v_axis
-        body.pose, body._stance = pose, self._stance
+        body.pose, body._stance, body.free_regions = pose, self._stance, self.free_regions
         stance = body.stance
         x, y, z = body.position_m = pose.position_m
         (a, b, c), (d, e, f) = stance.low, stance.high
         body.low, body.high = (x + a, y + b, z + c), (x + d, y + e, z + f)
         return body
 
-    def put(self, pose: Pose, low: Triple, high: Triple, stance: Stance | None = None) -> None:
-        """Go elsewhere, to a box that is known already, turned in a way that may be."""
+    def put(self, pose: Pose, low: Triple, high: Triple) -> None:
+        """Go elsewhere, to a box that is known already."""
         self.pose, self.position_m, self.low, self.high = pose, pose.position_m, low, high
-        if stance is not None:
-            self._stance = stance
-        if self.__dict__:
-            self.__dict__.clear()
 
     @property
     def stance(self) -> Stance:
@@ -93,8 +88,3 @@ class Body:
     def rows(self) -> Rows:
         """Its rotation, in rows."""
         return self.stance.rows
-
-    @cached_property
-    def free_regions(self) -> dict[str, FreeRegion]:
-        """What is known, for guests by their ids, of their surroundings; see `contact.free_space`."""
-        return {}

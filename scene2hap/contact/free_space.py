@@ -2,8 +2,8 @@
 
 Rooms are one mesh of walls and floor, floors have nooks, shelves have boards below their top. The AABB of such a host
 holds everything around it, so only triangles tell where its surface is. They are searched once around a guest; the box
-found is kept with the host, in the host's frame, until the guest leaves it. It holds for any pose within it, so that
-poses alone decide the contacts.
+found is kept with the host, in the host's frame, until the guest leaves it, wherever the host goes. It holds for any
+pose within it, so that poses alone decide the contacts.
 
     u, v : the host's own axes that are level; h : the height over its position [m]
 """
@@ -22,6 +22,7 @@ from scene2hap.contact.fat_boxes import AABB
 from scene2hap.contact.free_region import FreeRegion
 from scene2hap.contact.ledge import Flat, Upright
 from scene2hap.contact.mesh_distance import INSET, INSET_M
+from scene2hap.contact.planes import Plane, floor_at, roof_at, wall_at
 from scene2hap.contact.relative import box_in_frame
 from scene2hap.contact.stance import TopFace
 from scene2hap.contact.support import TOUCH_M, fall_reach_m, hang_reach_m, is_over
@@ -30,10 +31,6 @@ from scene2hap.contact.vectors import Marks
 _MOST_TILT_M = 1e-4  # A host may lean by so much over its whole size, which is the error of a ledge's height then.
 _MANY_CORNERS = 8  # An outline of more is taken for a circle.
 _ROUNDING_M = 2e-6
-_MOST_SKEW = 1e-5  # A host turned by more about the vertical [rad] is not in line.
-
-
-NOWHERE: AABB = (math.inf,) * 3, (-math.inf,) * 3
 _NO_LEDGE: Flat = (math.inf, math.inf, -math.inf, -math.inf)
 
 
@@ -43,7 +40,7 @@ def ledge_under(guest: Body, host: Body) -> FreeRegion | None:
     own = _upright(host)
     if own is None:
         return None
-    known = host.free_regions.get(guest.id)
+    known = _known(guest, host, own)
     taken, foot = _column(guest, host, own), _foot(guest, host, own)
     if known is not None and _holds(known.room, taken):
         if known.top_m is None:
@@ -66,12 +63,12 @@ def has_nothing_near(guest: Body, host: Body) -> bool:
     (u0, v0, h0), (u1, v1, h1) = _column(guest, host, own)
     reach_m = _reach_m(guest)
     taken = (u0 - reach_m, v0 - reach_m, h0 - reach_m), (u1 + reach_m, v1 + reach_m, h1 + reach_m)
-    known = host.free_regions.get(guest.id)
+    known = _known(guest, host, own)
     if known is None or known.top_m is not None or not _holds(known.room, taken):
         near = _Near(host, own, taken)
         if near.meets(taken).any():
             return False
-        host.free_regions[guest.id] = FreeRegion(near.cut(taken), None, _NO_LEDGE)
+        host.free_regions[guest.id] = FreeRegion(own, near.cut(taken), None, _NO_LEDGE)
     return True
 
 
@@ -86,32 +83,34 @@ def top_face(host: Body, known: FreeRegion) -> TopFace:
     return TopFace(corners, known.top_m, ((a, b, u0), (c, d, v0), (-a, -b, -u1), (-c, -d, -v1)))
 
 
-def open_box(guest: Body, host: Body, *, stands: bool) -> AABB:
-    """Where in the world, by lowest and highest corners (x, y, z), a guest's box may be if it stands on the host's
-    ledge, or else if it is clear of it, as far as is known; `NOWHERE` too if the host is not in line with the world."""
-    known, lean, up = host.free_regions.get(guest.id), host.stance.lean, host.up_axis
-    if known is None or lean is None or stands != (known.top_m is not None) or is_over(host, guest):
-        return NOWHERE
-    a, b, c, d = _turn(host, lean.own)
-    skew = min(abs(a), abs(c))
-    if skew > _MOST_SKEW:
-        return NOWHERE
-    spare_m = _ROUNDING_M + (skew + lean.tilt) * host.size_m
+def free_planes(guest: Body, host: Body, *, stands: bool) -> tuple[Plane, ...] | None:
+    """Between which planes of the world a guest may be if it stands on the host's ledge, or else if it is clear of it;
+    None where that is not known."""
+    own, lean, up = _upright(host), host.stance.lean, host.up_axis
+    known = None if own is None else _known(guest, host, own)
+    if own is None or lean is None or known is None or stands != (known.top_m is not None) or is_over(host, guest):
+        return None
+    a, b, c, d = _turn(host, own)
+    spare_m = _ROUNDING_M + lean.tilt * host.size_m
     reach_m = spare_m if stands else spare_m + _reach_m(guest)
-    low, high = [0.0] * 3, [0.0] * 3
-    # Which of u and v lies along either level axis of the world, and whether it points the same way.
-    along = ((0, 0, a), (3 - up, 1, d)) if abs(a) > abs(c) else ((0, 1, c), (3 - up, 0, b))
-    for axis, k, sign in along:
-        ends = known.room[0][k], known.room[1][k]
-        if sign < 0:
-            ends = -ends[1], -ends[0]
-        low[axis], high[axis] = host.position_m[axis] + ends[0] + reach_m, host.position_m[axis] + ends[1] - reach_m
-    h = host.position_m[up]
-    low[up] = h + known.room[0][2] + fall_reach_m(guest.size_m) + TOUCH_M + reach_m
+    (u0, v0, h0), (u1, v1, h1) = known.room
+    x, y, h = host.position_m[0], host.position_m[host.v_axis], host.position_m[up]
+    u, v = a * x + b * y, c * x + d * y
     # Lower than this the host might be what falls.
-    low[up] = max(low[up], host.low[up] - TOUCH_M + spare_m)
-    high[up] = h + known.room[1][2] - TOUCH_M - reach_m
-    return (low[0], low[1], low[2]), (high[0], high[1], high[2])
+    low_m = max(h + h0 + fall_reach_m(guest.size_m) + TOUCH_M + reach_m, host.low[up] - TOUCH_M + spare_m)
+    return (
+        wall_at(a, b, u + u1 - reach_m, is_square=True),
+        wall_at(-a, -b, -(u + u0 + reach_m), is_square=True),
+        wall_at(c, d, v + v1 - reach_m, is_square=True),
+        wall_at(-c, -d, -(v + v0 + reach_m), is_square=True),
+        floor_at(low_m),
+        roof_at(h + h1 - TOUCH_M - reach_m),
+    )
+
+
+def _known(guest: Body, host: Body, own: Upright) -> FreeRegion | None:
+    known = host.free_regions.get(guest.id)
+    return known if known is not None and known.own == own else None
 
 
 def _upright(host: Body) -> Upright | None:
@@ -168,7 +167,7 @@ def _drawn(host: Body, own: Upright, taken: AABB, foot: Flat) -> FreeRegion | No
     near = _Near(host, own, taken)
     meets = np.flatnonzero(near.meets(taken))
     if not len(meets):
-        return FreeRegion(near.cut(taken), None, _NO_LEDGE)
+        return FreeRegion(own, near.cut(taken), None, _NO_LEDGE)
     ledges = host.shape.ledges(own)
     numbers, tops = ledges.number[near.rows], near.high[2]
     # Sides reach as high as the ledge that they bound.
@@ -181,7 +180,7 @@ def _drawn(host: Body, own: Upright, taken: AABB, foot: Flat) -> FreeRegion | No
         return None
     room = (u0, v0, _), (u1, v1, _) = near.cut(taken, higher)
     ledge = ledges.stretch(number, foot, (min(u0, foot[0]), min(v0, foot[1]), max(u1, foot[2]), max(v1, foot[3])))
-    return None if ledge is None else FreeRegion(room, top_m, ledge)
+    return None if ledge is None else FreeRegion(own, room, top_m, ledge)
 
 
 class _Near:

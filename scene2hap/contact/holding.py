@@ -6,12 +6,12 @@ Asked for one body or pair at a time; all that is asked depends on pairs alone.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Collection, Container, Iterable, Mapping
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.bond import NO_BOND, NO_WAY, Bond, Plan, direction, priority
 from scene2hap.contact.free_space import has_nothing_near
-from scene2hap.contact.junction import Junction, Pair, pair_of
+from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.pair import NEEDS_TRIANGLES, BodyPair, apart_by
 from scene2hap.contact.support import (
     SLACK_M,
@@ -30,12 +30,12 @@ from scene2hap.contact.vectors import Floats, Triple
 class Holding:
     """Bodies, the pairs between them and what holds each of them, all by id, as their owner keeps them.
 
-    Parameters: near : the neighbours of each body; stop : is told of two that are tied here, since how they go on is
-    not sure then.
+    Parameters: near : the neighbours of each body; certified : those that surely hang from nothing, nor others from
+    them.
     """
 
-    def __init__(self, up_axis: int, near: Mapping[str, Collection[str]], stop: Callable[[str, str], None]) -> None:
-        self._up_axis, self._near, self._stop = up_axis, near, stop
+    def __init__(self, up_axis: int, near: Mapping[str, Collection[str]], certified: Container[str]) -> None:
+        self._up_axis, self._near, self._certified = up_axis, near, certified
         self.bodies: dict[str, Body] = {}
         self.body_pairs: dict[str, dict[str, BodyPair]] = {}
         self.held: dict[str, dict[str, Bond]] = {}
@@ -104,6 +104,7 @@ class Holding:
             y
             for y in self._near[x]
             if (other := bodies[y]).size_m > size_m
+            and y not in self._certified
             and not apart_by(body, other, reach_m)
             and not has_nothing_near(body, other)
         ]
@@ -129,11 +130,8 @@ class Holding:
     def _body_pair(self, x: str, y: str) -> BodyPair:
         body_pair = self.body_pairs[x].get(y)
         if body_pair is None:
-            a, b = pair_of(x, y)
-            self._stop(x, y)
-            body_pair = self.body_pairs[x][y] = self.body_pairs.setdefault(y, {})[x] = BodyPair.between(
-                self.bodies[a], self.bodies[b]
-            )
+            body_pair = BodyPair.of(self.bodies[x], self.bodies[y])
+            self.body_pairs[x][y] = self.body_pairs.setdefault(y, {})[x] = body_pair
         return body_pair
 
     def junctions(self, pairs: Iterable[Pair]) -> dict[Pair, Junction | None]:

@@ -26,59 +26,24 @@ NEEDS_TRIANGLES = Rest(math.nan, False, math.nan)
 class BodyPair:
     """Narrow-phase answers for two posed bodies, computed once and kept until either moves; `a` has the lower id."""
 
-    __slots__ = ("_facts", "_is_in_reserve", "_meeting_made", "_rest_a", "_rest_b", "a", "b")
+    __slots__ = ("_facts", "_meeting_made", "a", "b", "rest_a", "rest_b")
 
-    def __init__(self, a: Body, b: Body, rest_a: Rest | None, rest_b: Rest | None) -> None:
-        self.a, self.b, self._rest_a, self._rest_b, self._is_in_reserve = a, b, rest_a, rest_b, False
+    def __init__(self, a: Body, b: Body) -> None:
+        self.a, self.b = a, b
+        # How a may lie on b: None if not at all, `NEEDS_TRIANGLES` where triangles must say; and b on a.
+        self.rest_a = _rest(a, b)
+        self.rest_b = _rest(b, a) if self.rest_a is None else None
         self._meeting_made: MeshPair | None = None
         self._facts: dict[object, Any] | None = None
 
     @classmethod
-    def between(cls, a: Body, b: Body) -> BodyPair:
-        """The pair of two bodies, with how either may rest on the other."""
-        rest_a = _rest(a, b)
-        return cls(a, b, rest_a, _rest(b, a) if rest_a is None else None)
-
-    @classmethod
-    def in_reserve(cls, x: Body, y: Body) -> BodyPair:
-        """The same of two of which hardly anything is ever asked. They may move without anybody's telling, so that it
-        is found out each time."""
-        body_pair = cls(x, y, None, None) if x.id < y.id else cls(y, x, None, None)
-        body_pair._is_in_reserve = True
-        return body_pair
-
-    @property
-    def rest_a(self) -> Rest | None:
-        """How a may lie on b: None if not at all, `NEEDS_TRIANGLES` where triangles must tell."""
-        return _rest(self.a, self.b) if self._is_in_reserve else self._rest_a
-
-    @property
-    def rest_b(self) -> Rest | None:
-        """The same the other way round."""
-        if self._is_in_reserve:
-            return _rest(self.b, self.a) if self.rest_a is None else None
-        return self._rest_b
-
-    @property
-    def may_bear(self) -> bool:
-        """Whether one may lie on the other."""
-        return self.rest_a is not None or self.rest_b is not None
+    def of(cls, x: Body, y: Body) -> BodyPair:
+        """The pair of two bodies in any order."""
+        return cls(x, y) if x.id < y.id else cls(y, x)
 
     def rest(self, x: str) -> Rest | None:
         """How x, one of the two, may lie on the other."""
         return self.rest_a if x == self.a.id else self.rest_b
-
-    def slide(self, body: Body, rest: Rest, is_a: bool) -> None:
-        """Take in that one has moved, and how it lies on the other now."""
-        self.forget()
-        if is_a:
-            self.a, self._rest_a = body, rest
-        else:
-            self.b, self._rest_b = body, rest
-
-    def forget(self) -> None:
-        """One has moved: what triangles told holds no longer."""
-        self._meeting_made = self._facts = None
 
     def first_fall_m(self, x: str) -> float:
         """How far x is to fall by its triangles, inf if it meets nothing."""
@@ -134,8 +99,6 @@ class BodyPair:
         return tuple([ends.middle_m for ends in self._meeting.patch(way_m, within_m)])
 
     def _once(self, key: object, find: Callable[[], object]) -> Any:
-        if self._is_in_reserve:
-            return find()
         facts = self._facts
         if facts is None:
             facts = self._facts = {}
@@ -147,9 +110,7 @@ class BodyPair:
     def _meeting(self) -> MeshPair:
         made = self._meeting_made
         if made is None:
-            made = MeshPair(self.a, self.b)
-            if not self._is_in_reserve:
-                self._meeting_made = made
+            made = self._meeting_made = MeshPair(self.a, self.b)
         return made
 
 

@@ -42,6 +42,7 @@ class Shape:
         self._soles: dict[Triple, BaseFace] = {}
         self._tops: dict[Triple, tuple[Triple, ...] | None] = {}
         self._ledges: dict[Upright, Ledges] = {}
+        self._radii: dict[int, float] = {}
 
     @cached_property
     def tree(self) -> TriangleTree:
@@ -92,6 +93,13 @@ class Shape:
     def top(self, up: Triple) -> tuple[Triple, ...] | None:
         """The outline of what bears others, likewise, if that is level and convex."""
         return self._known(self._tops, up, lambda: top_of(self.triangles, self._uneven_m, up))
+
+    def radius_m(self, axis: int) -> float:
+        """How far the shape reaches from the middle of its box, away from an own axis."""
+        if axis not in self._radii:
+            across = np.delete(self.corners - self.middle, axis, axis=1)
+            self._radii[axis] = float(np.hypot(across[:, 0], across[:, 1]).max(initial=0.0))
+        return self._radii[axis]
 
     def ledges(self, upright: Upright) -> Ledges:
         """The level faces where up is along an own axis."""

@@ -13,6 +13,7 @@ import numpy as np
 
 from scene2hap.contact.base_face import across
 from scene2hap.contact.ledge import Upright
+from scene2hap.contact.separation import Footprint
 from scene2hap.contact.shape import Shape
 from scene2hap.contact.vectors import Triple
 
@@ -60,6 +61,7 @@ class Stance:
 
     __slots__ = (
         "_base_edges",
+        "_footprint",
         "_heading",
         "_lean",
         "_outline",
@@ -99,6 +101,7 @@ class Stance:
         self._outline: tuple[Point, ...] = ()
         self._base_edges: tuple[Triple, ...] | None = None
         self._heading: Point | None = None
+        self._footprint: Footprint | None = None
         self._lean: Lean | Literal[False] | None = False
 
     def _bounds(self, up: Triple) -> tuple[Triple, Triple]:
@@ -132,7 +135,7 @@ class Stance:
             self.is_block,
         )
         turned.up_axis, turned.v_axis, turned._top_face, turned._outline, turned._heading = 1, 2, None, (), None
-        turned._lean, turned._base_edges = self._lean, None
+        turned._lean, turned._base_edges, turned._footprint = self._lean, None, None
         a, c = 1 - 2 * (y * y), 2 * (y * w)
         turned.rows = ((a, 0.0, c), self.rows[1], (-c, 0.0, a))
         (mx, _, mz), (hx, _, hz) = self.shape.middle, self.shape.half
@@ -193,6 +196,26 @@ class Stance:
         if self._lean is False:
             self._lean = _lean(self.rows[self.up_axis])
         return self._lean
+
+    @property
+    def footprint(self) -> Footprint:
+        """It, seen from above: its own box if that stands upright, else the box along the world's axes."""
+        if self._footprint is None:
+            lean, (low, high) = self.lean, (self.low, self.high)
+            if lean is None:
+                half_1, half_2 = (high[0] - low[0]) / 2, (high[self.v_axis] - low[self.v_axis]) / 2
+                self._footprint = Footprint(1.0, 0.0, half_1, half_2, math.hypot(half_1, half_2))
+            else:
+                (axis, _, u, v), more_m = lean.own, lean.tilt * self.shape.size_m
+                half = self.shape.half
+                self._footprint = Footprint(
+                    self.rows[0][u],
+                    self.rows[self.v_axis][u],
+                    half[u] + more_m,
+                    half[v] + more_m,
+                    self.shape.radius_m(axis) + more_m,
+                )
+        return self._footprint
 
     @property
     def heading(self) -> Point:

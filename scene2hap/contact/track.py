@@ -1,95 +1,103 @@
-"""Where a body that slides on another may go, and where it is then: the arithmetic of a glide, in plain numbers."""
+"""Where a body that moves within bounds is then, and where it stands: the arithmetic of a certificate."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
 from scene2hap.compiled import compiled
 from scene2hap.contact.ledge import Flat
+from scene2hap.contact.separation import reach_along
 from scene2hap.contact.stance import Stance
 from scene2hap.contact.vectors import Triple
 
 Rotation = tuple[float, float, float, float]
 
-
 MOST_CORNERS = 8
 """An outline of more is taken for the circle around it, as `free_space` does."""
 SURELY_M = 1e-9
-"""How far inside of all edges a base face is to be, that `rest_on` surely tells so too."""
+"""How far inside of all edges a base face is to be, that `rest_on` surely says so too."""
 
 
-class Bounds(NamedTuple):
-    """Where a slide is sure.
+class Standing(NamedTuple):
+    """What a body stands on with all of its base face.
 
-    lane : where in the level plane the box of the body may be; heights : between which it may be; middle_m : twice the
-    height of its middle is above this; edges : inside of which its base face is, (n_u, n_v, offset); top_m : how high
-    these are; least_m, most_m : between which the body may be to fall there. All in the world [m].
+    edges : inside of which its base face is, (n_u, n_v, offset); top_m : how high these are; least_m, most_m : between
+    which the body may be to fall there; middle_m : twice the height of its middle is above this. All in the world [m].
     """
 
-    lane: Flat
-    heights: tuple[float, float]
-    middle_m: float
     edges: Sequence[Triple]
     top_m: float
     least_m: float
     most_m: float
+    middle_m: float
 
 
-Slid = tuple[Triple, Triple, float, tuple[Triple, ...]]
-"""The box of a body that slid, low and high, how far it is to fall [m], and where it touches what it slides on."""
+Wall = tuple[float, float, float, bool]
+"""(n_u, n_v, most_m, is_square): a body reaches no farther than that along the direction, seen from above; with the
+rectangle of its footprint, or with whichever of rectangle and circle is narrower."""
+
+Moved = tuple[Triple, Triple, tuple[Triple, ...]]
+"""The box of a body that moved, low and high [m], and where it touches what it stands on."""
 
 
 @compiled
 class Track:
-    """A body that slides, turned as it was last, between bounds that it is to be given first."""
+    """A body that moves, turned as it was last, within bounds that it is to be given first; it stands on something, or
+    is in the air."""
 
-    def __init__(self, stance: Stance) -> None:
+    def __init__(self, stance: Stance, standing: Standing | None) -> None:
         self.stance = stance
-        self._bounds: Bounds
+        self._standing = standing
+        self._bounds: tuple[Flat, tuple[float, float], Sequence[Wall]]
 
-    def bind(self, bounds: Bounds) -> None:
-        """Go on between these bounds."""
-        self._bounds = bounds
+    def keep_in(self, lane: Flat, heights: tuple[float, float], walls: Sequence[Wall]) -> None:
+        """Keep the body's box in a rectangle of the level plane and between two heights, and the body behind walls."""
+        self._bounds = (lane, heights, walls)
 
-    def slid(self, position_m: Triple, rotation_xyzw: Rotation) -> Slid | None:
-        """Where the body is there, None if that is not surely a slide."""
-        stance = self.stance
+    def moved(self, position_m: Triple, rotation_xyzw: Rotation) -> Moved | None:
+        """The body there, None if that is not surely within bounds."""
+        stance, standing = self.stance, self._standing
         if rotation_xyzw != stance.rotation_xyzw:
             turned = stance.turned(rotation_xyzw)
-            if turned.way_up != stance.way_up:
+            if standing is not None and turned.way_up != stance.way_up:
                 return None
             stance = self.stance = turned
-        (u0, v0, u1, v1), (lowest, highest), middle_m, edges, top_m, least_m, most_m = self._bounds
+        (u0, v0, u1, v1), (lowest, highest), walls = self._bounds
         up, flat = stance.up_axis, stance.v_axis
         x, y, z = position_m
         (a, b, c), (d, e, f) = stance.low, stance.high
         low, high = (x + a, y + b, z + c), (x + d, y + e, z + f)
-        if low[0] < u0 or high[0] > u1 or low[flat] < v0 or high[flat] > v1:
+        if low[0] < u0 or high[0] > u1 or low[flat] < v0 or high[flat] > v1 or low[up] < lowest or high[up] > highest:
             return None
-        down, over = low[up], high[up]
-        if down < lowest or over > highest or down + over <= middle_m:
-            return None
-        points, base_face, (mu, mv), radius, _ = stance.posed_base_face
         h, u, v = position_m[up], x, position_m[flat]
-        fall_m = h + base_face - top_m
-        if not least_m < fall_m < most_m:
-            return None
-        cu, cv = mu + u, mv + v
-        for nu, nv, offset in edges:
-            if nu * cu + nv * cv - offset < radius:
-                # The circle around the base face is over an edge; the base face itself need not be.
-                if len(stance.base_outline) > MOST_CORNERS:
+        if walls:
+            footprint = stance.footprint
+            square = footprint._replace(radius=math.inf)
+            mu, mv = u + (stance.low[0] + stance.high[0]) / 2, v + (stance.low[flat] + stance.high[flat]) / 2
+            for nu, nv, most_m, is_square in walls:
+                if nu * mu + nv * mv + reach_along(square if is_square else footprint, nu, nv) > most_m:
                     return None
-                for pu, pv in stance.base_outline:
-                    for mu, mv, most in edges:
-                        if mu * (u + pu) + mv * (v + pv) - most < SURELY_M:
-                            return None
-                break
+        if standing is None:
+            return low, high, ()
+        edges, top_m, least_m, most_m, middle_m = standing
+        points, base_face, (cu, cv), radius, _ = stance.posed_base_face
+        fall_m = h + base_face - top_m
+        if low[up] + high[up] <= middle_m or not least_m < fall_m < most_m:
+            return None
+        cu, cv = cu + u, cv + v
+        if any(nu * cu + nv * cv - offset < radius for nu, nv, offset in edges):
+            # The circle around the base face is over an edge; the base face itself need not be.
+            if len(stance.base_outline) > MOST_CORNERS:
+                return None
+            for pu, pv in stance.base_outline:
+                if any(nu * (u + pu) + nv * (v + pv) - offset < SURELY_M for nu, nv, offset in edges):
+                    return None
         # As in `rest_points`, to the last bit.
         height = (h + base_face + top_m) / 2
         if up == 1:
             places = tuple([(u + pu, height, v + pv) for pu, pv in points])
         else:
             places = tuple([(u + pu, v + pv, height) for pu, pv in points])
-        return low, high, fall_m, places
+        return low, high, places

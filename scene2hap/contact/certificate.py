@@ -1,0 +1,236 @@
+"""What stays true of a body while it moves a little: a certificate, checked in every frame instead of the narrow phase.
+
+A certificate says: while the body's box stays in a box, and the body on its side of some separating planes, it stands
+on one other with all of its base face and touches nothing else, or touches nothing at all. It is a proof from poses
+alone. What is free between two that both have one is shared half and half.
+
+Source: J. Basch, L. J. Guibas, J. Hershberger, Data structures for mobile data, J. Algorithms 31 (1999) 1.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from scene2hap.contact.body import Body
+from scene2hap.contact.fat_boxes import AABB
+from scene2hap.contact.free_space import free_planes, ledge_under
+from scene2hap.contact.free_space import top_face as ledge_face
+from scene2hap.contact.junction import Junction, Pair, pair_of
+from scene2hap.contact.level import Rest, rest_on, rest_points
+from scene2hap.contact.planes import Plane, floor_at, roof_at, wall_at
+from scene2hap.contact.relative import roles
+from scene2hap.contact.separation import separation
+from scene2hap.contact.stance import TopFace
+from scene2hap.contact.support import TOUCH_M, fall_reach_m, is_over
+from scene2hap.contact.track import Standing, Track
+from scene2hap.contact.vectors import Triple
+from scene2hap.scene.pose import Pose
+
+_SURE_M = -TOUCH_M + 0.001
+"""Above this a fall is surely none of a thing that stands in another: tops and base faces may be 0.2 mm uneven each."""
+_SPARE = 1.001  # so that rounding does not matter
+_ONES = (1.0,) * 4
+
+
+class Resting(NamedTuple):
+    """How a body stands wholly on another: how it lies, and on which face."""
+
+    support: Body
+    rest: Rest
+    face: TopFace
+    is_ledge: bool
+
+
+class Certificate:
+    """The contacts of a body within bounds; `body` is moved in place.
+
+    `on` is the id of what it stands on, "" for nothing; `pins` are the ids of those that must stay where they are.
+    """
+
+    __slots__ = ("_normals", "_pair", "_planes", "_track", "body", "on", "pins", "room", "top_m")
+
+    def __init__(self, body: Body, room: AABB, resting: Resting | None, normal: Triple | None) -> None:
+        self.body, self.room, self._planes = body, room, dict[str, tuple[Plane, ...]]()
+        self.on, self.top_m, self.pins = "", -math.inf, set[str]()
+        standing = None
+        if resting is not None:
+            self.on, self.top_m = resting.support.id, resting.rest.top_m
+            self.pins.add(self.on)
+            self._pair: Pair = pair_of(body.id, self.on)
+            self._normals = (normal,) * 4
+            standing = _standing(body, resting)
+        self._track = Track(body.stance, standing)
+
+    @property
+    def extent(self) -> Extent:
+        """Where the body may be."""
+        return Extent(self.body, self.room, self.top_m, False)
+
+    def keep_behind(self, planes: Mapping[str, tuple[Plane, ...]]) -> None:
+        """Stay on the near side of planes, by the id of whom they divide the body from, instead of those that did."""
+        self._planes.update(planes)
+        (low, high), up, flat = self.room, self.body.up_axis, self.body.v_axis
+        lowest, highest, walls = low[up], high[up], []
+        for several in self._planes.values():
+            for n_u, n_v, n_h, most_m, is_square in several:
+                if n_h == 0:
+                    walls.append((n_u, n_v, most_m, is_square))
+                elif n_h > 0:
+                    highest = min(highest, most_m)
+                else:
+                    lowest = max(lowest, -most_m)
+        self._track.keep_in((low[0], low[flat], high[0], high[flat]), (lowest, highest), walls)
+
+    def step(self, pose: Pose, found: dict[Pair, Junction | None]) -> bool:
+        """Move the body and add to `found` where it touches. Returns False, with nothing done, where that is unsure."""
+        moved = self._track.moved(pose.position_m, pose.rotation_xyzw)
+        if moved is None:
+            return False
+        low, high, points = moved
+        self.body.put(pose, low, high)
+        if self.on:
+            found[self._pair] = Junction(points, _ONES[: len(points)], self._normals[: len(points)])
+        return True
+
+
+def resting_on(body: Body, support: Body) -> Resting | None:
+    """How a body stands on another with all of its base face and full weight; None where that is not sure."""
+    up, base_face, face, is_ledge = body.up_axis, body.stance.posed_base_face, support.stance.top_face, False
+    reach_m = fall_reach_m(body.size_m)
+    if body.low[up] - support.high[up] > reach_m:
+        return None
+    bottom_m = body.position_m[up] + base_face.height
+    if face is None or bottom_m - (support.position_m[up] + face.height) < -TOUCH_M:
+        guest, host = roles(body, support)
+        known = ledge_under(guest, host) if guest is body else None
+        if known is None or known.top_m is None:
+            return None
+        face, is_ledge = ledge_face(host, known), True
+    top_m = support.position_m[up] + face.height
+    fall_m = bottom_m - top_m
+    if not _SURE_M < fall_m < 2 / 3 * reach_m or not is_over(body, support):
+        return None
+    if not is_ledge:
+        rest = rest_on(body, support)
+        if rest is None or not rest.wholly:
+            return None
+    return Resting(support, Rest(fall_m, True, top_m), face, is_ledge)
+
+
+def junction_of(body: Body, resting: Resting, normal: Triple | None) -> Junction:
+    """Where a body that stands so touches what it stands on."""
+    points = rest_points(body, resting.support, resting.rest)
+    return Junction(points, _ONES[: len(points)], (normal,) * len(points))
+
+
+def standing_planes(body: Body, resting: Resting) -> tuple[Plane, ...] | None:
+    """Where a body may be while it stands so, beyond the edges of the face; None if that is not known."""
+    support, up, planes = resting.support, body.up_axis, tuple[Plane, ...]()
+    if resting.is_ledge:
+        free = free_planes(body, support, stands=True)
+        if free is None:
+            return None
+        planes += free
+        least_m = resting.rest.top_m + _SURE_M
+        if least_m <= support.low[up] + TOUCH_M and least_m < support.high[up] - TOUCH_M:
+            # As `is_over` says, at all heights of a slide: all in the support, with a bottom as low at least.
+            floor_m = support.low[up] + max(-TOUCH_M, _SPARE * TOUCH_M - (body.high[up] - body.low[up]))
+            planes += _all_in(support, floor_m)
+    return planes
+
+
+def _all_in(support: Body, floor_m: float) -> tuple[Plane, ...]:
+    low, high, flat, up = support.low, support.high, support.v_axis, support.up_axis
+    return (
+        wall_at(1.0, 0.0, high[0], is_square=True),
+        wall_at(-1.0, 0.0, -low[0], is_square=True),
+        wall_at(0.0, 1.0, high[flat], is_square=True),
+        wall_at(0.0, -1.0, -low[flat], is_square=True),
+        roof_at(high[up]),
+        floor_at(floor_m),
+    )
+
+
+def _standing(body: Body, resting: Resting) -> Standing:
+    support, face, up = resting.support, resting.face, body.up_axis
+    u, v = support.position_m[0], support.position_m[body.v_axis]
+    least_m = resting.rest.top_m + _SURE_M
+    # With a higher bottom it is over all of the support; all in it, see `_all_in`. Else the middles tell.
+    is_sure = resting.is_ledge and (least_m > support.low[up] + TOUCH_M or least_m < support.high[up] - TOUCH_M)
+    return Standing(
+        [(nu, nv, offset + nu * u + nv * v) for nu, nv, offset in face.edges],
+        support.position_m[up] + face.height,
+        _SURE_M,
+        2 / 3 * fall_reach_m(body.size_m),
+        -math.inf if is_sure else support.low[up] + support.high[up],
+    )
+
+
+class Extent(NamedTuple):
+    """Where a body may be: in a room if it has a certificate, else only where it is; `top_m` is the height of what it
+    surely stands on, -inf for nothing."""
+
+    body: Body
+    room: AABB
+    top_m: float
+    is_fixed: bool
+
+    @classmethod
+    def fixed(cls, body: Body) -> Extent:
+        """That of a body without a certificate."""
+        return cls(body, (body.low, body.high), -math.inf, True)
+
+
+class Separated(NamedTuple):
+    """Planes that divide two bodies: those that one keeps behind, and those of the other."""
+
+    one: tuple[Plane, ...]
+    other: tuple[Plane, ...]
+
+
+_APART = Separated((), ())
+
+
+def separated(one: Extent, other: Extent, reach_m: float) -> Separated | None:
+    """Planes by which two bodies surely do not matter to each other; None if they are too near for any.
+
+    Parameters: reach_m : how near the two may touch or hang from each other.
+    """
+    x, y = one.body, other.body
+    (a, b, c), (d, e, f) = one.room
+    (g, h, i), (j, k, m) = other.room
+    reach_m *= _SPARE
+    far_m = max(reach_m, _SPARE * fall_reach_m(max(x.size_m, y.size_m)))
+    if g - d > far_m or a - j > far_m or h - e > far_m or b - k > far_m or i - f > far_m or c - m > far_m:
+        return _APART
+    up, flat = x.up_axis, x.v_axis
+    # What is all below that on which another stands does not matter to it, such as cupboards under a worktop.
+    if y.high[up] < (most_m := one.top_m - max(3 * _SPARE * TOUCH_M, reach_m)):
+        return Separated((), (roof_at(most_m),))
+    if x.high[up] < (most_m := other.top_m - max(3 * _SPARE * TOUCH_M, reach_m)):
+        return Separated((roof_at(most_m),), ())
+    n_u, n_v, gap_m, one_m, other_m = separation(
+        x.stance.footprint,
+        (x.low[0] + x.high[0]) / 2,
+        (x.low[flat] + x.high[flat]) / 2,
+        y.stance.footprint,
+        (y.low[0] + y.high[0]) / 2,
+        (y.low[flat] + y.high[flat]) / 2,
+    )
+    beside_m = gap_m - reach_m
+    is_above = x.low[up] + x.high[up] > y.low[up] + y.high[up]
+    upper, lower = (x, y) if is_above else (y, x)
+    over_m = upper.low[up] - lower.high[up] - max(reach_m, _SPARE * fall_reach_m(upper.size_m))
+    free_m = max(beside_m, over_m)
+    if free_m <= 0:
+        return None
+    # One that is fixed needs nothing of what is free.
+    share_m = 0.0 if one.is_fixed else free_m if other.is_fixed else free_m / 2
+    its_m = free_m - share_m
+    if beside_m >= over_m:
+        return Separated((wall_at(n_u, n_v, one_m + share_m),), (wall_at(-n_u, -n_v, its_m - other_m),))
+    if is_above:
+        return Separated((floor_at(x.low[up] - share_m),), (roof_at(y.high[up] + its_m),))
+    return Separated((roof_at(x.high[up] + share_m),), (floor_at(y.low[up] - its_m),))
