@@ -3,7 +3,7 @@
 python stress/contacts.py SCENE.glb [SCENE.glb ...] [--moves 500] [--seed 0] [--unit-m 0.01]
 
 Things are pushed, lifted, turned about the vertical, now and then tilted, and put onto or into others, one after the
-other; each state is found twice from nothing, as always and with every clearing (`contact.free_space`) left unknown.
+other; each state is found twice from nothing, as always and with all free space (`contact.free_space`) left unknown.
 Now and then the graph that went along is compared, to the last bit, with one built there. Prints a line for each pair
 that differs by more than 0.02 in weight, and the shares; exits with 1 if the graph that went along differs.
 """
@@ -31,13 +31,12 @@ _LARGE_M = 2.0  # Larger things stay where they are.
 
 
 @contextmanager
-def without_clearings() -> Iterator[None]:
+def without_free_space() -> Iterator[None]:
     """Triangles tell all that outlines do not."""
     with (
-        mock.patch("scene2hap.contact.pair.below", return_value=None),
-        mock.patch("scene2hap.contact.pair.is_clear", return_value=False),
-        mock.patch("scene2hap.contact.short_ways.is_clear", return_value=False),
-        mock.patch("scene2hap.contact.holding.is_clear", return_value=False),
+        mock.patch("scene2hap.contact.pair.ledge_under", return_value=None),
+        mock.patch("scene2hap.contact.pair.has_nothing_near", return_value=False),
+        mock.patch("scene2hap.contact.holding.has_nothing_near", return_value=False),
     ):
         yield
 
@@ -94,7 +93,7 @@ def compared(scene: SceneSnapshot, name: str, n_moves: int, rng: random.Random) 
         if along.contacts != told.contacts:
             print(f"{name}, move {k}, {which}: the graph that went along is not the one built there")
             is_right = False
-        with without_clearings():
+        with without_free_space():
             alone = weights(ContactGraph(state))
         found = weights(told)
         n_states, n_pairs = n_states + 1, n_pairs + len(found.keys() | alone.keys())

@@ -31,7 +31,7 @@ from scene2hap.contact.support import TOUCH_M, Support, fall_reach_m, hang_reach
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject
 
-_LONGEST_WAIT = 15  # So many moves a body waits at most for its next certificate, if it got none before.
+_LONGEST_WAIT = 3  # So many moves a body waits at most for its next certificate, if it got none before.
 
 
 class ContactFinder:

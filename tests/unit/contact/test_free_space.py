@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contact_scenes import box, boxes, chair, house, pairs, scene
-from scene2hap.contact import holding, short_ways
+from scene2hap.contact import holding
 from scene2hap.contact import pair as narrow_phase
 from scene2hap.contact.body import Body
 from scene2hap.contact.free_space import has_nothing_near, ledge_under
@@ -53,7 +53,7 @@ def test_what_is_told_is_what_triangles_tell(
         guest = Body.of(replace(box("guest", size, (0, 0, 0)), pose=all_of_it.compose(place)), 1)
         reach_m = fall_reach_m(guest.size_m)
         meeting = MeshPair(guest, host)
-        told = narrow_phase.BodyPair.between(guest, host).falls("guest")
+        told = narrow_phase.BodyPair(guest, host).falls("guest")
         known = ledge_under(guest, host)
         if known is not None and known.top_m is None:
             assert told is None
@@ -104,7 +104,6 @@ def alone(*things: SceneObject) -> ContactGraph:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(narrow_phase, "ledge_under", lambda guest, host: None)
         patch.setattr(narrow_phase, "has_nothing_near", lambda guest, host: False)
-        patch.setattr(short_ways, "has_nothing_near", lambda guest, host: False)
         patch.setattr(holding, "has_nothing_near", lambda guest, host: False)
         return ContactGraph(scene(*things))
 

@@ -134,18 +134,18 @@ def test_what_does_not_move_is_not_looked_at(monkeypatch: pytest.MonkeyPatch) ->
 
     graph = room(*(on_floor(f"crate{i}", (0.2, 0.2, 0.2), -2, i * 0.5 - 2) for i in range(6)))
     met: list[set[str]] = []
-    body_pair, made = finder.BodyPair.between, MeshPair.__init__
+    paired, made = finder.BodyPair.__init__, MeshPair.__init__
 
     def watched(self: MeshPair, a: Body, b: Body) -> None:
         met.append({a.id, b.id})
         made(self, a, b)
 
-    def tied(a: Body, b: Body) -> finder.BodyPair:
+    def tied(self: finder.BodyPair, a: Body, b: Body) -> None:
         met.append({a.id, b.id})
-        return body_pair(a, b)
+        paired(self, a, b)
 
     monkeypatch.setattr(MeshPair, "__init__", watched)
-    monkeypatch.setattr(finder.BodyPair, "between", tied)
+    monkeypatch.setattr(finder.BodyPair, "__init__", tied)
     graph.update({"cup": Pose((0.25, 0.76, 0.1))})
     assert all(pair == {"cup", "table"} for pair in met)
     # Over the table's edge the foot of a tilted thing is not all over the table, so that triangles must tell.

@@ -31,7 +31,7 @@ def test_a_block_falls_onto_another_as_its_triangles_do(
     upper = block("upper", (0.3, 0.1, 0.2), (at[0], 0.25 + gap, at[1]), turn_x)
     rest = rest_on(upper, lower)
     assert rest is not None
-    least = BodyPair.between(upper, lower).first_fall_m("upper")
+    least = BodyPair(upper, lower).first_fall_m("upper")
     # Rims that overlap by a tenth of a millimetre may or may not count.
     if math.isinf(rest.fall_m) != math.isinf(least):
         moved = block("upper", (0.2998, 0.1, 0.1998), upper.position_m, turn_x)
@@ -100,7 +100,7 @@ def test_what_leans_stands_on_its_lowest_edge() -> None:
     assert rest is not None
     assert rest.fall_m == pytest.approx(height + 0.2)
     assert rest.wholly
-    told = BodyPair.between(leaning, floor).falls("leaning")
+    told = BodyPair(leaning, floor).falls("leaning")
     assert told is not None
     assert rest.fall_m == pytest.approx(told.min(), abs=1e-4)  # triangles are tried a little smaller
     # Half over an edge nothing is sure.

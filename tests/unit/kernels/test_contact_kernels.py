@@ -12,9 +12,10 @@ from hypothesis import strategies as st
 from kernels import both, seeds, steady
 from scene2hap.contact.body import Body
 from scene2hap.contact.mesh_distance import ROUNDING_M, MeshPair, upright_frame
+from scene2hap.contact.separation import Footprint
 from scene2hap.contact.shape import shape_of
 from scene2hap.contact.stance import Stance
-from scene2hap.contact.track import Bounds
+from scene2hap.contact.track import Standing
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import Box, TriMesh
 
@@ -27,27 +28,46 @@ def turned(rng: np.random.Generator, up_axis: int) -> tuple[float, float, float,
     return (x, y, z, math.cos(angle / 2))
 
 
+@pytest.mark.parametrize("stands", [True, False])
 @pytest.mark.parametrize("up_axis", [1, 2])
-def test_slides_to_the_last_bit(up_axis: int) -> None:
-    kinds, box, n_slid = both("contact.track.Track"), Box((0.3, 0.2, 0.1)).mesh, 0
+def test_moves_within_bounds_to_the_last_bit(up_axis: int, stands: bool) -> None:
+    kinds, box, n_within = both("contact.track.Track"), Box((0.3, 0.2, 0.1)).mesh, 0
     for seed in range(150):
         rng = np.random.default_rng(seed)
         shape = shape_of(TriMesh(box.vertices_m + rng.uniform(-0.1, 0.1, 3), box.faces))
         first = turned(rng, up_axis)
         stance = Stance(shape, first, up_axis)
         edges = [(1.0, 0.0, -0.8), (-0.6, 0.8, -0.9), (0.0, -1.0, -0.7)][: int(rng.integers(0, 4))]
-        bounds = Bounds((-1.0, -1.0, 1.0, 1.0), (-0.6, 0.6), -0.5, edges, stance.low[up_axis] - 0.01, -0.03, 0.06)
-        tracks = [kind(stance) for kind in kinds]
+        standing = Standing(edges, stance.low[up_axis] - 0.01, -0.03, 0.06, -0.5) if stands else None
+        walls = [(math.cos(a), math.sin(a), 0.7, bool(a > 3)) for a in rng.uniform(0, 6, int(rng.integers(4)))]
+        tracks = [kind(stance, standing) for kind in kinds]
         for k in range(8):
             for track in tracks if k % 3 == 0 else ():
-                track.bind(bounds._replace(edges=edges[k // 3 :]))
+                track.keep_in((-1.0, -1.0, 1.0, 1.0), (-0.6, 0.6), walls[k // 3 :])
             position = rng.uniform(-0.7, 0.7, 2).tolist()
             position.insert(up_axis, float(rng.choice([0.0, 0.01, 0.4])))
             rotation = first if rng.random() < 0.3 else turned(rng, up_axis)
-            told, compiled = (track.slid(tuple(position), rotation) for track in tracks)
-            assert compiled == told
-            n_slid += told is not None
-    assert n_slid > 100
+            plain, compiled = (track.moved(tuple(position), rotation) for track in tracks)
+            assert compiled == plain
+            n_within += plain is not None
+    assert n_within > 100
+
+
+@steady
+@given(seed=seeds)
+def test_separations_to_the_last_bit(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    plain, twin = both("contact.separation.separation")
+    for k in range(20):
+        posed = []
+        for _ in range(2):
+            angle = float(rng.uniform(0, 7)) if k % 3 else 0.0
+            half = rng.choice([0.05, 0.1, 0.3], 2).tolist()
+            footprint = Footprint(math.cos(angle), math.sin(angle), *half, float(rng.choice([0.07, math.hypot(*half)])))
+            posed += [footprint, *np.round(rng.uniform(-0.5, 0.5, 2), int(rng.choice([1, 9]))).tolist()]
+        assert twin(*posed) == plain(*posed)
+        plain_reach, twin_reach = both("contact.separation.reach_along")
+        assert twin_reach(posed[0], 0.6, -0.8) == plain_reach(posed[0], 0.6, -0.8)
 
 
 def mesh(rng: np.random.Generator) -> TriMesh:
@@ -99,21 +119,6 @@ def test_distances_of_meshes_to_the_last_bit(seed: int) -> None:
             assert (told is None) == (compiled is None)
             if told is not None:
                 np.testing.assert_array_equal(compiled, told)
-
-
-@steady
-@given(seed=seeds, up_axis=st.sampled_from([1, 2]))
-def test_soles_on_tops_to_the_last_bit(seed: int, up_axis: int) -> None:
-    plain, twin = both("contact.slide.lying")
-    rng = np.random.default_rng(seed)
-    base_face, top = (
-        Stance(shape_of(Box(tuple(rng.uniform(0.1, 2, 3))).mesh), turned(rng, up_axis), up_axis) for _ in "xy"
-    )
-    places = [tuple(rng.normal(scale=0.3, size=3).tolist()) for _ in "xy"]
-    if top.top_face is not None:
-        told = plain(places[0], base_face.posed_base_face, places[1], top.top_face, up_axis)
-        assert twin(places[0], base_face.posed_base_face, places[1], top.top_face, up_axis) == told
-        assert len(told[3]) == len(base_face.posed_base_face.points)
 
 
 @steady
