@@ -213,7 +213,7 @@ def test_a_neighbour_may_be_removed_and_come_back(goes_away: bool) -> None:
 
 def test_a_larger_thing_near_what_loses_its_support_is_looked_at(looked_at: Looked) -> None:
     """A crate slides 10 mm beside a picture on a shelf, without touching it; the shelf goes, and the picture hangs."""
-    shelf = box("shelf", (0.2, 0.02, 0.1), (-0.25, 0.79, 0.0))
+    shelf = box("shelf", (0.2, 0.1, 0.1), (-0.25, 0.75, 0.0))
     picture = box("picture", (0.2, 0.2, 0.02), (-0.25, 0.9, 0.0))
     crate = box("crate", (0.3, 0.6, 0.3), (0.0, 1.0, 0.0))
     objects = [floor(), TABLE, crate, picture, shelf]
