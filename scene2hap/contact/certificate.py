@@ -46,14 +46,15 @@ class Resting(NamedTuple):
 class Certificate:
     """The contacts of a body within bounds; `body` is moved in place.
 
-    `on` is the id of what it stands on, "" for nothing; `pins` are the ids of those that must stay where they are.
+    `on` is the id of what it stands on, "" for nothing; `pins` are the ids of those that must stay where they are;
+    `has_held` says whether a step was within the bounds so far.
     """
 
-    __slots__ = ("_normals", "_pair", "_planes", "_track", "body", "on", "pins", "room", "top_m")
+    __slots__ = ("_normals", "_pair", "_planes", "_track", "body", "has_held", "on", "pins", "room", "top_m")
 
     def __init__(self, body: Body, room: AABB, resting: Resting | None, normal: Triple | None) -> None:
         self.body, self.room, self._planes = body, room, dict[str, tuple[Plane, ...]]()
-        self.on, self.top_m, self.pins = "", -math.inf, set[str]()
+        self.on, self.top_m, self.pins, self.has_held = "", -math.inf, set[str](), False
         standing = None
         if resting is not None:
             self.on, self.top_m = resting.support.id, resting.rest.top_m
@@ -83,6 +84,11 @@ class Certificate:
                     lowest = max(lowest, -most_m)
         self._track.keep_in((low[0], low[flat], high[0], high[flat]), (lowest, highest), walls)
 
+    @property
+    def holds(self) -> bool:
+        """Whether the body is within the bounds where it is."""
+        return self._track.moved(self.body.pose.position_m, self.body.pose.rotation_xyzw) is not None
+
     def step(self, pose: Pose, found: dict[Pair, Junction | None]) -> bool:
         """Move the body and add to `found` where it touches. Returns False, with nothing done, where that is unsure."""
         moved = self._track.moved(pose.position_m, pose.rotation_xyzw)
@@ -90,6 +96,7 @@ class Certificate:
             return False
         low, high, points = moved
         self.body.put(pose, low, high)
+        self.has_held = True
         if self.on:
             found[self._pair] = Junction(points, _ONES[: len(points)], self._normals[: len(points)])
         return True

@@ -31,7 +31,8 @@ from scene2hap.contact.support import TOUCH_M, Support, fall_reach_m, hang_reach
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject
 
-_LONGEST_WAIT = 3  # So many moves a body waits at most for its next certificate, if it got none before.
+_LONGEST_WAIT = 7
+"""So many moves a body waits at most for its next certificate, once several were refused or did not hold for a step."""
 
 
 class ContactFinder:
@@ -73,7 +74,7 @@ class ContactFinder:
         for x, pose in moved.items():
             certificate = certificates.get(x)
             if certificate is None or not certificate.step(pose, found):
-                certificates.pop(x, None)
+                self._end(x)
                 placed.append(bodies[x].at(pose))
         if placed or added or gone:
             self._look_anew(placed, [Body.of(item, self._up_axis) for item in added], gone, found)
@@ -82,10 +83,20 @@ class ContactFinder:
     def _revoke(self, x: str, pin: str) -> bool:
         """End a certificate that relies on where another is. Returns whether there was one."""
         certificate = self._certificates.get(x)
-        if certificate is None or pin not in certificate.pins:
-            return False
-        del self._certificates[x]
-        return True
+        return certificate is not None and pin in certificate.pins and self._end(x)
+
+    def _end(self, x: str) -> bool:
+        """End a certificate. Returns whether there was one."""
+        certificate = self._certificates.pop(x, None)
+        if certificate is not None and not certificate.has_held:
+            self._wait(x)
+        return certificate is not None
+
+    def _wait(self, x: str) -> None:
+        """Have a body wait longer for its next certificate than for its last."""
+        _, length = self._waits.get(x, (0, 0))
+        length = min(2 * length + 1, _LONGEST_WAIT)
+        self._waits[x] = (length, length)
 
     def _look_anew(
         self, placed: list[Body], added: Sequence[Body], gone: Collection[str], found: dict[Pair, Junction | None]
@@ -157,10 +168,11 @@ class ContactFinder:
             bond = self._holding.support(x, resting.support.id, Support(1.0, resting.rest.fall_m), lies=True)
         certificate = self._proof(body, resting, bond)
         if certificate is None:
-            length = min(2 * self._waits.get(x, (0, 0))[1] + 1, _LONGEST_WAIT)
-            self._waits[x] = (length, length)
+            self._wait(x)
             return None
-        self._waits.pop(x, None)
+        _, length = self._waits.pop(x, (0, 0))
+        if length:
+            self._waits[x] = (0, length // 2)
         self._certificates[x] = certificate
         for z in certificate.pins:
             self._pinned.setdefault(z, set()).add(x)
@@ -231,7 +243,7 @@ class ContactFinder:
             else:
                 return None
         certificate.keep_behind(planes)
-        if not certificate.step(body.pose, {}):
+        if not certificate.holds:
             return None
         for its_own, its_planes in theirs:
             its_own.keep_behind({x: its_planes})
@@ -248,7 +260,7 @@ class ContactFinder:
         Returns the bodies that lose theirs.
         """
         x, certificates, out = body.id, self._certificates, []
-        certificates.pop(x, None)
+        self._end(x)
         extent, hangs = Extent.fixed(body), x in self._unsupported
         for z in self._broad_phase.neighbours[x]:
             certificate = certificates.get(z)
@@ -262,7 +274,7 @@ class ContactFinder:
             else:
                 apart = separated(certificate.extent, extent, self._reach_m(other, body, z in self._unsupported))
             if apart is None:
-                del certificates[z]
+                self._end(z)
                 out.append(other)
             else:
                 certificate.keep_behind({x: apart.one})
