@@ -10,7 +10,7 @@ Source: J. Basch, L. J. Guibas, J. Hershberger, Data structures for mobile data,
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
 from scene2hap.contact.body import Body
@@ -43,36 +43,57 @@ class Resting(NamedTuple):
     is_ledge: bool
 
 
+class Extent(NamedTuple):
+    """Where a body may be: in a room if it has a certificate, else only where it is; `top_m` is the height of what it
+    surely stands on, -inf for nothing."""
+
+    body: Body
+    room: AABB
+    top_m: float
+    is_fixed: bool
+
+    @classmethod
+    def fixed(cls, body: Body) -> Extent:
+        """That of a body without a certificate."""
+        return cls(body, (body.low, body.high), -math.inf, True)
+
+
 class Certificate:
     """The contacts of a body within bounds; `body` is moved in place.
 
-    `on` is the id of what it stands on, "" for nothing; `pins` are the ids of those that must stay where they are;
-    `has_held` says whether a step was within the bounds so far.
+    Parameters: planes : behind which the body stays, by the ids of those from whom they divide it; pins : the ids of
+    those that must stay where they are; resting, normal : how it stands, if it does. `has_held` says whether a step was
+    within the bounds so far.
     """
 
-    __slots__ = ("_normals", "_pair", "_planes", "_track", "body", "has_held", "on", "pins", "room", "top_m")
+    __slots__ = ("_normals", "_pair", "_planes", "_track", "body", "extent", "has_held", "pins")
 
-    def __init__(self, body: Body, room: AABB, resting: Resting | None, normal: Triple | None) -> None:
-        self.body, self.room, self._planes = body, room, dict[str, tuple[Plane, ...]]()
-        self.on, self.top_m, self.pins, self.has_held = "", -math.inf, set[str](), False
-        standing = None
+    def __init__(
+        self,
+        extent: Extent,
+        planes: dict[str, tuple[Plane, ...]],
+        pins: Collection[str],
+        resting: Resting | None,
+        normal: Triple | None,
+    ) -> None:
+        self.extent, self._planes, self.pins = extent, planes, pins
+        body = self.body = extent.body
+        standing, self._pair = None, None
         if resting is not None:
-            self.on, self.top_m = resting.support.id, resting.rest.top_m
-            self.pins.add(self.on)
-            self._pair: Pair = pair_of(body.id, self.on)
+            self._pair = pair_of(body.id, resting.support.id)
             self._normals = (normal,) * 4
             standing = _standing(body, resting)
         self._track = Track(body.stance, standing)
-
-    @property
-    def extent(self) -> Extent:
-        """Where the body may be."""
-        return Extent(self.body, self.room, self.top_m, False)
+        self.has_held = False
+        self._bind()
 
     def keep_behind(self, planes: Mapping[str, tuple[Plane, ...]]) -> None:
         """Stay on the near side of planes, by the id of whom they divide the body from, instead of those that did."""
         self._planes.update(planes)
-        (low, high), up, flat = self.room, self.body.up_axis, self.body.v_axis
+        self._bind()
+
+    def _bind(self) -> None:
+        (low, high), up, flat = self.extent.room, self.body.up_axis, self.body.v_axis
         lowest, highest, walls = low[up], high[up], []
         for several in self._planes.values():
             for n_u, n_v, n_h, most_m, is_square in several:
@@ -97,7 +118,7 @@ class Certificate:
         low, high, points = moved
         self.body.put(pose, low, high)
         self.has_held = True
-        if self.on:
+        if self._pair is not None:
             found[self._pair] = Junction(points, _ONES[: len(points)], self._normals[: len(points)])
         return True
 
@@ -173,21 +194,6 @@ def _standing(body: Body, resting: Resting) -> Standing:
         2 / 3 * fall_reach_m(body.size_m),
         -math.inf if is_sure else support.low[up] + support.high[up],
     )
-
-
-class Extent(NamedTuple):
-    """Where a body may be: in a room if it has a certificate, else only where it is; `top_m` is the height of what it
-    surely stands on, -inf for nothing."""
-
-    body: Body
-    room: AABB
-    top_m: float
-    is_fixed: bool
-
-    @classmethod
-    def fixed(cls, body: Body) -> Extent:
-        """That of a body without a certificate."""
-        return cls(body, (body.low, body.high), -math.inf, True)
 
 
 class Separated(NamedTuple):
