@@ -21,7 +21,7 @@ from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.level import Rest, rest_on, rest_points
 from scene2hap.contact.planes import Plane, floor_at, roof_at, wall_at
 from scene2hap.contact.relative import roles
-from scene2hap.contact.separation import separation
+from scene2hap.contact.separation import reach_along, separation
 from scene2hap.contact.stance import TopFace
 from scene2hap.contact.support import TOUCH_M, fall_reach_m, is_over
 from scene2hap.contact.track import Standing, Track
@@ -104,6 +104,16 @@ class Certificate:
                 else:
                     lowest = max(lowest, -most_m)
         self._track.keep_in((low[0], low[flat], high[0], high[flat]), (lowest, highest), walls)
+
+    def divides(self, other: Body, reach_m: float) -> bool:
+        """Whether another is so far beyond the wall that divides the body from it."""
+        planes = self._planes.get(other.id, ())
+        if len(planes) != 1 or planes[0][2] != 0:
+            return False
+        n_u, n_v, _, most_m, _ = planes[0]
+        flat = other.v_axis
+        u, v = (other.low[0] + other.high[0]) / 2, (other.low[flat] + other.high[flat]) / 2
+        return n_u * u + n_v * v - reach_along(other.stance.footprint, n_u, n_v) - most_m > _SPARE * reach_m
 
     @property
     def holds(self) -> bool:

@@ -111,17 +111,18 @@ class Certificates:
         """
         x, out = body.id, []
         extent, hangs = Extent.fixed(body), x in self._unsupported
-        for z in self._broad_phase.neighbours[x]:
-            certificate = self.of.get(z)
-            if certificate is None:
-                continue
+        for z in self.of.keys() & self._broad_phase.neighbours[x]:
+            certificate = self.of[z]
             other = certificate.body
+            reach_m = self._reach_m(other, body, z in self._unsupported)
+            if certificate.divides(body, reach_m):
+                continue
             if x in certificate.pins:
                 if not (hangs and body.size_m < other.size_m):
                     continue
                 apart = None
             else:
-                apart = separated(certificate.extent, extent, self._reach_m(other, body, z in self._unsupported))
+                apart = separated(certificate.extent, extent, reach_m)
             if apart is None:
                 self.end(z)
                 out.append(other)
