@@ -53,9 +53,9 @@ class Extent(NamedTuple):
     is_fixed: bool
 
     @classmethod
-    def fixed(cls, body: Body) -> Extent:
+    def of(cls, body: Body, is_fixed: bool) -> Extent:
         """That of a body without a certificate."""
-        return cls(body, (body.low, body.high), -math.inf, True)
+        return cls(body, (body.low, body.high), -math.inf, is_fixed)
 
 
 class Certificate:

@@ -14,7 +14,7 @@ from scene2hap.contact.relative import roles
 from scene2hap.contact.support import TOUCH_M, fall_reach_m, hang_reach_m
 from scene2hap.contact.vectors import Triple
 
-_MOST_REFUSALS = 4
+_MOST_REFUSALS = 5
 """A body that was refused a certificate n times waits for 2^(n-1) - 1 moves; n grows to this."""
 
 
@@ -55,7 +55,8 @@ class Certificates:
             if z == on:
                 continue
             its_own, other = self.of.get(z), self._bodies[z]
-            extent = Extent.fixed(other) if its_own is None else its_own.extent
+            # What moves without a certificate is left half of what is free as well.
+            extent = Extent.of(other, z not in self._refusals) if its_own is None else its_own.extent
             apart = separated(own, extent, self._reach_m(body, other, resting is None))
             if apart is not None:
                 planes[z] = apart.one
@@ -110,7 +111,7 @@ class Certificates:
         Returns the bodies whose certificates end by that.
         """
         x, out = body.id, []
-        extent, hangs = Extent.fixed(body), x in self._unsupported
+        extent, hangs = Extent.of(body, x not in self._refusals), x in self._unsupported
         for z in self.of.keys() & self._broad_phase.neighbours[x]:
             certificate = self.of[z]
             other = certificate.body
