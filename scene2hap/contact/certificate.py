@@ -53,7 +53,7 @@ class Extent(NamedTuple):
     is_fixed: bool
 
     @classmethod
-    def of(cls, body: Body, is_fixed: bool) -> Extent:
+    def of(cls, body: Body, *, is_fixed: bool) -> Extent:
         """That of a body without a certificate."""
         return cls(body, (body.low, body.high), -math.inf, is_fixed)
 

@@ -56,7 +56,7 @@ class Certificates:
                 continue
             its_own, other = self.of.get(z), self._bodies[z]
             # What moves without a certificate is left half of what is free as well.
-            extent = Extent.of(other, z not in self._refusals) if its_own is None else its_own.extent
+            extent = Extent.of(other, is_fixed=z not in self._refusals) if its_own is None else its_own.extent
             apart = separated(own, extent, self._reach_m(body, other, resting is None))
             if apart is not None:
                 planes[z] = apart.one
@@ -111,7 +111,7 @@ class Certificates:
         Returns the bodies whose certificates end by that.
         """
         x, out = body.id, []
-        extent, hangs = Extent.of(body, x not in self._refusals), x in self._unsupported
+        extent, hangs = Extent.of(body, is_fixed=x not in self._refusals), x in self._unsupported
         for z in self.of.keys() & self._broad_phase.neighbours[x]:
             certificate = self.of[z]
             other = certificate.body

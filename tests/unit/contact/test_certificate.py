@@ -260,7 +260,10 @@ def test_planes_divide_what_is_free_in_halves() -> None:
     assert its_way[:2] == [-1.0, 0.0]
     assert most_m == pytest.approx(0.05 + 0.028, abs=1e-5)
     assert its_most_m == pytest.approx(-(0.11 - 0.028), abs=1e-5)
-    alone = separated(both[0], Extent.fixed(other), TOUCH_M)
+    alone = separated(both[0], Extent.of(other, is_fixed=True), TOUCH_M)
     assert alone is not None
     assert alone.one[0][3] == pytest.approx(0.11 - TOUCH_M, abs=1e-5)
-    assert separated(both[0], Extent.fixed(Body.of(box("c", (0.1, 0.1, 0.1), (0.103, 0.0, 0.0)), 1)), TOUCH_M) is None
+    assert (
+        separated(both[0], Extent.of(Body.of(box("c", (0.1, 0.1, 0.1), (0.103, 0.0, 0.0)), 1), is_fixed=True), TOUCH_M)
+        is None
+    )
