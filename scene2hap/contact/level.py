@@ -12,19 +12,16 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-import numpy as np
-
 from scene2hap.contact.body import Body
-from scene2hap.contact.polygons import polygon_gap
+from scene2hap.contact.polygons import Point, clipped, inside_edges, polygon_gap
 from scene2hap.contact.spread import spread_few
-from scene2hap.contact.stance import Point, Stance
+from scene2hap.contact.stance import Stance
 from scene2hap.contact.vectors import Triple
 
 # Outlines lie over each other from this overlap on, as a share of the upper one's radius, and at most: equal boxes
 # side by side, whose rims coincide, do not.
 _RIM, _RIM_M = 1e-4, 1e-4
 _ROUNDING_M = 1e-9
-_FEW = 256  # Pairs of a corner and an edge, from which on numpy takes less time.
 _SLACK_M = 1e-6  # Bounds by circles are trusted beyond this, so that they never decide otherwise than corners.
 
 
@@ -61,29 +58,16 @@ def rest_on(x: Body, y: Body) -> Rest | None:
         return _beside(x, y)
     # No corner of the base face is farther from its middle than its radius: most edges of round objects need no more.
     edges = [edge for edge in top_face.edges if edge[0] * cu + edge[1] * cv - edge[2] <= radius + rim + _SLACK_M]
-    outline = [(u + du, v + dv) for u, v in x.stance.base_outline]
-    ranges = _inside(outline, edges)
+    ranges = inside_edges(x.stance.base_outline, du, dv, edges)
     if any(most <= rim for _, most in ranges):
         return _beside(x, y)
     if all(least >= -_ROUNDING_M for least, _ in ranges):
         return Rest(fall_m, True, top_m)
     if not base_face.is_filled:
         return None
-    edges = [(nu, nv, offset + (nu * du + nv * dv)) for nu, nv, offset in x.stance.base_edges]
-    edges = [edge for edge in edges if edge[0] * mu + edge[1] * mv - edge[2] <= top_face.radius + rim + _SLACK_M]
-    if any(most <= rim for _, most in _inside(top_face.outline, edges)):
+    if any(most <= rim for _, most in inside_edges(top_face.outline, -du, -dv, x.stance.base_edges)):
         return _beside(x, y)
     return Rest(fall_m, False, top_m)
-
-
-def _inside(outline: Sequence[Point], edges: Sequence[Triple]) -> list[tuple[float, float]]:
-    """For each edge how far inside of it corners of an outline are at least and at most."""
-    if len(outline) * len(edges) <= _FEW:
-        rows = [[nu * u + nv * v - offset for u, v in outline] for nu, nv, offset in edges]
-        return [(min(row), max(row)) for row in rows]
-    (u, v), (nu, nv, offset) = np.array(outline).T, np.array(edges).T[..., None]
-    table = nu * u + nv * v - offset
-    return list(zip(table.min(axis=1).tolist(), table.max(axis=1).tolist(), strict=True))
 
 
 def _beside(x: Body, y: Body) -> Rest | None:
@@ -105,32 +89,11 @@ def rest_points(x: Body, y: Body, rest: Rest) -> tuple[Triple, ...]:
     else:
         top_face = y.stance.top_face
         assert top_face is not None
-        ring = clipped([(u + pu - py[0], v + pv - py[v_axis]) for pu, pv in x.stance.base_outline], top_face.edges)
+        ring = clipped(x.stance.base_outline, u - py[0], v - py[v_axis], top_face.edges)
         level = [(pu + py[0], pv + py[v_axis]) for pu, pv in _chosen(ring, y.stance)]
     if a == 1:
         return tuple([(pu, height, pv) for pu, pv in level])
     return tuple([(pu, pv, height) for pu, pv in level])
-
-
-def clipped(ring: list[Point], edges: Sequence[Triple]) -> list[Point]:
-    """What of a convex polygon lies inside all edges.
-
-    Source: I. E. Sutherland, G. W. Hodgman, Reentrant polygon clipping, Comm. ACM 17 (1974) 32.
-    """
-    if len(ring) * len(edges) > _FEW:
-        edges = [edge for edge, (least, _) in zip(edges, _inside(ring, edges), strict=True) if least < _ROUNDING_M]
-    for nu, nv, offset in edges:
-        inside = [nu * u + nv * v - offset for u, v in ring]
-        cut: list[Point] = []
-        for k, here in enumerate(inside):
-            before = inside[k - 1]
-            if (here < 0) != (before < 0):
-                (u1, v1), (u2, v2), share = ring[k - 1], ring[k], before / (before - here)
-                cut.append((u1 + share * (u2 - u1), v1 + share * (v2 - v1)))
-            if here >= 0:
-                cut.append(ring[k])
-        ring = cut
-    return ring
 
 
 class Aside(NamedTuple):

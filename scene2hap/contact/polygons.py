@@ -1,6 +1,6 @@
-"""Distance of two disjoint convex polygons in a plane, and the points where they face each other.
+"""Convex polygons in the level plane: their edges, what of one is inside edges, and how far two are apart.
 
-The corners of either against the edges of the other.
+u, v : coordinates [m]; n : the normal of an edge, of length 1 and pointing inwards
 """
 
 from __future__ import annotations
@@ -9,7 +9,9 @@ import math
 from collections.abc import Sequence
 
 from scene2hap.compiled import compiled
-from scene2hap.contact.stance import Point, edges_of
+from scene2hap.contact.vectors import Triple
+
+Point = tuple[float, float]
 
 _ROUNDING_M = 1e-9
 
@@ -17,6 +19,65 @@ _ROUNDING_M = 1e-9
 PolygonGap = tuple[float, Point, list[Point]]
 """How far two outlines are apart [m], the way from the first to the second there, and points half way between them
 where they are little farther apart."""
+
+
+@compiled
+def turned_outline(corners_m: Sequence[Triple], row_u: Triple, row_v: Triple) -> tuple[Point, ...]:
+    """Corners seen from above, by the two level rows of a rotation."""
+    (a, b, c), (d, e, f) = row_u, row_v
+    return tuple([(a * x + b * y + c * z, d * x + e * y + f * z) for x, y, z in corners_m])
+
+
+@compiled
+def edges_of(outline: Sequence[Point]) -> tuple[Triple, ...]:
+    """(n_u, n_v, offset) of each edge of a convex outline, the normal of length 1 and pointing inwards."""
+    mu, mv = 0.0, 0.0
+    for u, v in outline:
+        mu, mv = mu + u, mv + v
+    mu, mv, edges = mu / len(outline), mv / len(outline), []
+    for k, (u1, v1) in enumerate(outline):
+        u2, v2 = outline[(k + 1) % len(outline)]
+        nu, nv = v1 - v2, u2 - u1
+        length = math.sqrt(nu * nu + nv * nv)
+        if length == 0:
+            continue
+        nu, nv = nu / length, nv / length
+        offset = nu * u1 + nv * v1
+        if nu * mu + nv * mv < offset:
+            nu, nv, offset = -nu, -nv, -offset
+        edges.append((nu, nv, offset))
+    return tuple(edges)
+
+
+@compiled
+def inside_edges(outline: Sequence[Point], du: float, dv: float, edges: Sequence[Triple]) -> list[tuple[float, float]]:
+    """For each edge, how far inside of it corners of an outline moved by (du, dv) are at least and at most [m]."""
+    found = []
+    for nu, nv, offset in edges:
+        inside = [nu * (u + du) + nv * (v + dv) - offset for u, v in outline]
+        found.append((min(inside), max(inside)))
+    return found
+
+
+@compiled
+def clipped(outline: Sequence[Point], du: float, dv: float, edges: Sequence[Triple]) -> list[Point]:
+    """What of an outline moved by (du, dv) lies inside all edges.
+
+    Source: I. E. Sutherland, G. W. Hodgman, Reentrant polygon clipping, Comm. ACM 17 (1974) 32.
+    """
+    ring = [(u + du, v + dv) for u, v in outline]
+    for nu, nv, offset in edges:
+        inside = [nu * u + nv * v - offset for u, v in ring]
+        cut: list[Point] = []
+        for k, here in enumerate(inside):
+            before = inside[k - 1]
+            if (here < 0) != (before < 0):
+                (u1, v1), (u2, v2), share = ring[k - 1], ring[k], before / (before - here)
+                cut.append((u1 + share * (u2 - u1), v1 + share * (v2 - v1)))
+            if here >= 0:
+                cut.append(ring[k])
+        ring = cut
+    return ring
 
 
 @compiled
@@ -64,7 +125,7 @@ def _strip_m(x: Sequence[Point], y: Sequence[Point], enough: float) -> float:
     first that is more than enough. No more than their distance."""
     widest = -math.inf
     for ring, other in ((x, y), (y, x)):
-        for nu, nv, offset in edges_of(tuple(ring)):
+        for nu, nv, offset in edges_of(ring):
             widest = max(widest, -max([nu * u + nv * v - offset for u, v in other]))
             if widest > enough:
                 return widest

@@ -13,11 +13,10 @@ import numpy as np
 
 from scene2hap.contact.base_face import across
 from scene2hap.contact.ledge import Upright
+from scene2hap.contact.polygons import Point, edges_of, turned_outline
 from scene2hap.contact.separation import Footprint
 from scene2hap.contact.shape import Shape
 from scene2hap.contact.vectors import Triple
-
-Point = tuple[float, float]
 
 # Digits of the upward direction by which level faces are known: a game's rounding makes no difference, nor does an
 # engine's trembling by less than 3 thousandths of a degree.
@@ -166,9 +165,8 @@ class Stance:
     def base_outline(self) -> tuple[Point, ...]:
         """The outline of what it stands on."""
         if not self._outline:
-            self._outline = tuple(
-                [(u, v) for u, v, _ in map(self._turned, self.shape.base_face(self.way_up).outline_m)]
-            )
+            outline_m = self.shape.base_face(self.way_up).outline_m
+            self._outline = turned_outline(outline_m, self.rows[0], self.rows[self.v_axis])
         return self._outline
 
     @property
@@ -237,20 +235,3 @@ def _lean(up: Triple) -> Lean | None:
     u, v = (k for k in range(3) if k != axis)
     tilt = math.hypot(up[u], up[v])
     return Lean(Upright(axis, 1 if up[axis] > 0 else -1, u, v), tilt) if tilt <= _MOST_LEAN else None
-
-
-def edges_of(outline: tuple[Point, ...]) -> tuple[Triple, ...]:
-    """(n_u, n_v, offset) of each edge of a convex outline, the normal of length 1 and pointing inwards."""
-    mu, mv = sum([u for u, _ in outline]) / len(outline), sum([v for _, v in outline]) / len(outline)
-    edges = []
-    for (u1, v1), (u2, v2) in zip(outline, outline[1:] + outline[:1], strict=True):
-        nu, nv = v1 - v2, u2 - u1
-        length = math.sqrt(nu * nu + nv * nv)
-        if length == 0:
-            continue
-        nu, nv = nu / length, nv / length
-        offset = nu * u1 + nv * v1
-        if nu * mu + nv * mv < offset:
-            nu, nv, offset = -nu, -nv, -offset
-        edges.append((nu, nv, offset))
-    return tuple(edges)

@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 
 from contact_scenes import box, boxes
 from scene2hap.contact.body import Body
-from scene2hap.contact.level import aside, clipped, rest_on, rest_points
+from scene2hap.contact.level import aside, rest_on, rest_points
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.pair import BodyPair
+from scene2hap.contact.polygons import clipped
 from scene2hap.scene.pose import Pose
 
 TURNS = st.floats(-3.0, 3.0)
@@ -80,7 +81,7 @@ def test_blocks_face_to_face_touch_at_the_corners_of_what_they_share() -> None:
 
 def test_a_clipped_square_loses_its_corner() -> None:
     square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
-    ring = clipped(square, [(-math.sqrt(0.5), -math.sqrt(0.5), -1.5 * math.sqrt(0.5))])
+    ring = clipped(square, 0.0, 0.0, [(-math.sqrt(0.5), -math.sqrt(0.5), -1.5 * math.sqrt(0.5))])
     assert {(round(u, 9), round(v, 9)) for u, v in ring} == {(0, 0), (1, 0), (1, 0.5), (0.5, 1), (0, 1)}
 
 

@@ -123,6 +123,27 @@ def test_distances_of_meshes_to_the_last_bit(seed: int) -> None:
 
 @steady
 @given(seed=seeds)
+def test_outlines_over_each_other_to_the_last_bit(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    outlines = []
+    for n in rng.choice([1, 2, 3, 4, 5, 60], 2):
+        angles = np.sort(rng.uniform(0, 2 * math.pi, int(n)))
+        ring = np.stack([np.cos(angles), rng.uniform(size=int(n)), np.sin(angles)], axis=1) + rng.choice([0.0, 0.5], 3)
+        rows = Stance(shape_of(Box((0.1, 0.1, 0.1)).mesh), turned(rng, 1), 1).rows
+        plain, twin = both("contact.polygons.turned_outline")
+        outline = plain(ring.tolist(), rows[0], rows[2])
+        assert twin(ring.tolist(), rows[0], rows[2]) == outline
+        outlines.append(outline)
+    plain, twin = both("contact.polygons.edges_of")
+    edges = plain(outlines[1])
+    assert twin(outlines[1]) == edges
+    for plain, twin in (both("contact.polygons.inside_edges"), both("contact.polygons.clipped")):
+        for move in ((0.0, 0.0), tuple(rng.uniform(-1, 1, 2).tolist())):
+            assert twin(outlines[0], *move, edges) == plain(outlines[0], *move, edges)
+
+
+@steady
+@given(seed=seeds)
 def test_outlines_beside_each_other_to_the_last_bit(seed: int) -> None:
     rng = np.random.default_rng(seed)
     outlines = []
