@@ -11,7 +11,7 @@ from scene2hap.contact.certificate import Certificate, Extent, Resting, resting_
 from scene2hap.contact.free_space import free_planes, has_nothing_near
 from scene2hap.contact.planes import Plane
 from scene2hap.contact.relative import roles
-from scene2hap.contact.support import TOUCH_M, fall_reach_m, hang_reach_m
+from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m
 from scene2hap.contact.vectors import Triple
 
 _MOST_REFUSALS = 5

@@ -18,26 +18,8 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes
 from scene2hap.contact.rays import first_hits
 from scene2hap.contact.relative import box_in_frame, middle_m, roles
-from scene2hap.contact.support import weight
+from scene2hap.contact.rule import OUTSIDE_SHARE, SIDE_SHARE, play_reach_m, weight
 from scene2hap.contact.vectors import Floats, Triple
-
-# Play on either side at which a thing ceases to be enclosed [m], at most and as a share of its diagonal. Up to 2/3 of
-# it a thing is to weigh 1, as gaps do everywhere: 12.7 mm (and up to 0.8 mm more) beside drawers on ball-bearing rails,
-# which models often lack, 5 mm beside those on rails below them, 1-3 mm on wooden runners, 2-4 mm around leaves and
-# fronts. The smallest drawers on such rails have diagonals of 0.4 m; small things have little play in what is made for
-# them.
-_PLAY_M, _PLAY_SIZES = 0.0203, 0.05
-
-_SIDE_SHARE = 1 / 6
-"""So much of a side is to have the play: a wooden runner, some 30-45 mm high, beside a drawer of up to 0.25 m."""
-
-_OUTSIDE = 0.5
-"""Share of its box outside the other's at which a thing ceases to be enclosed."""
-
-
-def play_reach_m(size_m: float) -> float:
-    """With how much play on either side a thing of that diagonal may be enclosed [m]."""
-    return min(_PLAY_M, _PLAY_SIZES * size_m)
 
 
 def enclosed(a: Body, b: Body) -> tuple[float, float]:
@@ -49,7 +31,7 @@ def enclosed(a: Body, b: Body) -> tuple[float, float]:
     if not (x <= p <= u and y <= q <= v and z <= r <= w):
         return 0.0, math.inf
     middle, half = box_in_frame(guest, host)
-    within = weight(1.0 - _inside(host, middle, half, 1e-9 * guest.size_m), _OUTSIDE)
+    within = weight(1.0 - _inside(host, middle, half, 1e-9 * guest.size_m), OUTSIDE_SHARE)
     reach_m = play_reach_m(guest.size_m)
     if within <= 0:
         return 0.0, math.inf
@@ -81,5 +63,5 @@ def _play_m(guest: Body, host: Body, reach_m: float) -> float:
     plays = np.full(len(points), np.inf)
     start, way = turn @ points[seen].T + shift[:, None], reach_m * turn @ outwards.T
     plays[seen] = reach_m * first_hits(start, way, host.shape.triangles, host.shape.boxes)
-    side_plays: Floats = np.sort(plays.reshape(6, n), axis=1)[:, int(_SIDE_SHARE * n)]
+    side_plays: Floats = np.sort(plays.reshape(6, n), axis=1)[:, int(SIDE_SHARE * n)]
     return float(np.maximum(side_plays[:3], side_plays[3:]).min())

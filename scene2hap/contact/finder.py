@@ -16,13 +16,13 @@ from scene2hap.contact.certificates import Certificates
 from scene2hap.contact.holding import Holding
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.pair import BodyPair, apart_by
-from scene2hap.contact.support import TOUCH_M, Support, margins_m
+from scene2hap.contact.rule import TOUCH_M, Support, margins_m
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject
 
 
 class ContactFinder:
-    """The contacts between things, with tolerances that follow them as `contact.support` does.
+    """The contacts between things, with tolerances that follow them as `contact.rule` does.
 
     Parameters: up_axis : 1 or 2, the world axis that points up.
     """

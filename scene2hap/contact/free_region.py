@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from scene2hap.contact.fat_boxes import AABB
 from scene2hap.contact.ledge import Flat, Upright
+from scene2hap.contact.vectors import AABB
 
 
 class FreeRegion(NamedTuple):

@@ -17,16 +17,14 @@ import numpy as np
 from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes
 from scene2hap.contact.broad_phase import SKIN_M
-from scene2hap.contact.enclosure import play_reach_m
-from scene2hap.contact.fat_boxes import AABB
 from scene2hap.contact.free_region import FreeRegion
 from scene2hap.contact.ledge import Flat, Upright
 from scene2hap.contact.mesh_distance import INSET, INSET_M
 from scene2hap.contact.planes import Plane, floor_at, roof_at, wall_at
 from scene2hap.contact.relative import box_in_frame
+from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m, is_over, play_reach_m
 from scene2hap.contact.stance import TopFace
-from scene2hap.contact.support import TOUCH_M, fall_reach_m, hang_reach_m, is_over
-from scene2hap.contact.vectors import Marks
+from scene2hap.contact.vectors import AABB, Marks
 
 _MOST_TILT_M = 1e-4  # A host may lean by so much over its whole size, which is the error of a ledge's height then.
 _MANY_CORNERS = 8  # An outline of more is taken for a circle.

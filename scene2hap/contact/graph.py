@@ -1,7 +1,7 @@
 """Who touches whom, and where, as things move.
 
 Contacts come from the scene's source where it tells them (an engine), else from geometry: surfaces within a tolerance,
-which follows the objects unless one is stated (`contact.support`).
+which follows the objects unless one is stated (`contact.rule`).
 """
 
 from __future__ import annotations

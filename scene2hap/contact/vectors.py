@@ -16,6 +16,8 @@ Indices = NDArray[np.intp]
 Marks = NDArray[np.bool_]
 Triple = tuple[float, float, float]
 Rows = tuple[Triple, Triple, Triple]
+AABB = tuple[Triple, Triple]
+"""Lowest and highest corners of a box along the axes [m]."""
 
 
 def dot(x: Floats, y: Floats) -> Floats:

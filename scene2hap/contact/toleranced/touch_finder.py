@@ -15,9 +15,9 @@ import numpy as np
 from scene2hap.contact.broad import Boxes, box_pairs
 from scene2hap.contact.junction import ContactArrays, Junction, Pair
 from scene2hap.contact.mesh_distance import ROUNDING_M, MeshPair
+from scene2hap.contact.rule import CLEAR_M, PATCH_SHARE, weight, weights
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.contact.spread import MAX_POINTS
-from scene2hap.contact.support import CLEAR_M, PATCH_SHARE, weight, weights
 from scene2hap.contact.toleranced.cuboid_patch import patches
 from scene2hap.contact.toleranced.cuboids import Pairs, gaps, times
 from scene2hap.contact.toleranced.touches import Difference, PairNames, Touches, difference

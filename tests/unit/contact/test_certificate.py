@@ -12,7 +12,7 @@ from scene2hap.contact import finder
 from scene2hap.contact.body import Body
 from scene2hap.contact.certificate import Extent, separated
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.contact.support import TOUCH_M
+from scene2hap.contact.rule import TOUCH_M
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject
 

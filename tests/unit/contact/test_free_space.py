@@ -15,7 +15,7 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.free_space import has_nothing_near, ledge_under
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.mesh_distance import MeshPair
-from scene2hap.contact.support import fall_reach_m, hang_reach_m
+from scene2hap.contact.rule import fall_reach_m, hang_reach_m
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from contact_scenes import Triple, box, boxes, chair, floor, found, on_floor, scene, weight
-from scene2hap.contact import support
+from scene2hap.contact import rule
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneObject
@@ -49,10 +49,10 @@ def test_what_hovers_higher_than_its_reach_touches_nothing() -> None:
 
 def test_lifting_lets_the_weight_fall_smoothly_from_one_to_nothing() -> None:
     cup = on_floor("cup", CUP, 0, 0)
-    reach = support.fall_reach_m(float(np.linalg.norm(CUP)))
+    reach = rule.fall_reach_m(float(np.linalg.norm(CUP)))
     lifts = np.arange(0.0, 0.05, 0.0005)
     weights = np.array([floating_weight(cup, float(lift)) for lift in lifts])
-    assert weights == pytest.approx([support.weight(float(lift), reach) for lift in lifts])
+    assert weights == pytest.approx([rule.weight(float(lift), reach) for lift in lifts])
     assert weights[0] == 1.0
     assert weights[-1] == 0.0
     assert (np.diff(weights) <= 0).all()
@@ -64,12 +64,12 @@ def test_lifting_lets_the_weight_fall_smoothly_from_one_to_nothing() -> None:
     ("share", "expected"), [(0, 1), (0.5, 1), (2 / 3, 1), (0.75, 0.853553), (5 / 6, 0.5), (1, 0), (2, 0)]
 )
 def test_weight_is_a_raised_cosine_over_the_last_third(share: float, expected: float) -> None:
-    assert support.weight(share * 0.03, 0.03) == pytest.approx(expected, abs=1e-6)
+    assert rule.weight(share * 0.03, 0.03) == pytest.approx(expected, abs=1e-6)
 
 
 def test_weight_at_tolerance_zero_asks_for_touch() -> None:
-    assert support.weight(0.0, 0.0) == 1.0
-    assert support.weight(1e-6, 0.0) == 0.0
+    assert rule.weight(0.0, 0.0) == 1.0
+    assert rule.weight(1e-6, 0.0) == 0.0
 
 
 def test_a_cup_on_a_saucer_is_not_on_the_table() -> None:

@@ -1,4 +1,4 @@
-"""What holds a thing up, where the scene's author left a gap.
+"""The rule of contact, with all of its tuned numbers: what holds a thing up, where the scene's author left a gap.
 
 In real scenes things that rest hover 0-60 mm above what they rest on, and things that do not touch are a few
 millimetres apart, so that no single tolerance tells contact. Surfaces nearer than `TOUCH_M` touch, whatever they are.
@@ -52,6 +52,20 @@ _HANG_SHARE = 1 / 6
 _HIDDEN_M = 0.002  # What lies this much below something else is hidden by it (assumed: the thinnest carpet).
 
 
+# Play on either side at which a thing ceases to be enclosed [m], at most and as a share of its diagonal. Up to 2/3 of
+# it a thing is to weigh 1, as gaps do everywhere: 12.7 mm (and up to 0.8 mm more) beside drawers on ball-bearing rails,
+# which models often lack, 5 mm beside those on rails below them, 1-3 mm on wooden runners, 2-4 mm around leaves and
+# fronts. The smallest drawers on such rails have diagonals of 0.4 m; small things have little play in what is made for
+# them.
+_PLAY_M, _PLAY_SIZES = 0.0203, 0.05
+
+SIDE_SHARE = 1 / 6
+"""So much of a side is to have the play: a wooden runner, some 30-45 mm high, beside a drawer of up to 0.25 m."""
+
+OUTSIDE_SHARE = 0.5
+"""Share of its box outside the other's at which a thing ceases to be enclosed."""
+
+
 def weight(gap_m: float, tolerance_m: float) -> float:
     """How much of a contact a gap leaves: 1 up to 2/3 of the tolerance, then half a cosine down to 0 at the tolerance.
 
@@ -82,6 +96,11 @@ def fall_reach_m(size_m: float) -> float:
 def hang_reach_m(size_m: float) -> float:
     """How far a thing of that diagonal may stand off what it hangs from [m]; less than its `fall_reach_m`."""
     return min(HANG_REACH_M, max(_HANG_REACH_SIZES * size_m, min(_GRIP_REACH_M, _GRIP_REACH_SIZES * size_m)))
+
+
+def play_reach_m(size_m: float) -> float:
+    """With how much play on either side a thing of that diagonal may be enclosed [m]."""
+    return min(_PLAY_M, _PLAY_SIZES * size_m)
 
 
 def margins_m(body: Body) -> tuple[float, float]:
