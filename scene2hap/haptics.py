@@ -179,7 +179,7 @@ class Bands:
             return
         edges = tuple(
             checks.number(f"edges_hz[{i}]", edge, "Hz", above=0.0, error=ConfigError)
-            for i, edge in enumerate(self.edges_hz)
+            for i, edge in enumerate(checks.items("edges_hz", self.edges_hz, error=ConfigError))
         )
         if len(edges) < 2 or any(low >= high for low, high in pairwise(edges)):
             raise ConfigError(f"edges_hz is {list(edges)}; it must be at least two rising frequencies [Hz].")

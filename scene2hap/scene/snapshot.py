@@ -319,12 +319,10 @@ _LONGEST_COMPARED = 200
 
 def unknown_object(object_id: str, known: Mapping[str, object]) -> str:
     """The sentence for an id that a scene does not have."""
-    from difflib import get_close_matches
-
     if not isinstance(object_id, str):
-        return f"an object's id is {checks.represented(object_id)}; it must be a text."
-    near = get_close_matches(object_id[:_LONGEST_COMPARED], list(known), n=3)
-    hint = f"Did you mean {', '.join(map(repr, near))}?" if near else f"`inspect` lists the {len(known)} objects."
+        how = ": give its .id" if isinstance(object_id, SceneObject) else ", of one object"
+        return f"an object's id is {checks.described(object_id)}; it must be a text{how}, such as {next(iter(known), '')!r}."
+    hint = checks.did_you_mean(object_id, known, f"`inspect` lists the {len(known)} objects.")
     return f"the scene has no object {checks.represented(object_id)}. {hint}"
 
 

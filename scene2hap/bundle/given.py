@@ -1,0 +1,50 @@
+"""The bundle that a caller gives: a HapticBundle, or the path of its folder."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from scene2hap import checks
+from scene2hap.bundle.haptic_bundle import HapticBundle
+from scene2hap.errors import BundleError
+from scene2hap.scene.given import given_scene
+from scene2hap.scene.snapshot import SceneSnapshot
+
+
+def given_bundle(bundle: object) -> HapticBundle:
+    """A bundle as it is, one read from the path of its folder by `HapticBundle.load`.
+
+    Raises: BundleError: it is something else, such as a scene that is not baked; and as `HapticBundle.load`.
+    """
+    if isinstance(bundle, HapticBundle):
+        return bundle
+    if isinstance(bundle, str | os.PathLike):
+        return HapticBundle.load(bundle)
+    hint = "`bake(scene)` makes one" if isinstance(bundle, SceneSnapshot) else "`HapticBundle.load(folder)` reads one"
+    raise BundleError(
+        f"bundle is {checks.described(bundle)}; it must be a HapticBundle or the path of its folder. {hint}."
+    )
+
+
+def given_pair(scene: object, bundle: object) -> tuple[SceneSnapshot, HapticBundle]:
+    """A scene and its bundle, each as an object or a path, in either order; a bundle alone brings its own scene.
+
+    Raises: BundleError: none of them is a bundle, or both are; and as `given_scene` and `given_bundle`.
+    """
+    if bundle is None and (_is_folder(scene) or isinstance(scene, HapticBundle)):
+        alone = given_bundle(scene)
+        return alone.snapshot, alone
+    if isinstance(scene, HapticBundle) or isinstance(bundle, SceneSnapshot):
+        scene, bundle = bundle, scene
+    if bundle is None:
+        raise BundleError(
+            f"there is no bundle for {checks.described(scene)}, only a scene. Bake it first: "
+            "HapticSession(scene, bake(scene)); a bundle alone is enough, HapticSession(bundle)."
+        )
+    return given_scene(scene), given_bundle(bundle)
+
+
+def _is_folder(path: object) -> bool:
+    """Whether a path is meant as that of a bundle: it is a folder, or is called as one."""
+    return isinstance(path, str | os.PathLike) and (Path(path).is_dir() or Path(path).suffix == ".bundle")
