@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
 
-from scene2hap.calls import clear_call
 from scene2hap.checks import described, did_you_mean, represented, shown
 from scene2hap.errors import ConfigError, MissingExtra, UnknownPlugin
 
@@ -73,19 +72,18 @@ class PluginGroup:
         if not callable(factory):
             raise ConfigError(f"{self.name} kind {kind!r} is {factory!r}; it must be a class or a function.")
         try:
-            return clear_call(factory)(**settings)
+            return factory(**settings)
         except TypeError as cause:
-            raise ConfigError(
-                f"{self.name} kind {kind!r} does not take {shown(settings)}: {str(cause).removesuffix('.')}."
-            ) from cause
+            told = (misfit(factory, (), settings) or str(cause)).removesuffix(".")
+            raise ConfigError(f"{self.name} kind {kind!r} does not take {shown(settings)}: {told}.") from cause
 
     def _ready_made(self, given: object) -> object:
         if isinstance(given, type):
             raise ConfigError(f"{self.name}: {represented(given)} is a class; make one of it, {given.__name__}(...).")
         if given is None or isinstance(given, int | float | complex | bytes | list | tuple | set):
             raise ConfigError(
-                f"{self.name} is {described(given)}; it must be a kind ({', '.join(self.kinds())}), a mapping with a "
-                "'kind' and its settings, or an implementation."
+                f"{self.name}: {described(given)} is given; it must be a kind ({', '.join(self.kinds())}), a mapping "
+                "with a 'kind' and its settings, or an implementation."
             )
         return given
 

@@ -121,4 +121,4 @@ def is_answered(mistake: Mistake, answer: Answer) -> bool:
     """Whether it works, or ends in an error of our own that says what it has to."""
     if not mistake.words:
         return answer.kind is None
-    return answer.is_ours and all(word in answer.sentence for word in mistake.words)
+    return (answer.is_ours or mistake.is_python) and all(word in answer.sentence for word in mistake.words)

@@ -28,8 +28,8 @@ class Override:
 
     vibrates : whether the object vibrates by itself; gain_db : its level at the hand against the inferred one [dB];
     material : its material, or a name in the table; clip : the sound that its vibration is made from, in every state,
-    or the path of its file; keep : whether that sound stays at its own frequency and level, and the scene's other sources keep clear of it; else
-    it is moved like any other.
+    or the path of its file; keep : whether that sound stays at its own frequency and level, and the scene's other
+    sources keep clear of it; else it is moved like any other.
     Raises: BundleError: a field of another type or out of bounds. UnknownMaterial.
     """
 

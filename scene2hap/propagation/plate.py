@@ -30,8 +30,8 @@ _EDGES = {"free": "FFFF", "simply-supported": "SSSS", "clamped": "CCCC"}
 class Plate:
     """A rectangular plate of one material.
 
-    Parameters: length_m, width_m, thickness_m > 0 [m]; material : a Material, or its name in the table; boundary : "free", "simply-supported", "clamped", or four
-    letters F, S, C for the edges x=0, x=length, y=0, y=width.
+    Parameters: length_m, width_m, thickness_m > 0 [m]; material : a Material, or its name in the table; boundary :
+    "free", "simply-supported", "clamped", or four letters F, S, C for the edges x=0, x=length, y=0, y=width.
     Raises: ModelDomainError: a dimension is not positive and finite, or the boundary is not one of these.
     """
 

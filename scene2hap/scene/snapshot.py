@@ -313,15 +313,14 @@ class SceneSnapshot:
 
 
 _LEAST_WEIGHT = 1e-30
-_LONGEST_COMPARED = 200
-"""Characters of an id that is looked for among those that there are; comparing takes the square of their number."""
 
 
-def unknown_object(object_id: str, known: Mapping[str, object]) -> str:
+def unknown_object(object_id: object, known: Mapping[str, object]) -> str:
     """The sentence for an id that a scene does not have."""
     if not isinstance(object_id, str):
         how = ": give its .id" if isinstance(object_id, SceneObject) else ", of one object"
-        return f"an object's id is {checks.described(object_id)}; it must be a text{how}, such as {next(iter(known), '')!r}."
+        some = next(iter(known), "")
+        return f"an object's id is {checks.described(object_id)}; it must be a text{how}, such as {some!r}."
     hint = checks.did_you_mean(object_id, known, f"`inspect` lists the {len(known)} objects.")
     return f"the scene has no object {checks.represented(object_id)}. {hint}"
 

@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
-from scene2hap.calls import clear_call
+from scene2hap.calls import clear_construction
 from scene2hap.errors import SessionError, UnknownObject
 
 _TOUCH = "A touch is Touch(hand, object_id, point_m), its point in the world."
 
 
-@clear_call
+@clear_construction
 @dataclass(frozen=True)
 class Touch:
     """A hand on an object at a world point [m]."""

@@ -5,15 +5,16 @@ Only looked at when the plain form does not fit, so that a frame in the plain fo
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NoReturn
 
 from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
-from scene2hap.errors import SceneError, SessionError, UnknownObject
+from scene2hap.errors import SceneError, SessionError
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Contact, SceneObject, unknown_object
+from scene2hap.scene.snapshot import Contact, SceneObject
 from scene2hap.session.frame import Touch
 
 _TOUCH = "Touch(hand, object_id, point_m)"
@@ -72,36 +73,32 @@ def _refuse_touches(touches: object) -> NoReturn:
     )
 
 
-def refuse_unknown_object(touch: Touch, known: Mapping[str, SceneObject], hands: Collection[str]) -> NoReturn:
-    """Raise an UnknownObject for a touch on an object that is not there, which may have its arguments swapped."""
-    swapped = isinstance(touch.object_id, str) and touch.object_id in hands
-    hint = f" {touch.object_id!r} is a hand; a touch is {_TOUCH}." if swapped else ""
-    raise UnknownObject(unknown_object(touch.object_id, known) + hint)
+def swapped_hint(touch: Touch, hands: Collection[str]) -> str:
+    """What to say of a touch whose object is a hand, since its arguments are swapped."""
+    is_hand = isinstance(touch.object_id, str) and touch.object_id in hands
+    return f" {touch.object_id!r} is a hand; a touch is {_TOUCH}." if is_hand else ""
 
 
-def require_poses(moved: Mapping[str, Any]) -> None:
-    """Raise a SceneError that tells how to write the first of `moved` that is no Pose."""
-    for object_id, pose in moved.items():
-        if not isinstance(object_id, str) or isinstance(pose, Pose):
-            continue
-        how = "write Pose(position_m), or Pose(position_m, rotation_xyzw) with w last"
-        if isinstance(pose, SceneObject):
-            how = "write its .pose"
-        elif getattr(pose, "shape", None) == (4, 4):
-            how = "write Pose.from_matrix(matrix)"
-        raise SceneError(f"the pose of {object_id!r} is {checks.represented(pose)}; it must be a Pose: {how}.")
+def require_pose(object_id: str, pose: object) -> None:
+    """Raise a SceneError that tells how to write what is no Pose as one."""
+    if isinstance(pose, Pose):
+        return
+    how = "write Pose(position_m), or Pose(position_m, rotation_xyzw) with w last"
+    if isinstance(pose, SceneObject):
+        how = "write its .pose"
+    elif getattr(pose, "shape", None) == (4, 4):
+        how = "write Pose.from_matrix(matrix)"
+    raise SceneError(f"the pose of {object_id!r} is {checks.represented(pose)}; it must be a Pose: {how}.")
 
 
 def given_contacts(contacts: object) -> Sequence[Contact]:
     """Contacts of an engine. Raises: SessionError: they are something else."""
-    found = () if isinstance(contacts, str | Mapping) else contacts
-    try:
-        found = tuple(found)  # type: ignore[arg-type]  # if it cannot, see below
-    except Exception:  # a type of somebody else's, whose `__iter__` raises what it likes
-        found = (contacts,)
-    wrong = contacts if isinstance(contacts, str | Mapping | Contact) else None
-    wrong = next((one for one in found if not isinstance(one, Contact)), wrong)
-    if wrong is not None:
+    found: tuple[Any, ...] = (contacts,)
+    if not isinstance(contacts, str | Mapping | Contact):
+        with contextlib.suppress(Exception):  # a type of somebody else's, whose `__iter__` raises what it likes
+            found = tuple(contacts)  # type: ignore[arg-type]  # if it cannot, it is told of below
+    if isinstance(contacts, Contact) or not all(isinstance(one, Contact) for one in found):
+        wrong = next((one for one in found if not isinstance(one, Contact)), contacts)
         raise SessionError(
             f"contacts is or has {checks.described(wrong)}; it must be a list, as [Contact('mug', 'table', point_m)]."
         )
@@ -117,7 +114,8 @@ def require_addable(item: object, haptics: object, loops: object) -> None:
         )
     if haptics is not None and not isinstance(haptics, ObjectHaptics):
         raise SessionError(
-            f"haptics of {item.id!r} is {checks.described(haptics)}; it must be an ObjectHaptics, as `bundle.objects` has."
+            f"haptics of {item.id!r} is {checks.described(haptics)}; it must be an ObjectHaptics, as `bundle.objects` "
+            "has."
         )
     if loops is not None and not isinstance(loops, Mapping):
         raise SessionError(

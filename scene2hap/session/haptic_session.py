@@ -26,7 +26,7 @@ from scene2hap.errors import ConfigError, SceneError, SessionError, UnknownObjec
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.render.safety import SafetyStats
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot, unknown_object
+from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot
 from scene2hap.session.actuator_check import warn_if_other
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.explain import Explanation
@@ -35,9 +35,9 @@ from scene2hap.session.given import (
     given_contacts,
     given_frame,
     given_touches,
-    refuse_unknown_object,
     require_addable,
-    require_poses,
+    require_pose,
+    swapped_hint,
 )
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.listening import Listening
@@ -60,9 +60,9 @@ class HapticSession:
     Scene and bundle may be paths, which are read here (`load_scene`, `HapticBundle.load`), and come in either order. A
     bundle alone, `HapticSession(bundle)` or `HapticSession("kitchen.bundle")`, is played on the scene that it was baked
     for.
-    Raises: ConfigError; SceneError, BundleError: something else than a scene and a bundle, or files that cannot be read;
-    UnknownObject: the bundle speaks of an object that the scene does not have. Warns:
-    OtherActuatorWarning: the bundle's loops were made for another actuator than the configured one.
+    Raises: ConfigError; SceneError, BundleError: no scene or bundle, or files that cannot be read; UnknownObject: the
+    bundle speaks of an object that the scene does not have. Warns: OtherActuatorWarning: the bundle's loops were made
+    for another actuator than the configured one.
     """
 
     def __init__(
@@ -164,8 +164,7 @@ class HapticSession:
 
         Raises: UnknownObject; SessionError: it is the last object.
         """
-        if not isinstance(object_id, str):
-            raise UnknownObject(unknown_object(object_id, self._state.objects))
+        self._state.require(object_id)
         if len(self._state.objects) == 1 and object_id in self._state.objects:
             raise SessionError(f"{object_id!r} is the last object of the scene; add another one before removing it.")
         change = self._state.remove(object_id)
@@ -359,7 +358,7 @@ class HapticSession:
         by_hand: dict[str, list[Touch]] = {}
         for touch in touches:
             if touch.object_id not in self._state.objects:
-                refuse_unknown_object(touch, self._state.objects, self.hands)
+                self._state.require(touch.object_id, swapped_hint(touch, self.hands))
             by_hand.setdefault(touch.hand, []).append(touch)
         return by_hand
 
@@ -367,7 +366,9 @@ class HapticSession:
         try:
             return self._state.graph.update(moved, contacts=None if contacts is None else given_contacts(contacts))
         except SceneError:
-            require_poses(moved)
+            for object_id, pose in moved.items():
+                self._state.require(object_id)
+                require_pose(object_id, pose)
             raise
 
 

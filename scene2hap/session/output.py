@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from scene2hap import checks
 from scene2hap.devices import SINKS
 from scene2hap.devices.claims import claim_sink, give_back_sink
 from scene2hap.devices.clock import has_clock
@@ -28,10 +29,11 @@ class Output:
     """
 
     def __init__(self, sink: ActuatorSink | str | Mapping[str, Any] | None, config: SessionConfig) -> None:
-        if isinstance(sink, str | os.PathLike) and str(sink) not in SINKS.kinds() and Path(sink).suffix:
+        if isinstance(sink, list | tuple):
+            raise ConfigError(f"sink is {checks.described(sink)}; several at once are one TeeSink([...]).")
+        if isinstance(sink, os.PathLike) or (isinstance(sink, str) and Path(sink).suffix):
             raise ConfigError(
-                f"sink is {str(sink)!r}, a path; to write a file make sink = WavSink({str(sink)!r}), give it to the session, "
-                "and pull from it."
+                f"sink is {str(sink)!r}, a path; give sink=WavSink({str(sink)!r}), and pull from it to write the file."
             )
         built = SINKS.build(sink) if sink is not None else None
         if built is not None and not isinstance(built, ActuatorSink):
