@@ -45,6 +45,8 @@ def represented(value: object) -> str:
         told = repr(value)
     except Exception:  # a whole number of more than 4300 digits, or whatever a `__repr__` of somebody raises
         return f"a {type(value).__name__}"
+    if "\n" in told:  # an array
+        told = " ".join(told.split())
     return told if len(told) <= _LONGEST_SHOWN else f"{told[:_LONGEST_SHOWN]}..."
 
 
@@ -225,7 +227,7 @@ def path(name: str, value: object, *, error: type[Scene2HapError]) -> Path:
 def near_files(path: Path) -> str:
     """The sentence that names files beside a path that does not exist and are called nearly the same, or nothing."""
     try:
-        names = [entry.name for entry in islice(os.scandir(path.parent), _MOST_COMPARED)]
+        names = [name for name in islice(os.listdir(path.parent), _MOST_COMPARED) if not name.startswith(".")]
     except (OSError, ValueError):
         return ""
     return did_you_mean(path.name, names)
@@ -249,7 +251,7 @@ def names(name: str, value: object, *, error: type[Scene2HapError] = ConfigError
     found = tuple(value) if isinstance(value, Iterable) else ()
     twice = next((x for i, x in enumerate(found) if isinstance(x, str) and x in found[:i]), None)
     if twice is not None:
-        raise error(f"{name} has {shown(twice)} already; it must be at least one name, each once.")
+        raise error(f"{name} is {shown(found)}, with {shown(twice)} twice; it must be at least one name, each once.")
     if not found or not all(isinstance(x, str) and x.strip() for x in found) or len(set(found)) < len(found):
         raise error(f"{name} is {shown(value)}; it must be at least one name, each once.")
     return found

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
 
+from scene2hap.calls import misfit
 from scene2hap.checks import described, did_you_mean, represented, shown
 from scene2hap.errors import ConfigError, MissingExtra, UnknownPlugin
 

@@ -7,6 +7,7 @@ import contextlib
 import gc
 import json
 import os
+import tempfile
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,7 +20,7 @@ import scene2hap
 from gltf_builder import Gltf
 from scene2hap import materials
 from scene2hap.errors import Scene2HapError
-from usual_mistakes import Mistake
+from usual_mistakes import TOPICS, Mistake
 
 TOP = (0.3, 0.75, 0.3)
 """A point on the table's top, beside the phone."""
@@ -122,3 +123,37 @@ def is_answered(mistake: Mistake, answer: Answer) -> bool:
     if not mistake.words:
         return answer.kind is None
     return (answer.is_ours or mistake.is_python) and all(word in answer.sentence for word in mistake.words)
+
+
+ON_PAGE = 10
+"""How many of each topic docs/errors.md shows."""
+
+BEGIN, END = "<!-- tests/mistakes_room.py writes what follows -->\n", "<!-- until here -->\n"
+
+
+def page_tables(room: Room) -> str:
+    """The first mistakes of each topic with their answers, as docs/errors.md has them."""
+    lines = []
+    for topic, mistakes in TOPICS.items():
+        lines += ["", f"### {topic}", "", "| you write | you get |", "|---|---|"]
+        for mistake in [one for one in mistakes if not one.is_python][:ON_PAGE]:
+            kind, sentence = room.answer(mistake.code)
+            told = f"`{kind.__name__}`: {_cell(sentence)}" if kind is not None else "it works"
+            lines.append(f"| `{_cell(mistake.code)}` | {told} |")
+    return "\n".join([*lines, "", ""])
+
+
+def with_tables(page: str, tables: str) -> str:
+    """A page with other tables between its marks."""
+    before, rest = page.split(BEGIN)
+    return before + BEGIN + tables + END + rest.split(END)[1]
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", "\\|").replace("\n", "; ").replace(";     ", "; ")
+
+
+if __name__ == "__main__":
+    page = Path(__file__).parents[1] / "docs" / "errors.md"
+    with tempfile.TemporaryDirectory() as folder:
+        page.write_text(with_tables(page.read_text("utf-8"), page_tables(Room(Path(folder)))), "utf-8")

@@ -149,7 +149,7 @@ TOPICS: dict[str, tuple[Mistake, ...]] = {
         mistake("HapticSession(scene, bundle, hands='left')", "left", "['left']"),
         mistake("HapticSession(scene, bundle, hands=2)", "2", "at least one name"),
         mistake("HapticSession(scene, bundle, hands=[])", "hand"),
-        mistake("HapticSession(scene, bundle, hands=('left', 'left'))", "left", "already", "once"),
+        mistake("HapticSession(scene, bundle, hands=('left', 'left'))", "left", "twice", "once"),
         mistake("HapticSession(scene, bundle, hands=(0, 1))", "0", "name"),
         mistake("HapticSession(scene, bundle, sink='sound_card')", "sound_card", "soundcard"),
         mistake("HapticSession(scene, bundle, sink='SoundCardSink')", "SoundCardSink", "soundcard"),
@@ -203,7 +203,7 @@ TOPICS: dict[str, tuple[Mistake, ...]] = {
         mistake("session.update(touches=[None])", "None", "Touch("),
         mistake("session.update(touches=5)", "5", "Touch("),
         mistake("session.update(touches=[Touch('lft', 'table', TOP)])", "lft", "left"),
-        mistake("session.update(touches=[Touch('table', 'left', TOP)])", "table", "left", "hand"),
+        mistake("session.update(touches=[Touch('table', 'left', TOP)])", "left", "hand"),
         mistake("session.update(touches=[Touch(0, 'table', TOP)])", "0", "left"),
         mistake("session.update(touches=[Touch('left', 'tabel', TOP)])", "tabel", "table"),
         mistake("session.update(touches=[Touch('left', scene.object('table'), TOP)])", "SceneObject", ".id"),
@@ -281,7 +281,7 @@ TOPICS: dict[str, tuple[Mistake, ...]] = {
         mistake("session.remove('mug')\nsession.remove('mug')", "mug", "removed"),
         mistake("session.remove(scene.object('mug'))", "SceneObject", ".id"),
         mistake("session.remove(['mug'])", "list", "one object"),
-        mistake("session.add_hand('left')", "left", "already"),
+        mistake("session.add_hand('left')", "left", "twice"),
         mistake("session.add_hand(3)", "3", "name"),
         mistake("session.add_hand('')", "name"),
         mistake("session.remove_hand('lft')", "lft", "left"),
@@ -326,7 +326,7 @@ TOPICS: dict[str, tuple[Mistake, ...]] = {
         ),
         mistake("WavSink()", "path"),
         mistake("WavSink(3)", "3", "path"),
-        mistake("WavSink('kitchen.bundle')", "kitchen.bundle", ".wav"),
+        mistake("WavSink('kitchen.bundle')", "kitchen.bundle", "folder"),
         mistake("HapticSession(scene, bundle, sink=WavSink('.')).start()", ".", "folder"),
         works("with HapticSession(scene, bundle, sink=WavSink('made/at/once.wav')):\n    pass"),
         mistake("HapticSession(scene, bundle, sink=WavSink('touch.mp3')).start()", ".wav"),
@@ -336,8 +336,9 @@ TOPICS: dict[str, tuple[Mistake, ...]] = {
         works("import copy\nassert copy.deepcopy(bundle).objects.keys() == bundle.objects.keys()"),
         works("import copy\nassert copy.deepcopy(scene) == scene"),
         works("import pickle\nassert pickle.loads(pickle.dumps(scene)).objects[0].id == scene.objects[0].id"),
-        mistake(
-            "async def main():\n    async with session:\n        pass\nimport asyncio\nasyncio.run(main())", "with"
+        python(
+            "async def main():\n    async with session:\n        pass\nimport asyncio\nasyncio.run(main())",
+            "asynchronous",
         ),
     ),
     "Materials and plates": (

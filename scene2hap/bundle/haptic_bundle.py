@@ -62,9 +62,9 @@ class HapticBundle:
     ) -> HapticBundle:
         """The bundle with a correction to one object, on top of earlier ones; None leaves a field as it is.
 
-        A clip, or the path of one, stays at its own frequency unless `keep=False` allows to move it clear of the scene's
-        other sources. Kept in the folder and by `rebake`. Level, material and silence count at once; a new sound, or
-        vibration where none was inferred, counts after `rebake(bundle)`, which makes its loops.
+        A clip, or the path of one, stays at its own frequency unless `keep=False` allows to move it clear of the
+        scene's other sources. Kept in the folder and by `rebake`. Level, material and silence count at once; a new
+        sound, or vibration where none was inferred, counts after `rebake(bundle)`, which makes its loops.
         Raises: UnknownObject; BundleError: a field out of bounds; UnknownMaterial.
         """
         self.snapshot.object(object_id)

@@ -27,6 +27,10 @@ class WavSink(Pulled):
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = checks.path("path", path, error=ConfigError)
+        if not self.path.name or self.path.is_dir():
+            raise ConfigError(
+                f"path {str(path)!r} is a folder; give that of a file, as {str(self.path / 'touch.wav')!r}."
+            )
         if self.path.suffix.lower() not in ("", ".wav", ".wave"):
             raise ConfigError(f"path is {str(path)!r}; WavSink writes WAV, so that it must end in .wav.")
         self._draft = self.path.with_name(f".{self.path.name}.part")
@@ -38,8 +42,6 @@ class WavSink(Pulled):
     def open(self, format: SinkFormat) -> None:
         """Begin the file. Raises: DeviceError: it cannot be written, or another sink of this program writes it."""
         self.close()
-        if self.path.is_dir():
-            raise DeviceError(f"{self.path} is a folder; give the path of the file, as {self.path / 'touch.wav'}.")
         self._whole = WholeFrames(format.sample_rate_hz)
         self._frames = 0
         self._key = ("file", os.path.realpath(self.path))

@@ -68,8 +68,8 @@ def _given_touch(touch: object) -> Touch:
 
 def _refuse_touches(touches: object) -> NoReturn:
     raise SessionError(
-        f"a touch is {checks.described(touches)} in update(touches=...), {checks.shown(touches)}; "
-        f"it must be a Touch: touches=[{_TOUCH}]."
+        f"touches is or has {checks.described(touches)}, {checks.shown(touches)}; it must be a list of Touch, as "
+        f"[{_TOUCH}]."
     )
 
 
