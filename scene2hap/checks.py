@@ -47,6 +47,8 @@ def represented(value: object) -> str:
         return f"a {type(value).__name__}"
     if "\n" in told:  # an array
         told = " ".join(told.split())
+    if told.startswith("<") and " at 0x" in told:  # the address says nothing, and differs from run to run
+        return described(value)
     return told if len(told) <= _LONGEST_SHOWN else f"{told[:_LONGEST_SHOWN]}..."
 
 
@@ -80,7 +82,7 @@ def did_you_mean(wanted: object, known: Iterable[str], otherwise: str = "") -> s
     begun = [
         key for key in spelled if min(len(asked), len(key)) >= 3 and (key.startswith(asked) or asked.startswith(key))
     ]
-    near = list(dict.fromkeys([*get_close_matches(asked, spelled, n=3), *begun]))[:3]
+    near = [asked] if asked in spelled else list(dict.fromkeys([*get_close_matches(asked, spelled, n=3), *begun]))[:3]
     return f"Did you mean {' or '.join(repr(spelled[key]) for key in near)}?" if near else otherwise
 
 

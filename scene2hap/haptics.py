@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError
 from scene2hap.materials import Material
 from scene2hap.needs import stated, unmet
@@ -118,6 +119,7 @@ class VibrationDescription:
         checks.whole("seed", self.seed, "-", at_least=-(2**63), at_most=2**64, error=ConfigError)
 
 
+@clear_construction
 @dataclass(frozen=True)
 class ActuatorProfile:
     """What an actuator can render: its name, usable band and resonance [Hz], and how strongly it answers.

@@ -28,11 +28,26 @@ class Settings(BaseModel):
 
     of_what: ClassVar[str]
 
-    def __init__(self, **settings: Any) -> None:
+    def __init__(self, *unnamed: Any, **settings: Any) -> None:
+        if unnamed:
+            raise ConfigError(
+                f"{self.of_what} settings are {checks.described(unnamed[0])} without a name; write "
+                f"{type(self).__name__}(name=value), of {', '.join(type(self).model_fields)}."
+            )
         try:
             super().__init__(**settings)
         except ValidationError as cause:
             raise ConfigError(self._refusal(cause)) from cause
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        try:
+            super().__setattr__(name, value)
+        except ValidationError as cause:
+            cls = type(self).__name__
+            raise ConfigError(
+                f"{name} of a {cls} cannot be set, since settings never change; {cls}.parse(settings, {name}=...) "
+                "makes others."
+            ) from cause
 
     @classmethod
     def parse(cls, settings: Self | Mapping[str, Any] | str | os.PathLike[str] | None, **changes: Any) -> Self:
@@ -66,7 +81,8 @@ class Settings(BaseModel):
             near = checks.did_you_mean(problem.location[0], cls.model_fields, f"There are {known}.")
             return f"there is no {cls.of_what} setting {problem.location[0]!r}. {near}"
         value = checks.shown(problem.value, problem.location[-1] if problem.location else "")
-        return f"{cls.of_what} setting {problem.place}: {problem.reason}, got {value}."
+        got = "" if value in problem.reason else f", got {value}"
+        return f"{cls.of_what} setting {problem.place}: {problem.reason}{got}."
 
 
 _SUFFIXES = (".json", ".toml")

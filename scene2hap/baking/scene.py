@@ -149,6 +149,9 @@ async def arebake(
     _require_callable(progress=progress, on_report=on_report, on_remade=on_remade)
     config = BakeConfig.parse(config)
     given, config = config.model_fields_set, _settings_of(bundle, config)
+    if isinstance(objects, str):
+        raise ConfigError(f"objects is the text {objects!r}; give a list of ids, [{objects!r}].")
+    objects = checks.items("objects", objects, error=ConfigError)
     wishes = bundle.overrides
     silent = [key for key, wish in wishes.items() if wish.vibrates and not bundle.objects[key].vibrates]
     again = list(dict.fromkeys([*objects, *silent]))
@@ -250,6 +253,16 @@ def _as_wished(haptics: ObjectHaptics, wish: Override | None) -> ObjectHaptics:
 
 
 def _of_this_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) -> dict[str, Override]:
+    wrong = (
+        [wish for wish in overrides.values() if not isinstance(wish, Override)]
+        if isinstance(overrides, Mapping)
+        else [overrides]
+    )
+    if wrong:
+        raise ConfigError(
+            f"overrides is or has {checks.described(wrong[0])}; it must be a mapping of ids to Override, as "
+            "`bundle.overrides` is."
+        )
     known = {item.id for item in scene.objects}
     for object_id in overrides.keys() - known:
         warnings.warn(f"the override of {object_id!r} is dropped: the scene has no such object any more.", stacklevel=3)

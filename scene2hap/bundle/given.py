@@ -35,7 +35,7 @@ def given_pair(scene: object, bundle: object) -> tuple[SceneSnapshot, HapticBund
     if bundle is None and (_is_folder(scene) or isinstance(scene, HapticBundle)):
         alone = given_bundle(scene)
         return alone.snapshot, alone
-    if isinstance(scene, HapticBundle) or isinstance(bundle, SceneSnapshot):
+    if isinstance(scene, HapticBundle) or isinstance(bundle, SceneSnapshot) or _is_folder(scene):
         scene, bundle = bundle, scene
     if bundle is None:
         raise BundleError(

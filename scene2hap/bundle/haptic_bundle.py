@@ -36,6 +36,11 @@ class HapticBundle:
     made_with: MadeWith | None = None
 
     def __post_init__(self) -> None:
+        if not isinstance(self.snapshot, SceneSnapshot):
+            raise BundleError(f"snapshot is {checks.described(self.snapshot)}; it must be a SceneSnapshot.")
+        for name in ("objects", "loops", "overrides", "choices"):
+            if not isinstance(getattr(self, name), Mapping):
+                raise BundleError(f"{name} is {checks.described(getattr(self, name))}; it must be a mapping by id.")
         for object_id in (*self.objects, *self.loops, *self.overrides):
             self.snapshot.object(object_id)
 

@@ -13,7 +13,7 @@ import asyncio
 import os
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, cast
 
 from scene2hap import checks
 from scene2hap.calls import clear_call
@@ -79,6 +79,11 @@ async def infer_scene(
     """
     settings = InferenceConfig.parse(config)
     checks.text("user_prompt", user_prompt, error=ConfigError)
+    if not isinstance(backend, LLMBackend):
+        raise ConfigError(
+            f"the backend is {checks.described(backend)}; it must have an async method complete(request). "
+            "FunctionBackend makes one of a function."
+        )
     questions = Questions(
         backend,
         Prompts.load(settings.prompts),
@@ -109,9 +114,7 @@ def infer_haptics(
 
     Parameters: scene : a snapshot or the path of a scene file; backend : a backend, its kind, or a mapping with a kind.
     """
-    built = BACKENDS.build(backend)
-    if not isinstance(built, LLMBackend):
-        raise ConfigError(f"backend is {checks.described(built)}; it must have an async method complete(request).")
+    built = cast("LLMBackend", BACKENDS.build(backend))  # looked at by `infer_scene`
     running = infer_scene(given_scene(scene), built, user_prompt=user_prompt, config=config)
     return run_waiting(running, "infer_scene").objects
 

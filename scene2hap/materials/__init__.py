@@ -11,11 +11,13 @@ from functools import cache
 from importlib.resources import files
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import MaterialError, UnknownMaterial
 
 __all__ = ["Material", "MaterialRow", "lookup", "lookup_row", "table"]
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Material:
     """Elastic constants of an isotropic solid.

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import ModelDomainError
 from scene2hap.materials import Material, lookup
 
@@ -26,6 +27,7 @@ _SIZES_M = {"at_least": 1e-30, "at_most": 1e6}
 _EDGES = {"free": "FFFF", "simply-supported": "SSSS", "clamped": "CCCC"}
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Plate:
     """A rectangular plate of one material.

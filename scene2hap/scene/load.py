@@ -66,7 +66,7 @@ def load_scene(
         )
     if path.suffix.lower() == ".json":
         return _from_json(path, up_axis, unit_m, group)
-    root = path.parent if assets_root is None else Path(assets_root)
+    root = path.parent if assets_root is None else checks.path("assets_root", assets_root, error=SceneError)
     if path.suffix.lower() == ".xml":
         unit = unit_m or 1.0
         snapshot = _from_mjcf(path, up_axis, unit, group, root)

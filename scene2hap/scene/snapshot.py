@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import InstanceOf, PlainSerializer, PlainValidator
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError, UnknownObject
 from scene2hap.scene import sizes
 from scene2hap.scene.appearance import Appearance
@@ -153,6 +154,7 @@ class DominantSurface:
             )
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Contact:
     """Where two objects touch: given by an engine, or found from geometry. A pair may have several.

@@ -68,7 +68,7 @@ def _given_touch(touch: object) -> Touch:
 
 def _refuse_touches(touches: object) -> NoReturn:
     raise SessionError(
-        f"touches is or has {checks.described(touches)}, {checks.shown(touches)}; it must be a list of Touch, as "
+        f"touches is or has {checks.represented(touches)} ({type(touches).__name__}); it must be a list of Touch, as "
         f"[{_TOUCH}]."
     )
 

@@ -49,6 +49,9 @@ from scene2hap.session.sources import Sources
 MAX_RENDERED_FRAMES = 1 << 24
 """At once; assumed: minutes, where a sink asks for milliseconds."""
 
+MAX_AHEAD_S = 3600
+"""How far an update may lie ahead of what was rendered; assumed: further, it is a time in other units."""
+
 
 @clear_calls
 class HapticSession:
@@ -330,6 +333,11 @@ class HapticSession:
     def _stamp(self, at_sample: int | None) -> int:
         if at_sample is not None and type(at_sample) is not int:
             at_sample = checks.whole("at_sample", at_sample, "-", at_least=0, at_most=2**62, error=SessionError)
+        if at_sample is not None and at_sample > self._now + MAX_AHEAD_S * self.config.sample_rate_hz:
+            raise SessionError(
+                f"at_sample is {at_sample}, more than {MAX_AHEAD_S} s ahead of `position`, {self._playback.position}; "
+                "it must be a number of samples on the clock of `render`. Leave it out for now."
+            )
         if at_sample is not None and at_sample < self._last_stamp:
             raise SessionError(
                 f"at_sample is {at_sample}; the last update was at {self._last_stamp}, and time cannot go back. "

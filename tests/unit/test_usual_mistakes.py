@@ -3,6 +3,7 @@
 `usual_mistakes` is the table of them, written before any was mended.
 """
 
+import re
 from pathlib import Path
 
 import pytest
@@ -33,6 +34,11 @@ def test_an_answer_is_short_and_one_line(room: Room, mistake: Mistake) -> None:
         assert len(sentence) < 600
         assert sentence.endswith((".", "?", ")"))
         assert " object at 0x" not in sentence
+
+
+@pytest.mark.parametrize("block", re.findall(r"```python\n(.*?)```", PAGE.read_text("utf-8"), re.DOTALL))
+def test_the_code_of_the_page_runs(room: Room, block: str) -> None:
+    assert room.answer(block).kind is None, room.answer(block)
 
 
 def test_the_page_has_the_answers_as_they_are(room: Room) -> None:

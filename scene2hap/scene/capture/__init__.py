@@ -17,6 +17,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any, cast
 
+from scene2hap import checks
 from scene2hap.calls import clear_call
 from scene2hap.errors import ConfigError
 from scene2hap.plugins import PluginGroup
@@ -80,7 +81,8 @@ def capture_images(
     name = settings.renderer if renderer is None or kind is not None else _name_of(factory)
     if isinstance(object_ids, str):
         raise ConfigError(f"object_ids is the text {object_ids!r}; give a list of ids, [{object_ids!r}].")
-    wanted = {item.id for item in scene.objects} if object_ids is None else {scene.object(key).id for key in object_ids}
+    asked = None if object_ids is None else checks.items("object_ids", object_ids, error=ConfigError)
+    wanted = {item.id for item in scene.objects} if asked is None else {scene.object(key).id for key in asked}
     studio = Studio(scene, settings, factory, name)
     objects = tuple(
         replace(item, images=_images(studio, item)) if item.id in wanted else item for item in scene.objects
