@@ -46,9 +46,9 @@ class PluginGroup:
         for guest in self._guests():
             if guest.name == kind:
                 return self._resolve(guest)
+        near = did_you_mean(kind, self.kinds())
         raise UnknownPlugin(
-            f"{self.name} has no kind {kind!r}. {did_you_mean(kind, self.kinds(), 'None is spelled nearly so.')} "
-            f"Known: {', '.join(self.kinds())}. "
+            f"{self.name} has no kind {kind!r}. {near}{' ' if near else ''}Known: {', '.join(self.kinds())}. "
             f"A package adds one by an entry point in the group {self.name!r}."
         )
 

@@ -54,7 +54,7 @@ def read_bytes(path: Path) -> bytes:
                 "its scene is its .snapshot, and `rebake` bakes it again."
             )
         if not path.is_file():
-            raise SceneError(f"{str(path)!r} is a folder, not a file; give the path of the scene file itself.")
+            raise SceneError(f"{str(path)!r} is not a file; give the path of the scene file itself, not its folder.")
         limits.at_most(f"the size of {path.name!r} in bytes", path.stat().st_size, "MAX_FILE_BYTES")
         data = path.read_bytes()
     except SceneError:
