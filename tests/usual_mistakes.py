@@ -75,6 +75,8 @@ TOPICS: dict[str, tuple[Mistake, ...]] = {
         mistake("bake(SceneSnapshot)", "SceneSnapshot", "class"),
         mistake("bake(scene, 'openai:gpt-4o')", "openai:gpt-4o", "llm"),
         mistake("bake(scene, 'gpt-4o')", "gpt-4o"),
+        works("assert BakeConfig(llm='openai:gpt-4o').llm"),
+        mistake("BakeConfig(llm='opnai:gpt-4o')", "opnai", "openai"),
         mistake("bake(scene, {'lmm': {'kind': 'lexicon'}})", "lmm", "llm"),
         mistake("bake(scene, {'llm': {'kind': 'lexcon'}})", "lexcon", "lexicon"),
         mistake("bake(scene, {'llm': {'kind': 'LexiconBackend'}})", "LexiconBackend", "lexicon"),

@@ -87,7 +87,6 @@ class HapticSession:
         self._bundle = bundle
         warn_if_other(bundle, self.config.actuator)
         self._sources = Sources()
-        _require_same_scene(scene, bundle)
         for object_id, loops in bundle.loops.items():
             if loops:
                 self._sources.add(object_id, loops, bundle.objects.get(object_id), bundle.gain_db(object_id))
@@ -378,16 +377,3 @@ class HapticSession:
                 self._state.require(object_id)
                 require_pose(object_id, pose)
             raise
-
-
-def _require_same_scene(scene: SceneSnapshot, bundle: HapticBundle) -> None:
-    """Raise an UnknownObject where a bundle has loops for objects that a scene lacks."""
-    ids = {item.id for item in scene.objects}
-    lacking = [object_id for object_id in bundle.loops if object_id not in ids]
-    if lacking:
-        near = checks.did_you_mean(lacking[0], ids)
-        raise UnknownObject(
-            f"the bundle was baked for another scene: {scene.name!r} has no object {lacking[0]!r} ({len(lacking)} of "
-            f"{len(bundle.loops)} sources are missing). {near} Give the scene that was baked, bundle.snapshot, or bake "
-            "this one."
-        )
