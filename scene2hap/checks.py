@@ -6,10 +6,12 @@ One door for every "value, unit, bound, what to do" message, so that they read a
 from __future__ import annotations
 
 import math
+import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import islice
 from numbers import Real
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from scene2hap.errors import ConfigError, Scene2HapError
@@ -43,15 +45,54 @@ def represented(value: object) -> str:
         told = repr(value)
     except Exception:  # a whole number of more than 4300 digits, or whatever a `__repr__` of somebody raises
         return f"a {type(value).__name__}"
+    if "\n" in told:  # an array
+        told = " ".join(told.split())
+    if told.startswith("<") and " at 0x" in told:  # the address says nothing, and differs from run to run
+        return described(value)
     return told if len(told) <= _LONGEST_SHOWN else f"{told[:_LONGEST_SHOWN]}..."
 
 
+def described(value: object) -> str:
+    """A value of the wrong type, for the sentence "X is ..."; objects of many fields by their type alone."""
+    if isinstance(value, type):
+        return f"the class {value.__name__}"
+    if value is None or isinstance(value, str | bytes | bool | Real | os.PathLike):
+        return represented(value)
+    name = type(value).__name__
+    return f"{'an' if name[0] in 'aeiouAEIOU' else 'a'} {name}"
+
+
+_MOST_COMPARED = 10_000
+_LONGEST_COMPARED = 256
+"""Names, and characters of each, that are looked through for the nearest; assumed: a hundred times what people type."""
+
+
+def did_you_mean(wanted: object, known: Iterable[str], otherwise: str = "") -> str:
+    """The sentence that names what is nearest to `wanted` among the known names, or `otherwise`.
+
+    Upper and lower case, blanks, dashes and underscores count for nothing, and the beginning of a name is near to it,
+    so that "ModalPlate" finds "modal_plate", and "gain" finds "gain_db".
+    """
+    from difflib import get_close_matches
+
+    spelled: dict[str, str] = {}
+    for name in islice(known, _MOST_COMPARED):
+        spelled.setdefault(_folded(name), name)
+    asked = _folded(wanted) if isinstance(wanted, str) else ""
+    begun = [
+        key for key in spelled if min(len(asked), len(key)) >= 3 and (key.startswith(asked) or asked.startswith(key))
+    ]
+    near = [asked] if asked in spelled else list(dict.fromkeys([*get_close_matches(asked, spelled, n=3), *begun]))[:3]
+    return f"Did you mean {' or '.join(repr(spelled[key]) for key in near)}?" if near else otherwise
+
+
 class Problem(NamedTuple):
-    """The first thing that pydantic found wrong: where, why, and the value."""
+    """The first thing that pydantic found wrong: where, why, the value, and pydantic's name for it."""
 
     location: tuple[int | str, ...]
     reason: str
     value: Any
+    kind: str
 
     @property
     def place(self) -> str:
@@ -63,7 +104,7 @@ def first_problem(error: ValidationError) -> Problem:
     """What to tell a person of a failed validation: one thing at a time, in our words where we raised it."""
     first = error.errors()[0]
     reason = first["msg"].removeprefix("Value error, ").removesuffix(".")
-    return Problem(first["loc"], reason, first["input"])
+    return Problem(first["loc"], reason, first["input"], first["type"])
 
 
 def number(
@@ -149,12 +190,23 @@ def floats(name: str, value: object, unit: str, *, error: type[Scene2HapError]) 
         raise error(f"{name} is not a table of numbers{_in(unit)}: {told}.") from cause
 
 
-def whole(name: str, value: object, unit: str, *, at_least: int, at_most: int, error: type[Scene2HapError]) -> int:
+def whole(
+    name: str, value: object, unit: str, *, at_least: int, at_most: int, error: type[Scene2HapError], hint: str = ""
+) -> int:
     """Return `value` as a whole number inside its bounds, or raise `error` naming value, unit and bound."""
-    result = number(name, value, unit, at_least=at_least, at_most=at_most, error=error)
+    result = number(name, value, unit, at_least=at_least, at_most=at_most, error=error, hint=hint)
     if result != int(result):
-        raise error(f"{name} is {represented(value)}; it must be a whole number{_in(unit)}.")
+        raise error(_sentence(f"{name} is {represented(value)}; it must be a whole number{_in(unit)}", hint))
     return int(result)
+
+
+def flag(name: str, value: object, *, error: type[Scene2HapError]) -> bool:
+    """Return `value`, or raise `error`: it is neither true nor false. A text counts as true in Python, also "no"."""
+    if value is True or value is False:
+        return value
+    if type(value).__name__ in ("bool", "bool_"):  # NumPy's, without importing it
+        return bool(value)
+    raise error(f"{name} is {represented(value)}; it must be True or False.")
 
 
 def text(name: str, value: object, *, error: type[Scene2HapError]) -> str:
@@ -162,6 +214,25 @@ def text(name: str, value: object, *, error: type[Scene2HapError]) -> str:
     if not isinstance(value, str):
         raise error(f"{name} is {represented(value)}; it must be a text.")
     return value
+
+
+def path(name: str, value: object, *, error: type[Scene2HapError]) -> Path:
+    """Return `value` as a path, or raise `error`: it is no text and no path."""
+    if not isinstance(value, str | os.PathLike):
+        raise error(f"{name} is {described(value)}; it must be a path, as a text or a pathlib.Path.")
+    try:
+        return Path(value)
+    except TypeError as cause:  # a path of bytes
+        raise error(f"{name} is {described(value)}; it must be a path of text.") from cause
+
+
+def near_files(path: Path) -> str:
+    """The sentence that names files beside a path that does not exist and are called nearly the same, or nothing."""
+    try:
+        names = [name for name in islice(os.listdir(path.parent), _MOST_COMPARED) if not name.startswith(".")]
+    except (OSError, ValueError):
+        return ""
+    return did_you_mean(path.name, names)
 
 
 def items(name: str, value: object, *, at_most: int = 10_000, error: type[Scene2HapError]) -> tuple[Any, ...]:
@@ -180,9 +251,16 @@ def names(name: str, value: object, *, error: type[Scene2HapError] = ConfigError
     if isinstance(value, str):
         raise error(f"{name} is {shown(value)}; it must be a sequence of names, as [{shown(value)}].")
     found = tuple(value) if isinstance(value, Iterable) else ()
+    twice = next((x for i, x in enumerate(found) if isinstance(x, str) and x in found[:i]), None)
+    if twice is not None:
+        raise error(f"{name} is {shown(found)}, with {shown(twice)} twice; it must be at least one name, each once.")
     if not found or not all(isinstance(x, str) and x.strip() for x in found) or len(set(found)) < len(found):
         raise error(f"{name} is {shown(value)}; it must be at least one name, each once.")
     return found
+
+
+def _folded(name: str) -> str:
+    return re.sub(r"[\W_]+", "", name[:_LONGEST_COMPARED].casefold())
 
 
 def _in(unit: str) -> str:

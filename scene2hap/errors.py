@@ -4,6 +4,7 @@ Every error that scene2hap raises on purpose is a `Scene2HapError`; most also in
 that ``except ValueError`` keeps working for people who do not know the tree::
 
     Scene2HapError
+    ├── CallError (TypeError)               a call with arguments that do not exist, are missing, or are too many
     ├── ConfigError (ValueError)            a setting that cannot work
     │   ├── UnknownPlugin (LookupError)     a `kind` that nobody registered
     │   └── MissingExtra (ImportError)      an optional dependency is not installed; names the extra
@@ -37,6 +38,10 @@ from __future__ import annotations
 
 class Scene2HapError(Exception):
     """Root of every error raised by scene2hap."""
+
+
+class CallError(Scene2HapError, TypeError):
+    """A call with arguments that the function does not have, or without those that it needs."""
 
 
 class ConfigError(Scene2HapError, ValueError):

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError
 from scene2hap.materials import Material
 from scene2hap.needs import stated, unmet
@@ -118,6 +119,7 @@ class VibrationDescription:
         checks.whole("seed", self.seed, "-", at_least=-(2**63), at_most=2**64, error=ConfigError)
 
 
+@clear_construction
 @dataclass(frozen=True)
 class ActuatorProfile:
     """What an actuator can render: its name, usable band and resonance [Hz], and how strongly it answers.
@@ -179,7 +181,7 @@ class Bands:
             return
         edges = tuple(
             checks.number(f"edges_hz[{i}]", edge, "Hz", above=0.0, error=ConfigError)
-            for i, edge in enumerate(self.edges_hz)
+            for i, edge in enumerate(checks.items("edges_hz", self.edges_hz, error=ConfigError))
         )
         if len(edges) < 2 or any(low >= high for low, high in pairwise(edges)):
             raise ConfigError(f"edges_hz is {list(edges)}; it must be at least two rising frequencies [Hz].")

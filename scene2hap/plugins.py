@@ -14,7 +14,8 @@ from dataclasses import dataclass
 from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
 
-from scene2hap.checks import shown
+from scene2hap.calls import misfit
+from scene2hap.checks import described, did_you_mean, represented, shown
 from scene2hap.errors import ConfigError, MissingExtra, UnknownPlugin
 
 
@@ -45,31 +46,47 @@ class PluginGroup:
         for guest in self._guests():
             if guest.name == kind:
                 return self._resolve(guest)
+        near = did_you_mean(kind, self.kinds())
         raise UnknownPlugin(
-            f"{self.name} has no kind {kind!r}. Known: {', '.join(self.kinds())}. "
+            f"{self.name} has no kind {kind!r}. {near}{' ' if near else ''}Known: {', '.join(self.kinds())}. "
             f"A package adds one by an entry point in the group {self.name!r}."
         )
 
     def build(self, spec: object) -> object:
         """An implementation from configuration: a kind, a mapping with a `kind` and its settings, or one ready made.
 
-        Raises: ConfigError: no `kind`, or settings that the implementation does not take; and as `load`.
+        Raises: ConfigError: no `kind`, settings that the implementation does not take, or plain data or a class where
+        an implementation is expected; and as `load`.
         """
         if isinstance(spec, str):
             spec = {"kind": spec}
         if not isinstance(spec, Mapping):
-            return spec
+            return self._ready_made(spec)
         settings = dict(spec)
         kind = settings.pop("kind", None)
         if not isinstance(kind, str):
-            raise ConfigError(f"{self.name}: {shown(spec)} names no kind. Known: {', '.join(self.kinds())}.")
+            raise ConfigError(
+                f"{self.name}: {shown(spec)} names no kind; write {{'kind': ..., and its settings}}. "
+                f"Known: {', '.join(self.kinds())}."
+            )
         factory = self.load(kind)
         if not callable(factory):
             raise ConfigError(f"{self.name} kind {kind!r} is {factory!r}; it must be a class or a function.")
         try:
             return factory(**settings)
         except TypeError as cause:
-            raise ConfigError(f"{self.name} kind {kind!r} does not take {shown(settings)}: {cause}.") from cause
+            told = (misfit(factory, (), settings) or str(cause)).removesuffix(".")
+            raise ConfigError(f"{self.name} kind {kind!r} does not take {shown(settings)}: {told}.") from cause
+
+    def _ready_made(self, given: object) -> object:
+        if isinstance(given, type):
+            raise ConfigError(f"{self.name}: {represented(given)} is a class; make one of it, {given.__name__}(...).")
+        if given is None or isinstance(given, int | float | complex | bytes | list | tuple | set):
+            raise ConfigError(
+                f"{self.name}: {described(given)} is given; it must be a kind ({', '.join(self.kinds())}), a mapping "
+                "with a 'kind' and its settings, or an implementation."
+            )
+        return given
 
     def _guests(self) -> tuple[EntryPoint, ...]:
         return tuple(entry_points(group=self.name))

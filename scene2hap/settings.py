@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import os
+import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, ClassVar, Self
@@ -11,12 +13,14 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from scene2hap import checks
 from scene2hap.errors import ConfigError
+from scene2hap.text_files import read_small_text
 
 
 class Settings(BaseModel):
     """Settings from TOML, JSON or a mapping; a configuration lives beside the part that it configures.
 
-    `of_what` names the part in error messages.
+    `of_what` names the part in error messages, and its table in a file of settings.
+    Raises: ConfigError: a setting that does not exist, whose message names the nearest, or one out of bounds.
     """
 
     # Inputs are hidden in pydantic's own text, which stands in tracebacks, since a setting may be a key.
@@ -24,32 +28,96 @@ class Settings(BaseModel):
 
     of_what: ClassVar[str]
 
+    def __init__(self, *unnamed: Any, **settings: Any) -> None:
+        if unnamed:
+            raise ConfigError(
+                f"{self.of_what} settings are {checks.described(unnamed[0])} without a name; write "
+                f"{type(self).__name__}(name=value), of {', '.join(type(self).model_fields)}."
+            )
+        try:
+            super().__init__(**settings)
+        except ValidationError as cause:
+            raise ConfigError(self._refusal(cause)) from cause
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        try:
+            super().__setattr__(name, value)
+        except ValidationError as cause:
+            cls = type(self).__name__
+            raise ConfigError(
+                f"{name} of a {cls} cannot be set, since settings never change; {cls}.parse(settings, {name}=...) "
+                "makes others."
+            ) from cause
+
     @classmethod
-    def parse(cls, settings: Self | Mapping[str, Any] | None, **changes: Any) -> Self:
+    def parse(cls, settings: Self | Mapping[str, Any] | str | os.PathLike[str] | None, **changes: Any) -> Self:
         """A configuration from settings, or the default, with `changes` on top; those that are None are left out.
 
-        Raises: ConfigError: a setting that does not exist or is out of bounds.
+        A path is that of a TOML or JSON file, whose table `of_what` is taken.
+        Raises: ConfigError: a setting that does not exist or is out of bounds, or a file that cannot be read.
         """
         wanted = {name: value for name, value in changes.items() if value is not None}
         if isinstance(settings, cls) and not wanted:
             return settings
-        if settings is not None and not isinstance(settings, Settings | Mapping):
+        if isinstance(settings, os.PathLike) or (isinstance(settings, str) and Path(settings).suffix in _SUFFIXES):
+            settings = read_settings(str(settings), cls.of_what)
+        if isinstance(settings, Settings) and issubclass(cls, type(settings)):
+            settings = {name: getattr(settings, name) for name in type(settings).model_fields}
+        if settings is not None and not isinstance(settings, Mapping):
             raise ConfigError(
-                f"{cls.of_what} settings are {checks.shown(settings)}; they must be a mapping of names to values."
+                f"{cls.of_what} settings are {checks.described(settings)}; they must be a mapping of names to values, "
+                f"a {cls.__name__}, or the path of a TOML or JSON file. The names are {', '.join(cls.model_fields)}."
             )
-        base: Mapping[str, Any] = (
-            {name: getattr(settings, name) for name in cls.model_fields}
-            if isinstance(settings, Settings)
-            else (settings or {})
+        unnamed = [name for name in settings or () if not isinstance(name, str)]
+        if unnamed:
+            raise ConfigError(f"{cls.of_what} setting {checks.represented(unnamed[0])}: a name must be a text.")
+        return cls(**{**(settings or {}), **wanted})
+
+    @classmethod
+    def _refusal(cls, error: ValidationError) -> str:
+        problem = checks.first_problem(error)
+        if problem.kind == "extra_forbidden" and len(problem.location) == 1:
+            known = ", ".join(cls.model_fields)
+            near = checks.did_you_mean(problem.location[0], cls.model_fields, f"There are {known}.")
+            return f"there is no {cls.of_what} setting {problem.location[0]!r}. {near}"
+        value = checks.shown(problem.value, problem.location[-1] if problem.location else "")
+        got = "" if value in problem.reason else f", got {value}"
+        return f"{cls.of_what} setting {problem.place}: {problem.reason}{got}."
+
+
+_SUFFIXES = (".json", ".toml")
+
+SECTIONS = ("bake", "session")
+"""The tables that a file of settings may have."""
+
+
+def read_settings(path: str | None, section: str) -> dict[str, Any]:
+    """One of `SECTIONS` of a settings file; empty without a file.
+
+    Raises: ConfigError: the file cannot be read, or holds something else.
+    """
+    if path is None:
+        return {}
+    try:
+        text = read_small_text(path)
+        document = json.loads(text) if path.lower().endswith(".json") else tomllib.loads(text)
+    except (OSError, ValueError, RecursionError) as cause:
+        near = checks.near_files(Path(path)) if isinstance(cause, FileNotFoundError) else ""
+        raise ConfigError(
+            f"settings {path} cannot be read: {cause}. {near or 'They are TOML, or JSON in a .json file.'}"
+        ) from cause
+    if not isinstance(document, dict):
+        raise ConfigError(f"settings {path}: it must hold tables of settings, {' and '.join(SECTIONS)}.")
+    stray = [name for name in document if name not in SECTIONS]
+    if stray:
+        raise ConfigError(
+            f"settings {path}: {stray[0]!r} is outside of the tables {' and '.join(SECTIONS)}; write it into one of "
+            f"them, as [{section}] in TOML."
         )
-        try:
-            return cls.model_validate({**base, **wanted})
-        except ValidationError as cause:
-            problem = checks.first_problem(cause)
-            raise ConfigError(
-                f"{cls.of_what} setting {problem.place}: {problem.reason}, "
-                f"got {checks.shown(problem.value, problem.location[-1] if problem.location else '')}."
-            ) from cause
+    found = document.get(section, {})
+    if not isinstance(found, dict):
+        raise ConfigError(f"settings {path}: {section!r} must be a table of settings.")
+    return found
 
 
 def cache_folder(part: str) -> Path:

@@ -53,6 +53,10 @@ def play_track(
     Raises: SessionError, UnknownObject: a step names a hand or an object that is not there; SessionError: a rate
     outside of 1 to `MAX_UPDATE_RATE_HZ`.
     """
+    if not isinstance(track, TouchTrack):
+        raise SessionError(
+            f"track is {checks.described(track)}; it must be a TouchTrack, as TouchTrack.load(path) reads."
+        )
     update_rate_hz = checks.number(
         "update_rate_hz", update_rate_hz, "Hz", at_least=1.0, at_most=MAX_UPDATE_RATE_HZ, error=SessionError
     )

@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.audio.clip import Samples
+from scene2hap.calls import misfit
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import ActuatorProfile
 from scene2hap.text_files import read_small_text
@@ -57,7 +58,9 @@ def actuator_profile(spec: object) -> ActuatorProfile:
             return ACTUATORS[str(spec)]
         if str(spec).lower().endswith(".csv"):
             return read_response_csv(spec)
-    raise ConfigError(f"actuator is {spec!r}; it must be one of {', '.join(ACTUATORS)}, or a CSV file of Hz and dB.")
+    near = checks.did_you_mean(spec, ACTUATORS)
+    told = f"actuator is {spec!r}; it must be one of {', '.join(ACTUATORS)}, or a CSV file of Hz and dB. {near}"
+    raise ConfigError(told.rstrip())
 
 
 def read_response_csv(path: str | Path) -> ActuatorProfile:
@@ -129,7 +132,8 @@ def _from_fields(fields: Mapping[str, Any]) -> ActuatorProfile:
         profile = actuator_profile(base)
         return ActuatorProfile(**{**vars(profile), **known})
     except TypeError as cause:
-        raise ConfigError(f"actuator does not take {checks.shown(fields)}: {cause}.") from cause
+        told = misfit(ActuatorProfile, (), known) or f"{cause}."
+        raise ConfigError(f"actuator does not take {checks.shown(fields)}: {told}") from cause
 
 
 def _is_number(text: str) -> bool:

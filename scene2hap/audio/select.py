@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from scene2hap import checks
 from scene2hap.audio import analysis
 from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.errors import AudioError
@@ -100,6 +101,10 @@ def explain_choice(clips: Sequence[AudioClip]) -> Choice:
 
     Raises: AudioError: there are no candidates, or none is longer than `MIN_DURATION_S` without its silent ends.
     """
+    clips = checks.items("clips", clips, error=AudioError)
+    wrong = [clip for clip in clips if not isinstance(clip, AudioClip)]
+    if wrong:
+        raise AudioError(f"clips has {checks.described(wrong[0])}; it must be a list of AudioClip.")
     spans = [analysis.sounding_span(clip.samples, clip.sample_rate_hz) for clip in clips]
     durations = [(end - first) / clip.sample_rate_hz for (first, end), clip in zip(spans, clips, strict=True)]
     eligible = [i for i, duration in enumerate(durations) if duration > MIN_DURATION_S]

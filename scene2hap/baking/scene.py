@@ -6,23 +6,28 @@ object, the best candidate chosen, looped and turned into a tactile signal.
 
 from __future__ import annotations
 
-import asyncio
+import os
 import warnings
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from typing import Any
 
+from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import converter_settings
 from scene2hap.baking.sound import Earlier, Progress, Remade, make_loops
 from scene2hap.bundle import HapticBundle, MadeWith, Override
+from scene2hap.bundle.given import given_bundle
+from scene2hap.calls import clear_call
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.llm.chain import Inference, infer_scene
 from scene2hap.llm.report import InferenceReport
+from scene2hap.llm.waiting import run_waiting
 from scene2hap.llm.wrappers import reports
+from scene2hap.scene.given import given_scene
 from scene2hap.scene.snapshot import SceneSnapshot
 
 OnReport = Callable[[InferenceReport], None]
@@ -39,9 +44,10 @@ _ASSUMED_INTENSITY = 0.3
 """Of a state that a person wants and no model describes."""
 
 
+@clear_call
 def bake(
-    scene: SceneSnapshot,
-    config: BakeConfig | Mapping[str, Any] | None = None,
+    scene: SceneSnapshot | str | os.PathLike[str],
+    config: BakeConfig | Mapping[str, Any] | str | os.PathLike[str] | None = None,
     *,
     user_prompt: str = "",
     progress: Progress | None = None,
@@ -51,6 +57,8 @@ def bake(
     """Bake a scene; `abake` for callers that run an event loop.
 
     Parameters:
+    scene : a snapshot, or the path of a scene file, which `load_scene` reads.
+    config : a BakeConfig, its settings, or the path of a TOML or JSON file with a table `bake`.
     user_prompt : what the model is told above all else.
     on_report : is handed the account of the inference: calls, what was skipped, tokens, errors of single objects.
     overrides : a person's corrections by id, as of an earlier bundle of the scene; they outrank what is inferred.
@@ -58,12 +66,13 @@ def bake(
     Raises: ConfigError; BackendError: inference failed; AudioError: no source has a sound for a vibrating object.
     """
     baking = abake(scene, config, user_prompt=user_prompt, progress=progress, on_report=on_report, overrides=overrides)
-    return asyncio.run(baking)
+    return run_waiting(baking, "abake")
 
 
+@clear_call
 async def abake(
-    scene: SceneSnapshot,
-    config: BakeConfig | Mapping[str, Any] | None = None,
+    scene: SceneSnapshot | str | os.PathLike[str],
+    config: BakeConfig | Mapping[str, Any] | str | os.PathLike[str] | None = None,
     *,
     user_prompt: str = "",
     progress: Progress | None = None,
@@ -71,6 +80,8 @@ async def abake(
     overrides: Mapping[str, Override] | None = None,
 ) -> HapticBundle:
     """Bake a scene, awaitable; see `bake`."""
+    scene = given_scene(scene)
+    _require_callable(progress=progress, on_report=on_report)
     config = BakeConfig.parse(config)
     wishes = _of_this_scene(overrides or {}, scene)
     inference = await _infer(scene, config, wishes, user_prompt, progress, on_report)
@@ -81,9 +92,10 @@ async def abake(
     )
 
 
+@clear_call
 def rebake(
-    bundle: HapticBundle,
-    config: BakeConfig | Mapping[str, Any] | None = None,
+    bundle: HapticBundle | str | os.PathLike[str],
+    config: BakeConfig | Mapping[str, Any] | str | os.PathLike[str] | None = None,
     *,
     objects: Collection[str] = (),
     user_prompt: str = "",
@@ -99,6 +111,7 @@ def rebake(
     and differs, or its object is named; else its loops are made from the sound that the bundle keeps.
 
     Parameters:
+    bundle : a HapticBundle, or the path of its folder.
     objects : ids to infer anew, of which `user_prompt` is told; a cache answers what it was asked before.
     on_remade : is handed the loops that were made, by id and state, each with what differed: "sound", "converter",
         "actuator", "intensity", "plan" (where the source lies among the others), "new", or "no fingerprint". `progress`
@@ -106,7 +119,7 @@ def rebake(
     Raises: as `bake`; UnknownObject. ConfigError: the bundle's converter was given ready made; give it again.
     Warns: BundleWarning: loops of an older bundle, which tell not what they were made from, stay as they are.
     """
-    return asyncio.run(
+    return run_waiting(
         arebake(
             bundle,
             config,
@@ -115,13 +128,15 @@ def rebake(
             progress=progress,
             on_report=on_report,
             on_remade=on_remade,
-        )
+        ),
+        "arebake",
     )
 
 
+@clear_call
 async def arebake(
-    bundle: HapticBundle,
-    config: BakeConfig | Mapping[str, Any] | None = None,
+    bundle: HapticBundle | str | os.PathLike[str],
+    config: BakeConfig | Mapping[str, Any] | str | os.PathLike[str] | None = None,
     *,
     objects: Collection[str] = (),
     user_prompt: str = "",
@@ -130,8 +145,13 @@ async def arebake(
     on_remade: OnRemade | None = None,
 ) -> HapticBundle:
     """Bake some objects of a bundle again, awaitable; see `rebake`."""
+    bundle = given_bundle(bundle)
+    _require_callable(progress=progress, on_report=on_report, on_remade=on_remade)
     config = BakeConfig.parse(config)
     given, config = config.model_fields_set, _settings_of(bundle, config)
+    if isinstance(objects, str):
+        raise ConfigError(f"objects is the text {objects!r}; give a list of ids, [{objects!r}].")
+    objects = checks.items("objects", objects, error=ConfigError)
     wishes = bundle.overrides
     silent = [key for key, wish in wishes.items() if wish.vibrates and not bundle.objects[key].vibrates]
     again = list(dict.fromkeys([*objects, *silent]))
@@ -153,6 +173,12 @@ async def arebake(
         on_remade(sounds.remade)
     made_with = _made_with(config) if _all_are_known(sounds.loops) else None
     return replace(bundle, objects=said, loops=sounds.loops, choices=sounds.choices, made_with=made_with)
+
+
+def _require_callable(**callbacks: object) -> None:
+    for name, given in callbacks.items():
+        if given is not None and not callable(given):
+            raise ConfigError(f"{name} is {checks.represented(given)}; it must be a function or None.")
 
 
 def _made_with(config: BakeConfig) -> MadeWith:
@@ -227,6 +253,16 @@ def _as_wished(haptics: ObjectHaptics, wish: Override | None) -> ObjectHaptics:
 
 
 def _of_this_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) -> dict[str, Override]:
+    wrong = (
+        [wish for wish in overrides.values() if not isinstance(wish, Override)]
+        if isinstance(overrides, Mapping)
+        else [overrides]
+    )
+    if wrong:
+        raise ConfigError(
+            f"overrides is or has {checks.described(wrong[0])}; it must be a mapping of ids to Override, as "
+            "`bundle.overrides` is."
+        )
     known = {item.id for item in scene.objects}
     for object_id in overrides.keys() - known:
         warnings.warn(f"the override of {object_id!r} is dropped: the scene has no such object any more.", stacklevel=3)

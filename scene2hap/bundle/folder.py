@@ -38,6 +38,7 @@ from scene2hap.bundle.own_files import (
     read_bytes,
     read_json,
     read_manifest,
+    require_folder,
 )
 from scene2hap.bundle.replacing import recover, replaced
 from scene2hap.bundle.sounds import SoundReader, file_stem, read_credit, write_loops
@@ -125,6 +126,7 @@ def read_bundle(folder: Path) -> HapticBundle:
     Warns: BundleWarning: the process that replaced it died, and it was put in its place.
     """
     recover(folder)
+    require_folder(folder)
     for _ in range(_MOST_READINGS):
         begun = _identity(folder)
         try:

@@ -7,10 +7,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.override import Override
+from scene2hap.calls import clear_call
+from scene2hap.errors import BundleError
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics
 from scene2hap.materials import Material
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -33,6 +36,11 @@ class HapticBundle:
     made_with: MadeWith | None = None
 
     def __post_init__(self) -> None:
+        if not isinstance(self.snapshot, SceneSnapshot):
+            raise BundleError(f"snapshot is {checks.described(self.snapshot)}; it must be a SceneSnapshot.")
+        for name in ("objects", "loops", "overrides", "choices"):
+            if not isinstance(getattr(self, name), Mapping):
+                raise BundleError(f"{name} is {checks.described(getattr(self, name))}; it must be a mapping by id.")
         for object_id in (*self.objects, *self.loops, *self.overrides):
             self.snapshot.object(object_id)
 
@@ -46,6 +54,7 @@ class HapticBundle:
         """Whom the sounds are owed to, each once, in order of source and state."""
         return tuple(dict.fromkeys(loop.audible.credit for states in self.loops.values() for loop in states.values()))
 
+    @clear_call
     def override(
         self,
         object_id: str,
@@ -53,14 +62,14 @@ class HapticBundle:
         vibrates: bool | None = None,
         gain_db: float | None = None,
         material: Material | str | None = None,
-        clip: AudioClip | None = None,
+        clip: AudioClip | str | os.PathLike[str] | None = None,
         keep: bool | None = None,
     ) -> HapticBundle:
         """The bundle with a correction to one object, on top of earlier ones; None leaves a field as it is.
 
-        A clip stays at its own frequency unless `keep=False` allows to move it clear of the scene's other sources.
-        Kept in the folder and by `rebake`. Level, material and silence count at once; a new sound, or vibration where
-        none was inferred, counts after `rebake(bundle)`, which makes its loops.
+        A clip, or the path of one, stays at its own frequency unless `keep=False` allows to move it clear of the
+        scene's other sources. Kept in the folder and by `rebake`. Level, material and silence count at once; a new
+        sound, or vibration where none was inferred, counts after `rebake(bundle)`, which makes its loops.
         Raises: UnknownObject; BundleError: a field out of bounds; UnknownMaterial.
         """
         self.snapshot.object(object_id)
@@ -92,7 +101,7 @@ class HapticBundle:
         """
         from scene2hap.bundle.folder import write_bundle
 
-        return write_bundle(self, Path(folder))
+        return write_bundle(self, checks.path("folder", folder, error=BundleError))
 
     @classmethod
     def load(cls, folder: str | os.PathLike[str]) -> HapticBundle:
@@ -105,6 +114,7 @@ class HapticBundle:
         from scene2hap.bundle.checking import require_plausible
         from scene2hap.bundle.folder import read_bundle
 
-        bundle = read_bundle(Path(folder))
-        require_plausible(bundle, Path(folder))
+        path = checks.path("folder", folder, error=BundleError)
+        bundle = read_bundle(path)
+        require_plausible(bundle, path)
         return bundle

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.files import read_clip
 from scene2hap.errors import BundleError
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.materials import Material, lookup
@@ -24,9 +27,9 @@ class Override:
     """A correction; None leaves what was inferred.
 
     vibrates : whether the object vibrates by itself; gain_db : its level at the hand against the inferred one [dB];
-    material : its material, or a name in the table; clip : the sound that its vibration is made from, in every state;
-    keep : whether that sound stays at its own frequency and level, and the scene's other sources keep clear of it; else
-    it is moved like any other.
+    material : its material, or a name in the table; clip : the sound that its vibration is made from, in every state,
+    or the path of its file; keep : whether that sound stays at its own frequency and level, and the scene's other
+    sources keep clear of it; else it is moved like any other.
     Raises: BundleError: a field of another type or out of bounds. UnknownMaterial.
     """
 
@@ -48,8 +51,12 @@ class Override:
             object.__setattr__(self, "material", lookup(self.material))
         if self.material is not None and not isinstance(self.material, Material):
             raise BundleError(f"material is {self.material!r}; it must be a Material or a name in the table.")
+        if isinstance(self.clip, str | os.PathLike):
+            object.__setattr__(self, "clip", read_clip(Path(self.clip)))
         if self.clip is not None and not isinstance(self.clip, AudioClip):
-            raise BundleError(f"clip is {self.clip!r}; it must be an AudioClip (`scene2hap.audio.files.read_clip`).")
+            raise BundleError(
+                f"clip is {checks.described(self.clip)}; it must be an AudioClip or the path of a sound file."
+            )
 
     def changed(self, changes: Mapping[str, Any]) -> Override:
         """With the fields that are not None in place of what they were."""

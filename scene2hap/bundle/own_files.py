@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import stat
 from pathlib import Path
 from typing import Any
 
+from scene2hap import checks
 from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError
 
 FORMAT = "scene2hap/bundle"
@@ -42,6 +44,16 @@ def read_manifest(folder: Path) -> dict[str, Any]:
     if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
         raise BundleError(f"{folder / MANIFEST}: files must be a list of names.")
     return manifest
+
+
+def require_folder(folder: Path) -> None:
+    """Raise a BundleIncomplete where a path cannot be that of a bundle: nothing is there, or a file."""
+    if not os.path.lexists(folder):
+        near = checks.near_files(folder) or "`bake(scene).save(folder)` writes one."
+        raise BundleIncomplete(f"there is no folder {str(folder)!r}. {near}")
+    if os.path.isfile(folder):
+        how = "give its folder" if folder.name == MANIFEST else "`bake(scene)` makes a bundle of a scene"
+        raise BundleIncomplete(f"{str(folder)!r} is a file; a bundle is a folder: {how}.")
 
 
 def our_files(folder: Path) -> frozenset[str]:

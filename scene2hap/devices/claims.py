@@ -11,8 +11,9 @@ import threading
 from collections.abc import Hashable
 from weakref import WeakValueDictionary
 
+from scene2hap import checks
 from scene2hap.devices.protocol import ActuatorSink
-from scene2hap.errors import DeviceError
+from scene2hap.errors import ConfigError, DeviceError
 
 _LOCK = threading.Lock()
 _HELD: WeakValueDictionary[Hashable, object] = WeakValueDictionary()
@@ -67,5 +68,6 @@ def parts_of(sink: ActuatorSink) -> list[ActuatorSink]:
 
 
 def port_key(port: str) -> Hashable:
-    """What a serial port is known by, whatever link leads to it."""
+    """What a serial port is known by, whatever link leads to it. Raises: ConfigError: it is no text."""
+    checks.text("port", port, error=ConfigError)
     return ("port", os.path.realpath(port) if os.path.exists(port) else port)

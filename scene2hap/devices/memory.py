@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from scene2hap.calls import clear_calls
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
+from scene2hap.devices.whole_frames import Pulled, WholeFrames
 from scene2hap.errors import DeviceError
 
 
-class MemorySink:
+@clear_calls
+class MemorySink(Pulled):
     """Keeps the mix in memory. It has no clock of its own: `pull` asks for the next frames."""
 
     def __init__(self) -> None:
@@ -20,6 +23,7 @@ class MemorySink:
         """Forget what was kept, and get ready."""
         self._format = format
         self._blocks = []
+        self._whole = WholeFrames(format.sample_rate_hz)
 
     def start(self, fill: Fill) -> None:
         """Take blocks from `fill` from now on."""

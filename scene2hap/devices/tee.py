@@ -13,16 +13,19 @@ from typing import Any
 
 import numpy as np
 
+from scene2hap.calls import clear_calls
 from scene2hap.checks import shown
 from scene2hap.devices.claims import parts_of
 from scene2hap.devices.clock import has_clock
 from scene2hap.devices.protocol import ActuatorSink, Block, EventCallback, Fill, SinkEvent, SinkFormat, SinkStats
+from scene2hap.devices.whole_frames import Pulled, WholeFrames
 from scene2hap.errors import ConfigError, DeviceError
 
 MAX_LAG_S = 0.1
 
 
-class TeeSink:
+@clear_calls
+class TeeSink(Pulled):
     """Hands one mix to several sinks: objects, kinds, or mappings with a `kind`.
 
     `stats` adds them up, is connected if any is, and tells the largest latency; `sinks` gives access to each. With only
@@ -54,6 +57,7 @@ class TeeSink:
     def open(self, format: SinkFormat) -> None:
         """Open all. Raises: DeviceError: one cannot be; the others are closed again."""
         self._format = format
+        self._whole = WholeFrames(format.sample_rate_hz)
         for number, sink in enumerate(self.sinks):
             try:
                 sink.open(format)

@@ -48,6 +48,7 @@ class UdpSink(LiveSink):
                 f'UdpSink content is {content!r} and samples {samples!r}; they must be "pcm" or "osc", and "int16" or '
                 '"float32".'
             )
+        checks.text("host", host, error=ConfigError)
         datagrams = Datagrams(host, int(checks.number("port", port, "-", at_least=1, at_most=65535, error=ConfigError)))
         self._osc = OscLine(datagrams, clips or {}) if content == "osc" else None
         line: OscLine | PcmLine = self._osc or PcmLine(datagrams, sample_rate_hz, block_frames, _SAMPLES[samples])

@@ -5,24 +5,34 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Hashable
-from pathlib import Path
 
 import soundfile
 
+from scene2hap import checks
+from scene2hap.calls import clear_calls
 from scene2hap.devices.claims import claim, give_back
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
-from scene2hap.errors import DeviceError
+from scene2hap.devices.whole_frames import Pulled, WholeFrames
+from scene2hap.errors import ConfigError, DeviceError
 
 
-class WavSink:
+@clear_calls
+class WavSink(Pulled):
     """Writes the mix as 24-bit PCM. It has no clock of its own: `pull` asks for the next frames.
 
     The file appears under its name when the sink is closed, whole; a run that dies leaves none. Integer PCM rather
     than float, whose header carries a time stamp, so that equal runs give equal files.
+    Raises: ConfigError: no path, or one that ends as another kind of file does.
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
-        self.path = Path(path)
+        self.path = checks.path("path", path, error=ConfigError)
+        if not self.path.name or self.path.is_dir():
+            raise ConfigError(
+                f"path {str(path)!r} is a folder; give that of a file, as {str(self.path / 'touch.wav')!r}."
+            )
+        if self.path.suffix.lower() not in ("", ".wav", ".wave"):
+            raise ConfigError(f"path is {str(path)!r}; WavSink writes WAV, so that it must end in .wav.")
         self._draft = self.path.with_name(f".{self.path.name}.part")
         self._file: soundfile.SoundFile | None = None
         self._fill: Fill | None = None
@@ -32,6 +42,7 @@ class WavSink:
     def open(self, format: SinkFormat) -> None:
         """Begin the file. Raises: DeviceError: it cannot be written, or another sink of this program writes it."""
         self.close()
+        self._whole = WholeFrames(format.sample_rate_hz)
         self._frames = 0
         self._key = ("file", os.path.realpath(self.path))
         claim(

@@ -10,13 +10,17 @@ Source: Jingu, AliAbbasi et al., Scene2Hap, CHI 2026, section "LLM Workflow and 
 from __future__ import annotations
 
 import asyncio
+import os
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, cast
 
+from scene2hap import checks
+from scene2hap.calls import clear_call
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.errors import BackendUnavailable, BadAnswer, Scene2HapError
+from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError, Scene2HapError
 from scene2hap.haptics import ObjectHaptics, SourceState, unmet_needs
+from scene2hap.llm import BACKENDS
 from scene2hap.llm.answers import MaterialAnswer, ObjectAnswer, SceneAnswer, StateAnswer, VibrationAnswer
 from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.lexicon.judging import Measured, judge
@@ -28,6 +32,8 @@ from scene2hap.llm.quoting import clean
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.sharing import copies, reachable
 from scene2hap.llm.trust import Estimate, from_model, from_table, without_answer
+from scene2hap.llm.waiting import run_waiting
+from scene2hap.scene.given import given_scene
 from scene2hap.scene.likeness import material_names
 from scene2hap.scene.snapshot import SceneObject, SceneSnapshot
 
@@ -72,6 +78,12 @@ async def infer_scene(
     backend is away or refuses, a budget is used up, a recording lacks the answer. ConfigError. UnknownObject.
     """
     settings = InferenceConfig.parse(config)
+    checks.text("user_prompt", user_prompt, error=ConfigError)
+    if not isinstance(backend, LLMBackend):
+        raise ConfigError(
+            f"the backend is {checks.described(backend)}; it must have an async method complete(request). "
+            "FunctionBackend makes one of a function."
+        )
     questions = Questions(
         backend,
         Prompts.load(settings.prompts),
@@ -90,15 +102,21 @@ async def infer_scene(
     return Inference(scene_category, objects, questions.report)
 
 
+@clear_call
 def infer_haptics(
-    scene: SceneSnapshot,
-    backend: LLMBackend,
+    scene: SceneSnapshot | str | os.PathLike[str],
+    backend: LLMBackend | str | Mapping[str, Any],
     *,
     user_prompt: str = "",
     config: InferenceConfig | Mapping[str, Any] | None = None,
 ) -> dict[str, ObjectHaptics]:
-    """The haptics of each object by id; `infer_scene` for callers that run an event loop."""
-    return asyncio.run(infer_scene(scene, backend, user_prompt=user_prompt, config=config)).objects
+    """The haptics of each object by id; `infer_scene` for callers that run an event loop.
+
+    Parameters: scene : a snapshot or the path of a scene file; backend : a backend, its kind, or a mapping with a kind.
+    """
+    built = cast("LLMBackend", BACKENDS.build(backend))  # looked at by `infer_scene`
+    running = infer_scene(given_scene(scene), built, user_prompt=user_prompt, config=config)
+    return run_waiting(running, "infer_scene").objects
 
 
 @dataclass(frozen=True)

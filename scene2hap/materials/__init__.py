@@ -6,17 +6,18 @@
 from __future__ import annotations
 
 import csv
-import difflib
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import MaterialError, UnknownMaterial
 
 __all__ = ["Material", "MaterialRow", "lookup", "lookup_row", "table"]
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Material:
     """Elastic constants of an isotropic solid.
@@ -72,14 +73,13 @@ def lookup(name: str) -> Material:
 
 def lookup_row(name: str) -> MaterialRow:
     """The row of a material, with ranges and sources, as `lookup`. Raises: UnknownMaterial."""
-    key = " ".join(name.lower().replace("_", " ").replace("-", " ").split())
+    key = " ".join(checks.text("name", name, error=UnknownMaterial).lower().replace("_", " ").replace("-", " ").split())
     try:
         return _by_name()[key]
     except KeyError:
-        near = difflib.get_close_matches(key, list(_by_name()), n=3)
-        hint = f"Did you mean {', '.join(map(repr, near))}? " if near else ""
+        near = checks.did_you_mean(key, _by_name())
         raise UnknownMaterial(
-            f"no material {name!r} in the table of {len(table())}. {hint}Or give a Material with your own constants."
+            f"no material {name!r} in the table of {len(table())}. {near} Or give a Material with your own constants."
         ) from None
 
 

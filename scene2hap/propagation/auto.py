@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.auto_level import peak_level_db
@@ -47,6 +48,7 @@ class AutoField(CoupledField):
         return "\n".join(str(choice) for choice in self.choices.values())
 
 
+@clear_construction
 @dataclass(frozen=True)
 class AutoFidelity:
     """The cheapest rung for each object.

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.band_rms import BandRms, band_rms
@@ -38,6 +39,7 @@ REFERENCE_HZ = 250.0
 """Where the loss of a contact of weight w is exactly w; at other frequencies it follows the law like any distance."""
 
 
+@clear_construction
 @dataclass(frozen=True)
 class ExponentialPlate:
     """The paper's exponential law over any number of objects.

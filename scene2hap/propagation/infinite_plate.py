@@ -23,6 +23,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap.calls import clear_construction
 from scene2hap.haptics import Bands
 from scene2hap.propagation.contact_law import ContactLaw
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, warn_if_thick
@@ -65,6 +66,7 @@ def spreading(kr: NDArray[np.complex128]) -> NDArray[np.complex128]:
     return result
 
 
+@clear_construction
 @dataclass(frozen=True)
 class InfinitePlate:
     """The damped Green's function of the infinite plate; it ignores length, width and edges of a plate.

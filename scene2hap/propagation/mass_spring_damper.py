@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.contact_law import ContactLaw
@@ -61,6 +62,7 @@ class CoarsenedWarning(UserWarning):
     """A plate is too large a lattice to be solved in seconds, and bends as one up to some frequency only."""
 
 
+@clear_construction
 @dataclass(frozen=True)
 class MassSpringDamper:
     """The bending lattice of a plate.

@@ -20,6 +20,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap.calls import clear_construction
 from scene2hap.errors import ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.contact_law import ContactLaw
@@ -40,6 +41,7 @@ from scene2hap.propagation.ritz import products
 from scene2hap.propagation.substructuring import CoupledField, checked_law, prepare_coupled
 
 
+@clear_construction
 @dataclass(frozen=True)
 class ModalPlate:
     """The finite plate as a sum over its modes.

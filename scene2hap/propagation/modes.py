@@ -158,6 +158,8 @@ def plate_modes(plate: Plate, n_modes: int | None = None, *, max_frequency_hz: f
     Parameters: exactly one of n_modes >= 1 and max_frequency_hz >= 0 [Hz].
     Raises: ModelDomainError: neither or both, or so many modes that the eigenproblem grows past `LARGEST_BLOCK`.
     """
+    if not isinstance(plate, Plate):
+        raise ModelDomainError(f"plate is {checks.described(plate)}; it must be a Plate.")
     if (n_modes is None) == (max_frequency_hz is None):
         raise ModelDomainError(
             f"n_modes is {n_modes} and max_frequency_hz is {max_frequency_hz}; give exactly one of them, a count of at "

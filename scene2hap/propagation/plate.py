@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import ModelDomainError
-from scene2hap.materials import Material
+from scene2hap.materials import Material, lookup
 
 MAX_FREQUENCY_HZ = 1e9
 """Far beyond any vibration; assumed, so that no square of a frequency is too large for a number."""
@@ -26,12 +27,13 @@ _SIZES_M = {"at_least": 1e-30, "at_most": 1e6}
 _EDGES = {"free": "FFFF", "simply-supported": "SSSS", "clamped": "CCCC"}
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Plate:
     """A rectangular plate of one material.
 
-    Parameters: length_m, width_m, thickness_m > 0 [m]; boundary : "free", "simply-supported", "clamped", or four
-    letters F, S, C for the edges x=0, x=length, y=0, y=width.
+    Parameters: length_m, width_m, thickness_m > 0 [m]; material : a Material, or its name in the table; boundary :
+    "free", "simply-supported", "clamped", or four letters F, S, C for the edges x=0, x=length, y=0, y=width.
     Raises: ModelDomainError: a dimension is not positive and finite, or the boundary is not one of these.
     """
 
@@ -42,6 +44,12 @@ class Plate:
     boundary: str = "free"
 
     def __post_init__(self) -> None:
+        if isinstance(self.material, str):
+            object.__setattr__(self, "material", lookup(self.material))
+        if not isinstance(self.material, Material):
+            raise ModelDomainError(
+                f"material is {checks.described(self.material)}; it must be a Material or a name in the table."
+            )
         hint = "A mesh without thickness needs an estimated one (ObjectHaptics.estimated_size_m)."
         for name in ("length_m", "width_m", "thickness_m"):
             value = checks.number(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
+from scene2hap import checks
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
 
@@ -45,9 +46,15 @@ def read_bytes(path: Path) -> bytes:
     """
     try:
         if not path.exists():
-            raise SceneError(f"there is no file {str(path)!r}. Check the path, or export the scene with all its files.")
+            near = checks.near_files(path) or "Check the path, or export the scene with all its files."
+            raise SceneError(f"there is no file {str(path)!r}. {near}")
+        if (path / "bundle.json").exists():
+            raise SceneError(
+                f"{str(path)!r} is the folder of a bundle, not a scene file; `HapticBundle.load` reads it, "
+                "its scene is its .snapshot, and `rebake` bakes it again."
+            )
         if not path.is_file():
-            raise SceneError(f"{str(path)!r} is not a file; give the path of the scene file itself.")
+            raise SceneError(f"{str(path)!r} is not a file; give the path of the scene file itself, not its folder.")
         limits.at_most(f"the size of {path.name!r} in bytes", path.stat().st_size, "MAX_FILE_BYTES")
         data = path.read_bytes()
     except SceneError:

@@ -18,7 +18,6 @@ e. What (a) or (b) would make one object is several where it is a collection of 
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -27,6 +26,7 @@ from typing import Literal
 
 import numpy as np
 
+from scene2hap import checks
 from scene2hap.errors import SceneError
 from scene2hap.scene.collection import Member, split
 from scene2hap.scene.tree import AuthoredNode, Matrix, Piece
@@ -190,8 +190,7 @@ def _mapped(roots: Sequence[AuthoredNode], names: Mapping[str, str]) -> list[Gro
     known = {node.name for root in roots for node in root.walk()}
     for wanted in names:
         if wanted not in known:
-            near = difflib.get_close_matches(wanted, sorted(known), n=3)
-            hint = f"Did you mean {', '.join(map(repr, near))}?" if near else "Names are those that the author wrote."
+            hint = checks.did_you_mean(wanted, sorted(known), "Names are those that the author wrote.")
             raise SceneError(f"group maps the node {wanted!r}, which the scene does not have. {hint}")
     objects: dict[str, Group] = {}
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from scene2hap import checks
+from scene2hap.calls import clear_call
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.printable import writable
 from scene2hap.scene import limits
@@ -28,6 +29,7 @@ SUFFIXES = (".glb", ".gltf", ".obj", ".dae", ".stl", ".ply", ".xml", ".json")
 _TOLD = 5
 
 
+@clear_call
 def load_scene(
     path: str | os.PathLike[str],
     *,
@@ -55,14 +57,16 @@ def load_scene(
     Warns: UnitWarning: without unit_m, if sizes are implausible as metres. TextureWarning: textures are missing,
     broken, too large or outside assets_root; the scene is read without them.
     """
-    path = Path(path)
+    path = checks.path("path", path, error=SceneError)
     if up_axis not in ("y", "z", None):
         raise SceneError(f"up_axis is {up_axis!r}; it must be 'y' or 'z', or None for what the file says.")
     if unit_m is not None:
-        unit_m = checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
+        unit_m = checks.number(
+            "unit_m", unit_m, "m", above=0.0, error=SceneError, hint="A file in centimetres has 0.01."
+        )
     if path.suffix.lower() == ".json":
         return _from_json(path, up_axis, unit_m, group)
-    root = path.parent if assets_root is None else Path(assets_root)
+    root = path.parent if assets_root is None else checks.path("assets_root", assets_root, error=SceneError)
     if path.suffix.lower() == ".xml":
         unit = unit_m or 1.0
         snapshot = _from_mjcf(path, up_axis, unit, group, root)
@@ -72,7 +76,7 @@ def load_scene(
             n = len(authored.left_out)
             first = " ".join(authored.left_out[:_TOLD]) + (f" And {n - _TOLD} more." if n > _TOLD else "")
             message = f"{path.name!r} is read without {n} of its textures, in their plain colours: {first}"
-            warnings.warn(message, TextureWarning, stacklevel=2)
+            warnings.warn(message, TextureWarning, stacklevel=3)
         unit = unit_m or authored.unit_m or 1.0
         snapshot = _snapshot(writable(path.stem), authored, up_axis or authored.up_axis, unit, group)
     if unit_m is None:
@@ -83,7 +87,10 @@ def load_scene(
 def _read(path: Path, assets_root: Path) -> AuthoredScene:
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES and path.is_file():
-        raise SceneFormatError(f"{path.name!r} is of no kind that is read: {', '.join(SUFFIXES)}. Export it as GLB.")
+        raise SceneFormatError(
+            f"{path.name!r} is of no kind that is read: {', '.join(SUFFIXES)}. Export the scene as GLB (.glb) from the "
+            "program that made it."
+        )
     # Readers are imported by need: a game that loads GLB pays for no other.
     if suffix in (".glb", ".gltf"):
         from scene2hap.scene.gltf import read_gltf

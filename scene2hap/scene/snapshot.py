@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import InstanceOf, PlainSerializer, PlainValidator
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError, UnknownObject
 from scene2hap.scene import sizes
 from scene2hap.scene.appearance import Appearance
@@ -153,6 +154,7 @@ class DominantSurface:
             )
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Contact:
     """Where two objects touch: given by an engine, or found from geometry. A pair may have several.
@@ -313,18 +315,15 @@ class SceneSnapshot:
 
 
 _LEAST_WEIGHT = 1e-30
-_LONGEST_COMPARED = 200
-"""Characters of an id that is looked for among those that there are; comparing takes the square of their number."""
 
 
-def unknown_object(object_id: str, known: Mapping[str, object]) -> str:
+def unknown_object(object_id: object, known: Mapping[str, object]) -> str:
     """The sentence for an id that a scene does not have."""
-    from difflib import get_close_matches
-
     if not isinstance(object_id, str):
-        return f"an object's id is {checks.represented(object_id)}; it must be a text."
-    near = get_close_matches(object_id[:_LONGEST_COMPARED], list(known), n=3)
-    hint = f"Did you mean {', '.join(map(repr, near))}?" if near else f"`inspect` lists the {len(known)} objects."
+        how = ": give its .id" if isinstance(object_id, SceneObject) else ", of one object"
+        some = next(iter(known), "")
+        return f"an object's id is {checks.described(object_id)}; it must be a text{how}, such as {some!r}."
+    hint = checks.did_you_mean(object_id, known, f"`inspect` lists the {len(known)} objects.")
     return f"the scene has no object {checks.represented(object_id)}. {hint}"
 
 

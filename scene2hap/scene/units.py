@@ -67,7 +67,7 @@ def warn_if_implausible(snapshot: SceneSnapshot, unit_m: float) -> None:
         f"sizes in {snapshot.name!r} are implausible as metres: {reason}. "
         f"Perhaps unit_m={told} (metres per unit of the file{meant}); giving any unit_m ends this warning.",
         UnitWarning,
-        stacklevel=3,
+        stacklevel=4,
     )
 
 

@@ -26,7 +26,7 @@ def warn_if_other(bundle: HapticBundle, actuator: ActuatorProfile) -> None:
         f"the bundle's loops were made for the actuator {made_for.name!r}, and this session plays on "
         f'{actuator.name!r}: give SessionConfig(actuator=...) the one in use, or rebake(bundle, {{"actuator": ...}}).',
         OtherActuatorWarning,
-        stacklevel=3,
+        stacklevel=4,
     )
 
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
+from scene2hap import checks
 from scene2hap.audio.actuators import actuator_profile
+from scene2hap.errors import ConfigError
 from scene2hap.haptics import ActuatorProfile, Bands
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.exponential_plate import ExponentialPlate
@@ -21,7 +24,14 @@ MAX_GAIN_DB = 120.0
 
 def _bands(value: object) -> object:
     named = {"dominant": Bands.dominant, "third-octaves": Bands.third_octaves}
-    return named[value]() if isinstance(value, str) and value in named else value
+    if isinstance(value, Bands | Mapping):
+        return value
+    if isinstance(value, list | tuple):
+        return Bands(tuple(value))
+    if isinstance(value, str) and value in named:
+        return named[value]()
+    near = checks.did_you_mean(value, named, "They are 'dominant' or 'third-octaves'.")
+    raise ConfigError(f"bands are {checks.described(value)}; they must be Bands, rising edges [Hz], or a name. {near}")
 
 
 class SkipConfig(Settings):
@@ -44,6 +54,9 @@ class SkipConfig(Settings):
 
 
 def _skip(value: object) -> object:
+    if not isinstance(value, bool | Mapping | SkipConfig):
+        names = ", ".join(SkipConfig.model_fields)
+        raise ConfigError(f"skip is {checks.described(value)}; it must be True, False, or a mapping of {names}.")
     return SkipConfig(**dict.fromkeys(SkipConfig.model_fields, value)) if isinstance(value, bool) else value
 
 
@@ -51,7 +64,8 @@ class SessionConfig(Settings):
     """How a scene is played. Every part with alternatives is chosen by a `kind`, so that a table of TOML will do.
 
     propagation : a kind, a mapping with `kind` and settings, or a model; `scene2hap.propagation.MODELS` lists kinds.
-    bands : bands in which gains are told: Bands, "dominant" (the paper's) or "third-octaves" (20 from 10 to 1000 Hz).
+    bands : bands in which gains are told: Bands, their edges [Hz], "dominant" (the paper's) or "third-octaves" (20 from
+        10 to 1000 Hz).
     prepare : "background": a worker prepares the model while the last field plays on, and `update` never waits;
         "blocking": `update` waits, so that output depends on input alone. A model with a live field, as
         `ExponentialPlate`, needs neither.

@@ -169,7 +169,7 @@ class FieldKeeper:
         self.last_failure = str(problem) if isinstance(problem, Scene2HapError) else repr(problem)
         instead = "the last one plays on" if self.n_prepared else "each source is felt on itself alone"
         told = f"a field could not be prepared, so that {instead}: {self.last_failure}"
-        warnings.warn(told, RuntimeWarning, stacklevel=5)
+        warnings.warn(told, RuntimeWarning, stacklevel=6)
 
     def _put(self, order: Situation | Sign) -> None:
         if self._worker is None or not self._worker.is_alive():

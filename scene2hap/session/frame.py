@@ -9,9 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import SessionError, UnknownObject
 
+_TOUCH = "A touch is Touch(hand, object_id, point_m), its point in the world."
 
+
+@clear_construction
 @dataclass(frozen=True)
 class Touch:
     """A hand on an object at a world point [m]."""
@@ -21,7 +25,7 @@ class Touch:
     point_m: tuple[float, float, float]
 
     def __post_init__(self) -> None:
-        point = checks.vector("point_m", self.point_m, "m", size=3, error=SessionError)
+        point = checks.vector("point_m", self.point_m, "m", size=3, error=SessionError, hint=_TOUCH)
         object.__setattr__(self, "point_m", point)
 
 
@@ -115,10 +119,12 @@ class SessionStats:
 
 def unknown_hand(hand: str, hands: Sequence[str]) -> str:
     """The sentence for a name that is no hand."""
-    return f"no hand {checks.represented(hand)}; this session has {', '.join(map(repr, hands))}."
+    near = checks.did_you_mean(hand, hands)
+    return f"no hand {checks.represented(hand)}; this session has {', '.join(map(repr, hands))}. {near}".rstrip()
 
 
 def unknown_source(source_id: str, source_ids: Sequence[str]) -> str:
     """The sentence for an id that is not a source."""
     known = ", ".join(map(repr, source_ids)) or "none: nothing in this scene vibrates"
-    return f"no source {checks.represented(source_id)}; the sources are {known}."
+    near = checks.did_you_mean(source_id, source_ids)
+    return f"no source {checks.represented(source_id)}; the sources are {known}. {near}".rstrip()

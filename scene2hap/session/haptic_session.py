@@ -8,24 +8,37 @@ waits for `update`.
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Mapping, Sequence
 from types import TracebackType
-from typing import Any, Self
+from typing import Any, NoReturn, Self
 
 from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
+from scene2hap.bundle.given import given_pair
+from scene2hap.calls import clear_calls
+from scene2hap.contact.graph import ContactChange
 from scene2hap.devices.protocol import ActuatorSink, Block
-from scene2hap.errors import SessionError, UnknownObject
+from scene2hap.devices.whole_frames import WholeFrames
+from scene2hap.errors import ConfigError, SceneError, SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.render.safety import SafetyStats
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot, unknown_object
+from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot
 from scene2hap.session.actuator_check import warn_if_other
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.explain import Explanation
 from scene2hap.session.frame import HapticFrame, SessionStats, Touch, unknown_hand
+from scene2hap.session.given import (
+    given_contacts,
+    given_frame,
+    given_touches,
+    require_addable,
+    require_pose,
+    swapped_hint,
+)
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.listening import Listening
 from scene2hap.session.output import Output
@@ -36,38 +49,52 @@ from scene2hap.session.sources import Sources
 MAX_RENDERED_FRAMES = 1 << 24
 """At once; assumed: minutes, where a sink asks for milliseconds."""
 
+MAX_AHEAD_S = 3600
+"""How far an update may lie ahead of what was rendered; assumed: further, it is a time in other units."""
 
+
+@clear_calls
 class HapticSession:
     """A scene under hands.
 
-    Parameters: scene : objects and where they are now; bundle : what was baked for them; config : a SessionConfig or
-    its settings; hands : names of the outputs; sink : where `start` sends the mix, None to call `render` oneself.
-    Raises: ConfigError, UnknownObject: the bundle speaks of an object that the scene does not have. Warns:
-    OtherActuatorWarning: the bundle's loops were made for another actuator than the configured one.
+    Parameters: scene : objects and where they are now; bundle : what was baked for them; config : a SessionConfig, its
+    settings, or the path of a TOML or JSON file with a table `session`; hands : names of the outputs; sink : where
+    `start` sends the mix, None to call `render` oneself.
+    Scene and bundle may be paths, which are read here (`load_scene`, `HapticBundle.load`), and come in either order. A
+    bundle alone, `HapticSession(bundle)` or `HapticSession("kitchen.bundle")`, is played on the scene that it was baked
+    for.
+    Raises: ConfigError; SceneError, BundleError: no scene or bundle, or files that cannot be read; UnknownObject: the
+    bundle speaks of an object that the scene does not have. Warns: OtherActuatorWarning: the bundle's loops were made
+    for another actuator than the configured one.
     """
 
     def __init__(
         self,
-        scene: SceneSnapshot,
-        bundle: HapticBundle,
-        config: SessionConfig | Mapping[str, Any] | None = None,
+        scene: SceneSnapshot | HapticBundle | str | os.PathLike[str],
+        bundle: HapticBundle | SceneSnapshot | str | os.PathLike[str] | None = None,
+        config: SessionConfig | Mapping[str, Any] | str | os.PathLike[str] | None = None,
         *,
         hands: Sequence[str] = ("left", "right"),
         sink: ActuatorSink | str | Mapping[str, Any] | None = None,
     ) -> None:
+        if isinstance(config, ActuatorSink):
+            raise ConfigError(
+                f"config is {checks.described(config)}; give a sink by name: HapticSession(..., sink=sink)."
+            )
+        scene, bundle = given_pair(scene, bundle)
         self.config = SessionConfig.parse(config)
         self.hands = checks.names("hands", hands)
         self._bundle = bundle
         warn_if_other(bundle, self.config.actuator)
         self._sources = Sources()
         for object_id, loops in bundle.loops.items():
-            scene.object(object_id)
             if loops:
                 self._sources.add(object_id, loops, bundle.objects.get(object_id), bundle.gain_db(object_id))
         self._state = SceneState(scene, bundle)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
         self._listening = Listening(self.config, self._state, self._sources, self._playback.peaks)
         self._output = Output(sink, self.config)
+        self._whole = WholeFrames(self.config.sample_rate_hz)
         self._last_stamp = self._updates = 0
 
     @property
@@ -83,7 +110,7 @@ class HapticSession:
     def update(
         self,
         moved: Mapping[str, Pose] | None = None,
-        touches: Sequence[Touch] = (),
+        touches: Sequence[Touch] | None = (),
         *,
         contacts: Sequence[Contact] | None = None,
         at_sample: int | None = None,
@@ -94,15 +121,18 @@ class HapticSession:
         among them is lifted; one with several feels the largest gain per source); contacts : contacts that an engine
         tells, instead of those found from geometry; at_sample : the position on `render`'s clock from which the gains
         change, None for the next block.
-        Raises: UnknownObject: a touched or moved object is not in the scene; SessionError: an unknown hand, or a
-        position before that of the last update.
+        A single Touch, touches as the first argument, and (hand, object id, point) instead of a Touch are taken too.
+        Raises: UnknownObject: a touched or moved object is not in the scene; SessionError: an unknown hand, a position
+        before that of the last update, or something else than poses, touches and contacts.
         """
+        if moved is not None and type(moved) is not dict and not isinstance(moved, Mapping):
+            moved, touches = given_frame(moved, touches)
         felt = self._by_hand(touches)
         stamp = self._stamp(at_sample)
         if self._playback.take_prepared():
             self._listening.loops_came()
         if moved or contacts is not None:
-            self._listening.apply(self._state.graph.update(moved or {}, contacts=contacts))
+            self._listening.apply(self._changed(moved or {}, contacts))
         frame, gained = self._listening.frame(self.hands, felt, moved or (), is_paused=self._playback.is_paused)
         if gained is not None:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
@@ -122,11 +152,9 @@ class HapticSession:
         new content are prepared by a worker, and fade in with the first `update` after that.
         Raises: SceneError: its id is taken; SessionError: a loop is none.
         """
+        require_addable(object, haptics, loops)
         if haptics is None and loops is None:
             haptics, loops = self._bundle.objects.get(object.id), self._bundle.loops.get(object.id)
-        for state, loop in (loops or {}).items():
-            if not isinstance(loop, HapticLoop):
-                raise SessionError(f"loops[{state!r}] of {object.id!r} is {loop!r}; it must be a HapticLoop.")
         change = self._state.add(object, haptics)
         if loops:
             self._sources.add(object.id, loops, haptics, self._bundle.gain_db(object.id))
@@ -138,6 +166,7 @@ class HapticSession:
 
         Raises: UnknownObject; SessionError: it is the last object.
         """
+        self._state.require(object_id)
         if len(self._state.objects) == 1 and object_id in self._state.objects:
             raise SessionError(f"{object_id!r} is the last object of the scene; add another one before removing it.")
         change = self._state.remove(object_id)
@@ -154,7 +183,7 @@ class HapticSession:
         DeviceError: it cannot be opened again.
         """
         hands = checks.names("hands", (*self.hands, name))
-        with self._output.reopened_for(hands, self.render):
+        with self._output.reopened_for(hands, self._rendered):
             self._playback.add_hand()
             self._use_hands(hands)
 
@@ -163,7 +192,7 @@ class HapticSession:
         if name not in self.hands:
             raise SessionError(unknown_hand(name, self.hands))
         hands = checks.names("hands", [hand for hand in self.hands if hand != name])
-        with self._output.reopened_for(hands, self.render):
+        with self._output.reopened_for(hands, self._rendered):
             self._playback.remove_hand(self.hands.index(name))
             self._use_hands(hands)
 
@@ -217,11 +246,30 @@ class HapticSession:
     def render(self, n_frames: int) -> Block:
         """The next samples of the mix (n_frames, n_hands) float32 in [-1, 1].
 
-        Raises: SessionError: more than `MAX_RENDERED_FRAMES` at once.
+        Raises: SessionError: more than `MAX_RENDERED_FRAMES` at once; the session is started, so that its sink renders.
         """
+        if self._output.is_started:
+            raise SessionError(
+                "the sink of this session renders; what you take with `render` it would miss. Use the sink's own "
+                "samples, such as `sink.pull`, or a session without a sink."
+            )
+        return self._rendered(n_frames)
+
+    def render_s(self, seconds: float) -> Block:
+        """The next `seconds` [s] of the mix, as `render`, to the sample over any number of calls: fractions of a frame
+        are carried, so that 90 times 1/90 s are one second. Raises: SessionError."""
+        return self.render(self._whole.of(seconds))
+
+    def _rendered(self, n_frames: int) -> Block:
         if type(n_frames) is not int or not 0 <= n_frames <= MAX_RENDERED_FRAMES:
             n_frames = checks.whole(
-                "n_frames", n_frames, "-", at_least=0, at_most=MAX_RENDERED_FRAMES, error=SessionError
+                "n_frames",
+                n_frames,
+                "-",
+                at_least=0,
+                at_most=MAX_RENDERED_FRAMES,
+                error=SessionError,
+                hint="For a time give seconds: `render_s`, or `pull_s` of a sink.",
             )
         return self._playback.render(n_frames)
 
@@ -240,11 +288,19 @@ class HapticSession:
         Raises: SessionError: the session has no sink; DeviceError: it cannot be opened; ConfigError: the actuator's
         budget is out of bounds.
         """
-        self._output.start(self.render, self.hands)
+        self._output.start(self._rendered, self.hands)
 
     def stop(self) -> None:
         """Fade out, stop the sink and give it back; may be called twice."""
         self._output.stop()
+
+    close = stop
+
+    def __reduce__(self) -> NoReturn:
+        raise SessionError(
+            "a session cannot be copied or pickled: it has threads and a sink. Save its bundle (`bundle.save(folder)`) "
+            "and its scene (`session.snapshot`), and make another session of them."
+        )
 
     def __enter__(self) -> Self:
         if self._output.exists:
@@ -276,6 +332,11 @@ class HapticSession:
     def _stamp(self, at_sample: int | None) -> int:
         if at_sample is not None and type(at_sample) is not int:
             at_sample = checks.whole("at_sample", at_sample, "-", at_least=0, at_most=2**62, error=SessionError)
+        if at_sample is not None and at_sample > self._now + MAX_AHEAD_S * self.config.sample_rate_hz:
+            raise SessionError(
+                f"at_sample is {at_sample}, more than {MAX_AHEAD_S} s ahead of `position`, {self._playback.position}; "
+                "it must be a number of samples on the clock of `render`. Leave it out for now."
+            )
         if at_sample is not None and at_sample < self._last_stamp:
             raise SessionError(
                 f"at_sample is {at_sample}; the last update was at {self._last_stamp}, and time cannot go back. "
@@ -288,20 +349,31 @@ class HapticSession:
         self.hands = hands
         self._listening.levels_changed()
 
-    def _by_hand(self, touches: Sequence[Touch]) -> Felt:
-        by_hand: dict[str, list[Touch]] = {}
+    def _by_hand(self, touches: Sequence[Touch] | None) -> Felt:
         try:
-            for touch in touches:
-                if touch.object_id not in self._state.objects:
-                    raise UnknownObject(unknown_object(touch.object_id, self._state.objects))
-                by_hand.setdefault(touch.hand, []).append(touch)
+            by_hand = self._grouped(touches or ())
         except UnknownObject:
             raise
         except Exception:  # whatever is no list of touches raises what it likes
-            raise SessionError(
-                f"touches is {checks.shown(touches)}; it must be a list of Touch, as [Touch(...)]."
-            ) from None
+            by_hand = self._grouped(given_touches(touches))
         for hand in by_hand:
             if hand not in self.hands:
                 raise SessionError(unknown_hand(hand, self.hands))
         return {i: by_hand[hand] for i, hand in enumerate(self.hands) if hand in by_hand}
+
+    def _grouped(self, touches: Sequence[Touch]) -> dict[str, list[Touch]]:
+        by_hand: dict[str, list[Touch]] = {}
+        for touch in touches:
+            if touch.object_id not in self._state.objects:
+                self._state.require(touch.object_id, swapped_hint(touch, self.hands))
+            by_hand.setdefault(touch.hand, []).append(touch)
+        return by_hand
+
+    def _changed(self, moved: Mapping[str, Pose], contacts: Sequence[Contact] | None) -> ContactChange:
+        try:
+            return self._state.graph.update(moved, contacts=None if contacts is None else given_contacts(contacts))
+        except SceneError:
+            for object_id, pose in moved.items():
+                self._state.require(object_id)
+                require_pose(object_id, pose)
+            raise

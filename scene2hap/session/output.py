@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
+from scene2hap import checks
 from scene2hap.devices import SINKS
 from scene2hap.devices.claims import claim_sink, give_back_sink
 from scene2hap.devices.clock import has_clock
@@ -26,6 +29,12 @@ class Output:
     """
 
     def __init__(self, sink: ActuatorSink | str | Mapping[str, Any] | None, config: SessionConfig) -> None:
+        if isinstance(sink, list | tuple):
+            raise ConfigError(f"sink is {checks.described(sink)}; several at once are one TeeSink([...]).")
+        if isinstance(sink, os.PathLike) or (isinstance(sink, str) and Path(sink).suffix):
+            raise ConfigError(
+                f"sink is {str(sink)!r}, a path; give sink=WavSink({str(sink)!r}), and pull from it to write the file."
+            )
         built = SINKS.build(sink) if sink is not None else None
         if built is not None and not isinstance(built, ActuatorSink):
             raise ConfigError(f"sink is {built!r}; it must have open, start, stop, close and stats.")
@@ -38,6 +47,11 @@ class Output:
     def exists(self) -> bool:
         """Whether there is a sink."""
         return self._sink is not None
+
+    @property
+    def is_started(self) -> bool:
+        """Whether the sink takes the mix."""
+        return self._safety is not None
 
     @property
     def safety_stats(self) -> SafetyStats:
@@ -58,13 +72,15 @@ class Output:
             self._show(frame)
 
     def start(self, fill: Fill, hands: Sequence[str]) -> None:
-        """Send what `fill` gives through the safety layer to the sink.
+        """Send what `fill` gives through the safety layer to the sink; nothing if that is done already.
 
         Raises: SessionError: there is no sink; DeviceError: it cannot be opened, or another session plays on it;
         ConfigError: the actuator's budget is out of bounds.
         """
         if self._sink is None:
             raise SessionError("this session has no sink; give one to HapticSession(..., sink=), or call render.")
+        if self._safety is not None:
+            return
         rate = self._config.sample_rate_hz
         watchdog_s = self._config.watchdog_s if has_clock(self._sink) else None
         safety = SafetyLayer(self._config.actuator, rate, len(hands), watchdog_s=watchdog_s)

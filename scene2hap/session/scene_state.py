@@ -8,10 +8,11 @@ from typing import NamedTuple, TypeVar
 from scene2hap.bundle import HapticBundle
 from scene2hap.contact.graph import ContactChange, ContactGraph
 from scene2hap.contact.junction import Junction, Pair
+from scene2hap.errors import UnknownObject
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.propagation.protocol import Body, ContactNetwork
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot
+from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot, unknown_object
 from scene2hap.session.network import Corners, PlatePoses, body_of
 from scene2hap.session.reach import Reach, reach_over
 
@@ -53,6 +54,14 @@ class SceneState:
     def poses(self) -> Mapping[str, Pose]:
         """Where every object is; never changed, a move makes another."""
         return self.graph.poses
+
+    def require(self, object_id: object, hint: str = "") -> None:
+        """Raise an UnknownObject, with a hint behind, if an object is not there."""
+        if isinstance(object_id, str) and object_id in self.objects:
+            return
+        if any(item.id == object_id for item in self._scene.objects):
+            hint = f" {object_id!r} was removed; `add(object)` puts it back.{hint}"
+        raise UnknownObject(unknown_object(object_id, self.objects) + hint)
 
     def category(self, object_id: str) -> str:
         """What an object is, empty where unknown."""

@@ -31,7 +31,7 @@ class Level:
             bounded = checks.number("gain_db", gain_db, "dB", at_most=MAX_GAIN_DB, error=SessionError, hint=hint)
             self.factor_unmuted = 10 ** (bounded / 20)
         if mute is not None:
-            self.is_muted = mute
+            self.is_muted = checks.flag("mute", mute, error=SessionError)
 
     @property
     def factor(self) -> float:
@@ -112,9 +112,9 @@ class Sources:
         if state is not None and not (isinstance(state, str) and state in source.rows):
             told = checks.represented(state)
             raise SessionError(f"{source_id!r} has no state {told}; it has {', '.join(map(repr, source.rows))}.")
+        is_on = source.is_on if on is None else checks.flag("on", on, error=SessionError)
         source.level.set(gain_db, mute)
-        if on is not None:
-            source.is_on = on
+        source.is_on = is_on
         is_other = state is not None and state != source.state
         if is_other:
             source.state = state or source.state

@@ -12,7 +12,9 @@ PACKAGE = Path(__file__).parents[2] / "scene2hap"
 LAYERS = [
     {"errors", "printable", "quiet_logs"},
     {"checks", "compiled", "echoes"},
-    {"plugins", "settings", "secret", "text_files", "web"},
+    {"calls"},
+    {"plugins", "secret", "text_files", "web"},
+    {"settings"},
     {"scene"},
     {"contact", "materials", "needs"},
     {"haptics"},

@@ -60,8 +60,12 @@ def build_backend(
 
     That is where it is given as a kind or mapping and builds a backend that reaches a service by its address. What was
     given ready made, wrappers, the lexicon, recordings and functions are taken as they are.
+    "openai:gpt-4o" is a kind with its model, as on the command line.
     Raises: ConfigError: as `BACKENDS.build`.
     """
+    if isinstance(spec, str) and ":" in spec:
+        kind, _, model = spec.partition(":")
+        spec = {"kind": kind, "model": model}
     built = BACKENDS.build(spec)
     if built is spec or isinstance(built, Wrapper) or not isinstance(built, LLMBackend):
         return built

@@ -12,10 +12,13 @@ support and neighbours; the outline encloses exactly the visible pixels.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any, cast
 
+from scene2hap import checks
+from scene2hap.calls import clear_call
 from scene2hap.errors import ConfigError
 from scene2hap.plugins import PluginGroup
 from scene2hap.scene.capture.batch import capture_stats, render_all
@@ -23,6 +26,7 @@ from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.protocol import RendererFactory
 from scene2hap.scene.capture.sheets import contact_sheet, plan_view
 from scene2hap.scene.capture.studio import CaptureStats, Studio
+from scene2hap.scene.given import given_scene
 from scene2hap.scene.images import ImageSet, ObjectImages
 from scene2hap.scene.snapshot import SceneObject, SceneSnapshot
 
@@ -48,8 +52,9 @@ RENDERERS = PluginGroup(
 """What can draw a stage: classes or functions that are called with a `Stage` and whether to smooth edges."""
 
 
+@clear_call
 def capture_images(
-    scene: SceneSnapshot,
+    scene: SceneSnapshot | str | os.PathLike[str],
     object_ids: Iterable[str] | None = None,
     *,
     size_px: int | None = None,
@@ -69,13 +74,15 @@ def capture_images(
     Raises: UnknownObject; ConfigError: a setting out of bounds; UnknownPlugin: no such renderer; MissingExtra: its
         package is not installed.
     """
+    scene = given_scene(scene)
     kind = renderer if isinstance(renderer, str) else None
     settings = CaptureConfig.parse(config, size_px=size_px, renderer=kind)
     factory = _loaded(settings.renderer) if renderer is None or kind is not None else cast("RendererFactory", renderer)
     name = settings.renderer if renderer is None or kind is not None else _name_of(factory)
     if isinstance(object_ids, str):
         raise ConfigError(f"object_ids is the text {object_ids!r}; give a list of ids, [{object_ids!r}].")
-    wanted = {item.id for item in scene.objects} if object_ids is None else {scene.object(key).id for key in object_ids}
+    asked = None if object_ids is None else checks.items("object_ids", object_ids, error=ConfigError)
+    wanted = {item.id for item in scene.objects} if asked is None else {scene.object(key).id for key in asked}
     studio = Studio(scene, settings, factory, name)
     objects = tuple(
         replace(item, images=_images(studio, item)) if item.id in wanted else item for item in scene.objects

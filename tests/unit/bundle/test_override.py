@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from scene2hap import AudioClip, Credit, HapticBundle, HapticSession, Material, Touch, materials
-from scene2hap.errors import BundleError, UnknownMaterial, UnknownObject
+from scene2hap.errors import AudioError, BundleError, UnknownMaterial, UnknownObject
 from scenes import RATE, table_with_two_phones
 
 
@@ -84,7 +84,8 @@ def test_a_bundle_without_the_file_has_none(bundle: HapticBundle, tmp_path: Path
         ({"gain_db": float("nan")}, BundleError, "gain_db"),
         ({"material": "unobtainium"}, UnknownMaterial, "unobtainium"),
         ({"material": 7}, BundleError, "material is 7"),
-        ({"clip": "hum.wav"}, BundleError, "read_clip"),
+        ({"clip": "hum.wav"}, AudioError, "hum.wav is not a file"),
+        ({"clip": 3}, BundleError, "clip is 3"),
     ],
 )
 def test_a_correction_that_cannot_be(

@@ -138,6 +138,7 @@ def test_it_is_built_from_settings(tmp_path: Path) -> None:
     assert isinstance(tee, TeeSink)
     assert isinstance(tee, ActuatorSink)
     assert [type(sink) for sink in tee.sinks] == [MemorySink, WavSink]
-    for wrong in ([], [3]):
-        with pytest.raises(ConfigError, match="at least one sink"):
-            TeeSink(wrong)  # type: ignore[arg-type]
+    with pytest.raises(ConfigError, match="at least one sink"):
+        TeeSink([])
+    with pytest.raises(ConfigError, match="3 is given; it must be a kind"):
+        TeeSink([3])  # type: ignore[list-item]

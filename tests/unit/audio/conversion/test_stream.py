@@ -193,7 +193,7 @@ def test_a_place_that_cannot_be_written_is_named(tmp_path: Path) -> None:
     [
         ({"converter": "nope"}, "no kind 'nope'"),
         ({"converter": {"kind": "svf_bandpass", "q": 1000}}, "q is 1000"),
-        ({"converter": 3}, "has no stream"),
+        ({"converter": 3}, "3 is given; it must be a kind"),
         ({"actuator": "nope"}, "actuator is 'nope'"),
         ({"intensity": 1.5}, "intensity is 1.5"),
     ],

@@ -138,7 +138,6 @@ def test_limits_of_the_standard_stack_hold(tmp_path: Path) -> None:
         ({"kind": "retry", "inner": "openai"}, "RetryBackend"),
         (OpenAIBackend(), "OpenAIBackend"),
         (FunctionBackend(lambda _: ""), "FunctionBackend"),
-        (3, "int"),
     ],
     ids=str,
 )

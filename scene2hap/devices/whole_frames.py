@@ -1,0 +1,43 @@
+"""Times in whole frames: a 90 Hz game asks for 533.3 frames of 48 kHz at a time, and after a second has 48,000."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+from scene2hap import checks
+from scene2hap.devices.protocol import Block
+from scene2hap.errors import Scene2HapError, SessionError
+
+MAX_S = 3600.0
+"""At once; assumed: far beyond a frame of any game. More is a number of frames, mistaken for seconds."""
+
+
+class WholeFrames:
+    """Turns times [s] into numbers of frames, and carries what is left over to the next, at most half a frame."""
+
+    def __init__(self, rate_hz: int, error: type[Scene2HapError] = SessionError) -> None:
+        self._rate_hz, self._error = rate_hz, error
+        self._carried = 0.0
+
+    def of(self, seconds: float) -> int:
+        """Frames that are due after another `seconds` [s]. Raises: it is no time from 0 to `MAX_S`."""
+        hint = "Give seconds, as 1 / 90 for a frame at 90 Hz; `render` and `pull` take a number of samples."
+        time_s = checks.number("seconds", seconds, "s", at_least=0.0, at_most=MAX_S, error=self._error, hint=hint)
+        due = time_s * self._rate_hz + self._carried
+        n_frames = max(0, round(due))
+        self._carried = due - n_frames
+        return n_frames
+
+
+class Pulled(ABC):
+    """A sink without a clock of its own, which is pulled by frames or by time; `open` sets `_whole`."""
+
+    _whole: WholeFrames | None = None
+
+    @abstractmethod
+    def pull(self, n_frames: int) -> Block:
+        """Take the next frames."""
+
+    def pull_s(self, seconds: float) -> Block:
+        """Take the next `seconds` [s], to the sample over any number of calls: fractions of a frame are carried."""
+        return self.pull(self._whole.of(seconds) if self._whole is not None else 0)

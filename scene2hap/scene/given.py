@@ -1,0 +1,30 @@
+"""The scene that a caller gives: a snapshot, or the path of a scene file."""
+
+from __future__ import annotations
+
+import os
+
+from scene2hap import checks
+from scene2hap.errors import SceneError
+from scene2hap.scene.snapshot import SceneSnapshot
+
+
+def given_scene(scene: object) -> SceneSnapshot:
+    """A snapshot as it is, one read from a path by `load_scene`.
+
+    Raises: SceneError: it is something else, such as a bundle or a list of objects; and as `load_scene`.
+    """
+    if isinstance(scene, SceneSnapshot):
+        return scene
+    if isinstance(scene, str | os.PathLike):
+        from scene2hap.scene.load import load_scene
+
+        return load_scene(scene)
+    wanted = f"scene is {checks.described(scene)}; it must be a SceneSnapshot or the path of a scene file."
+    if isinstance(getattr(scene, "snapshot", None), SceneSnapshot):
+        raise SceneError(
+            f"{wanted} The scene of a bundle or a session is its .snapshot; `rebake` bakes a bundle again."
+        )
+    if isinstance(scene, list | tuple):
+        raise SceneError(f"{wanted} `SceneSnapshot(name, up_axis, objects)` makes one of objects.")
+    raise SceneError(f"{wanted} `load_scene(path)` reads one.")

@@ -1,0 +1,127 @@
+"""What a game hands to a session in another form than asked for: taken where its meaning is plain, else answered.
+
+Only looked at when the plain form does not fit, so that a frame in the plain form pays nothing for it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any, NoReturn
+
+from scene2hap import checks
+from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.errors import SceneError, SessionError
+from scene2hap.haptics import ObjectHaptics
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import Contact, SceneObject
+from scene2hap.session.frame import Touch
+
+_TOUCH = "Touch(hand, object_id, point_m)"
+
+
+def given_frame(moved: object, touches: object) -> tuple[Mapping[str, Pose] | None, Sequence[Touch]]:
+    """The poses and touches of an update whose first argument is no mapping: `update([Touch(...)])` is taken.
+
+    Raises: SessionError: the first argument is neither poses by id nor touches.
+    """
+    is_touches = isinstance(moved, Touch) or (
+        isinstance(moved, list | tuple) and all(isinstance(one, Touch) for one in moved)
+    )
+    if is_touches and not touches:
+        return None, given_touches(moved)
+    raise SessionError(
+        f"moved is {checks.described(moved)}; it must be a mapping of object ids to poses, as {{'mug': Pose(...)}}. "
+        f"Touches go by name: update(touches=[{_TOUCH}])."
+    )
+
+
+def given_touches(touches: object) -> list[Touch]:
+    """Touches that are no sequence of Touch: a single one, None, and (hand, object id, point) are taken.
+
+    Raises: SessionError: anything else, as a mapping or a text.
+    """
+    if touches is None:
+        return []
+    if isinstance(touches, Touch):
+        return [touches]
+    if isinstance(touches, str | Mapping):
+        _refuse_touches(touches)
+    try:
+        found = list(touches)  # type: ignore[call-overload]  # if it cannot, see below
+    except Exception:  # a type of somebody else's, whose `__iter__` raises what it likes
+        _refuse_touches(touches)
+    if len(found) == 3 and isinstance(found[0], str) and not isinstance(found[2], Touch | tuple | list):
+        _refuse_touches(touches)
+    return [_given_touch(one) for one in found]
+
+
+def _given_touch(touch: object) -> Touch:
+    if isinstance(touch, tuple) and len(touch) == 3:
+        touch = Touch(*touch)
+    if not isinstance(touch, Touch):
+        _refuse_touches(touch)
+    if not isinstance(touch.hand, str):
+        raise SessionError(f"hand is {checks.described(touch.hand)}; it must be a name. A touch is {_TOUCH}.")
+    return touch
+
+
+def _refuse_touches(touches: object) -> NoReturn:
+    raise SessionError(
+        f"touches is or has {checks.represented(touches)} ({type(touches).__name__}); it must be a list of Touch, as "
+        f"[{_TOUCH}]."
+    )
+
+
+def swapped_hint(touch: Touch, hands: Collection[str]) -> str:
+    """What to say of a touch whose object is a hand, since its arguments are swapped."""
+    is_hand = isinstance(touch.object_id, str) and touch.object_id in hands
+    return f" {touch.object_id!r} is a hand; a touch is {_TOUCH}." if is_hand else ""
+
+
+def require_pose(object_id: str, pose: object) -> None:
+    """Raise a SceneError that tells how to write what is no Pose as one."""
+    if isinstance(pose, Pose):
+        return
+    how = "write Pose(position_m), or Pose(position_m, rotation_xyzw) with w last"
+    if isinstance(pose, SceneObject):
+        how = "write its .pose"
+    elif getattr(pose, "shape", None) == (4, 4):
+        how = "write Pose.from_matrix(matrix)"
+    raise SceneError(f"the pose of {object_id!r} is {checks.represented(pose)}; it must be a Pose: {how}.")
+
+
+def given_contacts(contacts: object) -> Sequence[Contact]:
+    """Contacts of an engine. Raises: SessionError: they are something else."""
+    found: tuple[Any, ...] = (contacts,)
+    if not isinstance(contacts, str | Mapping | Contact):
+        with contextlib.suppress(Exception):  # a type of somebody else's, whose `__iter__` raises what it likes
+            found = tuple(contacts)  # type: ignore[arg-type]  # if it cannot, it is told of below
+    if isinstance(contacts, Contact) or not all(isinstance(one, Contact) for one in found):
+        wrong = next((one for one in found if not isinstance(one, Contact)), contacts)
+        raise SessionError(
+            f"contacts is or has {checks.described(wrong)}; it must be a list, as [Contact('mug', 'table', point_m)]."
+        )
+    return found
+
+
+def require_addable(item: object, haptics: object, loops: object) -> None:
+    """Raise a SessionError unless these may go to `HapticSession.add`."""
+    if not isinstance(item, SceneObject):
+        raise SessionError(
+            f"object is {checks.described(item)}; it must be one SceneObject, as `scene.object(id)` gives and "
+            "`SceneObject(id, name, pose, geometry, surface)` makes."
+        )
+    if haptics is not None and not isinstance(haptics, ObjectHaptics):
+        raise SessionError(
+            f"haptics of {item.id!r} is {checks.described(haptics)}; it must be an ObjectHaptics, as `bundle.objects` "
+            "has."
+        )
+    if loops is not None and not isinstance(loops, Mapping):
+        raise SessionError(
+            f"loops of {item.id!r} is {checks.described(loops)}; it must be a mapping of states to HapticLoop, as "
+            "`bundle.loops` has."
+        )
+    for state, loop in (loops or {}).items():
+        if not isinstance(loop, HapticLoop):
+            raise SessionError(f"loops[{state!r}] of {item.id!r} is {loop!r}; it must be a HapticLoop.")

@@ -1,0 +1,159 @@
+"""The small room in which the usual mistakes are made, and the answer that each one gets."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import gc
+import json
+import os
+import tempfile
+import warnings
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import soundfile
+
+import scene2hap
+from gltf_builder import Gltf
+from scene2hap import materials
+from scene2hap.errors import Scene2HapError
+from usual_mistakes import TOPICS, Mistake
+
+TOP = (0.3, 0.75, 0.3)
+"""A point on the table's top, beside the phone."""
+
+_BOXES = {  # size and centre, y up [m]
+    "table": ((1.6, 0.05, 0.8), (0.8, 0.725, 0.4)),
+    "phone": ((0.08, 0.01, 0.15), (0.1, 0.755, 0.4)),
+    "mug": ((0.08, 0.1, 0.08), (1.2, 0.8, 0.4)),
+    "lamp": ((0.3, 1.5, 0.3), (3.0, 0.75, 3.0)),
+}
+
+
+class Answer(NamedTuple):
+    """How a mistake ended: the type of the error and its sentence, None and empty if it worked."""
+
+    kind: type[BaseException] | None = None
+    sentence: str = ""
+
+    @property
+    def is_ours(self) -> bool:
+        """Whether the error is of our own tree, or the library had nothing to do with it."""
+        return self.kind is not None and issubclass(self.kind, Scene2HapError)
+
+
+class Room:
+    """A folder with a scene, its bundle and other files, and what a line of code may name."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        _write_glb(folder / "kitchen.glb", _BOXES)
+        _write_glb(folder / "other.glb", {"chair": _BOXES["lamp"]})
+        self.scene = scene2hap.load_scene(folder / "kitchen.glb")
+        self.other_scene = scene2hap.load_scene(folder / "other.glb")
+        self.bundle = scene2hap.bake(self.scene)
+        self.bundle.save(folder / "kitchen.bundle")
+        (folder / "settings.json").write_text(json.dumps({"session": {"propagation": "full_propagation"}}))
+        (folder / "settings.toml").write_text('[session]\npropagation = "full_propagation"\n')
+        (folder / "flat.toml").write_text('propagation = "full_propagation"\n')
+        soundfile.write(folder / "tap.wav", np.sin(np.arange(48000) / 30) / 2, 48000)
+        for name in ("photo.png", "room.blend", "room.fbx"):
+            (folder / name).write_bytes(b"not a scene")
+
+    def answer(self, code: str) -> Answer:
+        """Run some lines in the folder, and tell how they ended."""
+        with _inside(self.folder), contextlib.ExitStack() as life, warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)  # "coroutine was never awaited" is part of a mistake
+            try:
+                exec(code, self._names(life))
+            except (Exception, asyncio.CancelledError) as error:
+                return Answer(type(error), str(error))
+            finally:
+                gc.collect(0)
+        return Answer()
+
+    def _names(self, life: contextlib.ExitStack) -> dict[str, Any]:
+        sink = scene2hap.MemorySink()
+        started = scene2hap.HapticSession(self.scene, self.bundle, sink=sink)
+        names = {name: getattr(scene2hap, name) for name in scene2hap.__all__}
+        names |= {
+            "scene": self.scene,
+            "other_scene": self.other_scene,
+            "bundle": self.bundle,
+            "TOP": TOP,
+            "np": np,
+            "materials": materials,
+        }
+        names |= {"session": scene2hap.HapticSession(self.scene, self.bundle), "sink": sink, "started": started}
+        names["new_object"] = scene2hap.SceneObject(
+            "vase",
+            "vase",
+            scene2hap.Pose((1.0, 0.8, 0.2)),
+            self.scene.object("mug").geometry,
+            self.scene.object("mug").surface,
+        )
+        started.start()
+        life.callback(started.stop)
+        return names
+
+
+def _write_glb(path: Path, boxes: dict[str, Any]) -> None:
+    gltf = Gltf()
+    for name, (size, centre) in boxes.items():
+        corner = [c - s / 2 for c, s in zip(centre, size, strict=True)]
+        gltf.node(name, mesh=gltf.cube(), root=True, translation=corner, scale=list(size))
+    gltf.write(path)
+
+
+@contextlib.contextmanager
+def _inside(folder: Path) -> Iterator[None]:
+    before = Path.cwd()
+    os.chdir(folder)
+    try:
+        yield
+    finally:
+        os.chdir(before)
+
+
+def is_answered(mistake: Mistake, answer: Answer) -> bool:
+    """Whether it works, or ends in an error of our own that says what it has to."""
+    if not mistake.words:
+        return answer.kind is None
+    return (answer.is_ours or mistake.is_python) and all(word in answer.sentence for word in mistake.words)
+
+
+ON_PAGE = 10
+"""How many of each topic docs/errors.md shows."""
+
+BEGIN, END = "<!-- tests/mistakes_room.py writes what follows -->\n", "<!-- until here -->\n"
+
+
+def page_tables(room: Room) -> str:
+    """The first mistakes of each topic with their answers, as docs/errors.md has them."""
+    lines = []
+    for topic, mistakes in TOPICS.items():
+        lines += ["", f"### {topic}", "", "| you write | you get |", "|---|---|"]
+        for mistake in [one for one in mistakes if not one.is_python][:ON_PAGE]:
+            kind, sentence = room.answer(mistake.code)
+            told = f"`{kind.__name__}`: {_cell(sentence)}" if kind is not None else "it works"
+            lines.append(f"| `{_cell(mistake.code)}` | {told} |")
+    return "\n".join([*lines, "", ""])
+
+
+def with_tables(page: str, tables: str) -> str:
+    """A page with other tables between its marks."""
+    before, rest = page.split(BEGIN)
+    return before + BEGIN + tables + END + rest.split(END)[1]
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", "\\|").replace("\n", "; ").replace(";     ", "; ")
+
+
+if __name__ == "__main__":
+    page = Path(__file__).parents[1] / "docs" / "errors.md"
+    with tempfile.TemporaryDirectory() as folder:
+        page.write_text(with_tables(page.read_text("utf-8"), page_tables(Room(Path(folder)))), "utf-8")

@@ -1,0 +1,41 @@
+"""The usual mistakes of users work where their meaning is plain, and end in one sentence of our own elsewhere.
+
+`usual_mistakes` is the table of them, written before any was mended.
+"""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from mistakes_room import Room, is_answered, page_tables, with_tables
+from usual_mistakes import TOPICS, Mistake
+
+MISTAKES = [pytest.param(one, id=f"{topic}: {one.code}") for topic, ones in TOPICS.items() for one in ones]
+PAGE = Path(__file__).parents[2] / "docs" / "errors.md"
+
+
+@pytest.fixture(scope="module")
+def room(tmp_path_factory: pytest.TempPathFactory) -> Room:
+    return Room(tmp_path_factory.mktemp("room"))
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_a_mistake_is_answered_or_works(room: Room, mistake: Mistake) -> None:
+    answer = room.answer(mistake.code)
+    assert is_answered(mistake, answer), answer
+    if answer.is_ours:
+        assert "\n" not in answer.sentence
+        assert len(answer.sentence) < 600
+        assert answer.sentence.endswith((".", "?"))
+        assert " at 0x" not in answer.sentence, "an address says nothing"
+
+
+@pytest.mark.parametrize("block", re.findall(r"```python\n(.*?)```", PAGE.read_text("utf-8"), re.DOTALL))
+def test_the_code_of_the_page_runs(room: Room, block: str) -> None:
+    assert room.answer(block).kind is None, room.answer(block)
+
+
+def test_the_page_has_the_answers_as_they_are(room: Room) -> None:
+    page = PAGE.read_text("utf-8")
+    assert page == with_tables(page, page_tables(room)), "run: python tests/mistakes_room.py"
