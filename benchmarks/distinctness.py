@@ -1,4 +1,4 @@
-"""How well hands can tell the demo kitchen's sources apart, in Markdown; docs/conversion.md holds the latest.
+"""How well hands can tell the demo kitchen's sources apart, in Markdown; docs/figures/conversion.md holds the latest.
 
 python benchmarks/distinctness.py [--seed 0] [--actuator flat] [--scene FILE] [--silence ID ...]
 

@@ -13,7 +13,7 @@ pair is told by us or the routine for boxes alone, `mj_geomDistance` judges. Tim
 
 from __future__ import annotations
 
-import sys
+import argparse
 import time
 from itertools import product
 
@@ -103,7 +103,9 @@ def distance_m(model: mujoco.MjModel, data: mujoco.MjData, names: list[str], pai
 
 
 def main() -> None:
-    n_steps = int(sys.argv[1]) if len(sys.argv) > 1 else 3000
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("n_steps", type=int, nargs="?", default=3000)
+    n_steps = parser.parse_args().n_steps
     rng = np.random.default_rng(5)
     sizes = rng.uniform(0.06, 0.2, (N_BOXES, 3))
     cell = np.stack(np.meshgrid(np.arange(4), np.arange(4), np.arange(7), indexing="ij"), -1).reshape(-1, 3)

@@ -5,7 +5,7 @@
 
 SPEC is the `llm` of a settings file of `scene2hap bake`: the kind of a backend ("lexicon"), a JSON object
 ('{"kind": "openai", "model": "..."}'), or a TOML or JSON settings file with a table [bake]. DIR holds the labelled
-scenes. Rules of labelling and the latest figures: docs/inference-evaluation.md.
+scenes. Rules of labelling: docs/inference-evaluation.md; latest figures: docs/figures/inference.md.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Propagation at the ends of what scenes could hold: no NaN, no overflow, no hang, and every refusal a clear error.
 
-OMP_NUM_THREADS=1 python stress/propagation.py > docs/stability.md
+python benchmarks/figures.py stability
 
 Draws plates, scenes and time steppers far beyond furniture, asks every model, and counts what comes back:
 
@@ -291,9 +291,7 @@ def main() -> int:
     arguments = parser.parse_args()
 
     print(
-        f"""Propagation at its ends.
-
-`OMP_NUM_THREADS=1 python stress/propagation.py > docs/stability.md` makes this page: {arguments.kernels} plates of \
+        f"""{arguments.kernels} plates of \
 1e-6 to 10 m thickness, E 1e3 to 1e13 Pa,
 nu -0.99 to 0.499, loss 0 to 2, density 1e-3 to 1e9 kg/m3 and sides up to 1000:1, driven anywhere, also exactly on a
 resonance and without loss; and {arguments.scenes} scenes of up to seven bodies, their masses up to 1e12 apart, with up
