@@ -29,7 +29,7 @@ import networkx as nx
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = "scene2hap"
-TRACE = '''
+TRACE = """
 import inspect, sys, threading
 from collections import Counter
 from pathlib import Path
@@ -71,7 +71,7 @@ for name, files in entered.items():
     for file in sorted(files):
         if Path(file).is_relative_to(root):
             print(name, Path(file).relative_to(root).as_posix())
-'''
+"""
 
 
 class Source:

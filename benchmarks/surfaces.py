@@ -29,7 +29,6 @@ SAMPLED = ROOT / "tests" / "data" / "sampled_surfaces.csv"
 WITHIN = 0.2
 
 
-
 @cache
 def scene(name: str) -> SceneSnapshot:
     return load_scene(kitchen_path() if name == "demo" else SCENES / name, unit_m=UNIT_M.get(name, 1.0))
