@@ -1,4 +1,4 @@
-"""What of a source is worth mixing at a hand: how far each band of its loop rises over the threshold of touch.
+"""Which sources and bands are strong enough to be mixed at a hand, by the threshold of touch.
 
 The loop is weighted by the threshold T(f), so that a vibration at the threshold has a peak of 1 whatever its frequency,
 and split into bands; p_b is the peak of band b over the whole loop. At band gains g_b no moment of it exceeds
@@ -26,7 +26,7 @@ SILENT = 1e-7
 
 
 class Audibility:
-    """What of some sources is worth mixing.
+    """Which bands of some sources are strong enough to be mixed.
 
     Parameters: peaks : (n_sources, 2, n_bands), see `peaks.peaks_of`; skip : what to leave out.
     """

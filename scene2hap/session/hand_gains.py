@@ -1,7 +1,8 @@
-"""From touches to what every hand is given, and to what of it is worth mixing.
+"""Gains of every hand from its touches, without sources that are too weak to be felt.
 
-Any field is asked for everything, and what is too faint is left out afterwards. A field that tells prices is asked for
-these alone: what lies beyond its cut-off is left out before it is worked out, which is most of it in a furnished room.
+A field is queried for all sources, and weak ones are left out afterwards. Models that report path cost (`PricedField`)
+are queried for cost only: sources beyond their cut-off are left out before their gains are computed. In a furnished
+room these are most sources.
 """
 
 from __future__ import annotations
@@ -135,7 +136,7 @@ def _without(prices: Prices, limits: Sequence[float]) -> Prices:
 
 
 def _told(given: Gains, n_hands: int, felt: Felt) -> Gains:
-    """Gains as a game is told them: 0 below -140 dB, whatever the model. A copy."""
+    """Gains as `HapticFrame` reports them: 0 below -140 dB, whatever the model. A copy."""
     return _among(np.where(given < SILENT, np.float32(0.0), given), n_hands, felt)
 
 

@@ -1,4 +1,4 @@
-"""The way from a session to its sink: through the safety layer, faded at both ends."""
+"""Connection of a session to its sink: through the safety layer, faded at both ends."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ class Output:
 
     @contextlib.contextmanager
     def reopened_for(self, hands: Sequence[str], fill: Fill) -> Iterator[None]:
-        """Let channels change: a started sink is faded out and stopped before, and opened anew after.
+        """Let channels change: a started sink is faded out and stopped before, and opened again after.
 
         Raises: SessionError: what a started sink writes has its channels once and for all; and as `start`.
         """

@@ -110,7 +110,7 @@ class Playback:
         return np.array(found, dtype=np.float32).reshape(len(rows), 2, n_bands)
 
     def take_prepared(self) -> bool:
-        """Let in the loops that the worker has prepared by now, silent until gains are set anew; false for none."""
+        """Let in the loops that the worker has prepared by now, silent until gains are set again; false for none."""
         ready = [row for row, loop in self._coming.items() if loop.done()]
         for row in ready:
             self._let_in(row, self._coming.pop(row).result(), len(ready))
@@ -210,7 +210,7 @@ class Playback:
             self._paused_from = at_frame
 
     def resume(self) -> None:
-        """Let the clock go on; gains are to be set anew."""
+        """Let the clock go on; gains are to be set again."""
         self._paused_from = None
 
     def render(self, n_frames: int) -> Block:

@@ -1,4 +1,4 @@
-"""Loops ready to be mixed: split into bands, with the peaks by which `audibility` judges them.
+"""Loops ready to be mixed: split into bands, with the peaks that `audibility` compares.
 
 That takes some 100 ms a loop, so each content is prepared once in a process, however many objects, sessions and copies
 of its samples there are. What a session is given while it plays is prepared by a worker. What has been prepared stays

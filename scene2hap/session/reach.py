@@ -1,4 +1,4 @@
-"""Which sources can reach which objects at all: those that hang together over contacts.
+"""Which sources can reach which objects: those connected over contacts.
 
 The groups are kept as contacts come and go. A contact that comes joins two of them. When contacts go, one searches from
 both sides of each in turn, so that the smaller part is what is walked through: a mug that is lifted off a table in a
@@ -44,7 +44,7 @@ class _Search:
 class Reach:
     """The groups of objects that hang together, and the sources in each.
 
-    Parameters: beside : what each object touches, with whatever weight, since that may change; read anew by `follow`;
+    Parameters: beside : what each object touches, with whatever weight, since that may change; read again by `follow`;
     carriers : ids of all that may pass vibration on, sources included.
     """
 

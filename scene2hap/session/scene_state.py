@@ -1,4 +1,4 @@
-"""What is there now: objects, what they are made of, where they are, and who touches whom."""
+"""The present scene: objects, their materials, poses and contacts."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Thing = TypeVar("Thing")
 
 
 class ModelInput(NamedTuple):
-    """What a model is told; `covers` are the objects of which it may say something, None for all."""
+    """The input of a model; `covers` are the objects that its field covers, None for all."""
 
     network: ContactNetwork
     covers: Collection[str] | None = None
@@ -46,7 +46,7 @@ class SceneState:
 
     @property
     def bodiless(self) -> tuple[str, ...]:
-        """Objects whose material nobody knows."""
+        """Objects whose material is unknown."""
         return tuple(object_id for object_id in self.objects if object_id not in self.bodies)
 
     @property
@@ -83,10 +83,10 @@ class SceneState:
         return Reach(self.graph.beside, {*self.bodies, *source_ids}, source_ids)
 
     def network(self, source_ids: Sequence[str] | None) -> Callable[[Collection[str]], ModelInput]:
-        """What a model is told of this moment: everything, or only what a source reaches; put together when called.
+        """The model's input for the present state: all objects, or only those that a source reaches.
 
-        Called with some objects, it tells only of what hangs together with them, if a source does.
-        That may be in another thread, and later: spelling out contacts costs more than an update may take.
+        The result is a function of some objects; it gives only the objects connected to these, if a source is. It may
+        be called in another thread, and later: listing contacts costs more than an update may take.
         """
         objects, bodies, poses, junctions = self.objects, self.bodies, self.poses, dict(self.graph.junctions)
         spelling, corners = self._spelling, self._corners
