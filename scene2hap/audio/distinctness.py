@@ -26,7 +26,7 @@ from scene2hap.haptics import ActuatorProfile
 
 FREQUENCY_WEBER = 0.22
 WIDEST_WEBER = 0.25
-"""The largest published fraction: two sources that far apart are told apart by everybody."""
+"""The largest published fraction: everybody distinguishes two sources that far apart."""
 LEVEL_JND_DB = 2.5
 FAR_DB = 12.0
 """The attenuation at which sources shall still differ [dB]."""

@@ -32,7 +32,7 @@ class Candidate:
 
     `origin` is where it came from, `duration_s` its length without silent ends; the figures are None where it was too
     short to be measured. Dominant frequencies are the highest peak of all that is heard, and of what touch can feel.
-    `is_chosen` and `verdict` tell what came of it, and why.
+    `is_chosen` and `verdict` state the outcome and its reason.
     """
 
     title: str
@@ -96,7 +96,7 @@ def select_clip(clips: Sequence[AudioClip]) -> AudioClip:
 
 
 def explain_choice(clips: Sequence[AudioClip]) -> Choice:
-    """Choose as `select_clip` does, and tell why. Of equal candidates the steadier wins, then the earlier.
+    """Choose as `select_clip` does, and give the reasons. Of equal candidates the steadier wins, then the earlier.
 
     Raises: AudioError: there are no candidates, or none is longer than `MIN_DURATION_S` without its silent ends.
     """

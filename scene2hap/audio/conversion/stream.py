@@ -119,7 +119,7 @@ def convert(
 
 
 def settled(converter: object, actuator: object, intensity: float) -> tuple[TactileConverter, ConversionContext]:
-    """The converter and what it is told. Raises: ConfigError: settings that cannot work."""
+    """The converter and its context. Raises: ConfigError: settings that cannot work."""
     built = CONVERTERS.build(converter)
     if not isinstance(built, TactileConverter):
         raise ConfigError(f"converter is {built!r}; it has no stream. Name a kind: {', '.join(CONVERTERS.kinds())}.")
