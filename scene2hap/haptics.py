@@ -50,7 +50,7 @@ class SourceState:
 def unmet_needs(object_id: str, states: Sequence[SourceState], categories: Mapping[str, str]) -> tuple[str, ...]:
     """A sentence on each state of an object that needs a contact which nothing in the scene can give.
 
-    `categories` tells what each object of the scene is, by id; "" or "unknown" where nobody knows.
+    `categories` has the category of each object of the scene by id; "" or "unknown" if unknown.
     """
     return tuple(
         f"state {state.name!r} needs contact with {state.needs_contact!r}, which no other object here is; "
@@ -98,7 +98,7 @@ class ObjectHaptics:
 
 @dataclass(frozen=True)
 class VibrationDescription:
-    """What a sound source is asked for: one state of one object.
+    """The request to a sound source: one state of one object.
 
     `size_m` and `material` let a synthesizer shape the sound; `seed` makes its answer repeatable.
     """
@@ -164,7 +164,7 @@ class ActuatorProfile:
 
 @dataclass(frozen=True)
 class Bands:
-    """The frequency bands in which gains are told.
+    """The frequency bands of the gains.
 
     Either true bands between neighbouring edges [Hz], or `Bands.dominant()`: one band that stands for each source's
     own dominant frequency, as in the paper.

@@ -160,7 +160,7 @@ async def exchange(
         if transport is None and not getproxies():  # a proxy looks names up itself
             await _look_up(request.url.host)
 
-    # Nothing to unpack is asked for; a server or proxy that packs all the same is unpacked within the limit.
+    # No compression is requested; a compressed reply is unpacked within the limit.
     headers = {"accept-encoding": "identity"}
     if json_body is not None:
         headers["content-type"] = "application/json"

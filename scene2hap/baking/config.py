@@ -32,7 +32,7 @@ class BakeConfig(InferenceConfig):
     prices : of models, in US dollars per million tokens read and written, beside the dated list;
     audio : where sounds come from, tried in order until `enough_candidates` remain (1 is the paper's rule);
     tactile : what turns sound into touch; actuator : what it is turned for, by name, CSV file or fields;
-    spread : how far a source may be moved in frequency and level to be told from the others;
+    spread : how far a source may be moved in frequency and level to be distinct from the others;
     seed : of everything that is synthesized.
     """
 

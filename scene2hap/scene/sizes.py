@@ -51,7 +51,7 @@ def thickest_m(measured_m: Sequence[float]) -> float:
 
 
 def assumed_thickness_m(measured_m: Sequence[float]) -> float:
-    """What stands in for the thickness of a sheet whose thickness nobody tells [m]."""
+    """Thickness of a sheet of unknown thickness [m]."""
     return max(min(_ASSUMED_M, _ASSUMED_SHARE * min(measured_m[:2])), THINNEST_M)
 
 

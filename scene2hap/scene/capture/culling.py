@@ -64,7 +64,7 @@ class Culler:
         hidden_share: float,
         below: tuple[int | None, ...] | None = None,
     ) -> Culler:
-        """A culler that knows what stands on what, `below` as `supports` tells it, if it was told before."""
+        """A culler that knows what stands on what, `below` as `supports` gives it, if known before."""
         below = supports(stage) if below is None else below
         return cls(stage, renderer, below, shells(stage), near_share, hidden_share)
 
