@@ -1,4 +1,4 @@
-"""Plain data that design time and play time both speak: what an object is, how it vibrates, what plays it."""
+"""Plain data shared by design time and play time: states, haptics of an object, actuators, bands."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def unmet_needs(object_id: str, states: Sequence[SourceState], categories: Mappi
 
 @dataclass(frozen=True)
 class ObjectHaptics:
-    """What inference says about one object.
+    """Answers of inference about one object.
 
     `estimated_size_m` is length, width and thickness of the dominant surface, corrected where the mesh cannot be
     right. `material` is None where nobody could tell; vibration then does not spread through the object.
@@ -120,7 +120,7 @@ class VibrationDescription:
 
 @dataclass(frozen=True)
 class ActuatorProfile:
-    """What an actuator can render: its name, usable band and resonance [Hz], and how strongly it answers.
+    """The abilities of an actuator: name, usable band and resonance [Hz], and response.
 
     `q` is the quality factor of the resonance [-]; None, or no resonance, means a flat response. `response_db` is a
     measured response as points (frequency [Hz], level [dB]) of rising frequency, which then stands instead of the
@@ -203,7 +203,7 @@ class Bands:
 
     @property
     def n_bands(self) -> int:
-        """How many gains a source has."""
+        """Number of gains of a source."""
         return 1 if self.kind == "dominant" else len(self.edges_hz) - 1
 
     def widths_hz(self) -> NDArray[np.float64]:

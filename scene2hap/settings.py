@@ -53,6 +53,6 @@ class Settings(BaseModel):
 
 
 def cache_folder(part: str) -> Path:
-    """Where a part keeps what it can get again, unless told otherwise: in the user's folder of caches."""
+    """Default folder of a part's cache, in the user's folder of caches."""
     root = os.environ.get("XDG_CACHE_HOME") or (os.environ.get("LOCALAPPDATA") if os.name == "nt" else "")
     return (Path(root) if root else Path.home() / ".cache") / "scene2hap" / part

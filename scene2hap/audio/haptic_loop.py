@@ -1,4 +1,4 @@
-"""What baking makes of a sound: one loop to hear and one to feel."""
+"""The audible and the tactile loop of one state."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which of several candidate sounds an object gets.
+"""Choice of a sound among candidates.
 
 The rule of the paper (Implementation, "Audio Retrieval/Generation"): cut silent ends; keep what is longer than 2.5 s;
 drop what has a dynamic range above 5 dB, since it would not loop, raising that limit by 5 dB until something is left;
@@ -28,7 +28,7 @@ _NYQUIST_MARGIN = 0.45
 
 @dataclass(frozen=True)
 class Candidate:
-    """How one candidate fared.
+    """Scores and verdict of one candidate.
 
     `origin` is where it came from, `duration_s` its length without silent ends; the figures are None where it was too
     short to be measured. Dominant frequencies are the highest peak of all that is heard, and of what touch can feel.

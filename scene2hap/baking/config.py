@@ -1,4 +1,4 @@
-"""How a scene is baked."""
+"""Settings of a bake."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def _sources(specs: object) -> object:
 
 
 class BakeConfig(InferenceConfig):
-    """How a scene is baked. Every part is chosen by a `kind`, or given ready made.
+    """Settings of a bake. Every part is chosen by a `kind`, or given ready made.
 
     llm : the backend of inference, whose course the settings of `InferenceConfig` decide. One that is reached over a
         network gets retries, repairs and a cache around it (`standard_stack`), unless it is given ready made;

@@ -1,4 +1,4 @@
-"""What a loop was made from, as names that are equal where the thing is: a loop is made again where one differs.
+"""Fingerprint of a loop: one digest for each of its inputs. A loop is made again if one differs.
 
 sound      the clip before it was cut
 words      the request for the sound: category, state, sentence, keywords, seed

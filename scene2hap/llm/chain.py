@@ -43,7 +43,7 @@ _SPOILED = (BadAnswer, BackendUnavailable)
 
 @dataclass(frozen=True)
 class Inference:
-    """What the chain found: the kind of place, the haptics of each object by id, and the account of the run."""
+    """Result of the chain: kind of place, haptics of each object by id, and account of the run."""
 
     scene_category: str
     objects: dict[str, ObjectHaptics]

@@ -1,4 +1,4 @@
-"""The scene as its author built it: nodes, transforms and pieces of mesh, whatever file it came from."""
+"""The authored scene of any file format: nodes, transforms and meshes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How large named things are: the height of their tops above the floor, or the span of their longest edge.
+"""Usual sizes of named objects: height of the top above the floor, or longest edge.
 
 Names are read narrowly: what may be another thing (a doormat, a chair leg) says nothing. The lexicon of `llm` knows far
 more nouns, with bounds so wide that miniatures and kits at half scale pass; here the unit is to be found, which takes

@@ -1,4 +1,4 @@
-"""Whether a session plays on the actuator that its loops were made for."""
+"""Warning if a session plays on another actuator than its loops were made for."""
 
 from __future__ import annotations
 

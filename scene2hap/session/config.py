@@ -1,4 +1,4 @@
-"""How a scene is played."""
+"""Settings of a session."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def _bands(value: object) -> object:
 
 
 class SkipConfig(Settings):
-    """Which work is left out; none of it is felt. docs/playing.md has each bound, `SessionStats.skipped` the savings.
+    """Switches of the pruning; no pruning is felt. docs/playing.md has each bound, `SessionStats.skipped` the savings.
 
     unreachable : objects that no source reaches over contacts are left out of the model's input and are not evaluated.
     below_threshold : sources that are not felt at a hand are left out of its mix.
@@ -48,7 +48,7 @@ def _skip(value: object) -> object:
 
 
 class SessionConfig(Settings):
-    """How a scene is played. Every part with alternatives is chosen by a `kind`, so that a table of TOML will do.
+    """Settings of a session. Every part with alternatives is chosen by a `kind`, so that a table of TOML will do.
 
     propagation : a kind, a mapping with `kind` and settings, or a model; `scene2hap.propagation.MODELS` lists kinds.
     bands : bands of the gains: Bands, "dominant" (the paper's) or "third-octaves" (20 from 10 to 1000 Hz).

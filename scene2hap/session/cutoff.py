@@ -49,8 +49,8 @@ class CutoffCost:
 def within(
     prices: Prices, cutoff: Sequence[float], sought: Sequence[Set[int]]
 ) -> tuple[list[int], list[list[float]], int]:
-    """What lies within its cut-off: the columns in which any row's does, rising; the prices in these, infinite beyond;
-    and how many of those sought in each row do not."""
+    """Sources within their cut-off: rising columns in which any row has one, their costs (infinite beyond the cut-off),
+    and the number of sought sources that are beyond."""
     worth, n_beyond = set[int](), 0
     for row, among in zip(prices, sought, strict=True):
         near = {x for x, price in enumerate(row) if price <= cutoff[x]}

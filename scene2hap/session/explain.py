@@ -77,7 +77,8 @@ class FeltSource:
 
 @dataclass(frozen=True)
 class Explanation:
-    """What a hand feels right now, the strongest first; `is_current` is false while a newer field is being prepared."""
+    """The sources that a hand feels now, the strongest first; `is_current` is false while a newer field is being
+    prepared."""
 
     hand: str
     touches: tuple[str, ...]

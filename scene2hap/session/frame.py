@@ -1,4 +1,4 @@
-"""What goes into an update, and what comes out."""
+"""Input and output of an update: touches, gains, counters."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ Gains = NDArray[np.float32]
 
 
 class HapticFrame:
-    """What one update decided.
+    """The result of one update: gains of all hands.
 
     Parameters: gains : (n_hands, n_sources, n_bands) float32 [-], or what works them out.
     """
@@ -93,7 +93,7 @@ class SkipCounts:
 
 @dataclass(frozen=True)
 class SessionStats:
-    """What a session has done so far.
+    """Counters of a session.
 
     Parameters: fields_prepared : fields taken into use, and changes of contacts that a live field went along with;
     gains_capped : gains of a source at a hand above the limit; bodiless : objects that carry no vibration, since their

@@ -29,7 +29,7 @@ PeaksOf = Callable[[Sequence[LoopRow]], NDArray[np.float32]]
 
 
 class Listening:
-    """Turns touches into gains, and leaves out what changes nothing.
+    """Turns touches into gains, and skips updates that change nothing.
 
     What gains depend on besides the touches is remembered, and forgotten when it changes.
     """
@@ -121,7 +121,7 @@ class Listening:
         return explainer.explain(hand, touches, self._frame, self.keeper.is_current)
 
     def stats(self, updates: int, rows_not_mixed: int) -> SessionStats:
-        """What was done so far."""
+        """Counters so far."""
         keeper = self.keeper
         return SessionStats(
             updates,

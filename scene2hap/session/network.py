@@ -1,4 +1,4 @@
-"""From a scene and what was baked for it to what propagation models read: bodies, where they are, and what excites."""
+"""Input of propagation models from a scene and its bundle: bodies, their poses, and excitations."""
 
 from __future__ import annotations
 

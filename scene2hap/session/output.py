@@ -36,16 +36,16 @@ class Output:
 
     @property
     def exists(self) -> bool:
-        """Whether there is a sink."""
+        """Whether a sink is set."""
         return self._sink is not None
 
     @property
     def safety_stats(self) -> SafetyStats:
-        """What the safety layer of a started sink had to change."""
+        """Counters of samples that the safety layer of a started sink changed."""
         return self._safety.stats if self._safety is not None else SafetyStats()
 
     def feed(self, frame: HapticFrame) -> None:
-        """Tell the watchdog that the game is alive, and the sink what was decided."""
+        """Reset the watchdog, and pass the gains to the sink."""
         if self._safety is not None:
             self._safety.feed()
             self.show(frame)

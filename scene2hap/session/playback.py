@@ -99,7 +99,7 @@ class Playback:
         return sum(mixer.mixer.stats.rows_skipped for mixer in self._mixers)
 
     def position_s(self, row: LoopRow) -> float:
-        """Where in its loop a row is [s]."""
+        """Position of a row in its loop [s]."""
         loop = row.loop.tactile
         return position_s(len(loop.samples), loop.sample_rate_hz, self._position, self._config.sample_rate_hz)
 

@@ -44,7 +44,7 @@ _NEWEST: OrderedDict[tuple[bytes, _Kind], PreparedLoop] = OrderedDict()
 
 
 def find(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop | None:
-    """What was prepared of this very clip, None if nothing was; does no work."""
+    """The prepared loop of this clip, None if it is not ready; does no work."""
     with _LOCK:
         return _OF_CLIP.get(clip, {}).get((bands, tactile_rate_hz))
 

@@ -28,7 +28,7 @@ class _Group:
 
     @property
     def n_reached(self) -> int:
-        """How many of them a source reaches."""
+        """Number of these objects that a source reaches."""
         return len(self.members) if self.sources and len(self.members) > 1 else 0
 
 
@@ -98,7 +98,7 @@ class Reach:
         return set().union(*(group.members for group in self._groups_with_sources()))
 
     def objects_near(self, object_ids: Iterable[str]) -> set[str]:
-        """What hangs together with any of these and a source."""
+        """Objects connected with any of these and with a source."""
         near = {self._group[x] for x in object_ids if x in self._group}
         return set().union(*(group.members for group in near if group.sources))
 
@@ -194,7 +194,7 @@ class Reach:
 
 
 def reach_over(pairs: Iterable[Pair], carriers: Container[str], source_ids: Sequence[str]) -> Reach:
-    """What hangs together over contacts of these pairs."""
+    """Groups of objects connected by these pairs."""
     beside: dict[str, list[str]] = {}
     for a, b in pairs:
         beside.setdefault(a, []).append(b)

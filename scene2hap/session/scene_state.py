@@ -51,11 +51,11 @@ class SceneState:
 
     @property
     def poses(self) -> Mapping[str, Pose]:
-        """Where every object is; never changed, a move makes another."""
+        """Pose of every object; never modified, a move makes a new mapping."""
         return self.graph.poses
 
     def category(self, object_id: str) -> str:
-        """What an object is, empty where unknown."""
+        """Category of an object, empty if unknown."""
         haptics = self.haptics.get(object_id)
         return haptics.object_category if haptics is not None else ""
 
@@ -79,7 +79,7 @@ class SceneState:
         return change
 
     def reach(self, source_ids: Sequence[str]) -> Reach:
-        """Which of the sources reach what, as things are."""
+        """Objects that each of the sources reaches now."""
         return Reach(self.graph.beside, {*self.bodies, *source_ids}, source_ids)
 
     def network(self, source_ids: Sequence[str] | None) -> Callable[[Collection[str]], ModelInput]:

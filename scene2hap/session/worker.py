@@ -95,7 +95,7 @@ class Desk:
     spent: deque[Prepared] = dataclasses.field(default_factory=lambda: deque(maxlen=4))
 
     def prepare(self, situation: Situation, near: Collection[str] = ()) -> Prepared:
-        """A field of what is near some objects, of everything for none."""
+        """A field of the objects connected to some objects; of all objects if none are given."""
         network, covers = situation.network(near)
         return Prepared(self.model.prepare(network, situation.excitations, self.bands), situation, covers)
 
