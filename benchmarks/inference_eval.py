@@ -164,7 +164,7 @@ def show_materials(rows: list[MaterialRow]) -> str:
 
 
 async def run(options: argparse.Namespace) -> dict[str, Any]:
-    """All parts that are asked for: printed, and as JSON."""
+    """All requested parts: printed, and as JSON."""
     backend, parts = backend_of(options.llm), options.parts.split(",")
     print(
         f"scene2hap {version('scene2hap')}, Python {platform.python_version()}, {platform.machine()}, llm {options.llm}"
