@@ -296,8 +296,8 @@ def main() -> int:
 nu -0.99 to 0.499, loss 0 to 2, density 1e-3 to 1e9 kg/m3 and sides up to 1000:1, driven anywhere, also exactly on a
 resonance and without loss; and {arguments.scenes} scenes of up to seven bodies, their masses up to 1e12 apart, with up
 to thirty contacts on one point. Bad means NaN, infinity, a floating-point warning, a foreign exception, an unclear
-refusal or more than {arguments.seconds:g} s of processor time. A third of the scenes are computed in two bands, which are
-sampled at about 1 / loss frequencies; one without a floor of loss is refused if they are too many.
+refusal or more than {arguments.seconds:g} s of processor time. A third of the scenes are computed in two bands,
+which are sampled at about 1 / loss frequencies; one without a floor of loss is refused if they are too many.
 
 | model | answered | refused | bad | slowest, s |
 |---|---|---|---|---|"""
