@@ -2,8 +2,9 @@
 
 OMP_NUM_THREADS=1 python benchmarks/falling_boxes.py [n_steps]
 
-The boxes fall into a tray, 1 m wide, and come to rest in a heap; three phases of equal length are listed. The tolerance is
-matched: MuJoCo (4.0) lists pairs that are nearer than the sum of both geoms' gaps, half of it each; ours is stated. A pair whose distance is within 0.1 mm of the tolerance counts as equal either way.
+The boxes fall into a tray, 1 m wide, and come to rest in a heap; three phases of equal length are listed. The tolerance
+is matched: MuJoCo (4.0) lists pairs that are nearer than the sum of both geoms' gaps, half of it each; ours is stated.
+A pair whose distance is within 0.1 mm of the tolerance counts as equal either way.
 
 MuJoCo lists contacts twice: by its routine for two boxes, which drives the simulation and is the reference for time,
 and by its general routine, in a second model of the same boxes as convex meshes. The two differ in some steps. If only

@@ -7,8 +7,8 @@ request before it mends itself, and once more for good. Each request has to end 
 ours; the question of a received valid answer must never be sent again, be it within the run or by a second one over the
 same cache; and the key must be in no error, traceback with its local variables, log at DEBUG, warning, cache file or
 recording. What is sent to OpenAI, and what the server says in its place, is held against OpenAI's published schema.
-Waits between retries are shortened by --time-scale; waits that the server states are not. Prints a table and exits with 1
-if any promise was broken.
+Waits between retries are shortened by --time-scale; waits that the server states are not. Prints a table and exits with
+1 if any promise was broken.
 """
 
 from __future__ import annotations
