@@ -149,7 +149,7 @@ class Playback:
     def _route(self, rows: Sequence[LoopRow], mixer: MixerInstance, outputs: Indices, channels: Indices) -> _Route:
         # Loops that are still being prepared have no place.
         places = [(i, self._places[row]) for i, row in enumerate(rows) if row in self._places]
-        # Decks of one bank share its slots.
+        # Mixers of one bank share its slots.
         own = [i for i, place in places if place.bank.slots is mixer.bank.slots]
         slots = [place.slot for _, place in places if place.bank.slots is mixer.bank.slots]
         is_alone = len(self._plan.mixers) == 1

@@ -22,7 +22,7 @@ class RetryBackend(Wrapper):
 
     Wait as long as the server states, else longer each time, less a random share so that many clients spread.
     told_retries : most repetitions after waits that the server stated, beside `retries`; None counts them all
-    together. Where many lanes share a narrow limit, each is sent away many times before its turn comes.
+    together. Where many calls share a narrow limit, each is refused many times before its turn.
     Bad answers are not repeated: they are `RepairBackend`'s. `rng` and `sleep` are for tests.
     """
 
