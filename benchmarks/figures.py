@@ -101,7 +101,7 @@ def block(name: str) -> re.Pattern[str]:
 
 def provenance(figure: Figure) -> str:
     """Command, commit, date and machine, as the first lines of a block."""
-    commit = git("rev-parse", "--short=7", "HEAD")
+    commit = git("rev-parse", "--short=7", "HEAD") or "unknown"
     if git("status", "--porcelain", "--untracked-files=no", "--", "scene2hap", "benchmarks", "stress"):
         commit += " with local changes"
     load = f", load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
@@ -114,8 +114,12 @@ def provenance(figure: Figure) -> str:
 
 
 def git(*words: str) -> str:
-    run = subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=False)
-    return run.stdout.strip() or ("unknown" if run.returncode else "")
+    """Output of git; empty without git or outside of a repository."""
+    try:
+        run = subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=False)
+    except OSError:
+        return ""
+    return run.stdout.strip()
 
 
 def output(figure: Figure) -> str:
