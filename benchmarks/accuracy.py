@@ -244,7 +244,7 @@ def page(rows: list[Row]) -> str:
         "",
         "## Time, ms of the processor: a plate never seen up to 1 kHz, and a touch on it",
         "",
-        "| plate | " + " | ".join(physical) + " | Modal, asked again | FE |",
+        "| plate | " + " | ".join(physical) + " | Modal, second query | FE |",
         "|---" * (len(physical) + 3) + "|",
     ]
     for one in rows:
@@ -262,7 +262,7 @@ def page(rows: list[Row]) -> str:
             "legible is from real, not how good it is. `InfinitePlate` has the right level on average and none of the "
             "resonances. `MassSpringDamper` is the same plate as a lattice, whose waves run a few per cent slow; `-` "
             "where they are too short for it. `ModalPlate` is the plate. `AutoFidelity` keeps its tolerance for gains "
-            "of bands, not for the single frequencies that are asked here. All of them and the truth leave out shear: "
+            "of bands, not for the single frequencies of this page. All of them and the truth leave out shear: "
             "where six thicknesses make a wavelength, a thin plate's frequencies are 15 % too high.",
             WIDTH,
         ),
