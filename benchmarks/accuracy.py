@@ -1,6 +1,6 @@
-"""Plate models beside finite elements, as a table in Markdown and a figure; docs/accuracy.md holds the latest.
+"""Plate models beside finite elements, as a table in Markdown and a figure; docs/figures/accuracy.md holds the latest.
 
-OPENBLAS_NUM_THREADS=1 python benchmarks/accuracy.py > docs/accuracy.md      (needs scikit-fem and matplotlib)
+python benchmarks/figures.py accuracy      (needs scikit-fem and matplotlib)
 
 Truth is a Kirchhoff plate of Argyris triangles (tests/plate_fe.py), solved directly at every frequency; its own error
 is shown as the difference from a coarser mesh. Times are of the processor.
@@ -8,6 +8,7 @@ is shown as the difference from a coarser mesh. Times are of the processor.
 
 from __future__ import annotations
 
+import argparse
 import platform
 import sys
 import time
@@ -36,7 +37,7 @@ N_POINTS = 32
 FREQUENCIES_HZ = np.geomspace(20.0, 1000.0, 60)
 LOSS = 0.01
 WIDTH = 120
-FIGURE = Path(__file__).parents[1] / "docs" / "accuracy.png"
+FIGURE = Path(__file__).parents[1] / "docs" / "figures" / "accuracy.png"
 
 # Length, width, thickness [m], material, boundary, cells of the finer mesh; both meshes have a node under the force.
 PLATES: dict[str, tuple[float, float, float, str, str, tuple[int, int]]] = {
@@ -195,6 +196,7 @@ def draw(rows: list[Row]) -> None:
 
 
 def main() -> None:
+    argparse.ArgumentParser(description=__doc__.splitlines()[0]).parse_args()
     warnings.simplefilter("ignore", ThinPlateWarning)
     for kind in MODELS.values():  # so that imports are done before the clock starts
         kind.plate_transfer(Plate(0.6, 0.5, 0.02, materials.lookup("oak")), [0.1, 0.1], [0.2, 0.2], [100.0])
@@ -210,10 +212,7 @@ def page(rows: list[Row]) -> str:
     kinds = list(MODELS)
     physical = kinds[1:]
     lines = [
-        "# Accuracy of the plate models",
-        "",
         fill(
-            "`OPENBLAS_NUM_THREADS=1 python benchmarks/accuracy.py > docs/accuracy.md` makes this page and its figure. "
             f"A force at a third of both sides, {len(FREQUENCIES_HZ)} frequencies from {FREQUENCIES_HZ[0]:g} to "
             f"{FREQUENCIES_HZ[-1]:g} Hz, {N_POINTS} points drawn with seed {SEED}, loss factor {LOSS:g} for all. "
             "Errors are in dB, median / 95th percentile over points and frequencies. Truth: Argyris triangles solved "
@@ -245,7 +244,7 @@ def page(rows: list[Row]) -> str:
         "",
         "## Time, ms of the processor: a plate never seen up to 1 kHz, and a touch on it",
         "",
-        "| plate | " + " | ".join(physical) + " | Modal, asked again | FE |",
+        "| plate | " + " | ".join(physical) + " | Modal, second query | FE |",
         "|---" * (len(physical) + 3) + "|",
     ]
     for one in rows:
@@ -263,7 +262,7 @@ def page(rows: list[Row]) -> str:
             "legible is from real, not how good it is. `InfinitePlate` has the right level on average and none of the "
             "resonances. `MassSpringDamper` is the same plate as a lattice, whose waves run a few per cent slow; `-` "
             "where they are too short for it. `ModalPlate` is the plate. `AutoFidelity` keeps its tolerance for gains "
-            "of bands, not for the single frequencies that are asked here. All of them and the truth leave out shear: "
+            "of bands, not for the single frequencies of this page. All of them and the truth leave out shear: "
             "where six thicknesses make a wavelength, a thin plate's frequencies are 15 % too high.",
             WIDTH,
         ),

@@ -1,4 +1,6 @@
-"""AutoFidelity against the finest model on random furniture, a table in Markdown; docs/propagation.md holds the latest.
+"""AutoFidelity against the finest model on random furniture, a table in Markdown.
+
+The latest figures: docs/figures/propagation.md.
 
 OPENBLAS_NUM_THREADS=1 python benchmarks/auto_fidelity.py [--draws 2000] [--tolerance 1.0]
 OPENBLAS_NUM_THREADS=1 python benchmarks/auto_fidelity.py --calibrate --draws 600

@@ -7,8 +7,8 @@ python benchmarks/contacts.py [folder of scenes]
 
 from __future__ import annotations
 
+import argparse
 import csv
-import sys
 import warnings
 from collections import defaultdict
 from pathlib import Path
@@ -79,7 +79,9 @@ def parts(scenes: Path) -> None:
 
 
 def main() -> None:
-    scenes = Path(sys.argv[1]) if len(sys.argv) > 1 else SCENES
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("scenes", nargs="?", type=Path, default=SCENES, help="folder of scenes")
+    scenes = parser.parse_args().scenes
     print("| scene | use | true pairs | found | of these either | precision | recall | wrong | missing |")
     print("|---|---|---|---|---|---|---|---|---|")
     n_true = n_found = n_right = 0

@@ -1,4 +1,4 @@
-"""How well hands can tell the demo kitchen's sources apart, in Markdown; docs/conversion.md holds the latest.
+"""How well hands can distinguish the demo kitchen's sources, in Markdown; docs/figures/conversion.md holds the latest.
 
 python benchmarks/distinctness.py [--seed 0] [--actuator flat] [--scene FILE] [--silence ID ...]
 
@@ -75,7 +75,7 @@ def main() -> None:
     felt = {way: feels(bundle, actuator) for way, bundle in bundles.items()}
 
     print("Dominant frequency [Hz] / envelope rate [Hz] / sensation level [dB]\n")
-    print("| source | intensity | asks for, dB | " + " | ".join(WAYS) + " | moved, octaves | moved, dB |")
+    print("| source | intensity | wanted level [dB] | " + " | ".join(WAYS) + " | moved [octaves] | moved [dB] |")
     print("|---|---|---|" + "---|" * len(WAYS) + "---|---|")
     for source in sorted(intensity, key=lambda name: -intensity[name]):
         own, last = felt["own band"][source], felt["moved apart"][source]

@@ -2,18 +2,18 @@
 
 OMP_NUM_THREADS=1 python benchmarks/falling_boxes.py [n_steps]
 
-The boxes fall into a tray, 1 m wide, and come to rest in a heap; three phases of as many steps are told apart. The
-tolerance is matched: MuJoCo (4.0) lists what is nearer than the sum of both geoms' gaps, half of it each; ours is
-stated. A pair whose distance is within 0.1 mm of the tolerance may be told either way.
+The boxes fall into a tray, 1 m wide, and come to rest in a heap; three phases of equal length are listed. The tolerance
+is matched: MuJoCo (4.0) lists pairs that are nearer than the sum of both geoms' gaps, half of it each; ours is stated.
+A pair whose distance is within 0.1 mm of the tolerance counts as equal either way.
 
-MuJoCo tells twice: by its own routine for two boxes, which drives the simulation and sets the pace, and by its general
-one, which is asked in a second model of the same boxes as convex meshes. The two do not agree in every step; where a
-pair is told by us or the routine for boxes alone, `mj_geomDistance` judges. Times are medians of the processor's time.
+MuJoCo lists contacts twice: by its routine for two boxes, which drives the simulation and is the reference for time,
+and by its general routine, in a second model of the same boxes as convex meshes. The two differ in some steps. If only
+one of us and the routine for boxes reports a pair, `mj_geomDistance` decides. Times are medians of processor time.
 """
 
 from __future__ import annotations
 
-import sys
+import argparse
 import time
 from itertools import product
 
@@ -90,8 +90,8 @@ def found_by(graph: ContactGraph) -> dict[tuple[str, str], float]:
 
 
 def apart(told: dict[tuple[str, str], float], found: dict[tuple[str, str], float]) -> set[tuple[str, str]]:
-    """Pairs that one alone tells, and not by a hair."""
-    # MuJoCo never tells pairs of which neither can move.
+    """Pairs that only one reports, by more than 0.1 mm."""
+    # MuJoCo never reports pairs of which neither can move.
     found = {pair: share for pair, share in found.items() if not {*pair} <= TRAY.keys()}
     differ = {pair for pair, distance in told.items() if distance < TOLERANCE_M - EDGE_M} - found.keys()
     return differ | {pair for pair in found.keys() - told.keys() if found[pair] > 0.01}
@@ -103,7 +103,9 @@ def distance_m(model: mujoco.MjModel, data: mujoco.MjData, names: list[str], pai
 
 
 def main() -> None:
-    n_steps = int(sys.argv[1]) if len(sys.argv) > 1 else 3000
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("n_steps", type=int, nargs="?", default=3000)
+    n_steps = parser.parse_args().n_steps
     rng = np.random.default_rng(5)
     sizes = rng.uniform(0.06, 0.2, (N_BOXES, 3))
     cell = np.stack(np.meshgrid(np.arange(4), np.arange(4), np.arange(7), indexing="ij"), -1).reshape(-1, 3)
@@ -146,7 +148,7 @@ def main() -> None:
             f"| {name} | {len(part)} | {n_pairs[part].mean():.0f} | {100 * same_meshes[part].mean():.1f}, "
             f"{100 * same_boxes[part].mean():.1f} | {1e3 * fast:.3f} | {1e3 * slow:.3f} | {slow / fast:.1f} |"
         )
-    print(f"\nPairs told by us or the routine for boxes alone: {sum(judged)}; ", end="")
+    print(f"\nPairs reported by only one of us and the routine for boxes: {sum(judged)}; ", end="")
     print(f"mj_geomDistance agrees with us on {judged[1]} of them.")
 
 

@@ -5,7 +5,7 @@
 
 SPEC is the `llm` of a settings file of `scene2hap bake`: the kind of a backend ("lexicon"), a JSON object
 ('{"kind": "openai", "model": "..."}'), or a TOML or JSON settings file with a table [bake]. DIR holds the labelled
-scenes. Rules of labelling and the latest figures: docs/inference-evaluation.md.
+scenes. Rules of labelling: docs/inference-evaluation.md; latest figures: docs/figures/inference.md.
 """
 
 from __future__ import annotations
@@ -164,7 +164,7 @@ def show_materials(rows: list[MaterialRow]) -> str:
 
 
 async def run(options: argparse.Namespace) -> dict[str, Any]:
-    """All parts that are asked for: printed, and as JSON."""
+    """All requested parts: printed, and as JSON."""
     backend, parts = backend_of(options.llm), options.parts.split(",")
     print(
         f"scene2hap {version('scene2hap')}, Python {platform.python_version()}, {platform.machine()}, llm {options.llm}"

@@ -83,7 +83,7 @@ def one_after_another(scene: SceneSnapshot, url: str) -> tuple[float, int]:
 
 
 def questions(scene: SceneSnapshot) -> list[LLMRequest]:
-    """All that the chain asks if it shares nothing."""
+    """All calls of the chain without sharing."""
     asked = []
 
     def at_once(request: LLMRequest) -> str:

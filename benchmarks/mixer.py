@@ -1,4 +1,4 @@
-"""What a block of the mix costs while a game updates, and what it allocates; docs/mixing.md holds the latest.
+"""What a block of the mix costs while a game updates, and what it allocates; docs/figures/mixing.md holds the latest.
 
 OMP_NUM_THREADS=1 python benchmarks/mixer.py [--seconds 20] [--switch-interval-ms 5]
 

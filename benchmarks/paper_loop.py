@@ -9,7 +9,7 @@ The plain loop, once per frame: compare all bounding boxes with all, draw a netw
 touch to every source depth first up to two contacts, one exponential (of 20 bands) per path. Ours is
 `HapticSession.update` as a game calls it; beside it stand its parts alone (graph, paths, gains). All see the same
 frames of the same room (`busy_room`), in turns; times are medians, of the processor's time, so that other programs
-disturb them little. The 99th percentile over the median is told of sessions alone, passes of all frames by a new one
+disturb them little. The 99th percentile over the median is given for sessions alone, passes of all frames by a new one
 each: of the middle pass, of the best and the worst, and of the least time that each frame took in any of them, which
 leaves out what the machine did besides.
 """

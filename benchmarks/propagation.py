@@ -1,13 +1,14 @@
-"""What preparing a scene and touching it cost, as a table in Markdown; docs/propagation.md holds the latest.
+"""What preparing a scene and touching it cost, as a table in Markdown; docs/figures/propagation.md holds the latest.
 
 OPENBLAS_NUM_THREADS=1 python benchmarks/propagation.py
 
 Times are of the processor, not of the clock, so that other programs disturb them little. Ratios are of times taken in
-turns in one run. The phone on an oak top that docs/propagation.md shows is printed as well.
+turns in one run. The phone on an oak top that docs/figures/propagation.md shows is printed as well.
 """
 
 from __future__ import annotations
 
+import argparse
 import platform
 import time
 import warnings
@@ -175,6 +176,7 @@ def phone_on_oak() -> None:
 
 
 def main() -> None:
+    argparse.ArgumentParser(description=__doc__.splitlines()[0]).parse_args()
     warnings.simplefilter("ignore", ThinPlateWarning)
     print("| what | Infinite | Modal | bound |\n|---|---|---|---|")
     times = {name: preparing(model) for name, model in MODELS.items()}

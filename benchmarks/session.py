@@ -175,7 +175,7 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=10.0, help="length of each moving scene (10)")
     arguments = parser.parse_args()
     warnings.simplefilter("ignore", ThinPlateWarning)
-    print("| at rest, 2 hands, 8 sources | hands rest, us | hands glide, us | glide over ExponentialPlate |")
+    print("| at rest, 2 hands, 8 sources | hands rest, us | hands slide, us | slide over ExponentialPlate |")
     print("|---|---|---|---|")
     for bands in ("dominant", "third-octaves"):
         law = np.nan

@@ -1,6 +1,6 @@
-"""Measured dominant surfaces beside the true ones, as a table in Markdown; docs/surfaces.md holds the latest.
+"""Measured dominant surfaces beside the true ones, as a table in Markdown; docs/figures/surfaces.md holds the latest.
 
-python benchmarks/surfaces.py > docs/surfaces.md
+python benchmarks/figures.py surfaces
 
 The truth (tests/data/dominant_surfaces.csv) was read from the files by hand: levels of flat faces and extents in a
 viewer, or the numbers in the script that builds the demo kitchen.
@@ -8,6 +8,7 @@ viewer, or the numbers in the script that builds the demo kitchen.
 
 from __future__ import annotations
 
+import argparse
 import csv
 from collections.abc import Iterator
 from functools import cache
@@ -26,27 +27,6 @@ UNIT_M = {"sketchfab_kitchen/scene.gltf": 0.01}
 # Files of a pack are measured in the pack's own unit; a share does not depend on it.
 SAMPLED = ROOT / "tests" / "data" / "sampled_surfaces.csv"
 WITHIN = 0.2
-
-DISAGREEMENTS = """\
-Where people and rays disagree: the worktop `Table` of sketchfab_kitchen is an open sheet whose back panel is larger
-than its top, and is flagged; the table of the KayKit kitchen has an apron fused under 64 % of its top, so that top and
-apron count as one slab of 0.288 m; a chair with a solid side gives that side rather than its seat. In the sample, the
-tops of solid counters cannot be told from the block below them, and what stands fused on a board or hob counts into it
-(shelf_papertowel_decorated, stove_multi_decorated).
-
-Tried and left: where a board without an underside lies on a body, the body could count into it, as a person would say
-of a wall cabinet and its door (kitchencabinet) and of a stove. This mends both, and spoils boards that are drawn as
-thick as they are: a worktop (kitchenCabinet, 1.8 times as large) is 102 mm instead of 54, the top of
-kitchentable_sink_large (half as large) 200 mm instead of 99.
-
-An open mesh has no underside, and is as thick as its box is high (flag "box-fallback"). Only where most rays and most
-of its edge meet it at one height does it end there: a hob is its sheet and rim, without burners and knobs. What is
-fixed to a flat plate's edge, fills less than half of its rows and is not level with it is left out: a television's
-stand, a radio's handle.
-
-A door's frame belongs to its leaf only where one mesh holds both: the rays cannot tell them apart. The frame counts
-into length and width where it crosses the leaf's mid-plane, and not into thickness, which most rays take from the leaf.
-A frame that is an object of its own is measured by itself."""
 
 
 @cache
@@ -79,9 +59,8 @@ def sampled() -> Iterator[tuple[dict[str, str], tuple[float, ...], tuple[float, 
 
 
 def main() -> None:
-    print(__doc__.partition("\n")[0].replace(", as a table in Markdown; docs/surfaces.md holds the latest.", "."))
-    print("\n`python benchmarks/surfaces.py > docs/surfaces.md` makes this table. Metres.\n")
-    print("| scene | object | true | measured | largest error | how the truth was read |")
+    argparse.ArgumentParser(description=__doc__.splitlines()[0]).parse_args()
+    print("| scene | object | true [m] | measured [m] | largest error | how the truth was read |")
     print("|---|---|---|---|---|---|")
     errors: list[float] = []
     for line, true, measured in rows():
@@ -104,7 +83,6 @@ def main() -> None:
             f"{right} of {len(lines)} objects are within {100 * WITHIN:.0f} % on all three edges, {right_clear} of the "
             f"{len(clear)} whose plate is beyond doubt. Beyond: {missed}."
         )
-    print(f"\n{DISAGREEMENTS}")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Which of the innermost loops are compiled.
+"""Choice between compiled kernels and their plain versions.
 
 A kernel is written twice: in plain Python, which says what it means and runs anywhere, and in Cython beside it, by the
 same name in `_<module>.pyx`, which runs wherever the package was built with a C compiler. `SCENE2HAP_COMPILED=0` in the
@@ -29,7 +29,7 @@ def compiled(plain: _Kernel) -> _Kernel:
 
 
 def are_in_use() -> bool:
-    """Whether kernels were compiled when the package was built, and are wanted."""
+    """Whether compiled kernels exist and are not switched off."""
     return _IS_WANTED and find_spec("scene2hap.contact._track") is not None
 
 

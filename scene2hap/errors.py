@@ -77,7 +77,7 @@ class UnknownMaterial(MaterialError, LookupError):
 
 
 class ModelDomainError(Scene2HapError, ValueError):
-    """A physical model was asked outside the range where it holds."""
+    """A physical model was used outside the range where it holds."""
 
 
 class AudioError(Scene2HapError, ValueError):
@@ -139,7 +139,7 @@ class BudgetExceeded(BackendError):
 
 
 class ReplayMiss(BackendError, LookupError):
-    """A replay was asked something that it has not recorded.
+    """A replay has no recording of a request.
 
     `key` identifies the request.
     """

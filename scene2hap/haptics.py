@@ -1,4 +1,4 @@
-"""Plain data that design time and play time both speak: what an object is, how it vibrates, what plays it."""
+"""Plain data shared by design time and play time: states, haptics of an object, actuators, bands."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class SourceState:
 def unmet_needs(object_id: str, states: Sequence[SourceState], categories: Mapping[str, str]) -> tuple[str, ...]:
     """A sentence on each state of an object that needs a contact which nothing in the scene can give.
 
-    `categories` tells what each object of the scene is, by id; "" or "unknown" where nobody knows.
+    `categories` has the category of each object of the scene by id; "" or "unknown" if unknown.
     """
     return tuple(
         f"state {state.name!r} needs contact with {state.needs_contact!r}, which no other object here is; "
@@ -63,7 +63,7 @@ def unmet_needs(object_id: str, states: Sequence[SourceState], categories: Mappi
 
 @dataclass(frozen=True)
 class ObjectHaptics:
-    """What inference says about one object.
+    """Answers of inference about one object.
 
     `estimated_size_m` is length, width and thickness of the dominant surface, corrected where the mesh cannot be
     right. `material` is None where nobody could tell; vibration then does not spread through the object.
@@ -99,7 +99,7 @@ class ObjectHaptics:
 
 @dataclass(frozen=True)
 class VibrationDescription:
-    """What a sound source is asked for: one state of one object.
+    """The request to a sound source: one state of one object.
 
     `size_m` and `material` let a synthesizer shape the sound; `seed` makes its answer repeatable.
     """
@@ -122,7 +122,7 @@ class VibrationDescription:
 @clear_construction
 @dataclass(frozen=True)
 class ActuatorProfile:
-    """What an actuator can render: its name, usable band and resonance [Hz], and how strongly it answers.
+    """The abilities of an actuator: name, usable band and resonance [Hz], and response.
 
     `q` is the quality factor of the resonance [-]; None, or no resonance, means a flat response. `response_db` is a
     measured response as points (frequency [Hz], level [dB]) of rising frequency, which then stands instead of the
@@ -166,7 +166,7 @@ class ActuatorProfile:
 
 @dataclass(frozen=True)
 class Bands:
-    """The frequency bands in which gains are told.
+    """The frequency bands of the gains.
 
     Either true bands between neighbouring edges [Hz], or `Bands.dominant()`: one band that stands for each source's
     own dominant frequency, as in the paper.
@@ -205,7 +205,7 @@ class Bands:
 
     @property
     def n_bands(self) -> int:
-        """How many gains a source has."""
+        """Number of gains of a source."""
         return 1 if self.kind == "dominant" else len(self.edges_hz) - 1
 
     def widths_hz(self) -> NDArray[np.float64]:

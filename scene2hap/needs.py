@@ -52,7 +52,8 @@ def stated(needed: str | None) -> str | None:
 
 @lru_cache(maxsize=4096)
 def meets(needed: str, object_id: str, category: str) -> bool:
-    """Whether an object is what is needed: by its id, or by what it is; by its id's words where nobody knows that.
+    """Whether an object is what is needed: by its id, or by its category; by the words of its id if the category is
+    unknown.
 
     "stove or oven" is met by either; "gas stove", "stove" and "hob" by each other; none by a toy stove or a stove door.
     """

@@ -1,7 +1,7 @@
 """Name -> implementation, for built-ins and guests alike.
 
 A room that can be extended declares one `PluginGroup`. Its built-ins are written as ``"module:attribute"`` and are
-imported only when asked for; a guest package joins by an entry point of the same group and spelling::
+imported at first use; another package joins by an entry point of the same group and spelling::
 
     [project.entry-points."scene2hap.propagation"]
     my_model = "my_package.models:MyModel"

@@ -16,7 +16,7 @@ that an answer may well contain."""
 
 
 class Secret:
-    """A key that shows itself to nobody: given, or read from an environment variable each time it is needed."""
+    """A key that never appears in text: given, or read from an environment variable at each use."""
 
     __slots__ = ("_value", "variable")
 

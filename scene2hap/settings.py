@@ -121,6 +121,6 @@ def read_settings(path: str | None, section: str) -> dict[str, Any]:
 
 
 def cache_folder(part: str) -> Path:
-    """Where a part keeps what it can get again, unless told otherwise: in the user's folder of caches."""
+    """Default folder of a part's cache, in the user's folder of caches."""
     root = os.environ.get("XDG_CACHE_HOME") or (os.environ.get("LOCALAPPDATA") if os.name == "nt" else "")
     return (Path(root) if root else Path.home() / ".cache") / "scene2hap" / part

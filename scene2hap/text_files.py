@@ -11,11 +11,11 @@ MAX_BYTES = 1 << 24
 
 
 def read_small(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) -> bytes:
-    """What is in a regular file. A pipe would be waited for, and a device has no end.
+    """The content of a regular file. Pipes and devices are refused, since they may have no end.
 
     Raises: OSError, ValueError: there is no such file, it is none, or it is larger than `max_bytes`.
     """
-    # Without O_NONBLOCK a pipe blocks as it is opened; what was opened is asked, lest another take its name meanwhile.
+    # Without O_NONBLOCK opening a pipe blocks. The open file is checked, since its name may mean another file by now.
     descriptor = os.open(Path(path), os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
     with os.fdopen(descriptor, "rb") as file:
         found = os.fstat(descriptor)

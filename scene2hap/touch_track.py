@@ -1,4 +1,4 @@
-"""Touches and moves over time, from a file: what a game would say, written down.
+"""Touches and moves over time, from a file, in place of a game.
 
 docs/touches.md describes the JSON and CSV forms. Times are seconds from the start, points are world metres at that
 moment. A hand that has touched an object stays on it, and goes along when it moves, until it lifts or touches

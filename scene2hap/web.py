@@ -42,7 +42,7 @@ _ANY_ZLIB_HEADER = 47
 
 @dataclass(frozen=True)
 class WebReply:
-    """What a server said: status, body, and headers by lower-case name."""
+    """Reply of a server: status, body, and headers by lower-case name."""
 
     url: str
     status: int
@@ -56,13 +56,13 @@ class WebReply:
 
     @property
     def text(self) -> str:
-        """The body as UTF-8, which JSON always is, whatever charset the server names."""
+        """The body as UTF-8, since JSON always is UTF-8."""
         return self.content.decode("utf-8-sig", "replace")
 
 
 @dataclass(frozen=True)
 class Limits:
-    """How long one reply may take in all [s] and how large it may be, unpacked [bytes]."""
+    """Limits of one reply: total time [s] and unpacked size [bytes]."""
 
     timeout_s: float
     max_bytes: int
@@ -160,7 +160,7 @@ async def exchange(
         if transport is None and not getproxies():  # a proxy looks names up itself
             await _look_up(request.url.host)
 
-    # Nothing to unpack is asked for; a server or proxy that packs all the same is unpacked within the limit.
+    # No compression is requested; a compressed reply is unpacked within the limit.
     headers = {"accept-encoding": "identity"}
     if json_body is not None:
         headers["content-type"] = "application/json"

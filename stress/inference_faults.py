@@ -4,11 +4,11 @@ python stress/inference_faults.py [--requests 50] [--backends openai local ollam
 
 A scripted server on the loopback interface plays each fault to fifty requests under a concurrency of eight: once per
 request before it mends itself, and once more for good. Each request has to end in a valid answer or in an error of
-ours; a valid answer that was received must never be asked for again, be it within the run or by a second one over the
+ours; the question of a received valid answer must never be sent again, be it within the run or by a second one over the
 same cache; and the key must be in no error, traceback with its local variables, log at DEBUG, warning, cache file or
 recording. What is sent to OpenAI, and what the server says in its place, is held against OpenAI's published schema.
-Waits between retries are shortened by --time-scale; what the server asks for is not. Prints a table and exits with 1 if
-any promise was broken.
+Waits between retries are shortened by --time-scale; waits that the server states are not. Prints a table and exits with
+1 if any promise was broken.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def main() -> int:
     options = parser.parse_args()
     logging.getLogger("asyncio").setLevel(logging.INFO)
     print(f"Python {platform.python_version()}, {platform.machine()}; {options.requests} requests a row, 8 at once")
-    print("| fault | backend | server | valid | errors | calls | asked again | key seen | s |")
+    print("| fault | backend | server | valid | errors | calls | sent again | key seen | s |")
     print("|---|---|---|---|---|---|---|---|---|")
     rows = [
         _row(name, FAULTS[name], kind, for_good, options.requests, _shortened(options.time_scale))

@@ -1,8 +1,8 @@
 """Propagation at the ends of what scenes could hold: no NaN, no overflow, no hang, and every refusal a clear error.
 
-OMP_NUM_THREADS=1 python stress/propagation.py > docs/stability.md
+python benchmarks/figures.py stability
 
-Draws plates, scenes and time steppers far beyond furniture, asks every model, and counts what comes back:
+Draws plates, scenes and time steppers far beyond furniture, queries every model, and counts the outcomes:
 
     answered    finite numbers of the right shape; attenuation also within its bounds
     refused     an error of scene2hap's own tree, whose message has a number and says what to do
@@ -79,7 +79,7 @@ class Tally:
     slowest_s: float = 0.0
 
     def ask(self, name: str, limit_s: float, question: Callable[[], NDArray[np.generic]]) -> None:
-        """Ask, and count the answer. `name` tells the case."""
+        """Query, and count the outcome. `name` names the case."""
 
         def alarm(signum: int, frame: FrameType | None) -> None:
             raise Hang
@@ -291,15 +291,13 @@ def main() -> int:
     arguments = parser.parse_args()
 
     print(
-        f"""Propagation at its ends.
-
-`OMP_NUM_THREADS=1 python stress/propagation.py > docs/stability.md` makes this page: {arguments.kernels} plates of \
+        f"""{arguments.kernels} plates of \
 1e-6 to 10 m thickness, E 1e3 to 1e13 Pa,
 nu -0.99 to 0.499, loss 0 to 2, density 1e-3 to 1e9 kg/m3 and sides up to 1000:1, driven anywhere, also exactly on a
 resonance and without loss; and {arguments.scenes} scenes of up to seven bodies, their masses up to 1e12 apart, with up
 to thirty contacts on one point. Bad means NaN, infinity, a floating-point warning, a foreign exception, an unclear
-refusal or more than {arguments.seconds:g} s of processor time. A third of the scenes are asked in two bands, which are
-sampled at about 1 / loss frequencies; one without a floor of loss is refused if they are too many.
+refusal or more than {arguments.seconds:g} s of processor time. A third of the scenes are computed in two bands,
+which are sampled at about 1 / loss frequencies; one without a floor of loss is refused if they are too many.
 
 | model | answered | refused | bad | slowest, s |
 |---|---|---|---|---|"""

@@ -1,4 +1,4 @@
-"""Kill a bake at random moments and go on: nothing that was answered is asked again, and the bundle is the same.
+"""Kill a bake at random moments and go on: no answered question is sent again, and the bundle is the same.
 
     python stress/resume.py [--kills 20] [--latency 0.15]
 
@@ -46,7 +46,7 @@ def main() -> int:
         assert baking(work, "whole", server.url).wait() == 0
         whole_s, asked_whole = time.monotonic() - started, len(server.answered)
         print(f"undisturbed: {asked_whole} calls, {whole_s:.1f} s")
-        print(f"{'killed after':>12} {'answered':>9} {'in flight':>10} {'asked again':>12} {'wrongly':>8}  bundle")
+        print(f"{'killed after':>12} {'answered':>9} {'in flight':>10} {'sent again':>12} {'wrongly':>8}  bundle")
         failures = 0
         for round_number in range(arguments.kills):
             server.answered.clear()
@@ -87,7 +87,7 @@ def baking(work: Path, name: str, url: str) -> subprocess.Popen[bytes]:
 
 
 def repeated(before: list[Answered], after: list[Answered], killed: float) -> tuple[int, int, int]:
-    """How many answered questions were asked again, how many questions in all, and how many were in flight."""
+    """How many answered questions were sent again, how many questions in all, and how many were in flight."""
     settled = {digest(one) for one in before if one.sent < killed - GRACE_S}
     flying = {digest(one) for one in before} - settled
     again = {digest(one) for one in after}

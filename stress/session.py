@@ -2,7 +2,7 @@
 
 OMP_NUM_THREADS=1 python stress/session.py [--minutes 10] [--kind exponential_plate] [--edges]
 
-The game runs at 1 kHz in simulated time, as fast as it goes. At the end the command tells, and fails unless
+The game runs at 1 kHz in simulated time, as fast as it goes. At the end the command reports, and fails unless
 
     no exception came, and every sample was finite and within full scale;
     memory did not grow from the first fifth on, by more than the noise of the allocator;
@@ -195,7 +195,7 @@ def main() -> int:
 
 
 def told(name: str, bundled: Bundled | None, arguments: argparse.Namespace) -> int:
-    """Live on a scene, and tell how it went: 0 if well."""
+    """Run a session on a scene, and report the result: 0 on success."""
     found = live(arguments.minutes, arguments.kind, arguments.seed, bundled)
     is_well = found.grown_bytes < MOST_GROWN and found.drift_samples <= 1.0
     verdict = "well" if is_well else "NOT WELL"

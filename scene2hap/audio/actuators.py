@@ -1,4 +1,4 @@
-"""What an actuator makes of a signal, and the inverse that makes up for it.
+"""The response of an actuator, and its bounded inverse.
 
 A resonant actuator answers as a resonator of one degree of freedom, 0 dB at its resonance:
 

@@ -1,4 +1,4 @@
-"""What a sound is like: where it is silent, how steady, how tonal, at which frequency.
+"""Measures of a sound: silent ends, dynamic range, spectral flatness, dominant frequency.
 
 Pure functions of samples (n,) in any scale and their rate. All of them look at the samples without their offset, which
 is neither heard nor felt and would count as a loud, perfectly steady tone: spectra without the mean; levels without the

@@ -17,7 +17,7 @@ Samples = NDArray[np.float32]
 class Credit:
     """Whom a sound is owed to; written next to the haptics.
 
-    `query` is what was asked for, `origin` the kind of source that answered ("freesound", "library", ...).
+    `query` is the search, `origin` the kind of source that answered ("freesound", "library", ...).
     """
 
     title: str

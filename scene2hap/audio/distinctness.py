@@ -1,4 +1,4 @@
-"""How far apart two sources are felt, in just noticeable differences (JND).
+"""Perceptual distance of two sources in just noticeable differences (JND).
 
     by frequency   |ln(f_1 / f_2)| / ln(1 + W)      W = 0.22 [-]
     by envelope    the same for the rates at which both rise and fall, if both do
@@ -26,7 +26,7 @@ from scene2hap.haptics import ActuatorProfile
 
 FREQUENCY_WEBER = 0.22
 WIDEST_WEBER = 0.25
-"""The largest published fraction: two sources that far apart are told apart by everybody."""
+"""The largest published fraction: everybody distinguishes two sources that far apart."""
 LEVEL_JND_DB = 2.5
 FAR_DB = 12.0
 """The attenuation at which sources shall still differ [dB]."""
@@ -38,7 +38,7 @@ _LEAST_DEPTH = 0.2
 
 @dataclass(frozen=True)
 class Feel:
-    """What a source feels like: dominant frequency [Hz], rate of its envelope [Hz] or None, sensation level [dB]."""
+    """Sensation of a source: dominant frequency [Hz], rate of its envelope [Hz] or None, sensation level [dB]."""
 
     frequency_hz: float
     envelope_hz: float | None
@@ -73,7 +73,7 @@ class Difference:
 
 
 def feel_of(loop_samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorProfile | None = None) -> Feel:
-    """What a tactile loop (n_samples,) feels like on an actuator.
+    """Sensation of a tactile loop (n_samples,) on an actuator.
 
     The dominant frequency is that of the component furthest above its own threshold.
     Raises: AudioError: nothing lies between 10 and 1000 Hz.

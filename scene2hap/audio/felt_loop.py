@@ -1,4 +1,4 @@
-"""The tactile loops of a whole scene: what each source is told of the others, and how strongly each is felt."""
+"""The tactile loops of a whole scene: frequencies of all sources, and the level of each."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ _PEAK = 10 ** (-TACTILE_HEADROOM_DB / 20)
 
 @dataclass(frozen=True, eq=False)
 class SourceClip:
-    """The chosen sound of one state of one source, its intensity 0..1, and the group within which nobody needs to tell
-    sources apart: objects of one kind, and so the states of one object. One that is to `keep` its place is not moved,
+    """The chosen sound of one state of one source, its intensity 0..1, and the group within which sources may feel
+    alike: objects of one kind, and so the states of one object. One that is to `keep` its place is not moved,
     and the others keep clear of it."""
 
     clip: AudioClip

@@ -1,4 +1,4 @@
-"""Sound files: reading what people bring, writing what a bundle keeps."""
+"""Reading sound files of any kind, and writing those of a bundle."""
 
 from __future__ import annotations
 
@@ -143,7 +143,7 @@ def write_wav(path: str | Path, samples: ArrayLike, sample_rate_hz: int, subtype
 def write_flac(path: str | Path, samples: ArrayLike, sample_rate_hz: int) -> None:
     """Write samples as `write_wav` does, at 24 bits, in the lossless format that takes less room.
 
-    Raises: AudioError: as there, or a sample rate that FLAC cannot tell (`fits_flac`).
+    Raises: AudioError: as there, or a sample rate that FLAC cannot hold (`fits_flac`).
     """
     if not fits_flac(sample_rate_hz):
         raise AudioError(f"{path}: FLAC has no sample rate of {sample_rate_hz} Hz. Use WAV.")
@@ -151,7 +151,7 @@ def write_flac(path: str | Path, samples: ArrayLike, sample_rate_hz: int) -> Non
 
 
 def fits_flac(sample_rate_hz: int) -> bool:
-    """Whether a frame of FLAC can tell that rate: 16 bits for hertz, or for tens of hertz."""
+    """Whether a frame of FLAC can hold that rate: 16 bits for hertz, or for tens of hertz."""
     return sample_rate_hz < 2**16 or (sample_rate_hz % 10 == 0 and sample_rate_hz < 10 * 2**16)
 
 

@@ -1,4 +1,4 @@
-"""What baking makes of a sound: one loop to hear and one to feel."""
+"""The audible and the tactile loop of one state."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ class HapticLoop:
 
     `frequency_raw_hz` is the peak of the audible loop's spectrum, which the paper puts into its attenuation law;
     `frequency_tactile_hz` is the peak of the tactile one, after conversion.
-    `source` is the sound before it was cut, None where a person's own clip was taken, which the bundle keeps anyway, or
-    where nobody knows; `fingerprint` names each thing that the loops were made from, empty where nobody knows.
+    `source` is the sound before it was cut, None for a person's own clip, which the bundle keeps anyway, or
+    if unknown; `fingerprint` has a digest of each input of the loops, empty if unknown.
     Raises: AudioError: lengths or rates differ, or a frequency is not positive.
     """
 

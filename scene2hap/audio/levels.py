@@ -1,4 +1,4 @@
-"""How strongly a vibration is felt: decibels over the threshold of touch, and what an intensity asks for.
+"""Sensation levels: decibels over the threshold of touch, and the level for a given intensity.
 
 T(f) = A / lg(b)^2 * lg(f / 550 + b)^2 - e      [dB re full scale], b = 6/11, A = 50, e = 45, at most 0
 

@@ -1,4 +1,4 @@
-"""What finds or makes a sound, and what turns it into touch."""
+"""Interfaces of sound sources and of converters from sound to vibration."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ class AudioSource(Protocol):
 
 @dataclass(frozen=True)
 class ConversionContext:
-    """What a converter is told of the scene.
+    """The scene, as far as a converter needs it.
 
     actuator : what it converts for; intensity : of the source, 0..1; neighbours_hz : dominant frequencies of the
-    scene's other sources [Hz]; they decide nothing where `target_hz` is told, which has them in mind already.
+    scene's other sources [Hz]; unused if `target_hz` is given, which takes them into account.
     own_hz : the source's own dominant frequency where somebody has looked at the whole sound, None to find out while
     it plays; target_hz : where that frequency is to be felt, None to leave that to the converter.
     """

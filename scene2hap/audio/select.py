@@ -1,4 +1,4 @@
-"""Which of several candidate sounds an object gets.
+"""Choice of a sound among candidates.
 
 The rule of the paper (Implementation, "Audio Retrieval/Generation"): cut silent ends; keep what is longer than 2.5 s;
 drop what has a dynamic range above 5 dB, since it would not loop, raising that limit by 5 dB until something is left;
@@ -29,11 +29,11 @@ _NYQUIST_MARGIN = 0.45
 
 @dataclass(frozen=True)
 class Candidate:
-    """How one candidate fared.
+    """Scores and verdict of one candidate.
 
     `origin` is where it came from, `duration_s` its length without silent ends; the figures are None where it was too
     short to be measured. Dominant frequencies are the highest peak of all that is heard, and of what touch can feel.
-    `is_chosen` and `verdict` tell what came of it, and why.
+    `is_chosen` and `verdict` state the outcome and its reason.
     """
 
     title: str
@@ -97,7 +97,7 @@ def select_clip(clips: Sequence[AudioClip]) -> AudioClip:
 
 
 def explain_choice(clips: Sequence[AudioClip]) -> Choice:
-    """Choose as `select_clip` does, and tell why. Of equal candidates the steadier wins, then the earlier.
+    """Choose as `select_clip` does, and give the reasons. Of equal candidates the steadier wins, then the earlier.
 
     Raises: AudioError: there are no candidates, or none is longer than `MIN_DURATION_S` without its silent ends.
     """

@@ -1,4 +1,4 @@
-"""How a scene is baked."""
+"""Settings of a bake."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def _sources(specs: object) -> object:
 
 
 class BakeConfig(InferenceConfig):
-    """How a scene is baked. Every part is chosen by a `kind`, or given ready made.
+    """Settings of a bake. Every part is chosen by a `kind`, or given ready made.
 
     llm : the backend of inference, whose course the settings of `InferenceConfig` decide. One that is reached over a
         network gets retries, repairs and a cache around it (`standard_stack`), unless it is given ready made;
@@ -32,7 +32,7 @@ class BakeConfig(InferenceConfig):
     prices : of models, in US dollars per million tokens read and written, beside the dated list;
     audio : where sounds come from, tried in order until `enough_candidates` remain (1 is the paper's rule);
     tactile : what turns sound into touch; actuator : what it is turned for, by name, CSV file or fields;
-    spread : how far a source may be moved in frequency and level to be told from the others;
+    spread : how far a source may be moved in frequency and level to be distinct from the others;
     seed : of everything that is synthesized.
     """
 

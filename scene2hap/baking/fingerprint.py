@@ -1,8 +1,8 @@
-"""What a loop was made from, as names that are equal where the thing is: a loop is made again where one differs.
+"""Fingerprint of a loop: one digest for each of its inputs. A loop is made again if one differs.
 
 sound      the clip before it was cut
-words      what the sound was asked for by: category, state, sentence, keywords, seed
-sources    who was asked: sound sources, in their order, and how many candidates were enough
+words      the request for the sound: category, state, sentence, keywords, seed
+sources    the sound sources, in their order, and how many candidates were enough
 converter  kind and settings
 actuator   the profile
 intensity  of the state
@@ -52,7 +52,7 @@ def converter_name(converter: object) -> str:
 def made_by(clip: AudioClip, converter: str, plan: Plan) -> dict[str, str]:
     """The names of what decides how the loops of a clip come out; `converter` is that of `converter_name`."""
     context = plan.context
-    # A converter that is told where a source is to be felt has no need of where the others are.
+    # A converter with a given target does not need the other sources' frequencies.
     neighbours_hz = () if context.target_hz is not None else sorted(context.neighbours_hz)
     places = [context.own_hz, context.target_hz, plan.level_db]
     return {

@@ -59,7 +59,7 @@ def bake(
     Parameters:
     scene : a snapshot, or the path of a scene file, which `load_scene` reads.
     config : a BakeConfig, its settings, or the path of a TOML or JSON file with a table `bake`.
-    user_prompt : what the model is told above all else.
+    user_prompt : instruction to the model above all others.
     on_report : is handed the account of the inference: calls, what was skipped, tokens, errors of single objects.
     overrides : a person's corrections by id, as of an earlier bundle of the scene; they outrank what is inferred.
 
@@ -103,7 +103,7 @@ def rebake(
     on_report: OnReport | None = None,
     on_remade: OnRemade | None = None,
 ) -> HapticBundle:
-    """Bake some objects of a bundle again, and make anew every loop that was made from something else than is said now.
+    """Bake some objects of a bundle again, and every loop whose inputs have changed.
 
     What is said now: overrides, edits of `objects.json`, and settings that are given; settings of the loops that are
     not given (actuator, tactile, spread, seed) are those that the bundle was made with. All sources are placed together
@@ -112,10 +112,10 @@ def rebake(
 
     Parameters:
     bundle : a HapticBundle, or the path of its folder.
-    objects : ids to infer anew, of which `user_prompt` is told; a cache answers what it was asked before.
+    objects : ids to infer again, with `user_prompt`; a cache answers repeated requests.
     on_remade : is handed the loops that were made, by id and state, each with what differed: "sound", "converter",
         "actuator", "intensity", "plan" (where the source lies among the others), "new", or "no fingerprint". `progress`
-        is told the same.
+        receives the same.
     Raises: as `bake`; UnknownObject. ConfigError: the bundle's converter was given ready made; give it again.
     Warns: BundleWarning: loops of an older bundle, which tell not what they were made from, stay as they are.
     """

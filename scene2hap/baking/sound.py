@@ -27,7 +27,7 @@ from scene2hap.bundle import Override
 from scene2hap.haptics import ObjectHaptics, SourceState, VibrationDescription
 
 Progress = Callable[[str, str, int, int], None]
-"""Told (stage, what is done, how many are done, of how many)."""
+"""Called with (stage, the step, how many are done, of how many)."""
 
 Remade = Mapping[str, Mapping[str, tuple[str, ...]]]
 """What differed for each loop that was made, by id and state: parts of its fingerprint, or "new"."""
@@ -41,9 +41,9 @@ _UNCHANGED: tuple[str, ...] = ()
 
 @dataclass(frozen=True)
 class Earlier:
-    """What an earlier bundle has, and what of it may not be taken over.
+    """Loops and sounds of an earlier bundle, and the exceptions that may not be reused.
 
-    anew : objects whose sounds are chosen again; any_source : keep sounds of other sound sources than those asked now;
+    anew : objects whose sounds are chosen again; any_source : keep sounds of other sound sources than the present ones;
     any_making : leave loops without a fingerprint as they are.
     """
 

@@ -1,4 +1,4 @@
-"""Who of this program holds a sink, a file or a port, so that nobody else takes it away.
+"""Exclusive use of a sink, file or port within this process.
 
 A file that two sinks write, or a sink that two sessions play on, loses the first one's samples without an error. What
 is held is known by a key; it is free again when it is given back, and when its holder is gone.

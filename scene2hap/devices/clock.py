@@ -1,4 +1,4 @@
-"""Which sinks live by the wall's clock."""
+"""Which sinks have a clock of their own."""
 
 from __future__ import annotations
 

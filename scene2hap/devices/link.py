@@ -36,7 +36,7 @@ STALL_S = 0.5
 waits, so that a hiccup costs no sample (on a busy machine 0.3 s were seen between two ends of a pseudo-terminal)."""
 
 GIVE_UP_S = 1.5
-"""... and after so long is closed and opened anew."""
+"""... and after so long it is closed and opened again."""
 
 FIRST_RETRY_S, LAST_RETRY_S = 0.1, 2.0
 """The pause between attempts, doubled each time until the device has played."""
@@ -108,7 +108,7 @@ class LiveSink:
         self._idle = Pace(1)
 
     def open(self, format: SinkFormat) -> None:
-        """Get ready and count anew; the device itself is reached by `start`, and may be missing.
+        """Get ready and reset the counters; the device itself is reached by `start`, and may be missing.
 
         Raises: DeviceError: another sink of this program plays on it.
         """

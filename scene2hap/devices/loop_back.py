@@ -1,4 +1,4 @@
-"""How long a signal takes from being asked for to an input that hears it: by a cable, or a sound server's monitor.
+"""Latency from the request for a signal to its recording at an input: by a cable, or a sound server's monitor.
 
 A sink tells the latency that its driver believes in; a loop-back measures it, with all that the driver does not know.
 
@@ -90,7 +90,7 @@ def _near(apart_s: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True)
 class Arrival:
-    """When a pattern came back after it was asked for, or that it did not.
+    """When a pattern came back after its request, or that it did not.
 
     `latency_s` is None where nothing correlates by `FOUND_FROM`; it may be too long by `uncertainty_s`, a recorded
     block. `channel` is the input's, from 1; `gain_db` that from pattern to input; `correlation` in [-1, 1], negative
@@ -126,7 +126,7 @@ def find(heard: NDArray[np.floating], pattern: NDArray[np.floating]) -> Match:
 
 
 def arrival(take: Take, asked_at_s: float, pattern: NDArray[np.floating]) -> Arrival:
-    """Look for a pattern (m,), at the take's rate, on every channel from the moment [s] at which it was asked for."""
+    """Look for a pattern (m,), at the take's rate, on every channel from the time [s] of its request."""
     margin = round(take.block_s * take.rate_hz)
     begin = max(0, take.frame_at(asked_at_s) - margin)
     end = begin + len(pattern) + round(LONGEST_S * take.rate_hz) + 2 * margin

@@ -1,4 +1,4 @@
-"""A sink that keeps what it is given, for tests and for code that wants the samples."""
+"""A sink that keeps its samples in memory, for tests and for code that processes them."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ from scene2hap.devices.protocol import Block, SinkFormat
 from scene2hap.errors import MissingExtra
 
 REPEAT_S = 1.0
-"""All gains are told again so often, since datagrams get lost."""
+"""Interval at which all gains are sent again, since datagrams get lost."""
 
 _BLOCK_S = 0.02
 
@@ -64,7 +64,7 @@ class OscLine:
         return self._datagrams.not_sent
 
     def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
-        """Say hello, and forget what was told before."""
+        """Send hello, and forget the gains sent before."""
         self._told.clear()
         self._playing.clear()
         self._datagrams.connect(encode("/scene2hap/hello", format.sample_rate_hz), carry_on)

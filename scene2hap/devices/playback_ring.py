@@ -1,4 +1,4 @@
-"""What a sound card's callback copies from: samples rendered ahead, and a fade for every beginning and end.
+"""Ring buffer of a sound card's callback: samples rendered ahead, and a fade at every start and end.
 
 One thread writes and one reads. Each owns one counter, which only grows, and reads the other's; neither ever waits.
 `play` makes no array: it copies and multiplies into what the sound card gave it.

@@ -139,7 +139,7 @@ def close_stream(stream: Any, *, drain: bool) -> None:
 
 
 def restart_if_idle() -> None:
-    """Look for devices anew, unless a stream is open."""
+    """Search for devices again, unless a stream is open."""
     with _LOCK:
         if _open_streams == 0:
             _restart()
@@ -176,7 +176,7 @@ def _devices(channels: str) -> list[Card]:
 
 
 def _started(stream: Any) -> Any:
-    """Counted, so that nobody who misses a device starts PortAudio anew under it."""
+    """Counted, so that a search for devices does not restart PortAudio while a stream is open."""
     global _open_streams
     try:
         stream.start()

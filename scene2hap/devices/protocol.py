@@ -1,4 +1,4 @@
-"""What an actuator looks like to a session."""
+"""The interface of actuators: `ActuatorSink`, its format, events and statistics."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Fill = Callable[[int], Block]
 
 @dataclass(frozen=True)
 class SinkFormat:
-    """What a sink is opened for: its sample rate and the name of each channel, such as ("left", "right")."""
+    """Format of an opened sink: its sample rate and the name of each channel, such as ("left", "right")."""
 
     sample_rate_hz: int
     channels: tuple[str, ...]
@@ -26,7 +26,7 @@ class SinkFormat:
 
 @dataclass(frozen=True)
 class SinkStats:
-    """What a sink has done so far.
+    """Statistics of a sink.
 
     `frames` were handed to the device, at the device's rate; `dropped_frames` were taken from the session while there
     was no device for them, at the session's rate; `underruns` are times at which the device ran dry; `faults` are
@@ -87,5 +87,5 @@ class ActuatorSink(Protocol):
 
     @property
     def stats(self) -> SinkStats:
-        """What was done so far."""
+        """Statistics so far."""
         ...

@@ -1,4 +1,4 @@
-"""A serial amplifier in Python: what a device must do, as a class without wires and as a program on a port.
+"""Reference serial amplifier in Python: a class without wires, and a program on a port.
 
     python -m scene2hap.devices.reference_device          makes a pseudo-terminal and prints its name (not on Windows)
     python -m scene2hap.devices.reference_device PORT     plays the device on one end of a cable
@@ -216,7 +216,7 @@ class PseudoTerminal:
 
 
 def serve(device: ReferenceDevice, wire: Wire, stop: threading.Event) -> None:
-    """Let a device live on a wire until told to stop. Raises: OSError: the wire has gone."""
+    """Run a device on a wire until it is stopped. Raises: OSError: the wire has gone."""
     while not stop.is_set():
         data = wire.read(0.001)
         now = time.monotonic()

@@ -21,7 +21,7 @@ ANSWER_S = 2.5
 """Boards of the Arduino family restart when their port is opened, and need some 2 s until they listen."""
 
 PROBE_S = 0.05
-"""Without room and without news for so long, an empty PCM frame is sent: its CREDIT tells which others were lost."""
+"""Without room and without news for so long, an empty PCM frame is sent: its CREDIT shows which others were lost."""
 
 _BITS_PER_BYTE = 10
 _FRAME_OVERHEAD = 19

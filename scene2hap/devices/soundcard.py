@@ -131,7 +131,7 @@ class _CardLine:
 
     @property
     def underruns(self) -> int:
-        """Gaps, of our own rendering or told by the driver."""
+        """Gaps, of our own rendering or reported by the driver."""
         return self._gaps + self._ring.gaps + self._flags
 
     @property

@@ -1,4 +1,4 @@
-"""Inference: language models and what stands in for them."""
+"""Inference: language models, and the lexicon that replaces them."""
 
 from scene2hap.plugins import PluginGroup
 

@@ -2,7 +2,7 @@
 
 Scene Analyzer -> for each object: Object Analyzer -> Material Property Estimator, and for each state of a vibrating
 object the Vibration Describer. Copies are analysed once, a material is estimated once, and what does not vibrate is not
-described. All that can be asked at once is.
+described. All independent calls run at the same time.
 
 Source: Jingu, AliAbbasi et al., Scene2Hap, CHI 2026, section "LLM Workflow and Components".
 """
@@ -38,10 +38,10 @@ from scene2hap.scene.likeness import material_names
 from scene2hap.scene.snapshot import SceneObject, SceneSnapshot
 
 UNKNOWN = frozenset({"", "unknown", "undefined"})
-"""Words by which a backend says that it cannot tell."""
+"""Words by which a backend says that it does not know."""
 
 Progress = Callable[[str, int, int], None]
-"""Told (what is done, how many are done, of how many)."""
+"""Called with (the step, how many are done, of how many)."""
 
 # What one question may end in without an end to all the others.
 _SPOILED = (BadAnswer, BackendUnavailable)
@@ -49,7 +49,7 @@ _SPOILED = (BadAnswer, BackendUnavailable)
 
 @dataclass(frozen=True)
 class Inference:
-    """What the chain found: the kind of place, the haptics of each object by id, and the account of the run."""
+    """Result of the chain: kind of place, haptics of each object by id, and account of the run."""
 
     scene_category: str
     objects: dict[str, ObjectHaptics]
@@ -74,7 +74,7 @@ async def infer_scene(
 
     An object that could not be answered becomes "unknown" and silent, with its error in the report and in its
     provenance. What would meet every further call is raised, once the calls under way are over.
-    Raises: BackendError and its children, with the object that was asked about: no object could be answered, the
+    Raises: BackendError and its children, with the object of the request: no object could be answered, the
     backend is away or refuses, a budget is used up, a recording lacks the answer. ConfigError. UnknownObject.
     """
     settings = InferenceConfig.parse(config)
@@ -267,7 +267,7 @@ class _Chain:
         return estimate
 
     async def _estimates(self, analyses: Mapping[str, _Analysis | Scene2HapError]) -> dict[str, Estimate]:
-        """The estimate of each object's material, by object id; asks for what is still to be asked."""
+        """The estimate of each object's material, by object id; requests the missing ones."""
         answered = {key: found for key, found in analyses.items() if isinstance(found, _Analysis)}
         needed = set(answered)
         if self._settings.inference == "lazy":

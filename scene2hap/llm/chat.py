@@ -1,4 +1,4 @@
-"""Chat completions, the one shape that OpenAI and most local servers share: bodies out, what was said in."""
+"""Chat completions, the format that OpenAI and most local servers share: request bodies and parsed replies."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _AFTER_REFUSAL = "It is not asked again; rename or hide what it objects to, send
 
 
 class BackendWarning(UserWarning):
-    """A model or its server did something else than it was asked to; the answer may be worse for it."""
+    """A model or its server deviated from the request; the answer may be worse."""
 
 
 class UnusableAnswer(BadAnswer):

@@ -1,4 +1,4 @@
-"""How a scene is inferred."""
+"""Settings of an inference."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from scene2hap.settings import Settings
 
 
 class InferenceConfig(Settings):
-    """How a scene is inferred: how much at once, and what need not be asked.
+    """Settings of an inference: concurrency, and calls that may be saved.
 
     concurrency : calls in flight at once.
     inference : "eager" asks for every material; "lazy" only for those of objects that some source can reach over the

@@ -1,4 +1,4 @@
-"""FunctionBackend: a Python function in place of a model, for tests and for guests who want no more than that."""
+"""FunctionBackend: a Python function in place of a model, for tests and simple backends of your own."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Returned = LLMReply | Mapping[str, Any] | str
 class FunctionBackend:
     """Answers by calling `function(request)`, which may be async; what it raises passes through.
 
-    `requests` are all that it was asked, in order; `model` stands in the replies and names it to a cache.
+    `requests` are all requests so far, in order; `model` stands in the replies and names it to a cache.
     """
 
     def __init__(
@@ -42,5 +42,5 @@ class FunctionBackend:
         return LLMReply(returned if isinstance(returned, str) else json.dumps(returned), self.model)
 
     def report(self) -> dict[str, int]:
-        """How often it was asked."""
+        """The number of requests so far."""
         return {"calls": len(self.requests)}

@@ -1,4 +1,4 @@
-"""HttpReply: what a server said, whatever it meant."""
+"""HttpReply: the reply of a server, without interpretation."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class HttpReply:
-    """What a server said: status, the few headers that matter (lower case) and the body as text."""
+    """Reply of a server: status, the few headers in use (lower case) and the body as text."""
 
     url: str
     status: int

@@ -1,4 +1,4 @@
-"""Whether a model saw the pictures it was sent, told from the tokens that its server says it read."""
+"""Whether a model saw its pictures, estimated from the token count that its server reports."""
 
 from __future__ import annotations
 

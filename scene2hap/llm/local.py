@@ -1,7 +1,7 @@
 """LocalBackend: answers of a model on one's own machine or network.
 
 Local servers promise structured output and keep the promise by halves: the fields of the answer are therefore in the
-prompt as well, what a server rejects is asked for less strictly, and the answer is looked for within what came back.
+prompt as well, a rejected form is requested less strictly, and the answer is searched for within the reply.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 _FORM_REJECTED = frozenset({400, 422, 501})
 _OURS = frozenset({"model", "messages", "images", "response_format", "format", "stream", "max_tokens", "num_predict"})
-"""Fields that `extra` may not set: the backend would no longer know what it asked."""
+"""Fields that `extra` may not set: the backend would no longer know its own request."""
 
 
 class LocalBackend:
@@ -96,7 +96,7 @@ class LocalBackend:
 
     @property
     def rung(self) -> Rung:
-        """How the form of the answer is asked for: what this server has last accepted."""
+        """The way to prescribe the form of the answer that this server accepted last."""
         return LADDER[self._rung]
 
     async def ready(self) -> None:
@@ -110,7 +110,7 @@ class LocalBackend:
     async def complete(self, request: LLMRequest) -> LLMReply:
         """The model's answer: the JSON object in it, or all that it wrote where there is none.
 
-        Raises: BackendUnavailable: no answer, or pictures for a model that is blind; tells whether trying again can
+        Raises: BackendUnavailable: no answer, or pictures for a model that is blind; states whether a retry can
         help. BadAnswer: cut short or empty.
         """
         await self.ready()

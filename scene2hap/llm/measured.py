@@ -1,4 +1,4 @@
-"""Sizes from a model, held against the measured ones."""
+"""Sizes from a model, compared with the measured ones."""
 
 from __future__ import annotations
 

@@ -85,7 +85,7 @@ class OpenAIBackend:
     async def complete(self, request: LLMRequest) -> LLMReply:
         """The model's answer.
 
-        Raises: BackendUnavailable: no answer; tells whether trying again can help. BadAnswer: cut short, filtered,
+        Raises: BackendUnavailable: no answer; states whether a retry can help. BadAnswer: cut short, filtered,
         refused or empty.
         """
         if not self._secret.reveal():

@@ -1,7 +1,7 @@
 """Pace: one pause for all calls that go to one server.
 
-A rate limit counts requests of all lanes together. When one of them is told to wait, the others would only use up
-what comes back; so they wait with it, before they send.
+A rate limit counts all concurrent calls together. When the server makes one call wait, the others would only use up
+the limit as it refills. So they wait too, before they send.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class Pace:
             await asyncio.sleep(left_s)
 
     def heed(self, reply: HttpReply) -> None:
-        """Pause where a reply asks for it; what asks for too long, or cannot be helped by waiting, pauses nobody."""
+        """Pause if a reply requests it. A pause that is too long, or that cannot help, is not taken."""
         if reply.ok:
             wait_s = reset_wait_s(reply.headers)
         else:

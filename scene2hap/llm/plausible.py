@@ -1,7 +1,7 @@
-"""Numbers of an answer, held against what was measured and against what is known of a material.
+"""Comparison of an answer's numbers with measured sizes and with the literature on the material.
 
-A bound is asked for again, once, by all its names (`validation.find_fault`); what still breaks it is replaced by the
-measured size (`measured`) or the table's constant (`trust`).
+Numbers out of bounds are requested again, once, all in one repair (`validation.find_fault`). Those still out of bounds
+are replaced by the measured size (`measured`) or the table's constant (`trust`).
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ EDGES = ("length", "width", "thickness")
 _DENSITY_FAR, _MODULUS_FAR, _LOSS_FAR = 3.0, 10.0, 100.0
 _POISSON_FAR = 0.2
 _ANY_SOLID_KG_M3 = (5.0, 25000.0)
-"""Of a material that nobody knows; what is lighter was told in g/cm3 (foams begin at 10). Assumed."""
+"""Least density of an unknown material; a smaller number was meant in g/cm3 (foams begin at 10). Assumed."""
 
 _UNITS = {"density_kg_m3": "kg/m3", "youngs_modulus_gpa": "GPa", "poisson_ratio": "-", "damping_ratio": "-"}
 _SLIPS = {"density_kg_m3": "g/cm3? Give kg/m3", "youngs_modulus_gpa": "pascal or megapascal? Give gigapascal"}
-_SLIP = 30.0  # times beyond the bound, from which a number was told in another unit
+_SLIP = 30.0  # times beyond the bound, from which a number was meant in another unit
 
 
 def implausible(component: Component, told: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]:
     """What no such object or material has, by the answer's field: in words for the model that said it.
 
-    Nothing without the facts that were asked about.
+    Nothing without the facts of the request.
     """
     if component == "object_analyzer":
         return _sizes(told, facts)

@@ -1,4 +1,4 @@
-"""What the inference chain asks of a language model, whoever answers."""
+"""The interface of model backends: one request and one reply."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ class LLMRequest:
 class LLMReply:
     """One answer: `text` is a JSON document; `model` says who wrote it; `usage` counts tokens where known.
 
-    `key` is the name under which a cache or recording keeps it, "" where none does; `is_kept` tells that it came from
-    there and cost nothing now.
+    `key` is the name under which a cache or recording keeps it, "" where none does; `is_kept` is true if it came
+    from there and cost nothing now.
     """
 
     text: str
@@ -50,7 +50,7 @@ class LLMReply:
 
 @runtime_checkable
 class LLMBackend(Protocol):
-    """Answers requests; may be asked several at once."""
+    """Answers requests; may get several at the same time."""
 
     async def complete(self, request: LLMRequest) -> LLMReply:
         """The answer. Raises: BackendUnavailable, BadAnswer, ReplayMiss."""

@@ -1,4 +1,4 @@
-"""One question at a time: a template filled, a lane waited for, an answer validated and accounted for."""
+"""One question to a model: filled template, limit of concurrent calls, validated answer, account."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ AnswerType = TypeVar("AnswerType", bound=Answer)
 
 
 class Questions:
-    """Asks a backend, at most `lanes` questions at once, and keeps the account.
+    """Sends questions to a backend, at most `concurrency` at once, and keeps the account.
 
     An error that would meet every further question (a budget that is used up, a key that is refused, a recording that
-    does not fit) closes the lanes: calls under way end, so that their answers are kept, and none is begun.
+    does not fit) stops all: running calls end, so that their answers are kept, and no other begins.
     """
 
     def __init__(
         self,
         backend: LLMBackend,
         prompts: Prompts,
-        lanes: int,
+        concurrency: int,
         *,
         user_prompt: str = "",
         temperature: float = 0.2,
@@ -41,7 +41,7 @@ class Questions:
         self.closed_by: Scene2HapError | None = None
         self._backend = backend
         self._prompts = prompts
-        self._lanes = asyncio.Semaphore(lanes)
+        self._slots = asyncio.Semaphore(concurrency)
         self._user_prompt = user_prompt
         self._temperature = temperature
         self._wishes = wishes or {}
@@ -57,7 +57,7 @@ class Questions:
         """A validated answer, and its provenance: model, prompt version, and the name a cache keeps it under.
 
         Raises: BadAnswer: the reply was cut short, is not JSON or breaks a bound; it carries the raw text.
-        AnswerRefused, and as the backend; and what closed the lanes before it was this question's turn.
+        AnswerRefused, and as the backend; and an earlier error that stopped all questions.
         """
         request = LLMRequest(
             component=component,
@@ -69,7 +69,7 @@ class Questions:
             images=images,
             temperature=self._temperature,
         )
-        async with self._lanes:
+        async with self._slots:
             if self.closed_by is not None:
                 raise self.closed_by
             self.report.calls[component] += 1

@@ -1,4 +1,4 @@
-"""Refusals: a model that will not answer, in whichever way it says so.
+"""Detection of refusals: a model that declines to answer, in any of its forms.
 
 To hand one back as a fault of form costs the same call with all its pictures again, and is refused again.
 """

@@ -59,7 +59,7 @@ class ReplayBackend:
 
     @property
     def unused(self) -> tuple[str, ...]:
-        """Keys of recorded answers that nobody has asked for yet."""
+        """Keys of recorded answers that were not requested yet."""
         return tuple(key for key in self._entries if key not in self._played)
 
     async def complete(self, request: LLMRequest) -> LLMReply:
@@ -106,7 +106,7 @@ class RecordingBackend:
 
     @property
     def identity(self) -> Mapping[str, Any]:
-        """What decides the answer besides the request: the inner backend's. Raises: ConfigError: it does not tell."""
+        """The inner backend's identity, which affects answers. Raises: ConfigError: it has none."""
         identity = getattr(self.inner, "identity", None)
         if not isinstance(identity, Mapping):
             raise ConfigError(f"{self.inner!r} has no `identity` (model, address); no cache can tell it apart.")

@@ -1,4 +1,4 @@
-"""What an inference did: what was asked, what was not and why, what it used, what went wrong."""
+"""Account of an inference: calls, skipped calls and their reasons, usage, and errors."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from scene2hap.llm.wrappers.prices import PriceList
 class InferenceReport:
     """The account of one run of the chain.
 
-    calls : asked of the backend, by component; kept : how many of them a cache or recording answered.
-    skipped : what was not asked, by reason: "copies" (objects that another stands for), "silent" (objects without a
-        state to describe), "same_material" (objects whose material word was asked already), "unknown_material",
+    calls : sent to the backend, by component; kept : how many of them a cache or recording answered.
+    skipped : calls that were saved, by reason: "copies" (objects that another stands for), "silent" (objects without a
+        state to describe), "same_material" (objects whose material word was answered already), "unknown_material",
         "table_material" (words that were looked up instead), "unreached_material" (words that no source needs).
     tokens : used by answers that were paid for now, by model and kind of token; unmetered : such answers without usage.
     errors : what could not be answered, by object id ("" is the scene) or material word.

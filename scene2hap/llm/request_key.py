@@ -1,4 +1,4 @@
-"""Names for requests: what decides an answer, and nothing else."""
+"""Keys of requests: made of everything that affects the answer, and of nothing else."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from scene2hap.llm.protocol import LLMRequest
 def request_key(request: LLMRequest) -> str:
     """A name for everything in a request that decides its answer: "v1:" and a SHA-256.
 
-    Subject and prompt version are left out: the same question about another object has the same answer, and a new
-    version that asks the same words does too.
+    Subject and prompt version are left out: the same question about another object has the same answer, and so has a
+    new version with the same words.
     Raises: BackendError: a fact has no JSON (an infinity, an object of Python).
     """
     content = {
@@ -53,7 +53,7 @@ def plain(value: Any) -> Any:
 
 
 def part_names(request: LLMRequest) -> dict[str, str]:
-    """A short name for each part of a request that is too long to keep, so that a miss can tell which one changed."""
+    """A digest of each long part of a request, so that a miss can name the part that changed."""
     parts = {
         "prompt": request.prompt,
         "answer_schema": request.answer_schema,

@@ -1,6 +1,6 @@
-"""What a local server has to offer: the models it serves, and whether they see.
+"""The models that a local server offers, and whether they read pictures.
 
-Servers tell what they like: whatever is not told counts as unknown, never as absent.
+Servers differ in what they report. A missing field counts as unknown, never as absent.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ PROBE_TIMEOUT_S = 5.0
 
 @dataclass(frozen=True)
 class Served:
-    """One model of a server. `sees` is None where the server does not tell; `owner` is "library" on Ollama."""
+    """One model of a server. `sees` is None if the server does not report it; `owner` is "library" on Ollama."""
 
     name: str
     sees: bool | None = None
@@ -45,7 +45,7 @@ async def ollama_models(endpoint: Endpoint) -> tuple[Served, ...]:
 
 
 async def ollama_sees(endpoint: Endpoint, model: str) -> bool | None:
-    """Whether Ollama counts "vision" among a model's capabilities; None where it does not tell.
+    """Whether Ollama counts "vision" among a model's capabilities; None if it does not report it.
 
     Raises: BackendUnavailable: the server does not answer.
     """
@@ -58,7 +58,7 @@ async def ollama_sees(endpoint: Endpoint, model: str) -> bool | None:
 
 
 def only_one(models: tuple[Served, ...], address: str) -> str:
-    """The model to ask where none was named.
+    """The model to use if none was named.
 
     Raises: BackendUnavailable: the server names none; ConfigError: it serves several.
     """

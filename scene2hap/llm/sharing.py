@@ -1,4 +1,4 @@
-"""What need not be asked: copies of what was asked already, and what no vibration reaches."""
+"""Calls that can be saved: copies of answered objects, and objects that no vibration reaches."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def copies(scene: SceneSnapshot, graph: ContactGraph) -> dict[str, str]:
 
     Objects of one kind are copies of one thing (`scene.likeness`). Relation to the support is the kind of what the
     object stands on: six handles on six equal drawers are one, a pan on the stove and a pan on the table are two. An
-    object that stands on nothing is told apart by all that touches it.
+    object that stands on nothing is distinguished by all objects that touch it.
     """
     kinds = {item.id: copy_key(item) for item in scene.objects}
     supports = _supports(scene, graph.contacts)

@@ -1,4 +1,4 @@
-"""Material constants from a model, held against the table of measured ones."""
+"""Material constants from a model, compared with the table of measured ones."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _FIELDS = {
 
 @dataclass(frozen=True)
 class Estimate:
-    """The constants of one material word: None where nobody knows; who gave them; and what is doubtful about them."""
+    """The constants of one material word (None if unknown), their source, and doubts about them."""
 
     material: Material | None
     provenance: str

@@ -1,4 +1,4 @@
-"""Whether a reply is the answer that its component asked for, and what is wrong with it where it is not."""
+"""Validation of a reply as the answer of its component, with all errors named."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Fault:
 def find_fault(component: Component, text: str, facts: Mapping[str, Any] | None = None) -> Fault | None:
     """What is wrong with a reply, in words for the model that wrote it; None where nothing is.
 
-    With the `facts` that were asked about, a sentence must begin with the object's category, and numbers must be such
+    With the `facts` of the request, a sentence must begin with the object's category, and numbers must be such
     as that object or material may have. All that is wrong is named at once.
     """
     doubtful = implausible(component, _fields(text), facts or {})

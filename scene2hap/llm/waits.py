@@ -1,4 +1,4 @@
-"""How long a server asks to wait, read from the headers of its reply.
+"""The waiting time that a server requests in the headers of its reply.
 
 Source: OpenAI, "Rate limits" (x-ratelimit-*) and its Python client (retry-after-ms before retry-after); RFC 9110,
 section 10.2.3 (Retry-After).
@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from email.utils import parsedate_to_datetime
 
 LONGEST_WAIT_S = 120.0
-"""A server that asks for more is given up, as by OpenAI's client."""
+"""A longer wait counts as a failure, as in OpenAI's client."""
 
 HEADERS = (
     "retry-after-ms",

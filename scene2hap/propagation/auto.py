@@ -1,4 +1,4 @@
-"""The cheapest physical model of each object whose error meets a tolerance; it says which, how wrong, and why.
+"""AutoFidelity: for each object the cheapest physical model within a stated error, with its reason.
 
 A rung of `auto_rungs` is chosen for every plate that a source can reach, before anything is solved, and all are coupled
 as `substructuring` does. Along a chain of n plates each gets 1 / sqrt(n) of the tolerance, as errors that know nothing

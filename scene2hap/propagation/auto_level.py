@@ -1,4 +1,4 @@
-"""The loudest that a plate can get beside its sources, before anything is solved.
+"""Upper bound of a plate's level relative to its sources, before anything is solved.
 
     g(f) <= F_b Y_inf B            F_b = 1 / |1 / K - 1 / (omega^2 m)|          Y_inf = 1 / (8 D k^2)
     B = max(1, 8 / (pi omega n eta) sqrt(min(1, pi eta f / (2 b))))

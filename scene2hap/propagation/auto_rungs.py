@@ -1,4 +1,4 @@
-"""The rungs of `auto`: models of one plate from the cheapest to the finest, and what each may be wrong by.
+"""The rungs of `auto`: models of one plate from the cheapest to the finest, and bounds of their errors.
 
     rigid     moves as a whole               wrong by 25 dB (f / f_1)^2, calibrated
     infinite  has no edges                   wrong by what rises above the floor of -40 dB, derived (`auto_level`)

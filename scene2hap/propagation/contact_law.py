@@ -1,9 +1,9 @@
-"""How stiff a contact is: two surfaces that meet at a tip, loaded by a weight.
+"""Contact stiffness by Hertz: two surfaces that meet at a tip, loaded by a weight.
 
     k = 2 E* a       a = (3 F R / (4 |E*|))^(1/3)       1 / E* = sum over both sides of (1 - nu^2) / (E (1 + j eta))
 
 k = (6 E*^2 F R)^(1/3) is Hertz's law, linearised about the preload F. Two real surfaces meet at their highest places
-only, so the area over which they seem to touch says little; an area smaller than Hertz's spot does bound it.
+only, so the apparent contact area says little; an area smaller than Hertz's spot does bound it.
 
 Letters: k [N/m] stiffness, E [Pa], nu [-], eta [-] loss factor, F [N] preload, R [m] radius of the tip, a [m] of the
 spot.

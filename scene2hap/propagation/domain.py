@@ -54,7 +54,7 @@ def warn_if_thick(plate: Plate, frequencies_hz: NDArray[np.float64]) -> None:
 
 
 OutsideDomain = Literal["warn", "raise", "ignore"]
-"""What a model does about an object outside the domain where it holds."""
+"""Reaction of a model to an object outside its domain."""
 
 
 def check_choice(outside_domain: str) -> None:

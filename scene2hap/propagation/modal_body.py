@@ -23,8 +23,8 @@ MOST_REMEMBERED = 65_536
 """Complex numbers of a receptance among contacts that is remembered, 1 MB: things that stay where they are need not be
 summed again when others move."""
 NO_RETURN = 3.0
-"""A wave that has fallen by this exponent (26 dB), exp(-eta k L / 4) on a way of the shorter side L, meets no edge
-that matters."""
+"""A wave that has fallen by this exponent (26 dB), exp(-eta k L / 4) on a path of the shorter side L, has no noticeable
+echo."""
 
 
 @lru_cache(maxsize=128)

@@ -297,8 +297,8 @@ def _solve_whole(
 
 
 def _solve(x: AxisBasis, y: AxisBasis, poisson_ratio: float, shift: float, limit: float) -> ModeBlock:
-    """The modes of K c = k^4 c up to k^4 = `limit`. Most of the time of a whole spectrum goes into vectors that nobody
-    asks for."""
+    """The modes of K c = k^4 c up to k^4 = `limit`. Most of the time of a whole spectrum goes into unused
+    vectors."""
     from scipy.linalg import eigh_tridiagonal
     from scipy.linalg.lapack import dormqr, dpotrf, dpotri, dsytrd
 

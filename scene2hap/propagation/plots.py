@@ -1,4 +1,4 @@
-"""A picture of how a source is felt all over a plate. Needs the extra `plots`."""
+"""Picture of a source's gain all over a plate. Needs the extra `plots`."""
 
 from __future__ import annotations
 

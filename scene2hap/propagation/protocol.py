@@ -45,7 +45,7 @@ class Excitation:
 class ContactNetwork:
     """The bodies of a scene, where they touch (world points [m]) and where they are.
 
-    An object without a body, since nobody knows its material, does not carry vibration; it may still be a source.
+    An object without a body, because its material is unknown, does not carry vibration; it may still be a source.
     `poses` puts the frame of a body into the world: its origin in a corner of the plate's mid-plane, x along the
     length, y along the width. A plate without a pose has its corner at the world's origin and its sides along x and y.
     """

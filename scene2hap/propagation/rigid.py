@@ -1,4 +1,4 @@
-"""Bodies that move as a whole: which ones do, and how they answer to forces.
+"""Rigid bodies: which objects are rigid, and their response to forces.
 
     Y(x, x') = -1 / omega^2 * (1/m + (x - x_c) (x' - x_c) / I_y + (y - y_c) (y' - y_c) / I_x)
 

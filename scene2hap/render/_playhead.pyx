@@ -65,7 +65,7 @@ cdef class Playhead:
         """Start the gains whose time comes before a tactile sample, none of them in what is rendered."""
         while self.incoming:
             change = self.incoming[0]
-            # In numbers of Python: a frame may be told that is too far away for those of C.
+            # In numbers of Python: a caller may give a frame too large for integers of C.
             due = max(-(-change.at_frame * self.tactile_rate_hz // self.sample_rate_hz), self.tick)
             if due >= end:
                 break

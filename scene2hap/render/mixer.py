@@ -87,7 +87,7 @@ class Mixer:
     def set_gains(self, gains: NDArray[np.float32], at_frame: int) -> None:
         """Move to gains (n_hands, n_rows) from a frame on; frames in the past count as the next one.
 
-        Raises: SessionError: another shape, or gains that are not finite; the audio thread could not tell anyone.
+        Raises: SessionError: another shape, or gains that are not finite; the audio thread could not report them.
         """
         loops = self._all_loops
         shape = (self._shape[0], len(loops), self._n_bands)

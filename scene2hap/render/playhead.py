@@ -1,4 +1,4 @@
-"""Where a mix is on its clock, and what it plays next: gains that are due, cells that are reached, samples for hands.
+"""Position of a mix on its clock: due gain changes, current cell, and samples ready for the hands.
 
 The clock counts frames at the outputs' rate; gains begin with the next tactile sample after the frame they are meant
 for. Belongs to the thread that renders; gains come through a deque, which is read and never waited for.

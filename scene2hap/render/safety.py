@@ -1,4 +1,4 @@
-"""What stands between the mix and every actuator, and cannot be left out.
+"""The safety layer between the mix and every actuator. It cannot be switched off.
 
     repair -> clip -> gate -> DC block, low-pass -> gate -> peak guard -> power guard -> slew guard
 
@@ -71,7 +71,7 @@ class Budget:
 
     @classmethod
     def of(cls, profile: ActuatorProfile) -> Budget:
-        """The budget of a profile; what it does not tell stays at the default."""
+        """The budget of a profile; fields that it lacks keep their defaults."""
         told = {item.name: getattr(profile, item.name) for item in fields(cls) if hasattr(profile, item.name)}
         return cls(**told)
 
@@ -92,7 +92,7 @@ class SafetyLayer:
     """The safety layer of `n_channels` outputs.
 
     Parameters: watchdog_s : time without `feed` after which the output fades to zero [s], None for sinks whose clock
-    is not that of a wall; clock : what tells the time [s].
+    is not that of a wall; clock : the time [s].
     Raises: ConfigError: a budget or a watchdog that is out of bounds.
     """
 
@@ -143,7 +143,7 @@ class SafetyLayer:
         self._fed_at = self._clock()
 
     def release(self) -> None:
-        """Fade out for good; `silent` tells when that is done."""
+        """Fade out for good; `silent` is true once that is done."""
         self._is_released = True
 
     def process(self, block: Block) -> Block:

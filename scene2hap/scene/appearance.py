@@ -20,7 +20,7 @@ Rgba = tuple[float, float, float, float]
 
 
 class FaceMaterial:
-    """What some faces are painted with.
+    """Colour and texture of some faces.
 
     `color_rgba` : sRGB and opacity, 0..1 [-]; `texture` : (height, width, 3 or 4) uint8 sRGB, or None; both multiply.
     A texture may be given as its file's content, and is then decoded when it is first read. `name` is what its author

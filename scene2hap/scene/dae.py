@@ -1,6 +1,6 @@
 """COLLADA files as authored trees, through pycollada.
 
-pycollada is asked directly, not through trimesh (5.2), whose reader drops the names of nodes. It opens no image;
+pycollada is called directly, not through trimesh (5.2), whose reader drops the names of nodes. It opens no image;
 skinned and animated geometry is left out.
 
 Source: COLLADA 1.4.1 specification (Khronos, 2008), chapter 5: <asset>, <node>, <instance_geometry>.

@@ -1,4 +1,4 @@
-"""Which files a scene may read: itself, and what lies beside it."""
+"""The files that a scene may read: itself, and files beside it."""
 
 from __future__ import annotations
 

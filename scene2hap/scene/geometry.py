@@ -83,8 +83,8 @@ def dominant_surface(
     """Length, width, thickness and place of the mesh's dominant surface, in the mesh's own frame.
 
     Parameters: up : (3,) direction of the own frame that the plate's normal should rather point along than against;
-        without it, normals point along the axes of the own frame. spend : is told of the work before it is done, in
-        tests of a ray against a triangle, and may raise to prevent it.
+        without it, normals point along the axes of the own frame. spend : called before the work with its size, in
+        tests of a ray against a triangle; may raise to prevent it.
     Returns: length_m >= width_m; exact for boxes and for slabs on legs, else to about a ray's spacing. Flags:
         "open-mesh", rays enter and never leave; "zero-thickness", a sheet; "box-fallback", too few rays met the
         surface twice, so that its thickness is that of the box around it, or of that below its sheet, or no rectangle
@@ -148,7 +148,7 @@ def _lying_plate(
 
 
 def _cuboid(bounds_m: Floats, up: ArrayLike | None) -> DominantSurface:
-    """What the rays would tell of a box between bounds (2, 3) [m]."""
+    """The result that rays would give for a box between bounds (2, 3) [m]."""
     low, high = bounds_m
     edges = high - low
     axes = _pointing(np.eye(3), up)

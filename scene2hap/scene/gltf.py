@@ -1,6 +1,6 @@
 """glTF and GLB files as authored trees.
 
-Nodes are told apart by their number in the file, so that an object is the same on every load whatever it is called.
+Nodes are identified by their number in the file, so that an object is the same on every load whatever it is called.
 Cameras, lights, skins and animations are left out: a skinned mesh stands as it was modelled.
 
 Source: glTF 2.0 specification, sections 3.5 (scenes and nodes) and 3.7 (meshes).
@@ -125,7 +125,7 @@ class _Reader:
     def _looks(
         self, paint: Paint | None, faces: NDArray[np.int64], n_points: int, attribute: _Attribute, is_colored: bool
     ) -> Appearance | None:
-        """The looks of a primitive; None if the file tells nothing of them."""
+        """The looks of a primitive; None if the file has none."""
 
         def corners(name: str, types: tuple[str, ...], columns: slice) -> NDArray[np.float64] | None:
             """Values of an attribute at each corner (m, 3, columns); None, and a word about it, if they are broken."""

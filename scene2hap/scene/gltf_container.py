@@ -35,7 +35,7 @@ _UNDERSTOOD = ("KHR_draco_mesh_compression", "KHR_mesh_quantization", "KHR_anima
 
 
 class GltfFile:
-    """A header whose tables are lists of objects, and buffers that are read when something asks for them."""
+    """A header whose tables are lists of objects, and buffers that are read on first use."""
 
     def __init__(self, path: Path, assets_root: Path) -> None:
         self._path, self._assets_root = path, assets_root
@@ -59,7 +59,7 @@ class GltfFile:
     def row(self, name: str, number: object, place: str) -> Json:
         """Row `number` of a table.
 
-        Raises: SceneFormatError: there is no such row; the message names `place`, which asked for it.
+        Raises: SceneFormatError: there is no such row; the message names `place`, which refers to it.
         """
         rows = self.table(name)
         if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number < len(rows):

@@ -85,7 +85,7 @@ def _decoded(file: GltfFile, number: object, place: str) -> DracoMesh:
 
 
 def _promised(data: bytes) -> tuple[int, int]:
-    """How many triangles and points the header of Draco data tells, which the decoder allocates before it reads on.
+    """Numbers of triangles and points in the header of Draco data, which the decoder allocates before it reads on.
 
     Raises: ValueError, IndexError: it is no header of a mesh.
     """

@@ -1,4 +1,4 @@
-"""Which nodes of an authored tree are objects: the things that a user would point at.
+"""Grouping of an authored tree's nodes into objects that a user would point at.
 
 Authors do not mark objects. Exporters split one mesh by material into several leaves, wrap things in groups and put
 their own nodes on top. The rule "authored" undoes this:

@@ -1,4 +1,4 @@
-"""What makes two objects copies of one thing."""
+"""Which objects count as copies of each other."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How large a scene file may be before it is refused rather than read for minutes or until memory ends.
+"""Limits and budgets of scene files. Larger files are refused instead of filling time or memory.
 
 All are assumed: some ten times what runs on a headset.
 """

@@ -25,7 +25,7 @@ from scene2hap.scene.units import UnitWarning, warn_if_implausible
 __all__ = ["TextureWarning", "UnitWarning", "load_scene"]
 
 SUFFIXES = (".glb", ".gltf", ".obj", ".dae", ".stl", ".ply", ".xml", ".json")
-# Textures that a warning tells of one by one (assumed: who reads five knows what is wrong with all).
+# Textures that a warning lists one by one (assumed: who reads five knows what is wrong with all).
 _TOLD = 5
 
 
@@ -41,7 +41,7 @@ def load_scene(
     """Read a scene file.
 
     Parameters:
-    up_axis : "y" or "z"; None means what the file says, else "y". Nothing is turned; it only tells which way is up.
+    up_axis : "y" or "z"; None means what the file says, else "y". Nothing is turned; it only says which way is up.
     unit_m : metres per unit of the file; None means what the file says, else 1.
     group : which nodes are objects; see `scene2hap.scene.grouping`. In a MuJoCo model, bodies are.
     assets_root : the folder that files beside the scene are read from, with those below it; None means the scene's own

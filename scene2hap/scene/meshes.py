@@ -45,7 +45,7 @@ class Placed:
 class MeshPool:
     """Bakes groups, and gives groups that bake to the same mesh one and the same TriMesh; copies share their looks.
 
-    `surfaces` measures the meshes, and is told of each vertex that the file stores.
+    `surfaces` measures the meshes, and counts each vertex that the file stores.
     """
 
     unit_m: float

@@ -38,7 +38,7 @@ class _Part:
 def read_obj(text: str, name: str, textures: TextureFiles | None = None) -> AuthoredScene:
     """The objects of an OBJ text; `name` is for faces that stand in none.
 
-    Without `textures`, material libraries are not read, and materials are told apart by name alone.
+    Without `textures`, material libraries are not read, and materials are distinguished by name alone.
     Raises: SceneFormatError: a vertex or face is not made of numbers, or a face uses a vertex that is not there; the
     message gives the line.
     """

@@ -15,7 +15,7 @@ _UNIT_TOLERANCE = 1e-9  # As in `Pose`: such a rotation is kept as it is.
 
 
 class PoseTable(Mapping[str, Pose]):
-    """A mapping from id to `Pose` that makes a pose only when asked for it, for `ContactGraph.update` of many things.
+    """A mapping from id to `Pose` that makes each pose on first access, for `ContactGraph.update` of many objects.
 
     Parameters: ids : n ids, each once; positions_m : (n, 3) [m]; rotations_xyzw : (n, 4), quaternions in glTF order,
     normalised if they are not. The arrays are copied. Tables of one tuple of ids are read fastest.

@@ -1,9 +1,9 @@
-"""The JSON form of a scene as a JSON schema, for those who write exporters.
+"""The JSON schema of scene JSON, for authors of exporters.
 
     python -m scene2hap.scene.schema > docs/scene.schema.json
 
-It is told from the types, so that it cannot lag behind them: pydantic gives names, shapes and defaults. What pydantic
-cannot see stands here: bounds that the types hold in code, arrays, what may be left out, and words for exporters.
+It is generated from the types, so that both agree: pydantic gives names, shapes and defaults. This module adds what
+pydantic cannot see: bounds that the types hold in code, arrays, what may be left out, and words for exporters.
 """
 
 from __future__ import annotations

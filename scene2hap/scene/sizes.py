@@ -1,4 +1,4 @@
-"""How far a stated size of a plate may lie from the measured one.
+"""Bounds of a stated plate size, relative to the measured one.
 
 A model may correct what a mesh cannot tell: the thickness of a floor of two triangles, a table modelled as a solid
 block. It cannot know better than the mesh how far the table reaches.
@@ -25,7 +25,7 @@ Size = tuple[float, float, float]
 
 
 def faults(stated_m: Sequence[float], measured_m: Sequence[float]) -> dict[str, str]:
-    """What is wrong with a stated length, width and thickness [m], by field: the value and the bounds that it breaks.
+    """Errors of a stated length, width and thickness [m], by field: the value and the bounds that it breaks.
 
     Length and width may change places. An edge that was measured as 0 has only an upper bound, that of the other one.
     """
@@ -51,7 +51,7 @@ def thickest_m(measured_m: Sequence[float]) -> float:
 
 
 def assumed_thickness_m(measured_m: Sequence[float]) -> float:
-    """What stands in for the thickness of a sheet whose thickness nobody tells [m]."""
+    """Thickness of a sheet of unknown thickness [m]."""
     return max(min(_ASSUMED_M, _ASSUMED_SHARE * min(measured_m[:2])), THINNEST_M)
 
 

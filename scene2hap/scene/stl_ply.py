@@ -82,7 +82,7 @@ def _as_one_solid(data: bytes, name: str) -> bytes:
 
 
 def _appearance(mesh: Any) -> Appearance | None:
-    """Colours of faces, or of vertices by the mean of each face; None if the file tells none."""
+    """Colours of faces, or of vertices by the mean of each face; None if the file has none."""
     if mesh.visual.kind not in ("vertex", "face"):
         return None
     return painted(np.asarray(mesh.visual.face_colors) / 255.0, FaceMaterial((1.0, 1.0, 1.0, 1.0)))
@@ -90,7 +90,7 @@ def _appearance(mesh: Any) -> Appearance | None:
 
 @contextmanager
 def _silent_log(name: str) -> Iterator[None]:
-    """Keep what a package logs to itself; an error of ours says what matters of it."""
+    """Silence a package's logs; our own error states the cause."""
     log, handler = logging.getLogger(name), logging.NullHandler()
     propagated = log.propagate
     log.addHandler(handler)

@@ -1,4 +1,4 @@
-"""The dominant surfaces of one scene: each mesh is measured once, and all of them within a budget."""
+"""The dominant surfaces of one scene: each mesh is measured once, all of them within one budget."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The textures of one scene file: read once, from allowed places, shared by content; what is refused is kept to tell.
+"""The textures of one scene file: read once, from allowed places, shared by content, with the reasons of refusals.
 
 A scene without its textures is still the same scene to the touch, so nothing here fails it.
 """
@@ -16,7 +16,8 @@ from scene2hap.scene.textures import EncodedTexture
 
 @dataclass(eq=False)
 class TextureFiles:
-    """Reads the images of a scene in `folder`, only from inside `assets_root`; `left_out` tells why some are not."""
+    """Reads the images of a scene in `folder`, only from inside `assets_root`; `left_out` has the reasons of
+    refusals."""
 
     folder: Path
     assets_root: Path

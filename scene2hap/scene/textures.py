@@ -41,7 +41,7 @@ class TextureWarning(UserWarning):
 
 @dataclass(frozen=True, eq=False)
 class EncodedTexture:
-    """The bytes of an image file; `name` is for messages, `has_alpha` tells whether its opacity counts."""
+    """The bytes of an image file; `name` is for messages, `has_alpha` is whether its opacity counts."""
 
     encoded: bytes
     name: str
@@ -116,7 +116,7 @@ class EncodedTexture:
 
 def _opened(encoded: bytes) -> Image.Image:
     kind, plugin = next((kind, plugin) for start, kind, plugin in _FORMATS if encoded.startswith(start))
-    # Asked for a format that is not there, Pillow would import all of its plugins.
+    # For an unknown format Pillow would import all of its plugins.
     import_module(f"PIL.{plugin}")
     from PIL import Image
 

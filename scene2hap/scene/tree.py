@@ -1,4 +1,4 @@
-"""The scene as its author built it: nodes, transforms and pieces of mesh, whatever file it came from."""
+"""The authored scene of any file format: nodes, transforms and meshes."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ class AuthoredScene:
     """The nodes that stand at the top of a scene, with what the file says about axes and units.
 
     `unit_m` is None where the format leaves the unit open, or where files are known to say metres and mean others.
-    `left_out` tells, in a sentence each, which textures could not be used.
+    `left_out` names, in a sentence each, the textures that could not be used.
     """
 
     roots: tuple[AuthoredNode, ...]

@@ -1,4 +1,4 @@
-"""Whether a scene's sizes can be metres: a warning with the unit that would make them so.
+"""Check that a scene's sizes can be metres; else a warning with the likely unit.
 
 glTF says metres and is often wrong (centimetres, toy scale). Known sizes decide where names give them away. Otherwise
 only a scene is doubted that is far too wide or high and whose objects are too large as well, or one that is too small:

@@ -1,8 +1,8 @@
-"""How large named things are: the height of their tops above the floor, or the span of their longest edge.
+"""Usual sizes of named objects: height of the top above the floor, or longest edge.
 
 Names are read narrowly: what may be another thing (a doormat, a chair leg) says nothing. The lexicon of `llm` knows far
-more nouns, with bounds so wide that miniatures and kits at half scale pass; here a unit is to be told, which takes
-things whose size differs little.
+more nouns, with bounds so wide that miniatures and kits at half scale pass; here the unit is to be found, which takes
+objects of little variation in size.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ _AROUND = (
 
 @lru_cache(maxsize=4096)
 def usual(name: str) -> Usual | None:
-    """What is usual of the thing that a name tells of; None if the name does not say."""
+    """Usual size of an object by its name; None if the name does not say."""
     apart = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name[:_LONGEST_NAME])
     words = " ".join(re.findall(r"[a-z]{2,}", apart.lower()))
     for pattern, top_m in _TOPS_M:

@@ -1,4 +1,4 @@
-"""Whether a session plays on the actuator that its loops were made for."""
+"""Warning if a session plays on another actuator than its loops were made for."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ class OtherActuatorWarning(UserWarning):
 def warn_if_other(bundle: HapticBundle, actuator: ActuatorProfile) -> None:
     """Warn, by `OtherActuatorWarning`, if the loops of a bundle were made for an actuator that answers otherwise.
 
-    Limits of amplitude and power do not count: they are the safety layer's, and no loop is made by them. A bundle that
-    does not tell what it was made with, or has no loops, fits any.
+    Limits of amplitude and power do not count: they are the safety layer's, and no loop is made by them. A bundle
+    without a record of its actuator, or without loops, fits any.
     """
     made_for = getattr(getattr(bundle, "made_with", None), "actuator", None)
     if not bundle.loops or not isinstance(made_for, ActuatorProfile) or _shape(made_for) == _shape(actuator):

@@ -1,4 +1,4 @@
-"""What of a source is worth mixing at a hand: how far each band of its loop rises over the threshold of touch.
+"""Which sources and bands are strong enough to be mixed at a hand, by the threshold of touch.
 
 The loop is weighted by the threshold T(f), so that a vibration at the threshold has a peak of 1 whatever its frequency,
 and split into bands; p_b is the peak of band b over the whole loop. At band gains g_b no moment of it exceeds
@@ -26,7 +26,7 @@ SILENT = 1e-7
 
 
 class Audibility:
-    """What of some sources is worth mixing.
+    """Which bands of some sources are strong enough to be mixed.
 
     Parameters: peaks : (n_sources, 2, n_bands), see `peaks.peaks_of`; skip : what to leave out.
     """
@@ -40,12 +40,12 @@ class Audibility:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """How many sources and bands there are."""
+        """Numbers of sources and bands."""
         n_sources, n_bands = self._least_gain.shape
         return n_sources, n_bands
 
     def felt(self, gains: NDArray[np.float32]) -> NDArray[np.float32]:
-        """What no moment of each source exceeds at gains (n, n_sources, n_bands), in thresholds (n, n_sources)."""
+        """Upper bound of each source at gains (n, n_sources, n_bands), in thresholds of touch (n, n_sources)."""
         felt: NDArray[np.float32] = (gains[:, :, None] @ self._felt)[:, :, 0, 0]
         return felt
 
@@ -60,16 +60,17 @@ class Audibility:
         return mixed, columns
 
     def loud(self, gains: NDArray[np.float32], columns: Sequence[int] | None = None) -> NDArray[np.float32]:
-        """Gains of the sources in some columns, None for all, 0 in bands of which next to nothing is left; changes what
-        it is given."""
+        """Zero silent bands in the gains of the sources in some columns (None for all), in place."""
         self._counts.silent_bands += silence(gains, self._least_gain, columns)
         return gains
 
 
 @compiled
 def silence(gains: NDArray[np.float32], least: NDArray[np.float32], columns: Sequence[int] | None) -> int:
-    """Set to 0 what of gains (n, n_columns, k) is less than a least (m, k) in some columns of m, None for all; how many
-    were not 0 already."""
+    """Zero all gains (n, n_columns, k) below the minimum `least` (m, k) of their source. Returns how many were zeroed.
+
+    `columns` are the rows of `least` for the columns of `gains`, None for all.
+    """
     is_silent = ~(gains >= (least if columns is None else least[columns]))
     n_silent = int(np.count_nonzero(gains[is_silent]))
     gains[is_silent] = 0.0
@@ -80,9 +81,11 @@ def silence(gains: NDArray[np.float32], least: NDArray[np.float32], columns: Seq
 def sifted(
     gains: NDArray[np.float32], peaks: NDArray[np.float32] | None, least_felt: float, least: NDArray[np.float32] | None
 ) -> tuple[NDArray[np.float32], list[int], int, int]:
-    """A copy of gains (n, m, k) without the sources whose peaks (m, k), so weighted, add up to less than is felt, and
-    without bands that are less than a `least` (m, k); the columns m of which any is left, which alone are in it; and
-    how many of each were left out that were not 0 already. None leaves nothing out; all columns stay without `least`.
+    """Copy gains (n, m, k) without sources too weak to be felt and without silent bands.
+
+    A source is too weak if its peaks (m, k), weighted by its gains, add up to less than `least_felt`; a band is silent
+    below `least` (m, k). Returns the gains of the columns that are not all 0, these columns, and the numbers of sources
+    and of bands that were zeroed. None leaves out nothing; without `least` all columns stay.
     """
     kept, n_below = gains.copy(), 0
     if peaks is not None:

@@ -1,4 +1,4 @@
-"""How a scene is played."""
+"""Settings of a session."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ def _bands(value: object) -> object:
 
 
 class SkipConfig(Settings):
-    """Which work is left out; none of it is felt. docs/playing.md has each bound, `SessionStats.skipped` the savings.
+    """Switches of the pruning; no pruning is felt. docs/playing.md has each bound, `SessionStats.skipped` the savings.
 
-    unreachable : objects that no source reaches over contacts are not told to the model, and not asked about.
+    unreachable : objects that no source reaches over contacts are left out of the model's input and are not evaluated.
     below_threshold : sources that are not felt at a hand are left out of its mix.
     silent_bands : bands in which a source has next to nothing, and loops that nothing lets through, are not mixed.
     idle_hands : hands that touch nothing are not computed.
@@ -61,10 +61,10 @@ def _skip(value: object) -> object:
 
 
 class SessionConfig(Settings):
-    """How a scene is played. Every part with alternatives is chosen by a `kind`, so that a table of TOML will do.
+    """Settings of a session. Every part with alternatives is chosen by a `kind`, so that a table of TOML will do.
 
     propagation : a kind, a mapping with `kind` and settings, or a model; `scene2hap.propagation.MODELS` lists kinds.
-    bands : bands in which gains are told: Bands, their edges [Hz], "dominant" (the paper's) or "third-octaves" (20 from
+    bands : bands of the gains: Bands, their edges [Hz], "dominant" (the paper's) or "third-octaves" (20 from
         10 to 1000 Hz).
     prepare : "background": a worker prepares the model while the last field plays on, and `update` never waits;
         "blocking": `update` waits, so that output depends on input alone. A model with a live field, as

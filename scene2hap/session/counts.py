@@ -1,4 +1,4 @@
-"""What a session counts as it goes."""
+"""Counters of the work that a session leaves out."""
 
 from __future__ import annotations
 

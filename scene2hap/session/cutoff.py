@@ -1,9 +1,8 @@
-"""How far away each source may be for its vibration to be worth mixing, in prices of the way to it.
+"""The path cost beyond which each source is too weak to be mixed: its cut-off.
 
-Where what arrives falls as the price rises, so does what is felt of it, and somewhere it falls below what `audibility`
-leaves out: there is the source's cut-off. A table tells for some prices what is felt of each source at its full level;
-the cut-off is the first of them at which too little is, so that at most too much is mixed. Another level is another
-cut-off, and a look at the same table.
+The vibration felt falls as the cost of the path rises, and at some cost it falls below the bound of `audibility`. A
+table holds, for some costs, the vibration felt of each source at its full level. The cut-off is the first cost in the
+table that is too high, so that at most too much is mixed. Another level needs only another look at the same table.
 """
 
 from __future__ import annotations
@@ -21,11 +20,11 @@ from scene2hap.session.audibility import SILENT, Audibility
 # From 1 to less than exp(-700) for any band between 8 Hz and 1 MHz, in steps of 6 %.
 _PRICES = np.concatenate([[0.0], np.geomspace(1e-4, 100.0, 240)])
 NOWHERE = -1.0
-"""The cut-off of what is not felt even where it is."""
+"""The cut-off of a source that is not felt even on itself."""
 
 
 class CutoffCost:
-    """What arrives and what is felt of the sources of a field, by price.
+    """The vibration that arrives and that is felt of each source of a field, by path cost.
 
     Raises: ModelDomainError: the field answers in another shape.
     """
@@ -50,8 +49,8 @@ class CutoffCost:
 def within(
     prices: Prices, cutoff: Sequence[float], sought: Sequence[Set[int]]
 ) -> tuple[list[int], list[list[float]], int]:
-    """What lies within its cut-off: the columns in which any row's does, rising; the prices in these, infinite beyond;
-    and how many of those sought in each row do not."""
+    """Sources within their cut-off: rising columns in which any row has one, their costs (infinite beyond the cut-off),
+    and the number of sought sources that are beyond."""
     worth, n_beyond = set[int](), 0
     for row, among in zip(prices, sought, strict=True):
         near = {x for x, price in enumerate(row) if price <= cutoff[x]}

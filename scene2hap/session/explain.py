@@ -1,10 +1,10 @@
-"""Why a hand feels what it feels: each source's way to it, object by object.
+"""Report of the sources that a hand feels: each source's path to the hand, object by object.
 
-Where a model spreads vibration along ways, as `ExponentialPlate` does, the way is told on which the paper's law loses
-least. How much of the source is left at each contact on it is asked of the field itself, so that the decibels of the
-steps add up to the gain at the hand. A way may leave an object and come back to it, over a bar of steel on a rug say;
-that is one step. In the physical models a source arrives over all ways at once, and resonates on them
-(`CarryingField`): for these the total is told, and how much of the power comes through which contacts.
+For models that spread vibration along paths, such as `ExponentialPlate`, the report shows the path with the least loss
+by the paper's law. The field itself is evaluated at each contact on it, so that the decibels of the steps add up to the
+gain at the hand. A path may leave an object and come back to it, as over a bar of steel on a rug; that is one step. In
+the physical models (`CarryingField`) a source arrives over all paths at once and resonates: the report shows the total,
+and the share of the power through each contact.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from scene2hap.session.sources import Sources
 from scene2hap.session.touch_gains import TouchGains
 
 LEAST_SHARE = 0.01
-"""Part of the power that is still told in words."""
+"""Smallest share of the power that the text mentions."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,8 @@ class FeltSource:
 
 @dataclass(frozen=True)
 class Explanation:
-    """What a hand feels right now, the strongest first; `is_current` is false while a newer field is being prepared."""
+    """The sources that a hand feels now, the strongest first; `is_current` is false while a newer field is being
+    prepared."""
 
     hand: str
     touches: tuple[str, ...]

@@ -1,4 +1,4 @@
-"""The newest field, which may tell of what hands touched and of nothing else, and the last one that tells of all."""
+"""The newest field, which may cover touched objects alone, and the last one that covers all objects."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class FieldInUse:
     """A `LiveField` of prepared fields, which are replaced as others are prepared; notes what is touched, so that this
     is prepared first.
 
-    Parameters: as_now : makes a live field of a prepared one; note : is told what is touched. `use` comes first.
+    Parameters: as_now : makes a live field of a prepared one; note : called with the touches. `use` comes first.
     """
 
     most = math.inf
@@ -31,7 +31,7 @@ class FieldInUse:
         self._prepared: Prepared | None = None
 
     def use(self, newest: Prepared, whole: Prepared) -> None:
-        """Go on with the newest field, which may cover not all objects, and one that tells of the rest."""
+        """Continue with the newest field, which may not cover all objects, and one that covers the others."""
         if self._prepared is not whole:
             self._whole, self._prepared = self._as_now(whole), whole
         self._newest = self._whole if newest is whole else self._as_now(newest)

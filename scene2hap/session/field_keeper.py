@@ -1,4 +1,4 @@
-"""Keeps a propagation field at hand: the newest that is ready, while a worker prepares the next.
+"""Provides the newest propagation field that is ready, while a worker prepares the next.
 
 All methods belong to the game's thread. The worker ends with the keeper.
 """
@@ -33,7 +33,7 @@ class FieldKeeper:
     """The field in use, and how it is kept up to date.
 
     Parameters: is_background : whether a worker prepares, beginning now; until the first field is ready, each source is
-    felt on itself alone; skips_unreachable : do not tell the model of what no source reaches.
+    felt on itself alone; skips_unreachable : leave objects that no source reaches out of the model's input.
     Raises: what the model raises, if it is prepared in place.
     """
 
@@ -63,12 +63,12 @@ class FieldKeeper:
 
     @property
     def field(self) -> PropagationField:
-        """The field that tells of most, as it was prepared."""
+        """The field that covers most objects, as it was prepared."""
         return self.in_use.field
 
     @property
     def is_current(self) -> bool:
-        """Whether the field in use tells of the newest situation."""
+        """Whether the field in use was prepared for the newest scene state."""
         return self.in_use.situation is self._asked
 
     @property
@@ -85,7 +85,7 @@ class FieldKeeper:
             self._use(self._desk.prepare(self._asked))
 
     def order(self) -> None:
-        """Let the worker begin with what was asked for last: at the end of an update, which it would slow down."""
+        """Let the worker begin with the newest request: at the end of an update, which it would slow down."""
         if not self._is_background:
             return
         if self._n_ordered != self._asked.number:

@@ -1,4 +1,4 @@
-"""What goes into an update, and what comes out."""
+"""Input and output of an update: touches, gains, counters."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ Gains = NDArray[np.float32]
 
 
 class HapticFrame:
-    """What one update decided.
+    """The result of one update: gains of all hands.
 
     Parameters: gains : (n_hands, n_sources, n_bands) float32 [-], or what works them out.
     """
@@ -52,9 +52,9 @@ class HapticFrame:
     def gains(self) -> Gains:
         """Gains (n_hands, n_sources, n_bands) float32 [-], 0 below -140 dB.
 
-        Where the model tells prices (`propagation.live.PricedField`) they are worked out when first asked for, since
-        most games never ask: of all sources until a contact changes; after that only of sources that
-        are felt, those that were left out of the mix being 0. To be asked for first in the thread that updates.
+        Models that report path cost (`propagation.live.PricedField`) compute them on first access, since most games
+        never read them: of all sources until a contact changes, afterwards only of sources that are mixed, the others
+        being 0. The first access must be in the thread that updates.
         """
         if self._gains is None:
             assert self._work_out is not None
@@ -77,12 +77,12 @@ class HapticFrame:
 class SkipCounts:
     """How often each kind of work was left out; see `SkipConfig`.
 
-    Parameters: unreachable_objects : objects that the model was not told of, or that a live field has no way to, summed
-    over preparations and changes; unreachable_touches : touches that it was not asked about; changes_out_of_reach :
-    contact changes after which nothing had to be prepared; below_threshold : sources left out at a hand that hang
-    together with what it touches; silent_bands :
-    gains left out at a hand; rows_not_mixed : bands of loops, times cells of 3 ms, that no gain let through;
-    idle_hands : hands that touched nothing; unchanged_frames : updates that brought nothing new.
+    Parameters: unreachable_objects : objects left out of the model's input, or without a path from a live field's
+    sources, summed over preparations and changes; unreachable_touches : touches that no source reaches;
+    changes_out_of_reach : contact changes after which nothing had to be prepared; below_threshold : sources left out at
+    a hand although they are connected to the touched object; silent_bands : gains left out at a hand; rows_not_mixed :
+    bands of loops, times cells of 3 ms, with no gain above 0; idle_hands : hands that touched nothing; unchanged_frames
+    : updates without a change.
     """
 
     unreachable_objects: int = 0
@@ -97,13 +97,13 @@ class SkipCounts:
 
 @dataclass(frozen=True)
 class SessionStats:
-    """What a session has done so far.
+    """Counters of a session.
 
     Parameters: fields_prepared : fields taken into use, and changes of contacts that a live field went along with;
     gains_capped : gains of a source at a hand above the limit; bodiless : objects that carry no vibration, since their
     material is unknown; field_age_s : for how long the field in use has been out of date, 0 while it is not [s];
-    field_latency_s : time from the change that the field in use tells of to its use [s]; fields_failed : preparations
-    that the model refused, the last field playing on, and last_failure what it said.
+    field_latency_s : time from a change to the use of the field that includes it [s]; fields_failed : preparations that
+    the model refused, while the last field stayed in use; last_failure : the model's message.
     """
 
     updates: int = 0

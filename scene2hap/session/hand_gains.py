@@ -1,7 +1,8 @@
-"""From touches to what every hand is given, and to what of it is worth mixing.
+"""Gains of every hand from its touches, without sources that are too weak to be felt.
 
-Any field is asked for everything, and what is too faint is left out afterwards. A field that tells prices is asked for
-these alone: what lies beyond its cut-off is left out before it is worked out, which is most of it in a furnished room.
+A field is queried for all sources, and weak ones are left out afterwards. Models that report path cost (`PricedField`)
+are queried for cost only: sources beyond their cut-off are left out before their gains are computed. In a furnished
+room these are most sources.
 """
 
 from __future__ import annotations
@@ -24,14 +25,14 @@ from scene2hap.session.frame import Gains, Touch
 from scene2hap.session.touch_gains import TouchGains
 
 Felt = dict[int, list[Touch]]
-"""The touches of each hand that touches anything, by its number, rising."""
+"""Touches by the number of the hand, in rising order; hands without touches are left out."""
 
 
 class HandGains(NamedTuple):
-    """What hands are given.
+    """Gains of all hands.
 
-    full : gains (n_hands, n_sources, n_bands), or what works them out; mixed : those (n_hands, n_columns, n_bands) of
-    the sources in some columns that are worth mixing, None for all.
+    full : gains (n_hands, n_sources, n_bands), or a function that computes them; mixed : gains (n_hands, n_columns,
+    n_bands) of the sources in `columns` that are mixed, None for all.
     """
 
     full: Gains | Callable[[], Gains]
@@ -41,8 +42,7 @@ class HandGains(NamedTuple):
 
 @dataclass(eq=False)
 class Loudness:
-    """What each source's signal is multiplied with, `levels` (n_sources,) [-]; whether that is 1 for all; and what of
-    it is worth mixing."""
+    """Factors of the sources' signals, `levels` (n_sources,) [-], and the bounds of what is mixed."""
 
     levels: NDArray[np.float64]
     audibility: Audibility
@@ -51,22 +51,22 @@ class Loudness:
         self.is_even = bool((self.levels == 1.0).all())
 
     def applied(self, gains: NDArray[np.float64], columns: Sequence[int] | None = None) -> Gains:
-        """Gains (n, n_columns, n_bands) of some sources, None for all, at their levels; changes what it is given."""
+        """Multiply gains (n, n_columns, n_bands) of some sources (None for all) by their levels, in place."""
         if not self.is_even:
             gains *= (self.levels if columns is None else self.levels.take(columns))[:, None]
         return gains.astype(np.float32)
 
 
 class GainMethod(Protocol):
-    """Hears what hands touch."""
+    """Computes the gains of all hands from their touches."""
 
     def of_hands(self, n_hands: int, felt: Felt) -> HandGains:
-        """What that many hands are given, of which some touch something."""
+        """Gains of so many hands, of which some touch objects."""
         ...
 
 
 class AllGains:
-    """Asks a field for everything."""
+    """Query a field for all sources."""
 
     def __init__(self, gains: TouchGains, loudness: Loudness, skip: SkipConfig, counts: Counts) -> None:
         self._gains, self._loudness, self._skip, self._counts = gains, loudness, skip, counts
@@ -85,7 +85,7 @@ class AllGains:
 
 
 class PrunedGains:
-    """Asks a field for prices, and for what lies within the cut-off."""
+    """Query a field for path costs, then for the gains of sources within their cut-off."""
 
     def __init__(
         self,
@@ -130,12 +130,12 @@ class PrunedGains:
 
 
 def _without(prices: Prices, limits: Sequence[float]) -> Prices:
-    """Infinite instead of prices beyond their limits."""
+    """Costs beyond their limits become infinite."""
     return [[x if x <= limit else math.inf for x, limit in zip(row, limits, strict=True)] for row in prices]
 
 
 def _told(given: Gains, n_hands: int, felt: Felt) -> Gains:
-    """Gains as a game is told them: 0 below -140 dB, whatever the model. A copy."""
+    """Gains as `HapticFrame` reports them: 0 below -140 dB, whatever the model. A copy."""
     return _among(np.where(given < SILENT, np.float32(0.0), given), n_hands, felt)
 
 

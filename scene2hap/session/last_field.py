@@ -1,4 +1,4 @@
-"""The last field that was prepared, asked about things as they are now."""
+"""The last prepared field, evaluated for the present poses."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ Point = tuple[float, float, float]
 
 
 class LastField:
-    """A `LiveField` made of one that was prepared for a moment that may be over.
+    """A `LiveField` made of a field that was prepared for an earlier scene state.
 
-    Hands are taken to the places of the object where they would have been then; sources that it knows nothing of are
-    not heard; and while it is not current, what nothing leads to any more is silent, whatever the field says.
+    A touch is evaluated at the same place of the object at that time. Sources unknown to the field are silent. While
+    the field is outdated, sources without a path to the touched object are silent, whatever the field says.
 
-    Parameters: then : where objects were when it was prepared; now : where an object is; reach : what hangs together
-    now; is_current : whether the field tells of things as they are.
+    Parameters: then : where objects were when it was prepared; now : where an object is; reach : the objects that
+    are connected now; is_current : whether the field was prepared for the present state.
     """
 
     most = math.inf
@@ -59,7 +59,7 @@ class LastField:
         return gains if all(len(hand) == 1 for hand in hands) else self._largest(gains, hands)
 
     def _answers(self, touched: Sequence[TouchedPoint]) -> tuple[list[Gains], list[list[int]]]:
-        """What the field says, asked once for each object, and of which touches."""
+        """The field's values, evaluated once for each object, and the touches that they belong to."""
         rows: dict[str, list[int]] = {}
         for row, (object_id, _) in enumerate(touched):
             rows.setdefault(object_id, []).append(row)
@@ -92,7 +92,7 @@ def put_together(
     among: Sequence[frozenset[int] | None],
     shape: tuple[int, int],
 ) -> Gains:
-    """The rows (n, *shape) that several answers tell, each of some of them.
+    """The rows (n, *shape) of several answers, each of which has some of them.
 
     Parameters: answers : of so many rows, each (n_own, n_theirs, n_bands); columns : which of ours are known, and where
     they are among theirs; among : for each row the columns of ours that may be other than 0, None for all.

@@ -1,4 +1,4 @@
-"""What every hand is given, frame by frame: the field in use, asked about touches, times the level of each source."""
+"""Gains of every hand in each frame: the field at the touches, times the level of each source."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ PeaksOf = Callable[[Sequence[LoopRow]], NDArray[np.float32]]
 
 
 class Listening:
-    """Turns touches into gains, and leaves out what changes nothing.
+    """Turns touches into gains, and skips updates that change nothing.
 
     What gains depend on besides the touches is remembered, and forgotten when it changes.
     """
@@ -87,7 +87,7 @@ class Listening:
     def frame(
         self, hands: tuple[str, ...], felt: Felt, moved: Collection[str], *, is_paused: bool
     ) -> tuple[HapticFrame, HandGains | None]:
-        """What the hands are given, and what of it is to be mixed: None if nothing has changed."""
+        """Gains of the hands, and the part to be mixed; None if nothing has changed."""
         if self.keeper.take():
             self._is_fresh = False
         if self._is_unchanged(felt, moved):
@@ -107,7 +107,7 @@ class Listening:
 
     def wait(self, timeout_s: float | None) -> bool:
         """Wait for the worker; false after the timeout [s]."""
-        # Another field may be in use then, or the same have been told what to expect.
+        # Another field may be in use then, or `expect` may have changed this one.
         self._is_fresh = False
         return self.keeper.wait(timeout_s)
 
@@ -121,7 +121,7 @@ class Listening:
         return explainer.explain(hand, touches, self._frame, self.keeper.is_current)
 
     def stats(self, updates: int, rows_not_mixed: int) -> SessionStats:
-        """What was done so far."""
+        """Counters so far."""
         keeper = self.keeper
         return SessionStats(
             updates,
@@ -136,7 +136,7 @@ class Listening:
         )
 
     def _look_around(self) -> None:
-        """Find out anew what hangs together."""
+        """Find connected objects again."""
         self._bodies, self._reach = self._state.bodies, self._state.reach(self._sources.ids)
         self._bodiless = [x for x in self._sources.ids if x not in self._bodies]
         self._method = self._n_unreachable = None
@@ -164,7 +164,7 @@ class Listening:
     def _is_unchanged(self, felt: Felt, moved: Collection[str]) -> bool:
         if not (self._is_fresh and self._config.skip.unchanged_frames and felt == self._felt):
             return False
-        # A field that is not of this moment is asked about where the object was then.
+        # An outdated field is evaluated at the object's former place.
         return not moved or not any(touch.object_id in moved for touches in felt.values() for touch in touches)
 
     def _gains_of_hands(self, n_hands: int, felt: Felt) -> HandGains:

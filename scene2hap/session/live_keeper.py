@@ -1,4 +1,4 @@
-"""Stands where a `FieldKeeper` stands for models whose fields follow the contacts by themselves."""
+"""Counterpart of `FieldKeeper` for models with live fields, which read the contacts by themselves."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class LiveKeeper:
 
     @property
     def field(self) -> LiveField:
-        """What is asked."""
+        """The field to evaluate."""
         return self.in_use
 
     def ask(self, excitations: Sequence[Excitation]) -> None:
@@ -45,7 +45,7 @@ class LiveKeeper:
         """Nothing is left to be prepared."""
 
     def method(self, source_ids: tuple[str, ...], reach: Reach) -> LiveField:
-        """What tells of these sources now."""
+        """The field of these sources."""
         return self.in_use
 
     def take(self) -> bool:

@@ -1,4 +1,4 @@
-"""The way between a source and a touch on which the paper's law loses least."""
+"""The path between a source and a touch with the least loss by the paper's law."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From a scene and what was baked for it to what propagation models read: bodies, where they are, and what excites."""
+"""Input of propagation models from a scene and its bundle: bodies, their poses, and excitations."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from scene2hap.scene.snapshot import DominantSurface, SceneObject
 from scene2hap.session.sources import LoopRow
 
 UNKNOWN_MASS_KG = 1.0
-"""Mass of a source whose material nobody knows."""
+"""Mass of a source whose material is unknown."""
 
 
 def body_of(haptics: ObjectHaptics | None) -> Plate | None:
@@ -28,10 +28,10 @@ Corners = dict[str, tuple[Pose, SceneObject, Body, Pose]]
 
 
 class PlatePoses(Mapping[str, Pose]):
-    """Where the corner of each object's plate is, worked out when first asked for.
+    """Poses of the corners of the objects' plates, each computed on first access.
 
-    A model asks for a few of many, and in its own thread. `corners` outlives one moment: what did not move since is
-    not worked out again. Threads may share it, since each entry says what it holds for.
+    A model needs a few of many, in its own thread. `corners` is kept from state to state: the corner of an object that
+    did not move is not computed again. Threads may share it, since each entry states the pose that it holds for.
     """
 
     def __init__(

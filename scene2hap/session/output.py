@@ -1,4 +1,4 @@
-"""The way from a session to its sink: through the safety layer, faded at both ends."""
+"""Connection of a session to its sink: through the safety layer, faded at both ends."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Output:
 
     @property
     def exists(self) -> bool:
-        """Whether there is a sink."""
+        """Whether a sink is set."""
         return self._sink is not None
 
     @property
@@ -55,11 +55,11 @@ class Output:
 
     @property
     def safety_stats(self) -> SafetyStats:
-        """What the safety layer of a started sink had to change."""
+        """Counters of samples that the safety layer of a started sink changed."""
         return self._safety.stats if self._safety is not None else SafetyStats()
 
     def feed(self, frame: HapticFrame) -> None:
-        """Tell the watchdog that the game is alive, and the sink what was decided."""
+        """Reset the watchdog, and pass the gains to the sink."""
         if self._safety is not None:
             self._safety.feed()
             self.show(frame)
@@ -116,7 +116,7 @@ class Output:
 
     @contextlib.contextmanager
     def reopened_for(self, hands: Sequence[str], fill: Fill) -> Iterator[None]:
-        """Let channels change: a started sink is faded out and stopped before, and opened anew after.
+        """Let channels change: a started sink is faded out and stopped before, and opened again after.
 
         Raises: SessionError: what a started sink writes has its channels once and for all; and as `start`.
         """

@@ -1,4 +1,4 @@
-"""How loud a loop gets in each band: over the threshold of touch, and re full scale."""
+"""Peak of a loop in each band: over the threshold of touch, and re full scale."""
 
 from __future__ import annotations
 

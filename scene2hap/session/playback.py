@@ -99,7 +99,7 @@ class Playback:
         return sum(mixer.mixer.stats.rows_skipped for mixer in self._mixers)
 
     def position_s(self, row: LoopRow) -> float:
-        """Where in its loop a row is [s]."""
+        """Position of a row in its loop [s]."""
         loop = row.loop.tactile
         return position_s(len(loop.samples), loop.sample_rate_hz, self._position, self._config.sample_rate_hz)
 
@@ -110,7 +110,7 @@ class Playback:
         return np.array(found, dtype=np.float32).reshape(len(rows), 2, n_bands)
 
     def take_prepared(self) -> bool:
-        """Let in the loops that the worker has prepared by now, silent until gains are set anew; false for none."""
+        """Let in the loops that the worker has prepared by now, silent until gains are set again; false for none."""
         ready = [row for row, loop in self._coming.items() if loop.done()]
         for row in ready:
             self._let_in(row, self._coming.pop(row).result(), len(ready))
@@ -149,7 +149,7 @@ class Playback:
     def _route(self, rows: Sequence[LoopRow], mixer: MixerInstance, outputs: Indices, channels: Indices) -> _Route:
         # Loops that are still being prepared have no place.
         places = [(i, self._places[row]) for i, row in enumerate(rows) if row in self._places]
-        # Decks of one bank share its slots.
+        # Mixers of one bank share its slots.
         own = [i for i, place in places if place.bank.slots is mixer.bank.slots]
         slots = [place.slot for _, place in places if place.bank.slots is mixer.bank.slots]
         is_alone = len(self._plan.mixers) == 1
@@ -210,7 +210,7 @@ class Playback:
             self._paused_from = at_frame
 
     def resume(self) -> None:
-        """Let the clock go on; gains are to be set anew."""
+        """Let the clock go on; gains are to be set again."""
         self._paused_from = None
 
     def render(self, n_frames: int) -> Block:

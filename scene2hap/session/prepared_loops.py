@@ -1,4 +1,4 @@
-"""Loops ready to be mixed: split into bands, with the peaks by which `audibility` judges them.
+"""Loops ready to be mixed: split into bands, with the peaks that `audibility` compares.
 
 That takes some 100 ms a loop, so each content is prepared once in a process, however many objects, sessions and copies
 of its samples there are. What a session is given while it plays is prepared by a worker. What has been prepared stays
@@ -44,7 +44,7 @@ _NEWEST: OrderedDict[tuple[bytes, _Kind], PreparedLoop] = OrderedDict()
 
 
 def find(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop | None:
-    """What was prepared of this very clip, None if nothing was; does no work."""
+    """The prepared loop of this clip, None if it is not ready; does no work."""
     with _LOCK:
         return _OF_CLIP.get(clip, {}).get((bands, tactile_rate_hz))
 

@@ -1,4 +1,4 @@
-"""Which sources can reach which objects at all: those that hang together over contacts.
+"""Which sources can reach which objects: those connected over contacts.
 
 The groups are kept as contacts come and go. A contact that comes joins two of them. When contacts go, one searches from
 both sides of each in turn, so that the smaller part is what is walked through: a mug that is lifted off a table in a
@@ -28,7 +28,7 @@ class _Group:
 
     @property
     def n_reached(self) -> int:
-        """How many of them a source reaches."""
+        """Number of these objects that a source reaches."""
         return len(self.members) if self.sources and len(self.members) > 1 else 0
 
 
@@ -52,7 +52,7 @@ class _Search:
 class Reach:
     """The groups of objects that hang together, and the sources in each.
 
-    Parameters: beside : what each object touches, with whatever weight, since that may change; read anew by `follow`;
+    Parameters: beside : what each object touches, with whatever weight, since that may change; read again by `follow`;
     carriers : ids of all that may pass vibration on, sources included.
     """
 
@@ -106,7 +106,7 @@ class Reach:
         return set().union(*(group.members for group in self._groups_with_sources()))
 
     def objects_near(self, object_ids: Iterable[str]) -> set[str]:
-        """What hangs together with any of these and a source."""
+        """Objects connected with any of these and with a source."""
         near = {self._group[x] for x in object_ids if x in self._group}
         return set().union(*(group.members for group in near if group.sources))
 
@@ -205,7 +205,7 @@ class Reach:
 
 
 def reach_over(pairs: Iterable[Pair], carriers: Container[str], source_ids: Sequence[str]) -> Reach:
-    """What hangs together over contacts of these pairs."""
+    """Groups of objects connected by these pairs."""
     beside: dict[str, list[str]] = {}
     for a, b in pairs:
         beside.setdefault(a, []).append(b)

@@ -1,4 +1,4 @@
-"""What is there now: objects, what they are made of, where they are, and who touches whom."""
+"""The present scene: objects, their materials, poses and contacts."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Thing = TypeVar("Thing")
 
 
 class ModelInput(NamedTuple):
-    """What a model is told; `covers` are the objects of which it may say something, None for all."""
+    """The input of a model; `covers` are the objects that its field covers, None for all."""
 
     network: ContactNetwork
     covers: Collection[str] | None = None
@@ -47,12 +47,12 @@ class SceneState:
 
     @property
     def bodiless(self) -> tuple[str, ...]:
-        """Objects whose material nobody knows."""
+        """Objects whose material is unknown."""
         return tuple(object_id for object_id in self.objects if object_id not in self.bodies)
 
     @property
     def poses(self) -> Mapping[str, Pose]:
-        """Where every object is; never changed, a move makes another."""
+        """Pose of every object; never modified, a move makes a new mapping."""
         return self.graph.poses
 
     def require(self, object_id: object, hint: str = "") -> None:
@@ -64,7 +64,7 @@ class SceneState:
         raise UnknownObject(unknown_object(object_id, self.objects) + hint)
 
     def category(self, object_id: str) -> str:
-        """What an object is, empty where unknown."""
+        """Category of an object, empty if unknown."""
         haptics = self.haptics.get(object_id)
         return haptics.object_category if haptics is not None else ""
 
@@ -88,14 +88,14 @@ class SceneState:
         return change
 
     def reach(self, source_ids: Sequence[str]) -> Reach:
-        """Which of the sources reach what, as things are."""
+        """Objects that each of the sources reaches now."""
         return Reach(self.graph.beside, {*self.bodies, *source_ids}, source_ids)
 
     def network(self, source_ids: Sequence[str] | None) -> Callable[[Collection[str]], ModelInput]:
-        """What a model is told of this moment: everything, or only what a source reaches; put together when called.
+        """The model's input for the present state: all objects, or only those that a source reaches.
 
-        Called with some objects, it tells only of what hangs together with them, if a source does.
-        That may be in another thread, and later: spelling out contacts costs more than an update may take.
+        The result is a function of some objects; it gives only the objects connected to these, if a source is. It may
+        be called in another thread, and later: listing contacts costs more than an update may take.
         """
         objects, bodies, poses, junctions = self.objects, self.bodies, self.poses, dict(self.graph.junctions)
         spelling, corners = self._spelling, self._corners

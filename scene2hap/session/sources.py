@@ -50,7 +50,7 @@ class LoopRow:
 
 @dataclass
 class Source:
-    """A vibrating object; `needs` tells the contact that each state needs, by id or in words."""
+    """A vibrating object; `needs` is the contact that each state needs, by id or in words."""
 
     rows: Mapping[str, LoopRow]
     needs: Mapping[str, str | None]

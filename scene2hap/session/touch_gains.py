@@ -1,4 +1,4 @@
-"""From touches to gains: what of each source arrives where a hand is."""
+"""Gains at touched points: the part of each source that arrives there."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ GREATEST = 10 ** (MAX_GAIN_DB / 20)
 
 
 class TouchGains:
-    """Asks a field about hands, each with its touches.
+    """Evaluate a field at the touches of each hand.
 
-    Parameters: shape : (n_sources, n_bands) of a hand's gains; reach : what hangs together now; skips_unreachable : do
-    not ask the field where no source reaches; limit : cap on a gain, None for none. `may_be_capped` tells whether the
-    field may say more.
+    Parameters: shape : (n_sources, n_bands) of a hand's gains; reach : the objects that are connected now;
+    skips_unreachable : do not evaluate the field where no source reaches; limit : cap on a gain, None for none.
+    `may_be_capped` is whether the field may exceed it.
     """
 
     def __init__(
@@ -53,9 +53,9 @@ class TouchGains:
         asked: Sequence[Asked],
         limits: Sequence[float],
     ) -> Prices:
-        """The price of each source at each hand up to its limit, of a field that tells it; 0 on a source.
+        """The path cost of each source at each hand up to its limit; 0 on a source.
 
-        Parameters: asked : see there, of the touches of each hand.
+        Parameters: asked : the result of `asked` for the touches of each hand.
         Raises: ModelDomainError: the field answers of too many or too few.
         """
         prices = field.prices([points for points, _ in asked], limits, [among for _, among in asked])
@@ -95,8 +95,7 @@ class TouchGains:
         return checked(field.at(prices, columns), (len(prices), n_columns, n_bands))
 
     def asked(self, touches: Sequence[Touch]) -> Asked:
-        """Which of a hand's touches the field is asked about, and the columns of the sources that hang together with
-        any of the objects; the other touches are counted."""
+        """The touches of a hand that some source reaches, and the columns of these sources. Others are counted."""
         points: list[TouchedPoint] = []
         among: frozenset[int] = frozenset()
         for touch in touches:

@@ -1,4 +1,4 @@
-"""The worker that prepares fields: what is near the hands first, and everything once nothing changes any more.
+"""The worker that prepares fields: first near the hands, then everywhere once nothing changes any more.
 
 Threads: orders come by a queue, of which all but the newest are skipped; the answer is left in one slot; neither side
 ever waits for the other.
@@ -25,18 +25,18 @@ from scene2hap.scene.pose import Pose
 from scene2hap.session.scene_state import ModelInput
 
 AT_REST_S = 0.05
-"""Time without a change after which everything is prepared, and not only what hands can feel."""
+"""Time without a change after which the whole scene is prepared, not only the objects that hands can feel."""
 LAST_S = 2.0
 """How long Python waits at its end for fields that are being prepared."""
 
 
 @dataclass(eq=False)
 class Situation:
-    """What a field is prepared for.
+    """A scene state for which a field is prepared.
 
-    Parameters: network : puts together what the model is told, of what hangs together with some objects or of
-    everything for none, in whatever thread; poses : of all objects then; asked_at_s, outdated_at_s : when it began and
-    ended to be how things are, by `time.monotonic` [s].
+    Parameters: network : makes the model's input, for the objects connected to some objects or for all objects if
+    none are given, in any thread; poses : of all objects then; asked_at_s, outdated_at_s : when this state began and
+    ended, by `time.monotonic` [s].
     """
 
     number: int
@@ -48,10 +48,10 @@ class Situation:
 
 
 class Sign(Enum):
-    """What the worker is told besides situations."""
+    """Signals to the worker besides scene states."""
 
     TOUCHED = auto()
-    """Hands touch something that the newest field does not expect to be asked about."""
+    """Hands touch an object for which the newest field has not called `expect`."""
     END = auto()
 
 
@@ -60,8 +60,7 @@ Order = Situation | Sign
 
 @dataclass(frozen=True, eq=False)
 class Prepared:
-    """A field, the situation that it tells of, the objects of which it may say something, None for all, and those that
-    it expects to be asked about."""
+    """A field, its scene state, the objects that it covers (None for all), and those prepared by `expect`."""
 
     field: PropagationField
     situation: Situation
@@ -69,11 +68,11 @@ class Prepared:
     expected: set[str] = dataclasses.field(default_factory=set)
 
     def expect(self, touched: Sequence[TouchedPoint]) -> None:
-        """Have the field work out now what is going to be asked, so that it is not left to the game's thread."""
+        """Evaluate the field at touches in advance, so that `update` does not pay for the first evaluation."""
         for object_id, point_m in touched:
             if self.covers is None or object_id in self.covers:
                 self.expected.add(object_id)
-                # Whatever it refuses, it refuses where it is asked in earnest.
+                # Errors are raised again by the evaluation in `update`, where they are handled.
                 with contextlib.suppress(Exception):
                     if isinstance(self.field, ExpectantField):
                         self.field.expect(object_id)
@@ -96,7 +95,7 @@ class Desk:
     spent: deque[Prepared] = dataclasses.field(default_factory=lambda: deque(maxlen=4))
 
     def prepare(self, situation: Situation, near: Collection[str] = ()) -> Prepared:
-        """A field of what is near some objects, of everything for none."""
+        """A field of the objects connected to some objects; of all objects if none are given."""
         network, covers = situation.network(near)
         return Prepared(self.model.prepare(network, situation.excitations, self.bands), situation, covers)
 

@@ -1,4 +1,4 @@
-"""Many sound files through a converter, by several processes; what fails does not stop the others."""
+"""Conversion of many sound files by several processes; one failure does not stop the others."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What passes by, summed up in constant memory: peak, envelope, and dominant frequency."""
+"""Peak, envelope and dominant frequency of a stream, in constant memory."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a conversion did, as a picture: spectrograms before and after on one scale, and the envelope of each."""
+"""Picture of a conversion: spectrograms before and after on one scale, and both envelopes."""
 
 from __future__ import annotations
 

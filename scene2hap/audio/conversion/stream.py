@@ -41,7 +41,7 @@ _LARGEST_WAV_BYTES = 0xFFFF_0000
 
 @dataclass(frozen=True)
 class Conversion:
-    """What was made of a file. Peaks are absolute samples [re full scale], before clipping.
+    """Result of converting a file. Peaks are absolute samples [re full scale], before clipping.
 
     `n_clipped` samples were beyond full scale and were written as full scale. A dominant frequency is that of the mean
     power spectrum of all channels, 10 Hz to 20 kHz; None for silence. `picture` is None where none was drawn.
@@ -119,7 +119,7 @@ def convert(
 
 
 def settled(converter: object, actuator: object, intensity: float) -> tuple[TactileConverter, ConversionContext]:
-    """The converter and what it is told. Raises: ConfigError: settings that cannot work."""
+    """The converter and its context. Raises: ConfigError: settings that cannot work."""
     built = CONVERTERS.build(converter)
     if not isinstance(built, TactileConverter):
         raise ConfigError(f"converter is {built!r}; it has no stream. Name a kind: {', '.join(CONVERTERS.kinds())}.")

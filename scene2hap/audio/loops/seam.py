@@ -1,4 +1,4 @@
-"""Where a loop is closed, and the fade that closes it at constant power.
+"""The seam of a loop, and the fade that closes it at constant power.
 
     y = (w_in a + w_out b) / sqrt(w_in^2 + w_out^2 + 2 r w_in w_out),     r = <a, b> / (|a| |b|)
 
@@ -50,7 +50,7 @@ class Seam:
 
     @property
     def n_samples_needed(self) -> int:
-        """How many samples a signal must have for this seam."""
+        """Least number of samples of a signal for this seam."""
         return self.start + self.length + self.crossfade
 
     def fitted(self, samples: ArrayLike) -> Seam:

@@ -1,4 +1,4 @@
-"""Looking for the place where a sound goes on as it once began.
+"""Search for the place where a sound continues as it began: the seam of a loop.
 
 Likeness of two stretches with spectra A and B is 2 Re sum(W A* B) / (sum(W |A|^2) + sum(W |B|^2)): 1 where they are
 equal, less where shape *or level* differ, averaged over all the signals that share the seam. W is the sound's own mean

@@ -1,4 +1,4 @@
-"""How many candidates a source returns, as a setting."""
+"""Setting: number of candidates that a source returns."""
 
 from __future__ import annotations
 

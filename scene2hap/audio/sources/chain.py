@@ -18,13 +18,13 @@ from scene2hap.errors import AudioError, Scene2HapError
 from scene2hap.haptics import VibrationDescription
 
 ENOUGH = 1
-"""Candidates after which no further source is asked; the paper's rule."""
+"""Candidates after which no further source is queried; the paper's rule."""
 
 _LOG = logging.getLogger(__name__)
 
 
 class SourceWarning(UserWarning):
-    """A sound source failed, and the next one was asked."""
+    """A sound source failed, and the next one was queried."""
 
 
 def gather(
@@ -34,7 +34,7 @@ def gather(
 
     `subject` is what errors call the object. A source that fails is passed over with a `SourceWarning`, and a
     log entry.
-    Raises: AudioError: no source has a single candidate; tells what became of each.
+    Raises: AudioError: no source has a single candidate; states the outcome of each.
     """
     found: list[AudioClip] = []
     fates: list[str] = []

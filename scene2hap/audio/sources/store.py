@@ -1,4 +1,4 @@
-"""A folder that keeps what services gave, so that nothing is asked or paid for twice.
+"""On-disk cache of results of services, so that no request is sent or paid for twice.
 
 Every file is written whole or not at all, and read back as carefully as if a stranger had written it: what does not
 hold counts as absent.

@@ -1,4 +1,4 @@
-"""Moving a scene's sources apart, so that hands can tell them: as little as possible, and none beyond its limits.
+"""Moving a scene's sources apart in frequency and level, as little as possible, so that hands can distinguish them.
 
 Two sources are apart when they differ by two JNDs of frequency, or by one and two of level (`distinctness`). The order
 of levels is kept, and nobody is moved to where the actuator cannot bring its level. They are placed by the widest

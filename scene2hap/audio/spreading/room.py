@@ -1,4 +1,4 @@
-"""What a scene's sources may do: where each of them is, how far it may go, and which pairs could meet."""
+"""Frequencies and levels of a scene's sources, their limits, and the pairs that may conflict."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ _ORDER_GAP_DB = 0.5
 
 
 class SpreadLimits(Settings):
-    """How far a source may be moved to be told from the others: `octaves` in frequency, `level_db` in level; 0 and 0
-    leave everything where it is."""
+    """How far a source may be moved to be distinct from the others: `octaves` in frequency, `level_db` in level; 0 and
+    0 leave everything where it is."""
 
     of_what = "spread"
 

@@ -1,4 +1,4 @@
-"""Moving many sources apart: each in turn steps to where it is least in the others' way, until nobody moves.
+"""Moving many sources apart: each in turn takes the place with the least conflict, until none moves.
 
 A step weighs what a pair lacks, in octaves, against the move itself; places are a grid of 49 frequencies and 13 levels.
 Not exact as the programme is, but a hundred voices take some seconds.

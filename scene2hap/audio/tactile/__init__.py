@@ -1,4 +1,4 @@
-"""Converters from sound to touch; docs/conversion.md says which is for what."""
+"""Converters from sound to vibration; docs/conversion.md says when to use each."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from scene2hap.plugins import PluginGroup
 _HERE = "scene2hap.audio.tactile"
 
 DEFAULT_CONVERTER = "adaptive"
-"""What scenes are baked and files are converted with, unless told otherwise."""
+"""The default converter of scenes and files."""
 
 CONVERTERS = PluginGroup(
     "scene2hap.tactile",

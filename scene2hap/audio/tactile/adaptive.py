@@ -6,7 +6,7 @@ A fixed band-pass gives every source the same few hundred hertz, and what was di
    (`anchor`). Told in the context where the whole sound was looked at; else tracked while it plays, over and over;
 2. keep a band around it: two trapezoidal state-variable band-passes in series (12 dB per octave), narrow enough for the
    own frequency to dominate, wide enough (f / Q at -6 dB) for the beats and unevenness that make a machine itself;
-3. move that band as a whole to the target, told by whoever placed the scene's sources (`spreading`), else found here:
+3. move that band as a whole to the target given by `spreading`, else found here:
    the nearest place within a third of an octave that is clear of the neighbours.
 
 A band that has moved is faded over, so that a source whose pitch changes does not click.
@@ -30,7 +30,7 @@ from scene2hap.errors import ConfigError
 
 _LOOK_S = 0.5
 _RESTS_S = (0.5, 1.0, 2.0, 4.0)
-"""A sound whose frequency nobody has told is looked at for half a second, which resolves 2 Hz, then left for half a
+"""A sound without a given frequency is analysed for half a second, which resolves 2 Hz, then left for half a
 second, and for longer the longer it has not changed."""
 _LOOK_RATE_HZ = 8000
 _FADE_S = 0.05

@@ -1,4 +1,4 @@
-"""What converters are built of: stages that run in float64, and the stream that feeds them blocks.
+"""Building blocks of converters: stages in float64, and the stream that feeds them blocks.
 
 A stage's output depends on the samples alone and never on how they were cut, bit for bit: recursive filters carry
 their state, oscillators are looked up by the number of the sample in tables of a fixed size, and sums are made in one

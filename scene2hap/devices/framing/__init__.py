@@ -1,1 +1,1 @@
-"""Bytes on a wire, as pure functions; docs/serial-protocol.md is the written form."""
+"""Wire formats as pure functions; specified in docs/serial-protocol.md."""

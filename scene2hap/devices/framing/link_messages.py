@@ -1,4 +1,4 @@
-"""What the two ends of a serial link tell each other besides samples; docs/serial-protocol.md is the written form."""
+"""Messages of a serial link besides samples; specified in docs/serial-protocol.md."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class DeviceFormat:
 
 @dataclass(frozen=True)
 class Credit:
-    """The device's state, told whole each time, so that a lost CREDIT costs nothing.
+    """The device's whole state in each message, so that a lost CREDIT costs nothing.
 
     last_sequence : of the newest PCM frame it accepted; free_frames, queued_frames : of its queue; accepted_frames,
     damaged, underruns : totals since HELLO, modulo 2^32. The frame's `time_us` repeats that of the PCM frame.

@@ -40,7 +40,7 @@ MORE = 23
 
 
 class Recipient(IntEnum):
-    """Who shall listen on the sleeve's wire."""
+    """Recipient of a packet on the sleeve's wire."""
 
     ALL = 1
     PUCK = 2

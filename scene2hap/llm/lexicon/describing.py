@@ -1,4 +1,4 @@
-"""One state of a vibrating object in words: a sentence for making its sound, keywords for finding it."""
+"""Description of one state of a vibrating object: a sentence for making its sound, keywords for finding it."""
 
 from __future__ import annotations
 

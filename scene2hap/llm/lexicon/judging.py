@@ -1,4 +1,4 @@
-"""What an object is, how large, and whether it vibrates, from its name, its size and its neighbours' names."""
+"""Category, size and vibration of an object from its name, its size and its neighbours' names."""
 
 from __future__ import annotations
 

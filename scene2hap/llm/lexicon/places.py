@@ -1,4 +1,4 @@
-"""What kind of place a scene is, by a vote of the objects in it."""
+"""The kind of place of a scene, by a vote of its objects."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Backends around backends: each adds one behaviour to whatever it is given as `inner`.
+"""Wrappers: backends that add one behaviour to an `inner` backend.
 
 Outermost first, a good order is cache, repair, budget, retry, model: a cache then keeps repaired answers only, every
 repair is paid for within the budget, and a call that never came about is not. `standard_stack` builds just that. In a

@@ -1,4 +1,4 @@
-"""CacheBackend: answers kept on disk by what they answer to, so that no question is paid for twice.
+"""CacheBackend: answers on disk by the key of their request, so that no question is paid for twice.
 
 One file per answer, written whole or not at all. Parallel runs on one folder wait for each other question by question.
 """
@@ -43,10 +43,10 @@ class _Entry(BaseModel):
 
 
 class CacheBackend(Wrapper):
-    """Answers from `folder` where it can; else asks `inner` and keeps the answer, if it is a valid one.
+    """Answer from `folder` if possible; else call `inner` and keep the answer if it is valid.
 
     The key is that of a recording plus the inner backend's `identity`: model, base address, what else decides the
-    answer. A hit reports no usage, since it costs nothing. Equal questions asked at the same time are asked once, in
+    answer. A hit reports no usage, since it costs nothing. Equal questions at the same time cause one call, in
     this process and between processes. A file that cannot be read back, or whose answer the rules of today no
     longer allow, counts as absent and is written again. The lock of a run that died is free: the system holds it for a
     process, and its empty file stays in `locks/`.
@@ -55,7 +55,7 @@ class CacheBackend(Wrapper):
 
     def __init__(self, inner: Spec, folder: str | os.PathLike[str]) -> None:
         super().__init__(inner)
-        _ = self.identity  # whoever has none is better told now than after a scene was rendered
+        _ = self.identity  # a missing identity is better reported now than after a scene was rendered
         self._folder = Path(folder)
         self._turns: dict[tuple[int, str], tuple[asyncio.Lock, int]] = {}
         self._calls = self._hits = self._stored = self._rejected = 0
@@ -126,7 +126,7 @@ class CacheBackend(Wrapper):
         if reply.finish_reason != "stop" or find_fault(request.component, reply.text) is not None:
             self._rejected += 1
             return reply
-        # Asked for anew: a backend in a wrapper that does not hand `ready` on learns its model while it answers.
+        # Read again: a backend in a wrapper that does not hand `ready` on learns its model while it answers.
         identity = self.identity
         key = _key(request, identity)
         entry = _Entry(

@@ -1,4 +1,4 @@
-"""What models cost: a dated list, to be overridden where it has aged."""
+"""Prices of models: a dated list that settings can override."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from scene2hap import checks
 from scene2hap.errors import ConfigError
 
 _SNAPSHOT = re.compile(r"-\d{4}-\d{2}-\d{2}$")
-"""The date by which a service tells versions of one model apart: gpt-4o-2024-08-06."""
+"""The date in the name of a model's version: gpt-4o-2024-08-06."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""RepairBackend: hands a bad answer back to the model that gave it, with what is wrong."""
+"""RepairBackend: returns an invalid answer to the model with its errors."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _LONGEST_QUOTED = 4000
 
 
 class RepairBackend(Wrapper):
-    """Validates each reply as its component's answer and asks again, up to `repairs` times, where it is none.
+    """Validate each reply as its component's answer; repeat the request up to `repairs` times if it is invalid.
 
     A repair is the original question with the last failure alone, so that its cost does not grow; pictures are left
     out where only numbers were wrong. Replies cut short, empty, filtered or refused are not repaired. The usage of the
@@ -70,7 +70,7 @@ class RepairBackend(Wrapper):
             asked = _repair(request, text, fault)
 
     def report(self) -> dict[str, int]:
-        """Calls asked for, repairs asked for, calls given up after all repairs."""
+        """Calls, repairs, and calls given up after all repairs."""
         return {"calls": self._calls, "repairs": self._asked_again, "given_up": self._given_up}
 
 

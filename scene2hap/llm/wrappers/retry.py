@@ -1,4 +1,4 @@
-"""RetryBackend: asks again where waiting can help."""
+"""RetryBackend: repeats a request when waiting can help."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ LEAST_SHARE = 0.75
 class RetryBackend(Wrapper):
     """Repeats a call that failed with a retryable `BackendUnavailable`, up to `retries` times.
 
-    Waits as long as the server asks, else longer each time, by a random share less so that many clients spread.
-    told_retries : most repetitions after waits that the server asked for, beside `retries`; None counts them all
-    together. Where many lanes share a narrow limit, each is sent away many times before its turn comes.
+    Wait as long as the server states, else longer each time, less a random share so that many clients spread.
+    told_retries : most repetitions after waits that the server stated, beside `retries`; None counts them all
+    together. Where many calls share a narrow limit, each is refused many times before its turn.
     Bad answers are not repeated: they are `RepairBackend`'s. `rng` and `sleep` are for tests.
     """
 
@@ -69,7 +69,7 @@ class RetryBackend(Wrapper):
             await self._sleep(wait_s)
 
     def report(self) -> dict[str, float]:
-        """Calls asked for, retries made, calls given up after all retries, seconds waited."""
+        """Calls, retries, calls given up after all retries, and seconds waited."""
         return {
             "calls": self._calls,
             "retries": self._retried,

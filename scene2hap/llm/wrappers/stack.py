@@ -53,9 +53,9 @@ class Wrapper:
 
     @property
     def identity(self) -> dict[str, Any]:
-        """What decides the answer besides the request, as the innermost backend tells it.
+        """Everything besides the request that affects the answer, as stated by the innermost backend.
 
-        Raises: ConfigError: it does not tell.
+        Raises: ConfigError: it states none.
         """
         identity = getattr(self.inner, "identity", None)
         if not isinstance(identity, Mapping):

@@ -18,7 +18,7 @@ from scene2hap.llm.wrappers.stack import Spec, Wrapper
 RETRIES = 6
 """Assumed: waits of 0.5, 1, 2, 4, 8 and 8 s outlast a model that still loads."""
 TOLD_RETRIES = 30
-"""Assumed: ten minutes at the 20 s that a limit of three requests a minute asks for."""
+"""Assumed: ten minutes at the 20 s that a limit of three requests a minute requires."""
 
 
 def standard_stack(
@@ -37,7 +37,7 @@ def standard_stack(
     """Cache, repair, budget, retry, and then the model: `inner`, a backend or what builds one.
 
     cache_folder : where answers are kept, None for nowhere; repairs, retries, told_retries (after waits that the
-    server asked for) : most of each, per call; max_calls, max_tokens, max_cost [US dollars] : limits, None for none;
+    server stated) : most of each, per call; max_calls, max_tokens, max_cost [US dollars] : limits, None for none;
     prices : beside the dated list; sleep : for tests.
     A cache keeps repaired answers only, each repair is paid for within the budget, and a call that never came about
     is not. What happened is in `reports`.

@@ -23,7 +23,7 @@ from scene2hap.scene.images import ImageSet, Shot
 from scene2hap.scene.snapshot import SceneSnapshot
 
 Progress = Callable[[int, int], None]
-"""Told how many pictures are there, of how many."""
+"""Called with the number of finished pictures, and of all."""
 
 # Portions that each of the other processes has been given, so that none waits while this one takes its own.
 _AHEAD = 2

@@ -1,4 +1,4 @@
-"""How pictures of a scene are taken."""
+"""Settings of pictures of a scene."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from scene2hap.settings import Settings
 
 
 class CaptureConfig(Settings):
-    """How pictures of a scene are taken. Every number here is a choice of ours where the paper names none.
+    """Settings of pictures of a scene. Every number here is a choice of ours where the paper names none.
 
     size_px : edge of the square pictures.
     azimuths : views around the vertical axis, evenly spread; the paper's four are 90 degrees apart.

@@ -1,4 +1,4 @@
-"""What stands in the way of a picture, and what is done about it.
+"""Removal of objects that hide the target of a picture.
 
 The paper casts a ray to the object and removes all that it meets, which it names a flaw: what the object stands on and
 what stands beside it, its context, may go as well. Here rays go to all of the target's silhouette, on a coarse grid,
@@ -64,7 +64,7 @@ class Culler:
         hidden_share: float,
         below: tuple[int | None, ...] | None = None,
     ) -> Culler:
-        """A culler that knows what stands on what, `below` as `supports` tells it, if it was told before."""
+        """A culler that knows what stands on what, `below` as `supports` gives it, if known before."""
         below = supports(stage) if below is None else below
         return cls(stage, renderer, below, shells(stage), near_share, hidden_share)
 

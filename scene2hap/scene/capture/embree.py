@@ -57,7 +57,7 @@ class _Hits:
 
 @dataclass(frozen=True, eq=False)
 class _Tree:
-    """A search tree over some triangles of the stage; `numbers` tells which, and ends with -1, no triangle."""
+    """A search tree over some triangles of the stage; `numbers` are their numbers, and ends with -1, no triangle."""
 
     scene: Any
     numbers: Ints
@@ -88,7 +88,7 @@ class EmbreeRenderer:
         self._trees: dict[frozenset[int], _Tree] = {}
         self._light = frozenset(k for k, count in enumerate(counts) if count <= _LIGHT)
         self._cut: tuple[object, list[_Tree]] = (None, [])
-        # Many casts share an eye, which Embree wants told for every ray.
+        # Many rays share an eye; Embree needs it for each ray.
         self._origins = np.empty((0, 3), np.float32)
         self._step = float(np.linalg.norm(np.ptp(stage.box_m, axis=0))) * _STEP_OF_SCENE
 
@@ -219,7 +219,7 @@ class EmbreeRenderer:
     def _faces_left(
         self, actors: frozenset[int], camera: Camera, selection: Selection, passed: Flags | None
     ) -> list[_Tree]:
-        """A tree over the faces that opened actors show; the last one is kept, as a view asks for it several times."""
+        """A tree over the faces that opened actors show; the last one is kept, as a view needs it several times."""
         view = (actors, camera.eye_m.tobytes(), selection.focus_m)
         if passed is None or not actors:
             return []

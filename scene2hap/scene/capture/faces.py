@@ -1,4 +1,4 @@
-"""What single triangles tell."""
+"""Properties of single triangles."""
 
 from __future__ import annotations
 

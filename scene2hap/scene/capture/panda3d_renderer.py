@@ -2,7 +2,7 @@
 
 It needs no graphics card, and of system packages libx11-6 alone. What costs it time is corners rather than pixels, so
 that a picture is made of those triangles alone that can colour a pixel of it (`in_view`): a ninth of a furnished house.
-Light is baked into their colours, so that pictures look like those of ray casting. Which actor a pixel shows is told by
+Light is baked into their colours, so that pictures look like those of ray casting. The actor of a pixel is encoded in
 its opacity, which nothing else needs, so that a picture and its ids are one pass.
 """
 
@@ -23,8 +23,8 @@ Ints = NDArray[np.int64]
 Bytes = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 
-# Actors are told by digits of this base plus one, as zero is the background. Textures multiply by 255 / 256 and round
-# down, so that a digit that passes through one starts out larger by one.
+# Actors are encoded by digits of this base plus one, as zero is the background. Textures multiply by 255 / 256 and
+# round down, so that a digit that passes through one starts out larger by one.
 _BASE = 250
 
 _MOST_DIRECTIONS = 72

@@ -1,4 +1,4 @@
-"""From a shot to a PNG file: where the camera stands, what is in the way, the picture, the outline."""
+"""From a shot to a PNG file: camera, culling, picture, outline."""
 
 from __future__ import annotations
 

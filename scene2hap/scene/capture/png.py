@@ -1,8 +1,8 @@
 """PNG files, packed for speed.
 
-Trying five filters on every line, as encoders do, takes longer than packing. Here every line is told by its difference
-to the one above (filter 2, "up"), which leaves runs of zeros where a picture is plain or shaded from side to side, and
-ISA-L packs what is left: pictures of scenes are as small as at zlib's level 1, in a fifth of its time.
+Trying five filters on every line, as encoders do, takes longer than packing. Here every line is stored as its
+difference to the one above (filter 2, "up"), which leaves runs of zeros where a picture is plain or shaded from side to
+side, and ISA-L packs what is left: pictures of scenes are as small as at zlib's level 1, in a fifth of its time.
 
 Source: Portable Network Graphics (PNG) Specification, third edition (W3C 2025), sections 5 (chunks) and 9 (filters).
 """

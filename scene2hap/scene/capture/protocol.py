@@ -1,4 +1,4 @@
-"""What a renderer is asked for, whichever it is."""
+"""The interface of renderers."""
 
 from __future__ import annotations
 

@@ -62,8 +62,8 @@ class Actor:
 class Stage:
     """All objects of a scene, in scene order; plain arrays, so that it travels to worker processes.
 
-    Coordinates are told from the middle of the scene, so that float32, which renderers use, resolves scenes that stand
-    far from the world's origin.
+    Coordinates are relative to the middle of the scene, so that float32, which renderers use, resolves scenes that
+    stand far from the world's origin.
     """
 
     actors: tuple[Actor, ...]

@@ -68,7 +68,7 @@ def containers(stage: Stage, target: int) -> frozenset[int]:
 
 
 def supports(stage: Stage) -> tuple[int | None, ...]:
-    """What each object stands on: the object that most of its footprint meets first, looking down; None for nothing."""
+    """The support of each object: the object that most of its footprint meets first, looking down; None for nothing."""
     up = {"y": 1, "z": 2}[stage.up_axis]
     level = [axis for axis in range(3) if axis != up]
     return tuple(_support(stage, number, up, level) for number in range(len(stage.actors)))

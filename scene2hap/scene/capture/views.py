@@ -1,4 +1,4 @@
-"""Where the camera stands and what it frames.
+"""Camera positions and framing.
 
 The eye stands on a sphere around the object's box; perspective is fixed by its distance, and framing is a window on the
 image plane, shifted and scaled until it fits. So isolated and context images of one angle share one eye: what hides the

@@ -1,4 +1,4 @@
-"""What to ask for, from the fullest wording to the barest.
+"""Queries for a sound, from the fullest wording to the shortest.
 
 Freesound wants every word to match, so fewer words find more. The last rung is the thing's name alone, unless that
 says nothing ("machine").

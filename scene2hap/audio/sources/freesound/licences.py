@@ -1,4 +1,4 @@
-"""Freesound's licences: how it filters by them, what it calls them in a result, what a credit calls them."""
+"""Freesound's licences: their names in filters, in results and in credits."""
 
 from __future__ import annotations
 

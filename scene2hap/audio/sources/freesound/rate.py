@@ -1,4 +1,4 @@
-"""A service's rate limits, kept on our side, since it does not say how long to wait."""
+"""Rate limits of a service, enforced by the client, since the service does not state how long to wait."""
 
 from __future__ import annotations
 

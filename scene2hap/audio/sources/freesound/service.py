@@ -64,7 +64,7 @@ class Service:
     def search(self, query: str, filter_: str, sort: str) -> list[Sound]:
         """Results in the service's order; empty where nothing matches.
 
-        Raises: BackendUnavailable: no answer, tells whether trying again can help; BadAnswer: it is not what the
+        Raises: BackendUnavailable: no answer, states whether a retry can help; BadAnswer: it is not what the
         documentation promises.
         """
         if not self.token.reveal():

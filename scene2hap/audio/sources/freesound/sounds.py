@@ -1,4 +1,4 @@
-"""What a search returns, read as a stranger's data."""
+"""Results of a search, validated as untrusted data."""
 
 from __future__ import annotations
 

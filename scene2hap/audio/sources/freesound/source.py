@@ -1,4 +1,4 @@
-"""The source itself: a ladder of queries, a licence filter, previews, and a cache before all of it."""
+"""The Freesound source: queries, licence filter, previews and a cache."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class Freesound:
     """Up to five sounds of freesound.org that match the key words, or, failing that, ever fewer of them.
 
     token : else the environment variable `token_env`, read at each search; licences : of "cc0", "by", "by-nc" and
-    "sampling+", those that may be used; candidates : 1..5; max_duration_s : longest sound asked for [s]; sort : the
+    "sampling+", those that may be used; candidates : 1..5; max_duration_s : longest sound in a search [s]; sort : the
     service's order, "score" being relevance; cache : folder that keeps searches, those without hits too, and previews;
     timeout_s : for one answer; base_url, transport, clock, sleep : for tests.
     Freesound's API is free for non-commercial use; see its terms.
@@ -140,7 +140,8 @@ class Freesound:
         return [sound for sound in sounds if self._may_use(sound)]
 
     def _may_use(self, sound: Sound) -> bool:
-        """Whether a result is what was asked for: filters are the service's, their breach would be ours."""
+        """Whether a result has an allowed licence and duration. Checked again instead of trusting the service's
+        filter."""
         return (
             bool(sound.preview)
             and sound.licence in self._licences

@@ -1,4 +1,4 @@
-"""Procedural sounds: voices of machines, and the table that says which voice speaks for what."""
+"""Procedural sounds: voices of machines, and the table from objects to voices."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ REFERENCE_MAINS_HZ = 50.0
 
 @dataclass(frozen=True)
 class Take:
-    """What a voice is told apart from its own constants.
+    """Parameters of a voice besides its own constants.
 
     `rng` is the only source of chance. `drive` 0..1 is how hard the thing works: harder is brighter and, where nothing
     holds the speed, faster. `size_factor` multiplies the frequencies that depend on the machine's size. `mains_hz` is

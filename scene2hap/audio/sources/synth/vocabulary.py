@@ -1,4 +1,4 @@
-"""Which voice speaks for which object and verb."""
+"""Table from objects and verbs to voices."""
 
 from __future__ import annotations
 

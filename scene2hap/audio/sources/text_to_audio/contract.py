@@ -1,4 +1,4 @@
-"""What is said between scene2hap and a generator: a request file in, a reply file and sound files out.
+"""Contract with a generator: a request file in, a reply file and sound files out.
 
 request.json   {"contract", "version", "prompt", "count", "duration_s", "seed"}
 reply.json     {"contract", "version", "model", "licence", "address", "files": ["0.wav", ...]}   or   {..., "error"}

@@ -1,4 +1,4 @@
-"""Voices beside recordings of the same kind of thing: the numbers of docs/sound-sources.md."""
+"""Voices beside recordings of the same kind of thing: the numbers of docs/figures/audio.md."""
 
 from __future__ import annotations
 

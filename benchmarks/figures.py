@@ -1,0 +1,183 @@
+"""Run benchmarks and campaigns, and write what they print into the pages of docs/figures.
+
+python benchmarks/figures.py --list
+python benchmarks/figures.py [NAME ...] [--busy]
+
+Without names every figure is measured, which takes hours. A page holds blocks between `<!-- figure: NAME -->` and
+`<!-- end -->`; each block states its command, commit, date and machine. A block is replaced only after its command
+has ended with status 0, and its page is written whole. Text outside of blocks is written by hand.
+
+Figures that contain times need a quiet machine: above a load of 1 they are refused, unless --busy is given.
+"""
+
+from __future__ import annotations
+
+import argparse
+import datetime
+import os
+import platform
+import re
+import shlex
+import subprocess
+import sys
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+PAGES = ROOT / "docs" / "figures"
+MAX_LOAD = 1.0
+SCENES = "../shared/scenes"
+MOVERS = (
+    f"{SCENES}/aws_house_bedroom/aws_house_bedroom.glb {SCENES}/composed_kitchen_kaykit/composed_kitchen_kaykit.glb "
+    f"{SCENES}/composed_bathroom_kenney/composed_bathroom_kenney.glb {SCENES}/aws_house_living/aws_house_living.glb "
+    f"{SCENES}/furniture_sim/dishwasher.xml"
+)
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One block of a page and the command that makes it."""
+
+    page: str
+    command: str
+    """As it is run in the repository's folder, without `python`."""
+    minutes: float
+    """About how long it takes on two cores."""
+    has_times: bool = False
+    is_text: bool = False
+    """The output is plain text, not Markdown."""
+    needs: str = ""
+
+    @property
+    def path(self) -> Path:
+        return PAGES / f"{self.page}.md"
+
+    @property
+    def script(self) -> Path:
+        return ROOT / shlex.split(self.command)[0]
+
+    @property
+    def options(self) -> list[str]:
+        return shlex.split(self.command)[1:]
+
+
+FIGURES = {
+    "structure-rooms": Figure("structure", "benchmarks/structure.py --part table", 0.1),
+    "structure-way": Figure("structure", "benchmarks/structure.py --part way", 0.5),
+    "structure-pictures": Figure("structure", "benchmarks/structure.py --part tree", 0.1),
+    "surfaces": Figure("surfaces", "benchmarks/surfaces.py", 1, needs="scenes"),
+    "contacts-by-hand": Figure("contacts", f"benchmarks/contacts.py {SCENES}", 1, needs="scenes"),
+    "contacts-falling-boxes": Figure("contacts", "benchmarks/falling_boxes.py 1800", 2, has_times=True),
+    "contacts-triangles": Figure(
+        "contacts", f"stress/contacts.py {MOVERS} --moves 1500", 60, is_text=True, needs="scenes"
+    ),
+    "distinctness": Figure("conversion", "benchmarks/distinctness.py", 1),
+    "conversion-cost": Figure("conversion", "benchmarks/convert.py", 5, has_times=True, is_text=True),
+    "audio": Figure("audio", "stress/audio.py", 15, is_text=True, needs="recordings"),
+    "accuracy": Figure("accuracy", "benchmarks/accuracy.py", 10, has_times=True),
+    "auto-fidelity": Figure("propagation", "benchmarks/auto_fidelity.py --workers 2", 20, has_times=True),
+    "propagation-cost": Figure("propagation", "benchmarks/propagation.py", 5, has_times=True),
+    "stability": Figure("stability", "stress/propagation.py", 30, has_times=True),
+    "frames-real-scenes": Figure(
+        "frames", f"benchmarks/real_movers.py {MOVERS} --passes 3 --draws 3", 20, has_times=True, needs="scenes"
+    ),
+    "frames-rooms-3": Figure("frames", "benchmarks/paper_loop.py 200 --defaults --seed 3", 10, has_times=True),
+    "frames-rooms-71": Figure("frames", "benchmarks/paper_loop.py 200 --defaults --seed 71", 10, has_times=True),
+    "playing-session": Figure("playing", "benchmarks/session.py", 5, has_times=True),
+    "playing-two-contacts": Figure("playing", "benchmarks/paper_loop.py 300", 10, has_times=True),
+    "playing-long": Figure("playing", "stress/session.py", 10, is_text=True),
+    "sound-card": Figure("actuators", "stress/sound_card.py", 60, has_times=True, is_text=True, needs="sound server"),
+    "sound-card-hour": Figure("actuators", "stress/soak.py", 60, has_times=True, is_text=True, needs="sound server"),
+    "mixer": Figure("mixing", "benchmarks/mixer.py", 3, has_times=True),
+    "inference": Figure("inference", "benchmarks/inference_eval.py", 3, has_times=False, needs="scenes"),
+    "import-time": Figure("starting", "benchmarks/import_time.py", 0.5, has_times=True, is_text=True),
+}
+
+
+def block(name: str) -> re.Pattern[str]:
+    return re.compile(rf"(<!-- figure: {re.escape(name)} -->\n)(.*?)(<!-- end -->)", re.DOTALL)
+
+
+def provenance(figure: Figure) -> str:
+    """Command, commit, date and machine, as the first lines of a block."""
+    commit = git("rev-parse", "--short=7", "HEAD") or "unknown"
+    if git("status", "--porcelain", "--untracked-files=no", "--", "scene2hap", "benchmarks", "stress"):
+        commit += " with local changes"
+    load = f", load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
+    machine = f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores{load}"
+    versions = f"Python {platform.python_version()}, numpy {version('numpy')}, scipy {version('scipy')}"
+    return (
+        f"`python {figure.command}`  \n"
+        f"Commit {commit}, {datetime.date.today().isoformat()}; {machine}; {versions}; one BLAS thread.\n"
+    )
+
+
+def git(*words: str) -> str:
+    """Output of git; empty without git or outside of a repository."""
+    try:
+        run = subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=False)
+    except OSError:
+        return ""
+    return run.stdout.strip()
+
+
+def output(figure: Figure) -> str:
+    """What the command prints. One BLAS thread, so that times are of one core.
+
+    Raises: subprocess.CalledProcessError: it failed; its messages are on stderr.
+    """
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    command = [sys.executable, str(figure.script), *figure.options]
+    printed = subprocess.run(command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, text=True, check=True).stdout
+    return f"```\n{printed.strip()}\n```" if figure.is_text else printed.strip()
+
+
+def refresh(name: str, figure: Figure) -> None:
+    """Measure a figure and write its page, whole or not at all."""
+    page = figure.path.read_text(encoding="utf-8")
+    if not block(name).search(page):
+        raise SystemExit(f"{figure.path} has no block <!-- figure: {name} --> ... <!-- end -->; add one")
+    made = f"{provenance(figure)}\n{output(figure)}\n"
+    page = block(name).sub(lambda found: found[1] + made + found[3], page)
+    draft = figure.path.with_suffix(".draft")
+    draft.write_text(page, encoding="utf-8")
+    draft.replace(figure.path)
+
+
+def listed() -> str:
+    rows = [f"{'name':24}{'page':14}{'minutes':>8}  times  command"]
+    for name, one in FIGURES.items():
+        rows.append(f"{name:24}{one.page:14}{one.minutes:>8g}  {'yes' if one.has_times else '':5}  {one.command}")
+    return "\n".join(rows)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("names", nargs="*", metavar="NAME", help="figures to measure; default all")
+    parser.add_argument("--list", action="store_true", help="list figures, their pages and commands")
+    parser.add_argument("--busy", action="store_true", help="measure times although the machine is busy")
+    arguments = parser.parse_args()
+    if arguments.list:
+        print(listed())
+        return 0
+    if unknown := set(arguments.names) - set(FIGURES):
+        parser.error(f"no figure is called {', '.join(sorted(unknown))}; --list shows all")
+    failed = []
+    for name in arguments.names or FIGURES:
+        figure = FIGURES[name]
+        if figure.has_times and not arguments.busy and hasattr(os, "getloadavg") and os.getloadavg()[0] > MAX_LOAD:
+            print(f"{name}: refused, the load is {os.getloadavg()[0]:.1f}; wait, or give --busy", file=sys.stderr)
+            failed.append(name)
+            continue
+        print(f"{name}: about {figure.minutes:g} min", file=sys.stderr, flush=True)
+        try:
+            refresh(name, figure)
+        except subprocess.CalledProcessError as problem:
+            print(f"{name}: the command ended with status {problem.returncode}; page left as it is", file=sys.stderr)
+            failed.append(name)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
