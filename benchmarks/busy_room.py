@@ -33,7 +33,8 @@ from scene2hap import (
     TriMesh,
     materials,
 )
-from scene2hap.scene.snapshot import Box, with_relative_heights
+from scene2hap.scene.objects import with_relative_heights
+from scene2hap.scene.shapes import Box
 
 N_SOURCES, N_MOVERS = 7, 5
 _TABLE = (1.2, 0.72, 0.8)

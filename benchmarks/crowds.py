@@ -22,7 +22,7 @@ from busy_room import floor_room, yaw
 
 from scene2hap import Box, Contact, Pose, SceneSnapshot
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.scene.snapshot import with_relative_heights
+from scene2hap.scene.objects import with_relative_heights
 
 Frames = Sequence[dict[str, Pose]]
 

@@ -12,7 +12,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
 from scene2hap import Box, DominantSurface, Pose, SceneObject, SceneSnapshot
-from scene2hap.scene.snapshot import with_relative_heights
+from scene2hap.scene.objects import with_relative_heights
 
 VIBRATING = ("fridge", "microwave", "washing machine", "fan", "phone", "kettle", "extractor hood")
 MATERIALS = ("steel", "oak", "glass", "ceramic", "plastic", "concrete", "cotton", "copper")

@@ -20,7 +20,9 @@ _HOME = {
     "scene2hap.scene.capture": ("capture_images",),
     "scene2hap.scene.pose": ("Pose",),
     "scene2hap.scene.pose_table": ("PoseTable",),
-    "scene2hap.scene.snapshot": ("Box", "Contact", "DominantSurface", "SceneObject", "SceneSnapshot", "TriMesh"),
+    "scene2hap.scene.objects": ("Contact", "SceneObject"),
+    "scene2hap.scene.shapes": ("Box", "DominantSurface", "TriMesh"),
+    "scene2hap.scene.snapshot": ("SceneSnapshot",),
     "scene2hap.materials": ("Material",),
     "scene2hap.haptics": ("ActuatorProfile", "Bands", "ObjectHaptics", "SourceState", "VibrationDescription"),
     "scene2hap.contact.graph": ("ContactChange", "ContactGraph"),
@@ -189,26 +191,14 @@ if TYPE_CHECKING:
     )
     from scene2hap.scene.capture import capture_images as capture_images
     from scene2hap.scene.load import load_scene as load_scene
+    from scene2hap.scene.objects import Contact as Contact
+    from scene2hap.scene.objects import SceneObject as SceneObject
     from scene2hap.scene.pose import Pose as Pose
     from scene2hap.scene.pose_table import PoseTable as PoseTable
-    from scene2hap.scene.snapshot import (
-        Box as Box,
-    )
-    from scene2hap.scene.snapshot import (
-        Contact as Contact,
-    )
-    from scene2hap.scene.snapshot import (
-        DominantSurface as DominantSurface,
-    )
-    from scene2hap.scene.snapshot import (
-        SceneObject as SceneObject,
-    )
-    from scene2hap.scene.snapshot import (
-        SceneSnapshot as SceneSnapshot,
-    )
-    from scene2hap.scene.snapshot import (
-        TriMesh as TriMesh,
-    )
+    from scene2hap.scene.shapes import Box as Box
+    from scene2hap.scene.shapes import DominantSurface as DominantSurface
+    from scene2hap.scene.shapes import TriMesh as TriMesh
+    from scene2hap.scene.snapshot import SceneSnapshot as SceneSnapshot
     from scene2hap.session import (
         HapticFrame as HapticFrame,
     )

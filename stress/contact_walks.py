@@ -27,7 +27,7 @@ from busy_room import busy_room, floor_room, furnished_room, shelf_room
 
 from scene2hap import Box, Pose, SceneObject, SceneSnapshot, load_scene
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.scene.snapshot import with_relative_heights
+from scene2hap.scene.objects import with_relative_heights
 
 N_FRAMES = 120
 _LARGE_M = 1.5  # Larger things are moved seldom.

@@ -9,8 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.contact.graph import ContactGraph
+from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Box, Contact, DominantSurface, Geometry, SceneObject, SceneSnapshot, TriMesh
+from scene2hap.scene.shapes import Box, DominantSurface, Geometry, TriMesh
+from scene2hap.scene.snapshot import SceneSnapshot
 
 Triple = tuple[float, float, float]
 SURFACE = DominantSurface(Pose(), 0.1, 0.1, 0.01)

@@ -14,7 +14,8 @@ from PIL import Image
 from gltf_builder import Gltf
 from scene2hap.scene.appearance import Appearance
 from scene2hap.scene.load import TextureWarning, load_scene
-from scene2hap.scene.snapshot import SceneObject, SceneSnapshot
+from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.snapshot import SceneSnapshot
 
 RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
 PIXELS = np.array([[RED, GREEN], [BLUE, WHITE]], np.uint8)

@@ -17,7 +17,7 @@ from scene2hap import (
     SourceState,
     materials,
 )
-from scene2hap.scene.snapshot import with_relative_heights
+from scene2hap.scene.objects import with_relative_heights
 
 RATE = 8000
 

@@ -203,7 +203,7 @@ def _read_scene(folder: Path) -> SceneSnapshot:
     document = read_json(folder, "scene.json")
     names = {row.get("geometry") for row in document.get("objects", []) if isinstance(row.get("geometry"), str)}
     document["geometries"] = {name: decode_ply(read_bytes(folder, name)) for name in sorted(names)}
-    return scene_json.from_document(document)
+    return SceneSnapshot.of(scene_json.from_document(document))
 
 
 def _override_rows(bundle: HapticBundle, folder: Path, written: list[str]) -> dict[str, Any]:

@@ -6,8 +6,8 @@ from scene2hap.contact.free_region import FreeRegion
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.contact.stance import Stance
 from scene2hap.contact.vectors import Rows, Triple
+from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import SceneObject
 
 
 class Body:

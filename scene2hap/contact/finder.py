@@ -17,8 +17,8 @@ from scene2hap.contact.holding import Holding
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.pair import BodyPair, apart_by
 from scene2hap.contact.rule import TOUCH_M, Support, margins_m
+from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import SceneObject
 
 
 class ContactFinder:

@@ -18,9 +18,10 @@ from scene2hap.contact.finder import ContactFinder
 from scene2hap.contact.junction import ContactArrays, Junction, Pair, junctions_of, pair_of
 from scene2hap.contact.toleranced.touch_finder import TouchFinder
 from scene2hap.errors import SceneError, UnknownObject
+from scene2hap.scene.objects import Contact, SceneObject, unknown_object
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.pose_table import PoseTable
-from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot, unknown_object
+from scene2hap.scene.snapshot import SceneSnapshot
 
 if TYPE_CHECKING:
     import networkx

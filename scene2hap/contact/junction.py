@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.contact.vectors import Triple
-from scene2hap.scene.snapshot import Contact
+from scene2hap.scene.objects import Contact
 
 Pair = tuple[str, str]
 

@@ -15,7 +15,7 @@ from scene2hap.contact.ledge import Ledges, Upright
 from scene2hap.contact.rays import first_hits
 from scene2hap.contact.triangle_tree import TriangleTree
 from scene2hap.contact.vectors import Floats, Triple, cross, dot, highest, lowest
-from scene2hap.scene.snapshot import TriMesh
+from scene2hap.scene.shapes import TriMesh
 
 # Directions that one shape is asked for; past this, things tumble and old ones are forgotten.
 _MOST_WAYS_UP = 64

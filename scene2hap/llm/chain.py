@@ -35,7 +35,8 @@ from scene2hap.llm.trust import Estimate, from_model, from_table, without_answer
 from scene2hap.llm.waiting import run_waiting
 from scene2hap.scene.given import given_scene
 from scene2hap.scene.likeness import material_names
-from scene2hap.scene.snapshot import SceneObject, SceneSnapshot
+from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.snapshot import SceneSnapshot
 
 UNKNOWN = frozenset({"", "unknown", "undefined"})
 """Words by which a backend says that it does not know."""

@@ -6,7 +6,8 @@ from collections.abc import Hashable, Iterable, Mapping
 
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.scene.likeness import copy_key
-from scene2hap.scene.snapshot import Contact, SceneSnapshot
+from scene2hap.scene.objects import Contact
+from scene2hap.scene.snapshot import SceneSnapshot
 
 _BELOW = 0.5
 """Least cosine between a contact's normal and straight down for what lies there to be a support."""

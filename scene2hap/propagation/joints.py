@@ -11,8 +11,8 @@ from scene2hap.materials import Material
 from scene2hap.propagation.contact_law import ContactLaw
 from scene2hap.propagation.coupling import Joint
 from scene2hap.propagation.protocol import Body, ContactNetwork
+from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Contact
 
 SAME_POINT_M = 1e-6
 """Contacts of one pair that are nearer than this are one."""

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.snapshot import Contact
+from scene2hap.scene.objects import Contact
 
 
 @dataclass(frozen=True)

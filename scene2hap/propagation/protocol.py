@@ -18,8 +18,8 @@ from scene2hap.errors import ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import InRectangle, as_points
+from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Contact
 
 Body = Plate | RigidBody
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.snapshot import TriMesh
+from scene2hap.scene.shapes import TriMesh
 
 Floats = NDArray[np.float64]
 

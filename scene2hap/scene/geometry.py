@@ -29,7 +29,7 @@ from scene2hap.scene.cuboid import cuboid_bounds_m
 from scene2hap.scene.plate_edge import windows
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.rays import Hits, cast_grid, cut, first_solids, median_span, outline, share_open
-from scene2hap.scene.snapshot import DominantSurface, SurfaceFlag, TriMesh
+from scene2hap.scene.shapes import DominantSurface, SurfaceFlag, TriMesh
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

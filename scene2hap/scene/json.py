@@ -1,4 +1,4 @@
-"""SceneSnapshot as JSON, for engines that are not written in Python and for bundles.
+"""A scene as JSON, for engines that are not written in Python and for bundles.
 
 Geometry stands once in a table, since instances share it; an object names its row, or brings its geometry along. What
 an engine cannot tell of an object, its dominant surface and its height, is measured. docs/scene-json.md is for those
@@ -20,31 +20,32 @@ from scene2hap import checks
 from scene2hap.errors import SceneError
 from scene2hap.printable import read_json
 from scene2hap.scene import limits, sizes
+from scene2hap.scene.objects import SceneData, SceneObject, with_relative_heights
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import DominantSurface, Geometry, SceneObject, SceneSnapshot, with_relative_heights
+from scene2hap.scene.shapes import DominantSurface, Geometry
 
 FORMAT = "scene2hap/scene"
 VERSION = 1
 
-_scene: TypeAdapter[SceneSnapshot] = TypeAdapter(SceneSnapshot)
+_scene: TypeAdapter[SceneData] = TypeAdapter(SceneData)
 _geometry: TypeAdapter[Geometry] = TypeAdapter(Geometry)
 # Stands in for a surface until it is measured.
 _UNMEASURED = DominantSurface(Pose(), 0.0, 0.0, 0.0, ("zero-thickness",))
 
 
-def dump(snapshot: SceneSnapshot) -> str:
-    """The snapshot as JSON text with a geometry table."""
-    document = to_document(snapshot)
+def dump(scene: SceneData) -> str:
+    """The scene as JSON text with a geometry table."""
+    document = to_document(scene)
     geometries: dict[str, Any] = {}
-    for item, row in zip(snapshot.objects, document["objects"], strict=True):
+    for item, row in zip(scene.objects, document["objects"], strict=True):
         key = geometry_key(item.geometry)
         geometries.setdefault(key, row["geometry"])
         row["geometry"] = key
     return json.dumps({"format": FORMAT, "version": VERSION, **document, "geometries": geometries}, allow_nan=False)
 
 
-def parse(text: str) -> SceneSnapshot:
-    """The snapshot in a JSON text; raises SceneError with the field that is wrong."""
+def parse(text: str) -> SceneData:
+    """The scene in a JSON text; raises SceneError with the field that is wrong."""
     try:
         document = read_json(text)
     except (ValueError, RecursionError) as cause:  # ValueError: also a number of thousands of digits
@@ -57,15 +58,15 @@ def parse(text: str) -> SceneSnapshot:
     return from_document(document)
 
 
-def to_document(snapshot: SceneSnapshot) -> dict[str, Any]:
-    """The snapshot as plain JSON values, each object with its geometry."""
-    hidden: Any = {"_by_id": True, "images": True, "objects": {"__all__": {"appearance", "images"}}}
-    document: dict[str, Any] = _scene.dump_python(snapshot, mode="json", exclude=hidden)
+def to_document(scene: SceneData) -> dict[str, Any]:
+    """The scene as plain JSON values, each object with its geometry."""
+    hidden: Any = {"objects": {"__all__": {"appearance", "images"}}}
+    document: dict[str, Any] = _scene.dump_python(scene, mode="json", exclude=hidden)
     return document
 
 
-def from_document(document: dict[str, Any]) -> SceneSnapshot:
-    """The snapshot in plain JSON values; objects may name a row of the table `geometries`.
+def from_document(document: dict[str, Any]) -> SceneData:
+    """The scene in plain JSON values; objects may name a row of the table `geometries`.
 
     An object's `surface` and `relative_height_m` are measured where they are absent or null.
     """
@@ -134,7 +135,7 @@ def _bounds_m(geometry: Geometry) -> NDArray[np.float64]:
     return geometry.bounds_m
 
 
-def _measured(scene: SceneSnapshot, rows: Sequence[dict[str, Any]]) -> SceneSnapshot:
+def _measured(scene: SceneData, rows: Sequence[dict[str, Any]]) -> SceneData:
     """The scene with what its rows leave out."""
     # Imported by need: what this library wrote is never measured again.
     from scene2hap.scene.surfaces import Surfaces

@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Hashable
 
-from scene2hap.scene.snapshot import SceneObject
+from scene2hap.scene.objects import SceneObject
 
 _HASH = re.compile(r"(?<![^\W_])(?=[0-9a-f]*\d)(?=[0-9a-f]*[a-f])[0-9a-f]{6,}(?![^\W_])", re.IGNORECASE)
 """Serial numbers in base 16, as kits append them ("Mug_3a2f91bc")."""

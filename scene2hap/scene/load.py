@@ -16,7 +16,8 @@ from scene2hap.scene import limits
 from scene2hap.scene.files import read_bytes
 from scene2hap.scene.grouping import Grouping, group_objects, unique_ids
 from scene2hap.scene.meshes import MeshPool
-from scene2hap.scene.snapshot import SceneObject, SceneSnapshot, UpAxis, with_relative_heights
+from scene2hap.scene.objects import SceneObject, UpAxis, with_relative_heights
+from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.scene.texture_files import TextureFiles
 from scene2hap.scene.textures import TextureWarning
 from scene2hap.scene.tree import AuthoredScene

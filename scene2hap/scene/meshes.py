@@ -17,7 +17,7 @@ from scene2hap.scene import limits
 from scene2hap.scene.appearance import Appearance, joined
 from scene2hap.scene.grouping import Group
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import TriMesh
+from scene2hap.scene.shapes import TriMesh
 from scene2hap.scene.surfaces import Surfaces
 from scene2hap.scene.tree import Matrix, Piece, digest
 

@@ -11,7 +11,7 @@ import re
 import numpy as np
 
 from scene2hap.errors import SceneFormatError
-from scene2hap.scene.snapshot import TriMesh
+from scene2hap.scene.shapes import TriMesh
 
 _TYPES = {
     **dict.fromkeys(("char", "int8"), "i1"),

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from scene2hap.scene import limits
 from scene2hap.scene.geometry import dominant_surface
-from scene2hap.scene.snapshot import DominantSurface, TriMesh
+from scene2hap.scene.shapes import DominantSurface, TriMesh
 
 _FREE = 18_000_000
 """Tests of a ray against a triangle (measured: two seconds; some 700 small meshes, no two of one shape)."""

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.appearance import Appearance
-from scene2hap.scene.snapshot import UpAxis
+from scene2hap.scene.objects import UpAxis
 
 Matrix = NDArray[np.float64]
 """A (4, 4) affine transform of column vectors; its last row is (0, 0, 0, 1)."""

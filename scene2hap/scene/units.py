@@ -14,7 +14,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.snapshot import SceneObject, SceneSnapshot
+from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.scene.usual_sizes import DOOR, Usual, usual
 
 

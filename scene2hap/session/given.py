@@ -13,8 +13,8 @@ from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.errors import SceneError, SessionError
 from scene2hap.haptics import ObjectHaptics
+from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Contact, SceneObject
 from scene2hap.session.frame import Touch
 
 _TOUCH = "Touch(hand, object_id, point_m)"

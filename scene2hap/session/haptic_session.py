@@ -25,8 +25,9 @@ from scene2hap.devices.whole_frames import WholeFrames
 from scene2hap.errors import ConfigError, SceneError, SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.render.safety import SafetyStats
+from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot
+from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.actuator_check import warn_if_other
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.explain import Explanation

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from scene2hap.propagation.exponential_plate import REFERENCE_HZ, ExponentialPlate
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body
-from scene2hap.scene.snapshot import Contact
+from scene2hap.scene.objects import Contact
 
 Point = tuple[float, float, float]
 

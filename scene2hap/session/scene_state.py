@@ -11,8 +11,9 @@ from scene2hap.contact.junction import Junction, Pair
 from scene2hap.errors import UnknownObject
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.propagation.protocol import Body, ContactNetwork
+from scene2hap.scene.objects import Contact, SceneObject, unknown_object
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Contact, SceneObject, SceneSnapshot, unknown_object
+from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.network import Corners, PlatePoses, body_of
 from scene2hap.session.reach import Reach, reach_over
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from contact_scenes import box, pairs, scene
 from scene2hap.contact.graph import ContactGraph
+from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import SceneObject
 
 SIZES = {"floor": (2.0, 0.1, 2.0), "slab": (0.6, 0.02, 0.4), "crate": (0.3, 0.3, 0.3), "cup": (0.08, 0.1, 0.08)}
 # Coarse steps, so that things often meet, rest, hover and cut each other.

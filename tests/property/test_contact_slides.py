@@ -8,8 +8,9 @@ from hypothesis import strategies as st
 
 from contact_scenes import box, boxes, chair, house, pairs, scene, thing
 from scene2hap.contact.graph import ContactGraph
+from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import SceneObject, TriMesh
+from scene2hap.scene.shapes import TriMesh
 
 
 def mug(at_m: tuple[float, float, float]) -> SceneObject:

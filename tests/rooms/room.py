@@ -15,7 +15,8 @@ from looks import embedded, image_file
 from scene2hap import Pose, SceneObject, SceneSnapshot, TriMesh
 from scene2hap.contact.junction import Pair, pair_of
 from scene2hap.scene.geometry import dominant_surface
-from scene2hap.scene.snapshot import Box, with_relative_heights
+from scene2hap.scene.objects import with_relative_heights
+from scene2hap.scene.shapes import Box
 
 Triple = tuple[float, float, float]
 

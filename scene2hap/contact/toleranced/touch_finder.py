@@ -22,9 +22,9 @@ from scene2hap.contact.toleranced.cuboid_patch import patches
 from scene2hap.contact.toleranced.cuboids import Pairs, gaps, times
 from scene2hap.contact.toleranced.touches import Difference, PairNames, Touches, difference
 from scene2hap.contact.vectors import Indices, Marks, Rows, Triple, dot
+from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.pose_table import PoseTable
-from scene2hap.scene.snapshot import SceneObject
 
 # The products of a quaternion's components (x, y, z, w): the squares, then what its rotation has beside the diagonal.
 _LEFT, _RIGHT = np.array([[0, 1, 2, 0, 0, 0, 1, 0, 1, 2, 1, 2, 0, 1, 0], [0, 1, 2, 1, 2, 1, 2, 2, 2, 3, 3, 3, 3, 3, 3]])

@@ -28,7 +28,8 @@ from scene2hap.scene.capture.sheets import contact_sheet, plan_view
 from scene2hap.scene.capture.studio import CaptureStats, Studio
 from scene2hap.scene.given import given_scene
 from scene2hap.scene.images import ImageSet, ObjectImages
-from scene2hap.scene.snapshot import SceneObject, SceneSnapshot
+from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.snapshot import SceneSnapshot
 
 __all__ = [
     "RENDERERS",

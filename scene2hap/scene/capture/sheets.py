@@ -15,7 +15,8 @@ from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.surroundings import shells
 from scene2hap.scene.capture.views import axes_of
 from scene2hap.scene.images import ImageSet
-from scene2hap.scene.snapshot import SceneObject, SceneSnapshot
+from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.snapshot import SceneSnapshot
 
 _INK, _PAPER = "#22313f", "#ffffff"
 _MARGIN, _TITLE, _LABEL = 8, 34, 20

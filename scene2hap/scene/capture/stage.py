@@ -14,7 +14,8 @@ from scene2hap.errors import SceneError
 from scene2hap.scene.appearance import Appearance
 from scene2hap.scene.capture.paint import Palette, PaletteBuilder, neutral
 from scene2hap.scene.capture.views import axes_of
-from scene2hap.scene.snapshot import SceneObject, SceneSnapshot, UpAxis
+from scene2hap.scene.objects import SceneObject, UpAxis
+from scene2hap.scene.snapshot import SceneSnapshot
 
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]

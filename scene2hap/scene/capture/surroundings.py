@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from scene2hap.scene.capture.stage import Actor, Stage
 from scene2hap.scene.likeness import copy_key
-from scene2hap.scene.snapshot import SceneObject
+from scene2hap.scene.objects import SceneObject
 
 Floats = NDArray[np.float64]
 

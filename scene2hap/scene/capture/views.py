@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.snapshot import UpAxis
+from scene2hap.scene.objects import UpAxis
 
 Floats = NDArray[np.float64]
 

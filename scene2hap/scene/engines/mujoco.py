@@ -36,8 +36,9 @@ from scene2hap.scene.engines.mjcf_files import check_files
 from scene2hap.scene.engines.mujoco_geoms import GeomReader, authored_pose, colours_rgba
 from scene2hap.scene.engines.objects import ObjectMaker
 from scene2hap.scene.grouping import Group, group_objects, unique_ids
+from scene2hap.scene.objects import Contact, with_relative_heights
 from scene2hap.scene.pose_table import PoseTable
-from scene2hap.scene.snapshot import Contact, SceneSnapshot, with_relative_heights
+from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.scene.tree import AuthoredNode, Piece
 
 _WORLD = 0

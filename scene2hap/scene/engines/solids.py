@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap.scene.snapshot import Box
+from scene2hap.scene.shapes import Box
 
 SIDES = 32
 """Corners around a round shape; a multiple of 4 (tuned: a mug's rim off by 0.2 mm)."""

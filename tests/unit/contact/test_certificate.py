@@ -13,8 +13,8 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.certificate import Extent, separated
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.rule import TOUCH_M
+from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import SceneObject
 
 TABLE = on_floor("table", (1.0, 0.7, 1.0), 0, 0)
 CUP = box("cup", (0.08, 0.1, 0.08), (0.2, 0.75, 0.1))

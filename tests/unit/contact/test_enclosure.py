@@ -12,8 +12,8 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.enclosure import enclosed, play_reach_m
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.rays import first_hits
+from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import SceneObject
 
 DRAWER: Triple = (0.4, 0.12, 0.45)
 REACH_M = play_reach_m(math.hypot(*DRAWER))

@@ -16,8 +16,8 @@ from scene2hap.contact.free_space import has_nothing_near, ledge_under
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.rule import fall_reach_m, hang_reach_m
+from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import SceneObject
 
 HOUSE = house()
 SHELF = boxes("shelf", *(((0.8, 0.02, 0.4), (0.0, h, 0.0)) for h in (0.01, 0.4, 0.8)))

@@ -10,8 +10,8 @@ from contact_scenes import box, boxes, floor, found, on_floor, pairs, points, sc
 from scene2hap.contact.body import Body
 from scene2hap.contact.graph import ContactChange, ContactGraph
 from scene2hap.errors import SceneError, UnknownObject
+from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Contact, SceneObject
 
 TABLE = on_floor("table", (1.0, 0.7, 1.0), 0, 0)
 CUP = box("cup", (0.08, 0.1, 0.08), (0.2, 0.75, 0.1))

@@ -11,8 +11,8 @@ from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.shape import boxes_of, shape_of
 from scene2hap.contact.spread import MAX_POINTS
 from scene2hap.contact.triangle_tree import LEAF_SIZE, TriangleTree
+from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import SceneObject
 
 FAR = 10.0
 SIZES = st.tuples(*[st.sampled_from([0.1, 0.3, 1.0])] * 3)

@@ -6,8 +6,8 @@ import pytest
 from contact_scenes import Triple, box, boxes, chair, floor, found, on_floor, scene, weight
 from scene2hap.contact import rule
 from scene2hap.contact.graph import ContactGraph
+from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import SceneObject
 
 CUP: Triple = (0.08, 0.1, 0.08)
 

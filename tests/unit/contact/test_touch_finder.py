@@ -6,9 +6,9 @@ import pytest
 from contact_scenes import box, chair, floor, on_floor, pairs, scene
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import SceneError, UnknownObject
+from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.pose_table import PoseTable
-from scene2hap.scene.snapshot import SceneObject
 
 IDS = tuple(f"b{k:02d}" for k in range(30))
 

@@ -17,7 +17,7 @@ from scene2hap.contact.shape import shape_of
 from scene2hap.contact.stance import Stance
 from scene2hap.contact.track import Standing
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Box, TriMesh
+from scene2hap.scene.shapes import Box, TriMesh
 
 
 def turned(rng: np.random.Generator, up_axis: int) -> tuple[float, float, float, float]:

@@ -12,8 +12,8 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.propagation.live_paths import LivePaths
 from scene2hap.propagation.paths import cheapest_arrivals
 from scene2hap.propagation.points import arrivals_at
+from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Contact
 
 SOURCES = ("radio", "phone", "lamp", "fan")
 PRICES = {"floor": 0.3, "table": 0.2, "shelf": 0.4, "radio": 0.1, "phone": 0.5, "cup": 0.2}

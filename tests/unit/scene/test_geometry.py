@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from scene2hap.scene.geometry import dominant_surface
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Box, DominantSurface, TriMesh
+from scene2hap.scene.shapes import Box, DominantSurface, TriMesh
 
 Size = tuple[float, float, float]
 

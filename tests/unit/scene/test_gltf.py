@@ -11,7 +11,8 @@ import pytest
 from gltf_builder import CUBE, CUBE_FACES, Gltf, one_cube
 from scene2hap.scene.gltf import read_gltf
 from scene2hap.scene.load import load_scene
-from scene2hap.scene.snapshot import SceneObject, TriMesh
+from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.shapes import TriMesh
 from scene2hap.scene.tree import AuthoredNode
 
 

@@ -12,8 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scene2hap.errors import SceneError
+from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Box, Contact, DominantSurface, SceneObject, SceneSnapshot, TriMesh
+from scene2hap.scene.shapes import Box, DominantSurface, TriMesh
+from scene2hap.scene.snapshot import SceneSnapshot
 from scenes import box, scene
 
 lengths = st.floats(1e-6, 1e6)

@@ -11,7 +11,7 @@ import pytest
 
 from looks import BLUE, GREEN, PIXELS, RED, UPRIGHT, WHITE, image_file, looks, refused, shown
 from scene2hap.scene.load import load_scene
-from scene2hap.scene.snapshot import SceneObject
+from scene2hap.scene.objects import SceneObject
 
 # The image upright on a square; in OBJ, v runs up.
 SQUARE = """v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0

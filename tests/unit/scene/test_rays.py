@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from scene2hap.scene.rays import Hits, cast_grid, cut, first_solids, median_span, outline, share_open
-from scene2hap.scene.snapshot import Box
+from scene2hap.scene.shapes import Box
 
 Floats = NDArray[np.float64]
 

@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 from scene2hap.errors import SceneError, UnknownObject
+from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.snapshot import Box, Contact, DominantSurface, SceneObject, SceneSnapshot, TriMesh
+from scene2hap.scene.shapes import Box, DominantSurface, TriMesh
+from scene2hap.scene.snapshot import SceneSnapshot
 from scenes import box, scene
 
 TRIANGLE = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]

@@ -17,7 +17,7 @@ from scene2hap.scene.cuboid import cuboid_bounds_m
 from scene2hap.scene.engines import mjcf_files, mujoco_geoms
 from scene2hap.scene.engines.mjcf_files import check_files
 from scene2hap.scene.geometry import dominant_surface
-from scene2hap.scene.snapshot import Box, TriMesh
+from scene2hap.scene.shapes import Box, TriMesh
 from scene2hap.scene.stl_ply import read_stl_ply
 from scene2hap.scene.tree import Piece
 

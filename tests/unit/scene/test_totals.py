@@ -17,7 +17,7 @@ from scene2hap.errors import AudioError, SceneError
 from scene2hap.scene import limits, mtl, obj
 from scene2hap.scene.engines import mjcf_files
 from scene2hap.scene.geometry import dominant_surface
-from scene2hap.scene.snapshot import TriMesh
+from scene2hap.scene.shapes import TriMesh
 from scene2hap.scene.tree import Piece
 
 

@@ -1,0 +1,149 @@
+"""Objects of a scene and their contacts: frozen data in metres, right-handed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from pydantic import InstanceOf
+
+from scene2hap import checks
+from scene2hap.calls import clear_construction
+from scene2hap.errors import SceneError
+from scene2hap.scene.appearance import Appearance
+from scene2hap.scene.images import ObjectImages
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.shapes import DominantSurface, Geometry
+
+UpAxis = Literal["y", "z"]
+"""The axes that a scene may call up: "y" for glTF, "z" for MuJoCo."""
+
+_LEAST_WEIGHT = 1e-30
+
+
+@clear_construction
+@dataclass(frozen=True)
+class Contact:
+    """Where two objects touch: given by an engine, or found from geometry. A pair may have several.
+
+    Parameters: point_m : world [m]; normal : unit, from `a` to `b`; area_m2 of the patch that the point stands for;
+    weight : how much of a contact it is, 1 touching to 0 gone [-].
+    """
+
+    a: str
+    b: str
+    point_m: tuple[float, float, float]
+    normal: tuple[float, float, float] | None = None
+    area_m2: float | None = None
+    weight: float = 1.0
+
+    def __post_init__(self) -> None:
+        for name in (self.a, self.b):
+            if not isinstance(name, str):
+                raise SceneError(f"contact of {checks.represented(name)}; give the ids of two objects.")
+        if self.a == self.b:
+            raise SceneError(f"contact of {self.a!r} with itself; a contact joins two objects.")
+        point = checks.vector("point_m", self.point_m, "m", size=3, error=SceneError)
+        object.__setattr__(self, "point_m", point)
+        if self.normal is not None:
+            normal = checks.vector("normal", self.normal, "-", size=3, error=SceneError)
+            object.__setattr__(self, "normal", normal)
+        if self.area_m2 is not None:
+            area = checks.number("area_m2", self.area_m2, "m2", at_least=0.0, error=SceneError)
+            object.__setattr__(self, "area_m2", area)
+        weight = checks.number("weight", self.weight, "-", at_least=0.0, at_most=1.0, error=SceneError)
+        # So little is nothing; its square would be too small for a number.
+        object.__setattr__(self, "weight", weight if weight > _LEAST_WEIGHT else 0.0)
+
+
+@dataclass(frozen=True)
+class SceneObject:
+    """One thing that a user would point at.
+
+    `id` is unique in the scene and stable over loads; `name` is what the author wrote, which many objects may share.
+    `instance_key` is equal for objects of equal mesh and materials. `relative_height_m` is the height of the lowest
+    point above the lowest point of the whole scene. `appearance` is for pictures alone, None where unknown; `images`
+    are those pictures, once `capture_images` was asked for them.
+    """
+
+    id: str
+    name: str
+    pose: Pose
+    geometry: Geometry
+    surface: DominantSurface
+    relative_height_m: float = 0.0
+    instance_key: str = ""
+    appearance: InstanceOf[Appearance] | None = field(default=None, compare=False, repr=False)
+    images: InstanceOf[ObjectImages] | None = field(default=None, compare=False, repr=False)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.id, str) or not self.id:
+            raise SceneError(f"object {checks.represented(self.name)} has an empty id; give every object its own.")
+        height = checks.number("relative_height_m", self.relative_height_m, "m", error=SceneError)
+        object.__setattr__(self, "relative_height_m", height)
+
+    @property
+    def size_m(self) -> tuple[float, float, float]:
+        """Length, width and thickness [m] of the dominant surface."""
+        return (self.surface.length_m, self.surface.width_m, self.surface.thickness_m)
+
+    def whole_size_m(self, up_axis: UpAxis) -> tuple[float, float, float]:
+        """Longer and shorter side and height [m] of the object's box along its own axes.
+
+        Height is along the axis that stands most upright, so that a thing turned about it keeps its size.
+        """
+        edges = np.ptp(self.geometry.mesh.vertices_m, axis=0)
+        upright = int(np.abs(self.pose.rotation[{"y": 1, "z": 2}[up_axis]]).argmax())
+        shorter, longer = sorted(float(edge) for edge in np.delete(edges, upright))
+        return (longer, shorter, float(edges[upright]))
+
+    @cached_property
+    def bounds_m(self) -> NDArray[np.float64]:
+        """Lowest and highest corner (2, 3) [m] in the world."""
+        points = self.pose.to_world(self.geometry.mesh.vertices_m)
+        return np.array([points.min(axis=0), points.max(axis=0)])
+
+    def plate_coordinates(self, points_m: ArrayLike) -> NDArray[np.float64]:
+        """World points (n, 3) [m] as (n, 2) [m] along length and width of the dominant surface, from its corner.
+
+        Points beside the plate are taken to its nearest edge.
+        """
+        points = np.atleast_2d(checks.floats("points_m", points_m, "m", error=SceneError))
+        if points.ndim != 2 or points.shape[1] != 3 or not np.isfinite(points).all():
+            raise SceneError(f"points_m has shape {points.shape}; it must be (n, 3) finite numbers [m].")
+        flat = self.surface.pose.to_own(self.pose.to_own(points))[:, :2]
+        return np.clip(flat, 0.0, [self.surface.length_m, self.surface.width_m])
+
+
+@dataclass(frozen=True)
+class SceneData:
+    """What of a scene is plain data, as it stands in JSON; see `SceneSnapshot`."""
+
+    name: str
+    up_axis: UpAxis
+    objects: tuple[SceneObject, ...]
+    contacts: tuple[Contact, ...] | None = None
+
+
+def unknown_object(object_id: object, known: Mapping[str, object]) -> str:
+    """The sentence for an id that a scene does not have."""
+    if not isinstance(object_id, str):
+        how = ": give its .id" if isinstance(object_id, SceneObject) else ", of one object"
+        some = next(iter(known), "")
+        return f"an object's id is {checks.described(object_id)}; it must be a text{how}, such as {some!r}."
+    hint = checks.did_you_mean(object_id, known, f"`inspect` lists the {len(known)} objects.")
+    return f"the scene has no object {checks.represented(object_id)}. {hint}"
+
+
+def with_relative_heights(objects: list[SceneObject], up_axis: UpAxis) -> tuple[SceneObject, ...]:
+    """The objects with `relative_height_m` measured against the lowest of them."""
+    up = {"y": 1, "z": 2}[up_axis]
+    bottoms = [float(item.bounds_m[0, up]) for item in objects]
+    ground = min(bottoms, default=0.0)
+    return tuple(
+        replace(item, relative_height_m=bottom - ground) for item, bottom in zip(objects, bottoms, strict=True)
+    )

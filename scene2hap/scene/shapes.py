@@ -1,0 +1,155 @@
+"""Shapes of objects: boxes, triangle meshes, and the dominant surface of either. Metres, in the object's own frame."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import PlainSerializer, PlainValidator
+
+from scene2hap import checks
+from scene2hap.errors import SceneError
+from scene2hap.scene import sizes
+from scene2hap.scene.pose import Pose
+
+SurfaceFlag = Literal["open-mesh", "zero-thickness", "box-fallback"]
+"""Why the measured dominant surface wants a second look: the mesh has a boundary; it has no thickness (a floor of two
+triangles); its shape has no rectangle of medians (an L, a curtain), so that the box around it was taken."""
+
+_JsonArray = (PlainValidator(lambda value: value), PlainSerializer(lambda array: array.tolist()))
+if TYPE_CHECKING:
+    Vertices = NDArray[np.float64]
+    Faces = NDArray[np.int32]
+else:
+    Vertices = Annotated[Any, *_JsonArray]
+    Faces = Annotated[Any, *_JsonArray]
+
+
+@dataclass(frozen=True)
+class Box:
+    """A cuboid centred on its object's pose, axes along the object's own.
+
+    Raises: SceneError: an edge is not positive and finite.
+    """
+
+    size_m: tuple[float, float, float]
+    kind: Literal["box"] = "box"
+
+    def __post_init__(self) -> None:
+        size = checks.vector("size_m", self.size_m, "m", size=3, above=0.0, error=SceneError)
+        object.__setattr__(self, "size_m", size)
+
+    @cached_property
+    def mesh(self) -> TriMesh:
+        """The box as twelve triangles, facing outwards."""
+        half = np.asarray(self.size_m) / 2
+        corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=np.float64)
+        quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+        faces = [triangle for a, b, c, d in quads for triangle in ((a, b, c), (a, c, d))]
+        return TriMesh(corners * half, np.array(faces, dtype=np.int32))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TriMesh:
+    """A triangle mesh in its object's own frame.
+
+    Parameters: vertices_m : (n, 3) float64 [m]; faces : (m, 3) int, indices into the vertices.
+    Raises: SceneError: a vertex is not finite, a face points outside the vertices, or there is no face.
+    """
+
+    vertices_m: Vertices
+    faces: Faces
+    kind: Literal["mesh"] = "mesh"
+
+    def __post_init__(self) -> None:
+        vertices = _frozen_array("vertices_m", self.vertices_m, np.float64)
+        faces = _frozen_array("faces", self.faces, np.int32)
+        if len(faces) == 0:
+            raise SceneError("faces is empty; a mesh needs at least one triangle.")
+        if not np.isfinite(vertices).all():
+            row = int(np.argwhere(~np.isfinite(vertices).all(axis=1))[0, 0])
+            raise SceneError(f"vertices_m[{row}] is {vertices[row].tolist()}; every coordinate must be finite [m].")
+        low, high = int(faces.min()), int(faces.max())
+        if low < 0 or high >= len(vertices):
+            raise SceneError(
+                f"faces refer to vertex {low if low < 0 else high}; the mesh has {len(vertices)} vertices (from 0)."
+            )
+        object.__setattr__(self, "vertices_m", vertices)
+        object.__setattr__(self, "faces", faces)
+
+    def __repr__(self) -> str:
+        return f"TriMesh({len(self.vertices_m)} vertices, {len(self.faces)} faces)"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, TriMesh) and self.digest == other.digest
+
+    def __hash__(self) -> int:
+        return hash(self.digest)
+
+    @property
+    def mesh(self) -> TriMesh:
+        """Itself, so that boxes and meshes are asked alike."""
+        return self
+
+    @cached_property
+    def digest(self) -> str:
+        """A name for the content: equal meshes, and only these, share it."""
+        content = hashlib.sha256(self.vertices_m.tobytes())
+        content.update(self.faces.tobytes())
+        return content.hexdigest()[:16]
+
+    @cached_property
+    def bounds_m(self) -> NDArray[np.float64]:
+        """Lowest and highest corner (2, 3) [m] of the vertices that faces use, in the own frame."""
+        used = self.vertices_m[np.unique(self.faces)]
+        return np.array([used.min(axis=0), used.max(axis=0)])
+
+
+Geometry = Box | TriMesh
+
+
+@dataclass(frozen=True)
+class DominantSurface:
+    """The plate of an object, such as the top of a table, and where it lies in the object's own frame.
+
+    `pose` puts the plate's corner frame into the object's own frame: its origin is a corner of the plate's mid-plane,
+    x runs along the length, y along the width, z along the thickness (the plate's normal). `flags` tell why a
+    measured value wants a second look; an engine or a person who states it leaves them empty.
+    Raises: SceneError: a size that is negative, or no thickness without the flag that says so.
+    """
+
+    pose: Pose
+    length_m: float
+    width_m: float
+    thickness_m: float
+    flags: tuple[SurfaceFlag, ...] = ()
+
+    def __post_init__(self) -> None:
+        for name in ("length_m", "width_m", "thickness_m"):
+            object.__setattr__(
+                self, name, checks.number(name, getattr(self, name), "m", at_least=0.0, error=SceneError)
+            )
+        object.__setattr__(self, "flags", tuple(self.flags))
+        least_m = sizes.NOTHING * min(self.length_m, self.width_m)
+        if "zero-thickness" not in self.flags and self.thickness_m <= least_m:
+            raise SceneError(
+                f"thickness_m is {self.thickness_m:g} m; it must be above {least_m:g} [m]. State what the real "
+                'thing has, leave the surface out to have it measured, or flag it "zero-thickness".'
+            )
+
+
+def _frozen_array(name: str, value: object, dtype: type[np.generic]) -> NDArray[Any]:
+    array = np.array(checks.floats(name, value, "m" if dtype is np.float64 else "-", error=SceneError))
+    if array.size == 0:
+        array = array.reshape(0, 3)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise SceneError(f"{name} has shape {array.shape}; it must be (n, 3).")
+    if dtype is np.int32 and not (np.isfinite(array).all() and (np.abs(array) < 2**31).all()):
+        raise SceneError(f"{name} holds values that are not vertex numbers; they must be integers from 0.")
+    frozen = array.astype(dtype)
+    frozen.flags.writeable = False
+    return frozen
