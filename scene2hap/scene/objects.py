@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Literal
 
 import numpy as np
@@ -17,12 +17,13 @@ from scene2hap.errors import SceneError
 from scene2hap.scene.appearance import Appearance
 from scene2hap.scene.images import ObjectImages
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.shapes import DominantSurface, Geometry
+from scene2hap.scene.shapes import DominantSurface, Geometry, geometry_of
 
 UpAxis = Literal["y", "z"]
 """The axes that a scene may call up: "y" for glTF, "z" for MuJoCo."""
 
 _LEAST_WEIGHT = 1e-30
+_AT_ORIGIN = Pose()
 
 
 @clear_construction
@@ -60,14 +61,16 @@ class Contact:
         object.__setattr__(self, "weight", weight if weight > _LEAST_WEIGHT else 0.0)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class SceneObject:
     """One thing that a user would point at.
 
-    `id` is unique in the scene and stable over loads; `name` is what the author wrote, which many objects may share.
-    `instance_key` is equal for objects of equal mesh and materials. `relative_height_m` is the height of the lowest
-    point above the lowest point of the whole scene. `appearance` is for pictures alone, None where unknown; `images`
-    are those pictures, once `capture_images` was asked for them.
+    `id` is unique in the scene and stable over loads; `name` is what the author wrote, which many objects may share;
+    the id if it is not given. `geometry` is a Box or a TriMesh; a pair of vertices and faces, or an object with both,
+    such as a mesh of the package trimesh, becomes a TriMesh. `surface` is measured if it is not given, with y up;
+    `SceneSnapshot.build` measures it for the scene's own up axis. `instance_key` is equal for objects of equal mesh and
+    materials. `relative_height_m` is the height of the lowest point above the lowest point of the whole scene.
+    `appearance` is for pictures alone, None where unknown; `images` are those of `capture_images`.
     """
 
     id: str
@@ -79,6 +82,41 @@ class SceneObject:
     instance_key: str = ""
     appearance: InstanceOf[Appearance] | None = field(default=None, compare=False, repr=False)
     images: InstanceOf[ObjectImages] | None = field(default=None, compare=False, repr=False)
+    is_measured_with_y_up = False  # no field, so that a copy with its own surface has it not
+
+    def __init__(
+        self,
+        id: str,  # the field's name
+        name: str | None = None,
+        pose: Pose = _AT_ORIGIN,
+        geometry: Geometry | tuple[ArrayLike, ArrayLike] | object = None,
+        surface: DominantSurface | None = None,
+        relative_height_m: float = 0.0,
+        instance_key: str = "",
+        appearance: Appearance | None = None,
+        images: ObjectImages | None = None,
+    ) -> None:
+        given = {
+            "id": id,
+            "name": id if name is None else name,
+            "pose": pose,
+            "surface": surface,
+            "relative_height_m": relative_height_m,
+        }
+        given |= {"instance_key": instance_key, "appearance": appearance, "images": images}
+        for key, value in given.items():
+            object.__setattr__(self, key, value)
+        if not isinstance(self.name, str) or not isinstance(pose, Pose):
+            which, value, wanted = ("pose", pose, "a Pose") if isinstance(self.name, str) else ("name", name, "a text")
+            raise SceneError(
+                f"{which} of object {checks.represented(id)} is {checks.described(value)}; it must be {wanted}. "
+                "Give what follows the id by name: SceneObject(id, pose=..., geometry=...)."
+            )
+        object.__setattr__(self, "geometry", geometry_of(geometry, f"object {checks.represented(id)}"))
+        if surface is None:
+            object.__setattr__(self, "surface", measured_surface(self.geometry, pose, "y"))
+        object.__setattr__(self, "is_measured_with_y_up", surface is None)
+        self.__post_init__()
 
     def __post_init__(self) -> None:
         if not isinstance(self.id, str) or not self.id:
@@ -117,6 +155,19 @@ class SceneObject:
             raise SceneError(f"points_m has shape {points.shape}; it must be (n, 3) finite numbers [m].")
         flat = self.surface.pose.to_own(self.pose.to_own(points))[:, :2]
         return np.clip(flat, 0.0, [self.surface.length_m, self.surface.width_m])
+
+
+def measured_surface(geometry: Geometry, pose: Pose, up_axis: UpAxis) -> DominantSurface:
+    """The dominant surface of a thing that stands so, see `scene.geometry`; equal meshes are measured once."""
+    up = pose.rotation[{"y": 1, "z": 2}[up_axis]].round(6)
+    return _measured(geometry, tuple(up.tolist()))
+
+
+@lru_cache(maxsize=256)
+def _measured(geometry: Geometry, up: tuple[float, ...]) -> DominantSurface:
+    from scene2hap.scene.geometry import dominant_surface  # what is given or read is not measured
+
+    return dominant_surface(geometry.mesh, up=up)
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,6 +17,7 @@ from scene2hap.errors import SceneError
 
 # A quaternion this close to unit length is kept to the last bit, so that JSON round trips are exact.
 _UNIT_TOLERANCE = 1e-9
+_LEAST_SLANT = 1e-9  # a target straighter above than this leaves no side
 
 
 @dataclass(frozen=True)
@@ -81,6 +84,69 @@ class Pose:
         return Pose((float(position[0]), float(position[1]), float(position[2])), quaternion)
 
     @classmethod
+    def from_wxyz(cls, position_m: Sequence[float], rotation_wxyz: Sequence[float]) -> Pose:
+        """The pose of a quaternion that begins with w, as MuJoCo, Blender and PyTorch3D write it."""
+        w, x, y, z = checks.vector("rotation_wxyz", rotation_wxyz, "-", size=4, error=SceneError)
+        return cls(_given(position_m), (x, y, z, w))
+
+    @classmethod
+    def from_yaw(cls, position_m: Sequence[float], yaw_rad: float, *, up_axis: Literal["y", "z"] = "y") -> Pose:
+        """The pose of a thing that is turned about the vertical, counter-clockwise seen from above."""
+        half = checks.number("yaw_rad", yaw_rad, "rad", error=SceneError) / 2
+        return cls(_given(position_m), _about(_axis(up_axis, "up_axis", "yz"), half))
+
+    @classmethod
+    def from_euler(cls, position_m: Sequence[float], angles_rad: Sequence[float], *, order: str = "xyz") -> Pose:
+        """The pose of turns about the axes of the world, one after the other, in the order of the letters.
+
+        Parameters: order : one to three of the letters x, y, z, without two equal neighbours; capitals turn about the
+            object's own axes, as each turn leaves them. angles_rad : one angle for each letter.
+        Raises: SceneError: the order or the number of angles is another.
+        """
+        letters = order.lower() if isinstance(order, str) else ""
+        if (
+            not 1 <= len(letters) <= 3
+            or set(letters) - set("xyz")
+            or any(a == b for a, b in pairwise(letters))
+            or order not in (letters, letters.upper())
+        ):
+            raise SceneError(
+                f"order is {checks.represented(order)}; it must be letters such as 'xyz' (world) or 'ZYX' (own axes)."
+            )
+        angles = checks.vector("angles_rad", angles_rad, "rad", size=len(order), error=SceneError)
+        turned = cls()
+        for letter, angle in zip(letters, angles, strict=True):
+            turn = cls(rotation_xyzw=_about("xyz".index(letter), angle / 2))
+            turned = turned.compose(turn) if order.isupper() else turn.compose(turned)
+        return cls(_given(position_m), turned.rotation_xyzw)
+
+    @classmethod
+    def look_at(
+        cls, position_m: Sequence[float], target_m: Sequence[float], *, up_axis: Literal["y", "z"] = "y"
+    ) -> Pose:
+        """The pose of a thing whose front points at a target and whose upper side points up as far as it can.
+
+        The front is the own axis z where y points up, as in glTF, and x where z points up, as in ROS (REP 103).
+        Raises: SceneError: the target is where the thing is, or straight above or below it.
+        """
+        up = _axis(up_axis, "up_axis", "yz")
+        at, target = (
+            np.array(_given(position_m)),
+            np.array(checks.vector("target_m", target_m, "m", size=3, error=SceneError)),
+        )
+        front, upwards = target - at, np.eye(3)[up]
+        side = np.cross(upwards, front)
+        if np.linalg.norm(side) <= _LEAST_SLANT * np.linalg.norm(front):
+            raise SceneError(
+                f"target_m {tuple(target.tolist())} is at or straight above or below position_m {tuple(at.tolist())}; "
+                "which side is up cannot be told. Give a rotation instead."
+            )
+        front, side = front / np.linalg.norm(front), side / np.linalg.norm(side)
+        over = np.cross(front, side)
+        columns = (side, over, front) if up == 1 else (front, side, over)
+        return cls(_triple(at), _quaternion(np.stack(columns, axis=1)))
+
+    @classmethod
     def from_matrix(cls, matrix: ArrayLike) -> Pose:
         """The pose of a rigid (4, 4) matrix.
 
@@ -93,6 +159,23 @@ class Pose:
         if np.abs(r).max() > 2.0 or not np.allclose(r @ r.T, np.eye(3), atol=1e-6) or np.linalg.det(r) < 0:
             raise SceneError("matrix is not rigid: bake its scale or mirroring into the mesh first.")
         return cls(_triple(m[:3, 3]), _quaternion(r))
+
+
+def _given(position_m: Sequence[float]) -> tuple[float, float, float]:
+    return _triple(checks.vector("position_m", position_m, "m", size=3, error=SceneError))
+
+
+def _axis(value: object, name: str, letters: str) -> int:
+    if not isinstance(value, str) or len(value) != 1 or value not in letters:
+        raise SceneError(f"{name} is {checks.represented(value)}; it must be {' or '.join(map(repr, letters))}.")
+    return "xyz".index(value)
+
+
+def _about(axis: int, half_rad: float) -> tuple[float, float, float, float]:
+    """The quaternion of a turn by twice an angle."""
+    found = [0.0, 0.0, 0.0, math.cos(half_rad)]
+    found[axis] = math.sin(half_rad)
+    return (found[0], found[1], found[2], found[3])
 
 
 def _points(name: str, value: ArrayLike) -> NDArray[np.float64]:

@@ -112,6 +112,23 @@ class TriMesh:
 Geometry = Box | TriMesh
 
 
+def geometry_of(value: object, owner: str) -> Geometry:
+    """A Box or TriMesh as it is; a TriMesh of a pair of vertices and faces, or of an object that has both.
+
+    Raises: SceneError: it is something else; the message names the owner.
+    """
+    if isinstance(value, Box | TriMesh):
+        return value
+    if hasattr(value, "vertices") and hasattr(value, "faces"):
+        return TriMesh(value.vertices, value.faces)
+    if isinstance(value, tuple | list) and len(value) == 2:
+        return TriMesh(value[0], value[1])
+    how = "is missing" if value is None else f"is {checks.described(value)}"
+    raise SceneError(
+        f"geometry of {owner} {how}; it must be a Box((x, y, z)) of edges [m], a TriMesh, or (vertices_m, faces)."
+    )
+
+
 @dataclass(frozen=True)
 class DominantSurface:
     """The plate of an object, such as the top of a table, and where it lies in the object's own frame.

@@ -7,15 +7,24 @@ that frame in the world. Scale and mirroring are baked into the mesh, so a pose 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
 from pydantic import InstanceOf
 
 from scene2hap import checks
 from scene2hap.errors import SceneError, UnknownObject
+from scene2hap.scene.check import Finding
 from scene2hap.scene.images import ImageSet
-from scene2hap.scene.objects import SceneData, SceneObject, unknown_object, with_relative_heights
+from scene2hap.scene.objects import (
+    Contact,
+    SceneData,
+    SceneObject,
+    UpAxis,
+    measured_surface,
+    unknown_object,
+    with_relative_heights,
+)
 from scene2hap.scene.pose import Pose
 
 
@@ -48,6 +57,33 @@ class SceneSnapshot(SceneData):
                 self.object(contact.a)
                 self.object(contact.b)
 
+    @classmethod
+    def build(
+        cls,
+        objects: Iterable[SceneObject],
+        *,
+        name: str = "scene",
+        up_axis: UpAxis = "y",
+        contacts: Iterable[Contact] | None = None,
+    ) -> SceneSnapshot:
+        """A scene of objects made in Python: surfaces that were not given and heights are measured for its up axis.
+
+        Raises: SceneError: as the constructor.
+        """
+        if isinstance(objects, SceneObject | str) or not isinstance(objects, Iterable):
+            raise SceneError(f"objects is {checks.described(objects)}; it must be a list of SceneObject.")
+        turned = []
+        for item in objects:
+            if not isinstance(item, SceneObject):
+                raise SceneError(
+                    f"an object is {checks.described(item)}; it must be a SceneObject(id, pose=, geometry=)."
+                )
+            if up_axis != "y" and item.is_measured_with_y_up:
+                item = replace(item, surface=measured_surface(item.geometry, item.pose, up_axis))
+            turned.append(item)
+        scene = cls(name, up_axis, tuple(turned), None if contacts is None else tuple(contacts))
+        return replace(scene, objects=with_relative_heights(turned, up_axis))
+
     def object(self, object_id: str) -> SceneObject:
         """The object with that id.
 
@@ -63,6 +99,12 @@ class SceneSnapshot(SceneData):
             self.object(object_id)
         objects = [replace(item, pose=moved.get(item.id, item.pose), images=None) for item in self.objects]
         return SceneSnapshot(self.name, self.up_axis, with_relative_heights(objects, self.up_axis))
+
+    def check(self) -> tuple[Finding, ...]:
+        """What is almost surely wrong: units, quaternions that begin with w, the up axis, what floats or is sunk."""
+        from scene2hap.scene.check import findings
+
+        return tuple(findings(self))
 
     def to_json(self) -> str:
         """The whole scene as JSON; `from_json` gives it back exactly."""

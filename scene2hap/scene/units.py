@@ -14,8 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.objects import SceneObject
-from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.scene.objects import SceneData, SceneObject
 from scene2hap.scene.usual_sizes import DOOR, Usual, usual
 
 
@@ -47,8 +46,15 @@ class _Voice(NamedTuple):
     usual: Usual
 
 
-def warn_if_implausible(snapshot: SceneSnapshot, unit_m: float) -> None:
+def warn_if_implausible(snapshot: SceneData, unit_m: float) -> None:
     """Issue a UnitWarning if the scene, read at `unit_m` metres per unit, has sizes that such things do not have."""
+    found = implausible(snapshot, unit_m)
+    if found is not None:
+        warnings.warn(found, UnitWarning, stacklevel=4)
+
+
+def implausible(snapshot: SceneData, unit_m: float = 1.0) -> str | None:
+    """Why the sizes of a scene, read at `unit_m` metres per unit, cannot be metres; None where they may be."""
     up = {"y": 1, "z": 2}[snapshot.up_axis]
     bounds = np.array([item.bounds_m for item in snapshot.objects])
     low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
@@ -58,17 +64,15 @@ def warn_if_implausible(snapshot: SceneSnapshot, unit_m: float) -> None:
     # One name may mislead (a worktop called `Table`), so the whole scene is heard before it.
     found = by_name if len(voices) > 1 else _by_size(high - low, up, extents.max(axis=1)) or by_name
     if found is None:
-        return
+        return None
     factor, reason = found
     unit = factor * unit_m
-    told, meant = next(
+    text, meant = next(
         ((f"{known:g}", f", {word}") for known, word in _UNITS.items() if np.isclose(unit, known)), (f"{unit:.2g}", "")
     )
-    warnings.warn(
+    return (
         f"sizes in {snapshot.name!r} are implausible as metres: {reason}. "
-        f"Perhaps unit_m={told} (metres per unit of the file{meant}); giving any unit_m ends this warning.",
-        UnitWarning,
-        stacklevel=4,
+        f"Perhaps unit_m={text} (metres per unit of the file{meant}); giving any unit_m ends this warning."
     )
 
 

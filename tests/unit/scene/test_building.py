@@ -1,0 +1,142 @@
+"""Scenes made in Python: objects measure themselves, and `check` says what is almost surely wrong."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+
+from edge_scenes import EDGE_SCENES
+from others import SCENES, needed
+from scene2hap import Box, DominantSurface, Pose, SceneObject, SceneSnapshot, TriMesh, load_scene
+from scene2hap.errors import SceneError
+
+ROOM = [
+    SceneObject("floor", pose=Pose((0.0, -0.05, 0.0)), geometry=Box((4.0, 0.1, 4.0))),
+    SceneObject("table", pose=Pose((0.0, 0.36, 0.0)), geometry=Box((1.2, 0.72, 0.7))),
+    SceneObject("phone", pose=Pose((0.3, 0.724, 0.1)), geometry=Box((0.07, 0.008, 0.15))),
+    SceneObject("mug", pose=Pose((-0.3, 0.77, 0.1)), geometry=Box((0.08, 0.1, 0.08))),
+    SceneObject("crate", pose=Pose((1.2, 0.2, 1.0)), geometry=Box((0.4, 0.4, 0.4))),
+]
+
+
+def moved(item: SceneObject, **changes: object) -> SceneObject:
+    return replace(item, **changes)  # type: ignore[arg-type]  # fields by name
+
+
+def test_an_object_measures_itself() -> None:
+    phone = ROOM[2]
+    assert phone.name == "phone"
+    assert phone.size_m == pytest.approx((0.15, 0.07, 0.008))
+    # The plate's normal points up.
+    np.testing.assert_allclose(np.abs(phone.surface.pose.rotation[:, 2]), (0.0, 1.0, 0.0), atol=1e-9)
+
+
+def test_heights_are_above_the_lowest_of_the_scene() -> None:
+    scene = SceneSnapshot.build(ROOM)
+    heights = {item.id: item.relative_height_m for item in scene.objects}
+    assert heights == pytest.approx({"floor": 0.0, "table": 0.1, "phone": 0.82, "mug": 0.82, "crate": 0.1})
+    assert scene.up_axis == "y"
+    assert SceneSnapshot.from_json(scene.to_json()) == scene
+
+
+def test_with_z_up_plates_lie_level() -> None:
+    cube = SceneObject("cube", geometry=Box((0.5, 0.5, 0.5)))
+    assert np.abs(cube.surface.pose.rotation[1, 2]) == pytest.approx(1.0)
+    scene = SceneSnapshot.build([cube], up_axis="z")
+    assert np.abs(scene.objects[0].surface.pose.rotation[2, 2]) == pytest.approx(1.0)
+    # What was given is kept.
+    given = DominantSurface(Pose(), 0.3, 0.2, 0.01)
+    kept = SceneSnapshot.build([SceneObject("cube", geometry=Box((0.5, 0.5, 0.5)), surface=given)], up_axis="z")
+    assert kept.objects[0].surface == given
+
+
+def test_meshes_of_other_packages_are_taken() -> None:
+    ball = trimesh.creation.icosphere(radius=0.1)
+    one, other = SceneObject("ball", geometry=ball), SceneObject("other", geometry=(ball.vertices, ball.faces))
+    assert isinstance(one.geometry, TriMesh)
+    assert one.geometry == other.geometry
+    assert one.surface is other.surface  # measured once
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: SceneObject("mug", Pose(), Box((1, 1, 1))), "Give what follows the id by name"),
+        (lambda: SceneObject("mug"), "geometry of object 'mug' is missing"),
+        (lambda: SceneObject("mug", geometry="cube"), r"must be a Box\(\(x, y, z\)\) of edges"),
+        (lambda: SceneObject("mug", pose=(0, 1, 0), geometry=Box((1, 1, 1))), "pose of object 'mug' is"),
+        (lambda: SceneSnapshot.build(ROOM[0]), "must be a list of SceneObject"),
+        (lambda: SceneSnapshot.build(["mug"]), "an object is 'mug'"),
+        (lambda: SceneSnapshot.build([]), "has no object"),
+        (lambda: SceneSnapshot.build([ROOM[0], ROOM[0]]), "used more than once"),
+    ],
+)
+def test_what_is_no_scene(make: object, words: str) -> None:
+    with pytest.raises(SceneError, match=words):
+        make()  # type: ignore[operator]  # a function of the table
+
+
+def test_nothing_is_found_in_a_room_that_is_right() -> None:
+    assert SceneSnapshot.build(ROOM).check() == ()
+    # A table top alone is taken for a table 20 mm high.
+    expected = {"no_contact": ["floating"], "one_silent_object": ["units"]}
+    for name, made in EDGE_SCENES.items():
+        snapshot, _ = made()
+        assert [found.kind for found in snapshot.check()] == expected.get(name, [])
+
+
+@pytest.mark.parametrize(
+    ("kind", "object_ids", "objects", "up_axis"),
+    [
+        ("floating", ("mug",), [*ROOM[:3], moved(ROOM[3], pose=Pose((-0.3, 1.9, 0.1))), ROOM[4]], "y"),
+        ("sunk", ("crate",), [*ROOM[:4], moved(ROOM[4], pose=Pose((1.2, -0.5, 1.0)))], "y"),
+        ("up-axis", tuple(item.id for item in ROOM), ROOM, "z"),
+        (
+            "quaternions",
+            tuple(item.id for item in ROOM),
+            [
+                moved(item, pose=Pose(item.pose.position_m, (math.cos(0.1 * k), 0.0, math.sin(0.1 * k), 0.0)))
+                for k, item in enumerate(ROOM)
+            ],
+            "y",
+        ),
+        (
+            "units",
+            tuple(item.id for item in ROOM),
+            [
+                moved(
+                    item,
+                    pose=Pose(tuple(1000 * x for x in item.pose.position_m)),
+                    geometry=Box(tuple(1000 * x for x in item.geometry.size_m)),  # type: ignore[union-attr]  # boxes
+                    surface=None,
+                )
+                for item in ROOM
+            ],
+            "y",
+        ),
+    ],
+)
+def test_what_is_wrong_is_found(
+    kind: str, object_ids: tuple[str, ...], objects: list[SceneObject], up_axis: str
+) -> None:
+    found = SceneSnapshot.build(objects, up_axis=up_axis).check()  # type: ignore[arg-type]  # a parameter
+    assert [(one.kind, one.object_ids) for one in found][:1] == [(kind, object_ids)]
+    assert str(found[0]).endswith(".")
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "aws_house_living/aws_house_living.glb",
+        "aws_house_bedroom/aws_house_bedroom.glb",
+        "composed_kitchen_kaykit/composed_kitchen_kaykit.glb",
+        "composed_bathroom_kenney/composed_bathroom_kenney.glb",
+    ],
+)
+def test_scenes_by_others_are_right_and_their_other_axis_is_wrong(name: str) -> None:
+    scene = load_scene(needed(SCENES / name))
+    assert scene.check() == ()
+    other = replace(scene, up_axis="z" if scene.up_axis == "y" else "y")
+    assert "up-axis" in {found.kind for found in other.check()}
