@@ -11,13 +11,24 @@ from typing import Any, NoReturn
 
 from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
-from scene2hap.errors import SceneError, SessionError
+from scene2hap.devices.protocol import ActuatorSink
+from scene2hap.errors import ConfigError, SceneError, SessionError
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import Contact, SceneObject
 from scene2hap.session.frame import Touch
 
 _TOUCH = "Touch(hand, object_id, point_m)"
+
+
+def require_settings(config: object) -> None:
+    """Raise a ConfigError where arguments of a session are given as its settings: its hands, or a sink."""
+    if isinstance(config, ActuatorSink):
+        raise ConfigError(f"config is {checks.described(config)}; write HapticSession(..., sink=sink).")
+    for name in ("hands", "sink"):
+        if isinstance(config, Mapping) and name in config:
+            told = checks.represented(config[name])
+            raise ConfigError(f"{name} is an argument, no setting; write HapticSession(..., {name}={told}).")
 
 
 def given_frame(moved: object, touches: object) -> tuple[Mapping[str, Pose] | None, Sequence[Touch]]:
