@@ -419,6 +419,7 @@ TOPICS: dict[str, tuple[Mistake, ...]] = {
         mistake("HapticSession(scene, bundle, sink={'path': 'touch.wav'})", "touch.wav", "kind"),
         mistake("HapticSession(scene, bundle, sink={'kind': 'wav', 'file': 'touch.wav'})", "file", "path"),
         mistake("session.update(touches=('left', 'table', TOP))", "left", "Touch("),
+        works("assert session.update(touches=iter([('left', 'table', TOP)])).gain('left', 'phone') > 0"),
         mistake("session.update(touches=np.zeros(3))", "float64", "Touch("),
         mistake("session.update(touches=[Touch(None, 'table', TOP)])", "None", "left"),
         mistake("session.update(touches=[Touch('Left', 'table', TOP)])", "Left", "Did you mean 'left'"),

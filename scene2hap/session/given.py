@@ -39,7 +39,7 @@ def given_frame(moved: object, touches: object) -> tuple[Mapping[str, Pose] | No
     is_touches = isinstance(moved, Touch) or (
         isinstance(moved, list | tuple) and all(isinstance(one, Touch) for one in moved)
     )
-    if is_touches and not touches:
+    if is_touches and (touches is None or (isinstance(touches, list | tuple) and not touches)):
         return None, given_touches(moved)
     raise SessionError(
         f"moved is {checks.described(moved)}; it must be a mapping of object ids to poses, as {{'mug': Pose(...)}}. "
@@ -61,8 +61,6 @@ def given_touches(touches: object) -> list[Touch]:
     try:
         found = list(touches)  # type: ignore[call-overload]  # if it cannot, see below
     except Exception:  # a type of somebody else's, whose `__iter__` raises what it likes
-        _refuse_touches(touches)
-    if len(found) == 3 and isinstance(found[0], str) and not isinstance(found[2], Touch | tuple | list):
         _refuse_touches(touches)
     return [_given_touch(one) for one in found]
 

@@ -348,8 +348,10 @@ class HapticSession:
         self._listening.levels_changed()
 
     def _by_hand(self, touches: Sequence[Touch] | None) -> Felt:
+        if type(touches) is not list and type(touches) is not tuple:
+            touches = given_touches(touches)
         try:
-            by_hand = self._grouped(touches or ())
+            by_hand = self._grouped(touches)
         except UnknownObject:
             raise
         except Exception:  # whatever is no list of touches raises what it likes
