@@ -25,9 +25,7 @@ class Player:
 
 
 def test_the_nearest_argument_is_named() -> None:
-    with pytest.raises(
-        CallError, match=r"no argument 'gain'. Did you mean 'gain_db'\? Call played\(clip"
-    ):
+    with pytest.raises(CallError, match=r"no argument 'gain'. Did you mean 'gain_db'\? Call played\(clip"):
         played("a", gain=3)  # type: ignore[call-arg]
     with pytest.raises(TypeError, match="3 is one argument too many; give it by name: gain_db="):
         played("a", 3)  # type: ignore[call-arg]
