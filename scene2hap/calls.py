@@ -57,7 +57,7 @@ def misfit(function: Callable[..., Any], args: Sequence[object], kwargs: Mapping
     try:
         signature.bind(*args, **kwargs)
     except TypeError as cause:
-        is_method = next(iter(signature.parameters), "") == "self"
+        is_method = next(iter(signature.parameters), "") in ("self", "cls")
         taken = [one.replace(annotation=one.empty) for one in list(signature.parameters.values())[is_method:]]
         name = getattr(function, "__qualname__", type(function).__name__).removesuffix(".__init__")
         call = f"{name}{inspect.Signature(taken)}"
@@ -76,6 +76,6 @@ def _problem(taken: list[inspect.Parameter], args: Sequence[object], kwargs: Map
     if len(args) <= len(positional):
         return ""
     surplus = checks.represented(args[len(positional)])
-    by_name = [one.name for one in taken if one.kind is one.KEYWORD_ONLY]
-    how = f"give it by name, as {by_name[0]}={surplus}" if by_name else "leave it out"
+    by_name = ", ".join(f"{one.name}=" for one in taken if one.kind is one.KEYWORD_ONLY)
+    how = f"give it by name: {by_name}" if by_name else "leave it out"
     return f"{surplus} is one argument too many; {how}."

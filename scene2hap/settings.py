@@ -81,7 +81,7 @@ class Settings(BaseModel):
             near = checks.did_you_mean(problem.location[0], cls.model_fields, f"There are {known}.")
             return f"there is no {cls.of_what} setting {problem.location[0]!r}. {near}"
         value = checks.shown(problem.value, problem.location[-1] if problem.location else "")
-        got = "" if value in problem.reason else f", got {value}"
+        got = "" if problem.kind == "value_error" and value in problem.reason else f", got {value}"
         return f"{cls.of_what} setting {problem.place}: {problem.reason}{got}."
 
 

@@ -34,4 +34,4 @@ def require_plausible(bundle: HapticBundle, folder: Path) -> None:
                 told = "; ".join(f"{edge} is {why}" for edge, why in wrong.items())
                 raise BundleError(f"{folder / 'objects.json'}: {object_id}.estimated_size_m: {told}.")
         for doubt in unmet_needs(object_id, haptics.states, categories):
-            warnings.warn(f"{object_id!r}: {doubt}.", BundleWarning, stacklevel=3)
+            warnings.warn(f"{object_id!r}: {doubt}.", BundleWarning, stacklevel=4)

@@ -33,12 +33,14 @@ def given_pair(scene: object, bundle: object) -> tuple[SceneSnapshot, HapticBund
     Raises: BundleError: none of them is a bundle, or both are; UnknownObject: the bundle is of another scene; and as
     `given_scene` and `given_bundle`.
     """
-    if bundle is None and (_is_folder(scene) or isinstance(scene, HapticBundle)):
-        alone = given_bundle(scene)
+    given = [one for one in (scene, bundle) if one is not None]
+    if len(given) == 1 and (_is_folder(given[0]) or isinstance(given[0], HapticBundle)):
+        alone = given_bundle(given[0])
         return alone.snapshot, alone
     if isinstance(scene, HapticBundle) or isinstance(bundle, SceneSnapshot) or _is_folder(scene):
         scene, bundle = bundle, scene
     if bundle is None:
+        given_scene(scene)
         raise BundleError(
             f"there is no bundle for {checks.described(scene)}, only a scene. Bake it first: "
             "HapticSession(scene, bake(scene)); a bundle alone is enough, HapticSession(bundle)."

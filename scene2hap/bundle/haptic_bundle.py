@@ -93,6 +93,7 @@ class HapticBundle:
         wish = self.overrides.get(object_id) if isinstance(object_id, str) else None
         return wish.gain_db if wish is not None and wish.gain_db is not None else 0.0
 
+    @clear_call
     def save(self, folder: str | os.PathLike[str]) -> Path:
         """Write the folder whole or not at all; a bundle that is there already is replaced, and what is not ours stays.
 
@@ -104,6 +105,7 @@ class HapticBundle:
         return write_bundle(self, checks.path("folder", folder, error=BundleError))
 
     @classmethod
+    @clear_call
     def load(cls, folder: str | os.PathLike[str]) -> HapticBundle:
         """Read a folder that `save` wrote, edited or not.
 

@@ -67,8 +67,9 @@ def our_files(folder: Path) -> frozenset[str]:
 
 def read_json(folder: Path, name: str) -> dict[str, Any]:
     """The JSON object in a file of a bundle. Raises: BundleIncomplete, BundleError."""
+    data = read_bytes(folder, name)
     try:
-        document = json.loads(read_bytes(folder, name).decode("utf-8"))
+        document = json.loads(data.decode("utf-8"))
     except (ValueError, RecursionError) as cause:  # ValueError: no UTF-8, no JSON, or a number of thousands of digits
         raise BundleIncomplete(f"{folder / name} cannot be read: {cause}. Bake again, or mend the file.") from cause
     if not isinstance(document, dict):

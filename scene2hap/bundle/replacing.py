@@ -119,7 +119,7 @@ def recover(target: Path) -> None:
                     f"one at {old}; move one of them to {target} ({cause.strerror})."
                 ) from cause
             told = f"{target} was being replaced when that process died; the new bundle, which was whole, is there now."
-            warnings.warn(told, BundleWarning, stacklevel=3)
+            warnings.warn(told, BundleWarning, stacklevel=4)
             with suppress(OSError, BundleError):
                 discard(old, place)
         return
@@ -148,7 +148,7 @@ def _put(draft: Path, place: Path, target: Path, held: ExitStack) -> None:
                 discard(old, place)
             except (OSError, BundleError) as cause:
                 told = f"{target} is written, but {old}, which it replaces, cannot be removed: {cause}"
-                warnings.warn(told, BundleWarning, stacklevel=5)
+                warnings.warn(told, BundleWarning, stacklevel=6)
         return
 
 

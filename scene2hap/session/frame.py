@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
-from scene2hap.calls import clear_construction
+from scene2hap.calls import clear_call, clear_construction
 from scene2hap.errors import SessionError, UnknownObject
 
 _TOUCH = "A touch is Touch(hand, object_id, point_m), its point in the world."
@@ -61,6 +61,7 @@ class HapticFrame:
             self._gains, self._work_out = self._work_out(), None
         return self._gains
 
+    @clear_call
     def gain(self, hand: str, source_id: str) -> float:
         """The loudest band's gain of a source at a hand [-].
 

@@ -11,13 +11,24 @@ from typing import Any, NoReturn
 
 from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
-from scene2hap.errors import SceneError, SessionError
+from scene2hap.devices.protocol import ActuatorSink
+from scene2hap.errors import ConfigError, SceneError, SessionError
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.session.frame import Touch
 
 _TOUCH = "Touch(hand, object_id, point_m)"
+
+
+def require_settings(config: object) -> None:
+    """Raise a ConfigError where arguments of a session are given as its settings: its hands, or a sink."""
+    if isinstance(config, ActuatorSink):
+        raise ConfigError(f"config is {checks.described(config)}; write HapticSession(..., sink=sink).")
+    for name in ("hands", "sink"):
+        if isinstance(config, Mapping) and name in config:
+            told = checks.represented(config[name])
+            raise ConfigError(f"{name} is an argument, no setting; write HapticSession(..., {name}={told}).")
 
 
 def given_frame(moved: object, touches: object) -> tuple[Mapping[str, Pose] | None, Sequence[Touch]]:
@@ -28,7 +39,7 @@ def given_frame(moved: object, touches: object) -> tuple[Mapping[str, Pose] | No
     is_touches = isinstance(moved, Touch) or (
         isinstance(moved, list | tuple) and all(isinstance(one, Touch) for one in moved)
     )
-    if is_touches and not touches:
+    if is_touches and (touches is None or (isinstance(touches, list | tuple) and not touches)):
         return None, given_touches(moved)
     raise SessionError(
         f"moved is {checks.described(moved)}; it must be a mapping of object ids to poses, as {{'mug': Pose(...)}}. "
@@ -50,8 +61,6 @@ def given_touches(touches: object) -> list[Touch]:
     try:
         found = list(touches)  # type: ignore[call-overload]  # if it cannot, see below
     except Exception:  # a type of somebody else's, whose `__iter__` raises what it likes
-        _refuse_touches(touches)
-    if len(found) == 3 and isinstance(found[0], str) and not isinstance(found[2], Touch | tuple | list):
         _refuse_touches(touches)
     return [_given_touch(one) for one in found]
 

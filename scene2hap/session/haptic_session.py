@@ -22,7 +22,7 @@ from scene2hap.calls import clear_calls
 from scene2hap.contact.graph import ContactChange
 from scene2hap.devices.protocol import ActuatorSink, Block
 from scene2hap.devices.whole_frames import WholeFrames
-from scene2hap.errors import ConfigError, SceneError, SessionError, UnknownObject
+from scene2hap.errors import SceneError, SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.render.safety import SafetyStats
 from scene2hap.scene.objects import Contact, SceneObject
@@ -38,6 +38,7 @@ from scene2hap.session.given import (
     given_touches,
     require_addable,
     require_pose,
+    require_settings,
     swapped_hint,
 )
 from scene2hap.session.hand_gains import Felt
@@ -71,17 +72,14 @@ class HapticSession:
 
     def __init__(
         self,
-        scene: SceneSnapshot | HapticBundle | str | os.PathLike[str],
+        scene: SceneSnapshot | HapticBundle | str | os.PathLike[str] | None = None,
         bundle: HapticBundle | SceneSnapshot | str | os.PathLike[str] | None = None,
         config: SessionConfig | Mapping[str, Any] | str | os.PathLike[str] | None = None,
         *,
         hands: Sequence[str] = ("left", "right"),
         sink: ActuatorSink | str | Mapping[str, Any] | None = None,
     ) -> None:
-        if isinstance(config, ActuatorSink):
-            raise ConfigError(
-                f"config is {checks.described(config)}; give a sink by name: HapticSession(..., sink=sink)."
-            )
+        require_settings(config)
         scene, bundle = given_pair(scene, bundle)
         self.config = SessionConfig.parse(config)
         self.hands = checks.names("hands", hands)
@@ -351,8 +349,10 @@ class HapticSession:
         self._listening.levels_changed()
 
     def _by_hand(self, touches: Sequence[Touch] | None) -> Felt:
+        if type(touches) is not list and type(touches) is not tuple:
+            touches = given_touches(touches)
         try:
-            by_hand = self._grouped(touches or ())
+            by_hand = self._grouped(touches)
         except UnknownObject:
             raise
         except Exception:  # whatever is no list of touches raises what it likes

@@ -1,0 +1,77 @@
+"""Arguments that do not fit are answered by what a function takes; errors from inside it stay what they are."""
+
+import inspect
+
+import pytest
+
+from scene2hap import checks
+from scene2hap.calls import clear_call, clear_calls, misfit
+from scene2hap.errors import CallError
+
+
+@clear_call
+def played(clip: str, *, gain_db: float = 0.0) -> str:
+    """Docs."""
+    return clip + str(len(gain_db))  # type: ignore[arg-type]  # a TypeError from inside
+
+
+@clear_calls
+class Player:
+    def play(self, clip: str) -> str:
+        return clip
+
+    def _secret(self, clip: str) -> str:
+        return clip
+
+
+def test_the_nearest_argument_is_named() -> None:
+    with pytest.raises(CallError, match=r"no argument 'gain'. Did you mean 'gain_db'\? Call played\(clip"):
+        played("a", gain=3)  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match="3 is one argument too many; give it by name: gain_db="):
+        played("a", 3)  # type: ignore[call-arg]
+    with pytest.raises(CallError, match="missing a required argument: 'clip'"):
+        played()  # type: ignore[call-arg]
+
+
+def test_a_type_error_from_inside_is_not_ours() -> None:
+    with pytest.raises(TypeError, match=r"has no len\(\)") as caught:
+        played("a")
+    assert not isinstance(caught.value, CallError)
+
+
+def test_a_function_keeps_its_name_signature_and_docs() -> None:
+    assert (played.__name__, played.__doc__) == ("played", "Docs.")
+    assert list(inspect.signature(played).parameters) == ["clip", "gain_db"]
+
+
+def test_of_a_class_public_methods_answer() -> None:
+    assert Player().play("a") == "a"
+    with pytest.raises(CallError, match=r"Call Player.play\(clip\)"):
+        Player().play(clips="a")  # type: ignore[call-arg]
+    with pytest.raises(TypeError) as caught:
+        Player()._secret()  # type: ignore[call-arg]
+    assert not isinstance(caught.value, CallError)
+
+
+def test_a_setting_is_sent_to_the_configuration() -> None:
+    def bake(scene: object, config: object = None) -> None: ...
+
+    assert "config={'llm': ...}" in misfit(bake, (1,), {"llm": "lexicon"})
+    assert misfit(bake, (1,), {"config": 2}) == ""
+    assert misfit(int, (1, 2, 3), {}) == "", "of C, which tells no signature"
+
+
+@pytest.mark.parametrize(
+    ("wanted", "known", "sentence"),
+    [
+        ("ModalPlate", ["modal_plate", "infinite_plate"], "Did you mean 'modal_plate'?"),
+        ("gain", ["mute", "gain_db"], "Did you mean 'gain_db'?"),
+        ("xyz", ["mute"], ""),
+        (3, ["3"], ""),
+        ("", ["a"], ""),
+        ("a" * 10**6, ["b"], ""),
+        ("mute", [], ""),
+    ],
+)
+def test_the_nearest_name(wanted: object, known: list[str], sentence: str) -> None:
+    assert checks.did_you_mean(wanted, known) == sentence
