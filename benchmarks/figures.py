@@ -74,7 +74,7 @@ FIGURES = {
     ),
     "distinctness": Figure("conversion", "benchmarks/distinctness.py", 1),
     "conversion-cost": Figure("conversion", "benchmarks/convert.py", 5, has_times=True, is_text=True),
-    "audio": Figure("audio", "stress/audio.py", 15, is_text=True, needs="recordings"),
+    "audio": Figure("audio", "stress/audio.py", 5, is_text=True, needs="recordings"),
     "accuracy": Figure("accuracy", "benchmarks/accuracy.py", 10, has_times=True),
     "auto-fidelity": Figure("propagation", "benchmarks/auto_fidelity.py --workers 2", 20, has_times=True),
     "propagation-cost": Figure("propagation", "benchmarks/propagation.py", 5, has_times=True),

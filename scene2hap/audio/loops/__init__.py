@@ -18,7 +18,7 @@ from scene2hap.audio.loops.pair import (
     middle_of,
 )
 from scene2hap.audio.loops.seam import FadeLaw, Seam, apply_seam
-from scene2hap.audio.loops.search import CROSSFADE_S, MAX_LOOP_S, MIN_CLIP_S, find_seam
+from scene2hap.audio.loops.seam_search import CROSSFADE_S, MAX_LOOP_S, MIN_CLIP_S, find_seam
 
 __all__ = [
     "AUDIBLE_PEAK_DBFS",

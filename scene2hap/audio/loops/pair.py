@@ -13,7 +13,7 @@ from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.loops.seam import apply_seam
-from scene2hap.audio.loops.search import CROSSFADE_S, MAX_LOOP_S, find_seam
+from scene2hap.audio.loops.seam_search import CROSSFADE_S, MAX_LOOP_S, find_seam
 from scene2hap.audio.protocol import ConversionContext, TactileConverter
 from scene2hap.errors import AudioError
 
