@@ -19,7 +19,7 @@ from scene2hap.scene.units import implausible
 Kind = Literal["units", "quaternions", "up-axis", "floating", "sunk"]
 
 _FLOATS_M = 0.25
-"""An object farther than this from all others floats (assumed: the largest gap under resting things is 0.06 m)."""
+"""An object farther than this from all others, and over the lowest, floats (assumed: things rest within 0.06 m)."""
 _SUNK_M = 0.1
 """An object whose top is this far below the floor's top is sunk in it (assumed: the thickness of a floor)."""
 _RESTS_M = 0.06  # As far over what it rests on as the rule of contact allows at most, about.
@@ -71,7 +71,7 @@ def findings(scene: SceneData) -> Iterator[Finding]:
             f"up_axis is probably {letter!r}. Give up_axis={letter!r}.",
         )
         return
-    yield from _floating(boxes, ids)
+    yield from _floating(boxes, ids, up)
     yield from _sunk(boxes, ids, up)
 
 
@@ -94,14 +94,15 @@ def _resting_share(boxes: NDArray[np.float64], up: int) -> float:
     return float(rests.mean())
 
 
-def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...]) -> Iterator[Finding]:
+def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator[Finding]:
     if len(ids) < 2:
         return
     gaps = np.maximum(boxes[:, None, 0] - boxes[None, :, 1], boxes[None, :, 0] - boxes[:, None, 1]).clip(0.0)
     apart = np.linalg.norm(gaps, axis=2)
     np.fill_diagonal(apart, np.inf)
     nearest = apart.min(axis=1)
-    alone = np.flatnonzero(nearest > _FLOATS_M)
+    lowest = boxes[:, 0, up].min()
+    alone = np.flatnonzero((nearest > _FLOATS_M) & (boxes[:, 0, up] - lowest > _FLOATS_M))
     if len(alone):
         row = alone[0]
         yield Finding(

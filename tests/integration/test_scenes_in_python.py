@@ -1,0 +1,43 @@
+"""Scenes made in Python: the page's code, and the game of 30 objects, run as they stand."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import soundfile
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "scenes-in-python.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"<!-- ci: run -->\n```python\n(.*?)```", PAGE, re.DOTALL)
+GAME = ROOT / "examples" / "game_in_python.py"
+
+
+def run(arguments: list[str], folder: Path) -> str:
+    command = [sys.executable, "-W", "error", *arguments]
+    ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stderr
+    return ran.stdout
+
+
+def test_the_code_of_the_page_runs(tmp_path: Path) -> None:
+    assert PAGE.count("```") == 2 * len(BLOCKS)
+    printed = [run(["-c", code], tmp_path) for code in BLOCKS]
+    assert printed[2].startswith("floating ('lamp',) 'lamp' floats")
+
+
+def test_a_game_of_thirty_objects_is_right_to_the_sample(tmp_path: Path) -> None:
+    """At 90 frames a second, of which none has a whole number of samples."""
+    printed = run([str(GAME), "game.wav", "7"], tmp_path)
+    assert "7 s of 30 objects" in printed
+    assert len(GAME.read_text(encoding="utf-8").splitlines()) <= 60
+    felt, rate = soundfile.read(tmp_path / "game.wav", always_2d=True)
+    fade = len(felt) - 7 * rate  # of the stop
+    assert 0 <= fade < 0.02 * rate
+    level = [np.sqrt((felt[second * rate :][:rate] ** 2).mean(axis=0)) for second in range(7)]
+    # The phone lies on the table from 3.15 to 6.28 s, and is felt there, nearer to the left hand.
+    assert (level[4] > 3 * level[1]).all()
+    assert level[4][0] > level[4][1] > 0.0
