@@ -27,6 +27,7 @@ from scene2hap.llm.chain import Inference, infer_scene
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.waiting import run_waiting
 from scene2hap.llm.wrappers import reports
+from scene2hap.scene.check import SceneWarning
 from scene2hap.scene.given import given_scene
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -87,6 +88,7 @@ async def abake(
     inference = await _infer(scene, config, wishes, user_prompt, progress, on_report)
     objects = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in inference.objects.items()}
     sounds = await make_loops(objects, wishes, config, progress or _say_nothing)
+    _warn_of(scene, objects)
     return HapticBundle(
         scene, inference.scene_category, objects, sounds.loops, wishes, sounds.choices, _made_with(config)
     )
@@ -173,6 +175,20 @@ async def arebake(
         on_remade(sounds.remade)
     made_with = _made_with(config) if _all_are_known(sounds.loops) else None
     return replace(bundle, objects=said, loops=sounds.loops, choices=sounds.choices, made_with=made_with)
+
+
+def _warn_of(scene: SceneSnapshot, objects: Mapping[str, ObjectHaptics]) -> None:
+    """Warn of what is almost surely wrong; of units, whoever makes the scene has warned."""
+    for found in scene.check():
+        if found.kind != "units":
+            warnings.warn(str(found), SceneWarning, stacklevel=2)
+    if not any(haptics.vibrates for haptics in objects.values()):
+        warnings.warn(
+            f"none of {len(objects)} objects of {scene.name!r} vibrates; nothing will be felt. Give objects names that "
+            "say what they are, let a model look at them (llm), or override(id, vibrates=True).",
+            SceneWarning,
+            stacklevel=2,
+        )
 
 
 def _require_callable(**callbacks: object) -> None:

@@ -26,13 +26,18 @@ _RESTS_M = 0.06  # As far over what it rests on as the rule of contact allows at
 # The up axis is doubted where at least this share of objects rests along the other, and so many times as many (tuned:
 # five scenes by others have 0.59-0.83 along the right axis, 1.7 to 2.7 times as many as along the wrong one).
 _MOST_RESTING, _MORE_RESTING = 0.5, 1.5
-_FEW = 4  # So few objects are no judge of the up axis.
+_FEW = 4  # Fewer objects are no judge of the up axis, nor of how quaternions are written.
+_MOSTLY_W = 0.8  # The w of a turn by 74 degrees; most things are turned by less (assumed). Exports tip all by 90.
 _FLOOR_SHARE, _FLOOR_FLATNESS = (
     0.5,
     0.2,
 )  # A floor takes up this share of the scene, and is this flat at most (assumed).
 _NONE = 1e-6
 _MOST_NAMED = 5
+
+
+class SceneWarning(UserWarning):
+    """A scene with something that is almost surely wrong."""
 
 
 class Finding(NamedTuple):
@@ -81,7 +86,7 @@ def _begin_with_w(scene: SceneData) -> bool:
     # (w, x, y, z) of a turn about y is (c, 0, s, 0), about z (c, 0, 0, s): read as (x, y, z, w) it tips things over.
     none = (1, 3) if scene.up_axis == "y" else (1, 2)
     tips = np.abs(rotations[:, list(none)]).max(axis=1) < _NONE
-    return bool(tips.all() and (np.abs(rotations[:, 0]) > 0.5**0.5).mean() > 0.5)
+    return bool(len(tips) >= _FEW and tips.all() and (np.abs(rotations[:, 0]) > _MOSTLY_W).mean() > 0.5)
 
 
 def _resting_share(boxes: NDArray[np.float64], up: int) -> float:

@@ -69,7 +69,10 @@ class SceneSnapshot(SceneData):
         """A scene of objects made in Python: surfaces that were not given and heights are measured for its up axis.
 
         Raises: SceneError: as the constructor.
+        Warns: UnitWarning: the sizes cannot be metres.
         """
+        from scene2hap.scene.units import warn_if_implausible
+
         if isinstance(objects, SceneObject | str) or not isinstance(objects, Iterable):
             raise SceneError(f"objects is {checks.described(objects)}; it must be a list of SceneObject.")
         turned = []
@@ -82,7 +85,9 @@ class SceneSnapshot(SceneData):
                 item = replace(item, surface=measured_surface(item.geometry, item.pose, up_axis))
             turned.append(item)
         scene = cls(name, up_axis, tuple(turned), None if contacts is None else tuple(contacts))
-        return replace(scene, objects=with_relative_heights(turned, up_axis))
+        scene = replace(scene, objects=with_relative_heights(turned, up_axis))
+        warn_if_implausible(scene, stacklevel=3)
+        return scene
 
     def object(self, object_id: str) -> SceneObject:
         """The object with that id.

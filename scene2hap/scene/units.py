@@ -46,11 +46,11 @@ class _Voice(NamedTuple):
     usual: Usual
 
 
-def warn_if_implausible(snapshot: SceneData, unit_m: float) -> None:
+def warn_if_implausible(snapshot: SceneData, unit_m: float = 1.0, *, stacklevel: int = 4) -> None:
     """Issue a UnitWarning if the scene, read at `unit_m` metres per unit, has sizes that such things do not have."""
     found = implausible(snapshot, unit_m)
     if found is not None:
-        warnings.warn(found, UnitWarning, stacklevel=4)
+        warnings.warn(found, UnitWarning, stacklevel=stacklevel)
 
 
 def implausible(snapshot: SceneData, unit_m: float = 1.0) -> str | None:

@@ -13,6 +13,9 @@ from rooms import ROOMS, room_file
 from scene2hap import HapticSession, Pose, SceneSnapshot, Touch, bake, load_scene
 from scene2hap.contact.graph import ContactGraph
 
+# They have rooms without sources.
+pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.scene.check.SceneWarning")
+
 
 @cache
 def loaded(name: str) -> SceneSnapshot:

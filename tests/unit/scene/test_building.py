@@ -1,6 +1,7 @@
 """Scenes made in Python: objects measure themselves, and `check` says what is almost surely wrong."""
 
 import math
+from contextlib import nullcontext
 from dataclasses import replace
 
 import numpy as np
@@ -9,8 +10,10 @@ import trimesh
 
 from edge_scenes import EDGE_SCENES
 from others import SCENES, needed
-from scene2hap import Box, DominantSurface, Pose, SceneObject, SceneSnapshot, TriMesh, load_scene
+from scene2hap import Box, DominantSurface, Pose, SceneObject, SceneSnapshot, TriMesh, bake, load_scene
 from scene2hap.errors import SceneError
+from scene2hap.scene.check import SceneWarning
+from scene2hap.scene.units import UnitWarning
 
 ROOM = [
     SceneObject("floor", pose=Pose((0.0, -0.05, 0.0)), geometry=Box((4.0, 0.1, 4.0))),
@@ -81,7 +84,7 @@ def test_what_is_no_scene(make: object, words: str) -> None:
 def test_nothing_is_found_in_a_room_that_is_right() -> None:
     assert SceneSnapshot.build(ROOM).check() == ()
     # A table top alone is taken for a table 20 mm high.
-    expected = {"one_silent_object": ["units"]}
+    expected = {"no_contact": ["floating"], "one_silent_object": ["units"]}
     for name, made in EDGE_SCENES.items():
         snapshot, _ = made()
         assert [found.kind for found in snapshot.check()] == expected.get(name, [])
@@ -121,7 +124,9 @@ def test_nothing_is_found_in_a_room_that_is_right() -> None:
 def test_what_is_wrong_is_found(
     kind: str, object_ids: tuple[str, ...], objects: list[SceneObject], up_axis: str
 ) -> None:
-    found = SceneSnapshot.build(objects, up_axis=up_axis).check()  # type: ignore[arg-type]  # a parameter
+    with pytest.warns(UnitWarning) if kind == "units" else nullcontext():
+        scene = SceneSnapshot.build(objects, up_axis=up_axis)
+    found = scene.check()
     assert [(one.kind, one.object_ids) for one in found][:1] == [(kind, object_ids)]
     assert str(found[0]).endswith(".")
 
@@ -140,3 +145,11 @@ def test_scenes_by_others_are_right_and_their_other_axis_is_wrong(name: str) -> 
     assert scene.check() == ()
     other = replace(scene, up_axis="z" if scene.up_axis == "y" else "y")
     assert "up-axis" in {found.kind for found in other.check()}
+
+
+def test_baking_warns_of_what_floats_and_of_silence() -> None:
+    objects = [*ROOM[:3], moved(ROOM[3], pose=Pose((-0.3, 1.9, 0.1))), ROOM[4]]
+    with pytest.warns(SceneWarning, match="'mug' floats"):
+        bake(SceneSnapshot.build(objects))
+    with pytest.warns(SceneWarning, match="none of 2 objects of 'scene' vibrates"):
+        bake(SceneSnapshot.build(ROOM[:2]))
