@@ -18,12 +18,13 @@ from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import converter_settings
 from scene2hap.baking.sound import Earlier, Progress, Remade, make_loops
 from scene2hap.bundle import HapticBundle, MadeWith, Override
-from scene2hap.errors import ConfigError
+from scene2hap.checks import shown
+from scene2hap.errors import ConfigError, SceneError
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.llm.chain import Inference, infer_scene
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.wrappers import reports
-from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.scene.snapshot import SceneObject, SceneSnapshot, UpAxis
 
 OnReport = Callable[[InferenceReport], None]
 OnRemade = Callable[[Remade], None]
@@ -79,6 +80,25 @@ async def abake(
     return HapticBundle(
         scene, inference.scene_category, objects, sounds.loops, wishes, sounds.choices, _made_with(config)
     )
+
+
+def bake_object(
+    item: SceneObject,
+    config: BakeConfig | Mapping[str, Any] | None = None,
+    *,
+    up_axis: UpAxis = "y",
+    user_prompt: str = "",
+    override: Override | None = None,
+) -> HapticBundle:
+    """Bake one object, away from any scene: a prefab, of which `HapticSession.spawn` adds copies.
+
+    Its id and pose are those of the original; each copy has its own.
+    Raises: as `bake`; SceneError: not an object.
+    """
+    if not isinstance(item, SceneObject):
+        raise SceneError(f"item is {shown(item)}; it must be a SceneObject, as scene.object(id) gives.")
+    overrides = None if override is None else {item.id: override}
+    return bake(SceneSnapshot(item.name, up_axis, (item,)), config, user_prompt=user_prompt, overrides=overrides)
 
 
 def rebake(
