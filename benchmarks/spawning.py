@@ -17,6 +17,7 @@ import pstats
 import time
 import tracemalloc
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from scipy.signal import firwin, oaconvolve
@@ -69,7 +70,7 @@ def timed(call: Callable[[], object], of: list[tuple[float, float]]) -> None:
 
 def resident_mib() -> float:
     """Memory of this process, where Linux tells it."""
-    with open("/proc/self/statm") as file:
+    with open("/proc/self/statm", encoding="ascii") as file:
         return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2**20
 
 
@@ -89,27 +90,27 @@ def main() -> None:
     removes: list[tuple[float, float]] = []
     updates: list[tuple[float, float]] = []
     heard = []
-    n_steps, n_warm, before = round(given.seconds * SPAWN_HZ), 0, (0.0, 0)
+    n_steps, n_warm, before_mib = round(given.seconds * SPAWN_HZ), 0, 0.0
     profile = cProfile.Profile()
     for n in range(n_steps):
         if n == min(2 * given.alive, n_steps // 2):
             gc.collect()
             if given.memory:
                 tracemalloc.start()
-            n_warm, before = n, (resident_mib(), 0)
+            n_warm, before_mib = n, resident_mib()
         row, column = divmod(n % given.alive, N_COLUMNS)
         pose = Pose((0.3 * column - 2.9, 0.775, 0.3 * row - 1.4))
         if given.profile:
             profile.enable()
         if n >= given.alive:
-            timed(lambda: session.remove(f"cup_{n - given.alive}"), removes)
-        timed(lambda: session.spawn(prefab, f"cup_{n}", pose), adds)
+            timed(partial(session.remove, f"cup_{n - given.alive}"), removes)
+        timed(partial(session.spawn, prefab, f"cup_{n}", pose), adds)
         profile.disable()
         timed(lambda: session.update(touches=touches), updates)
         heard.append(session.render(RATE_HZ // SPAWN_HZ)[:, 0])
     gc.collect()
-    print(f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores; {n_steps} copies at ")
-    print(f"{SPAWN_HZ} Hz, up to {given.alive} at once\n")
+    print(f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores; {n_steps} copies,")
+    print(f"{SPAWN_HZ} a second, up to {given.alive} at once\n")
     print("| call | processor p50 [ms] | p99 [ms] | worst [ms] | wall p50 [ms] | p99 [ms] | worst [ms] |")
     print("|---|---|---|---|---|---|---|")
     for name, times in (("spawn", adds), ("remove", removes), ("update after both", updates)):
@@ -124,7 +125,7 @@ def main() -> None:
     worst = max(
         (10 * np.log10(np.mean(high[p] ** 2) / (np.mean(x[p] ** 2) + 1e-30) + 1e-30) for p in parts), default=-300
     )
-    print(f"\nworst click {worst:.0f} dB; resident memory {resident_mib() - before[0]:+.1f} MiB after copy {n_warm}")
+    print(f"\nworst click {worst:.0f} dB; resident memory {resident_mib() - before_mib:+.1f} MiB after copy {n_warm}")
     if given.memory:
         print(f"traced growth {tracemalloc.get_traced_memory()[0] / 2**20:+.2f} MiB")
     if given.profile:

@@ -133,8 +133,8 @@ class HapticSession:
     def spawn(self, prefab: HapticBundle, object_id: str, pose: Pose) -> None:
         """Add a copy of a prefab, which is a bundle of one object, as `bake_object` makes it.
 
-        All copies share the prefab's geometry, surface and loops, so that only the first has to be prepared. Corrections
-        of the prefab hold for each copy.
+        All copies share the prefab's geometry, surface and loops, so that only the first has to be prepared.
+        Corrections of the prefab hold for each copy.
         Raises: SessionError: the bundle has not exactly one object; SceneError: the id is taken or empty.
         """
         if not isinstance(prefab, HapticBundle):
