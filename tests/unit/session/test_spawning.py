@@ -141,3 +141,15 @@ def test_copies_come_and_go_while_another_thread_renders() -> None:
     ends.set()
     audio.join()
     assert not failed
+
+
+def test_the_recipe_of_the_docs_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    text = (Path(__file__).parents[3] / "docs" / "spawning.md").read_text(encoding="utf-8")
+    bakes, plays = (part.split("```")[0] for part in text.split("```python\n")[1:])
+    names = {"session": session(), "HapticBundle": HapticBundle}
+    exec(bakes, names)
+    exec(plays.split("...\n")[0], names)
+    assert "fan_17" in names["session"].source_ids
+    exec(plays.split("...\n")[1], names)
+    assert "fan_17" not in names["session"].source_ids
