@@ -107,6 +107,22 @@ def test_a_thousand_copies_leave_nothing_behind() -> None:
     assert len(s._playback._mixers) == 1
 
 
+def test_copies_leave_nothing_to_the_garbage_collector() -> None:
+    s, prefab = session(), fan(176.0)
+    s.spawn(prefab, "fan_0", AT)
+    assert s.wait_prepared(10)
+    gc.collect()
+    gc.disable()
+    try:
+        for n in range(1, 10):
+            s.spawn(prefab, f"fan_{n}", AT)
+            s.remove(f"fan_{n - 1}")
+            s.update(touches=ON_TABLE)
+        assert gc.collect() == 0
+    finally:
+        gc.enable()
+
+
 def test_two_sessions_share_a_prefab_whose_copy_goes_while_it_is_prepared() -> None:
     prefab, first, second = fan(181.0), session(), session()
     first.spawn(prefab, "fan_1", AT)
