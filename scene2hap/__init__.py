@@ -56,7 +56,7 @@ _HOME = {
     "scene2hap.llm.replay": ("RecordingBackend", "ReplayBackend"),
     "scene2hap.llm.chain": ("infer_haptics",),
     "scene2hap.bundle": ("HapticBundle", "Override"),
-    "scene2hap.baking": ("BakeConfig", "abake", "arebake", "bake", "rebake"),
+    "scene2hap.baking": ("BakeConfig", "abake", "arebake", "bake", "bake_object", "rebake"),
     "scene2hap.session": ("HapticFrame", "HapticSession", "SessionConfig", "Touch"),
     "scene2hap.touch_track": ("TouchTrack",),
     "scene2hap.track_player": ("play_track",),
@@ -107,6 +107,7 @@ if TYPE_CHECKING:
     from scene2hap.baking import abake as abake
     from scene2hap.baking import arebake as arebake
     from scene2hap.baking import bake as bake
+    from scene2hap.baking import bake_object as bake_object
     from scene2hap.baking import rebake as rebake
     from scene2hap.bundle import HapticBundle as HapticBundle
     from scene2hap.bundle import Override as Override

@@ -1,6 +1,6 @@
 """Design time: a scene in, a bundle out."""
 
 from scene2hap.baking.config import BakeConfig
-from scene2hap.baking.scene import BundleWarning, abake, arebake, bake, rebake
+from scene2hap.baking.scene import BundleWarning, abake, arebake, bake, bake_object, rebake
 
-__all__ = ["BakeConfig", "BundleWarning", "abake", "arebake", "bake", "rebake"]
+__all__ = ["BakeConfig", "BundleWarning", "abake", "arebake", "bake", "bake_object", "rebake"]

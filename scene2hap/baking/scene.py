@@ -21,7 +21,8 @@ from scene2hap.baking.sound import Earlier, Progress, Remade, make_loops
 from scene2hap.bundle import HapticBundle, MadeWith, Override
 from scene2hap.bundle.given import given_bundle
 from scene2hap.calls import clear_call
-from scene2hap.errors import ConfigError
+from scene2hap.checks import shown
+from scene2hap.errors import ConfigError, SceneError
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.llm.chain import Inference, infer_scene
 from scene2hap.llm.report import InferenceReport
@@ -29,6 +30,7 @@ from scene2hap.llm.waiting import run_waiting
 from scene2hap.llm.wrappers import reports
 from scene2hap.scene.check import SceneWarning
 from scene2hap.scene.given import given_scene
+from scene2hap.scene.objects import SceneObject, UpAxis
 from scene2hap.scene.snapshot import SceneSnapshot
 
 OnReport = Callable[[InferenceReport], None]
@@ -92,6 +94,26 @@ async def abake(
     return HapticBundle(
         scene, inference.scene_category, objects, sounds.loops, wishes, sounds.choices, _made_with(config)
     )
+
+
+@clear_call
+def bake_object(
+    item: SceneObject,
+    config: BakeConfig | Mapping[str, Any] | None = None,
+    *,
+    up_axis: UpAxis = "y",
+    user_prompt: str = "",
+    override: Override | None = None,
+) -> HapticBundle:
+    """Bake one object, away from any scene: a prefab, of which `HapticSession.spawn` adds copies.
+
+    Its id and pose are those of the original; each copy has its own.
+    Raises: as `bake`; SceneError: not an object.
+    """
+    if not isinstance(item, SceneObject):
+        raise SceneError(f"item is {shown(item)}; it must be a SceneObject, as scene.object(id) gives.")
+    overrides = None if override is None else {item.id: override}
+    return bake(SceneSnapshot(item.name, up_axis, (item,)), config, user_prompt=user_prompt, overrides=overrides)
 
 
 @clear_call
@@ -182,7 +204,7 @@ def _warn_of(scene: SceneSnapshot, objects: Mapping[str, ObjectHaptics]) -> None
     for found in scene.check():
         if found.kind != "units":
             warnings.warn(str(found), SceneWarning, stacklevel=2)
-    if not any(haptics.vibrates for haptics in objects.values()):
+    if len(objects) > 1 and not any(haptics.vibrates for haptics in objects.values()):
         warnings.warn(
             f"none of {len(objects)} objects of {scene.name!r} vibrates; nothing will be felt. Give objects names that "
             "say what they are, let a model look at them (llm), or override(id, vibrates=True).",

@@ -47,6 +47,12 @@ class LivePaths:
         self._paths = ContactPaths(dict(price_per_m), rows, _CrossingCosts(crossing_cost), max_hops)
         self._version = -1
 
+    def __del__(self) -> None:
+        # Objects and their neighbours refer to each other: left to the garbage collector, those of sources that come
+        # and go stop the game for some 60 ms every few seconds.
+        if hasattr(self, "_paths"):
+            self._paths.update(None, {})
+
     def _follow_graph(self) -> None:
         """Update the pairs whose contacts changed since the last call."""
         version = self._graph.version

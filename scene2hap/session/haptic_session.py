@@ -11,6 +11,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from types import TracebackType
 from typing import Any, NoReturn, Self
 
@@ -154,11 +155,30 @@ class HapticSession:
         require_addable(object, haptics, loops)
         if haptics is None and loops is None:
             haptics, loops = self._bundle.objects.get(object.id), self._bundle.loops.get(object.id)
-        change = self._state.add(object, haptics)
-        if loops:
-            self._sources.add(object.id, loops, haptics, self._bundle.gain_db(object.id))
-            self._playback.change_rows(self._sources.rows(), self._now)
-        self._listening.apply(change, sources_changed=bool(loops))
+        self._put(object, haptics, loops or {}, self._bundle.gain_db(object.id))
+
+    def spawn(self, prefab: HapticBundle, object_id: str, pose: Pose) -> None:
+        """Add a copy of a prefab, which is a bundle of one object, as `bake_object` makes it.
+
+        All copies share the prefab's geometry, surface and loops, so that only the first has to be prepared.
+        Corrections of the prefab hold for each copy.
+        Raises: SessionError: the bundle has not exactly one object; SceneError: the id is taken or empty.
+        """
+        if not isinstance(prefab, HapticBundle):
+            raise SessionError(
+                f"prefab is {checks.shown(prefab)}; it must be a HapticBundle of one object: bake_object(...) or "
+                "HapticBundle.load(folder)."
+            )
+        if len(prefab.snapshot.objects) != 1:
+            raise SessionError(
+                f"prefab has {len(prefab.snapshot.objects)} objects; it must have one. Bake each with bake_object."
+            )
+        if not isinstance(pose, Pose):
+            raise SessionError(f"pose is {checks.shown(pose)}; it must be a Pose.")
+        (original,) = prefab.snapshot.objects
+        copy = replace(original, id=object_id, name=object_id, pose=pose)
+        loops = prefab.loops.get(original.id, {})
+        self._put(copy, prefab.objects.get(original.id), loops, prefab.gain_db(original.id))
 
     def remove(self, object_id: str) -> None:
         """Take an object out of the scene; what is felt of it fades.
@@ -327,6 +347,15 @@ class HapticSession:
     @property
     def _now(self) -> int:
         return max(self._playback.position, self._last_stamp)
+
+    def _put(
+        self, item: SceneObject, haptics: ObjectHaptics | None, loops: Mapping[str, HapticLoop], gain_db: float
+    ) -> None:
+        change = self._state.add(item, haptics)
+        if loops:
+            self._sources.add(item.id, loops, haptics, gain_db)
+            self._playback.change_rows(self._sources.rows(), self._now)
+        self._listening.apply(change, sources_changed=bool(loops))
 
     def _stamp(self, at_sample: int | None) -> int:
         if at_sample is not None and type(at_sample) is not int:

@@ -79,7 +79,7 @@ def _corner(surface: DominantSurface, length_m: float, width_m: float) -> Pose:
 def excitations_of(rows: Iterable[LoopRow], bodies: Mapping[str, Body]) -> tuple[Excitation, ...]:
     """One excitation per source, in their order."""
     return tuple(
-        Excitation(
+        _excitation(
             row.source_id,
             row.loop.frequency_raw_hz,
             row.loop.frequency_tactile_hz,
@@ -87,3 +87,7 @@ def excitations_of(rows: Iterable[LoopRow], bodies: Mapping[str, Body]) -> tuple
         )
         for row in rows
     )
+
+
+# Sources that come and go one by one leave the others as they were, and an excitation checks its numbers.
+_excitation = lru_cache(maxsize=4096)(Excitation)

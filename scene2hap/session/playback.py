@@ -261,7 +261,8 @@ class Playback:
         for bank in self._banks:
             if None in bank.slots:
                 return _Place(bank, bank.slots.index(None))
-        bank = self._new_bank(n_wanted)
+        # So that few mixers follow, however many loops come one by one: each has as many slots as all before it.
+        bank = self._new_bank(max(n_wanted, len(self._places) // 2))
         self._banks.append(bank)
         self._mixers.append(MixerInstance(self._config, bank, tuple(self._hands), self._position))
         self._plan = self._new_plan()

@@ -134,5 +134,8 @@ class _Spelling:
 
 def _with(mapping: Mapping[str, Thing], key: str, value: Thing | None) -> dict[str, Thing]:
     """A copy with another value, or without the key for None."""
-    changed = {name: thing for name, thing in mapping.items() if name != key}
-    return changed if value is None else {**changed, key: value}
+    changed = dict(mapping)
+    changed.pop(key, None)
+    if value is not None:
+        changed[key] = value
+    return changed

@@ -1,0 +1,143 @@
+"""What adding and removing copies of a prefab costs the game's thread, as a table in Markdown.
+
+OMP_NUM_THREADS=1 python benchmarks/spawning.py
+
+A copy comes at 50 Hz and goes some seconds later; what it plays is rendered between the calls, and its clicks are what
+lies above 1 kHz against the whole.
+"""
+
+from __future__ import annotations
+
+import argparse
+import cProfile
+import gc
+import os
+import platform
+import pstats
+import time
+import tracemalloc
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+from scipy.signal import firwin, oaconvolve
+
+from scene2hap import (
+    AudioClip,
+    Box,
+    DominantSurface,
+    HapticBundle,
+    HapticLoop,
+    HapticSession,
+    ObjectHaptics,
+    Pose,
+    SceneObject,
+    SceneSnapshot,
+    SourceState,
+    Touch,
+    materials,
+)
+
+SPAWN_HZ, RATE_HZ, N_COLUMNS = 50, 48_000, 20
+FLAT = (-(0.5**0.5), 0.0, 0.0, 0.5**0.5)
+
+
+def thing(name: str, size_m: tuple[float, float, float], at_m: tuple[float, float, float]) -> SceneObject:
+    """A cuboid with y up, whose plate is its top."""
+    x, y, z = size_m
+    surface = DominantSurface(Pose((-x / 2, 0.0, z / 2), FLAT), x, z, y)
+    return SceneObject(name, name, Pose(at_m), Box(size_m), surface)
+
+
+def bundle_of(item: SceneObject, material: str, frequency_hz: float | None) -> HapticBundle:
+    """A prefab without inference; it vibrates if a frequency is given."""
+    states = () if frequency_hz is None else (SourceState("on", 0.5, "motor", "motor"),)
+    told = ObjectHaptics(item.name, material, materials.lookup(material), item.size_m, "stands", states != (), states)
+    loops = {}
+    if frequency_hz is not None:
+        samples = 0.02 * np.sin(2 * np.pi * frequency_hz * np.arange(8000) / 8000)
+        clip = AudioClip(samples.astype(np.float32), 8000)
+        loops = {item.id: {"on": HapticLoop(clip, clip, frequency_hz, frequency_hz)}}
+    return HapticBundle(SceneSnapshot(item.name, "y", (item,)), "", {item.id: told}, loops)
+
+
+def timed(call: Callable[[], object], of: list[tuple[float, float]]) -> None:
+    """Note processor and wall time [ms] of a call on this thread."""
+    wall, own = time.perf_counter(), time.thread_time()
+    call()
+    of.append((1e3 * (time.thread_time() - own), 1e3 * (time.perf_counter() - wall)))
+
+
+def resident_mib() -> float:
+    """Memory of this process, where Linux tells it."""
+    with open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2**20
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--seconds", type=float, default=60.0)
+    parser.add_argument("--alive", type=int, default=200)
+    parser.add_argument("--profile", action="store_true")
+    parser.add_argument("--memory", action="store_true", help="trace allocations too, which makes all times longer")
+    given = parser.parse_args()
+
+    table = bundle_of(thing("table", (8.0, 0.05, 4.0), (0.0, 0.7, 0.0)), "oak", None)
+    prefab = bundle_of(thing("cup", (0.1, 0.1, 0.1), (0.0, 0.0, 0.0)), "plastic", 120.0)
+    session = HapticSession(table.snapshot, table, {"sample_rate_hz": RATE_HZ})
+    touches = [Touch("left", "table", (-1.5, 0.725, -1.2))]
+    adds: list[tuple[float, float]] = []
+    removes: list[tuple[float, float]] = []
+    updates: list[tuple[float, float]] = []
+    n_steps, n_warm, before_mib = round(given.seconds * SPAWN_HZ), 0, 0.0
+    n_block = RATE_HZ // SPAWN_HZ
+    # Written now, so that what is heard does not count as memory that grows.
+    heard = np.full((n_steps, n_block), np.nan, dtype=np.float32)
+    profile = cProfile.Profile()
+    # As docs/spawning.md advises: a full collection looks at all that a program has loaded.
+    gc.collect()
+    gc.freeze()
+    for n in range(n_steps):
+        if n == min(2 * given.alive, n_steps // 2):
+            gc.collect()
+            if given.memory:
+                tracemalloc.start()
+            n_warm, before_mib = n, resident_mib()
+        row, column = divmod(n % given.alive, N_COLUMNS)
+        pose = Pose((0.3 * column - 2.9, 0.775, 0.3 * row - 1.4))
+        if given.profile:
+            profile.enable()
+        if n >= given.alive:
+            timed(partial(session.remove, f"cup_{n - given.alive}"), removes)
+        timed(partial(session.spawn, prefab, f"cup_{n}", pose), adds)
+        timed(partial(session.update, touches=touches), updates)
+        profile.disable()
+        heard[n] = session.render(n_block)[:, 0]
+    gc.collect()
+    grown_mib = resident_mib() - before_mib
+    traced_mib = tracemalloc.get_traced_memory()[0] / 2**20
+    print(f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores; {n_steps} copies,")
+    print(f"{SPAWN_HZ} a second, up to {given.alive} at once\n")
+    print("| call | processor p50 [ms] | p99 [ms] | worst [ms] | wall p50 [ms] | p99 [ms] | worst [ms] |")
+    print("|---|---|---|---|---|---|---|")
+    for name, times in (("spawn", adds), ("remove", removes), ("update after both", updates)):
+        if times:
+            own, wall = np.array(times).T
+            cells = [f"{x:.2f}" for t in (own, wall) for x in (*np.percentile(t, (50, 99)), t.max())]
+            print(f"| {name} | {' | '.join(cells)} |")
+    x = heard.ravel().astype(np.float64)
+    high = oaconvolve(x, firwin(2801, 940, pass_zero="highpass", window=("kaiser", 10.06), fs=RATE_HZ), mode="same")
+    n = RATE_HZ // 4
+    parts = [slice(i, i + n) for i in range(n, len(x) - n, n)]
+    worst = max(
+        (10 * np.log10(np.mean(high[p] ** 2) / (np.mean(x[p] ** 2) + 1e-30) + 1e-30) for p in parts), default=-300
+    )
+    print(f"\nworst click {worst:.0f} dB; resident memory {grown_mib:+.1f} MiB after copy {n_warm}")
+    if given.memory:
+        print(f"traced growth {traced_mib:+.2f} MiB")
+    if given.profile:
+        pstats.Stats(profile).sort_stats("tottime").print_stats(22)
+
+
+if __name__ == "__main__":
+    main()
