@@ -86,5 +86,5 @@ def test_no_modules_import_each_other_in_a_circle() -> None:
         graph.add_edges_from((name, other) for other in imports_of(path) & set(names.values()) if other != name)
     circles = [group for group in nx.strongly_connected_components(graph) if len(group) > 1]
     rooms = {name.split(".")[1] for group in circles for name in group}
-    # Methods of `SceneSnapshot` and `HapticBundle` delegate to the modules that read and write them.
-    assert rooms <= {"scene", "bundle"}
+    # Methods of `SceneSnapshot` delegate to the modules that read and write it.
+    assert rooms <= {"scene"}
