@@ -4,21 +4,18 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from scene2hap.bundle.contents import BundleContents
 from scene2hap.errors import BundleError
 from scene2hap.haptics import unmet_needs
 from scene2hap.scene import sizes
-
-if TYPE_CHECKING:
-    from scene2hap.bundle.haptic_bundle import HapticBundle
 
 
 class BundleWarning(UserWarning):
     """Something in a bundle that can be read, and hardly means what it says."""
 
 
-def require_plausible(bundle: HapticBundle, folder: Path) -> None:
+def require_plausible(bundle: BundleContents, folder: Path) -> None:
     """Hold sizes against the measured ones, and needed contacts against what there is.
 
     Raises: BundleError: a size that no plate of that object has.

@@ -26,7 +26,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from scene2hap import checks
 from scene2hap.audio.files import read_clip, write_wav
-from scene2hap.bundle.haptic_bundle import HapticBundle
+from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.override import Override
 from scene2hap.bundle.own_files import (
@@ -58,7 +58,7 @@ _DAMAGE = (ArithmeticError, AttributeError, LookupError, MemoryError, OSError, R
 """What Python itself raises on a document of the wrong shape, on numbers beyond any bound, on files that vanish."""
 
 
-def write_bundle(bundle: HapticBundle, target: Path) -> Path:
+def write_bundle(bundle: BundleContents, target: Path) -> Path:
     """Write the folder whole or not at all; a bundle that is there already is replaced, and what is not ours stays.
 
     Raises: BundleVersionError: a bundle of a newer scene2hap is there; BundleError: the folder holds something else, is
@@ -72,7 +72,7 @@ def write_bundle(bundle: HapticBundle, target: Path) -> Path:
     return target
 
 
-def _write(bundle: HapticBundle, folder: Path) -> None:
+def _write(bundle: BundleContents, folder: Path) -> None:
     (folder / "meshes").mkdir()
     (folder / "sounds").mkdir()
     written: list[str] = []
@@ -119,7 +119,7 @@ def _write(bundle: HapticBundle, folder: Path) -> None:
     )
 
 
-def read_bundle(folder: Path) -> HapticBundle:
+def read_bundle(folder: Path) -> BundleContents:
     """Read a folder that `write_bundle` wrote, edited or not. One that is replaced meanwhile is read again.
 
     Raises: BundleIncomplete, BundleVersionError, BundleError: see `HapticBundle.load`.
@@ -140,7 +140,7 @@ def read_bundle(folder: Path) -> HapticBundle:
     raise BundleIncomplete(f"{folder} was replaced {_MOST_READINGS} times while it was read. Read it again later.")
 
 
-def _read(folder: Path) -> HapticBundle:
+def _read(folder: Path) -> BundleContents:
     with _reading(folder / MANIFEST):
         manifest = read_manifest(folder)
         missing = [name for name in manifest.get("files", []) if not inside(folder, name).is_file()]
@@ -165,7 +165,7 @@ def _read(folder: Path) -> HapticBundle:
     with _reading(folder / MANIFEST):
         made_with = MadeWith.from_document(manifest.get("made_with"), str(folder / MANIFEST))
         category = str(manifest.get("scene_category", "undefined"))
-        return HapticBundle(scene, category, objects, loops, overrides, choices, made_with)
+        return BundleContents(scene, category, objects, loops, overrides, choices, made_with)
 
 
 @contextmanager
@@ -206,7 +206,7 @@ def _read_scene(folder: Path) -> SceneSnapshot:
     return SceneSnapshot.of(scene_json.from_document(document))
 
 
-def _override_rows(bundle: HapticBundle, folder: Path, written: list[str]) -> dict[str, Any]:
+def _override_rows(bundle: BundleContents, folder: Path, written: list[str]) -> dict[str, Any]:
     rows: dict[str, Any] = {}
     for object_id, wish in bundle.overrides.items():
         row: dict[str, Any] = {"vibrates": wish.vibrates, "gain_db": wish.gain_db}

@@ -17,13 +17,13 @@ from typing import Any
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import fits_flac, read_clip, sound_digest, write_flac, write_wav
 from scene2hap.audio.haptic_loop import HapticLoop
-from scene2hap.bundle.haptic_bundle import HapticBundle
+from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.own_files import own_file
 
 _KINDS = ("audible", "tactile", "source")
 
 
-def write_loops(bundle: HapticBundle, folder: Path, written: list[str]) -> dict[str, dict[str, Any]]:
+def write_loops(bundle: BundleContents, folder: Path, written: list[str]) -> dict[str, dict[str, Any]]:
     """Write the sounds of all loops below `folder`; the rows of loops.json. Adds to the names of what is `written`."""
     digests: dict[int, str] = {}
     users: dict[tuple[str, str], list[str]] = {}
@@ -100,7 +100,7 @@ def _digest(text: str) -> str:
     return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:8]
 
 
-def _stems(bundle: HapticBundle) -> list[tuple[str, HapticLoop]]:
+def _stems(bundle: BundleContents) -> list[tuple[str, HapticLoop]]:
     return [
         (f"{file_stem(object_id)}.{file_stem(state)}", loop)
         for object_id, states in bundle.loops.items()

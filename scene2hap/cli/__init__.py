@@ -13,12 +13,12 @@ from collections.abc import Sequence
 from typing import Any
 
 from scene2hap import __version__
-from scene2hap.cli import bake, convert, demo, doctor, inspect, play, render, report, streams
+from scene2hap.cli import bake, convert, demo, doctor, edit, inspect, play, render, report, streams
 from scene2hap.cli.console import Console
 from scene2hap.errors import Scene2HapError
 from scene2hap.printable import printable
 
-COMMANDS = (demo, bake, render, play, convert, inspect, report, doctor)
+COMMANDS = (demo, bake, edit, render, play, convert, inspect, report, doctor)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -44,6 +44,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--dry-run", action="store_true", help="only tell calls, tokens and cost; ask nobody")
     parser.add_argument("--sounds", metavar="FOLDER", help="your own sounds, tried before the synthesizer")
+    parser.add_argument("--actuator", metavar="NAME", help="name of an actuator, or a CSV file of Hz and dB")
+    parser.add_argument("--tactile", metavar="KIND", help="what turns sound into touch")
     parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [bake]")
     add_scene_arguments(parser)
 
@@ -117,7 +119,13 @@ def _settings(arguments: argparse.Namespace) -> dict[str, Any]:
         if not isinstance(settings.get("llm"), dict):
             raise ConfigError("--base-url needs a model to ask there. Name one with --llm KIND:MODEL.")
         settings["llm"] = {**settings["llm"], "base_url": arguments.base_url}
-    for name, value in (("max_cost_usd", arguments.max_cost), ("cache_dir", arguments.cache)):
+    given_alone = {
+        "max_cost_usd": arguments.max_cost,
+        "cache_dir": arguments.cache,
+        "actuator": arguments.actuator,
+        "tactile": arguments.tactile,
+    }
+    for name, value in given_alone.items():
         if value is not None:
             settings[name] = value
     return settings

@@ -11,7 +11,7 @@ import json
 import shutil
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from rich.live import Live
@@ -41,6 +41,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``scene2hap play``."""
     parser.add_argument("bundle", metavar="BUNDLE", help="folder that bake wrote")
     parser.add_argument("--sink", default="soundcard", help="where to play: a kind, or JSON with one (soundcard)")
+    parser.add_argument("--mute", action="append", default=[], metavar="ID", help="silence a source; may be repeated")
+    parser.add_argument("--solo", action="append", default=[], metavar="ID", help="play this source; may be repeated")
     parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [session]")
 
 
@@ -60,6 +62,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         keys() as pressed,
         Live(refresh_per_second=20, screen=True) as screen,
     ):
+        silence(session, arguments.mute, arguments.solo)
         while player.press(pressed()):
             session.set_user(gain_db=player.gain_db)
             frame = session.update(touches=player.touches())
@@ -69,6 +72,17 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     if not actuator.has_played:
         console.warn(f"nobody felt anything: {actuator.problem or 'the actuator was not reached'}")
     return {"bundle": arguments.bundle, "ended_on": player.on, "played": actuator.has_played}
+
+
+def silence(session: HapticSession, muted: Sequence[str], solo: Sequence[str]) -> None:
+    """Mute the sources in `muted`, and all but those in `solo` if there are any.
+
+    Raises: UnknownObject: one of them is no source, and nothing is muted.
+    """
+    for source_id in (*muted, *solo):
+        session.set_source(source_id)
+    for source_id in session.source_ids:
+        session.set_source(source_id, mute=source_id in muted or bool(solo and source_id not in solo))
 
 
 class Actuator:

@@ -1,0 +1,56 @@
+"""What a baked scene holds, without the ways to change or keep it; reading and writing build on this alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from scene2hap import checks
+from scene2hap.audio.clip import Credit
+from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.bundle.made_with import MadeWith
+from scene2hap.bundle.override import Override
+from scene2hap.errors import BundleError
+from scene2hap.haptics import ActuatorProfile, ObjectHaptics
+from scene2hap.scene.snapshot import SceneSnapshot
+
+
+@dataclass(frozen=True)
+class BundleContents:
+    """A baked scene: what is in it, what inference says of each object, and the loops of each source by state.
+
+    `overrides` are what a person says against inference; `choices` tell why each sound was chosen, as a table of its
+    candidates in text, by id and state; `made_with` are the settings that all loops share, None where nobody knows.
+    """
+
+    snapshot: SceneSnapshot
+    scene_category: str
+    objects: Mapping[str, ObjectHaptics]
+    loops: Mapping[str, Mapping[str, HapticLoop]]
+    overrides: Mapping[str, Override] = field(default_factory=dict)
+    choices: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    made_with: MadeWith | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.snapshot, SceneSnapshot):
+            raise BundleError(f"snapshot is {checks.described(self.snapshot)}; it must be a SceneSnapshot.")
+        for name in ("objects", "loops", "overrides", "choices"):
+            if not isinstance(getattr(self, name), Mapping):
+                raise BundleError(f"{name} is {checks.described(getattr(self, name))}; it must be a mapping by id.")
+        for object_id in (*self.objects, *self.loops, *self.overrides):
+            self.snapshot.object(object_id)
+
+    @property
+    def actuator(self) -> ActuatorProfile | None:
+        """What all tactile loops were converted for; None where nobody knows."""
+        return self.made_with.actuator if self.made_with is not None else None
+
+    @property
+    def credits(self) -> tuple[Credit, ...]:
+        """Whom the sounds are owed to, each once, in order of source and state."""
+        return tuple(dict.fromkeys(loop.audible.credit for states in self.loops.values() for loop in states.values()))
+
+    def gain_db(self, object_id: str) -> float:
+        """The level of a source at the hand against the inferred one [dB]."""
+        wish = self.overrides.get(object_id) if isinstance(object_id, str) else None
+        return wish.gain_db if wish is not None and wish.gain_db is not None else 0.0
