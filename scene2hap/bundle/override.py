@@ -41,16 +41,18 @@ class Override:
 
     def __post_init__(self) -> None:
         if self.vibrates is not None and not isinstance(self.vibrates, bool):
-            raise BundleError(f"vibrates is {self.vibrates!r}; it must be True, False or None.")
+            raise BundleError(f"vibrates is {checks.represented(self.vibrates)}; it must be True, False or None.")
         if not isinstance(self.keep, bool):
-            raise BundleError(f"keep is {self.keep!r}; it must be True or False.")
+            raise BundleError(f"keep is {checks.represented(self.keep)}; it must be True or False.")
         if self.gain_db is not None:
             gain = checks.number("gain_db", self.gain_db, "dB", at_most=_MOST_GAIN_DB, error=BundleError)
             object.__setattr__(self, "gain_db", gain)
         if isinstance(self.material, str):
             object.__setattr__(self, "material", lookup(self.material))
         if self.material is not None and not isinstance(self.material, Material):
-            raise BundleError(f"material is {self.material!r}; it must be a Material or a name in the table.")
+            raise BundleError(
+                f"material is {checks.represented(self.material)}; it must be a Material or a name in the table."
+            )
         if isinstance(self.clip, str | os.PathLike):
             object.__setattr__(self, "clip", read_clip(Path(self.clip)))
         if self.clip is not None and not isinstance(self.clip, AudioClip):

@@ -252,21 +252,25 @@ def _checked_channels(channels: Mapping[str, int] | Sequence[int] | None) -> Map
     numbers = list(channels.values()) if isinstance(channels, Mapping) else list(channels)
     for number in numbers:
         if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= 256:
-            raise ConfigError(f"channels has {number!r}; a channel is a whole number, 1 for a card's first.")
+            raise ConfigError(
+                f"channels has {checks.represented(number)}; a channel is a whole number, 1 for a card's first."
+            )
     if len(set(numbers)) < len(numbers):
-        raise ConfigError(f"channels is {channels!r}; each hand needs a channel of its own.")
+        raise ConfigError(f"channels is {checks.represented(channels)}; each hand needs a channel of its own.")
     return dict(channels) if by_name else tuple(numbers)  # type: ignore[arg-type]  # narrowed above
 
 
 def _checked_latency(latency: float | str) -> float | str:
     if isinstance(latency, str):
         if latency not in ("low", "high"):
-            raise ConfigError(f"latency is {latency!r}; it must be seconds, 'low' or 'high'.")
+            raise ConfigError(f"latency is {checks.represented(latency)}; it must be seconds, 'low' or 'high'.")
         return latency
     return checks.number("latency", latency, "s", above=0.0, at_most=1.0, error=ConfigError)
 
 
 def _checked_block(frames: int) -> int:
     if isinstance(frames, bool) or not isinstance(frames, int) or not 16 <= frames <= 8192:
-        raise ConfigError(f"block_frames is {frames!r}; it must be a whole number of 16 to 8192 frames.")
+        raise ConfigError(
+            f"block_frames is {checks.represented(frames)}; it must be a whole number of 16 to 8192 frames."
+        )
     return frames

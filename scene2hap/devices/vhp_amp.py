@@ -11,6 +11,7 @@ from typing import Literal
 
 import numpy as np
 
+from scene2hap import checks
 from scene2hap.devices.claims import port_key
 from scene2hap.devices.framing import vhp
 from scene2hap.devices.link import CarryOn, LiveSink
@@ -38,8 +39,8 @@ class VhpSink(LiveSink):
     def __init__(
         self, port: str, *, board: Literal["slim", "sleeve"] = "slim", on_event: EventCallback | None = None
     ) -> None:
-        if board not in ("slim", "sleeve"):
-            raise ConfigError(f'board is {board!r}; it must be "slim" or "sleeve".')
+        if not isinstance(board, str) or board not in ("slim", "sleeve"):
+            raise ConfigError(f'board is {checks.represented(board)}; it must be "slim" or "sleeve".')
         require_pyserial()
         super().__init__(
             VhpLine(port, slim=board == "slim"), f"VHP {board} at {port}", on_event=on_event, key=port_key(port)

@@ -37,6 +37,8 @@ NEAREST_KR = 1e-4
 FARTHEST_KR = 1e8
 """The library routine for H0 gives up near 1e9; farther points answer as from here, where |Pi| is below 1e-4."""
 
+_FARTHEST_M = 1e9
+
 
 def point_mobility_s_kg(plate: Plate) -> float:
     """Velocity over force at the driven point of the plate without edges or loss, real and the same at all frequencies.
@@ -178,6 +180,7 @@ def _damped_wavenumber(plate: Plate, eta: float, frequencies_hz: NDArray[np.floa
 def _spread(
     plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: NDArray[np.float64]
 ) -> NDArray[np.complex128]:
-    offsets = as_points(points_m, 2) - as_points(drive_m, 2)
+    # Farther off nothing is left, and the square of a distance is still a number.
+    offsets = np.clip(as_points(points_m, 2) - as_points(drive_m, 2), -_FARTHEST_M, _FARTHEST_M)
     r = np.hypot(offsets[:, 0], offsets[:, 1])
     return spreading(np.outer(r, _damped_wavenumber(plate, plate.material.loss_factor, frequencies_hz)))

@@ -59,8 +59,10 @@ def load_scene(
     broken, too large or outside assets_root; the scene is read without them.
     """
     path = checks.path("path", path, error=SceneError)
-    if up_axis not in ("y", "z", None):
-        raise SceneError(f"up_axis is {up_axis!r}; it must be 'y' or 'z', or None for what the file says.")
+    if up_axis is not None and not (isinstance(up_axis, str) and up_axis in ("y", "z")):
+        raise SceneError(
+            f"up_axis is {checks.represented(up_axis)}; it must be 'y' or 'z', or None for what the file says."
+        )
     if unit_m is not None:
         unit_m = checks.number(
             "unit_m", unit_m, "m", above=0.0, error=SceneError, hint="A file in centimetres has 0.01."
@@ -114,7 +116,7 @@ def _read(path: Path, assets_root: Path) -> AuthoredScene:
 
 
 def _from_json(path: Path, up_axis: UpAxis | None, unit_m: float | None, group: Grouping) -> SceneSnapshot:
-    if unit_m not in (None, 1.0) or group != "authored" or up_axis is not None:
+    if unit_m not in (None, 1.0) or not (isinstance(group, str) and group == "authored") or up_axis is not None:
         raise SceneError("a scene in JSON tells its own axis, metres and objects; leave up_axis, unit_m and group out.")
     try:
         text = read_bytes(path).decode("utf-8")

@@ -72,6 +72,8 @@ def _given_touch(touch: object) -> Touch:
         _refuse_touches(touch)
     if not isinstance(touch.hand, str):
         raise SessionError(f"hand is {checks.described(touch.hand)}; it must be a name. A touch is {_TOUCH}.")
+    if not isinstance(touch.object_id, str):
+        raise SessionError(f"object_id is {checks.described(touch.object_id)}; it must be an id. A touch is {_TOUCH}.")
     return touch
 
 

@@ -208,7 +208,7 @@ class HapticSession:
 
     def remove_hand(self, name: str) -> None:
         """Take away an output, but not the last; otherwise as `add_hand`. Raises: SessionError: an unknown hand."""
-        if name not in self.hands:
+        if not isinstance(name, str) or name not in self.hands:
             raise SessionError(unknown_hand(name, self.hands))
         hands = checks.names("hands", [hand for hand in self.hands if hand != name])
         with self._output.reopened_for(hands, self._rendered):
@@ -248,7 +248,7 @@ class HapticSession:
 
     def explain(self, hand: str) -> Explanation:
         """Each source that a hand felt at the last update, and its way there. Raises: SessionError: an unknown hand."""
-        if hand not in self.hands:
+        if not isinstance(hand, str) or hand not in self.hands:
             raise SessionError(unknown_hand(hand, self.hands))
         return self._listening.explain(hand)
 
@@ -362,13 +362,14 @@ class HapticSession:
             at_sample = checks.whole("at_sample", at_sample, "-", at_least=0, at_most=2**62, error=SessionError)
         if at_sample is not None and at_sample > self._now + MAX_AHEAD_S * self.config.sample_rate_hz:
             raise SessionError(
-                f"at_sample is {at_sample}, more than {MAX_AHEAD_S} s ahead of `position`, {self._playback.position}; "
-                "it must be a number of samples on the clock of `render`. Leave it out for now."
+                f"at_sample is {checks.represented(at_sample)}, more than {MAX_AHEAD_S} s ahead of `position`, "
+                f"{self._playback.position}; it must be a number of samples on the clock of `render`. Leave it out for "
+                "now."
             )
         if at_sample is not None and at_sample < self._last_stamp:
             raise SessionError(
-                f"at_sample is {at_sample}; the last update was at {self._last_stamp}, and time cannot go back. "
-                "Give updates in the order in which they happen."
+                f"at_sample is {checks.represented(at_sample)}; the last update was at {self._last_stamp}, and time "
+                "cannot go back. Give updates in the order in which they happen."
             )
         self._last_stamp = self._now if at_sample is None else at_sample
         return self._last_stamp

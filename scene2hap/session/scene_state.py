@@ -60,7 +60,7 @@ class SceneState:
         """Raise an UnknownObject, with a hint behind, if an object is not there."""
         if isinstance(object_id, str) and object_id in self.objects:
             return
-        if any(item.id == object_id for item in self._scene.objects):
+        if isinstance(object_id, str) and any(item.id == object_id for item in self._scene.objects):
             hint = f" {object_id!r} was removed; `add(object)` puts it back.{hint}"
         raise UnknownObject(unknown_object(object_id, self.objects) + hint)
 

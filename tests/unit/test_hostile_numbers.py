@@ -22,10 +22,15 @@ from scene2hap import (
     PoseTable,
     SceneSnapshot,
     SessionConfig,
+    SoundCardSink,
     SourceState,
+    Touch,
     TriMesh,
+    load_scene,
     plate_modes,
 )
+from scene2hap.bundle import Override
+from scene2hap.devices.vhp_amp import VhpSink
 from scene2hap.errors import Scene2HapError
 from scenes import table_with_two_phones
 
@@ -54,7 +59,22 @@ def playing(act: Callable[[HapticSession], object]) -> object:
     return act(HapticSession(*table_with_two_phones(), {"prepare": "blocking"}))
 
 
+# A value of numpy that no text can be compared with.
+VOID: Any = np.void(b"abc")
+HUGE: Any = 10**5000
 REFUSED: dict[str, Callable[[], object]] = {
+    "a sample of 5000 digits": lambda: playing(lambda session: session.update({}, [], at_sample=HUGE)),
+    "a hand that is removed": lambda: playing(lambda session: session.remove_hand(VOID)),
+    "a hand that is explained": lambda: playing(lambda session: session.explain(VOID)),
+    "an object that is removed": lambda: playing(lambda session: session.remove(VOID)),
+    "a touch of an array": lambda: playing(lambda session: session.update({}, [Touch("left", VOID, (0, 0, 0))])),
+    "channels of 5000 digits": lambda: SoundCardSink(channels=[HUGE]),
+    "a block of 5000 digits": lambda: SoundCardSink(block_frames=HUGE),
+    "a board of 5000 digits": lambda: VhpSink("port", board=HUGE),
+    "a board of numpy": lambda: VhpSink("port", board=VOID),
+    "a material of 5000 digits": lambda: Override(material=HUGE),
+    "an up axis of 5000 digits": lambda: load_scene("room.glb", up_axis=HUGE),
+    "an axis of numpy": lambda: load_scene("room.glb", up_axis=VOID),
     "a number that raises": lambda: Pose((Raising(1.0), 0, 0)),
     "a number of 5000 digits as a vector": lambda: Pose(10**5000),  # type: ignore[arg-type]
     "a number of 5000 digits as a name": lambda: Material(10**5000, 1.0, 1.0, 0.3),  # type: ignore[arg-type]

@@ -10,7 +10,7 @@ from functools import cache
 from importlib.resources import files
 
 from scene2hap import checks
-from scene2hap.errors import ConfigError
+from scene2hap.errors import ConfigError, Scene2HapError
 
 _SNAPSHOT = re.compile(r"-\d{4}-\d{2}-\d{2}$")
 """The date in the name of a model's version: gpt-4o-2024-08-06."""
@@ -62,5 +62,9 @@ def _price(model: str, price: Price | tuple[float, float]) -> Price:
         return price
     try:
         return Price(*price)
-    except TypeError as cause:
-        raise ConfigError(f"the price of {model!r} is {price!r}; it must be (input, output) per million.") from cause
+    except Scene2HapError:
+        raise
+    except Exception as cause:  # what is no pair of numbers raises what it likes
+        raise ConfigError(
+            f"the price of {model!r} is {checks.represented(price)}; it must be (input, output) per million."
+        ) from cause

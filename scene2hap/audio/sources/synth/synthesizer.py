@@ -64,4 +64,6 @@ def _chance(description: VibrationDescription, index: int) -> np.random.Generato
     """Chance that depends on the words, the seed and the take alone; Python's own hash changes with every process."""
     words = (description.object_category, description.state, description.sentence, description.keywords)
     text = "\x1f".join((*words, str(description.seed), str(index)))
-    return np.random.default_rng(int.from_bytes(hashlib.sha256(text.encode()).digest()[:16], "big"))
+    return np.random.default_rng(
+        int.from_bytes(hashlib.sha256(text.encode("utf-8", "surrogatepass")).digest()[:16], "big")
+    )
