@@ -96,7 +96,7 @@ def thesis_is_there() -> bool:
 def main() -> None:
     kind = sys.argv[2]
     if sys.argv[3] == "renames":
-        replacing.exchange = lambda one, other: False  # type: ignore[assignment]
+        replacing.exchange = lambda one, other: False  # type: ignore[assignment]  # as where no system exchanges
     rows = []
     for step in range(1, 2000):
         begin()

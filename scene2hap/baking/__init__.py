@@ -1,6 +1,7 @@
 """Design time: a scene in, a bundle out."""
 
 from scene2hap.baking.config import BakeConfig
-from scene2hap.baking.scene import BundleWarning, abake, arebake, bake, bake_object, rebake
+from scene2hap.baking.scene import abake, arebake, bake, bake_object, rebake
+from scene2hap.bundle import BundleWarning
 
 __all__ = ["BakeConfig", "BundleWarning", "abake", "arebake", "bake", "bake_object", "rebake"]

@@ -18,7 +18,7 @@ from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import converter_settings
 from scene2hap.baking.sound import Earlier, Progress, Remade, make_loops
-from scene2hap.bundle import HapticBundle, MadeWith, Override
+from scene2hap.bundle import BundleWarning, HapticBundle, MadeWith, Override
 from scene2hap.bundle.given import given_bundle
 from scene2hap.calls import clear_call
 from scene2hap.checks import shown
@@ -35,10 +35,6 @@ from scene2hap.scene.snapshot import SceneSnapshot
 
 OnReport = Callable[[InferenceReport], None]
 OnRemade = Callable[[Remade], None]
-
-
-class BundleWarning(UserWarning):
-    """A bundle does not say all that is needed to bake it again."""
 
 
 _VIBRATES = "This object vibrates by itself: tell in which states."

@@ -1,5 +1,6 @@
 """What baking leaves behind and playing starts from."""
 
+from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.folder import read_overrides
 from scene2hap.bundle.haptic_bundle import HapticBundle
 from scene2hap.bundle.made_with import MadeWith
@@ -7,4 +8,12 @@ from scene2hap.bundle.override import Override
 from scene2hap.bundle.replacing import require_replaceable
 from scene2hap.bundle.sounds import file_stem
 
-__all__ = ["HapticBundle", "MadeWith", "Override", "file_stem", "read_overrides", "require_replaceable"]
+__all__ = [
+    "BundleWarning",
+    "HapticBundle",
+    "MadeWith",
+    "Override",
+    "file_stem",
+    "read_overrides",
+    "require_replaceable",
+]

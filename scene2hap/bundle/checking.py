@@ -12,7 +12,7 @@ from scene2hap.scene import sizes
 
 
 class BundleWarning(UserWarning):
-    """Something in a bundle that can be read, and hardly means what it says."""
+    """Something in a bundle that can be read and hardly means what it says, or that lacks what baking again needs."""
 
 
 def require_plausible(bundle: BundleContents, folder: Path) -> None:

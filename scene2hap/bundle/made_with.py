@@ -42,7 +42,7 @@ class MadeWith:
         if document is None:
             return None
         try:
-            fields = dict(document)  # type: ignore[call-overload]
+            fields = dict(document)  # type: ignore[call-overload]  # if it cannot, see below
             tactile, seed = fields["tactile"], fields["seed"]
             if not isinstance(tactile, dict) or not isinstance(seed, int):
                 raise TypeError("tactile must be an object and seed a whole number")

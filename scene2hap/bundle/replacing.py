@@ -33,7 +33,7 @@ from scene2hap.errors import BundleError, BundleIncomplete
 try:
     import fcntl
 except ImportError:  # Windows, where a folder cannot be locked
-    fcntl = None  # type: ignore[assignment]
+    fcntl = None  # type: ignore[assignment]  # a module elsewhere
 
 ABANDONED_S = 86400.0
 """Age at which a draft counts as left behind where folders cannot be locked [s]; assumed: a save takes seconds."""

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import itertools
+import random
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
+
+Kind = TypeVar("Kind")
 
 
 @dataclass(frozen=True)
@@ -24,3 +29,13 @@ class Attack:
     seconds: float = 5.0
     memory_bytes: int = 1 << 30
     untouched: tuple[Path, ...] = ()
+
+
+def in_turn(
+    family: str, kinds: Sequence[Kind], seed: int, work: Path
+) -> Iterator[tuple[int, Kind, Path, random.Random]]:
+    """The number, kind, new folder and chance of each case; kinds in turn, without end."""
+    for number in itertools.count():
+        folder = work / str(number)
+        folder.mkdir()
+        yield number, kinds[number % len(kinds)], folder, random.Random(f"{family}/{seed}/{number}")

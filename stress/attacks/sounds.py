@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import itertools
 import os
 import random
 import struct
@@ -16,18 +15,14 @@ import numpy as np
 import soundfile
 
 from attacks import bundles
-from attacks.attack import Attack
+from attacks.attack import Attack, in_turn
 from attacks.judging import told, wav_is_harmless
 
 
 def attacks(seed: int, work: Path) -> Iterator[Attack]:
     """One file of each kind in turn, for a use drawn from the seed. Without end."""
     room = bundles.sound(work)
-    for number in itertools.count():
-        rng = random.Random(f"sounds/{seed}/{number}")
-        kind = _KINDS[number % len(_KINDS)]
-        folder = work / str(number)
-        folder.mkdir()
+    for number, kind, folder, rng in in_turn("sounds", _KINDS, seed, work):
         made = kind(folder, rng)
         use = rng.choice(["convert", "convert", "folder", "convert folder", "clip", "more", "table"])
         name = f"{number} {kind.__name__.strip('_')} as {use}"

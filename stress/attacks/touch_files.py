@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from attacks import bundles
-from attacks.attack import Attack
+from attacks.attack import Attack, in_turn
 from attacks.judging import wav_is_harmless
 
 _ODD: tuple[Any, ...] = (
@@ -52,11 +52,7 @@ _CONFIGS: tuple[dict[str, Any], ...] = (
 def attacks(seed: int, work: Path) -> Iterator[Attack]:
     """Each kind of file in turn, with values drawn from the seed. Without end."""
     room = bundles.sound(work)
-    for number in itertools.count():
-        rng = random.Random(f"touch_files/{seed}/{number}")
-        kind = _KINDS[number % len(_KINDS)]
-        folder = work / str(number)
-        folder.mkdir()
+    for number, kind, folder, rng in in_turn("touch_files", _KINDS, seed, work):
         told, path, more = kind(folder, rng)
         argv = ("render", str(room), "--touches", str(path), "-o", "out.wav", *more)
         name = f"{number} {kind.__name__.strip('_')} {told}"
