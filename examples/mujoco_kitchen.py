@@ -13,8 +13,8 @@ import mujoco
 import numpy as np
 
 from scene2hap import ContactGraph, HapticSession, SceneObject, Touch, WavSink, bake
-from scene2hap.scene.engines.motion import moved
-from scene2hap.scene.engines.mujoco import open_mjcf, poses, snapshot
+from scene2hap.engines import MuJoCoLink
+from scene2hap.scene.engines.mujoco import open_mjcf, snapshot
 
 FRAMES_PER_SECOND = 50
 
@@ -39,29 +39,25 @@ def main() -> None:
     beside = ContactGraph(scene).neighbours(source) or (source,)
     hands = {"left": source, "right": max(beside, key=lambda key: math.prod(scene.object(key).size_m[:2]))}
     drawer = longest_slide(model)
-    now = {item.id: item.pose for item in scene.objects}
 
     sink = WavSink(arguments.output)
     steps_per_frame = max(1, round(1 / (FRAMES_PER_SECOND * model.opt.timestep)))
     n_frames = round(arguments.seconds * FRAMES_PER_SECOND)
     with HapticSession(scene, bundle, sink=sink) as session:
-        samples_per_frame = session.config.sample_rate_hz // FRAMES_PER_SECOND
+        link = MuJoCoLink(model, data, session, unit_m=arguments.unit_m)
         for _ in range(n_frames):
             for _ in range(steps_per_frame):
                 if drawer is not None:
                     data.qvel[model.jnt_dofadr[drawer]] = np.ptp(model.jnt_range[drawer]) / arguments.seconds
                 mujoco.mj_step(model, data)
-            changed = moved(poses(model, data, unit_m=arguments.unit_m), now)
-            now.update(changed)
-            touches = [
-                # A hand stays in the middle of the object's plate, wherever it goes.
-                Touch(hand, held, tuple(now[held].to_world(middle(scene.object(held)))))
-                for hand, held in hands.items()
-            ]
-            frame = session.update(changed, touches)
-            sink.pull(samples_per_frame)
+            now = session.snapshot
+            # A hand stays in the middle of the object's plate, wherever it goes.
+            touches = [Touch(hand, held, middle(now.object(held))) for hand, held in hands.items()]
+            frame = link.update(touches)
+            sink.pull_s(1 / FRAMES_PER_SECOND)
+        now = session.snapshot
 
-    gone = {item.id: math.dist(now[item.id].position_m, item.pose.position_m) for item in scene.objects}
+    gone = {item.id: math.dist(now.object(item.id).pose.position_m, item.pose.position_m) for item in scene.objects}
     print(f"{len(scene.objects)} objects; sources: {', '.join(sources)}")
     print("moved:", ", ".join(f"{key} by {way:.2f} m" for key, way in gone.items() if way > 0.01) or "nothing")
     for hand, held in hands.items():
@@ -76,8 +72,9 @@ def longest_slide(model: mujoco.MjModel) -> int | None:
 
 
 def middle(item: SceneObject) -> list[float]:
-    """The middle of an object's plate, in its own frame."""
-    return item.surface.pose.to_world([item.surface.length_m / 2, item.surface.width_m / 2, 0.0]).tolist()
+    """The middle of an object's plate, in the world."""
+    plate = item.surface
+    return item.pose.compose(plate.pose).to_world([plate.length_m / 2, plate.width_m / 2, 0.0]).tolist()
 
 
 if __name__ == "__main__":

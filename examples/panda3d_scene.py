@@ -12,8 +12,8 @@ import numpy as np
 from panda3d import core
 
 from scene2hap import HapticSession, Touch, WavSink, bake
-from scene2hap.scene.engines.motion import moved
-from scene2hap.scene.engines.panda3d import nodes, poses, snapshot
+from scene2hap.engines import Panda3DLink
+from scene2hap.scene.engines.panda3d import snapshot
 
 FRAMES_PER_SECOND = 50
 Vector = tuple[float, float, float]
@@ -64,18 +64,15 @@ def main() -> None:
     render = furnish()
     scene = snapshot(render, name="study")
     bundle = bake(scene)
-    things, now = nodes(render), {item.id: item.pose for item in scene.objects}
     touches = [Touch("left", "wooden table", (0.5, 0.1, 0.83)), Touch("right", "shelf", (1.2, 0.1, 1.22))]
     sink = WavSink(output)
     with HapticSession(scene, bundle, sink=sink) as session:
-        samples_per_frame = session.config.sample_rate_hz // FRAMES_PER_SECOND
+        link = Panda3DLink(render, session)
         for i in range(2 * FRAMES_PER_SECOND):
             if i == FRAMES_PER_SECOND:
-                things["smartphone"].set_pos(1.2, 0, 1.22)
-            changed = moved(poses(things, scene), now)
-            now.update(changed)
-            frame = session.update(changed, touches)
-            sink.pull(samples_per_frame)
+                render.find("**/smartphone").set_pos(1.2, 0, 1.22)
+            frame = link.update(touches)
+            sink.pull_s(1 / FRAMES_PER_SECOND)
             if i % FRAMES_PER_SECOND == 0:
                 felt = {hand: {key: round(frame.gain(hand, key), 3) for key in frame.sources} for hand in frame.hands}
                 print(f"at {i / FRAMES_PER_SECOND:.0f} s: {felt}")

@@ -22,6 +22,8 @@ LAYERS = [
     {"bundle"},
     {"llm", "render", "devices", "export"},
     {"baking", "session"},
+    {"engines"},
+    {"testing"},
     {"touch_track"},
     {"track_player"},
     {"demo"},

@@ -94,6 +94,13 @@ def poses(model: Any, data: Any, *, geom_groups: Collection[int] | None = None, 
     return _poses(model, data, _layout(_engine(model, data), model, geom_groups), unit_m)
 
 
+def contacts(
+    model: Any, data: Any, *, geom_groups: Collection[int] | None = None, unit_m: float = 1.0
+) -> tuple[Contact, ...]:
+    """The engine's contacts between objects of the last `snapshot` with the same arguments."""
+    return _contacts(model, data, _layout(_engine(model, data), model, geom_groups), unit_m)
+
+
 def load_mjcf(
     path: str | os.PathLike[str], *, assets_root: str | os.PathLike[str] | None = None, unit_m: float = 1.0
 ) -> SceneSnapshot:
