@@ -19,6 +19,7 @@ from scene2hap.session import HapticFrame, HapticSession, Touch
 # As `scene.engines.motion` has them: what an object may move and turn by and still count as at rest.
 _BY_M, _BY_RAD = 1e-4, 1e-3
 _MOST_NAMED = 5
+Floats = NDArray[np.float64]
 
 
 class EngineLink:
@@ -36,7 +37,7 @@ class EngineLink:
             raise ConfigError(f"{type(adapter).__name__} has no method {missing[0]!r}; see EngineAdapter.")
         self._adapter, self._session = adapter, session
         self._known: dict[str, Pose] = {}
-        self._table: PoseTable | None = None
+        self._table: tuple[tuple[str, ...], Floats, Floats] | None = None
         ids = {item.id for item in session.snapshot.objects}
         unknown = sorted(ids - adapter.poses().keys())
         if unknown:
@@ -53,26 +54,25 @@ class EngineLink:
         return self._session.update(self._changed(self._adapter.poses()), felt, contacts=self._adapter.contacts())
 
     def _changed(self, poses: Mapping[str, Pose]) -> Mapping[str, Pose]:
-        if isinstance(poses, PoseTable):
-            before, self._table = self._table, poses
-            if before is None or before.ids != poses.ids:
-                return poses
-            rows = _moved_rows(poses, before)
-            # What counts as at rest is held against where it was, so that slow motion adds up.
-            still = np.setdiff1d(np.arange(len(poses.ids)), rows, assume_unique=True)
-            positions, rotations = poses.positions_m.copy(), poses.rotations_xyzw.copy()
-            positions[still], rotations[still] = before.positions_m[still], before.rotations_xyzw[still]
-            self._table = PoseTable(poses.ids, positions, rotations)
-            moves = zip(rows.tolist(), positions[rows].tolist(), rotations[rows].tolist(), strict=True)
-            return {poses.ids[row]: Pose((x, y, z), (a, b, c, d)) for row, (x, y, z), (a, b, c, d) in moves}
-        changed = moved(poses, self._known, by_m=_BY_M, by_rad=_BY_RAD)
-        self._known.update(changed)
-        return changed
+        if not isinstance(poses, PoseTable):
+            changed = moved(poses, self._known, by_m=_BY_M, by_rad=_BY_RAD)
+            self._known.update(changed)
+            return changed
+        ids, positions, rotations = poses.ids, poses.positions_m, poses.rotations_xyzw
+        if self._table is None or self._table[0] != ids:
+            self._table = (ids, positions.copy(), rotations.copy())
+            return poses
+        # What counts as at rest is held against where it was, so that slow motion adds up.
+        _, known_positions, known_rotations = self._table
+        rows = _moved_rows(positions, rotations, known_positions, known_rotations)
+        known_positions[rows], known_rotations[rows] = positions[rows], rotations[rows]
+        moves = zip(rows.tolist(), positions[rows].tolist(), rotations[rows].tolist(), strict=True)
+        return {ids[row]: Pose((x, y, z), (a, b, c, d)) for row, (x, y, z), (a, b, c, d) in moves}
 
 
-def _moved_rows(now: PoseTable, before: PoseTable) -> NDArray[np.intp]:
-    way = ((now.positions_m - before.positions_m) ** 2).sum(axis=1)
+def _moved_rows(positions: Floats, rotations: Floats, before: Floats, turned: Floats) -> NDArray[np.intp]:
+    way = ((positions - before) ** 2).sum(axis=1)
     # |q . p| = cos(angle / 2); either sign of a quaternion is the same rotation.
-    turn = np.abs((now.rotations_xyzw * before.rotations_xyzw).sum(axis=1))
+    turn = np.abs((rotations * turned).sum(axis=1))
     found: NDArray[np.intp] = np.flatnonzero((way > _BY_M**2) | (turn < math.cos(_BY_RAD / 2)))
     return found

@@ -69,7 +69,7 @@ class _MuJoCo:
         if not self.hands:
             return ()
         found = []
-        for contact in engine.contacts(self._model, self._data, **self._how):
+        for contact in engine.contacts(self._model, self._data, of=set(self.hands.values()), **self._how):
             for hand, body in self.hands.items():
                 if body in (contact.a, contact.b):
                     other = contact.b if body == contact.a else contact.a

@@ -79,7 +79,7 @@ def test_a_mujoco_scene_is_felt_in_three_lines(mujoco_engine: Any) -> None:
     # The finger falls onto the table and feels the phone through it.
     assert felt[0] == 0.0
     assert felt[-1] > 0.05
-    assert np.abs(sink.recorded()).max() > 0.001
+    assert np.abs(sink.samples).max() > 0.001
 
 
 def test_contacts_may_be_the_engines(mujoco_engine: Any) -> None:

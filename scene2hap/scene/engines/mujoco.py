@@ -95,10 +95,16 @@ def poses(model: Any, data: Any, *, geom_groups: Collection[int] | None = None, 
 
 
 def contacts(
-    model: Any, data: Any, *, geom_groups: Collection[int] | None = None, unit_m: float = 1.0
+    model: Any,
+    data: Any,
+    *,
+    of: Collection[str] | None = None,
+    geom_groups: Collection[int] | None = None,
+    unit_m: float = 1.0,
 ) -> tuple[Contact, ...]:
-    """The engine's contacts between objects of the last `snapshot` with the same arguments."""
-    return _contacts(model, data, _layout(_engine(model, data), model, geom_groups), unit_m)
+    """The engine's contacts between objects of the last `snapshot` with the same arguments; of some objects alone, by
+    their ids."""
+    return _contacts(model, data, _layout(_engine(model, data), model, geom_groups), unit_m, of)
 
 
 def load_mjcf(
@@ -162,6 +168,16 @@ class _Items:
         self.ids = tuple(item.id for item in items)
         self.bodies = np.array([item.body for item in items], dtype=np.intp)
         self.of_world = np.flatnonzero(self.bodies == _WORLD).tolist()
+        self._row_of_geom: NDArray[np.intp] | None = None
+
+    def row_of_geom(self, model: Any) -> NDArray[np.intp]:
+        """The row of the object that each geom (n + 1,) belongs to, -1 for none and in the last place."""
+        if self._row_of_geom is None:
+            of_body = {item.body: row for row, item in enumerate(self.all) if item.body != _WORLD}
+            of_geom = {item.geoms[0]: row for row, item in enumerate(self.all) if item.body == _WORLD}
+            rows = [of_body.get(int(body), of_geom.get(geom, -1)) for geom, body in enumerate(model.geom_bodyid)]
+            self._row_of_geom = np.array([*rows, -1], dtype=np.intp)
+        return self._row_of_geom
 
 
 _layouts: WeakKeyDictionary[Any, dict[frozenset[int] | None, _Items]] = WeakKeyDictionary()
@@ -260,23 +276,23 @@ def _poses(model: Any, data: Any, items: _Items, unit_m: float) -> PoseTable:
     return PoseTable(items.ids, positions * unit_m, rotations)
 
 
-def _contacts(model: Any, data: Any, items: _Items, unit_m: float) -> tuple[Contact, ...]:
+def _contacts(
+    model: Any, data: Any, items: _Items, unit_m: float, of: Collection[str] | None = None
+) -> tuple[Contact, ...]:
     """The engine's contacts between objects; those with what is not drawn are left out."""
-    of_body = {item.body: item.id for item in items.all if item.body != _WORLD}
-    of_geom = {item.geoms[0]: item.id for item in items.all if item.body == _WORLD}
-    found = []
-    for contact in data.contact:
-        if contact.exclude == _IN_GAP:
-            continue
-        geoms = (int(contact.geom1), int(contact.geom2))
-        # A deformable body has no geom, and its contacts say -1.
-        a, b = (of_body.get(int(model.geom_bodyid[geom]), of_geom.get(geom)) if geom >= 0 else None for geom in geoms)
-        if a is None or b is None or a == b:
-            continue
-        x, y, z = (contact.pos * unit_m).tolist()
-        nx, ny, nz = contact.frame[:3].tolist()
-        found.append(Contact(a, b, (x, y, z), (nx, ny, nz)))
-    return tuple(found)
+    if not data.ncon:
+        return ()
+    # A deformable body has no geom, and its contacts say -1, which is the last place.
+    rows = items.row_of_geom(model)[np.asarray(data.contact.geom)]
+    wanted = (rows >= 0).all(axis=1) & (rows[:, 0] != rows[:, 1]) & (np.asarray(data.contact.exclude) != _IN_GAP)
+    if of is not None:
+        wanted &= np.isin(rows, [row for row, item_id in enumerate(items.ids) if item_id in of]).any(axis=1)
+    kept = np.flatnonzero(wanted)
+    points, normals = np.asarray(data.contact.pos)[kept] * unit_m, np.asarray(data.contact.frame)[kept, :3]
+    return tuple(
+        Contact(items.ids[a], items.ids[b], (x, y, z), (nx, ny, nz))
+        for (a, b), (x, y, z), (nx, ny, nz) in zip(rows[kept].tolist(), points.tolist(), normals.tolist(), strict=True)
+    )
 
 
 @contextmanager
