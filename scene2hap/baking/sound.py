@@ -157,6 +157,9 @@ class _Chooser:
         """The state with its sound, and why that was chosen, "" where there was no choice."""
         wish, group = self._wishes.get(object_id), haptics.object_category
         before = self._earlier.loops.get(object_id, {}).get(state.name)
+        if wish is not None and wish.locked and before is not None:
+            why = self._earlier.choices.get(object_id, {}).get(state.name, "")
+            return _Part(object_id, state, group, None, {}, before), why
         if wish is not None and wish.clip is not None:
             clip = self._own.setdefault(object_id, _prepared(wish.clip))
             asked = {"words": OWN_CLIP, "sources": OWN_CLIP}

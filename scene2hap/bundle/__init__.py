@@ -1,6 +1,7 @@
 """What baking leaves behind and playing starts from."""
 
 from scene2hap.bundle.checking import BundleWarning
+from scene2hap.bundle.differences import Difference, differences
 from scene2hap.bundle.folder import read_overrides
 from scene2hap.bundle.haptic_bundle import HapticBundle
 from scene2hap.bundle.made_with import MadeWith
@@ -10,9 +11,11 @@ from scene2hap.bundle.sounds import file_stem
 
 __all__ = [
     "BundleWarning",
+    "Difference",
     "HapticBundle",
     "MadeWith",
     "Override",
+    "differences",
     "file_stem",
     "read_overrides",
     "require_replaceable",

@@ -218,6 +218,7 @@ def _override_rows(bundle: BundleContents, folder: Path, written: list[str]) -> 
             written.append(name)
             row["clip"] = {"file": name, "credit": asdict(wish.clip.credit)}
         row["keep"] = None if wish.keep else False
+        row["locked"] = True if wish.locked else None
         rows[object_id] = {field: value for field, value in row.items() if value is not None}
     return rows
 

@@ -36,17 +36,26 @@ class HapticBundle(BundleContents):
         material: Material | str | None = None,
         clip: AudioClip | str | os.PathLike[str] | None = None,
         keep: bool | None = None,
+        locked: bool | None = None,
     ) -> Self:
         """The bundle with a correction to one object, on top of earlier ones; None leaves a field as it is.
 
         A clip, or the path of one, stays at its own frequency unless `keep=False` allows to move it clear of the
         scene's other sources. Kept in the folder and by `rebake`. Level, material and silence count at once; a new
-        sound, or vibration where none was inferred, counts after `rebake(bundle)`, which makes its loops.
+        sound, or vibration where none was inferred, counts after `rebake(bundle)`, which makes its loops. While an
+        object is locked, its loops stay as they are, byte for byte, whatever is baked again.
         Raises: UnknownObject; BundleError: a field out of bounds; UnknownMaterial.
         """
         self.snapshot.object(object_id)
         wish = self.overrides.get(object_id, Override()).changed(
-            {"vibrates": vibrates, "gain_db": gain_db, "material": material, "clip": clip, "keep": keep}
+            {
+                "vibrates": vibrates,
+                "gain_db": gain_db,
+                "material": material,
+                "clip": clip,
+                "keep": keep,
+                "locked": locked,
+            }
         )
         return replace(self, overrides={**self.overrides, object_id: wish}).with_overrides()
 

@@ -29,7 +29,8 @@ class Override:
     vibrates : whether the object vibrates by itself; gain_db : its level at the hand against the inferred one [dB];
     material : its material, or a name in the table; clip : the sound that its vibration is made from, in every state,
     or the path of its file; keep : whether that sound stays at its own frequency and level, and the scene's other
-    sources keep clear of it; else it is moved like any other.
+    sources keep clear of it; else it is moved like any other; locked : whether its loops stay as they are, whatever is
+    baked again.
     Raises: BundleError: a field of another type or out of bounds. UnknownMaterial.
     """
 
@@ -38,12 +39,15 @@ class Override:
     material: Material | None = None
     clip: AudioClip | None = None
     keep: bool = True
+    locked: bool = False
 
     def __post_init__(self) -> None:
         if self.vibrates is not None and not isinstance(self.vibrates, bool):
             raise BundleError(f"vibrates is {checks.represented(self.vibrates)}; it must be True, False or None.")
         if not isinstance(self.keep, bool):
             raise BundleError(f"keep is {checks.represented(self.keep)}; it must be True or False.")
+        if not isinstance(self.locked, bool):
+            raise BundleError(f"locked is {checks.represented(self.locked)}; it must be True or False.")
         if self.gain_db is not None:
             gain = checks.number("gain_db", self.gain_db, "dB", at_most=_MOST_GAIN_DB, error=BundleError)
             object.__setattr__(self, "gain_db", gain)

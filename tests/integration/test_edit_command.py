@@ -67,3 +67,58 @@ def test_a_wrong_id_or_material_leaves_the_bundle_as_it_was(tmp_path: Path, caps
         assert main(["edit", str(folder), *words]) == 1
         assert words[1 if words[0] == "gain" else 2] in capsys.readouterr().err
     assert (folder / "bundle.json").stat().st_ino == before
+
+
+def test_a_locked_loop_stays_byte_for_byte(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A designer's day: bake, a sound of one's own, lock it, another actuator, compare, undo, and again."""
+    folder, sound = tmp_path / "kitchen.bundle", tmp_path / "mine.wav"
+    assert main(["bake", str(kitchen_path()), "-o", str(folder), "--actuator", "voice_coil", "-q"]) == 0
+    mine, *others = HapticBundle.load(folder).loops
+    t = np.arange(2 * 44100) / 44100
+    write_wav(sound, (0.5 * np.sin(2 * np.pi * 130.0 * t)).astype(np.float32), 44100)
+    assert main(["edit", str(folder), "sound", mine, str(sound), "-q"]) == 0
+    assert main(["edit", str(folder), "lock", mine, "-q"]) == 0
+    locked = contents(folder, mine)
+
+    remade = outcome(capsys, "edit", str(folder), "rebake", "--actuator", "lra", "--json")["remade"]
+    assert isinstance(remade, dict)
+    assert set(remade) == set(others)
+    assert contents(folder, mine) == locked
+    found = outcome(capsys, "edit", str(folder), "diff", f"{folder}.before", "--json")["differences"]
+    assert isinstance(found, list)
+    assert {row[0] for row in found if row[1].startswith("loop")} == set(others)
+    assert [mine, "actuator", "lra", "voice_coil"] in found
+
+    rebaked = {key: contents(folder, key) for key in (mine, *others)}
+    assert main(["edit", str(folder), "undo", "-q"]) == 0
+    assert contents(folder, mine) == locked
+    assert all(contents(folder, key) != rebaked[key] for key in others)
+    assert main(["edit", str(folder), "undo", "-q"]) == 0
+    assert {key: contents(folder, key) for key in (mine, *others)} == rebaked
+
+    assert main(["edit", str(folder), "unlock", mine, "-q"]) == 0
+    remade = outcome(capsys, "edit", str(folder), "rebake", "--json")["remade"]
+    assert isinstance(remade, dict)
+    assert remade[mine] == {state: ["actuator"] for state in HapticBundle.load(folder).loops[mine]}
+
+
+def test_there_is_nothing_to_undo_at_first(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = tmp_path / "kitchen.bundle"
+    assert main(["bake", str(kitchen_path()), "-o", str(folder), "-q"]) == 0
+    assert main(["edit", str(folder), "undo"]) == 1
+    assert "there is nothing to undo" in capsys.readouterr().err
+    # A folder of somebody else's where the bundle before would be kept.
+    other = tmp_path / "kitchen.bundle.before" / "thesis.txt"
+    other.parent.mkdir()
+    other.write_text("mine")
+    some = next(iter(HapticBundle.load(folder).loops))
+    assert main(["edit", str(folder), "gain", some, "-3"]) == 1
+    assert other.read_text() == "mine"
+    assert HapticBundle.load(folder).gain_db(some) == 0.0
+
+
+def contents(folder: Path, object_id: str) -> list[bytes]:
+    """The files of an object's loops, as they stand on the disk."""
+    rows = json.loads((folder / "loops.json").read_text(encoding="utf-8"))[object_id]
+    names = [row[kind] for _, row in sorted(rows.items()) for kind in ("audible", "tactile")]
+    return [(folder / name).read_bytes() for name in names]

@@ -1,0 +1,59 @@
+"""In what two bundles differ, for people."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.bundle.contents import BundleContents
+from scene2hap.haptics import ObjectHaptics
+
+
+class Difference(NamedTuple):
+    """One thing in which an object differs: what, and its value in either bundle, "-" where it has none."""
+
+    object_id: str
+    what: str
+    one: str
+    other: str
+
+
+def differences(one: BundleContents, other: BundleContents) -> tuple[Difference, ...]:
+    """In what two bundles differ, object by object; loops by their samples."""
+    ids = list(dict.fromkeys((*(item.id for item in one.snapshot.objects), *(x.id for x in other.snapshot.objects))))
+    sides = [{object_id: dict(_said(bundle, object_id)) for object_id in ids} for bundle in (one, other)]
+    return tuple(
+        Difference(object_id, what, sides[0][object_id].get(what, "-"), sides[1][object_id].get(what, "-"))
+        for object_id in ids
+        for what in dict.fromkeys((*sides[0][object_id], *sides[1][object_id]))
+        if sides[0][object_id].get(what) != sides[1][object_id].get(what)
+    )
+
+
+def _said(bundle: BundleContents, object_id: str) -> Iterator[tuple[str, str]]:
+    haptics, wish = bundle.objects.get(object_id), bundle.overrides.get(object_id)
+    if haptics is not None:
+        yield from _inferred(haptics)
+    if wish is not None:
+        yield "gain", f"{bundle.gain_db(object_id):+.1f} dB"
+        yield "sound", wish.clip.credit.title if wish.clip is not None else "chosen"
+        yield "locked", "yes" if wish.locked else "no"
+    for state, loop in bundle.loops.get(object_id, {}).items():
+        yield f"loop {state}", _digest(loop)
+    if bundle.actuator is not None and object_id in bundle.loops:
+        yield "actuator", bundle.actuator.name
+
+
+def _inferred(haptics: ObjectHaptics) -> Iterator[tuple[str, str]]:
+    yield "category", haptics.object_category
+    yield "material", haptics.material_category
+    for state in haptics.states:
+        yield f"intensity {state.name}", f"{state.intensity:.2f}"
+
+
+def _digest(loop: HapticLoop) -> str:
+    """The frequency of a tactile loop, and a name for its samples."""
+    content = hashlib.sha256(loop.tactile.samples.tobytes() + loop.audible.samples.tobytes()).hexdigest()[:8]
+    return f"{loop.frequency_tactile_hz:.1f} Hz ({content})"
