@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -11,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scene2hap import Box, Contact, HapticSession, MemorySink, Pose, SceneObject, SceneSnapshot, Touch, bake
+from scene2hap import Box, Contact, HapticSession, MemorySink, Pose, PoseTable, SceneObject, SceneSnapshot, Touch, bake
 from scene2hap.engines import EngineAdapter, EngineLink, MuJoCoLink, Panda3DLink
 from scene2hap.errors import CallError, ConfigError, SceneError, SessionError, UnknownObject
 from scene2hap.testing import check_engine_adapter
@@ -235,6 +237,25 @@ def test_an_object_comes_back_from_where_the_engine_has_it(mujoco_engine: Any) -
         assert session.snapshot.object("smartphone").pose.position_m == there.pose.position_m
 
 
+@pytest.mark.parametrize("as_table", [False, True])
+def test_an_adapter_may_have_new_objects_in_any_frame(as_table: bool) -> None:
+    scene = own_scene()
+    session = HapticSession(scene, bake(scene))
+    adapter = Given(scene)
+    link = EngineLink(adapter, session)
+    link.update()
+    cup = SceneObject("cup", pose=Pose((0.6, 0.8, 0.2)), geometry=Box((0.1, 0.1, 0.1)))
+    for x_m in (0.6, 0.7):
+        now = {"table": TABLE, "phone": PHONE, "cup": Pose((x_m, 0.77, 0.2))}
+        table = PoseTable(list(now), *zip(*((p.position_m, p.rotation_xyzw) for p in now.values()), strict=True))
+        adapter.given["poses"] = table if as_table else now
+        link.update()
+        if "cup" not in session.object_ids:
+            session.add(cup)
+            link.update()
+        assert session.snapshot.object("cup").pose == now["cup"]
+
+
 def test_a_node_out_of_the_graph_stays_where_it_was() -> None:
     render, _ = panda3d_engine()
     from scene2hap.scene.engines.panda3d import snapshot
@@ -370,6 +391,26 @@ def test_what_is_no_link(make: Any, error: type[Exception], words: str, mujoco_e
     model, data, scene, _ = mujoco_engine
     with pytest.raises(error, match=words):
         make(model, data, HapticSession(scene, bake(scene)))
+
+
+def test_engines_are_imported_when_they_are_linked() -> None:
+    """And one that is not installed is told by the name of its extra."""
+    code = """
+import sys
+from scene2hap import Box, HapticSession, SceneObject, SceneSnapshot, bake
+from scene2hap.engines import MuJoCoLink, Panda3DLink
+assert not {"mujoco", "panda3d"} & sys.modules.keys()
+sys.modules["mujoco"] = sys.modules["panda3d.core"] = None
+scene = SceneSnapshot.build([SceneObject("smartphone", geometry=Box((0.1, 0.1, 0.1)))])
+session = HapticSession(scene, bake(scene))
+for link in (lambda: MuJoCoLink(None, None, session), lambda: Panda3DLink(None, session)):
+    try:
+        link()
+    except ImportError as error:
+        print(error)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.stdout.count("is not installed. Run: pip install 'scene2hap[") == 2, done.stderr
 
 
 def test_a_session_of_another_scene_is_refused(mujoco_engine: Any) -> None:
