@@ -2,31 +2,36 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_calls
 from scene2hap.engines.adapter import EngineAdapter
+from scene2hap.engines.changes import Changes
 from scene2hap.errors import ConfigError, SceneError
-from scene2hap.scene.engines.motion import moved
+from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.pose_table import PoseTable
 from scene2hap.session import HapticFrame, HapticSession, Touch
+from scene2hap.session.given import given_contacts, given_touches
 
-# As `scene.engines.motion` has them: what an object may move and turn by and still count as at rest.
-_BY_M, _BY_RAD = 1e-4, 1e-3
 _MOST_NAMED = 5
-Floats = NDArray[np.float64]
+_SCALE_TOLERANCE = 1e-3
+"""Positions that differ by less are no other unit (assumed: units differ by 1 % or more)."""
 
 
+@clear_calls
 class EngineLink:
     """Hands a session, in each frame, what changed in an engine since the last.
 
+    The engine may have more than the session: what was removed from the session, or never was in it, is left out, and
+    followed from when it is added.
+
     Parameters: adapter : the engine; session : of a scene with the engine's ids, started or not.
-    Raises: ConfigError: the adapter lacks a method. SceneError: the session has objects that the engine has not.
+    Raises: ConfigError: the adapter lacks a method. SceneError: the session has objects that the engine has not, or the
+    engine counts in another unit.
     """
 
     def __init__(self, adapter: EngineAdapter, session: HapticSession) -> None:
@@ -35,44 +40,62 @@ class EngineLink:
         missing = [name for name in ("poses", "touches", "contacts") if not callable(getattr(adapter, name, None))]
         if missing:
             raise ConfigError(f"{type(adapter).__name__} has no method {missing[0]!r}; see EngineAdapter.")
-        self._adapter, self._session = adapter, session
-        self._known: dict[str, Pose] = {}
-        self._table: tuple[tuple[str, ...], Floats, Floats] | None = None
-        ids = {item.id for item in session.snapshot.objects}
-        unknown = sorted(ids - adapter.poses().keys())
-        if unknown:
-            names = ", ".join(map(repr, unknown[:_MOST_NAMED])) + (", ..." if len(unknown) > _MOST_NAMED else "")
-            raise SceneError(
-                f"the engine lacks {len(unknown)} of {len(ids)} objects of the session: {names}. Make the session of "
-                "the engine's own snapshot, or of a bundle that was baked from it."
-            )
+        self._adapter, self._session, self._changes = adapter, session, Changes()
+        _require_same_scene(self._poses(), session)
 
     def update(self, touches: Sequence[Touch] = ()) -> HapticFrame:
         """Once per frame, on the game's thread: poses that changed, contacts, and touches; these come on top of the
-        engine's own. Raises: as `HapticSession.update`."""
-        felt = [*touches, *self._adapter.touches()]
-        return self._session.update(self._changed(self._adapter.poses()), felt, contacts=self._adapter.contacts())
+        engine's own.
 
-    def _changed(self, poses: Mapping[str, Pose]) -> Mapping[str, Pose]:
-        if not isinstance(poses, PoseTable):
-            changed = moved(poses, self._known, by_m=_BY_M, by_rad=_BY_RAD)
-            self._known.update(changed)
-            return changed
-        ids, positions, rotations = poses.ids, poses.positions_m, poses.rotations_xyzw
-        if self._table is None or self._table[0] != ids:
-            self._table = (ids, positions.copy(), rotations.copy())
-            return poses
-        # What counts as at rest is held against where it was, so that slow motion adds up.
-        _, known_positions, known_rotations = self._table
-        rows = _moved_rows(positions, rotations, known_positions, known_rotations)
-        known_positions[rows], known_rotations[rows] = positions[rows], rotations[rows]
-        moves = zip(rows.tolist(), positions[rows].tolist(), rotations[rows].tolist(), strict=True)
-        return {ids[row]: Pose((x, y, z), (a, b, c, d)) for row, (x, y, z), (a, b, c, d) in moves}
+        Raises: SceneError: the adapter's poses are none; otherwise as `HapticSession.update`.
+        """
+        poses, followed = self._poses(), self._session.object_ids
+
+        def is_played(object_id: object) -> bool:
+            # An id that the engine does not have either is a mistake, which the session answers.
+            return object_id in followed or object_id not in poses
+
+        felt = [one for one in given_touches(self._adapter.touches()) if is_played(one.object_id)]
+        contacts: Sequence[Contact] | None = self._adapter.contacts()
+        if contacts is not None:
+            contacts = [one for one in given_contacts(contacts) if is_played(one.a) and is_played(one.b)]
+        changed = self._changes.of(poses, followed)
+        return self._session.update(changed, [*given_touches(touches), *felt], contacts=contacts)
+
+    def _poses(self) -> Mapping[str, Pose]:
+        poses: Any = self._adapter.poses()
+        if not isinstance(poses, Mapping):
+            raise SceneError(
+                f"poses() of {type(self._adapter).__name__} gave {checks.described(poses)}; it must be a mapping of "
+                "object ids to poses, as {'mug': Pose(...)}."
+            )
+        return poses
 
 
-def _moved_rows(positions: Floats, rotations: Floats, before: Floats, turned: Floats) -> NDArray[np.intp]:
-    way = ((positions - before) ** 2).sum(axis=1)
-    # |q . p| = cos(angle / 2); either sign of a quaternion is the same rotation.
-    turn = np.abs((rotations * turned).sum(axis=1))
-    found: NDArray[np.intp] = np.flatnonzero((way > _BY_M**2) | (turn < math.cos(_BY_RAD / 2)))
-    return found
+def _require_same_scene(poses: Mapping[str, Pose], session: HapticSession) -> None:
+    """Raise a SceneError unless the engine has the session's objects, in metres."""
+    here = {item.id: item.pose for item in session.snapshot.objects}
+    unknown = sorted(here.keys() - poses.keys())
+    if unknown:
+        names = ", ".join(map(repr, unknown[:_MOST_NAMED])) + (", ..." if len(unknown) > _MOST_NAMED else "")
+        raise SceneError(
+            f"the engine lacks {len(unknown)} of {len(here)} objects of the session: {names}. Make the session of "
+            "the engine's own snapshot, or of a bundle that was baked from it."
+        )
+    if not all(isinstance(poses[object_id], Pose) for object_id in here):
+        return  # which the first update tells
+    ours = np.array([pose.position_m for pose in here.values()])
+    theirs = np.array([poses[object_id].position_m for object_id in here])
+    ways = np.linalg.norm(ours, axis=1)
+    is_off_origin = ways > 0.0
+    if not is_off_origin.any():
+        return
+    scale = float(np.median(np.linalg.norm(theirs, axis=1)[is_off_origin] / ways[is_off_origin]))
+    # The engine may have gone on since its snapshot, but things that moved do not keep their proportions.
+    keeps = np.isclose(theirs, scale * ours, rtol=1e-6, atol=1e-9).all(axis=1) & is_off_origin
+    is_most = np.count_nonzero(keeps) >= max(2, np.count_nonzero(is_off_origin) / 2)
+    if is_most and abs(scale - 1) > _SCALE_TOLERANCE:
+        raise SceneError(
+            f"the engine's positions are {scale:.4g} times those of the session; both must be in metres. Give the link "
+            "the unit_m of the snapshot."
+        )

@@ -6,23 +6,28 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import Any, Literal
 
 from scene2hap import checks
+from scene2hap.calls import clear_calls
 from scene2hap.engines.link import EngineLink
 from scene2hap.errors import ConfigError
 from scene2hap.scene.engines import mujoco as engine
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.session import HapticSession, Touch
+from scene2hap.session.frame import unknown_hand
 
 
+@clear_calls
 class MuJoCoLink(EngineLink):
     """Follows a model: `link.update()` after each `mj_step`.
 
     Parameters:
     model, data, geom_groups, unit_m : as `scene.engines.mujoco.snapshot` had them.
-    hands : by the session's hands, the body of an actor that stands for each: where the engine has it in contact with
-        an object, that hand touches the object; all contact points count, and the strongest is felt.
+    hands : by the session's hands, the body of an actor that stands for each, with all that hangs on it, such as
+        fingers: where the engine has it in contact with an object, that hand touches the object. All contact points
+        count, and of several the strongest is felt.
     contacts : None finds contacts between objects from geometry; "engine" takes the simulation's own.
-    Raises: MissingExtra; SceneError: the session is of another model; ConfigError: no such hand or body.
+    Raises: MissingExtra; SceneError: the session is of another model; ConfigError: no such hand; UnknownObject: no
+    such body.
     """
 
     def __init__(
@@ -38,12 +43,14 @@ class MuJoCoLink(EngineLink):
     ) -> None:
         if contacts not in (None, "engine"):
             raise ConfigError(f"contacts is {checks.represented(contacts)}; it must be 'engine', or None.")
-        adapter = _MuJoCo(model, data, dict(hands or {}), contacts == "engine", geom_groups, unit_m)
-        super().__init__(adapter, session)
-        for hand, body in adapter.hands.items():
+        if hands is not None and not isinstance(hands, Mapping):
+            raise ConfigError(
+                f"hands is {checks.represented(hands)}; it must be a mapping of hands to bodies, as {{'left': 'palm'}}."
+            )
+        super().__init__(_MuJoCo(model, data, hands or {}, contacts == "engine", geom_groups, unit_m), session)
+        for hand in hands or ():
             if hand not in session.hands:
-                raise ConfigError(f"the session has no hand {hand!r}; it has {', '.join(map(repr, session.hands))}.")
-            session.snapshot.object(body)
+                raise ConfigError(unknown_hand(hand, session.hands))
 
 
 class _MuJoCo:
@@ -53,28 +60,24 @@ class _MuJoCo:
         self,
         model: Any,
         data: Any,
-        hands: dict[str, str],
+        hands: Mapping[str, str],
         has_contacts: bool,
         geom_groups: Collection[int] | None,
         unit_m: float,
     ) -> None:
         self._model, self._data, self._has_contacts = model, data, has_contacts
         self._how: dict[str, Any] = {"geom_groups": geom_groups, "unit_m": unit_m}
-        self.hands = hands
+        self._hands = {hand: engine.geoms_below(model, data, body) for hand, body in hands.items()}
 
     def poses(self) -> PoseTable:
         return engine.poses(self._model, self._data, **self._how)
 
     def touches(self) -> Sequence[Touch]:
-        if not self.hands:
-            return ()
-        found = []
-        for contact in engine.contacts(self._model, self._data, of=set(self.hands.values()), **self._how):
-            for hand, body in self.hands.items():
-                if body in (contact.a, contact.b):
-                    other = contact.b if body == contact.a else contact.a
-                    found.append(Touch(hand, other, contact.point_m))
-        return found
+        return [
+            Touch(hand, object_id, point_m)
+            for hand, part in self._hands.items()
+            for object_id, point_m in engine.touched(self._model, self._data, part, **self._how)
+        ]
 
     def contacts(self) -> Sequence[Contact] | None:
         return engine.contacts(self._model, self._data, **self._how) if self._has_contacts else None

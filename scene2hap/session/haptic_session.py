@@ -103,6 +103,11 @@ class HapticSession:
         return self._sources.ids
 
     @property
+    def object_ids(self) -> frozenset[str]:
+        """The objects that are in the scene now; the same set until one comes or goes."""
+        return self._state.ids
+
+    @property
     def snapshot(self) -> SceneSnapshot:
         """The scene as it is now."""
         return self._state.snapshot

@@ -39,6 +39,7 @@ class SceneState:
         self.graph = ContactGraph(scene)
         self._spelling = _Spelling()
         self._corners: Corners = {}
+        self.ids = frozenset(self.objects)
 
     @property
     def snapshot(self) -> SceneSnapshot:
@@ -74,6 +75,7 @@ class SceneState:
         body = body_of(haptics)
         change = self.graph.update({}, added=[item])
         self.objects = _with(self.objects, item.id, item)
+        self.ids = frozenset(self.objects)
         self.haptics = _with(self.haptics, item.id, haptics)
         self.bodies = _with(self.bodies, item.id, body)
         return change
@@ -82,6 +84,7 @@ class SceneState:
         """Take out an object. Raises: UnknownObject."""
         change = self.graph.update({}, removed=[object_id])
         self.objects = _with(self.objects, object_id, None)
+        self.ids = frozenset(self.objects)
         self.haptics = _with(self.haptics, object_id, None)
         self.bodies = _with(self.bodies, object_id, None)
         # Another thread may still fill the former one.

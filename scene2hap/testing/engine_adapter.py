@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-import numpy as np
+import math
+from collections.abc import Callable, Mapping, Sequence
 
 from scene2hap.engines.adapter import EngineAdapter
+from scene2hap.scene.engines.motion import moved
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import Touch
-
-_ROUNDING_M = 1e-6
 
 
 def check_engine_adapter(
@@ -24,12 +22,17 @@ def check_engine_adapter(
     go on; moves : the id of an object that a step moves, None if none is known.
     Raises: AssertionError: the sentence says which promise is broken.
     """
-    assert isinstance(adapter, EngineAdapter), f"{type(adapter).__name__} lacks poses, touches or contacts"
+    for name in ("poses", "touches", "contacts"):
+        assert callable(getattr(adapter, name, None)), f"{type(adapter).__name__} has no method {name!r}"
+    poses = {item.id: item.pose for item in scene.objects}
+    assert moves is None or moves in poses, f"moves is {moves!r}, which is no object of the scene"
     before = _held(adapter, scene)
-    for item in scene.objects:
-        way_m = float(np.abs(np.subtract(before[item.id].position_m, item.pose.position_m)).max())
-        assert way_m <= _ROUNDING_M, (
-            f"poses() has {item.id!r} {way_m:.3g} m from where the snapshot has it; both are in metres, in the world"
+    for object_id in moved(before, poses):
+        way_m = math.dist(before[object_id].position_m, poses[object_id].position_m)
+        turn_deg = math.degrees(_angle_rad(before[object_id], poses[object_id]))
+        raise AssertionError(
+            f"poses() has {object_id!r} {way_m:.3g} m and {turn_deg:.3g} degrees from where the snapshot has it; both "
+            "are in the world, in metres, with rotations (x, y, z, w)"
         )
     step()
     after = _held(adapter, scene)
@@ -38,17 +41,29 @@ def check_engine_adapter(
 
 
 def _held(adapter: EngineAdapter, scene: SceneSnapshot) -> dict[str, Pose]:
-    poses = adapter.poses()
+    """The poses of the scene's objects, once all three answers were looked at."""
     ids = {item.id for item in scene.objects}
+    poses, touches, contacts = adapter.poses(), adapter.touches(), adapter.contacts()
+    assert isinstance(poses, Mapping), f"poses() is a {type(poses).__name__}; it must be a mapping of ids to Pose"
     missing = sorted(ids - poses.keys())
     assert not missing, f"poses() lacks {missing[0]!r}; it must have every object of the scene, also those at rest"
-    found = {object_id: poses[object_id] for object_id in ids}
+    found = {object_id: poses[object_id] for object_id in sorted(ids)}
     for object_id, pose in found.items():
         assert isinstance(pose, Pose), f"poses()[{object_id!r}] is a {type(pose).__name__}; it must be a Pose"
-    for touch in adapter.touches():
+    assert isinstance(touches, Sequence), f"touches() is a {type(touches).__name__}; it must be a list, or empty"
+    for touch in touches:
         assert isinstance(touch, Touch), f"touches() has a {type(touch).__name__}; it must have Touch alone"
-        assert touch.object_id in ids, f"touches() has {touch.object_id!r}, which is no object of the scene"
-    for contact in adapter.contacts() or ():
+        assert isinstance(touch.hand, str), f"touches() has the hand {touch.hand!r}; it must be a name"
+        assert touch.object_id in poses, f"touches() has {touch.object_id!r}, which poses() has not"
+    is_list = contacts is None or isinstance(contacts, Sequence)
+    assert is_list, f"contacts() is a {type(contacts).__name__}; it must be a list, or None to find them"
+    for contact in contacts or ():
         assert isinstance(contact, Contact), f"contacts() has a {type(contact).__name__}; it must have Contact alone"
-        assert {contact.a, contact.b} <= ids, f"contacts() has {contact.a!r} and {contact.b!r}; both must be objects"
+        for end in (contact.a, contact.b):
+            assert end in poses, f"contacts() has {end!r}, which poses() has not"
     return found
+
+
+def _angle_rad(a: Pose, b: Pose) -> float:
+    overlap = abs(sum(p * q for p, q in zip(a.rotation_xyzw, b.rotation_xyzw, strict=True)))
+    return 2 * math.acos(min(1.0, overlap))

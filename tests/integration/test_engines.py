@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from scene2hap import HapticSession, MemorySink, Pose, SceneSnapshot, Touch, bake
+from scene2hap import Box, Contact, HapticSession, MemorySink, Pose, PoseTable, SceneObject, SceneSnapshot, Touch, bake
 from scene2hap.engines import EngineAdapter, EngineLink, MuJoCoLink, Panda3DLink
-from scene2hap.errors import ConfigError, SceneError, UnknownObject
+from scene2hap.errors import CallError, ConfigError, SceneError, SessionError, UnknownObject
 from scene2hap.testing import check_engine_adapter
 
 PAGE = (Path(__file__).parents[2] / "docs" / "engines.md").read_text(encoding="utf-8")
@@ -56,6 +59,12 @@ def panda3d_engine() -> tuple[Any, SceneSnapshot]:
         path.set_p(-90)
         path.set_z(height)
     return render, snapshot(render, name="study")
+
+
+def other_data() -> Any:
+    import mujoco
+
+    return mujoco.MjData(mujoco.MjModel.from_xml_string("<mujoco/>"))
 
 
 def own_engine() -> dict[str, Any]:
@@ -150,15 +159,228 @@ def test_what_is_at_rest_is_not_moved(mujoco_engine: Any) -> None:
     assert abs(places[-1] - places[0]) > 4e-4
 
 
+HAND = """
+<mujoco>
+  <worldbody>
+    <body name="wooden_table" pos="0 0 0.36"><geom type="box" size="0.6 0.4 0.36"/></body>
+    <body name="smartphone" pos="-0.2 0 0.73"><geom type="box" size="0.04 0.08 0.005"/></body>
+    <body name="palm" pos="0.1 0 0.78"><freejoint/><geom type="box" size="0.04 0.04 0.01" mass="0.2"/>
+      <body name="thumb" pos="0.06 0 -0.02"><joint/><geom type="sphere" size="0.012" mass="0.02"/>
+        <body name="nail" pos="0 0 -0.02"><geom type="sphere" size="0.008" mass="0.01"/></body>
+      </body>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+
+
+def test_what_hangs_on_a_hand_touches_for_it() -> None:
+    """The nail touches the table, the palm nothing; contacts among the hand's own parts are none."""
+    mujoco = pytest.importorskip("mujoco", reason="needs the extra mujoco")
+    from scene2hap.scene.engines.mujoco import snapshot
+
+    model = mujoco.MjModel.from_xml_string(HAND)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    scene = snapshot(model, data)
+    session = HapticSession(scene, bake(scene))
+    link = MuJoCoLink(model, data, session, hands={"left": "palm", "right": "nail"})
+    assert link.update().gain("left", "smartphone") == 0.0
+    mujoco.mj_step(model, data, nstep=30)
+    frame = link.update()
+    assert frame.gain("left", "smartphone") == frame.gain("right", "smartphone") > 0.05
+    assert {touch.object_id for touch in link._adapter.touches() if touch.hand == "left"} == {"wooden_table"}
+
+
+@pytest.mark.parametrize("contacts", [None, "engine"])
+def test_what_the_session_has_not_is_left_out(mujoco_engine: Any, contacts: Any) -> None:
+    """Removed while the engine goes on, and followed again once it is back."""
+    model, data, scene, step = mujoco_engine
+    session = HapticSession(scene, bake(scene))
+    link = MuJoCoLink(model, data, session, hands={"left": "finger"}, contacts=contacts)
+    link.update()
+    for gone in ("wooden_table", "finger"):
+        session.remove(gone)
+    for _ in range(5):
+        step()
+        link.update()
+    session.add(scene.object("finger"))
+    link.update()
+    fallen_m = scene.object("finger").pose.position_m[2] - session.snapshot.object("finger").pose.position_m[2]
+    assert fallen_m > 0.02
+    with pytest.raises(UnknownObject, match="'wooden_table' was removed"):
+        link.update([Touch("left", "wooden_table", (0, 0, 0.72))])
+
+
+def test_a_session_may_have_less_than_the_engine(mujoco_engine: Any) -> None:
+    model, data, scene, step = mujoco_engine
+    fewer = SceneSnapshot(scene.name, scene.up_axis, tuple(item for item in scene.objects if item.id != "finger"))
+    link = MuJoCoLink(model, data, HapticSession(fewer, bake(fewer)), hands={"left": "finger"}, contacts="engine")
+    for _ in range(10):
+        step()
+        frame = link.update()
+    assert frame.gain("left", "smartphone") > 0.05
+
+
+def test_an_object_comes_back_from_where_the_engine_has_it(mujoco_engine: Any) -> None:
+    """Also if it did not move in the engine meanwhile; the same for poses in a table and in a mapping."""
+    model, data, scene, _ = mujoco_engine
+    for adapter in (MuJoCoLink(model, data, HapticSession(scene, bake(scene)))._adapter, Given(scene)):
+        session = HapticSession(scene, bake(scene))
+        link = EngineLink(adapter, session)
+        link.update()
+        session.remove("smartphone")
+        link.update()
+        there = scene.object("smartphone")
+        session.add(replace(there, pose=Pose((1.0, 0.0, 2.0))))
+        link.update()
+        assert session.snapshot.object("smartphone").pose.position_m == there.pose.position_m
+
+
+@pytest.mark.parametrize("as_table", [False, True])
+def test_an_adapter_may_have_new_objects_in_any_frame(as_table: bool) -> None:
+    scene = own_scene()
+    session = HapticSession(scene, bake(scene))
+    adapter = Given(scene)
+    link = EngineLink(adapter, session)
+    link.update()
+    cup = SceneObject("cup", pose=Pose((0.6, 0.8, 0.2)), geometry=Box((0.1, 0.1, 0.1)))
+    for x_m in (0.6, 0.7):
+        now = {"table": TABLE, "phone": PHONE, "cup": Pose((x_m, 0.77, 0.2))}
+        table = PoseTable(list(now), *zip(*((p.position_m, p.rotation_xyzw) for p in now.values()), strict=True))
+        adapter.given["poses"] = table if as_table else now
+        link.update()
+        if "cup" not in session.object_ids:
+            session.add(cup)
+            link.update()
+        assert session.snapshot.object("cup").pose == now["cup"]
+
+
+def test_a_node_out_of_the_graph_stays_where_it_was() -> None:
+    render, _ = panda3d_engine()
+    from scene2hap.scene.engines.panda3d import snapshot
+
+    phone = render.find("**/smartphone")
+    carried = render.attach_new_node("smartphone")
+    carried.set_z(1.0)
+    phone.set_z(-0.299)
+    phone.reparent_to(carried)
+    scene = snapshot(render, name="study")
+    session = HapticSession(scene, bake(scene))
+    link = Panda3DLink(render, session)
+    (phone_id,) = (item.id for item in scene.objects if "smartphone" in item.id)
+    before = session.snapshot.object(phone_id).pose
+    phone.detach_node()
+    link.update()
+    assert session.snapshot.object(phone_id).pose == before
+    phone.reparent_to(render)
+    link.update()
+    assert session.snapshot.object(phone_id).pose.position_m[2] == pytest.approx(before.position_m[2] - 1.0, abs=1e-6)
+
+
+class Given:
+    """An engine that stands still and says what it is told to; without anything, what its scene has."""
+
+    def __init__(self, scene: SceneSnapshot, **given: Any) -> None:
+        self.given = {"poses": {item.id: item.pose for item in scene.objects}, "touches": [], "contacts": None, **given}
+
+    def poses(self) -> Any:
+        return self.given["poses"]
+
+    def touches(self) -> Any:
+        return self.given["touches"]
+
+    def contacts(self) -> Any:
+        return self.given["contacts"]
+
+
+def own_scene() -> SceneSnapshot:
+    return SceneSnapshot.build(
+        [
+            SceneObject("table", pose=Pose((0.5, 0.36, 0.2)), geometry=Box((1.2, 0.72, 0.7))),
+            SceneObject("phone", pose=Pose((0.2, 0.724, 0.1)), geometry=Box((0.07, 0.008, 0.15))),
+        ]
+    )
+
+
+TABLE, PHONE = Pose((0.5, 0.36, 0.2)), Pose((0.2, 0.724, 0.1))
+HALF = 0.5**0.5
+WRONG = [
+    ({"poses": None}, SceneError, "poses() of Given gave None", "poses() is a NoneType"),
+    ({"poses": [TABLE]}, SceneError, "poses() of Given gave a list", "poses() is a list"),
+    ({"poses": {"table": TABLE}}, SceneError, "the engine lacks 1 of 2 objects", "poses() lacks 'phone'"),
+    ({"poses": {"table": TABLE, "phone": (0, 0, 0)}}, SceneError, "it must be a Pose", "it must be a Pose"),
+    (
+        {"poses": {"table": Pose((50, 36, 20)), "phone": Pose((20, 72.4, 10))}},
+        SceneError,
+        "the engine's positions are 100 times those of the session",
+        "from where the snapshot has it",
+    ),
+    ({"touches": 5}, SessionError, "touches is or has 5", "touches() is a int"),
+    ({"touches": [("left", "table")]}, SessionError, "touches is or has", "touches() has a tuple"),
+    ({"touches": [Touch("left", "cup", (0, 0, 0))]}, UnknownObject, "no object 'cup'", "touches() has 'cup'"),
+    ({"contacts": 5}, SessionError, "contacts is or has 5", "contacts() is a int"),
+    ({"contacts": [Contact("phone", "cup", (0, 0, 0))]}, SceneError, "cup", "contacts() has 'cup'"),
+]
+
+
+@pytest.mark.parametrize(("given", "error", "answered", "asserted"), WRONG)
+def test_what_an_adapter_may_not_say(given: Any, error: type[Exception], answered: str, asserted: str) -> None:
+    """A link answers it in play, and the contract finds it."""
+    scene = own_scene()
+    with pytest.raises(error, match=re.escape(answered)):
+        EngineLink(Given(scene, **given), HapticSession(scene, bake(scene))).update()
+    with pytest.raises(AssertionError, match=re.escape(asserted)):
+        check_engine_adapter(Given(scene, **given), scene, step=lambda: None)
+
+
+@pytest.mark.parametrize(
+    ("given", "moves", "words"),
+    [
+        # w first: no rotation becomes a half turn about x.
+        ({"poses": {"table": Pose((0.5, 0.36, 0.2), (1, 0, 0, 0)), "phone": PHONE}}, None, "180 degrees"),
+        ({"poses": {"table": TABLE, "phone": Pose((0.2, 0.1, 0.724))}}, None, "'phone' 0.882 m and 0 degrees"),
+        ({}, "phone", "where it was before the step"),
+        ({}, "cup", "which is no object of the scene"),
+    ],
+)
+def test_what_the_contract_alone_finds(given: Any, moves: str | None, words: str) -> None:
+    scene = own_scene()
+    with pytest.raises(AssertionError, match=words):
+        check_engine_adapter(Given(scene, **given), scene, step=lambda: None, moves=moves)
+
+
+def test_units_are_compared_while_the_engine_goes_on(mujoco_engine: Any) -> None:
+    """A link that forgets the unit is refused; one thing that moved away from the origin is no unit."""
+    model, data, _, _ = mujoco_engine
+    from scene2hap.scene.engines.mujoco import snapshot
+
+    scene = snapshot(model, data, unit_m=0.5)
+    session = HapticSession(scene, bake(scene))
+    data.qpos[0] += 0.3
+    import mujoco
+
+    mujoco.mj_forward(model, data)
+    with pytest.raises(SceneError, match=r"positions are 2 times those of the session"):
+        MuJoCoLink(model, data, session)
+    MuJoCoLink(model, data, session, unit_m=0.5)
+    own = own_scene()
+    EngineLink(Given(own, poses={"table": TABLE, "phone": Pose((2.0, 7.24, 1.0))}), HapticSession(own, bake(own)))
+
+
 @pytest.mark.parametrize(
     ("make", "error", "words"),
     [
+        (lambda m, d, s: MuJoCoLink(m, other_data(), s), SceneError, "data is of another model"),
+        (lambda m, d, s: MuJoCoLink(m, d), CallError, "missing a required argument: 'session'"),
+        (lambda m, d, s: MuJoCoLink(m, d, s, hands="left"), ConfigError, "it must be a mapping of hands to bodies"),
+        (lambda m, d, s: MuJoCoLink(m, d, s, hands={"left": ["finger"]}), UnknownObject, "the name of one body"),
         (lambda m, d, s: MuJoCoLink(d, m, s), SceneError, "they must be mujoco.MjModel and mujoco.MjData"),
         (lambda m, d, s: MuJoCoLink(m, d, "session"), ConfigError, "it must be a HapticSession"),
         (
             lambda m, d, s: MuJoCoLink(m, d, s, hands={"third": "finger"}),
             ConfigError,
-            "the session has no hand 'third'",
+            "no hand 'third'; this session has 'left', 'right'",
         ),
         (lambda m, d, s: MuJoCoLink(m, d, s, hands={"left": "fingr"}), UnknownObject, "Did you mean 'finger'"),
         (lambda m, d, s: MuJoCoLink(m, d, s, contacts="mujoco"), ConfigError, "it must be 'engine', or None"),
@@ -169,6 +391,26 @@ def test_what_is_no_link(make: Any, error: type[Exception], words: str, mujoco_e
     model, data, scene, _ = mujoco_engine
     with pytest.raises(error, match=words):
         make(model, data, HapticSession(scene, bake(scene)))
+
+
+def test_engines_are_imported_when_they_are_linked() -> None:
+    """And one that is not installed is told by the name of its extra."""
+    code = """
+import sys
+from scene2hap import Box, HapticSession, SceneObject, SceneSnapshot, bake
+from scene2hap.engines import MuJoCoLink, Panda3DLink
+assert not {"mujoco", "panda3d"} & sys.modules.keys()
+sys.modules["mujoco"] = sys.modules["panda3d.core"] = None
+scene = SceneSnapshot.build([SceneObject("smartphone", geometry=Box((0.1, 0.1, 0.1)))])
+session = HapticSession(scene, bake(scene))
+for link in (lambda: MuJoCoLink(None, None, session), lambda: Panda3DLink(None, session)):
+    try:
+        link()
+    except ImportError as error:
+        print(error)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.stdout.count("is not installed. Run: pip install 'scene2hap[") == 2, done.stderr
 
 
 def test_a_session_of_another_scene_is_refused(mujoco_engine: Any) -> None:

@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
-from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.errors import SceneError, SceneFormatError, UnknownObject
 from scene2hap.scene import limits
 from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.mjcf_files import check_files
@@ -95,16 +95,51 @@ def poses(model: Any, data: Any, *, geom_groups: Collection[int] | None = None, 
 
 
 def contacts(
+    model: Any, data: Any, *, geom_groups: Collection[int] | None = None, unit_m: float = 1.0
+) -> tuple[Contact, ...]:
+    """The engine's contacts between objects of the last `snapshot` with the same arguments."""
+    return _contacts(model, data, _layout(_engine(model, data), model, geom_groups), unit_m)
+
+
+def geoms_below(model: Any, data: Any, body: str) -> NDArray[np.bool_]:
+    """Which geoms belong to a body or to what hangs on it (n_geoms + 1,), as the fingers on a hand; the last is False.
+
+    Raises: UnknownObject: the model has no body of that name.
+    """
+    mujoco = _engine(model, data)
+    named = {mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, k) or "": k for k in range(1, model.nbody)}
+    named.pop("", None)
+    if not isinstance(body, str) or body not in named:
+        told = checks.did_you_mean(body, named) if isinstance(body, str) else "Give the name of one body."
+        raise UnknownObject(f"the model has no body {checks.represented(body)}. {told}".rstrip())
+    is_below = np.zeros(model.nbody, dtype=bool)
+    is_below[named[body]] = True
+    # MuJoCo numbers a body after the one that it hangs on.
+    for below in range(named[body] + 1, model.nbody):
+        is_below[below] = is_below[model.body_parentid[below]]
+    return np.append(is_below[model.geom_bodyid], False)
+
+
+def touched(
     model: Any,
     data: Any,
+    part: NDArray[np.bool_],
     *,
-    of: Collection[str] | None = None,
     geom_groups: Collection[int] | None = None,
     unit_m: float = 1.0,
-) -> tuple[Contact, ...]:
-    """The engine's contacts between objects of the last `snapshot` with the same arguments; of some objects alone, by
-    their ids."""
-    return _contacts(model, data, _layout(_engine(model, data), model, geom_groups), unit_m, of)
+) -> list[tuple[str, tuple[float, float, float]]]:
+    """Which objects the geoms of a part, as `geoms_below` tells them, touch now, and where [m]: one for each contact
+    point with what is not of the part itself."""
+    items = _layout(_engine(model, data), model, geom_groups)
+    if not data.ncon:
+        return []
+    geoms, is_active = np.asarray(data.contact.geom), np.asarray(data.contact.exclude) != _IN_GAP
+    is_own = part[geoms]
+    kept = np.flatnonzero((is_own[:, 0] != is_own[:, 1]) & is_active)
+    others = geoms[kept, is_own[kept, 0].astype(np.intp)]
+    points = (np.asarray(data.contact.pos)[kept] * unit_m).tolist()
+    rows = items.row_of_geom(model)[others].tolist()
+    return [(items.ids[row], (x, y, z)) for row, (x, y, z) in zip(rows, points, strict=True) if row >= 0]
 
 
 def load_mjcf(
@@ -144,6 +179,12 @@ def _engine(model: Any, data: Any) -> Any:
         raise SceneError(
             f"model is a {type(model).__name__} and data a {type(data).__name__}; they must be mujoco.MjModel and "
             "mujoco.MjData. Wrappers keep them inside (dm_control: physics.model.ptr, physics.data.ptr)."
+        )
+    has, needs = (len(data.xpos), len(data.geom_xpos), len(data.qpos)), (model.nbody, model.ngeom, model.nq)
+    if has != needs:
+        raise SceneError(
+            f"data is of another model: it has {has} bodies, geoms and coordinates, and model has {needs}. Make it by "
+            "mujoco.MjData(model)."
         )
     return mujoco
 
@@ -276,17 +317,13 @@ def _poses(model: Any, data: Any, items: _Items, unit_m: float) -> PoseTable:
     return PoseTable(items.ids, positions * unit_m, rotations)
 
 
-def _contacts(
-    model: Any, data: Any, items: _Items, unit_m: float, of: Collection[str] | None = None
-) -> tuple[Contact, ...]:
+def _contacts(model: Any, data: Any, items: _Items, unit_m: float) -> tuple[Contact, ...]:
     """The engine's contacts between objects; those with what is not drawn are left out."""
     if not data.ncon:
         return ()
     # A deformable body has no geom, and its contacts say -1, which is the last place.
     rows = items.row_of_geom(model)[np.asarray(data.contact.geom)]
     wanted = (rows >= 0).all(axis=1) & (rows[:, 0] != rows[:, 1]) & (np.asarray(data.contact.exclude) != _IN_GAP)
-    if of is not None:
-        wanted &= np.isin(rows, [row for row, item_id in enumerate(items.ids) if item_id in of]).any(axis=1)
     kept = np.flatnonzero(wanted)
     points, normals = np.asarray(data.contact.pos)[kept] * unit_m, np.asarray(data.contact.frame)[kept, :3]
     return tuple(

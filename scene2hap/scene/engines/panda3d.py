@@ -5,9 +5,7 @@ left it. An object stands and moves with the innermost node that holds all its t
 Instances are objects of their own that share a mesh. Hidden and stashed nodes, lines and points are left out; of levels
 of detail, the finest is read; animated characters stand as they were modelled.
 
-    scene = snapshot(render)
-    moving = nodes(render)                     # once
-    session.update(poses(moving, scene), ...)  # every frame
+A session follows a graph by `scene2hap.engines.Panda3DLink`, which reads poses by a `PoseReader`.
 """
 
 from __future__ import annotations
@@ -46,7 +44,7 @@ def snapshot(
     maker = ObjectMaker(up_axis)
     objects = []
     for object_id, (found, path) in graph.objects(group).items():
-        objects.append(maker.make(object_id, found.name, found, _pose(path)))
+        objects.append(maker.make(object_id, found.name, found, _pose(path.get_net_transform())))
     title = name or render.get_name() or "panda3d"
     if not objects:
         raise SceneError(f"scene {title!r} draws no triangles; nothing in it can be touched.")
@@ -67,7 +65,36 @@ def poses(render_or_nodes: Any, snapshot: SceneSnapshot) -> dict[str, Pose]:
     """
     known = render_or_nodes if isinstance(render_or_nodes, Mapping) else nodes(render_or_nodes)
     placed = ((item.id, known.get(item.id)) for item in snapshot.objects)
-    return {object_id: _pose(path) for object_id, path in placed if path is not None and not path.is_empty()}
+    return {
+        object_id: _pose(path.get_net_transform())
+        for object_id, path in placed
+        if path is not None and not path.is_empty()
+    }
+
+
+class PoseReader:
+    """Reads the poses of the objects of `snapshot` with the same arguments again and again. Nodes are looked up once.
+
+    A node at rest costs next to nothing: Panda3D shares transforms and never changes one, so that the same address, of
+    one that is kept alive here, is the same place.
+    """
+
+    def __init__(self, render: Any, *, group: Grouping = "authored") -> None:
+        self._render, self._nodes = render, nodes(render, group=group)
+        self._last: dict[str, tuple[Any, Pose]] = {}
+
+    def read(self) -> dict[str, Pose]:
+        """Where every object is now, by id; without those whose node the game took out of the graph."""
+        last, placed = self._last, {}
+        for object_id, path in self._nodes.items():
+            if path.is_empty() or not (path == self._render or self._render.is_ancestor_of(path)):
+                continue
+            transform = path.get_net_transform()
+            known = last.get(object_id)
+            if known is None or known[0].this != transform.this:
+                known = last[object_id] = (transform, _pose(transform))
+            placed[object_id] = known[1]
+        return placed
 
 
 @dataclass(eq=False)
@@ -141,9 +168,8 @@ def _matrix(transform: Any) -> Matrix:
     return np.array([tuple(row) for row in transform.get_mat().get_rows()], dtype=np.float64).T
 
 
-def _pose(path: Any) -> Pose:
-    """The node's place in the graph's top, without scale; as `rigid_part` where there is some."""
-    transform = path.get_net_transform()
+def _pose(transform: Any) -> Pose:
+    """A node's place in the graph's top, without scale; as `rigid_part` where there is some."""
     is_similar = transform.has_components() and transform.has_uniform_scale() and not transform.has_nonzero_shear()
     if is_similar and transform.get_uniform_scale() > 0:
         w, x, y, z = transform.get_quat()
