@@ -31,6 +31,20 @@ _LONGEST = 2000
 """Characters of a warning or an error that are shown; a name may have a million."""
 _FILE_WIDTH = 160
 """Columns for output into a file or a pipe, which have no width of their own."""
+_LAID_OUT = 1000
+"""Rows of a table that is fitted to the terminal, at 0.6 ms a row; more are aligned alone."""
+_WIDEST = 60
+"""Columns that a cell is padded to; a name of a million letters does not widen the others."""
+
+
+def _aligned(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """The lines of a table without a frame, each cell as wide as the widest of its column."""
+    table = [tuple(column.removeprefix(">") for column in columns), *(tuple(map(printable, row)) for row in rows)]
+    widths = [min(max(map(len, cells)), _WIDEST) for cells in zip(*table, strict=True)]
+    to_right = [column.startswith(">") for column in columns]
+    for row in table:
+        cells = zip(row, widths, to_right, strict=True)
+        yield "  ".join(cell.rjust(width) if right else cell.ljust(width) for cell, width, right in cells).rstrip()
 
 
 def _one_line(text: str) -> str:
@@ -69,7 +83,11 @@ class Console:
 
     def table(self, title: str, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
         """A table; a column whose name starts with ">" is set to the right."""
-        if self._out.quiet:  # a table of thousands of rows takes seconds to lay out
+        if self._out.quiet:
+            return
+        rows = list(rows)
+        if len(rows) > _LAID_OUT:
+            self.say("\n".join((title, *_aligned(columns, rows))))
             return
         table = Table(title=_safe(title), title_justify="left", title_style="bold")
         for column in columns:
