@@ -74,17 +74,16 @@ def edges_of(outline):
 def inside_edges(outline, double du, double dv, edges):
     cdef Py_ssize_t k, n = len(outline)
     cdef Corner* corners = corners_of(outline, n, du, dv)
-    cdef double nu, nv, offset, inside, least, most
-    found = []
+    cdef double nu, nv, offset, inside, most, outermost = INFINITY, innermost = INFINITY
     for nu, nv, offset in edges:
-        least, most = INFINITY, -INFINITY
+        most = -INFINITY
         for k in range(n):
             inside = nu * corners[k].u + nv * corners[k].v - offset
-            least = inside if inside < least else least
+            outermost = inside if inside < outermost else outermost
             most = inside if inside > most else most
-        found.append((least, most))
+        innermost = most if most < innermost else innermost
     PyMem_Free(corners)
-    return found
+    return outermost, innermost
 
 
 def clipped(outline, double du, double dv, edges):

@@ -56,16 +56,15 @@ def rest_on(x: Body, y: Body) -> Rest | None:
     mu, mv = top_face.middle
     if math.hypot(cu - mu, cv - mv) > radius + top_face.radius + _SLACK_M:
         return _beside(x, y)
-    # No corner of the base face is farther from its middle than its radius: most edges of round objects need no more.
-    edges = [edge for edge in top_face.edges if edge[0] * cu + edge[1] * cv - edge[2] <= radius + rim + _SLACK_M]
-    ranges = inside_edges(x.stance.base_outline, du, dv, edges)
-    if any(most <= rim for _, most in ranges):
+    outermost_m, innermost_m = inside_edges(x.stance.base_outline, du, dv, top_face.edges)
+    if innermost_m <= rim:
         return _beside(x, y)
-    if all(least >= -_ROUNDING_M for least, _ in ranges):
+    if outermost_m >= -_ROUNDING_M:
         return Rest(fall_m, True, top_m)
     if not base_face.is_filled:
         return None
-    if any(most <= rim for _, most in inside_edges(top_face.outline, -du, -dv, x.stance.base_edges)):
+    _, innermost_m = inside_edges(top_face.outline, -du, -dv, x.stance.base_edges)
+    if innermost_m <= rim:
         return _beside(x, y)
     return Rest(fall_m, False, top_m)
 

@@ -50,13 +50,14 @@ def edges_of(outline: Sequence[Point]) -> tuple[Triple, ...]:
 
 
 @compiled
-def inside_edges(outline: Sequence[Point], du: float, dv: float, edges: Sequence[Triple]) -> list[tuple[float, float]]:
-    """For each edge, how far inside of it corners of an outline moved by (du, dv) are at least and at most [m]."""
-    found = []
+def inside_edges(outline: Sequence[Point], du: float, dv: float, edges: Sequence[Triple]) -> tuple[float, float]:
+    """How far inside all edges the corners of an outline moved by (du, dv) are [m]: the outermost corner, and the
+    innermost one at the edge that it is least inside of."""
+    outermost = innermost = math.inf
     for nu, nv, offset in edges:
         inside = [nu * (u + du) + nv * (v + dv) - offset for u, v in outline]
-        found.append((min(inside), max(inside)))
-    return found
+        outermost, innermost = min(outermost, min(inside)), min(innermost, max(inside))
+    return outermost, innermost
 
 
 @compiled

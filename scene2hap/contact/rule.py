@@ -165,14 +165,16 @@ def is_over(x: Body, y: Body) -> bool:
     A thing on another lies over all of it, give or take `TOUCH_M`, or stands in it with a higher bottom, or with one as
     low where it is all in it, as in a room whose floor has no thickness. Things side by side on one floor are neither.
     """
-    if x.lowest_m >= y.highest_m - TOUCH_M or y.lowest_m >= x.highest_m - TOUCH_M:
-        return x.lowest_m + x.highest_m > y.lowest_m + y.highest_m
-    if x.lowest_m > y.lowest_m + TOUCH_M:
+    up = x.up_axis
+    bottom_m, top_m, other_bottom_m, other_top_m = x.low[up], x.high[up], y.low[up], y.high[up]
+    if bottom_m >= other_top_m - TOUCH_M or other_bottom_m >= top_m - TOUCH_M:
+        return bottom_m + top_m > other_bottom_m + other_top_m
+    if bottom_m > other_bottom_m + TOUCH_M:
         return True
-    if x.lowest_m < y.lowest_m - TOUCH_M or x.highest_m > y.highest_m or x.size_m >= y.size_m:
+    if bottom_m < other_bottom_m - TOUCH_M or top_m > other_top_m or x.size_m >= y.size_m:
         return False
     (a, b, c), (d, e, f), (g, h, i), (j, k, m) = x.low, x.high, y.low, y.high
-    if x.up_axis == 1:
+    if up == 1:
         return a >= g and d <= j and c >= i and f <= m
     return a >= g and d <= j and b >= h and e <= k
 
