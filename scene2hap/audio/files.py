@@ -29,6 +29,9 @@ damaged header may promise a thousand hours."""
 MAX_FILE_SAMPLES = 1 << 26
 """Samples of all channels together; assumed: ten minutes of stereo at 48 kHz, and what is decoded in a second or two. A
 megabyte of FLAC may hold hours of silence at 655 kHz."""
+MAX_CHANNELS = 64
+"""As many as seventh-order ambisonics; each channel is converted by a stream of its own, which takes memory."""
+
 _BLOCK_FRAMES = 1 << 18
 
 _BITS: dict[str, int] = {"PCM_16": 16, "PCM_24": 24, "PCM_32": 32}
@@ -61,7 +64,10 @@ def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
 
 
 def _require_bounded(path: Path, file: soundfile.SoundFile) -> None:
-    """Raises: AudioError: the header promises more samples, of all channels together, than `MAX_FILE_SAMPLES`."""
+    """Raises: AudioError: the header promises more channels than `MAX_CHANNELS`, or more samples, of all channels
+    together, than `MAX_FILE_SAMPLES`."""
+    if file.channels > MAX_CHANNELS:
+        raise AudioError(f"{path} has {file.channels} channels; it must have at most {MAX_CHANNELS}. Mix some.")
     n_samples = file.frames * file.channels
     if n_samples > MAX_FILE_SAMPLES:
         raise AudioError(
@@ -72,9 +78,9 @@ def _require_bounded(path: Path, file: soundfile.SoundFile) -> None:
 
 @contextmanager
 def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
-    """A sound file to read from, of at most `MAX_FILE_SAMPLES`.
+    """A sound file to read from, of at most `MAX_FILE_SAMPLES` and `MAX_CHANNELS`.
 
-    Raises: AudioError: it is absent, no sound, longer than that, or cut short, now or while it is read.
+    Raises: AudioError: it is absent, no sound, larger than that, or cut short, now or while it is read.
     """
     if not path.is_file():
         raise AudioError(f"{path} is not a file. Give the path of an existing sound file.")

@@ -34,6 +34,7 @@ _FLOOR_SHARE, _FLOOR_FLATNESS = (
 )  # A floor takes up this share of the scene, and is this flat at most (assumed).
 _NONE = 1e-6
 _MOST_NAMED = 5
+_BATCH = 256
 
 
 class SceneWarning(UserWarning):
@@ -93,19 +94,30 @@ def _resting_share(boxes: NDArray[np.float64], up: int) -> float:
     """The share of boxes (n, 2, 3) that stand on the lowest height or close over another box."""
     low, high = boxes[:, 0], boxes[:, 1]
     level = [axis for axis in range(3) if axis != up]
-    gaps = low[:, None, up] - high[None, :, up]
-    over = ((low[:, None, level] < high[None, :, level]) & (high[:, None, level] > low[None, :, level])).all(axis=2)
-    rests = (over & (np.abs(gaps) <= _RESTS_M)).any(axis=1) | (low[:, up] - low[:, up].min() <= _RESTS_M)
+    rests = low[:, up] - low[:, up].min() <= _RESTS_M
+    for some in _batches(len(boxes)):
+        gaps = low[some, None, up] - high[None, :, up]
+        over = ((low[some, None, :] < high) & (high[some, None, :] > low))[..., level].all(axis=2)
+        rests[some] |= (over & (np.abs(gaps) <= _RESTS_M)).any(axis=1)
     return float(rests.mean())
+
+
+def _batches(n_rows: int) -> Iterator[slice]:
+    """All rows, in slices: the boxes of thousands of objects against all would take a gigabyte."""
+    for start in range(0, n_rows, _BATCH):
+        yield slice(start, start + _BATCH)
 
 
 def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator[Finding]:
     if len(ids) < 2:
         return
-    gaps = np.maximum(boxes[:, None, 0] - boxes[None, :, 1], boxes[None, :, 0] - boxes[:, None, 1]).clip(0.0)
-    apart = np.linalg.norm(gaps, axis=2)
-    np.fill_diagonal(apart, np.inf)
-    nearest = apart.min(axis=1)
+    nearest = np.empty(len(ids))
+    for some in _batches(len(ids)):
+        gaps = np.maximum(boxes[some, None, 0] - boxes[None, :, 1], boxes[None, :, 0] - boxes[some, None, 1]).clip(0.0)
+        apart = np.linalg.norm(gaps, axis=2)
+        rows = np.arange(len(apart))
+        apart[rows, some.start + rows] = np.inf
+        nearest[some] = apart.min(axis=1)
     lowest = boxes[:, 0, up].min()
     alone = np.flatnonzero((nearest > _FLOATS_M) & (boxes[:, 0, up] - lowest > _FLOATS_M))
     if len(alone):

@@ -153,3 +153,17 @@ def test_baking_warns_of_what_floats_and_of_silence() -> None:
         bake(SceneSnapshot.build(objects))
     with pytest.warns(SceneWarning, match="none of 2 objects of 'scene' vibrates"):
         bake(SceneSnapshot.build(ROOM[:2]))
+
+
+def test_a_scene_is_checked_alike_in_batches_of_any_size(monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(5)
+    boxes = [
+        SceneObject(f"box{i}", pose=Pose(tuple(rng.uniform(0, 6, 3))), geometry=Box(tuple(rng.uniform(0.1, 1, 3))))
+        for i in range(60)
+    ]
+    scene = SceneSnapshot.build([*ROOM, *boxes])
+    whole = scene.check()
+    assert whole
+    for n in (1, 7, 64):
+        monkeypatch.setattr("scene2hap.scene.check._BATCH", n)
+        assert scene.check() == whole

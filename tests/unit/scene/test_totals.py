@@ -12,6 +12,7 @@ import soundfile
 
 from scene2hap import load_scene
 from scene2hap.audio import files
+from scene2hap.audio.conversion.stream import convert
 from scene2hap.audio.files import read_clip
 from scene2hap.errors import AudioError, SceneError
 from scene2hap.scene import limits, mtl, obj
@@ -140,6 +141,14 @@ def test_samples_of_all_channels_count(tmp_path: Path, monkeypatch: pytest.Monke
     monkeypatch.setattr(files, "MAX_FILE_SAMPLES", 15_999)
     with pytest.raises(AudioError, match="2,000 frames of 8 channels at 655,350 Hz, 16,000 samples"):
         read_clip(tmp_path / "a.flac")
+
+
+def test_more_channels_than_a_sound_field_has_are_refused(tmp_path: Path) -> None:
+    soundfile.write(tmp_path / "a.wav", np.zeros((20, 65)), 48_000)
+    for read in (read_clip, lambda path: convert(path, tmp_path / "felt.wav")):
+        with pytest.raises(AudioError, match="has 65 channels; it must have at most 64"):
+            read(tmp_path / "a.wav")
+    assert not (tmp_path / "felt.wav").exists()
 
 
 def test_textures_of_a_model_count_together(tmp_path: Path) -> None:
