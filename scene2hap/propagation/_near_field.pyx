@@ -68,6 +68,8 @@ cdef class Dimples:
                     piece = <Py_ssize_t>t
                     t = self.pieces[piece, 0] + (t - piece) * self.pieces[piece, 1]
                     total += self.x_weights[i] * self.y_weights[j] * t
+        if x == self.x[drive, 0] and y == self.y[drive, 0]:
+            return fmax(total, 0.0)
         return total
 
 

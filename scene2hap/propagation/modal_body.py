@@ -39,7 +39,8 @@ def modal_body(
     shorter = min(plate.length_m, plate.width_m)
     k = min(float(plate.wavenumber_rad_m(max_frequency_hz)), 4 * NO_RETURN / (loss_factor * shorter))
     limit_hz = (k / plate.wavenumber_per_root_omega) ** 2 / (2 * np.pi)
-    while largest_block(plate, MARGIN * limit_hz) > MOST_FUNCTIONS:
+    most = max(MOST_FUNCTIONS, largest_block(plate, 0.0))  # what a narrow plate needs at any frequency
+    while largest_block(plate, MARGIN * limit_hz) > most:
         limit_hz *= 0.9
     if limit_hz >= max_frequency_hz * (1 - 1e-9):
         return ModalBody(plate, max_frequency_hz, loss_factor, fineness)

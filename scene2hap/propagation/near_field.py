@@ -104,8 +104,12 @@ class Dimples:
         a2 *= a2
         y2 *= y2
         a2 += y2
+        driven = a2[:, :, 0] == 0.0
         a2 *= cut2[:, :, None]
-        return beyond_cutoff_of_square(a2, self._pieces) @ self._weights, cut2
+        shares = beyond_cutoff_of_square(a2, self._pieces) @ self._weights
+        # Beside an edge that holds, images take away a little too much; a plate gives way to a force, never against it.
+        shares[driven] = np.maximum(shares[driven], 0.0)
+        return shares, cut2
 
     def near(self, points_m: Floats, k2: Floats) -> Floats:
         """See `NearField`, for real k2."""
