@@ -8,6 +8,7 @@ Processor time of `link.update` less that of the same `session.update`, median o
 
 from __future__ import annotations
 
+import itertools
 import time
 from collections.abc import Callable
 from typing import Any
@@ -16,14 +17,13 @@ import mujoco
 import numpy as np
 from panda3d import core
 
-from scene2hap import HapticSession, Pose, Touch, bake
+from scene2hap import HapticSession, PoseTable, Touch, bake
 from scene2hap.engines import MuJoCoLink, Panda3DLink
 from scene2hap.scene.engines import mujoco as mujoco_scene
 from scene2hap.scene.engines import panda3d as panda3d_scene
 
 NAMES = [f"{('smartphone', 'wooden_table', 'mug')[i % 3]}_{i}" for i in range(50)]
 PLACES_M = [(i % 10 * 0.3, i // 10 * 0.3, 0.0499) for i in range(50)]
-N_MOVING = 10
 
 
 def cpu_ms(act: Callable[[], object], n_calls: int = 200) -> float:
@@ -62,43 +62,51 @@ def graph() -> core.NodePath:
     return render
 
 
+def moving_ms(data: Any, session: HapticSession, link: MuJoCoLink, n_moving: int) -> float:
+    """What a frame takes more by the link than by poses that stand ready."""
+    start = np.array(PLACES_M[:n_moving])
+    ready = []
+    for way_m in (0.0, 0.0002):
+        places = start + (way_m, 0, 0)
+        ready.append((places, PoseTable(NAMES[:n_moving], places, [(0, 0, 0, 1)] * n_moving)))
+    frames = itertools.cycle(ready)
+
+    def by_hand() -> None:
+        data.xpos[1 : 1 + n_moving], table = next(frames)
+        session.update(table)
+
+    def by_link() -> None:
+        data.xpos[1 : 1 + n_moving], _ = next(frames)
+        link.update()
+
+    by_link()
+    alone = cpu_ms(by_hand, 50)
+    return cpu_ms(by_link, 50) - alone
+
+
 def main() -> None:
     """Measure and print."""
     made, data = model()
     scene = mujoco_scene.snapshot(made, data)
     session = HapticSession(scene, bake(scene))
     touches = [Touch("left", NAMES[3], PLACES_M[3])]
+    print("| link, frame | ms |")
+    print("|---|---|")
     link = MuJoCoLink(made, data, session)
     link.update(touches)
     alone = cpu_ms(lambda: session.update({}, touches))
-    print(f"MuJoCo, at rest: {cpu_ms(lambda: link.update(touches)) - alone:.3f} ms")
+    print(f"| MuJoCo, at rest | {cpu_ms(lambda: link.update(touches)) - alone:.3f} |")
     with_hand = MuJoCoLink(made, data, session, hands={"right": NAMES[3]})
     with_hand.update(touches)
-    print(f"MuJoCo, a hand: {cpu_ms(lambda: with_hand.update(touches)) - alone:.3f} ms")
+    print(f"| MuJoCo, at rest, a body as a hand | {cpu_ms(lambda: with_hand.update(touches)) - alone:.3f} |")
     told = MuJoCoLink(made, data, session, contacts="engine")
     contacts = told._adapter.contacts()
     told.update(touches)
     given = cpu_ms(lambda: session.update({}, touches, contacts=contacts), 20)
     added = cpu_ms(lambda: told.update(touches), 20) - given
-    print(f"MuJoCo, contacts of the engine: {added:.2f} ms for {data.ncon} contact points")
-
-    way_m = 0.0
-
-    def shift() -> None:
-        nonlocal way_m
-        way_m = 0.0002 - way_m
-        data.xpos[1 : 1 + N_MOVING, 0] = [x + way_m for x, _, _ in PLACES_M[:N_MOVING]]
-
-    def by_hand() -> None:
-        shift()
-        session.update({NAMES[k]: Pose(tuple(data.xpos[1 + k].tolist())) for k in range(N_MOVING)}, touches)
-
-    def by_link() -> None:
-        shift()
-        link.update(touches)
-
-    alone = cpu_ms(by_hand)
-    print(f"MuJoCo, {N_MOVING} move: {cpu_ms(by_link) - alone:.3f} ms")
+    print(f"| MuJoCo, its {data.ncon} contact points | {added:.3f} |")
+    for n_moving in (10, 50):
+        print(f"| MuJoCo, {n_moving} move | {moving_ms(data, session, link, n_moving):.3f} |")
 
     render = graph()
     scene = panda3d_scene.snapshot(render, name="floor")
@@ -106,7 +114,7 @@ def main() -> None:
     follower = Panda3DLink(render, session)
     follower.update(touches)
     alone = cpu_ms(lambda: session.update({}, touches))
-    print(f"Panda3D, at rest: {cpu_ms(lambda: follower.update(touches)) - alone:.3f} ms")
+    print(f"| Panda3D, at rest | {cpu_ms(lambda: follower.update(touches)) - alone:.3f} |")
 
 
 if __name__ == "__main__":

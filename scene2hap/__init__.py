@@ -58,6 +58,7 @@ _HOME = {
     "scene2hap.bundle": ("HapticBundle", "Override"),
     "scene2hap.baking": ("BakeConfig", "abake", "arebake", "bake", "bake_object", "rebake"),
     "scene2hap.session": ("HapticFrame", "HapticSession", "SessionConfig", "Touch"),
+    "scene2hap.engines": ("EngineAdapter", "EngineLink", "MuJoCoLink", "Panda3DLink"),
     "scene2hap.touch_track": ("TouchTrack",),
     "scene2hap.track_player": ("play_track",),
     "scene2hap.devices.protocol": ("ActuatorSink", "SinkEvent", "SinkStats"),
@@ -70,7 +71,20 @@ _HOME = {
     "scene2hap.devices.wav": ("WavSink",),
 }
 _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
-_ROOMS = ("audio", "contact", "devices", "errors", "haptics", "llm", "materials", "propagation", "render", "scene")
+_ROOMS = (
+    "audio",
+    "contact",
+    "devices",
+    "engines",
+    "errors",
+    "haptics",
+    "llm",
+    "materials",
+    "propagation",
+    "render",
+    "scene",
+    "testing",
+)
 
 __all__ = ["__version__", *sorted(_MODULE_OF)]
 
@@ -123,6 +137,18 @@ if TYPE_CHECKING:
     from scene2hap.devices.udp import UdpSink as UdpSink
     from scene2hap.devices.vhp_amp import VhpSink as VhpSink
     from scene2hap.devices.wav import WavSink as WavSink
+    from scene2hap.engines import (
+        EngineAdapter as EngineAdapter,
+    )
+    from scene2hap.engines import (
+        EngineLink as EngineLink,
+    )
+    from scene2hap.engines import (
+        MuJoCoLink as MuJoCoLink,
+    )
+    from scene2hap.engines import (
+        Panda3DLink as Panda3DLink,
+    )
     from scene2hap.haptics import (
         ActuatorProfile as ActuatorProfile,
     )

@@ -1,4 +1,4 @@
-"""Which poses of an engine a session has not been handed yet."""
+"""Which poses of an engine differ from those that a session has."""
 
 from __future__ import annotations
 
@@ -11,16 +11,23 @@ from numpy.typing import NDArray
 from scene2hap.scene.engines.motion import AT_REST_M, AT_REST_RAD, moved
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.pose_table import PoseTable
+from scene2hap.session import HapticSession
 from scene2hap.session.given import require_pose
 
 Floats = NDArray[np.float64]
 _COS_AT_REST = math.cos(AT_REST_RAD / 2)
+_NOWHERE = Pose()  # of what the engine alone has
 
 
 class Changes:
-    """Compares poses with those last handed on, so that slow motion adds up; tables as arrays, mappings one by one."""
+    """Compares an engine's poses with those that a session has, so that slow motion adds up; tables as arrays, mappings
+    one by one.
 
-    def __init__(self) -> None:
+    The session is read again whenever objects came or went, and after `forget`.
+    """
+
+    def __init__(self, session: HapticSession) -> None:
+        self._session = session
         self._followed: frozenset[str] = frozenset()
         self._known: dict[str, Pose] = {}
         self._ids: tuple[str, ...] = ()
@@ -28,17 +35,21 @@ class Changes:
         self._positions: Floats = np.empty((0, 3))
         self._rotations: Floats = np.empty((0, 4))
 
-    def of(self, poses: Mapping[str, Pose], followed: frozenset[str]) -> dict[str, Pose]:
-        """The poses of the objects `followed` that moved, or that are followed anew.
+    def forget(self) -> None:
+        """Read the session again; call it when an update was refused, since the session has none or some of it."""
+        self._followed, self._ids = frozenset(), ()
+
+    def of(self, poses: Mapping[str, Pose]) -> dict[str, Pose]:
+        """The poses of the session's objects that moved.
 
         Raises: SceneError: a value is no Pose.
         """
-        return self._of_table(poses, followed) if isinstance(poses, PoseTable) else self._of_mapping(poses, followed)
+        return self._of_table(poses) if isinstance(poses, PoseTable) else self._of_mapping(poses)
 
-    def _of_mapping(self, poses: Mapping[str, Pose], followed: frozenset[str]) -> dict[str, Pose]:
+    def _of_mapping(self, poses: Mapping[str, Pose]) -> dict[str, Pose]:
+        followed = self._session.object_ids
         if followed is not self._followed:
-            self._known = {object_id: pose for object_id, pose in self._known.items() if object_id in followed}
-            self._followed = followed
+            self._followed, self._known = followed, dict(self._session.poses)
         try:
             changed = {key: pose for key, pose in moved(poses, self._known).items() if key in followed}
         except AttributeError:  # of something that is no Pose
@@ -48,15 +59,14 @@ class Changes:
         self._known.update(changed)
         return changed
 
-    def _of_table(self, table: PoseTable, followed: frozenset[str]) -> dict[str, Pose]:
-        if table.ids != self._ids:
-            self._ids, self._positions = table.ids, table.positions_m.copy()
-            self._rotations, self._followed = np.zeros_like(table.rotations_xyzw), frozenset()
-        if followed is not self._followed:
-            self._is_followed = np.array([object_id in followed for object_id in self._ids], dtype=bool)
-            # No rotation is 0, so an object that comes back counts as moved.
-            self._rotations[~self._is_followed] = 0.0
-            self._followed = followed
+    def _of_table(self, table: PoseTable) -> dict[str, Pose]:
+        followed = self._session.object_ids
+        if table.ids != self._ids or followed is not self._followed:
+            self._ids, self._followed = table.ids, followed
+            self._is_followed = np.array([object_id in followed for object_id in table.ids], dtype=bool)
+            known = [self._session.poses.get(object_id, _NOWHERE) for object_id in table.ids]
+            self._positions = np.array([pose.position_m for pose in known]).reshape(-1, 3)
+            self._rotations = np.array([pose.rotation_xyzw for pose in known]).reshape(-1, 4)
         way = ((table.positions_m - self._positions) ** 2).sum(axis=1)
         # |q . p| = cos(angle / 2); either sign of a quaternion is the same rotation.
         turn = np.abs((table.rotations_xyzw * self._rotations).sum(axis=1))

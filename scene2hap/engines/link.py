@@ -37,17 +37,19 @@ class EngineLink:
     def __init__(self, adapter: EngineAdapter, session: HapticSession) -> None:
         if not isinstance(session, HapticSession):
             raise ConfigError(f"session is {checks.described(session)}; it must be a HapticSession.")
+        if isinstance(adapter, type):
+            raise ConfigError(f"adapter is the class {adapter.__name__}; give an instance of it, {adapter.__name__}().")
         missing = [name for name in ("poses", "touches", "contacts") if not callable(getattr(adapter, name, None))]
         if missing:
             raise ConfigError(f"{type(adapter).__name__} has no method {missing[0]!r}; see EngineAdapter.")
-        self._adapter, self._session, self._changes = adapter, session, Changes()
+        self._adapter, self._session, self._changes = adapter, session, Changes(session)
         _require_same_scene(self._poses(), session)
 
-    def update(self, touches: Sequence[Touch] = ()) -> HapticFrame:
+    def update(self, touches: Sequence[Touch] | None = (), *, at_sample: int | None = None) -> HapticFrame:
         """Once per frame, on the game's thread: poses that changed, contacts, and touches; these come on top of the
-        engine's own.
+        engine's own. A frame that is refused changes nothing that the next would not hand on again.
 
-        Raises: SceneError: the adapter's poses are none; otherwise as `HapticSession.update`.
+        Parameters, Raises: as `HapticSession.update`; SceneError: the adapter's poses are none.
         """
         poses, followed = self._poses(), self._session.object_ids
 
@@ -59,8 +61,14 @@ class EngineLink:
         contacts: Sequence[Contact] | None = self._adapter.contacts()
         if contacts is not None:
             contacts = [one for one in given_contacts(contacts) if is_played(one.a) and is_played(one.b)]
-        changed = self._changes.of(poses, followed)
-        return self._session.update(changed, [*given_touches(touches), *felt], contacts=contacts)
+        try:
+            changed = self._changes.of(poses)
+            return self._session.update(
+                changed, [*given_touches(touches), *felt], contacts=contacts, at_sample=at_sample
+            )
+        except Exception:
+            self._changes.forget()
+            raise
 
     def _poses(self) -> Mapping[str, Pose]:
         poses: Any = self._adapter.poses()

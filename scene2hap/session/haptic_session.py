@@ -108,6 +108,11 @@ class HapticSession:
         return self._state.ids
 
     @property
+    def poses(self) -> Mapping[str, Pose]:
+        """Where every object is now, by id."""
+        return self._state.poses
+
+    @property
     def snapshot(self) -> SceneSnapshot:
         """The scene as it is now."""
         return self._state.snapshot

@@ -5,12 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 
+import numpy as np
+
 from scene2hap.engines.adapter import EngineAdapter
 from scene2hap.scene.engines.motion import moved
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import Touch
+
+_NEAR_M = 0.1
+"""How far a point may be from the box around what it touches (assumed: fingers have a thickness)."""
 
 
 def check_engine_adapter(
@@ -55,13 +60,29 @@ def _held(adapter: EngineAdapter, scene: SceneSnapshot) -> dict[str, Pose]:
         assert isinstance(touch, Touch), f"touches() has a {type(touch).__name__}; it must have Touch alone"
         assert isinstance(touch.hand, str), f"touches() has the hand {touch.hand!r}; it must be a name"
         assert touch.object_id in poses, f"touches() has {touch.object_id!r}, which poses() has not"
+        _hold_near("touches", touch.point_m, touch.object_id, scene, found)
     is_list = contacts is None or isinstance(contacts, Sequence)
     assert is_list, f"contacts() is a {type(contacts).__name__}; it must be a list, or None to find them"
     for contact in contacts or ():
         assert isinstance(contact, Contact), f"contacts() has a {type(contact).__name__}; it must have Contact alone"
         for end in (contact.a, contact.b):
             assert end in poses, f"contacts() has {end!r}, which poses() has not"
+        for end in (contact.a, contact.b):
+            _hold_near("contacts", contact.point_m, end, scene, found)
     return found
+
+
+def _hold_near(
+    method: str, point_m: tuple[float, float, float], object_id: str, scene: SceneSnapshot, poses: dict[str, Pose]
+) -> None:
+    if object_id not in poses:  # of the engine alone
+        return
+    corners = scene.object(object_id).geometry.mesh.vertices_m
+    own = poses[object_id].to_own(np.array(point_m))
+    off_m = float(np.linalg.norm(np.maximum(0.0, np.maximum(corners.min(axis=0) - own, own - corners.max(axis=0)))))
+    assert off_m <= _NEAR_M, (
+        f"{method}() has a point {off_m:.3g} m off {object_id!r}; points are in the world, in metres"
+    )
 
 
 def _angle_rad(a: Pose, b: Pose) -> float:

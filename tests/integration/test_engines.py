@@ -26,6 +26,7 @@ MODEL = """
     <body name="wooden_table" pos="0 0 0.36"><geom type="box" size="0.6 0.4 0.36"/></body>
     <body name="smartphone" pos="0.2 0 0.73"><freejoint/><geom type="box" size="0.04 0.08 0.005" mass="0.2"/></body>
     <body name="finger" pos="0.35 0 0.77"><freejoint/><geom type="sphere" size="0.01" mass="0.05"/></body>
+    <body name="mist" pos="-0.4 0 0.73"><geom type="sphere" size="0.01" contype="0" conaffinity="0"/></body>
   </worldbody>
 </mujoco>
 """
@@ -61,10 +62,10 @@ def panda3d_engine() -> tuple[Any, SceneSnapshot]:
     return render, snapshot(render, name="study")
 
 
-def other_data() -> Any:
+def data_of(model: str) -> Any:
     import mujoco
 
-    return mujoco.MjData(mujoco.MjModel.from_xml_string("<mujoco/>"))
+    return mujoco.MjData(mujoco.MjModel.from_xml_string(model))
 
 
 def own_engine() -> dict[str, Any]:
@@ -340,6 +341,8 @@ def test_what_an_adapter_may_not_say(given: Any, error: type[Exception], answere
         # w first: no rotation becomes a half turn about x.
         ({"poses": {"table": Pose((0.5, 0.36, 0.2), (1, 0, 0, 0)), "phone": PHONE}}, None, "180 degrees"),
         ({"poses": {"table": TABLE, "phone": Pose((0.2, 0.1, 0.724))}}, None, "'phone' 0.882 m and 0 degrees"),
+        ({"touches": [Touch("left", "phone", (20.0, 72.4, 10.0))]}, None, "touches.. has a point 7.* m off 'phone'"),
+        ({"contacts": [Contact("phone", "table", (20.0, 72.0, 10.0))]}, None, "contacts.. has a point"),
         ({}, "phone", "where it was before the step"),
         ({}, "cup", "which is no object of the scene"),
     ],
@@ -348,6 +351,69 @@ def test_what_the_contract_alone_finds(given: Any, moves: str | None, words: str
     scene = own_scene()
     with pytest.raises(AssertionError, match=words):
         check_engine_adapter(Given(scene, **given), scene, step=lambda: None, moves=moves)
+
+
+@pytest.mark.parametrize("as_table", [False, True])
+def test_a_session_that_differs_is_brought_to_the_engine(as_table: bool) -> None:
+    """By an object that was put back at another place between two frames, and by a frame that was refused."""
+    scene = own_scene()
+    session = HapticSession(scene, bake(scene))
+    adapter = Given(scene)
+    link = EngineLink(adapter, session)
+
+    def put(phone: Pose) -> None:
+        rows = ((TABLE.position_m, phone.position_m), (TABLE.rotation_xyzw, phone.rotation_xyzw))
+        now: Any = {"table": TABLE, "phone": phone}
+        adapter.given["poses"] = PoseTable(["table", "phone"], *rows) if as_table else now
+
+    put(PHONE)
+    link.update()
+    session.remove("phone")
+    session.add(replace(scene.object("phone"), pose=Pose((0.9, 0.724, 0.1))))
+    link.update()
+    assert session.poses["phone"] == PHONE
+    there = Pose((0.7, 0.724, 0.1))
+    put(there)
+    with pytest.raises(UnknownObject, match="'cup'"):
+        link.update([Touch("left", "cup", (0, 0, 0))])
+    link.update()
+    assert session.poses["phone"] == there
+
+
+def test_a_frame_has_its_place_on_the_clock() -> None:
+    scene = own_scene()
+    link = EngineLink(Given(scene), HapticSession(scene, bake(scene)))
+    link.update(at_sample=480)
+    with pytest.raises(SessionError, match="at_sample is 479"):
+        link.update(None, at_sample=479)
+
+
+def test_a_mocap_hand_touches_what_can_move() -> None:
+    """MuJoCo finds no contact between a mocap body and what has no joint."""
+    mujoco = pytest.importorskip("mujoco", reason="needs the extra mujoco")
+    from scene2hap.scene.engines.mujoco import snapshot
+
+    hand = '<body name="glove" mocap="true" pos="0.2 0 0.744"><geom type="sphere" size="0.01"/></body></worldbody>'
+    model = mujoco.MjModel.from_xml_string(MODEL.replace("</worldbody>", hand))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    scene = snapshot(model, data)
+    session = HapticSession(scene, bake(scene))
+    link = MuJoCoLink(model, data, session, hands={"left": "glove"})
+    assert link.update().gain("left", "smartphone") == 1.0
+    data.mocap_pos[0] = (0.4, 0.0, 0.729)
+    mujoco.mj_forward(model, data)
+    assert link.update().gain("left", "smartphone") == 0.0
+
+
+def test_links_are_public_and_load_no_engine() -> None:
+    code = (
+        "import sys, scene2hap as s; print(s.MuJoCoLink is s.engines.MuJoCoLink, s.Panda3DLink, s.EngineLink, "
+        "s.EngineAdapter, s.testing.check_engine_adapter, {'mujoco', 'panda3d'} & set(sys.modules))"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout.startswith("True")
+    assert run.stdout.rstrip().endswith("set()")
 
 
 def test_units_are_compared_while_the_engine_goes_on(mujoco_engine: Any) -> None:
@@ -371,10 +437,19 @@ def test_units_are_compared_while_the_engine_goes_on(mujoco_engine: Any) -> None
 @pytest.mark.parametrize(
     ("make", "error", "words"),
     [
-        (lambda m, d, s: MuJoCoLink(m, other_data(), s), SceneError, "data is of another model"),
+        (lambda m, d, s: MuJoCoLink(m, data_of("<mujoco/>"), s), SceneError, "data is of another model"),
         (lambda m, d, s: MuJoCoLink(m, d), CallError, "missing a required argument: 'session'"),
         (lambda m, d, s: MuJoCoLink(m, d, s, hands="left"), ConfigError, "it must be a mapping of hands to bodies"),
         (lambda m, d, s: MuJoCoLink(m, d, s, hands={"left": ["finger"]}), UnknownObject, "the name of one body"),
+        (
+            lambda m, d, s: MuJoCoLink(m, data_of(MODEL.replace("smartphone", "telephone")), s),
+            SceneError,
+            "whose names",
+        ),
+        (lambda m, d, s: MuJoCoLink(m, d, s, hands={"left": "mist"}), SceneError, "'mist' has no geom that collides"),
+        (lambda m, d, s: MuJoCoLink(m, d, s, hands={"finger": "left"}), UnknownObject, "no body 'left'"),
+        (lambda m, d, s: MuJoCoLink(m, d, s, unit_m="1"), SceneError, "unit_m is '1'"),
+        (lambda m, d, s: EngineLink(Given, s), ConfigError, "adapter is the class Given; give an instance"),
         (lambda m, d, s: MuJoCoLink(d, m, s), SceneError, "they must be mujoco.MjModel and mujoco.MjData"),
         (lambda m, d, s: MuJoCoLink(m, d, "session"), ConfigError, "it must be a HapticSession"),
         (

@@ -91,6 +91,7 @@ def snapshot(
 
 def poses(model: Any, data: Any, *, geom_groups: Collection[int] | None = None, unit_m: float = 1.0) -> PoseTable:
     """Where every object of the last `snapshot` with the same arguments is now, for `HapticSession.update`."""
+    unit_m = checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
     return _poses(model, data, _layout(_engine(model, data), model, geom_groups), unit_m)
 
 
@@ -98,13 +99,14 @@ def contacts(
     model: Any, data: Any, *, geom_groups: Collection[int] | None = None, unit_m: float = 1.0
 ) -> tuple[Contact, ...]:
     """The engine's contacts between objects of the last `snapshot` with the same arguments."""
+    unit_m = checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
     return _contacts(model, data, _layout(_engine(model, data), model, geom_groups), unit_m)
 
 
 def geoms_below(model: Any, data: Any, body: str) -> NDArray[np.bool_]:
     """Which geoms belong to a body or to what hangs on it (n_geoms + 1,), as the fingers on a hand; the last is False.
 
-    Raises: UnknownObject: the model has no body of that name.
+    Raises: UnknownObject: the model has no body of that name. SceneError: none of them can collide.
     """
     mujoco = _engine(model, data)
     named = {mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, k) or "": k for k in range(1, model.nbody)}
@@ -117,7 +119,15 @@ def geoms_below(model: Any, data: Any, body: str) -> NDArray[np.bool_]:
     # MuJoCo numbers a body after the one that it hangs on.
     for below in range(named[body] + 1, model.nbody):
         is_below[below] = is_below[model.body_parentid[below]]
-    return np.append(is_below[model.geom_bodyid], False)
+    found = is_below[model.geom_bodyid]
+    collides = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
+    collides[np.concatenate((model.pair_geom1, model.pair_geom2)).astype(np.intp)] = True
+    if not (found & collides).any():
+        raise SceneError(
+            f"body {body!r} has no geom that collides, nor has any body below it, so it touches nothing. Give one "
+            "contype and conaffinity, or name another body."
+        )
+    return np.append(found, False)
 
 
 def touched(
@@ -186,6 +196,10 @@ def _engine(model: Any, data: Any) -> Any:
             f"data is of another model: it has {has} bodies, geoms and coordinates, and model has {needs}. Make it by "
             "mujoco.MjData(model)."
         )
+    own = getattr(data, "model", model)
+    # A copy of the model is as good as the model.
+    if own is not model and own.names != model.names:
+        raise SceneError("data is of another model, whose names differ. Make it by mujoco.MjData(model).")
     return mujoco
 
 
@@ -208,7 +222,8 @@ class _Items:
         self.all = tuple(items)
         self.ids = tuple(item.id for item in items)
         self.bodies = np.array([item.body for item in items], dtype=np.intp)
-        self.of_world = np.flatnonzero(self.bodies == _WORLD).tolist()
+        self.of_world = np.flatnonzero(self.bodies == _WORLD)
+        self.geoms_of_world = np.array([self.all[row].geoms[0] for row in self.of_world.tolist()], dtype=np.intp)
         self._row_of_geom: NDArray[np.intp] | None = None
 
     def row_of_geom(self, model: Any) -> NDArray[np.intp]:
@@ -311,9 +326,11 @@ def _poses(model: Any, data: Any, items: _Items, unit_m: float) -> PoseTable:
     if model.nbody > 1 and not data.xquat[1:].any():
         raise SceneError("data holds no poses yet; call mujoco.mj_forward(model, data) first.")
     positions, rotations = data.xpos[items.bodies], data.xquat[items.bodies][:, [1, 2, 3, 0]]
-    for row in items.of_world:
-        still = authored_pose(model, items.all[row].geoms[0])
-        positions[row], rotations[row] = still.position_m, still.rotation_xyzw
+    of_world, geoms = items.of_world, items.geoms_of_world
+    positions[of_world], rotations[of_world] = model.geom_pos[geoms], model.geom_quat[geoms][:, [1, 2, 3, 0]]
+    for k in np.flatnonzero(model.geom_dataid[geoms] >= 0).tolist():  # meshes and height fields
+        still = authored_pose(model, int(geoms[k]))
+        positions[of_world[k]], rotations[of_world[k]] = still.position_m, still.rotation_xyzw
     return PoseTable(items.ids, positions * unit_m, rotations)
 
 

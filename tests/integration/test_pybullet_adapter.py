@@ -1,0 +1,79 @@
+"""An engine that scene2hap does not know: PyBullet through an adapter as docs/engines.md describes it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from scene2hap import Box, Contact, EngineLink, HapticSession, Pose, SceneObject, SceneSnapshot, Touch, bake
+from scene2hap.testing import check_engine_adapter
+
+pybullet: Any = pytest.importorskip("pybullet", reason="needs PyBullet: pip install pybullet")
+
+SIZES_M = {"wooden table": (1.2, 0.8, 0.72), "smartphone": (0.07, 0.15, 0.01), "finger": (0.02, 0.02, 0.02)}
+PLACES_M = {"wooden table": (0.0, 0.0, 0.36), "smartphone": (0.2, 0.0, 0.73), "finger": (0.35, 0.0, 0.78)}
+
+
+class PyBullet:
+    """Bodies by the ids of the scene; the body `finger` stands for the left hand."""
+
+    def __init__(self, client: int) -> None:
+        self.client, self.bodies = client, {}
+        for name, (x, y, z) in SIZES_M.items():
+            shape = pybullet.createCollisionShape(
+                pybullet.GEOM_BOX, halfExtents=[x / 2, y / 2, z / 2], physicsClientId=client
+            )
+            mass_kg = 0.0 if name == "wooden table" else 0.1
+            self.bodies[name] = pybullet.createMultiBody(mass_kg, shape, -1, PLACES_M[name], physicsClientId=client)
+        self.names = {body: name for name, body in self.bodies.items()}
+
+    def poses(self) -> dict[str, Pose]:
+        # PyBullet has quaternions as scene2hap has them: x, y, z, w.
+        return {
+            name: Pose(*pybullet.getBasePositionAndOrientation(body, physicsClientId=self.client))
+            for name, body in self.bodies.items()
+        }
+
+    def touches(self) -> list[Touch]:
+        points = pybullet.getContactPoints(bodyA=self.bodies["finger"], physicsClientId=self.client)
+        return [Touch("left", self.names[point[2]], point[6]) for point in points]
+
+    def contacts(self) -> list[Contact]:
+        points = pybullet.getContactPoints(physicsClientId=self.client)
+        return [Contact(self.names[point[1]], self.names[point[2]], point[6], point[7]) for point in points]
+
+    def step(self) -> None:
+        for _ in range(24):
+            pybullet.stepSimulation(physicsClientId=self.client)
+
+
+@pytest.fixture
+def engine() -> Iterator[PyBullet]:
+    client = pybullet.connect(pybullet.DIRECT)
+    pybullet.setGravity(0, 0, -9.81, physicsClientId=client)
+    yield PyBullet(client)
+    pybullet.disconnect(client)
+
+
+def scene_of(engine: PyBullet) -> SceneSnapshot:
+    poses = engine.poses()
+    objects = [SceneObject(name, pose=poses[name], geometry=Box(size)) for name, size in SIZES_M.items()]
+    return SceneSnapshot("desk", "z", tuple(objects))
+
+
+def test_the_adapter_keeps_the_contract(engine: PyBullet) -> None:
+    check_engine_adapter(engine, scene_of(engine), step=engine.step, moves="finger")
+
+
+def test_a_falling_finger_feels_the_phone_through_the_table(engine: PyBullet) -> None:
+    scene = scene_of(engine)
+    session = HapticSession(scene, bake(scene))
+    link = EngineLink(engine, session)
+    felt = [link.update().gain("left", "smartphone")]
+    for _ in range(10):
+        engine.step()
+        felt.append(link.update().gain("left", "smartphone"))
+    assert felt[0] == 0.0
+    assert felt[-1] > 0.05
