@@ -8,6 +8,7 @@ Processor time of `link.update` less that of the same `session.update`, median o
 
 from __future__ import annotations
 
+import argparse
 import itertools
 import time
 from collections.abc import Callable
@@ -67,7 +68,7 @@ def moving_ms(data: Any, session: HapticSession, link: MuJoCoLink, n_moving: int
     start = np.array(PLACES_M[:n_moving])
     ready = []
     for way_m in (0.0, 0.0002):
-        places = start + (way_m, 0, 0)
+        places = start + np.array([way_m, 0, 0])
         ready.append((places, PoseTable(NAMES[:n_moving], places, [(0, 0, 0, 1)] * n_moving)))
     frames = itertools.cycle(ready)
 
@@ -86,6 +87,7 @@ def moving_ms(data: Any, session: HapticSession, link: MuJoCoLink, n_moving: int
 
 def main() -> None:
     """Measure and print."""
+    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
     made, data = model()
     scene = mujoco_scene.snapshot(made, data)
     session = HapticSession(scene, bake(scene))
