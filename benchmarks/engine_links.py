@@ -14,9 +14,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-import mujoco
 import numpy as np
-from panda3d import core
 
 from scene2hap import HapticSession, PoseTable, Touch, bake
 from scene2hap.engines import MuJoCoLink, Panda3DLink
@@ -40,6 +38,8 @@ def cpu_ms(act: Callable[[], object], n_calls: int = 200) -> float:
 
 def model() -> tuple[Any, Any]:
     """Boxes that rest on a floor, with four contact points each."""
+    import mujoco
+
     bodies = "".join(
         f'<body name="{name}" pos="{x} {y} {z}"><freejoint/><geom type="box" size=".05 .05 .05"/></body>'
         for name, (x, y, z) in zip(NAMES, PLACES_M, strict=True)
@@ -51,8 +51,10 @@ def model() -> tuple[Any, Any]:
     return made, data
 
 
-def graph() -> core.NodePath:
+def graph() -> Any:
     """Cards where the boxes are."""
+    from panda3d import core
+
     render = core.NodePath("render")
     for name, place in zip(NAMES, PLACES_M, strict=True):
         card = core.CardMaker(name)
