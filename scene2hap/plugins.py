@@ -10,13 +10,18 @@ imported at first use; another package joins by an entry point of the same group
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
+from inspect import signature
+from typing import Any
 
 from scene2hap.calls import misfit
 from scene2hap.checks import described, did_you_mean, represented, shown
 from scene2hap.errors import ConfigError, MissingExtra, UnknownPlugin
+
+Members = Mapping[str, tuple[str, ...] | None]
+"""What an implementation must have: methods with the names of their arguments, and attributes (None)."""
 
 
 @dataclass(frozen=True)
@@ -24,12 +29,13 @@ class PluginGroup:
     """The implementations of one protocol.
 
     `name` is the entry-point group (``"scene2hap.llm"``); `builtins` maps a kind to ``"module:attribute"``; `extras`
-    maps a kind to the extra that brings its optional dependency.
+    maps a kind to the extra that brings its optional dependency; `members` are those that its protocol asks for.
     """
 
     name: str
     builtins: Mapping[str, str]
     extras: Mapping[str, str]
+    members: Members = field(default_factory=dict)
 
     def kinds(self) -> tuple[str, ...]:
         """Every name that `load` accepts, sorted."""
@@ -55,9 +61,15 @@ class PluginGroup:
     def build(self, spec: object) -> object:
         """An implementation from configuration: a kind, a mapping with a `kind` and its settings, or one ready made.
 
-        Raises: ConfigError: no `kind`, settings that the implementation does not take, or plain data or a class where
-        an implementation is expected; and as `load`.
+        Raises: ConfigError: no `kind`, settings that the implementation does not take, or plain data, a class or
+        something without the protocol's members where an implementation is expected; and as `load`.
         """
+        made = self._made(spec)
+        if problem := lacking(made, self.members):
+            raise ConfigError(f"{self.name}: {problem}")
+        return made
+
+    def _made(self, spec: object) -> object:
         if isinstance(spec, str):
             spec = {"kind": spec}
         if not isinstance(spec, Mapping):
@@ -105,3 +117,22 @@ class PluginGroup:
             raise ConfigError(f"{self.name} kind {entry.name!r} ({entry.value}) does not import: {cause}") from cause
         except AttributeError as cause:
             raise ConfigError(f"{self.name} kind {entry.name!r}: {entry.value} does not exist.") from cause
+
+
+def lacking(made: object, members: Members) -> str:
+    """The sentence for the first member that an object of somebody else's lacks, or whose arguments differ; else empty.
+
+    Without it a guest's mistake would be an AttributeError or a TypeError from within this library.
+    """
+    needed = ", ".join(name if takes is None else f"{name}({', '.join(takes)})" for name, takes in members.items())
+    for name, takes in members.items():
+        member: Any = getattr(made, name, None)
+        if not (hasattr(made, name) if takes is None else callable(member)):
+            return f"{_class_of(made)} has no {name!r}; it must have {needed}. See docs/plugins.md."
+        if takes is not None and misfit(member, takes, {}):
+            return f"{_class_of(made)}.{name}{signature(member)} must take ({', '.join(takes)}). See docs/plugins.md."
+    return ""
+
+
+def _class_of(made: object) -> str:
+    return "None" if made is None else type(made).__name__

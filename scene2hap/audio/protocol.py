@@ -5,10 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
+import numpy as np
+
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.errors import AudioError
 from scene2hap.haptics import ActuatorProfile, VibrationDescription
+from scene2hap.plugins import Members, lacking
 
 
 @runtime_checkable
@@ -63,3 +66,27 @@ class TactileConverter(Protocol):
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> TactileStream:
         """A fresh conversion at that rate. Several may run at once, in threads of their own."""
         ...
+
+
+_STREAM: Members = {"process": ("block",), "finish": ()}
+
+
+def opened_stream(converter: TactileConverter, sample_rate_hz: int, context: ConversionContext) -> TactileStream:
+    """A fresh conversion. Raises: AudioError: what the converter gave is none."""
+    stream = converter.stream(sample_rate_hz, context)
+    if problem := lacking(stream, _STREAM):
+        raise AudioError(f"{type(converter).__name__}.stream gave no TactileStream: {problem}")
+    return stream
+
+
+def one_channel(converter: TactileConverter, block: Samples) -> Samples:
+    """What a converter's stream gave, as float32 (n,). Raises: AudioError: it is no row of samples."""
+    try:
+        found: Samples | None = np.asarray(block, dtype=np.float32)
+    except (TypeError, ValueError):
+        found = None
+    if found is None or found.ndim != 1:
+        raise AudioError(
+            f"the stream of {type(converter).__name__} gave {checks.described(block)}; it must give samples (n,)."
+        )
+    return found

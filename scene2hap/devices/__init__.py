@@ -14,4 +14,5 @@ SINKS = PluginGroup(
         "tee": "scene2hap.devices.tee:TeeSink",
     },
     extras={"serial": "serial", "vhp": "serial", "soundcard": "soundcard"},
+    members={"open": ("format",), "start": ("fill",), "stop": (), "close": (), "stats": None},
 )

@@ -16,4 +16,5 @@ BACKENDS = PluginGroup(
         "standard": "scene2hap.llm.wrappers:standard_stack",
     },
     extras={},
+    members={"complete": ("request",)},
 )

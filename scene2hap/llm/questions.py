@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import inspect
 from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any, TypeVar
@@ -10,7 +11,7 @@ from typing import Any, TypeVar
 from pydantic import ValidationError
 
 from scene2hap import checks
-from scene2hap.errors import BackendUnavailable, BadAnswer, Scene2HapError
+from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError, Scene2HapError
 from scene2hap.llm import chat
 from scene2hap.llm.answers import Answer
 from scene2hap.llm.prompts import Prompts
@@ -46,6 +47,18 @@ class Questions:
         self._temperature = temperature
         self._wishes = wishes or {}
 
+    async def _completed(self, request: LLMRequest) -> LLMReply:
+        """The backend's reply. Raises: ConfigError: what it gave is none, as every further question would meet."""
+        by, awaited = f"{type(self._backend).__name__}.complete", self._backend.complete(request)
+        if not inspect.isawaitable(awaited):
+            raise ConfigError(
+                f"{by} gave {checks.described(awaited)}; write it as 'async def complete(self, request)'."
+            )
+        reply = await awaited
+        if not isinstance(reply, LLMReply):
+            raise ConfigError(f"{by} gave {checks.described(reply)}; it must be an LLMReply(text, model).")
+        return reply
+
     async def ask(
         self,
         component: Component,
@@ -74,7 +87,7 @@ class Questions:
                 raise self.closed_by
             self.report.calls[component] += 1
             try:
-                reply = await self._backend.complete(request)
+                reply = await self._completed(request)
             except Scene2HapError as problem:
                 if isinstance(problem, chat.UnusableAnswer):  # it was paid for all the same
                     self.report.take(LLMReply("", problem.model, usage=problem.usage))

@@ -19,6 +19,7 @@ MODELS = PluginGroup(
         "full_propagation": "scene2hap.propagation.controls:FullPropagation",
     },
     extras={},
+    members={"prepare": ("network", "excitations", "bands")},
 )
 
 

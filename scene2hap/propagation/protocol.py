@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.errors import ModelDomainError
 from scene2hap.haptics import Bands
+from scene2hap.plugins import Members, lacking
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import InRectangle, as_points
 from scene2hap.scene.objects import Contact
@@ -121,6 +122,31 @@ class CarryingField(PropagationField, Protocol):
         Returns: empty where nothing arrives, and on the source itself.
         """
         ...
+
+
+def checked_field(
+    model: PropagationModel, field: PropagationField, excitations: Sequence[Excitation]
+) -> PropagationField:
+    """The field that a model prepared.
+
+    Raises: ModelDomainError: it is none, or has other sources than were asked for.
+    """
+    made_by = f"{type(model).__name__}.prepare"
+    if problem := lacking(field, _FIELD):
+        raise ModelDomainError(f"{made_by} gave no PropagationField: {problem}")
+    ids, asked = (
+        checks.items("source_ids", field.source_ids, error=ModelDomainError),
+        {x.source_id for x in excitations},
+    )
+    if set(ids) != asked:
+        raise ModelDomainError(
+            f"{made_by} gave a field of the sources {checks.shown(list(ids))}; it must have those of its excitations, "
+            f"{checks.shown(sorted(asked))}."
+        )
+    return field
+
+
+_FIELD: Members = {"source_ids": None, "attenuation": ("object_id", "points_m")}
 
 
 @runtime_checkable

@@ -20,7 +20,13 @@ from weakref import WeakKeyDictionary
 
 from scene2hap.haptics import Bands
 from scene2hap.propagation.live import TouchedPoint
-from scene2hap.propagation.protocol import Excitation, ExpectantField, PropagationField, PropagationModel
+from scene2hap.propagation.protocol import (
+    Excitation,
+    ExpectantField,
+    PropagationField,
+    PropagationModel,
+    checked_field,
+)
 from scene2hap.scene.pose import Pose
 from scene2hap.session.scene_state import ModelInput
 
@@ -97,7 +103,8 @@ class Desk:
     def prepare(self, situation: Situation, near: Collection[str] = ()) -> Prepared:
         """A field of the objects connected to some objects; of all objects if none are given."""
         network, covers = situation.network(near)
-        return Prepared(self.model.prepare(network, situation.excitations, self.bands), situation, covers)
+        field = self.model.prepare(network, situation.excitations, self.bands)
+        return Prepared(checked_field(self.model, field, situation.excitations), situation, covers)
 
     def work(self, newest: Prepared) -> None:
         """Follow orders until the last; `newest` is the field that is in use."""

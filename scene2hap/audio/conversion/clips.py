@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.protocol import ConversionContext, TactileConverter
+from scene2hap.audio.protocol import ConversionContext, TactileConverter, one_channel, opened_stream
 from scene2hap.errors import AudioError
 
 PRE_ROLL_S = 1.0
@@ -22,8 +22,8 @@ def convert_clip(clip: AudioClip, converter: TactileConverter, context: Conversi
     """
     n_before = min(round(PRE_ROLL_S * clip.sample_rate_hz), len(clip.samples) - 1)
     fed = np.concatenate([clip.samples[n_before:0:-1], clip.samples])
-    stream = converter.stream(clip.sample_rate_hz, context)
-    felt = np.concatenate([stream.process(fed), stream.finish()])
+    stream = opened_stream(converter, clip.sample_rate_hz, context)
+    felt = np.concatenate([one_channel(converter, stream.process(fed)), one_channel(converter, stream.finish())])
     if len(felt) != len(fed):
         raise AudioError(
             f"{type(converter).__name__} made {len(felt)} samples of {len(fed)}; touch must stay in step with sound. "

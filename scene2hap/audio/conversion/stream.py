@@ -16,7 +16,13 @@ from scene2hap import checks
 from scene2hap.audio.actuators import actuator_profile
 from scene2hap.audio.conversion.meter import Meter
 from scene2hap.audio.files import opened_sound, require_finite, written_whole
-from scene2hap.audio.protocol import ConversionContext, TactileConverter, TactileStream
+from scene2hap.audio.protocol import (
+    ConversionContext,
+    TactileConverter,
+    TactileStream,
+    one_channel,
+    opened_stream,
+)
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.errors import AudioError, ConfigError
 
@@ -145,9 +151,11 @@ class _Felt:
         self.before, self.after = (
             Meter(self.rate, self.channels, n_frames=int(file.frames), n_columns=n_columns) for _ in range(2)
         )
-        self._name = type(converter).__name__
+        self._converter, self._name = converter, type(converter).__name__
         self._mono = mono
-        self._streams: list[TactileStream] = [converter.stream(self.rate, context) for _ in range(self.channels)]
+        self._streams: list[TactileStream] = [
+            opened_stream(converter, self.rate, context) for _ in range(self.channels)
+        ]
 
     def blocks(self, source: Path, file: soundfile.SoundFile) -> Iterator[Block]:
         """The converted file (n, channels), within full scale."""
@@ -173,6 +181,7 @@ class _Felt:
             )
 
     def _felt(self, channels: list[NDArray[np.float32]]) -> Block:
+        channels = [one_channel(self._converter, channel) for channel in channels]
         if len({len(channel) for channel in channels}) > 1:
             raise AudioError(f"{self._name} made {[len(channel) for channel in channels]} samples of equal channels.")
         block = np.stack(channels, axis=1).astype(np.float32, copy=False)

@@ -13,4 +13,5 @@ SOURCES = PluginGroup(
         "synth": "scene2hap.audio.sources.synth:Synthesizer",
     },
     extras={},
+    members={"find": ("description",)},
 )

@@ -11,6 +11,7 @@ import logging
 import warnings
 from collections.abc import Sequence
 
+from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.protocol import AudioSource
 from scene2hap.audio.sources.store import is_long_enough
@@ -27,6 +28,13 @@ class SourceWarning(UserWarning):
     """A sound source failed, and the next one was queried."""
 
 
+def _clips(found: object) -> list[AudioClip]:
+    """What a source found. Raises: AudioError: it is no list of clips."""
+    if not isinstance(found, list | tuple) or not all(isinstance(clip, AudioClip) for clip in found):
+        raise AudioError(f"find gave {checks.described(found)}; it must give a list of AudioClip, which may be empty.")
+    return list(found)
+
+
 def gather(
     subject: str, description: VibrationDescription, sources: Sequence[AudioSource], *, enough: int = ENOUGH
 ) -> list[AudioClip]:
@@ -41,7 +49,7 @@ def gather(
     for source in sources:
         name = type(source).__name__
         try:
-            clips = source.find(description)
+            clips = _clips(source.find(description))
         except Exception as cause:
             # Guests raise what they like; a broken source must not end a bake that another one can finish.
             told = str(cause) if isinstance(cause, Scene2HapError) else f"{type(cause).__name__}: {cause}"
@@ -57,6 +65,6 @@ def gather(
         return found
     raise AudioError(
         f"no sound for {subject!r} ({description.keywords!r}) in any of {len(sources)} sources"
-        f"{': ' + '; '.join(fates) if fates else ''}. "
+        f"{': ' + '; '.join(fates).removesuffix('.') if fates else ''}. "
         "Add the synthesizer (kind 'synth') as the last source: it always has one."
     )

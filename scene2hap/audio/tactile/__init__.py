@@ -20,4 +20,5 @@ CONVERTERS = PluginGroup(
         "svf_bandpass": f"{_HERE}.svf_bandpass:SvfBandpass",
     },
     extras={},
+    members={"stream": ("sample_rate_hz", "context")},
 )

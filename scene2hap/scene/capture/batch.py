@@ -16,7 +16,7 @@ from pathlib import Path
 from scene2hap.errors import ConfigError
 from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.photographer import Photographer
-from scene2hap.scene.capture.protocol import RendererFactory
+from scene2hap.scene.capture.protocol import RendererFactory, made_renderer
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.studio import CaptureStats, Studio
 from scene2hap.scene.images import ImageSet, Shot
@@ -116,7 +116,7 @@ def _written(setting: tuple[Stage, CaptureConfig, RendererFactory, tuple[int | N
 def _set_up(setting: Path) -> None:
     global _photographer
     stage, config, factory, below = pickle.loads(setting.read_bytes())
-    _photographer = Photographer(stage, factory(stage, config.antialias), config, below)
+    _photographer = Photographer(stage, made_renderer(factory, stage, config.antialias), config, below)
 
 
 def _take(shots: list[Shot]) -> list[tuple[Shot, bytes]]:

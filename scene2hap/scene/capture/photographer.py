@@ -11,7 +11,7 @@ from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.culling import Culler
 from scene2hap.scene.capture.outline import mark
 from scene2hap.scene.capture.png import png
-from scene2hap.scene.capture.protocol import Renderer, Selection
+from scene2hap.scene.capture.protocol import Renderer, Selection, drawn
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import Camera, frame
 from scene2hap.scene.images import Shot
@@ -56,7 +56,7 @@ class Photographer:
     def take(self, shot: Shot) -> bytes:
         """The picture as a PNG file."""
         camera, selection = self.aim(shot)
-        picture, ids = self.renderer.draw(camera, selection)
+        picture, ids = drawn(self.renderer, camera, selection)
         if shot.kind == "context" and shot.subject is not None:
             is_target = ids == self.stage.index[shot.subject]
             mark(picture, is_target, self.config.outline_px, self.config.outline_rgb)

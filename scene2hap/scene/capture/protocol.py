@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from inspect import signature
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap import checks
+from scene2hap.calls import misfit
+from scene2hap.errors import ConfigError
+from scene2hap.plugins import Members, lacking
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import Camera
 
@@ -46,3 +51,31 @@ class Renderer(Protocol):
 
 RendererFactory = Callable[[Stage, bool], Renderer]
 """Builds a renderer for a stage; the flag asks for smooth edges."""
+
+_RENDERER: Members = {"identify": ("camera", "selection"), "draw": ("camera", "selection")}
+
+
+def drawn(renderer: Renderer, camera: Camera, selection: Selection) -> tuple[Pixels, Ids]:
+    """A picture. Raises: ConfigError: the renderer gave something else."""
+    size, given = (camera.size_px, camera.size_px), renderer.draw(camera, selection)
+    by = f"{type(renderer).__name__}.draw"
+    if not isinstance(given, tuple) or len(given) != 2:
+        raise ConfigError(f"{by} gave {checks.described(given)}; it must give pixels and ids.")
+    for name, found, shape in (("pixels", given[0], (*size, 3)), ("ids", given[1], size)):
+        if np.shape(found) != shape or np.asarray(found).dtype.kind not in "ui":
+            raise ConfigError(
+                f"{by} gave {name} of shape {np.shape(found)} and type {np.asarray(found).dtype}; they must be "
+                f"integers of shape {shape}."
+            )
+    return given
+
+
+def made_renderer(factory: RendererFactory, stage: Stage, smooth: bool) -> Renderer:
+    """A renderer for a stage. Raises: ConfigError: what the factory gave is none."""
+    name = getattr(factory, "__qualname__", repr(factory))
+    if misfit(factory, (stage, smooth), {}):
+        raise ConfigError(f"{name}{signature(factory)} must take (stage, smooth) and give a Renderer.")
+    renderer = factory(stage, smooth)
+    if problem := lacking(renderer, _RENDERER):
+        raise ConfigError(f"{name} gave no Renderer: {problem}")
+    return renderer

@@ -11,7 +11,7 @@ from threading import RLock
 from scene2hap.scene.capture.cache import MEMORY, FolderCache
 from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.photographer import Photographer
-from scene2hap.scene.capture.protocol import RendererFactory
+from scene2hap.scene.capture.protocol import RendererFactory, made_renderer
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.surroundings import Copies, supports
 from scene2hap.scene.images import Shot
@@ -114,7 +114,7 @@ class Studio:
 
     @cached_property
     def _photographer(self) -> Photographer:
-        renderer = self.factory(self.stage, self.config.antialias)
+        renderer = made_renderer(self.factory, self.stage, self.config.antialias)
         return Photographer(self.stage, renderer, self.config, self.below)
 
     def _key(self, shot: Shot) -> str:
