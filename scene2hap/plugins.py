@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
-from inspect import signature
+from inspect import isfunction, signature
 from typing import Any
 
 from scene2hap.calls import misfit
@@ -25,17 +25,30 @@ Members = Mapping[str, tuple[str, ...] | None]
 
 
 @dataclass(frozen=True)
+class Guest:
+    """An implementation that another package registered; `problem` says why it does not load, empty if it does."""
+
+    group: str
+    kind: str
+    value: str
+    package: str
+    problem: str
+
+
+@dataclass(frozen=True)
 class PluginGroup:
     """The implementations of one protocol.
 
     `name` is the entry-point group (``"scene2hap.llm"``); `builtins` maps a kind to ``"module:attribute"``; `extras`
-    maps a kind to the extra that brings its optional dependency; `members` are those that its protocol asks for.
+    maps a kind to the extra that brings its optional dependency; `members` are those that its protocol asks for;
+    `wraps_functions` names the class that makes an implementation of a plain function, if there is one.
     """
 
     name: str
     builtins: Mapping[str, str]
     extras: Mapping[str, str]
     members: Members = field(default_factory=dict)
+    wraps_functions: str = ""
 
     def kinds(self) -> tuple[str, ...]:
         """Every name that `load` accepts, sorted."""
@@ -58,6 +71,19 @@ class PluginGroup:
             f"A package adds one by an entry point in the group {self.name!r}."
         )
 
+    def guests(self) -> tuple[Guest, ...]:
+        """What other packages registered, each loaded to see whether it does."""
+        found = []
+        for entry in self._guests():
+            try:
+                self._resolve(entry)
+                problem = ""
+            except Exception as cause:  # a module of somebody else's, which raises what it likes
+                problem = str(cause) if isinstance(cause, ConfigError) else f"{type(cause).__name__}: {cause}"
+            package = f"{entry.dist.name} {entry.dist.version}" if entry.dist else "an unknown package"
+            found.append(Guest(self.name, entry.name, entry.value, package, problem))
+        return tuple(found)
+
     def build(self, spec: object) -> object:
         """An implementation from configuration: a kind, a mapping with a `kind` and its settings, or one ready made.
 
@@ -66,6 +92,8 @@ class PluginGroup:
         """
         made = self._made(spec)
         if problem := lacking(made, self.members):
+            if self.wraps_functions and isfunction(made):
+                problem += f" {self.wraps_functions} makes one of a function."
             raise ConfigError(f"{self.name}: {problem}")
         return made
 
@@ -130,7 +158,8 @@ def lacking(made: object, members: Members) -> str:
         if not (hasattr(made, name) if takes is None else callable(member)):
             return f"{_class_of(made)} has no {name!r}; it must have {needed}. See docs/plugins.md."
         if takes is not None and misfit(member, takes, {}):
-            return f"{_class_of(made)}.{name}{signature(member)} must take ({', '.join(takes)}). See docs/plugins.md."
+            own = ", ".join(signature(member).parameters)
+            return f"{_class_of(made)}.{name}({own}) must take ({', '.join(takes)}). See docs/plugins.md."
     return ""
 
 

@@ -1,4 +1,5 @@
-"""Tell what this machine has for scene2hap: extras, sound cards and serial ports; and what to install for the rest.
+"""Tell what this machine has for scene2hap: extras, plug-ins, sound cards and serial ports; and what to install for
+the rest.
 
 `--sweep soundcard` (or any other sink) plays a quiet sweep on each hand in turn, through the safety layer. With
 `--loop-back` an input listens meanwhile, by a cable from the output or as a sound server's monitor; told is how long
@@ -16,12 +17,14 @@ import time
 from contextlib import nullcontext
 from dataclasses import asdict
 from importlib import metadata
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import __version__, checks
+from scene2hap.audio.sources import SOURCES
+from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.cli.console import Console
 from scene2hap.compiled import are_in_use
 from scene2hap.devices import SINKS, loop_back
@@ -29,7 +32,10 @@ from scene2hap.devices.clock import has_clock
 from scene2hap.devices.protocol import ActuatorSink, Block, SinkFormat
 from scene2hap.errors import ConfigError, DeviceError, MissingExtra
 from scene2hap.haptics import ActuatorProfile
+from scene2hap.llm import BACKENDS
+from scene2hap.propagation import MODELS
 from scene2hap.render.safety import SafetyLayer
+from scene2hap.scene.capture import RENDERERS
 
 HELP = "what this machine has, what is missing, and a test sweep"
 
@@ -73,6 +79,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         "system": platform.platform(),
         "kernels": "compiled" if are_in_use() else "plain",
         "extras": extras(),
+        "plugins": guests(),
         "sound_cards": sound_cards(),
         "serial_ports": serial_ports(),
     }
@@ -83,6 +90,13 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         ("extra", "package", "installed", "to install"),
         ((row["extra"], row["package"], row["version"] or "no", row["hint"]) for row in outcome["extras"]),
     )
+    console.say("Plug-ins:")
+    for row in outcome["plugins"]:
+        console.say(
+            f"  {row['group']} {row['kind']!r}, {row['value']} of {row['package']}: {row['problem'] or 'loads'}"
+        )
+    if not outcome["plugins"]:
+        console.say("  none")
     for what, found in (("Sound cards", outcome["sound_cards"]), ("Serial ports", outcome["serial_ports"])):
         console.say(f"{what}:")
         for line in found["found"] or [found["problem"] or "none"]:
@@ -110,6 +124,12 @@ def extras() -> list[dict[str, str]]:
     return rows
 
 
+def guests() -> list[dict[str, str]]:
+    """Each plug-in that a package registered: its group, kind, package, and why it does not load if it does not."""
+    groups = (BACKENDS, SOURCES, CONVERTERS, MODELS, SINKS, RENDERERS)
+    return [asdict(guest) for group in groups for guest in group.guests()]
+
+
 def sound_cards() -> dict[str, Any]:
     """The cards that could play, or why none can be looked for."""
     from scene2hap.devices import portaudio
@@ -135,9 +155,7 @@ def sweep(spec: object, hands: tuple[str, ...], console: Console, *, listen_to: 
 
     `listen_to` is an input's name or index, "" for what looks like a loop-back. Raises: ConfigError, DeviceError.
     """
-    sink = SINKS.build(spec)
-    if not isinstance(sink, ActuatorSink):
-        raise ConfigError(f"--sweep {spec!r} is no sink; kinds are {', '.join(SINKS.kinds())}.")
+    sink = cast("ActuatorSink", SINKS.build(spec))
     if listen_to is not None and not has_clock(sink):
         raise ConfigError(f"--loop-back cannot hear --sweep {spec!r}, which plays nothing; sweep a sound card.")
     if hasattr(sink, "on_event"):

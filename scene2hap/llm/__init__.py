@@ -17,4 +17,5 @@ BACKENDS = PluginGroup(
     },
     extras={},
     members={"complete": ("request",)},
+    wraps_functions="FunctionBackend",
 )

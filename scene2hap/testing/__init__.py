@@ -1,5 +1,22 @@
-"""Contracts for parts that others write: functions that raise AssertionError where a part breaks its protocol."""
+"""Contracts for parts that others write: functions that raise AssertionError where a part breaks its protocol.
 
+They need no pytest; call them in a test of yours. Our own parts are held against the same functions.
+"""
+
+from scene2hap.testing.actuator_sink import check_actuator_sink
+from scene2hap.testing.audio_source import check_audio_source
 from scene2hap.testing.engine_adapter import check_engine_adapter
+from scene2hap.testing.llm_backend import check_llm_backend
+from scene2hap.testing.propagation_model import check_propagation_model
+from scene2hap.testing.renderer import check_renderer
+from scene2hap.testing.tactile_converter import check_tactile_converter
 
-__all__ = ["check_engine_adapter"]
+__all__ = [
+    "check_actuator_sink",
+    "check_audio_source",
+    "check_engine_adapter",
+    "check_llm_backend",
+    "check_propagation_model",
+    "check_renderer",
+    "check_tactile_converter",
+]

@@ -1,6 +1,9 @@
 """One door for built-ins and guests."""
 
+import re
+from dataclasses import replace
 from importlib.metadata import EntryPoint
+from pathlib import Path
 
 import pytest
 
@@ -62,3 +65,42 @@ def test_broken_guest_is_our_error(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(plugins, "entry_points", lambda group: (guest,))
     with pytest.raises(ConfigError, match="does not import"):
         GROUP.load("broken")
+
+
+def test_guests_are_listed_with_what_is_wrong_with_them(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    (tmp_path / "scene2hap_breaks.py").write_text("1 / 0")
+    monkeypatch.syspath_prepend(tmp_path)
+    found = {
+        "decimal": "decimal:Decimal",
+        "broken": "scene2hap_no_such:Thing",
+        "gone": "math:no",
+        "breaks": "scene2hap_breaks:X",
+    }
+    guests = tuple(EntryPoint(name, value, GROUP.name) for name, value in found.items())
+    monkeypatch.setattr(plugins, "entry_points", lambda group: guests)
+    problems = {guest.kind: guest.problem for guest in GROUP.guests()}
+    assert problems.pop("decimal") == ""
+    assert "does not import" in problems["broken"]
+    assert "math:no does not exist" in problems["gone"]
+    assert problems["breaks"] == "ZeroDivisionError: division by zero"
+
+
+class Half:
+    def start(self) -> None:
+        """Without what it must take."""
+
+
+@pytest.mark.parametrize(
+    ("members", "words"),
+    [
+        ({"stop": ()}, "Half has no 'stop'; it must have stop()"),
+        ({"stats": None}, "Half has no 'stats'; it must have stats"),
+        ({"start": ("fill",)}, "Half.start() must take (fill)"),
+        ({"__doc__": ()}, "Half has no '__doc__'"),
+    ],
+)
+def test_what_lacks_a_member_is_told_by_its_class(members: plugins.Members, words: str) -> None:
+    group = replace(GROUP, members=members)
+    with pytest.raises(ConfigError, match=re.escape(f"scene2hap.test: {words}")):
+        group.build(Half())
+    assert not plugins.lacking(Half(), {"start": (), "__module__": None})

@@ -1,0 +1,91 @@
+"""The contract of `ActuatorSink`."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+from scene2hap.devices import SINKS
+from scene2hap.devices.clock import has_clock
+from scene2hap.devices.protocol import ActuatorSink, Block, SinkFormat, SinkStats
+from scene2hap.plugins import lacking
+
+
+def check_actuator_sink(
+    make: Callable[[], ActuatorSink],
+    *,
+    sample_rate_hz: int = 48_000,
+    channels: tuple[str, ...] = ("left", "right"),
+    within_s: float = 5.0,
+) -> None:
+    """Hold a sink against its protocol: opened, started, drawn from, stopped and closed, the last two twice.
+
+    Parameters: make : a fresh sink, called twice; within_s : time that a device may take until it asks for frames [s].
+    Raises: AssertionError: the sentence says which promise is broken.
+    """
+    _hold_unused(make())
+    sink, tone = make(), _Tone(sample_rate_hz, len(channels))
+    name = type(sink).__name__
+    sink.open(SinkFormat(sample_rate_hz, channels))
+    try:
+        sink.start(tone)
+        if has_clock(sink):
+            until = time.monotonic() + within_s
+            while tone.n_frames == 0 and time.monotonic() < until:
+                time.sleep(0.01)
+        else:
+            for n_frames in (1, 480, 4801):
+                sink.pull(n_frames)  # type: ignore[attr-defined]  # without a clock
+    finally:
+        sink.stop()
+    assert tone.n_frames, f"{name} has asked for no frames within {within_s} s of start"
+    assert not tone.has_overlapped, f"{name} asked for frames while it was being given some"
+    taken = tone.n_frames
+    time.sleep(0.05)
+    assert tone.n_frames == taken, f"{name} asks for frames after stop"
+    sink.stop()
+    sink.close()
+    sink.close()
+    stats = _stats(sink)
+    assert stats.frames > 0, f"{name}.stats has {stats.frames} frames after {taken} were taken"
+    assert stats.faults == 0, f"{name}.stats has {stats.faults} faults"
+
+
+def _hold_unused(sink: ActuatorSink) -> None:
+    """A session may end before it began."""
+    problem = lacking(sink, SINKS.members)
+    assert not problem, problem
+    assert _stats(sink).frames == 0, f"{type(sink).__name__}.stats has frames before any were taken"
+    sink.stop()
+    sink.close()
+
+
+def _stats(sink: ActuatorSink) -> SinkStats:
+    stats = sink.stats
+    assert isinstance(stats, SinkStats), (
+        f"{type(sink).__name__}.stats is a {type(stats).__name__}; it must be SinkStats"
+    )
+    return stats
+
+
+class _Tone:
+    """A quiet tone on all channels, that notices when two ask at once."""
+
+    def __init__(self, sample_rate_hz: int, n_channels: int) -> None:
+        self.n_frames, self.has_overlapped = 0, False
+        self._rate, self._n_channels, self._busy = sample_rate_hz, n_channels, threading.Lock()
+
+    def __call__(self, n_frames: int) -> Block:
+        if not self._busy.acquire(blocking=False):
+            self.has_overlapped = True
+            self._busy.acquire()
+        try:
+            t = np.arange(self.n_frames, self.n_frames + n_frames) / self._rate
+            self.n_frames += n_frames
+            tone = (0.01 * np.sin(2 * np.pi * 150 * t)).astype(np.float32)
+            return np.tile(tone[:, None], self._n_channels)
+        finally:
+            self._busy.release()

@@ -1,0 +1,67 @@
+"""The contract of `LLMBackend`."""
+
+from __future__ import annotations
+
+import asyncio
+import copy
+import inspect
+from collections import Counter
+
+from scene2hap.llm import BACKENDS
+from scene2hap.llm.chain import infer_haptics
+from scene2hap.llm.protocol import LLMBackend, LLMReply, LLMRequest
+from scene2hap.plugins import lacking
+from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.shapes import Box
+from scene2hap.scene.snapshot import SceneSnapshot
+
+ROOM = SceneSnapshot.build(
+    [
+        SceneObject("wooden table", pose=Pose((0.0, 0.36, 0.0)), geometry=Box((1.2, 0.72, 0.7))),
+        SceneObject("smartphone", pose=Pose((0.3, 0.724, 0.1)), geometry=Box((0.07, 0.008, 0.15))),
+        SceneObject("electric fan", pose=Pose((-0.3, 0.92, 0.1)), geometry=Box((0.3, 0.4, 0.3))),
+    ],
+    name="a study",
+)
+
+
+def check_llm_backend(backend: LLMBackend, scene: SceneSnapshot = ROOM) -> None:
+    """Hold a backend against its protocol: it is asked all that a scene needs, several questions at once, and each of
+    its answers must hold.
+
+    Parameters: scene : what is asked about, three objects by default; a paid service is paid for some ten answers.
+    Raises: AssertionError: the sentence says which promise is broken; and what the backend raises.
+    """
+    problem = lacking(backend, BACKENDS.members)
+    assert not problem, problem
+    watched = _Watched(backend)
+    objects = infer_haptics(scene, watched)
+    name = type(backend).__name__
+    assert set(objects) == {item.id for item in scene.objects}
+    unanswered = {key: haptics.provenance for key, haptics in objects.items() if haptics.object_category == "unknown"}
+    assert len(unanswered) < len(objects), f"{name} has no answer for any object: {unanswered}"
+    for component in ("scene_analyzer", "object_analyzer"):
+        assert watched.asked[component], f"{name} was not asked for the {component}"
+
+
+class _Watched:
+    """Passes questions on and looks at what comes back."""
+
+    def __init__(self, backend: LLMBackend) -> None:
+        self.asked: Counter[str] = Counter()
+        self._backend = backend
+
+    async def complete(self, request: LLMRequest) -> LLMReply:
+        """See `LLMBackend`."""
+        by, facts = f"{type(self._backend).__name__}.complete", copy.deepcopy(request.facts)
+        self.asked[request.component] += 1
+        awaited = self._backend.complete(request)
+        assert inspect.isawaitable(awaited), f"{by} gives a {type(awaited).__name__}; write it as 'async def complete'"
+        reply = await asyncio.ensure_future(awaited)
+        assert isinstance(reply, LLMReply), f"{by} gives a {type(reply).__name__}; it must give an LLMReply"
+        assert isinstance(reply.text, str), f"{by} gives a text that is a {type(reply.text).__name__}"
+        assert isinstance(reply.model, str), f"{by} gives a model that is a {type(reply.model).__name__}"
+        assert reply.model, f"{by} does not say which model answered"
+        assert request.facts == facts, f"{by} changed the facts of its request"
+        return reply

@@ -1,0 +1,99 @@
+"""The contract of `PropagationModel`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.haptics import Bands
+from scene2hap.materials import lookup
+from scene2hap.plugins import lacking
+from scene2hap.propagation import MODELS
+from scene2hap.propagation.plate import Plate, RigidBody
+from scene2hap.propagation.protocol import (
+    ContactNetwork,
+    Excitation,
+    PropagationField,
+    PropagationModel,
+    checked_field,
+)
+from scene2hap.scene.objects import Contact
+from scene2hap.scene.pose import Pose
+
+_TURNED = (-0.5, -0.5, -0.5, 0.5)  # a plate's normal points along y, which is up
+_NETWORK = ContactNetwork(
+    {
+        "table": Plate(1.2, 0.7, 0.03, lookup("oak")),
+        "shelf": Plate(0.8, 0.3, 0.018, lookup("plywood")),
+        "phone": RigidBody(0.2, (0.15, 0.07, 0.008)),
+    },
+    [Contact("phone", "table", (x, 0.72, z)) for x in (0.2, 0.26) for z in (0.2, 0.34)],
+    {"table": Pose((0.0, 0.705, 0.0), _TURNED), "shelf": Pose((4.0, 1.2, 0.0), _TURNED)},
+)
+_PHONE, _FAN = Excitation("phone", 180.0, 180.0, 0.2), Excitation("fan", 47.0, 94.0, 1.5)
+_ON_TABLE = [(0.3, 0.72, 0.3), (0.9, 0.72, 0.5), (0.0, 0.72, 0.0)]
+_BANDS = (Bands.dominant(), Bands((40.0, 80.0, 160.0, 320.0)))
+
+
+def check_propagation_model(model: PropagationModel) -> None:
+    """Hold a model against its protocol: a phone on a table, a fan that touches nothing, a shelf out of reach; and no
+    source, no body, no point.
+
+    Raises: AssertionError: the sentence says which promise is broken.
+    """
+    problem = lacking(model, MODELS.members)
+    assert not problem, problem
+    for bands in _BANDS:
+        _hold_answers(model, bands)
+        for network, sources in ((_NETWORK, ()), (ContactNetwork({}), (_FAN,)), (ContactNetwork({}), ())):
+            _answers(model, model.prepare(network, sources, bands), "table", _ON_TABLE, len(sources), bands)
+
+
+def _hold_answers(model: PropagationModel, bands: Bands) -> None:
+    name, sources = type(model).__name__, (_FAN, _PHONE)
+    field = checked_field(model, model.prepare(_NETWORK, sources, bands), sources)
+    order = {source_id: column for column, source_id in enumerate(field.source_ids)}
+
+    def answers(object_id: str, points: Sequence[tuple[float, float, float]]) -> NDArray[np.float64]:
+        return _answers(model, field, object_id, points, len(sources), bands)
+
+    own = answers("phone", _ON_TABLE)[:, order["phone"]]
+    assert np.allclose(own, 1.0, atol=1e-9), f"{name}: a source is felt on itself by {own.min():.3g}; it must be 1"
+    for object_id in ("shelf", "cup"):
+        far = answers(object_id, _ON_TABLE)
+        assert not far.any(), f"{name}: {far.max():.3g} arrives on {object_id!r}, which nothing reaches; it must be 0"
+    table = answers("table", _ON_TABLE)
+    lone = table[:, order["fan"]]
+    assert not lone.any(), f"{name}: {lone.max():.3g} of a source that touches nothing arrives; it must be 0"
+    assert answers("table", []).size == 0, f"{name} answers for no point"
+    one_by_one = np.concatenate([answers("table", [point]) for point in _ON_TABLE])
+    assert np.allclose(one_by_one, table, rtol=1e-6, atol=1e-12), f"{name}: a point's answer depends on the others"
+    again = model.prepare(_NETWORK, sources, bands)
+    same = np.array_equal(_answers(model, again, "table", _ON_TABLE, len(sources), bands), table)
+    assert same, f"{name}: the same scene, prepared again, answers otherwise"
+    with ThreadPoolExecutor(2) as threads:
+        for found in threads.map(lambda _: answers("table", _ON_TABLE), range(4)):
+            assert np.allclose(found, table, rtol=1e-6, atol=1e-12), f"{name}: two threads at once get other answers"
+
+
+def _answers(
+    model: PropagationModel,
+    field: PropagationField,
+    object_id: str,
+    points: Sequence[tuple[float, float, float]],
+    n_sources: int,
+    bands: Bands,
+) -> NDArray[np.float64]:
+    by, given = f"attenuation of {type(model).__name__}'s field", np.array(points, dtype=np.float64).reshape(-1, 3)
+    kept = given.copy()
+    found = np.asarray(field.attenuation(object_id, given))
+    shape = (len(points), n_sources, bands.n_bands)
+    assert found.shape == shape, f"{by} has shape {found.shape}; it must be {shape}: points, sources and bands"
+    assert found.dtype == np.float64, f"{by} is {found.dtype}; it must be float64"
+    assert np.isfinite(found).all(), f"{by} holds a value that is not finite"
+    assert (found >= 0).all(), f"{by} holds {found.min():.3g}; it must be at least 0"
+    assert np.array_equal(given, kept), f"{by} changed the points that it was given"
+    return found

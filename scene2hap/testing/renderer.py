@@ -1,0 +1,59 @@
+"""The contract of `RendererFactory` and `Renderer`."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from scene2hap.scene.capture.protocol import RendererFactory, Selection, drawn, made_renderer
+from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.views import frame
+from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.shapes import Box
+from scene2hap.scene.snapshot import SceneSnapshot
+
+_ROOM = SceneSnapshot.build(
+    [
+        SceneObject("table", pose=Pose((0.0, 0.36, 0.0)), geometry=Box((1.2, 0.72, 0.7))),
+        SceneObject("crate", pose=Pose((0.3, 0.92, 0.1)), geometry=Box((0.3, 0.4, 0.3))),
+        SceneObject("lamp", pose=Pose((-0.4, 0.92, 0.1)), geometry=Box((0.1, 0.4, 0.1))),
+    ]
+)
+_SIZE_PX = 64
+
+
+def check_renderer(factory: RendererFactory) -> None:
+    """Hold a renderer against its protocol: a table with two things on it, all of it, one of them, and nothing.
+
+    Raises: AssertionError: the sentence says which promise is broken; ConfigError: what it gives is no picture.
+    """
+    stage = Stage.of(_ROOM)
+    points = np.concatenate([actor.points_m for actor in stage.actors])
+    camera = frame(points, 30.0, 35.0, stage.up_axis, 0.8, _SIZE_PX)
+    for smooth in (False, True):
+        renderer = made_renderer(factory, stage, smooth)
+        name = type(renderer).__name__
+        for shown in (stage.everyone, frozenset({1}), frozenset[int]()):
+            selection = Selection(shown)
+            pixels, ids = drawn(renderer, camera, selection)
+            seen = set(np.unique(ids).tolist()) - {-1}
+            assert pixels.dtype == np.uint8, f"{name}.draw gives pixels of type {pixels.dtype}; it must be uint8"
+            assert seen == shown, f"{name} shows the actors {sorted(seen)}; asked for were {sorted(shown)}"
+            identified = renderer.identify(camera, selection)
+            assert np.array_equal(identified, ids), f"{name}.identify and draw tell other ids"
+            again, _ = drawn(renderer, camera, selection)
+            assert np.array_equal(again, pixels), f"{name} draws the same picture otherwise when it is asked again"
+            _hold_background(name, pixels, ids)
+
+
+def _hold_background(name: str, pixels: np.ndarray[tuple[int, ...], np.dtype[np.uint8]], ids: object) -> None:
+    """Objects stand out from one plain background."""
+    is_background = np.asarray(ids) == -1
+    inner = is_background.copy()
+    for axis in (0, 1):  # smooth edges mix both
+        for way in (-1, 1):
+            inner &= np.roll(is_background, way, axis)
+    colours = np.unique(pixels[inner].reshape(-1, 3), axis=0)
+    assert len(colours) == 1, f"{name} draws a background of {len(colours)} colours; it must be one"
+    if not is_background.all():
+        assert (pixels[~is_background] != colours[0]).any(), f"{name} draws objects in the colour of the background"

@@ -1,0 +1,102 @@
+"""The contract of `TactileConverter`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from scene2hap.audio.clip import Samples
+from scene2hap.audio.protocol import ConversionContext, TactileConverter, one_channel, opened_stream
+from scene2hap.audio.tactile import CONVERTERS
+from scene2hap.errors import AudioError
+from scene2hap.haptics import ActuatorProfile
+from scene2hap.plugins import lacking
+
+_CONTEXTS = (
+    ConversionContext(),
+    ConversionContext(intensity=0.4, neighbours_hz=(170.0, 210.0)),
+    ConversionContext(ActuatorProfile("lra", 100.0, 400.0, 175.0, 8.0), 0.5, (200.0,), 187.0, 230.0),
+)
+_RATES_HZ = (8000, 16_000, 44_100, 48_000, 192_000)
+_SIZES = (0, 1, 2, 3, 17, 128, 1000, 4096)
+
+
+def check_tactile_converter(converter: TactileConverter) -> None:
+    """Hold a converter against its protocol: a machine's hum at all rates, in blocks of all sizes, full scale and
+    beyond, silence, nothing, a value that is not finite, and two streams at once.
+
+    Raises: AssertionError: the sentence says which promise is broken.
+    """
+    problem = lacking(converter, CONVERTERS.members)
+    assert not problem, problem
+    name = type(converter).__name__
+    for context in _CONTEXTS:
+        for rate_hz in _RATES_HZ:
+            assert _felt(converter, context, _machine(rate_hz, 0.3), rate_hz).any(), f"{name} makes a hum silent"
+        _hold_block_sizes(converter, context)
+        loud = 3 * np.sign(np.sin(2 * np.pi * 200 * np.arange(16_000) / 8000)).astype(np.float32)
+        _felt(converter, context, loud, 8000)
+        silent = _felt(converter, context, np.zeros(12_000, np.float32), 8000)
+        assert not silent.any(), f"{name} makes {np.abs(silent).max():.3g} of silence"
+        _felt(converter, context, np.zeros(0, np.float32), 8000)
+        _hold_refusal(converter, context)
+    x = _machine(8000, 0.4)
+    opened_stream(converter, 8000, _CONTEXTS[0]).process(x)
+    _hold_same(converter, _CONTEXTS[0], x, "a second stream goes on where the first was")
+
+
+def _hold_block_sizes(converter: TactileConverter, context: ConversionContext) -> None:
+    x = _machine(8000)
+    whole = _felt(converter, context, x, 8000)
+    for seed in (0, 1):
+        cuts = np.cumsum(np.random.default_rng(seed).choice(_SIZES, 400))
+        found = _felt(converter, context, x, 8000, [int(cut) for cut in cuts if cut < len(x)])
+        assert np.array_equal(found.view(np.uint32), whole.view(np.uint32)), (
+            f"{type(converter).__name__}: blocks of other sizes give other samples, by up to "
+            f"{np.abs(found - whole).max():.3g}; carry the state from block to block"
+        )
+
+
+def _hold_refusal(converter: TactileConverter, context: ConversionContext) -> None:
+    """What is not finite is refused and leaves no trace."""
+    name, x = type(converter).__name__, _machine(8000, 0.2)
+    for bad in (np.nan, np.inf, -np.inf):
+        wrong, stream = x.copy(), opened_stream(converter, 8000, context)
+        wrong[12] = bad
+        try:
+            stream.process(wrong)
+        except AudioError:
+            pass
+        else:
+            raise AssertionError(f"{name} takes a sample that is {bad}; it must raise an AudioError")
+        after = np.concatenate([one_channel(converter, stream.process(x)), one_channel(converter, stream.finish())])
+        fresh = _felt(converter, context, x, 8000)
+        assert np.array_equal(after, fresh), f"{name}: a block that was refused changes what follows"
+
+
+def _hold_same(converter: TactileConverter, context: ConversionContext, x: Samples, otherwise: str) -> None:
+    first, second = (_felt(converter, context, x, 8000) for _ in range(2))
+    assert np.array_equal(first, second), f"{type(converter).__name__}: {otherwise}"
+
+
+def _machine(rate_hz: int, seconds: float = 1.6) -> Samples:
+    """A hum whose pitch jumps half-way, with noise; within full scale."""
+    t = np.arange(round(rate_hz * seconds)) / rate_hz
+    hum = np.where(t < 0.8, np.sin(2 * np.pi * 187 * t), np.sin(2 * np.pi * 120 * t))
+    noise = np.random.default_rng(11).uniform(-1, 1, t.size)
+    return (0.5 * hum + 0.2 * np.sin(2 * np.pi * 41 * t) + 0.3 * noise).astype(np.float32)
+
+
+def _felt(
+    converter: TactileConverter, context: ConversionContext, x: Samples, rate_hz: int, cuts: Sequence[int] = ()
+) -> Samples:
+    """All samples of a stream, held against what all of them promise."""
+    name, stream = type(converter).__name__, opened_stream(converter, rate_hz, context)
+    parts = [one_channel(converter, stream.process(block)) for block in np.split(x, list(cuts))]
+    felt = np.concatenate([*parts, one_channel(converter, stream.finish())])
+    assert len(felt) == len(x), f"{name} makes {len(felt)} samples of {len(x)}, counting finish()"
+    assert np.isfinite(felt).all(), f"{name} makes a sample that is not finite"
+    most = np.abs(felt).max(initial=0.0)
+    assert most <= 1.0, f"{name} makes a sample of {most:.3g}; full scale is 1"
+    return felt

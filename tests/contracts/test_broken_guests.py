@@ -1,0 +1,303 @@
+"""A guest for each promise that it breaks: the contract finds it, by a sentence that names the guest."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from scene2hap import MemorySink
+from scene2hap.audio.clip import AudioClip, Credit
+from scene2hap.audio.sources.synth import Synthesizer
+from scene2hap.audio.tactile import CONVERTERS
+from scene2hap.devices.protocol import SinkFormat, SinkStats
+from scene2hap.errors import Scene2HapError
+from scene2hap.llm.lexicon import LexiconBackend
+from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.propagation.controls import FullPropagation
+from scene2hap.testing import (
+    check_actuator_sink,
+    check_audio_source,
+    check_llm_backend,
+    check_propagation_model,
+    check_renderer,
+    check_tactile_converter,
+)
+
+Change = Callable[..., Any]
+
+
+class Field:
+    """What `FullPropagation` answers, changed."""
+
+    def __init__(self, whole: Any, change: Change) -> None:
+        self.source_ids, self._whole, self._change = whole.source_ids, whole, change
+
+    def attenuation(self, object_id: str, points_m: NDArray[np.float64]) -> Any:
+        return self._change(self._whole.attenuation(object_id, points_m), object_id, points_m)
+
+
+class Model:
+    def __init__(self, change: Change) -> None:
+        self._change = change
+
+    def prepare(self, network: Any, excitations: Any, bands: Any) -> Any:
+        return Field(FullPropagation().prepare(network, excitations, bands), self._change)
+
+
+class NoSources:
+    def prepare(self, network: Any, excitations: Any, bands: Any) -> Any:
+        return object()
+
+
+class OtherSources(Model):
+    def prepare(self, network: Any, excitations: Any, bands: Any) -> Any:
+        field = super().prepare(network, excitations, bands)
+        field.source_ids = ("cup",)
+        return field
+
+
+def moved_points(found: Any, _: str, points: NDArray[np.float64]) -> Any:
+    points += 1.0
+    return found
+
+
+MODELS: list[tuple[Any, str]] = [
+    (object(), "object has no 'prepare'"),
+    (NoSources(), "NoSources.prepare gave no PropagationField: object has no 'source_ids'"),
+    (OtherSources(lambda found, *_: found), r"of the sources ['cup']"),
+    (Model(lambda found, *_: found[0]), "Model's field has shape"),
+    (Model(lambda found, *_: found.astype(np.float32)), "is float32; it must be float64"),
+    (Model(lambda found, *_: found * np.nan), "not finite"),
+    (Model(lambda found, *_: found - 1), "it must be at least 0"),
+    (Model(lambda found, *_: found / 2), "a source is felt on itself by 0.5; it must be 1"),
+    (Model(lambda found, *_: np.maximum(found, 0.1)), "it must be"),
+    (Model(lambda found, key, _: found + 0.2 * (key == "shelf")), "arrives on 'shelf', which nothing reaches"),
+    (Model(lambda found, key, points: found * (len(points) if key == "table" else 1)), "depends on the others"),
+    (Model(moved_points), "changed the points that it was given"),
+]
+
+
+@pytest.mark.parametrize(("model", "words"), MODELS)
+def test_propagation_models(model: Any, words: str) -> None:
+    with pytest.raises((AssertionError, Scene2HapError), match=re.escape(words)):
+        check_propagation_model(model)
+
+
+class Idle(MemorySink):
+    def pull(self, n_frames: int) -> Any:
+        return np.zeros((n_frames, 2), np.float32)
+
+
+class Uncounted(MemorySink):
+    stats = SinkStats()  # type: ignore[assignment]
+
+
+class Wordless(MemorySink):
+    stats = None  # type: ignore[assignment]
+
+
+class OpensAlone(MemorySink):
+    def open(self) -> None:  # type: ignore[override]
+        pass
+
+
+class Once(MemorySink):
+    def open(self, format: SinkFormat) -> None:
+        super().open(format)
+        self.n_stops = 0
+
+    def stop(self) -> None:
+        super().stop()
+        self.n_stops = getattr(self, "n_stops", 0) + 1
+        assert self.n_stops < 2, "Once was stopped twice"
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (object, "object has no 'open'"),
+        (OpensAlone, r"OpensAlone.open\(\) must take \(format\)"),
+        (Idle, "Idle has asked for no frames"),
+        (Uncounted, "Uncounted.stats has 0 frames after"),
+        (Wordless, "Wordless.stats is a NoneType"),
+        (Once, "Once was stopped twice"),
+    ],
+)
+def test_sinks(make: Any, words: str) -> None:
+    with pytest.raises(AssertionError, match=words):
+        check_actuator_sink(make, within_s=0.2)
+
+
+class Converter:
+    """The low-pass, with its blocks and its end changed."""
+
+    def __init__(self, change: Change, end: Change = lambda rest: rest) -> None:
+        self._change, self._end, self._whole = change, end, CONVERTERS.build("lowpass")
+
+    def stream(self, sample_rate_hz: int, context: Any) -> Any:
+        guest, stream = self, self._whole.stream(sample_rate_hz, context)  # type: ignore[attr-defined]
+
+        class Stream:
+            def process(self, block: Any) -> Any:
+                return guest._change(stream.process(block))
+
+            def finish(self) -> Any:
+                return guest._end(stream.finish())
+
+        return Stream()
+
+
+class Deaf(Converter):
+    def stream(self, sample_rate_hz: int, context: Any) -> Any:
+        stream = super().stream(sample_rate_hz, context)
+        process = stream.process
+        stream.process = lambda block: process(np.nan_to_num(block, posinf=0, neginf=0))
+        return stream
+
+
+@pytest.mark.parametrize(
+    ("converter", "words"),
+    [
+        (object(), "object has no 'stream'"),
+        (Converter(lambda block: None), "the stream of Converter gave None"),
+        (Converter(lambda block: np.stack([block, block])), "it must give samples"),
+        (Converter(lambda block: block[1:]), "Converter makes .* samples of"),
+        (Converter(lambda block: block * np.nan), "not finite"),
+        (Converter(lambda block: 30 * block), "full scale is 1"),
+        (Converter(lambda block: 0 * block), "makes a hum silent"),
+        (Converter(lambda block: block + 0.01 * (1 - abs(block))), "of silence"),
+        (Converter(lambda block: block * (1 - 0.1 * (len(block) < 100))), "blocks of other sizes give other samples"),
+        (Deaf(lambda block: block), "takes a sample that is nan"),
+    ],
+)
+def test_converters(converter: Any, words: str) -> None:
+    with pytest.raises((AssertionError, Scene2HapError), match=words):
+        check_tactile_converter(converter)
+
+
+class Source:
+    def __init__(self, found: Callable[[], Any]) -> None:
+        self._found = found
+
+    def find(self, description: Any) -> Any:
+        return self._found()
+
+
+def clip(samples: Any, title: str = "a sound") -> AudioClip:
+    return AudioClip(np.asarray(samples, np.float32), 48_000, Credit(title, "me", "CC0-1.0"))
+
+
+class Restless(Synthesizer):
+    def find(self, description: Any) -> Any:
+        return [clip(np.random.default_rng().uniform(-1, 1, 4800))]
+
+
+@pytest.mark.parametrize(
+    ("source", "words"),
+    [
+        (object(), "object has no 'find'"),
+        (Source(lambda: None), "Source.find gives a NoneType"),
+        (Source(lambda: (clip([1.0]),)), "Source.find gives a tuple"),
+        (Source(lambda: [np.zeros(9)]), "Source.find gives a ndarray"),
+        (Source(list), "Source finds nothing for 'smartphone buzzing'"),
+        (Source(lambda: [clip(np.zeros(4800))]), "a clip that is silent"),
+        (Restless(), "Restless finds something else"),
+    ],
+)
+def test_sources(source: Any, words: str) -> None:
+    with pytest.raises(AssertionError, match=words):
+        check_audio_source(source)
+
+
+class Backend:
+    def __init__(self, change: Callable[[LLMReply, LLMRequest], Any]) -> None:
+        self._change = change
+
+    async def complete(self, request: LLMRequest) -> Any:
+        return self._change(await LexiconBackend().complete(request), request)
+
+
+class Hasty:
+    def complete(self, request: LLMRequest) -> LLMReply:
+        return LLMReply("{}", "hasty")
+
+
+def spoiled(reply: LLMReply, request: LLMRequest) -> LLMReply:
+    request.facts["object_name"] = "spoon"  # type: ignore[index]
+    return reply
+
+
+@pytest.mark.parametrize(
+    ("backend", "words"),
+    [
+        (object(), "object has no 'complete'"),
+        (Hasty(), "write it as 'async def complete'"),
+        (Backend(lambda reply, _: reply.text), "Backend.complete gives a str"),
+        (Backend(lambda reply, _: LLMReply(reply.text, "")), "does not say which model answered"),
+        (Backend(lambda reply, _: LLMReply("", "m")), "answered without content"),
+        (Backend(lambda reply, _: LLMReply('{"wrong": 1}', "m")), "object_category: Field required"),
+        (Backend(spoiled), "changed the facts"),
+    ],
+)
+def test_backends(backend: Any, words: str) -> None:
+    with pytest.raises((AssertionError, Scene2HapError), match=words):
+        check_llm_backend(backend)
+
+
+class Renderer:
+    """Rows of the actors that are shown, changed."""
+
+    def __init__(self, stage: Any, smooth: bool) -> None:
+        pass
+
+    def identify(self, camera: Any, selection: Any) -> Any:
+        ids = np.full((camera.size_px,) * 2, -1, np.int32)
+        for row, number in enumerate(sorted(selection.shown)):
+            ids[3 + row] = number
+        return ids
+
+    def draw(self, camera: Any, selection: Any) -> Any:
+        ids = self.identify(camera, selection)
+        return np.repeat(np.where(ids < 0, 255, 0)[..., None], 3, axis=2).astype(np.uint8), ids
+
+
+def changed(change: Callable[[Any, Any], Any]) -> type[Renderer]:
+    class Changed(Renderer):
+        def draw(self, camera: Any, selection: Any) -> Any:
+            return change(*super().draw(camera, selection))
+
+    return Changed
+
+
+def restless(pixels: Any, ids: Any) -> Sequence[Any]:
+    pixels[0, 0] = np.random.default_rng().integers(0, 200, 3)
+    return pixels, ids
+
+
+def test_a_plain_renderer_passes() -> None:
+    check_renderer(Renderer)
+
+
+@pytest.mark.parametrize(
+    ("factory", "words"),
+    [
+        (lambda stage: None, "must take"),
+        (lambda stage, smooth: None, "None has no 'identify'"),
+        (changed(lambda pixels, ids: pixels), "gave a ndarray; it must give pixels and ids"),
+        (changed(lambda pixels, ids: (pixels[:9], ids)), "gave pixels of shape"),
+        (changed(lambda pixels, ids: (pixels / 255, ids)), "float64"),
+        (changed(lambda pixels, ids: (pixels.astype(int), ids)), "it must be uint8"),
+        (changed(lambda pixels, ids: (pixels, ids + 1)), "shows the actors"),
+        (changed(lambda pixels, ids: (pixels, np.roll(ids, 1, axis=0))), "identify and draw tell other ids"),
+        (changed(lambda pixels, ids: (np.full_like(pixels, 255), ids)), "in the colour of the background"),
+        (changed(restless), "asked again"),
+    ],
+)
+def test_renderers(factory: Any, words: str) -> None:
+    with pytest.raises((AssertionError, Scene2HapError), match=words):
+        check_renderer(factory)

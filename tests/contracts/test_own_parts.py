@@ -1,0 +1,60 @@
+"""Every part of ours that needs no device and no network, held against the contracts that guests run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from scene2hap import MemorySink, WavSink
+from scene2hap.audio.sources.synth import Synthesizer
+from scene2hap.audio.tactile import CONVERTERS
+from scene2hap.devices.tee import TeeSink
+from scene2hap.llm.lexicon import LexiconBackend
+from scene2hap.llm.replay import RecordingBackend, ReplayBackend
+from scene2hap.propagation import MODELS
+from scene2hap.scene.capture import RENDERERS
+from scene2hap.testing import (
+    check_actuator_sink,
+    check_audio_source,
+    check_llm_backend,
+    check_propagation_model,
+    check_renderer,
+    check_tactile_converter,
+)
+
+SETTINGS: dict[str, dict[str, Any]] = {"mass_spring_damper": {"resolution": 8}}
+
+
+@pytest.mark.parametrize("kind", MODELS.kinds())
+@pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
+def test_propagation_models(kind: str) -> None:
+    check_propagation_model(MODELS.build({"kind": kind, **SETTINGS.get(kind, {})}))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("kind", CONVERTERS.kinds())
+def test_converters(kind: str) -> None:
+    check_tactile_converter(CONVERTERS.build(kind))  # type: ignore[arg-type]
+
+
+def test_sinks(tmp_path: Path) -> None:
+    check_actuator_sink(MemorySink)
+    check_actuator_sink(lambda: WavSink(tmp_path / "mix.wav"))
+    check_actuator_sink(lambda: TeeSink([MemorySink(), WavSink(tmp_path / "both.wav")]), channels=("left",))
+
+
+def test_backends(tmp_path: Path) -> None:
+    check_llm_backend(LexiconBackend())
+    check_llm_backend(RecordingBackend(LexiconBackend(), tmp_path / "answers.jsonl"))
+    check_llm_backend(ReplayBackend(tmp_path / "answers.jsonl"))
+
+
+def test_sources() -> None:
+    check_audio_source(Synthesizer())
+
+
+@pytest.mark.parametrize("kind", RENDERERS.kinds())
+def test_renderers(kind: str) -> None:
+    pytest.importorskip({"embree": "embreex", "panda3d": "panda3d.core"}[kind], exc_type=ImportError)
+    check_renderer(RENDERERS.load(kind))  # type: ignore[arg-type]
