@@ -82,7 +82,13 @@ def __getattr__(name: str) -> Any:
         return value
     if name in _ROOMS:
         return import_module(f"scene2hap.{name}")
-    raise AttributeError(f"module 'scene2hap' has no attribute {name!r}")
+    from importlib.util import find_spec
+
+    if name.startswith("_") or find_spec(f"{__name__}.{name}") is not None:  # a room that is about to be imported
+        raise AttributeError(f"module 'scene2hap' has no attribute {name!r}")
+    from scene2hap.attributes import unknown_attribute
+
+    raise unknown_attribute("scene2hap", name, __dir__())
 
 
 def __dir__() -> list[str]:

@@ -18,6 +18,7 @@ from scene2hap.materials import Material
 from scene2hap.needs import stated, unmet
 
 
+@clear_construction
 @dataclass(frozen=True)
 class SourceState:
     """One way in which an object vibrates, such as "on", "ringing" or "boiling".
@@ -61,6 +62,7 @@ def unmet_needs(object_id: str, states: Sequence[SourceState], categories: Mappi
     )
 
 
+@clear_construction
 @dataclass(frozen=True)
 class ObjectHaptics:
     """Answers of inference about one object.
@@ -97,6 +99,7 @@ class ObjectHaptics:
             raise ConfigError(f"{self.object_category!r} vibrates but has no state; give it at least one SourceState.")
 
 
+@clear_construction
 @dataclass(frozen=True)
 class VibrationDescription:
     """The request to a sound source: one state of one object.
@@ -164,6 +167,7 @@ class ActuatorProfile:
         return frequency, level
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Bands:
     """The frequency bands of the gains.

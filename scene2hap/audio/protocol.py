@@ -7,6 +7,7 @@ from typing import Protocol, runtime_checkable
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Samples
+from scene2hap.calls import clear_construction
 from scene2hap.errors import AudioError
 from scene2hap.haptics import ActuatorProfile, VibrationDescription
 
@@ -20,6 +21,7 @@ class AudioSource(Protocol):
         ...
 
 
+@clear_construction
 @dataclass(frozen=True)
 class ConversionContext:
     """The scene, as far as a converter needs it.

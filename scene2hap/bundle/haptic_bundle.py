@@ -13,11 +13,12 @@ from scene2hap.bundle.checking import require_plausible
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.folder import read_bundle, write_bundle
 from scene2hap.bundle.override import Override
-from scene2hap.calls import clear_call
+from scene2hap.calls import clear_calls
 from scene2hap.errors import BundleError
 from scene2hap.materials import Material
 
 
+@clear_calls
 @dataclass(frozen=True)
 class HapticBundle(BundleContents):
     """A baked scene: what is in it, what inference says of each object, and the loops of each source by state.
@@ -26,7 +27,6 @@ class HapticBundle(BundleContents):
     candidates in text, by id and state; `made_with` are the settings that all loops share, None where nobody knows.
     """
 
-    @clear_call
     def override(
         self,
         object_id: str,
@@ -69,7 +69,6 @@ class HapticBundle(BundleContents):
         loops = {object_id: states for object_id, states in self.loops.items() if object_id not in silenced}
         return replace(self, objects=objects, loops=loops)
 
-    @clear_call
     def save(self, folder: str | os.PathLike[str]) -> Path:
         """Write the folder whole or not at all; a bundle that is there already is replaced, and what is not ours stays.
 
@@ -79,7 +78,6 @@ class HapticBundle(BundleContents):
         return write_bundle(self, checks.path("folder", folder, error=BundleError))
 
     @classmethod
-    @clear_call
     def load(cls, folder: str | os.PathLike[str]) -> Self:
         """Read a folder that `save` wrote, edited or not.
 

@@ -11,6 +11,7 @@ from typing import Any
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.files import read_clip
+from scene2hap.calls import clear_construction
 from scene2hap.errors import BundleError
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.materials import Material, lookup
@@ -22,6 +23,7 @@ USER = "user"
 _MOST_GAIN_DB = 60.0
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Override:
     """A correction; None leaves what was inferred.

@@ -14,6 +14,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, cast
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.contact.finder import ContactFinder
 from scene2hap.contact.junction import ContactArrays, Junction, Pair, junctions_of, pair_of
 from scene2hap.contact.toleranced.touch_finder import TouchFinder
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+@clear_construction
 @dataclass(frozen=True)
 class ContactChange:
     """What an update did, as pairs (a, b) of ids with a < b.
@@ -50,6 +52,7 @@ _MANY_LATE = 8  # So many tables of poses wait at most before they are read.
 _LONGEST_LOG = 16  # So many versions back the changes are known.
 
 
+@clear_construction
 class ContactGraph:
     """The contacts of a scene, kept up to date as its objects move.
 

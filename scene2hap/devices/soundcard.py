@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_calls
 from scene2hap.devices import portaudio
 from scene2hap.devices.link import CarryOn, LiveSink
 from scene2hap.devices.playback_ring import PlaybackRing
@@ -54,6 +55,7 @@ class SoundCardStats(SinkStats):
     device: str = ""
 
 
+@clear_calls
 class SoundCardSink(LiveSink):
     """Plays each hand on a channel of a sound card.
 

@@ -7,12 +7,14 @@ import json
 from collections.abc import Awaitable, Callable, Mapping
 from typing import Any
 
+from scene2hap.calls import clear_construction
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 
 Returned = LLMReply | Mapping[str, Any] | str
 """A whole reply, an answer as JSON values, or a text."""
 
 
+@clear_construction
 class FunctionBackend:
     """Answers by calling `function(request)`, which may be async; what it raises passes through.
 

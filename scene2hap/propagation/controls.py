@@ -12,12 +12,14 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap.calls import clear_construction
 from scene2hap.haptics import Bands
 from scene2hap.propagation.paths import cheapest_arrivals
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
 
 
+@clear_construction
 @dataclass(frozen=True)
 class NoPropagation:
     """Only the source itself vibrates."""
@@ -29,6 +31,7 @@ class NoPropagation:
         return ReachField(tuple((item.source_id, frozenset({item.source_id})) for item in excitations), bands.n_bands)
 
 
+@clear_construction
 @dataclass(frozen=True)
 class FullPropagation:
     """Every object that a source reaches over contacts vibrates as strongly as the source; `max_hops` as in the paper's

@@ -101,6 +101,7 @@ class Plate:
         return k
 
 
+@clear_construction
 @dataclass(frozen=True)
 class RigidBody:
     """A compact body that moves as a whole.

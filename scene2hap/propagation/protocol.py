@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.plate import Plate, RigidBody
@@ -24,6 +25,7 @@ from scene2hap.scene.pose import Pose
 Body = Plate | RigidBody
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Excitation:
     """A vibrating object: its dominant frequency before and after the tactile band-pass [Hz], and its mass [kg]."""
@@ -41,6 +43,7 @@ class Excitation:
             object.__setattr__(self, name, value)
 
 
+@clear_construction
 @dataclass(frozen=True)
 class ContactNetwork:
     """The bodies of a scene, where they touch (world points [m]) and where they are.

@@ -61,6 +61,7 @@ class Contact:
         object.__setattr__(self, "weight", weight if weight > _LEAST_WEIGHT else 0.0)
 
 
+@clear_construction
 @dataclass(frozen=True, init=False)
 class SceneObject:
     """One thing that a user would point at.

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
 
 # A quaternion this close to unit length is kept to the last bit, so that JSON round trips are exact.
@@ -20,6 +21,7 @@ _UNIT_TOLERANCE = 1e-9
 _LEAST_SLANT = 1e-9  # a target straighter above than this leaves no side
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Pose:
     """A rigid placement: x_world = R x_own + position.

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from pydantic import PlainSerializer, PlainValidator
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
 from scene2hap.scene import sizes
 from scene2hap.scene.pose import Pose
@@ -29,6 +30,7 @@ else:
     Faces = Annotated[Any, *_JsonArray]
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Box:
     """A cuboid centred on its object's pose, axes along the object's own.
@@ -53,6 +55,7 @@ class Box:
         return TriMesh(corners * half, np.array(faces, dtype=np.int32))
 
 
+@clear_construction
 @dataclass(frozen=True, eq=False, repr=False)
 class TriMesh:
     """A triangle mesh in its object's own frame.
@@ -129,6 +132,7 @@ def geometry_of(value: object, owner: str) -> Geometry:
     )
 
 
+@clear_construction
 @dataclass(frozen=True)
 class DominantSurface:
     """The plate of an object, such as the top of a table, and where it lies in the object's own frame.

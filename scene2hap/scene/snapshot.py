@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from pydantic import InstanceOf
 
 from scene2hap import checks
+from scene2hap.calls import clear_calls
 from scene2hap.errors import SceneError, UnknownObject
 from scene2hap.scene.check import Finding
 from scene2hap.scene.images import ImageSet
@@ -28,6 +29,7 @@ from scene2hap.scene.objects import (
 from scene2hap.scene.pose import Pose
 
 
+@clear_calls
 @dataclass(frozen=True)
 class SceneSnapshot(SceneData):
     """All that is read out of a scene at one moment.
@@ -86,7 +88,7 @@ class SceneSnapshot(SceneData):
             turned.append(item)
         scene = cls(name, up_axis, tuple(turned), None if contacts is None else tuple(contacts))
         scene = replace(scene, objects=with_relative_heights(turned, up_axis))
-        warn_if_implausible(scene, stacklevel=3)
+        warn_if_implausible(scene, stacklevel=4)
         return scene
 
     def object(self, object_id: str) -> SceneObject:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
+from scene2hap.attributes import clear_attributes
 from scene2hap.calls import clear_call, clear_construction
 from scene2hap.errors import SessionError, UnknownObject
 
@@ -32,6 +33,7 @@ class Touch:
 Gains = NDArray[np.float32]
 
 
+@clear_attributes
 class HapticFrame:
     """The result of one update: gains of all hands.
 
@@ -74,6 +76,7 @@ class HapticFrame:
         return float(self.gains[self.hands.index(hand), self.sources.index(source_id)].max())
 
 
+@clear_attributes
 @dataclass(frozen=True)
 class SkipCounts:
     """How often each kind of work was left out; see `SkipConfig`.
@@ -96,6 +99,7 @@ class SkipCounts:
     unchanged_frames: int = 0
 
 
+@clear_attributes
 @dataclass(frozen=True)
 class SessionStats:
     """Counters of a session.

@@ -16,6 +16,7 @@ from types import TracebackType
 from typing import Any, NoReturn, Self
 
 from scene2hap import checks
+from scene2hap.attributes import read_only
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.given import given_pair
@@ -57,6 +58,7 @@ MAX_AHEAD_S = 3600
 
 
 @clear_calls
+@read_only
 class HapticSession:
     """A scene under hands.
 
@@ -82,8 +84,8 @@ class HapticSession:
     ) -> None:
         require_settings(config)
         scene, bundle = given_pair(scene, bundle)
-        self.config = SessionConfig.parse(config)
-        self.hands = checks.names("hands", hands)
+        self._config = SessionConfig.parse(config)
+        self._hands = checks.names("hands", hands)
         self._bundle = bundle
         warn_if_other(bundle, self.config.actuator)
         self._sources = Sources()
@@ -96,6 +98,16 @@ class HapticSession:
         self._output = Output(sink, self.config)
         self._whole = WholeFrames(self.config.sample_rate_hz)
         self._last_stamp = self._updates = 0
+
+    @property
+    def config(self) -> SessionConfig:
+        """The settings."""
+        return self._config
+
+    @property
+    def hands(self) -> tuple[str, ...]:
+        """Names of the outputs, in the order of channels."""
+        return self._hands
 
     @property
     def source_ids(self) -> tuple[str, ...]:
@@ -380,7 +392,7 @@ class HapticSession:
         return self._last_stamp
 
     def _use_hands(self, hands: tuple[str, ...]) -> None:
-        self.hands = hands
+        self._hands = hands
         self._listening.levels_changed()
 
     def _by_hand(self, touches: Sequence[Touch] | None) -> Felt:

@@ -1,0 +1,27 @@
+"""Mappings of a bundle, which answer a key that is not there with the nearest."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import NoReturn, TypeVar
+
+from scene2hap import checks
+from scene2hap.errors import UnknownObject
+
+Thing = TypeVar("Thing")
+
+
+class ByName(dict[str, Thing]):
+    """A dictionary whose missing key is an UnknownObject, which is a KeyError too; `what` says what keys are."""
+
+    def __init__(self, entries: Mapping[str, Thing] | Iterable[tuple[str, Thing]] = (), what: str = "entry") -> None:
+        super().__init__(entries)
+        self.what = what
+
+    def __missing__(self, key: object) -> NoReturn:
+        known = ", ".join(map(repr, list(self)[:_MOST_NAMED])) or "none"
+        near = checks.did_you_mean(key, self, f"There are {known}{', ...' if len(self) > _MOST_NAMED else ''}.")
+        raise UnknownObject(f"the bundle has no {self.what} {checks.represented(key)}. {near}")
+
+
+_MOST_NAMED = 10
