@@ -22,6 +22,7 @@ _HOME = {
     "scene2hap.scene.pose_table": ("PoseTable",),
     "scene2hap.scene.objects": ("Contact", "SceneObject"),
     "scene2hap.scene.shapes": ("Box", "DominantSurface", "TriMesh"),
+    "scene2hap.scene.scene_warning": ("SceneWarning",),
     "scene2hap.scene.snapshot": ("SceneSnapshot",),
     "scene2hap.materials": ("Material",),
     "scene2hap.haptics": ("ActuatorProfile", "Bands", "ObjectHaptics", "SourceState", "VibrationDescription"),
@@ -202,6 +203,7 @@ if TYPE_CHECKING:
     from scene2hap.scene.objects import SceneObject as SceneObject
     from scene2hap.scene.pose import Pose as Pose
     from scene2hap.scene.pose_table import PoseTable as PoseTable
+    from scene2hap.scene.scene_warning import SceneWarning as SceneWarning
     from scene2hap.scene.shapes import Box as Box
     from scene2hap.scene.shapes import DominantSurface as DominantSurface
     from scene2hap.scene.shapes import TriMesh as TriMesh

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.scene.objects import SceneData
+from scene2hap.scene.scene_warning import SceneWarning as SceneWarning
 from scene2hap.scene.units import implausible
 
 Kind = Literal["units", "quaternions", "up-axis", "floating", "sunk"]
@@ -34,10 +35,6 @@ _FLOOR_SHARE, _FLOOR_FLATNESS = (
 )  # A floor takes up this share of the scene, and is this flat at most (assumed).
 _NONE = 1e-6
 _MOST_NAMED = 5
-
-
-class SceneWarning(UserWarning):
-    """A scene with something that is almost surely wrong."""
 
 
 class Finding(NamedTuple):

@@ -108,7 +108,8 @@ class SessionStats:
     gains_capped : gains of a source at a hand above the limit; bodiless : objects that carry no vibration, since their
     material is unknown; field_age_s : for how long the field in use has been out of date, 0 while it is not [s];
     field_latency_s : time from a change to the use of the field that includes it [s]; fields_failed : preparations that
-    the model refused, while the last field stayed in use; last_failure : the model's message.
+    the model refused, while the last field stayed in use; last_failure : the model's message; touches_off_surface :
+    touches more than 5 cm from the surface of their object, summed over updates.
     """
 
     updates: int = 0
@@ -120,6 +121,7 @@ class SessionStats:
     fields_failed: int = 0
     last_failure: str = ""
     skipped: SkipCounts = SkipCounts()
+    touches_off_surface: int = 0
 
 
 def unknown_hand(hand: str, hands: Sequence[str]) -> str:

@@ -29,6 +29,7 @@ from scene2hap.haptics import ObjectHaptics
 from scene2hap.render.safety import SafetyStats
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.actuator_check import warn_if_other
 from scene2hap.session.config import SessionConfig
@@ -45,9 +46,11 @@ from scene2hap.session.given import (
 )
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.listening import Listening
+from scene2hap.session.off_surface import OffSurface
 from scene2hap.session.output import Output
 from scene2hap.session.playback import Playback
 from scene2hap.session.scene_state import SceneState
+from scene2hap.session.silent_object import warn_if_silent
 from scene2hap.session.sources import Sources
 
 MAX_RENDERED_FRAMES = 1 << 24
@@ -95,9 +98,11 @@ class HapticSession:
         self._state = SceneState(scene, bundle)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
         self._listening = Listening(self.config, self._state, self._sources, self._playback.peaks)
+        self._off_surface = OffSurface(self._state)
         self._output = Output(sink, self.config)
         self._whole = WholeFrames(self.config.sample_rate_hz)
         self._last_stamp = self._updates = 0
+        self._warned_of_silence = False
 
     @property
     def config(self) -> SessionConfig:
@@ -139,6 +144,7 @@ class HapticSession:
         tells, instead of those found from geometry; at_sample : the position on `render`'s clock from which the gains
         change, None for the next block.
         A single Touch, touches as the first argument, and (hand, object id, point) instead of a Touch are taken too.
+        Warns: SceneWarning: a hand touches an object more than 5 cm from its surface, once per hand; nothing vibrates.
         Raises: UnknownObject: a touched or moved object is not in the scene; SessionError: an unknown hand, a position
         before that of the last update, or something else than poses, touches and contacts.
         """
@@ -155,6 +161,9 @@ class HapticSession:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
         self._updates += 1
         self._output.feed(frame)
+        if felt:
+            self._warn_if_nothing_vibrates()
+            self._off_surface.look(felt)
         return frame
 
     def add(
@@ -168,6 +177,7 @@ class HapticSession:
         Without both, what the bundle says of its id holds, so that what was removed may come back as it was. Loops of
         new content are prepared by a worker, and fade in with the first `update` after that.
         Raises: SceneError: its id is taken; SessionError: a loop is none.
+        Warns: SceneWarning: it will neither vibrate nor carry vibration.
         """
         require_addable(object, haptics, loops)
         if haptics is None and loops is None:
@@ -322,8 +332,9 @@ class HapticSession:
         """Send the mix through the safety layer to the sink.
 
         Raises: SessionError: the session has no sink; DeviceError: it cannot be opened; ConfigError: the actuator's
-        budget is out of bounds.
+        budget is out of bounds. Warns: SceneWarning: nothing vibrates.
         """
+        self._warn_if_nothing_vibrates()
         self._output.start(self._rendered, self.hands)
 
     def stop(self) -> None:
@@ -354,7 +365,8 @@ class HapticSession:
     @property
     def stats(self) -> SessionStats:
         """What was done so far."""
-        return self._listening.stats(self._updates, self._playback.rows_not_mixed)
+        stats = self._listening.stats(self._updates, self._playback.rows_not_mixed)
+        return replace(stats, touches_off_surface=self._off_surface.n_touches)
 
     @property
     def safety_stats(self) -> SafetyStats:
@@ -373,6 +385,15 @@ class HapticSession:
             self._sources.add(item.id, loops, haptics, gain_db)
             self._playback.change_rows(self._sources.rows(), self._now)
         self._listening.apply(change, sources_changed=bool(loops))
+        warn_if_silent(item.id, haptics, loops)
+
+    def _warn_if_nothing_vibrates(self) -> None:
+        if not self._warned_of_silence and not self._sources.ids:
+            self._warned_of_silence = True
+            warn_of(
+                f"of {len(self._state.objects)} objects none vibrates, so that nothing will be felt; add or spawn "
+                "one with loops, or bundle.override(id, vibrates=True) and rebake(bundle)."
+            )
 
     def _stamp(self, at_sample: int | None) -> int:
         if at_sample is not None and type(at_sample) is not int:

@@ -11,7 +11,10 @@ from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.propagation import MODELS
 from scenes import RATE, box, haptics, tone_loop
 
-pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
+pytestmark = [
+    pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning"),
+    pytest.mark.filterwarnings("ignore::scene2hap.SceneWarning"),  # silent scenes, and touches that nobody aimed
+]
 
 
 def session_of(name: str, **config: object) -> HapticSession:
