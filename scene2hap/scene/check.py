@@ -28,12 +28,14 @@ _RESTS_M = 0.06  # As far over what it rests on as the rule of contact allows at
 # five scenes by others have 0.59-0.83 along the right axis, 1.7 to 2.7 times as many as along the wrong one).
 _MOST_RESTING, _MORE_RESTING = 0.5, 1.5
 _FEW = 4  # Fewer objects are no judge of the up axis, nor of how quaternions are written.
+_TWO = 2  # All upside down, to the last digit: a w of 1 that comes first.
 _MOSTLY_W = 0.8  # The w of a turn by 74 degrees; most things are turned by less (assumed). Exports tip all by 90.
 _FLOOR_SHARE, _FLOOR_FLATNESS = (
     0.5,
     0.2,
 )  # A floor takes up this share of the scene, and is this flat at most (assumed).
 _NONE = 1e-6
+_MOST_PAIRS = 1 << 20  # some 25 MB at once
 _MOST_NAMED = 5
 
 
@@ -73,8 +75,11 @@ def findings(scene: SceneData) -> Iterator[Finding]:
             f"up_axis is probably {letter!r}. Give up_axis={letter!r}.",
         )
         return
-    yield from _floating(boxes, ids, up)
-    yield from _sunk(boxes, ids, up)
+    room = list(_room(boxes, ids, up))
+    yield from room
+    if not room:
+        yield from _floating(boxes, ids, up)
+        yield from _sunk(boxes, ids, up)
 
 
 def _begin_with_w(scene: SceneData) -> bool:
@@ -83,26 +88,41 @@ def _begin_with_w(scene: SceneData) -> bool:
     # (w, x, y, z) of a turn about y is (c, 0, s, 0), about z (c, 0, 0, s): read as (x, y, z, w) it tips things over.
     none = (1, 3) if scene.up_axis == "y" else (1, 2)
     tips = np.abs(rotations[:, list(none)]).max(axis=1) < _NONE
-    return bool(len(tips) >= _FEW and tips.all() and (np.abs(rotations[:, 0]) > _MOSTLY_W).mean() > 0.5)
+    first = np.abs(rotations[:, 0])
+    is_none = len(tips) >= _TWO and bool((first > 1.0 - _NONE).all())
+    return is_none or bool(len(tips) >= _FEW and tips.all() and (first > _MOSTLY_W).mean() > 0.5)
 
 
 def _resting_share(boxes: NDArray[np.float64], up: int) -> float:
     """The share of boxes (n, 2, 3) that stand on the lowest height or close over another box."""
     low, high = boxes[:, 0], boxes[:, 1]
     level = [axis for axis in range(3) if axis != up]
-    gaps = low[:, None, up] - high[None, :, up]
-    over = ((low[:, None, level] < high[None, :, level]) & (high[:, None, level] > low[None, :, level])).all(axis=2)
-    rests = (over & (np.abs(gaps) <= _RESTS_M)).any(axis=1) | (low[:, up] - low[:, up].min() <= _RESTS_M)
+    rests = low[:, up] - low[:, up].min() <= _RESTS_M
+    for some in _few_rows(len(boxes)):
+        gaps = low[some, None, up] - high[None, :, up]
+        over = (
+            (low[some, None][..., level] < high[None][..., level])
+            & (high[some, None][..., level] > low[None][..., level])
+        ).all(axis=2)
+        rests[some] |= (over & (np.abs(gaps) <= _RESTS_M)).any(axis=1)
     return float(rests.mean())
+
+
+def _few_rows(n: int) -> Iterator[slice]:
+    """Parts of n rows, so that a table of each row against all stays small."""
+    step = max(1, _MOST_PAIRS // max(1, n))
+    return (slice(begin, begin + step) for begin in range(0, n, step))
 
 
 def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator[Finding]:
     if len(ids) < 2:
         return
-    gaps = np.maximum(boxes[:, None, 0] - boxes[None, :, 1], boxes[None, :, 0] - boxes[:, None, 1]).clip(0.0)
-    apart = np.linalg.norm(gaps, axis=2)
-    np.fill_diagonal(apart, np.inf)
-    nearest = apart.min(axis=1)
+    nearest = np.empty(len(ids))
+    for some in _few_rows(len(ids)):
+        gaps = np.maximum(boxes[some, None, 0] - boxes[None, :, 1], boxes[None, :, 0] - boxes[some, None, 1]).clip(0.0)
+        apart = np.linalg.norm(gaps, axis=2)
+        apart[np.arange(len(apart)), np.arange(len(ids))[some]] = np.inf
+        nearest[some] = apart.min(axis=1)
     lowest = boxes[:, 0, up].min()
     alone = np.flatnonzero((nearest > _FLOATS_M) & (boxes[:, 0, up] - lowest > _FLOATS_M))
     if len(alone):
@@ -115,7 +135,8 @@ def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iter
         )
 
 
-def _sunk(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator[Finding]:
+def _floor(boxes: NDArray[np.float64], up: int) -> tuple[int, NDArray[np.bool_]] | None:
+    """The row of the lowest floor, and which boxes are over or under it; None if there is no floor."""
     low, high = boxes[:, 0], boxes[:, 1]
     level = [axis for axis in range(3) if axis != up]
     whole = np.ptp(boxes.reshape(-1, 3)[:, level], axis=0).prod()
@@ -123,18 +144,53 @@ def _sunk(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator
     is_floor = (sizes[:, level].prod(axis=1) >= _FLOOR_SHARE * whole) & (
         sizes[:, up] <= _FLOOR_FLATNESS * sizes[:, level].min(axis=1)
     )
-    for floor in np.flatnonzero(is_floor)[np.argsort(high[is_floor, up])[:1]]:
-        over = ((low[:, level] < high[floor, level]) & (high[:, level] > low[floor, level])).all(axis=1)
-        depth = high[floor, up] - high[:, up]
-        sunk = np.flatnonzero(over & (depth > _SUNK_M))
-        if len(sunk):
-            row = sunk[0]
-            yield Finding(
-                "sunk",
-                tuple(ids[k] for k in sunk),
-                f"{_named(ids, sunk)} {'are' if len(sunk) > 1 else 'is'} below the floor: {ids[row]!r} ends "
-                f"{depth[row]:.2f} m under the top of {ids[floor]!r}, more than {_SUNK_M} m. Raise it.",
-            )
+    if not is_floor.any():
+        return None
+    row = int(np.flatnonzero(is_floor)[high[is_floor, up].argmin()])
+    among = np.all((low[:, level] < high[row, level]) & (high[:, level] > low[row, level]), axis=1)
+    among &= np.arange(len(among)) != row
+    return row, among
+
+
+def _room(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator[Finding]:
+    """A room of which nothing stands on the floor, or of which most is let into it."""
+    found = _floor(boxes, up)
+    if found is None or found[1].sum() < _FEW:
+        return
+    floor, rows = found[0], np.flatnonzero(found[1])
+    over = boxes[rows, 0, up] - boxes[floor, 1, up]
+    names = tuple(ids[k] for k in rows)
+    if over.min() > _FLOATS_M:
+        yield Finding(
+            "floating",
+            names,
+            f"the room floats: the lowest of {len(rows)} objects over {ids[floor]!r} is {over.min():.2f} m above it, "
+            f"more than {_FLOATS_M} m. Lower them, or raise the floor.",
+        )
+    elif np.median(over) < -_SUNK_M:
+        yield Finding(
+            "sunk",
+            names,
+            f"the room is sunk: most of {len(rows)} objects begin below the top of {ids[floor]!r}, half of them by "
+            f"{-np.median(over):.2f} m or more; at most {_SUNK_M} m is usual. Raise them, or lower the floor.",
+        )
+
+
+def _sunk(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator[Finding]:
+    found = _floor(boxes, up)
+    if found is None:
+        return
+    floor, over = found
+    depth = boxes[floor, 1, up] - boxes[:, 1, up]
+    sunk = np.flatnonzero(over & (depth > _SUNK_M))
+    if len(sunk):
+        row = sunk[0]
+        yield Finding(
+            "sunk",
+            tuple(ids[k] for k in sunk),
+            f"{_named(ids, sunk)} {'are' if len(sunk) > 1 else 'is'} below the floor: {ids[row]!r} ends "
+            f"{depth[row]:.2f} m under the top of {ids[floor]!r}, more than {_SUNK_M} m. Raise it.",
+        )
 
 
 def _named(ids: tuple[str, ...], rows: NDArray[np.intp]) -> str:

@@ -50,8 +50,9 @@ from scene2hap.session.off_surface import OffSurface
 from scene2hap.session.output import Output
 from scene2hap.session.playback import Playback
 from scene2hap.session.scene_state import SceneState
-from scene2hap.session.silent_object import warn_if_silent
+from scene2hap.session.silent_object import SilentObjects
 from scene2hap.session.sources import Sources
+from scene2hap.session.w_first import warn_if_w_first
 
 MAX_RENDERED_FRAMES = 1 << 24
 """At once; assumed: minutes, where a sink asks for milliseconds."""
@@ -98,11 +99,11 @@ class HapticSession:
         self._state = SceneState(scene, bundle)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
         self._listening = Listening(self.config, self._state, self._sources, self._playback.peaks)
-        self._off_surface = OffSurface(self._state)
+        self._off_surface, self._silent_objects = OffSurface(self._state), SilentObjects()
         self._output = Output(sink, self.config)
         self._whole = WholeFrames(self.config.sample_rate_hz)
         self._last_stamp = self._updates = 0
-        self._warned_of_silence = False
+        self._warned_of_silence = self._has_moved = False
 
     @property
     def config(self) -> SessionConfig:
@@ -385,7 +386,7 @@ class HapticSession:
             self._sources.add(item.id, loops, haptics, gain_db)
             self._playback.change_rows(self._sources.rows(), self._now)
         self._listening.apply(change, sources_changed=bool(loops))
-        warn_if_silent(item.id, haptics, loops)
+        self._silent_objects.look(item.id, haptics, loops)
 
     def _warn_if_nothing_vibrates(self) -> None:
         if not self._warned_of_silence and not self._sources.ids:
@@ -439,6 +440,9 @@ class HapticSession:
         return by_hand
 
     def _changed(self, moved: Mapping[str, Pose], contacts: Sequence[Contact] | None) -> ContactChange:
+        if moved and not self._has_moved:
+            self._has_moved = True
+            warn_if_w_first(moved, self._state.graph.pose, self._state.objects)
         try:
             return self._state.graph.update(moved, contacts=None if contacts is None else given_contacts(contacts))
         except SceneError:

@@ -9,8 +9,6 @@ from scene2hap import HapticSession, MemorySink, Pose, Touch
 from scene2hap.errors import ConfigError, SceneError, SessionError, UnknownObject
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
 
-pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.SceneWarning")  # touches that nobody aimed
-
 CONFIG = {"sample_rate_hz": RATE}
 ON_TABLE = Touch("left", "table", (0.8, 0.72, 0.4))
 RIGHT_TOO = Touch("right", "table", (0.8, 0.72, 0.4))

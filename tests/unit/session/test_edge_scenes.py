@@ -11,10 +11,7 @@ from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.propagation import MODELS
 from scenes import RATE, box, haptics, tone_loop
 
-pytestmark = [
-    pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning"),
-    pytest.mark.filterwarnings("ignore::scene2hap.SceneWarning"),  # silent scenes, and touches that nobody aimed
-]
+pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
 
 
 def session_of(name: str, **config: object) -> HapticSession:

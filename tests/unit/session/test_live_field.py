@@ -13,8 +13,6 @@ from scene2hap.errors import ModelDomainError
 from scene2hap.session.audibility import SILENT
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
 
-pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.SceneWarning")  # touches that nobody aimed
-
 ON_TABLE = Touch("left", "table", (0.8, 0.72, 0.4))
 
 

@@ -8,8 +8,6 @@ import pytest
 
 from edge_scenes import EDGE_SCENES
 
-pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.SceneWarning")  # touches that nobody aimed
-
 
 @pytest.fixture(scope="module")
 def stress() -> ModuleType:

@@ -43,9 +43,12 @@ def test_a_session_in_which_nothing_vibrates_says_so_once(silent: HapticBundle) 
     session = HapticSession(silent)
     with pytest.warns(SceneWarning, match="none vibrates"):
         session.update(touches=ON_TABLE)
-    session.update(touches=ON_TABLE)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        session.update(touches=ON_TABLE)
 
 
+@pytest.mark.filterwarnings("error::scene2hap.SceneWarning")
 def test_a_session_that_is_filled_before_it_starts_does_not(silent: HapticBundle, bundle: HapticBundle) -> None:
     session = HapticSession(silent, sink=MemorySink())
     session.add(PHONE, bundle.objects["phone"], bundle.loops["phone"])
@@ -54,22 +57,33 @@ def test_a_session_that_is_filled_before_it_starts_does_not(silent: HapticBundle
 
 
 def test_an_added_object_of_which_nothing_is_known(bundle: HapticBundle) -> None:
-    with pytest.warns(SceneWarning, match="'vase' is added without loops, and nothing is known") as caught:
+    with pytest.warns(SceneWarning, match="'vase', of which nothing is known, is added without") as caught:
         HapticSession(bundle).add(VASE)
     assert caught[0].filename == __file__
 
 
 def test_an_added_object_that_should_vibrate_and_has_no_loops(bundle: HapticBundle) -> None:
-    with pytest.warns(SceneWarning, match="'vase' is added without loops and stays silent.*loops="):
+    with pytest.warns(SceneWarning, match="'vase', of which the haptics say.*stays silent.*loops="):
         HapticSession(bundle).add(VASE, bundle.objects["phone"])
 
 
 def test_an_added_object_of_unknown_material(bundle: HapticBundle) -> None:
     unknown: ObjectHaptics = replace(bundle.objects["table"], material=None)
-    with pytest.warns(SceneWarning, match="its material is unknown"):
+    with pytest.warns(SceneWarning, match="of unknown material, is added without loops: it neither"):
         HapticSession(bundle).add(VASE, unknown)
 
 
+def test_a_crowd_of_silent_objects_is_named_in_part(bundle: HapticBundle) -> None:
+    session = HapticSession(bundle)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        for k in range(15):
+            session.add(replace(VASE, id=f"vase {k}", pose=Pose((k, 5.0, 0.0))))
+    assert len(caught) == 10
+    assert str(caught[-1].message).endswith("Further silent objects are not named.")
+
+
+@pytest.mark.filterwarnings("error::scene2hap.SceneWarning")
 def test_what_carries_or_vibrates_is_welcome(bundle: HapticBundle) -> None:
     session = HapticSession(bundle)
     session.add(VASE, bundle.objects["table"])

@@ -10,8 +10,6 @@ from scene2hap.audio.levels import threshold_db
 from scene2hap.errors import ConfigError
 from scenes import RATE, table_with_two_phones
 
-pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.SceneWarning")  # touches that nobody aimed
-
 ON_TABLE = Touch("left", "table", (0.8, 0.72, 0.4))
 ON_CUP = Touch("right", "cup", (5.0, 0.1, 5.0))
 
