@@ -43,7 +43,7 @@ def clear_call(function: Callable[Arguments, Result]) -> Callable[Arguments, Res
 def clear_construction(cls: Class) -> Class:
     """A class whose constructor and class methods answer as `clear_call` does; its attributes, see `attributes`."""
     init = getattr(cls, "__init__")  # noqa: B009  # the function of the class itself
-    type.__setattr__(cls, "__init__", clear_call(_takes_nothing if init is object.__init__ else init))
+    type.__setattr__(cls, "__init__", clear_call(_taking_nothing(cls) if init is object.__init__ else init))
     for name, method in _public_methods(cls, classmethod):
         setattr(cls, name, classmethod(clear_call(method.__func__)))
     return clear_attributes(cls)
@@ -60,7 +60,11 @@ def _public_methods(cls: type, kind: type) -> list[tuple[str, Any]]:
     return [(name, one) for name, one in vars(cls).items() if isinstance(one, kind) and not name.startswith("_")]
 
 
-def _takes_nothing(self: object) -> None: ...
+def _taking_nothing(cls: type) -> Callable[..., None]:
+    def __init__(self: object) -> None: ...  # the name that is shown
+
+    __init__.__qualname__ = f"{cls.__name__}.__init__"
+    return __init__
 
 
 def misfit(function: Callable[..., Any], args: Sequence[object], kwargs: Mapping[str, object]) -> str:

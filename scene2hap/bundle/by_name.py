@@ -24,4 +24,9 @@ class ByName(dict[str, Thing]):
         raise UnknownObject(f"the bundle has no {self.what} {checks.represented(key)}. {near}")
 
 
+def by_name(entries: Mapping[str, Thing], what: str) -> ByName[Thing]:
+    """Such a mapping of these entries; the same if they are one."""
+    return entries if isinstance(entries, ByName) else ByName(entries, what)
+
+
 _MOST_NAMED = 10

@@ -16,6 +16,7 @@ from scene2hap.bundle.override import Override
 from scene2hap.calls import clear_calls
 from scene2hap.errors import BundleError
 from scene2hap.materials import Material
+from scene2hap.scene.scene_warning import warn_of
 
 
 @clear_calls
@@ -44,7 +45,8 @@ class HapticBundle(BundleContents):
         scene's other sources. Kept in the folder and by `rebake`. Level, material and silence count at once; a new
         sound, or vibration where none was inferred, counts after `rebake(bundle)`, which makes its loops. While an
         object is locked, its loops stay as they are, byte for byte, whatever is baked again.
-        Raises: UnknownObject; BundleError: a field out of bounds; UnknownMaterial.
+        Raises: UnknownObject; BundleError: a field out of bounds; UnknownMaterial. Warns: SceneWarning: a clip for what
+        does not vibrate, or a level that looks like a percentage.
         """
         self.snapshot.object(object_id)
         wish = self.overrides.get(object_id, Override()).changed(
@@ -57,6 +59,12 @@ class HapticBundle(BundleContents):
                 "locked": locked,
             }
         )
+        vibrates = self.objects[object_id].vibrates if wish.vibrates is None else wish.vibrates
+        if clip is not None and not vibrates:
+            warn_of(
+                f"{object_id!r} does not vibrate, so that its clip is not played; write override({object_id!r}, "
+                "vibrates=True, clip=...)."
+            )
         return replace(self, overrides={**self.overrides, object_id: wish}).with_overrides()
 
     def with_overrides(self) -> Self:

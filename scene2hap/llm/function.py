@@ -7,7 +7,9 @@ import json
 from collections.abc import Awaitable, Callable, Mapping
 from typing import Any
 
-from scene2hap.calls import clear_construction
+from scene2hap import checks
+from scene2hap.calls import clear_construction, misfit
+from scene2hap.errors import ConfigError
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 
 Returned = LLMReply | Mapping[str, Any] | str
@@ -24,6 +26,9 @@ class FunctionBackend:
     def __init__(
         self, function: Callable[[LLMRequest], Returned | Awaitable[Returned]], *, model: str = "function"
     ) -> None:
+        told = misfit(function, (None,), {}) if callable(function) else f"It is {checks.represented(function)}."
+        if told:
+            raise ConfigError(f"function must take one argument, the LLMRequest, and give the answer. {told}")
         self._function = function
         self.model = model
         self.requests: list[LLMRequest] = []

@@ -16,6 +16,7 @@ from typing import Any, BinaryIO
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import BadAnswer, ConfigError, ReplayMiss
 from scene2hap.llm.protocol import LLMBackend, LLMReply, LLMRequest
@@ -99,7 +100,7 @@ class RecordingBackend:
 
     def __init__(self, inner: LLMBackend, path: str | os.PathLike[str]) -> None:
         self.inner = inner
-        self._path = Path(path)
+        self._path = checks.path("path", path, error=ConfigError)
         self._turn = threading.Lock()
         try:
             self._path.open("ab").close()

@@ -83,6 +83,8 @@ class Pose:
 
     def compose(self, inner: Pose) -> Pose:
         """The pose whose frame is `inner`, given in the frame of this one."""
+        if not isinstance(inner, Pose):
+            raise SceneError(f"inner is {checks.represented(inner)}; it must be a Pose, as Pose(position_m).")
         ax, ay, az, aw = self.rotation_xyzw
         bx, by, bz, bw = inner.rotation_xyzw
         quaternion = (

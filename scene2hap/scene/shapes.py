@@ -150,6 +150,8 @@ class DominantSurface:
     flags: tuple[SurfaceFlag, ...] = ()
 
     def __post_init__(self) -> None:
+        if not isinstance(self.pose, Pose):
+            raise SceneError(f"pose of the surface is {checks.described(self.pose)}; it must be a Pose.")
         for name in ("length_m", "width_m", "thickness_m"):
             object.__setattr__(
                 self, name, checks.number(name, getattr(self, name), "m", at_least=0.0, error=SceneError)
@@ -171,6 +173,8 @@ def _frozen_array(name: str, value: object, dtype: type[np.generic]) -> NDArray[
         raise SceneError(f"{name} has shape {array.shape}; it must be (n, 3).")
     if dtype is np.int32 and not (np.isfinite(array).all() and (np.abs(array) < 2**31).all()):
         raise SceneError(f"{name} holds values that are not vertex numbers; they must be integers from 0.")
+    if dtype is np.int32 and (array != np.rint(array)).any():
+        raise SceneError(f"{name} holds {array[array != np.rint(array)][0]:g}; vertex numbers must be integers from 0.")
     frozen = array.astype(dtype)
     frozen.flags.writeable = False
     return frozen
