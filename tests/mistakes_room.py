@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import ast
 import asyncio
 import contextlib
 import gc
 import io
 import json
 import os
+import shlex
 import tempfile
 import warnings
 from collections.abc import Iterator
@@ -178,8 +180,16 @@ def page_tables(room: Room) -> str:
         for mistake in [one for one in mistakes if not one.is_python][:ON_PAGE]:
             kind, sentence = room.answer(mistake.code)
             told = f"`{kind.__name__}`: {_cell(sentence)}" if kind is not None else "it works"
-            lines.append(f"| `{_cell(mistake.code)}` | {told} |")
+            if kind is Refused:
+                lines.append(f"| `{_command(mistake.code)}` | {_cell(sentence)} |")
+            else:
+                lines.append(f"| `{_cell(mistake.code)}` | {told} |")
     return "\n".join([*lines, "", ""])
+
+
+def _command(code: str) -> str:
+    """`shell('bake', 'x.glb')` as it is typed."""
+    return shlex.join(["scene2hap", *ast.literal_eval(f"[{code.removeprefix('shell(').removesuffix(')')}]")])
 
 
 def with_tables(page: str, tables: str) -> str:

@@ -23,7 +23,7 @@ MORE_TOPICS: dict[str, tuple[Mistake, ...]] = {
         mistake("bundle['phone']", "HapticBundle has no items", "'phone'", "objects"),
         mistake("bundle.objects['phon']", "'phon'", "'phone'"),
         mistake("bundle.loops['table']['on']", "no source 'table'", "'phone'"),
-        mistake("bundle.loops['phone']['ringin']", "'ringin'", "'ringing'"),
+        mistake("bundle.loops['phone']['ringin']", "no state 'ringin' of 'phone'", "'ringing'"),
         mistake("session.gain_db = -6", "'gain_db'", "set_user"),
         mistake("session.hands = ['left']", "hands", "cannot be set"),
         mistake("scene.object('mug').pose = Pose((0, 0, 0))", "pose", "dataclasses.replace"),

@@ -38,7 +38,7 @@ class BundleContents:
         for name in ("objects", "loops", "overrides", "choices"):
             if not isinstance(getattr(self, name), Mapping):
                 raise BundleError(f"{name} is {checks.described(getattr(self, name))}; it must be a mapping by id.")
-        loops = {key: by_name(states, f"state of {key!r}") for key, states in self.loops.items()}
+        loops = {key: by_name(states, "state", f"of {key!r}") for key, states in self.loops.items()}
         object.__setattr__(self, "objects", by_name(self.objects, "object"))
         object.__setattr__(self, "loops", ByName(loops, "source"))
         for object_id in (*self.objects, *self.loops, *self.overrides):
