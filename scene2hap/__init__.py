@@ -22,6 +22,7 @@ _HOME = {
     "scene2hap.scene.pose_table": ("PoseTable",),
     "scene2hap.scene.objects": ("Contact", "SceneObject"),
     "scene2hap.scene.shapes": ("Box", "DominantSurface", "TriMesh"),
+    "scene2hap.scene.scene_warning": ("SceneWarning",),
     "scene2hap.scene.snapshot": ("SceneSnapshot",),
     "scene2hap.materials": ("Material",),
     "scene2hap.haptics": ("ActuatorProfile", "Bands", "ObjectHaptics", "SourceState", "VibrationDescription"),
@@ -96,7 +97,13 @@ def __getattr__(name: str) -> Any:
         return value
     if name in _ROOMS:
         return import_module(f"scene2hap.{name}")
-    raise AttributeError(f"module 'scene2hap' has no attribute {name!r}")
+    from importlib.util import find_spec
+
+    if name.startswith("_") or find_spec(f"{__name__}.{name}") is not None:  # a room that is about to be imported
+        raise AttributeError(f"module 'scene2hap' has no attribute {name!r}")
+    from scene2hap.attributes import unknown_attribute
+
+    raise unknown_attribute("scene2hap", name, __dir__())
 
 
 def __dir__() -> list[str]:
@@ -222,6 +229,7 @@ if TYPE_CHECKING:
     from scene2hap.scene.objects import SceneObject as SceneObject
     from scene2hap.scene.pose import Pose as Pose
     from scene2hap.scene.pose_table import PoseTable as PoseTable
+    from scene2hap.scene.scene_warning import SceneWarning as SceneWarning
     from scene2hap.scene.shapes import Box as Box
     from scene2hap.scene.shapes import DominantSurface as DominantSurface
     from scene2hap.scene.shapes import TriMesh as TriMesh

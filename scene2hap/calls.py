@@ -1,13 +1,19 @@
-"""Calls whose arguments do not fit are answered with what the function takes."""
+"""Calls whose arguments do not fit are answered with what the function takes.
+
+Classes of the public surface are decorated by `clear_calls`, or by `clear_construction` where a wrapper would slow
+down methods that are called in every frame; either also answers attributes that do not exist.
+"""
 
 from __future__ import annotations
 
 import functools
 import inspect
 from collections.abc import Callable, Mapping, Sequence
+from types import FunctionType
 from typing import Any, ParamSpec, TypeVar
 
 from scene2hap import checks
+from scene2hap.attributes import clear_attributes
 from scene2hap.errors import CallError
 
 Arguments = ParamSpec("Arguments")
@@ -35,17 +41,30 @@ def clear_call(function: Callable[Arguments, Result]) -> Callable[Arguments, Res
 
 
 def clear_construction(cls: Class) -> Class:
-    """A class whose own constructor answers as `clear_call` does."""
-    type.__setattr__(cls, "__init__", clear_call(vars(cls)["__init__"]))
-    return cls
+    """A class whose constructor and class methods answer as `clear_call` does; its attributes, see `attributes`."""
+    init = getattr(cls, "__init__")  # noqa: B009  # the function of the class itself
+    type.__setattr__(cls, "__init__", clear_call(_taking_nothing(cls) if init is object.__init__ else init))
+    for name, method in _public_methods(cls, classmethod):
+        setattr(cls, name, classmethod(clear_call(method.__func__)))
+    return clear_attributes(cls)
 
 
 def clear_calls(cls: Class) -> Class:
-    """A class whose own constructor and public methods answer as `clear_call` does."""
-    for name, method in list(vars(cls).items()):
-        if inspect.isfunction(method) and not name.startswith("_"):
-            setattr(cls, name, clear_call(method))
-    return clear_construction(cls) if "__init__" in vars(cls) else cls
+    """A class whose constructor and public methods answer as `clear_call` does; its attributes, see `attributes`."""
+    for name, method in _public_methods(cls, FunctionType):
+        setattr(cls, name, clear_call(method))
+    return clear_construction(cls)
+
+
+def _public_methods(cls: type, kind: type) -> list[tuple[str, Any]]:
+    return [(name, one) for name, one in vars(cls).items() if isinstance(one, kind) and not name.startswith("_")]
+
+
+def _taking_nothing(cls: type) -> Callable[..., None]:
+    def __init__(self: object) -> None: ...  # the name that is shown
+
+    __init__.__qualname__ = f"{cls.__name__}.__init__"
+    return __init__
 
 
 def misfit(function: Callable[..., Any], args: Sequence[object], kwargs: Mapping[str, object]) -> str:

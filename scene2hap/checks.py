@@ -59,6 +59,8 @@ def described(value: object) -> str:
     if value is None or isinstance(value, str | bytes | bool | Real | os.PathLike):
         return represented(value)
     name = type(value).__name__
+    if isinstance(value, dict) or (isinstance(value, tuple) and not hasattr(value, "_fields")):  # of our own kinds too
+        name = "dict" if isinstance(value, dict) else "tuple"
     return f"{'an' if name[0] in 'aeiouAEIOU' else 'a'} {name}"
 
 
@@ -250,6 +252,10 @@ def names(name: str, value: object, *, error: type[Scene2HapError] = ConfigError
     """Distinct names, at least one, from a sequence of them. Raises: `error`: it is something else, as one string."""
     if isinstance(value, str):
         raise error(f"{name} is {shown(value)}; it must be a sequence of names, as [{shown(value)}].")
+    if isinstance(value, set | frozenset):
+        raise error(
+            f"{name} is a set, which has no order; it must be a sequence of names, as {sorted(map(str, value))}."
+        )
     found = tuple(value) if isinstance(value, Iterable) else ()
     twice = next((x for i, x in enumerate(found) if isinstance(x, str) and x in found[:i]), None)
     if twice is not None:

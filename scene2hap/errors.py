@@ -5,12 +5,14 @@ that ``except ValueError`` keeps working for people who do not know the tree::
 
     Scene2HapError
     ├── CallError (TypeError)               a call with arguments that do not exist, are missing, or are too many
+    ├── UnknownAttribute (AttributeError)   an attribute that does not exist; names the nearest
+    ├── ReadOnlyAttribute (AttributeError)  an attribute that cannot be set
     ├── ConfigError (ValueError)            a setting that cannot work
     │   ├── UnknownPlugin (LookupError)     a `kind` that nobody registered
     │   └── MissingExtra (ImportError)      an optional dependency is not installed; names the extra
     ├── SceneError (ValueError)             a scene that cannot be read or makes no sense
     │   ├── SceneFormatError                the file is not what it says it is
-    │   └── UnknownObject (LookupError)     an object id that the scene does not have
+    │   └── UnknownObject (KeyError)        an object id that the scene does not have
     ├── MaterialError (ValueError)          a material constant outside its bound
     │   └── UnknownMaterial (LookupError)   no row in the table under that name
     ├── ModelDomainError (ValueError)       a physical model asked outside the range where it holds
@@ -35,6 +37,8 @@ A message gives the value, its unit, the bound, and what to do next.
 
 from __future__ import annotations
 
+from dataclasses import FrozenInstanceError
+
 
 class Scene2HapError(Exception):
     """Root of every error raised by scene2hap."""
@@ -42,6 +46,14 @@ class Scene2HapError(Exception):
 
 class CallError(Scene2HapError, TypeError):
     """A call with arguments that the function does not have, or without those that it needs."""
+
+
+class UnknownAttribute(Scene2HapError, AttributeError):
+    """An attribute that the object does not have."""
+
+
+class ReadOnlyAttribute(Scene2HapError, FrozenInstanceError):
+    """An attribute that cannot be set."""
 
 
 class ConfigError(Scene2HapError, ValueError):
@@ -64,8 +76,10 @@ class SceneFormatError(SceneError):
     """A scene file that is not what its name or header says."""
 
 
-class UnknownObject(SceneError, LookupError):
+class UnknownObject(SceneError, KeyError):
     """An object id that the scene does not have."""
+
+    __str__ = Exception.__str__  # KeyError's own shows the sentence in quotes
 
 
 class MaterialError(Scene2HapError, ValueError):

@@ -18,6 +18,7 @@ from scene2hap.materials import Material
 from scene2hap.needs import stated, unmet
 
 
+@clear_construction
 @dataclass(frozen=True)
 class SourceState:
     """One way in which an object vibrates, such as "on", "ringing" or "boiling".
@@ -61,6 +62,7 @@ def unmet_needs(object_id: str, states: Sequence[SourceState], categories: Mappi
     )
 
 
+@clear_construction
 @dataclass(frozen=True)
 class ObjectHaptics:
     """Answers of inference about one object.
@@ -97,6 +99,7 @@ class ObjectHaptics:
             raise ConfigError(f"{self.object_category!r} vibrates but has no state; give it at least one SourceState.")
 
 
+@clear_construction
 @dataclass(frozen=True)
 class VibrationDescription:
     """The request to a sound source: one state of one object.
@@ -146,9 +149,11 @@ class ActuatorProfile:
             checks.number(name, getattr(self, name), unit, above=0.0, at_most=most, error=ConfigError)
         low = checks.number("min_frequency_hz", self.min_frequency_hz, "Hz", above=0.0, error=ConfigError)
         checks.number("max_frequency_hz", self.max_frequency_hz, "Hz", above=low, error=ConfigError)
-        for name, unit in (("resonance_hz", "Hz"), ("q", "-")):
-            if getattr(self, name) is not None:
-                checks.number(name, getattr(self, name), unit, above=0.0, error=ConfigError)
+        if self.resonance_hz is not None:
+            hint = "It is in Hz, not in kHz."
+            checks.number("resonance_hz", self.resonance_hz, "Hz", at_least=1.0, error=ConfigError, hint=hint)
+        if self.q is not None:
+            checks.number("q", self.q, "-", above=0.0, error=ConfigError)
         points = tuple(
             self._point(i, point)
             for i, point in enumerate(checks.items("response_db", self.response_db, at_most=100_000, error=ConfigError))
@@ -164,6 +169,7 @@ class ActuatorProfile:
         return frequency, level
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Bands:
     """The frequency bands of the gains.

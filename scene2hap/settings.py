@@ -12,10 +12,12 @@ from typing import Any, ClassVar, Self
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from scene2hap import checks
+from scene2hap.attributes import clear_attributes
 from scene2hap.errors import ConfigError
 from scene2hap.text_files import read_small_text
 
 
+@clear_attributes
 class Settings(BaseModel):
     """Settings from TOML, JSON or a mapping; a configuration lives beside the part that it configures.
 

@@ -16,6 +16,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, model_validator
 
 from scene2hap import checks
+from scene2hap.attributes import clear_attributes
 from scene2hap.errors import SessionError
 from scene2hap.text_files import read_small_text
 
@@ -30,6 +31,7 @@ MAX_STEPS = 100_000
 """Assumed: more than two hands, both moved at each of 60 frames a second for `MAX_DURATION_S`, would ask for."""
 
 _Point = tuple[float, float, float]
+_TOUCHES = "touches"
 _ACTIONS = ("touch", "lift", "move", "source")
 
 
@@ -97,6 +99,7 @@ Step = Annotated[
 ]
 
 
+@clear_attributes
 class TouchTrack(BaseModel):
     """Steps in order of time, and how long it all lasts."""
 
@@ -106,6 +109,19 @@ class TouchTrack(BaseModel):
     version: Literal[1] = VERSION
     duration_s: float = Field(ge=MIN_DURATION_S, le=MAX_DURATION_S, allow_inf_nan=False)
     steps: tuple[Step, ...] = Field(max_length=MAX_STEPS)
+
+    def __init__(self, *unnamed: Any, **fields: Any) -> None:
+        if unnamed:
+            raise SessionError(
+                f"TouchTrack is given {checks.described(unnamed[0])}; it takes duration_s= and steps=. "
+                "TouchTrack.load(path) reads a file, TouchTrack.parse(document) plain values."
+            )
+        try:
+            super().__init__(**fields)
+        except ValidationError as cause:
+            problem = checks.first_problem(cause)
+            place, reason = _place(problem.location), problem.reason
+            raise SessionError(f"{_TOUCHES}: {place}: {reason}. See docs/touches.md.") from cause
 
     @model_validator(mode="after")
     def _in_order(self) -> TouchTrack:
@@ -131,16 +147,17 @@ class TouchTrack(BaseModel):
         return cls.parse(document, str(path))
 
     @classmethod
-    def parse(cls, document: Any, name: str = "touches") -> TouchTrack:
+    def parse(cls, document: Any, name: str = _TOUCHES) -> TouchTrack:
         """A track from plain values. Raises: SessionError."""
-        steps = document.get("steps") if isinstance(document, dict) else None
+        if not isinstance(document, dict) or not all(isinstance(key, str) for key in document):
+            raise SessionError(f"{name}: whole file: it must be an object with duration_s and steps.")
+        steps = document.get("steps")
         if isinstance(steps, (list, tuple)) and len(steps) > MAX_STEPS:  # before each of them is looked at
             raise SessionError(f"{name}: steps: {len(steps)} items; at most {MAX_STEPS} items. See docs/touches.md.")
         try:
-            return cls.model_validate(document)
-        except ValidationError as cause:
-            problem = checks.first_problem(cause)
-            raise SessionError(f"{name}: {_place(problem.location)}: {problem.reason}. See docs/touches.md.") from cause
+            return cls(**document)
+        except SessionError as cause:
+            raise SessionError(f"{name}{str(cause).removeprefix(_TOUCHES)}") from cause
 
 
 def _place(location: tuple[int | str, ...]) -> str:

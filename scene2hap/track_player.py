@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_call
 from scene2hap.devices.protocol import Block
 from scene2hap.errors import SessionError
 from scene2hap.scene.pose import Pose
@@ -40,6 +41,7 @@ class PlayedFrame:
     samples: Block
 
 
+@clear_call
 def play_track(
     session: HapticSession,
     track: TouchTrack,

@@ -9,6 +9,11 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Let tests touch, turn and add carelessly; those of the warnings catch them."""
+    config.addinivalue_line("filterwarnings", "ignore::scene2hap.scene.scene_warning.SceneWarning")
+
+
 @pytest.fixture(autouse=True)
 def _no_network(monkeypatch: pytest.MonkeyPatch) -> None:
     connect = socket.socket.connect

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import ast
 import asyncio
 import contextlib
 import gc
+import io
 import json
 import os
+import shlex
 import tempfile
 import warnings
 from collections.abc import Iterator
@@ -18,9 +21,12 @@ import soundfile
 
 import scene2hap
 from gltf_builder import Gltf
-from scene2hap import materials
+from more_mistakes import MORE_TOPICS
+from scene2hap import cli, materials
 from scene2hap.errors import Scene2HapError
 from usual_mistakes import TOPICS, Mistake
+
+ALL_TOPICS = {**TOPICS, **MORE_TOPICS}
 
 TOP = (0.3, 0.75, 0.3)
 """A point on the table's top, beside the phone."""
@@ -33,16 +39,29 @@ _BOXES = {  # size and centre, y up [m]
 }
 
 
+class Refused(Scene2HapError):
+    """What the command line says as it gives up."""
+
+
+class Usage(Exception):
+    """What argparse says of arguments."""
+
+
 class Answer(NamedTuple):
-    """How a mistake ended: the type of the error and its sentence, None and empty if it worked."""
+    """How a mistake ended: the type of the error or warning and its sentence, None and empty if it worked."""
 
     kind: type[BaseException] | None = None
     sentence: str = ""
 
     @property
     def is_ours(self) -> bool:
-        """Whether the error is of our own tree, or the library had nothing to do with it."""
+        """Whether the error is of our own tree."""
         return self.kind is not None and issubclass(self.kind, Scene2HapError)
+
+    @property
+    def is_warning(self) -> bool:
+        """Whether it went on, with a warning of our own."""
+        return self.kind is not None and issubclass(self.kind, Warning)
 
 
 class Room:
@@ -56,6 +75,7 @@ class Room:
         self.other_scene = scene2hap.load_scene(folder / "other.glb")
         self.bundle = scene2hap.bake(self.scene)
         self.bundle.save(folder / "kitchen.bundle")
+        self.prefab = scene2hap.bake_object(scene2hap.SceneObject("radio", geometry=scene2hap.Box((0.2, 0.1, 0.1))))
         (folder / "settings.json").write_text(json.dumps({"session": {"propagation": "full_propagation"}}))
         (folder / "settings.toml").write_text('[session]\npropagation = "full_propagation"\n')
         (folder / "flat.toml").write_text('propagation = "full_propagation"\n')
@@ -66,14 +86,19 @@ class Room:
     def answer(self, code: str) -> Answer:
         """Run some lines in the folder, and tell how they ended."""
         with _inside(self.folder), contextlib.ExitStack() as life, warnings.catch_warnings():
+            names = self._names(life)
             warnings.simplefilter("ignore", RuntimeWarning)  # "coroutine was never awaited" is part of a mistake
-            try:
-                exec(code, self._names(life))
-            except (Exception, asyncio.CancelledError) as error:
-                return Answer(type(error), str(error))
-            finally:
-                gc.collect(0)
-        return Answer()
+            warnings.simplefilter("ignore", ResourceWarning)  # and so is a file that nobody closes
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always", UserWarning)
+                try:
+                    exec(code, names)
+                except (Exception, asyncio.CancelledError) as error:
+                    return Answer(type(error), str(error))
+                finally:
+                    gc.collect(0)
+        ours = [one for one in caught if issubclass(one.category, UserWarning)]
+        return Answer(ours[0].category, str(ours[0].message)) if ours else Answer()
 
     def _names(self, life: contextlib.ExitStack) -> dict[str, Any]:
         sink = scene2hap.MemorySink()
@@ -86,6 +111,9 @@ class Room:
             "TOP": TOP,
             "np": np,
             "materials": materials,
+            "prefab": self.prefab,
+            "PLATE": scene2hap.Plate(1.0, 0.6, 0.02, "oak"),
+            "shell": shell,
         }
         names |= {"session": scene2hap.HapticSession(self.scene, self.bundle), "sink": sink, "started": started}
         names["new_object"] = scene2hap.SceneObject(
@@ -98,6 +126,18 @@ class Room:
         started.start()
         life.callback(started.stop)
         return names
+
+
+def shell(*arguments: str) -> None:
+    """Run the command line. Raises: Refused: its error; Usage: that of its arguments."""
+    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()) as errors:
+        try:
+            status = cli.main(arguments)
+        except SystemExit as end:
+            status = int(end.code or 0)
+    if status:
+        kind = Usage if status == 2 else Refused
+        raise kind(next(line for line in errors.getvalue().splitlines() if "error: " in line))
 
 
 def _write_glb(path: Path, boxes: dict[str, Any]) -> None:
@@ -119,10 +159,11 @@ def _inside(folder: Path) -> Iterator[None]:
 
 
 def is_answered(mistake: Mistake, answer: Answer) -> bool:
-    """Whether it works, or ends in an error of our own that says what it has to."""
+    """Whether it works, or ends in an error or a warning of our own that says what it has to."""
     if not mistake.words:
         return answer.kind is None
-    return (answer.is_ours or mistake.is_python) and all(word in answer.sentence for word in mistake.words)
+    is_right_kind = answer.is_warning if mistake.is_warning else answer.is_ours or mistake.is_python
+    return is_right_kind and all(word in answer.sentence for word in mistake.words)
 
 
 ON_PAGE = 10
@@ -134,13 +175,21 @@ BEGIN, END = "<!-- tests/mistakes_room.py writes what follows -->\n", "<!-- unti
 def page_tables(room: Room) -> str:
     """The first mistakes of each topic with their answers, as docs/errors.md has them."""
     lines = []
-    for topic, mistakes in TOPICS.items():
+    for topic, mistakes in ALL_TOPICS.items():
         lines += ["", f"### {topic}", "", "| you write | you get |", "|---|---|"]
         for mistake in [one for one in mistakes if not one.is_python][:ON_PAGE]:
             kind, sentence = room.answer(mistake.code)
             told = f"`{kind.__name__}`: {_cell(sentence)}" if kind is not None else "it works"
-            lines.append(f"| `{_cell(mistake.code)}` | {told} |")
+            if kind is Refused:
+                lines.append(f"| `{_command(mistake.code)}` | {_cell(sentence)} |")
+            else:
+                lines.append(f"| `{_cell(mistake.code)}` | {told} |")
     return "\n".join([*lines, "", ""])
+
+
+def _command(code: str) -> str:
+    """`shell('bake', 'x.glb')` as it is typed."""
+    return shlex.join(["scene2hap", *ast.literal_eval(f"[{code.removeprefix('shell(').removesuffix(')')}]")])
 
 
 def with_tables(page: str, tables: str) -> str:

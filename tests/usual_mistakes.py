@@ -16,11 +16,12 @@ from typing import NamedTuple
 
 
 class Mistake(NamedTuple):
-    """Code of a user, and the words that the answer to it contains; no words where it has to work."""
+    """Code of a user, and the words that the answer or warning contains; no words where it has to work."""
 
     code: str
     words: tuple[str, ...]
     is_python: bool = False
+    is_warning: bool = False
 
 
 def mistake(code: str, *words: str) -> Mistake:
@@ -30,6 +31,11 @@ def mistake(code: str, *words: str) -> Mistake:
 def python(code: str, *words: str) -> Mistake:
     """Answered by Python itself, before anything of the library is called."""
     return Mistake(code, words, is_python=True)
+
+
+def warned(code: str, *words: str) -> Mistake:
+    """Goes on with what is meant by the letter, and warns."""
+    return Mistake(code, words, is_warning=True)
 
 
 def works(code: str) -> Mistake:

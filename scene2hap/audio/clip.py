@@ -8,11 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import AudioError
 
 Samples = NDArray[np.float32]
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Credit:
     """Whom a sound is owed to; written next to the haptics.
@@ -32,6 +34,7 @@ MAX_SAMPLE_RATE_HZ = 1_000_000
 """Assumed: no recorder samples faster; filters and seams are as long as their times at the clip's rate."""
 
 
+@clear_construction
 @dataclass(frozen=True, eq=False)
 class AudioClip:
     """A mono sound: float32 samples (n_samples,), nominally in [-1, 1].

@@ -7,9 +7,11 @@ from dataclasses import dataclass, field
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
+from scene2hap.calls import clear_construction
 from scene2hap.errors import AudioError
 
 
+@clear_construction
 @dataclass(frozen=True, eq=False)
 class HapticLoop:
     """An audible and a tactile loop with the same seam, length and rate, so that they stay in step for ever.

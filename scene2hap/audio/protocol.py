@@ -9,6 +9,7 @@ import numpy as np
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Samples
+from scene2hap.calls import clear_construction
 from scene2hap.errors import AudioError
 from scene2hap.haptics import ActuatorProfile, VibrationDescription
 from scene2hap.plugins import Members, lacking
@@ -23,6 +24,7 @@ class AudioSource(Protocol):
         ...
 
 
+@clear_construction
 @dataclass(frozen=True)
 class ConversionContext:
     """The scene, as far as a converter needs it.

@@ -21,7 +21,6 @@ from scene2hap.baking.sound import Earlier, Progress, Remade, make_loops
 from scene2hap.bundle import BundleWarning, HapticBundle, MadeWith, Override
 from scene2hap.bundle.given import given_bundle
 from scene2hap.calls import clear_call
-from scene2hap.checks import shown
 from scene2hap.errors import ConfigError, SceneError
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.llm.chain import Inference, infer_scene
@@ -107,7 +106,7 @@ def bake_object(
     Raises: as `bake`; SceneError: not an object.
     """
     if not isinstance(item, SceneObject):
-        raise SceneError(f"item is {shown(item)}; it must be a SceneObject, as scene.object(id) gives.")
+        raise SceneError(f"item is {checks.described(item)}; it must be a SceneObject, as scene.object(id) gives.")
     overrides = None if override is None else {item.id: override}
     return bake(SceneSnapshot(item.name, up_axis, (item,)), config, user_prompt=user_prompt, overrides=overrides)
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from scene2hap import checks
 from scene2hap.audio.clip import Credit
 from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.bundle.by_name import ByName, by_name
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.override import Override
 from scene2hap.errors import BundleError
@@ -37,6 +38,9 @@ class BundleContents:
         for name in ("objects", "loops", "overrides", "choices"):
             if not isinstance(getattr(self, name), Mapping):
                 raise BundleError(f"{name} is {checks.described(getattr(self, name))}; it must be a mapping by id.")
+        loops = {key: by_name(states, "state", f"of {key!r}") for key, states in self.loops.items()}
+        object.__setattr__(self, "objects", by_name(self.objects, "object"))
+        object.__setattr__(self, "loops", ByName(loops, "source"))
         for object_id in (*self.objects, *self.loops, *self.overrides):
             self.snapshot.object(object_id)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
 
 from scene2hap import checks
@@ -10,6 +11,7 @@ from scene2hap.bundle.haptic_bundle import HapticBundle
 from scene2hap.errors import BundleError, UnknownObject
 from scene2hap.scene.given import given_scene
 from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.settings import Settings
 
 
 def given_bundle(bundle: object) -> HapticBundle:
@@ -33,6 +35,12 @@ def given_pair(scene: object, bundle: object) -> tuple[SceneSnapshot, HapticBund
     Raises: BundleError: none of them is a bundle, or both are; UnknownObject: the bundle is of another scene; and as
     `given_scene` and `given_bundle`.
     """
+    for one in (scene, bundle):
+        if isinstance(one, Mapping | Settings):
+            raise BundleError(
+                f"scene or bundle is {checks.described(one)}; a bundle is a HapticBundle or the path of its folder. "
+                "Settings go by name: HapticSession(bundle, config=...)."
+            )
     given = [one for one in (scene, bundle) if one is not None]
     if len(given) == 1 and (_is_folder(given[0]) or isinstance(given[0], HapticBundle)):
         alone = given_bundle(given[0])

@@ -13,11 +13,13 @@ from scene2hap.bundle.checking import require_plausible
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.folder import read_bundle, write_bundle
 from scene2hap.bundle.override import Override
-from scene2hap.calls import clear_call
+from scene2hap.calls import clear_calls
 from scene2hap.errors import BundleError
 from scene2hap.materials import Material
+from scene2hap.scene.scene_warning import warn_of
 
 
+@clear_calls
 @dataclass(frozen=True)
 class HapticBundle(BundleContents):
     """A baked scene: what is in it, what inference says of each object, and the loops of each source by state.
@@ -26,7 +28,6 @@ class HapticBundle(BundleContents):
     candidates in text, by id and state; `made_with` are the settings that all loops share, None where nobody knows.
     """
 
-    @clear_call
     def override(
         self,
         object_id: str,
@@ -44,7 +45,8 @@ class HapticBundle(BundleContents):
         scene's other sources. Kept in the folder and by `rebake`. Level, material and silence count at once; a new
         sound, or vibration where none was inferred, counts after `rebake(bundle)`, which makes its loops. While an
         object is locked, its loops stay as they are, byte for byte, whatever is baked again.
-        Raises: UnknownObject; BundleError: a field out of bounds; UnknownMaterial.
+        Raises: UnknownObject; BundleError: a field out of bounds; UnknownMaterial. Warns: SceneWarning: a clip for what
+        does not vibrate, or a level that looks like a percentage.
         """
         self.snapshot.object(object_id)
         wish = self.overrides.get(object_id, Override()).changed(
@@ -57,6 +59,12 @@ class HapticBundle(BundleContents):
                 "locked": locked,
             }
         )
+        vibrates = self.objects[object_id].vibrates if wish.vibrates is None else wish.vibrates
+        if clip is not None and not vibrates:
+            warn_of(
+                f"{object_id!r} does not vibrate, so that its clip is not played; write override({object_id!r}, "
+                "vibrates=True, clip=...)."
+            )
         return replace(self, overrides={**self.overrides, object_id: wish}).with_overrides()
 
     def with_overrides(self) -> Self:
@@ -69,7 +77,6 @@ class HapticBundle(BundleContents):
         loops = {object_id: states for object_id, states in self.loops.items() if object_id not in silenced}
         return replace(self, objects=objects, loops=loops)
 
-    @clear_call
     def save(self, folder: str | os.PathLike[str]) -> Path:
         """Write the folder whole or not at all; a bundle that is there already is replaced, and what is not ours stays.
 
@@ -79,7 +86,6 @@ class HapticBundle(BundleContents):
         return write_bundle(self, checks.path("folder", folder, error=BundleError))
 
     @classmethod
-    @clear_call
     def load(cls, folder: str | os.PathLike[str]) -> Self:
         """Read a folder that `save` wrote, edited or not.
 

@@ -11,6 +11,8 @@ from typing import Any
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.files import read_clip
+from scene2hap.audio.gain_warning import warn_if_percent
+from scene2hap.calls import clear_construction
 from scene2hap.errors import BundleError
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.materials import Material, lookup
@@ -22,6 +24,7 @@ USER = "user"
 _MOST_GAIN_DB = 60.0
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Override:
     """A correction; None leaves what was inferred.
@@ -50,6 +53,7 @@ class Override:
             raise BundleError(f"locked is {checks.represented(self.locked)}; it must be True or False.")
         if self.gain_db is not None:
             gain = checks.number("gain_db", self.gain_db, "dB", at_most=_MOST_GAIN_DB, error=BundleError)
+            warn_if_percent(gain)
             object.__setattr__(self, "gain_db", gain)
         if isinstance(self.material, str):
             object.__setattr__(self, "material", lookup(self.material))

@@ -14,10 +14,12 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, cast
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.contact.finder import ContactFinder
 from scene2hap.contact.junction import ContactArrays, Junction, Pair, junctions_of, pair_of
 from scene2hap.contact.toleranced.touch_finder import TouchFinder
 from scene2hap.errors import SceneError, UnknownObject
+from scene2hap.scene.given import given_scene
 from scene2hap.scene.objects import Contact, SceneObject, unknown_object
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.pose_table import PoseTable
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+@clear_construction
 @dataclass(frozen=True)
 class ContactChange:
     """What an update did, as pairs (a, b) of ids with a < b.
@@ -50,12 +53,13 @@ _MANY_LATE = 8  # So many tables of poses wait at most before they are read.
 _LONGEST_LOG = 16  # So many versions back the changes are known.
 
 
+@clear_construction
 class ContactGraph:
     """The contacts of a scene, kept up to date as its objects move.
 
-    Parameters: tolerance_m >= 0 : gap at which any two surfaces cease to touch [m]; None follows the objects, since
-    real scenes leave gaps of 0-45 mm under things that rest. Where the scene gives its contacts, these are taken as
-    they are and the tolerance has no say.
+    Parameters: scene : a snapshot, or the path of a scene file; tolerance_m >= 0 : gap at which any two surfaces cease
+    to touch [m]; None follows the objects, since real scenes leave gaps of 0-45 mm under things that rest. Where the
+    scene gives its contacts, these are taken as they are and the tolerance has no say.
     Raises: SceneError: the tolerance is negative or not finite.
 
     Poses alone decide what is found: moving there step by step ends in the same graph as building there. Found contacts
@@ -72,6 +76,7 @@ class ContactGraph:
         if tolerance_m is not None:
             hint = "Leave it out to follow the objects."
             tolerance_m = checks.number("tolerance_m", tolerance_m, "m", at_least=0.0, error=SceneError, hint=hint)
+        scene = given_scene(scene)
         self._known_poses = {item.id: item.pose for item in scene.objects}
         self._poses_lent = False
         # Tables of poses that came later than the known ones.
@@ -206,7 +211,12 @@ class ContactGraph:
         Raises: UnknownObject: an id that is not in the scene. SceneError: an added id that already is, or a pose that
         is no Pose. The graph is then as it was.
         """
+        if type(moved) is not dict and not isinstance(moved, Mapping):
+            told = checks.described(moved)
+            raise SceneError(f"moved is {told}; it must be a mapping of ids to poses, as {{'mug': Pose(...)}}.")
         if added or removed or contacts is not None:
+            if isinstance(added, SceneObject) or isinstance(removed, str):
+                raise SceneError("added and removed must be lists, as added=[SceneObject(...)] and removed=['mug'].")
             return self._rebuild(moved, added, removed, contacts)
         if isinstance(moved, PoseTable) and isinstance(self._finder, TouchFinder):
             return self._take(moved)

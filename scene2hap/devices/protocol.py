@@ -9,6 +9,8 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.calls import clear_construction
+
 Block = NDArray[np.float32]
 """Samples (n_frames, n_channels) float32 in [-1, 1]."""
 
@@ -24,6 +26,7 @@ class SinkFormat:
     channels: tuple[str, ...]
 
 
+@clear_construction
 @dataclass(frozen=True)
 class SinkStats:
     """Statistics of a sink.
@@ -42,6 +45,7 @@ class SinkStats:
     latency_s: float | None = None
 
 
+@clear_construction
 @dataclass(frozen=True)
 class SinkEvent:
     """Something that a game may want to tell its player.

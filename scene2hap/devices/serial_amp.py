@@ -8,6 +8,7 @@ from collections import deque
 import numpy as np
 
 from scene2hap import checks
+from scene2hap.calls import clear_calls
 from scene2hap.devices.claims import port_key
 from scene2hap.devices.framing.frames import FrameParser, FrameType, message, pcm, to_wire
 from scene2hap.devices.framing.link_messages import GREETED, HEARD, Credit, DeviceFormat, Hello, is_newer
@@ -27,6 +28,7 @@ _BITS_PER_BYTE = 10
 _FRAME_OVERHEAD = 19
 
 
+@clear_calls
 class SerialAmplifierSink(LiveSink):
     """Plays on a serial amplifier; needs the extra `serial`. Failures are events, see `scene2hap.devices.link`.
 

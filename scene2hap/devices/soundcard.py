@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_calls
 from scene2hap.devices import portaudio
 from scene2hap.devices.link import CarryOn, LiveSink
 from scene2hap.devices.playback_ring import PlaybackRing
@@ -54,6 +55,7 @@ class SoundCardStats(SinkStats):
     device: str = ""
 
 
+@clear_calls
 class SoundCardSink(LiveSink):
     """Plays each hand on a channel of a sound card.
 
@@ -78,6 +80,8 @@ class SoundCardSink(LiveSink):
         block_frames: int = BLOCK_FRAMES,
         on_event: EventCallback | None = None,
     ) -> None:
+        if device is not None and (isinstance(device, bool) or not isinstance(device, str | int)):
+            raise ConfigError(f"device is {checks.represented(device)}; it must be a name, an index or None.")
         portaudio.require_sounddevice()
         channels, latency = _checked_channels(channels), _checked_latency(latency)
         self._card_line = _CardLine(device, channels, latency, sample_rate_hz, _checked_block(block_frames))

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import Literal
 
 from scene2hap import checks
+from scene2hap.calls import clear_calls
 from scene2hap.devices.datagrams import Datagrams
 from scene2hap.devices.framing.frames import MAX_PAYLOAD, FrameType, SampleFormat, message, pcm, to_datagram
 from scene2hap.devices.link import CarryOn, LiveSink
@@ -22,6 +23,7 @@ ANNOUNCE_S = 1.0
 _SAMPLES = {"int16": SampleFormat.INT16, "float32": SampleFormat.FLOAT32}
 
 
+@clear_calls
 class UdpSink(LiveSink):
     """Sends the mix, or its gains, to a program that renders; see docs/udp.md. Failures are events.
 

@@ -12,6 +12,7 @@ from typing import Literal
 import numpy as np
 
 from scene2hap import checks
+from scene2hap.calls import clear_calls
 from scene2hap.devices.claims import port_key
 from scene2hap.devices.framing import vhp
 from scene2hap.devices.link import CarryOn, LiveSink
@@ -29,6 +30,7 @@ ECHO_S = 0.002
 """Half a block: what the board asks sooner after a block is no question."""
 
 
+@clear_calls
 class VhpSink(LiveSink):
     """Plays on a VHP board; needs the extra `serial`. Hands are the first channels, the others rest.
 

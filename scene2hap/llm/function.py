@@ -7,12 +7,16 @@ import json
 from collections.abc import Awaitable, Callable, Mapping
 from typing import Any
 
+from scene2hap import checks
+from scene2hap.calls import clear_construction, misfit
+from scene2hap.errors import ConfigError
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 
 Returned = LLMReply | Mapping[str, Any] | str
 """A whole reply, an answer as JSON values, or a text."""
 
 
+@clear_construction
 class FunctionBackend:
     """Answers by calling `function(request)`, which may be async; what it raises passes through.
 
@@ -22,6 +26,9 @@ class FunctionBackend:
     def __init__(
         self, function: Callable[[LLMRequest], Returned | Awaitable[Returned]], *, model: str = "function"
     ) -> None:
+        told = misfit(function, (None,), {}) if callable(function) else f"It is {checks.represented(function)}."
+        if told:
+            raise ConfigError(f"function must take one argument, the LLMRequest, and give the answer. {told}")
         self._function = function
         self.model = model
         self.requests: list[LLMRequest] = []

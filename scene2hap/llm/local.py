@@ -12,6 +12,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any, Literal
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm import chat, served
 from scene2hap.llm.dialects import LADDER, ChatCompletions, Decoding, Dialect, OllamaChat, Rung
@@ -30,6 +31,7 @@ _OURS = frozenset({"model", "messages", "images", "response_format", "format", "
 """Fields that `extra` may not set: the backend would no longer know its own request."""
 
 
+@clear_construction
 class LocalBackend:
     """Answers of a local server.
 

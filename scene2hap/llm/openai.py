@@ -10,6 +10,7 @@ import warnings
 from typing import TYPE_CHECKING, Any, Literal
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm import chat
 from scene2hap.llm.http_client import Endpoint
@@ -30,6 +31,7 @@ _GIVES_WAY = {"temperature": None, "top_p": None, "seed": None, "max_tokens": "m
 neither temperature nor top_p."""
 
 
+@clear_construction
 class OpenAIBackend:
     """Answers of an OpenAI model.
 

@@ -6,12 +6,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, Protocol, get_args, runtime_checkable
 
+from scene2hap.calls import clear_construction
+
 Component = Literal["scene_analyzer", "object_analyzer", "material_estimator", "vibration_describer"]
 """The four chained components of the paper, section "LLM Workflow and Components"."""
 
 COMPONENTS: tuple[Component, ...] = get_args(Component)
 
 
+@clear_construction
 @dataclass(frozen=True)
 class LLMRequest:
     """One question.
@@ -32,6 +35,7 @@ class LLMRequest:
     temperature: float = 0.2
 
 
+@clear_construction
 @dataclass(frozen=True)
 class LLMReply:
     """One answer: `text` is a JSON document; `model` says who wrote it; `usage` counts tokens where known.

@@ -16,6 +16,8 @@ from typing import Any, BinaryIO
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import BadAnswer, ConfigError, ReplayMiss
 from scene2hap.llm.protocol import LLMBackend, LLMReply, LLMRequest
 from scene2hap.llm.request_key import canonical, part_names, plain, request_key
@@ -43,6 +45,7 @@ class _Entry(BaseModel):
     parts: dict[str, str] = {}
 
 
+@clear_construction
 class ReplayBackend:
     """Answers from a recording and nothing else. Of several answers to one request the last one counts.
 
@@ -88,6 +91,7 @@ class ReplayBackend:
         )
 
 
+@clear_construction
 class RecordingBackend:
     """Passes requests on to `inner` and appends each answer to a file, on disk before it is handed back.
 
@@ -96,7 +100,7 @@ class RecordingBackend:
 
     def __init__(self, inner: LLMBackend, path: str | os.PathLike[str]) -> None:
         self.inner = inner
-        self._path = Path(path)
+        self._path = checks.path("path", path, error=ConfigError)
         self._turn = threading.Lock()
         try:
             self._path.open("ab").close()

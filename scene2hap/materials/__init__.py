@@ -13,8 +13,13 @@ from importlib.resources import files
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import MaterialError, UnknownMaterial
+from scene2hap.scene.scene_warning import warn_of
 
 __all__ = ["Material", "MaterialRow", "lookup", "lookup_row", "table"]
+
+
+_USUAL = (("density_kg_m3", "kg/m3", "g/cm3", 10.0), ("youngs_modulus_pa", "Pa", "GPa or MPa", 1e3))
+"""The unit that each constant is most often mistaken for, and what all solids but aerogels and slime exceed."""
 
 
 @clear_construction
@@ -24,7 +29,7 @@ class Material:
 
     Parameters: density_kg_m3 > 0; youngs_modulus_pa > 0; -1 < poisson_ratio < 0.5 (both bounds make a plate's
     stiffness or the bulk modulus infinite); loss_factor 0..2 [-], twice the damping ratio.
-    Raises: MaterialError: a constant is outside its bound.
+    Raises: MaterialError: a constant is outside its bound. Warns: SceneWarning: one that looks like another unit.
     """
 
     name: str
@@ -48,6 +53,12 @@ class Material:
         bound("youngs_modulus_pa", "Pa", above=0.0)
         bound("poisson_ratio", "-", above=-1.0, below=0.5)
         bound("loss_factor", "-", at_least=0.0, at_most=2.0)
+        for field, unit, other, usual in _USUAL:
+            if getattr(self, field) < usual:
+                warn_of(
+                    f"{field} of {self.name!r} is {getattr(self, field):g} {unit}, less than solids have, {usual:g} "
+                    f"{unit}; is it in {other}? Give it in {unit}."
+                )
 
 
 @dataclass(frozen=True)

@@ -12,12 +12,14 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap.calls import clear_construction
 from scene2hap.haptics import Bands
 from scene2hap.propagation.paths import cheapest_arrivals
 from scene2hap.propagation.points import as_points
-from scene2hap.propagation.protocol import ContactNetwork, Excitation
+from scene2hap.propagation.protocol import ContactNetwork, Excitation, require_input
 
 
+@clear_construction
 @dataclass(frozen=True)
 class NoPropagation:
     """Only the source itself vibrates."""
@@ -26,9 +28,11 @@ class NoPropagation:
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> ReachField:
         """The field in which every source reaches itself alone."""
+        require_input(network, excitations, bands)
         return ReachField(tuple((item.source_id, frozenset({item.source_id})) for item in excitations), bands.n_bands)
 
 
+@clear_construction
 @dataclass(frozen=True)
 class FullPropagation:
     """Every object that a source reaches over contacts vibrates as strongly as the source; `max_hops` as in the paper's
@@ -39,6 +43,7 @@ class FullPropagation:
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> ReachField:
         """The field in which every source reaches all that it is connected with by contacts of weight above 0."""
+        require_input(network, excitations, bands)
         touching = [contact for contact in network.contacts if contact.weight > 0]
         source_ids = [item.source_id for item in excitations]
         free = dict.fromkeys(network.bodies, 0.0)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.errors import ConfigError, ModelDomainError
-from scene2hap.propagation.plate import MAX_FREQUENCY_HZ, Plate
+from scene2hap.propagation.plate import MAX_FREQUENCY_HZ, Plate, require_plate
 
 THIN_WAVELENGTHS = 6.0
 """Shortest wavelength that thin-plate theory serves, in thicknesses. There its frequencies are already 15 % above those
@@ -46,6 +46,7 @@ def as_frequencies(frequencies_hz: ArrayLike, *, positive_because: str = "") -> 
 
 def warn_if_thick(plate: Plate, frequencies_hz: NDArray[np.float64]) -> None:
     """Warn once per plate, by `ThinPlateWarning`, if six thicknesses exceed its wavelength at the top frequency."""
+    require_plate(plate)
     if frequencies_hz.size == 0:
         return
     limit_hz = _thin_limit_hz(plate)

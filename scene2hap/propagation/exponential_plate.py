@@ -28,9 +28,9 @@ from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_
 from scene2hap.propagation.live_law import GammaAt, GammaOver, LiveLaw
 from scene2hap.propagation.live_paths import LivePaths
 from scene2hap.propagation.paths import Arrivals, cheapest_arrivals
-from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.plate import Plate, require_plate
 from scene2hap.propagation.points import arrivals_at, as_points
-from scene2hap.propagation.protocol import Body, ContactNetwork, Excitation
+from scene2hap.propagation.protocol import Body, ContactNetwork, Excitation, require_input
 
 if TYPE_CHECKING:
     from scene2hap.contact.graph import ContactGraph
@@ -83,6 +83,7 @@ class ExponentialPlate:
         frequencies_hz : (n_frequencies,) [Hz], >= 0.
         Returns: (n_points, n_frequencies) complex128 [-], in [0, 1].
         """
+        require_plate(plate)
         offsets = as_points(points_m, 2) - as_points(drive_m, 2)
         distance = np.hypot(offsets[:, 0], offsets[:, 1])
         k = np.atleast_1d(plate.wavenumber_rad_m(frequencies_hz))
@@ -97,6 +98,7 @@ class ExponentialPlate:
 
         Raises: ModelDomainError, warns: ThinPlateWarning, for an object outside the domain, if so configured.
         """
+        require_input(network, excitations, bands)
         price = self._prices(network.bodies, excitations, bands)
         crossing = [self._crossing_cost(contact.weight) for contact in network.contacts]
         source_ids = tuple(excitation.source_id for excitation in excitations)

@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.plate import MAX_FREQUENCY_HZ, Plate
+from scene2hap.propagation.plate import MAX_FREQUENCY_HZ, Plate, require_plate
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.ritz import AxisBasis, axis_bases, products, stiffness
 
@@ -162,8 +162,7 @@ def plate_modes(plate: Plate, n_modes: int | None = None, *, max_frequency_hz: f
     Parameters: exactly one of n_modes >= 1 and max_frequency_hz >= 0 [Hz].
     Raises: ModelDomainError: neither or both, or so many modes that the eigenproblem grows past `LARGEST_BLOCK`.
     """
-    if not isinstance(plate, Plate):
-        raise ModelDomainError(f"plate is {checks.described(plate)}; it must be a Plate.")
+    require_plate(plate)
     if (n_modes is None) == (max_frequency_hz is None):
         raise ModelDomainError(
             f"n_modes is {n_modes} and max_frequency_hz is {max_frequency_hz}; give exactly one of them, a count of at "
@@ -175,8 +174,9 @@ def plate_modes(plate: Plate, n_modes: int | None = None, *, max_frequency_hz: f
             "max_frequency_hz", max_frequency_hz, "Hz", at_least=0, at_most=most_hz, error=ModelDomainError
         )
         return _modes_up_to(plate, f)
-    n = checks.number("n_modes", n_modes, "-", at_least=1, at_most=LARGEST_BLOCK**2, error=ModelDomainError)
-    return _lowest(plate, int(n))
+    return _lowest(
+        plate, checks.whole("n_modes", n_modes, "-", at_least=1, at_most=LARGEST_BLOCK**2, error=ModelDomainError)
+    )
 
 
 def n_rigid_motions(plate: Plate) -> int:
@@ -206,6 +206,7 @@ def points_on(plate: Plate, points_m: ArrayLike) -> NDArray[np.float64]:
 
     Raises: ModelDomainError: a point outside the plate by more than a millionth of its size; polynomials run away.
     """
+    require_plate(plate)
     points = as_points(points_m, 2)
     size = np.array([plate.length_m, plate.width_m])
     outside = ((points < -1e-6 * size) | (points > (1 + 1e-6) * size)).any(axis=1)

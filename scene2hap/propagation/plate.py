@@ -101,6 +101,15 @@ class Plate:
         return k
 
 
+def require_plate(plate: object) -> None:
+    """Raise a ModelDomainError unless this is a plate."""
+    if not isinstance(plate, Plate):
+        raise ModelDomainError(
+            f"plate is {checks.described(plate)}; it must be a Plate(length_m, width_m, thickness_m, material)."
+        )
+
+
+@clear_construction
 @dataclass(frozen=True)
 class RigidBody:
     """A compact body that moves as a whole.

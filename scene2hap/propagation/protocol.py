@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.plugins import Members, lacking
@@ -25,6 +26,7 @@ from scene2hap.scene.pose import Pose
 Body = Plate | RigidBody
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Excitation:
     """A vibrating object: its dominant frequency before and after the tactile band-pass [Hz], and its mass [kg]."""
@@ -42,6 +44,7 @@ class Excitation:
             object.__setattr__(self, name, value)
 
 
+@clear_construction
 @dataclass(frozen=True)
 class ContactNetwork:
     """The bodies of a scene, where they touch (world points [m]) and where they are.
@@ -54,6 +57,14 @@ class ContactNetwork:
     bodies: Mapping[str, Body]
     contacts: Sequence[Contact] = field(default_factory=tuple)
     poses: Mapping[str, Pose] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        bodies = self.bodies
+        wrong = next(iter(bodies.values()), None) if isinstance(bodies, Mapping) else bodies
+        if wrong is not None and not isinstance(wrong, Plate | RigidBody):
+            raise ModelDomainError(
+                f"bodies is or has {checks.described(wrong)}; it must be a mapping of object ids to Plate or RigidBody."
+            )
 
     def on_body(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
         """World points as (n_points, 2) [m] along length and width of a body, from its corner.
@@ -156,3 +167,16 @@ class PropagationModel(Protocol):
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> PropagationField:
         """The field of a whole scene, over any number of contacts that the model allows."""
         ...
+
+
+def require_input(network: object, excitations: object, bands: object) -> None:
+    """Raise a ModelDomainError unless these are what `prepare` of a model takes."""
+    some = next(iter(excitations), None) if isinstance(excitations, Sequence) else excitations
+    is_excitation = isinstance(some, Excitation) or (some is None and isinstance(excitations, Sequence))
+    for name, value, is_right, wanted in (
+        ("network", network, isinstance(network, ContactNetwork), "a ContactNetwork(bodies, contacts)"),
+        ("excitations", some, is_excitation, "a list of Excitation"),
+        ("bands", bands, isinstance(bands, Bands), "Bands, as Bands.third_octaves()"),
+    ):
+        if not is_right:
+            raise ModelDomainError(f"{name} is or has {checks.described(value)}; it must be {wanted}.")

@@ -29,7 +29,7 @@ from scene2hap.propagation.joints import joints_of, source_groups
 from scene2hap.propagation.object_response import ObjectResponse
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import as_points
-from scene2hap.propagation.protocol import Carrier, ContactNetwork, Excitation
+from scene2hap.propagation.protocol import Carrier, ContactNetwork, Excitation, require_input
 from scene2hap.propagation.rigid import RigidMotion, is_compact
 from scene2hap.propagation.sampling import Sampling
 from scene2hap.propagation.solved_object import SolvedObject
@@ -77,6 +77,7 @@ def assemble(
     outside_domain: OutsideDomain = "warn",
 ) -> Assembly:
     """Find connected groups, rigid bodies and plates. Parameters, errors and warnings as `prepare_coupled`."""
+    require_input(network, excitations, bands)
     mass_kg = {item.source_id: item.mass_kg for item in excitations}
     joints = joints_of(network, network.bodies.keys() | mass_kg.keys(), law)
     groups = source_groups(joints, mass_kg)

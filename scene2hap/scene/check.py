@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.scene.objects import SceneData
+from scene2hap.scene.scene_warning import SceneWarning as SceneWarning
 from scene2hap.scene.units import implausible
 
 Kind = Literal["units", "quaternions", "up-axis", "floating", "sunk"]
@@ -27,18 +28,12 @@ _RESTS_M = 0.06  # As far over what it rests on as the rule of contact allows at
 # five scenes by others have 0.59-0.83 along the right axis, 1.7 to 2.7 times as many as along the wrong one).
 _MOST_RESTING, _MORE_RESTING = 0.5, 1.5
 _FEW = 4  # Fewer objects are no judge of the up axis, nor of how quaternions are written.
+_TWO = 2  # All upside down, to the last digit: a w of 1 that comes first.
 _MOSTLY_W = 0.8  # The w of a turn by 74 degrees; most things are turned by less (assumed). Exports tip all by 90.
-_FLOOR_SHARE, _FLOOR_FLATNESS = (
-    0.5,
-    0.2,
-)  # A floor takes up this share of the scene, and is this flat at most (assumed).
+_FLOOR_SHARE, _FLOOR_FLATNESS = 0.5, 0.2  # A floor takes up this share of the scene, and is this flat (assumed).
 _NONE = 1e-6
 _MOST_NAMED = 5
 _BATCH = 256
-
-
-class SceneWarning(UserWarning):
-    """A scene with something that is almost surely wrong."""
 
 
 class Finding(NamedTuple):
@@ -77,8 +72,11 @@ def findings(scene: SceneData) -> Iterator[Finding]:
             f"up_axis is probably {letter!r}. Give up_axis={letter!r}.",
         )
         return
-    yield from _floating(boxes, ids, up)
-    yield from _sunk(boxes, ids, up)
+    room = list(_room(boxes, ids, up))
+    yield from room
+    if not room:
+        yield from _floating(boxes, ids, up)
+        yield from _sunk(boxes, ids, up)
 
 
 def _begin_with_w(scene: SceneData) -> bool:
@@ -87,7 +85,9 @@ def _begin_with_w(scene: SceneData) -> bool:
     # (w, x, y, z) of a turn about y is (c, 0, s, 0), about z (c, 0, 0, s): read as (x, y, z, w) it tips things over.
     none = (1, 3) if scene.up_axis == "y" else (1, 2)
     tips = np.abs(rotations[:, list(none)]).max(axis=1) < _NONE
-    return bool(len(tips) >= _FEW and tips.all() and (np.abs(rotations[:, 0]) > _MOSTLY_W).mean() > 0.5)
+    first = np.abs(rotations[:, 0])
+    is_none = len(tips) >= _TWO and bool((first > 1.0 - _NONE).all())
+    return is_none or bool(len(tips) >= _FEW and tips.all() and (first > _MOSTLY_W).mean() > 0.5)
 
 
 def _resting_share(boxes: NDArray[np.float64], up: int) -> float:
@@ -130,7 +130,8 @@ def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iter
         )
 
 
-def _sunk(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator[Finding]:
+def _floor(boxes: NDArray[np.float64], up: int) -> tuple[int, NDArray[np.bool_]] | None:
+    """The row of the lowest floor, and which boxes are over or under it; None if there is no floor."""
     low, high = boxes[:, 0], boxes[:, 1]
     level = [axis for axis in range(3) if axis != up]
     whole = np.ptp(boxes.reshape(-1, 3)[:, level], axis=0).prod()
@@ -138,18 +139,53 @@ def _sunk(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator
     is_floor = (sizes[:, level].prod(axis=1) >= _FLOOR_SHARE * whole) & (
         sizes[:, up] <= _FLOOR_FLATNESS * sizes[:, level].min(axis=1)
     )
-    for floor in np.flatnonzero(is_floor)[np.argsort(high[is_floor, up])[:1]]:
-        over = ((low[:, level] < high[floor, level]) & (high[:, level] > low[floor, level])).all(axis=1)
-        depth = high[floor, up] - high[:, up]
-        sunk = np.flatnonzero(over & (depth > _SUNK_M))
-        if len(sunk):
-            row = sunk[0]
-            yield Finding(
-                "sunk",
-                tuple(ids[k] for k in sunk),
-                f"{_named(ids, sunk)} {'are' if len(sunk) > 1 else 'is'} below the floor: {ids[row]!r} ends "
-                f"{depth[row]:.2f} m under the top of {ids[floor]!r}, more than {_SUNK_M} m. Raise it.",
-            )
+    if not is_floor.any():
+        return None
+    row = int(np.flatnonzero(is_floor)[high[is_floor, up].argmin()])
+    among = np.all((low[:, level] < high[row, level]) & (high[:, level] > low[row, level]), axis=1)
+    among &= np.arange(len(among)) != row
+    return row, among
+
+
+def _room(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator[Finding]:
+    """A room of which nothing stands on the floor, or of which most is let into it."""
+    found = _floor(boxes, up)
+    if found is None or found[1].sum() < _FEW:
+        return
+    floor, rows = found[0], np.flatnonzero(found[1])
+    over = boxes[rows, 0, up] - boxes[floor, 1, up]
+    names = tuple(ids[k] for k in rows)
+    if over.min() > _FLOATS_M:
+        yield Finding(
+            "floating",
+            names,
+            f"the room floats: the lowest of {len(rows)} objects over {ids[floor]!r} is {over.min():.2f} m above it, "
+            f"more than {_FLOATS_M} m. Lower them, or raise the floor.",
+        )
+    elif np.median(over) < -_SUNK_M:
+        yield Finding(
+            "sunk",
+            names,
+            f"the room is sunk: most of {len(rows)} objects begin below the top of {ids[floor]!r}, half of them by "
+            f"{-np.median(over):.2f} m or more; at most {_SUNK_M} m is usual. Raise them, or lower the floor.",
+        )
+
+
+def _sunk(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator[Finding]:
+    found = _floor(boxes, up)
+    if found is None:
+        return
+    floor, over = found
+    depth = boxes[floor, 1, up] - boxes[:, 1, up]
+    sunk = np.flatnonzero(over & (depth > _SUNK_M))
+    if len(sunk):
+        row = sunk[0]
+        yield Finding(
+            "sunk",
+            tuple(ids[k] for k in sunk),
+            f"{_named(ids, sunk)} {'are' if len(sunk) > 1 else 'is'} below the floor: {ids[row]!r} ends "
+            f"{depth[row]:.2f} m under the top of {ids[floor]!r}, more than {_SUNK_M} m. Raise it.",
+        )
 
 
 def _named(ids: tuple[str, ...], rows: NDArray[np.intp]) -> str:

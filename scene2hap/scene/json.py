@@ -46,6 +46,13 @@ def dump(scene: SceneData) -> str:
 
 def parse(text: str) -> SceneData:
     """The scene in a JSON text; raises SceneError with the field that is wrong."""
+    if isinstance(text, bytes | bytearray):
+        text = text.decode("utf-8", "replace")
+    if not isinstance(text, str):
+        raise SceneError(
+            f"text is {checks.described(text)}; it must be the JSON text of a scene, as `to_json` gives. Of a file "
+            "give path.read_text(), of a dictionary json.dumps(document)."
+        )
     try:
         document = read_json(text)
     except (ValueError, RecursionError) as cause:  # ValueError: also a number of thousands of digits

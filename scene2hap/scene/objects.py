@@ -61,6 +61,7 @@ class Contact:
         object.__setattr__(self, "weight", weight if weight > _LEAST_WEIGHT else 0.0)
 
 
+@clear_construction
 @dataclass(frozen=True, init=False)
 class SceneObject:
     """One thing that a user would point at.
@@ -106,6 +107,8 @@ class SceneObject:
         given |= {"instance_key": instance_key, "appearance": appearance, "images": images}
         for key, value in given.items():
             object.__setattr__(self, key, value)
+        if not isinstance(id, str):
+            raise SceneError(f"id is {checks.represented(id)}; it must be a text, and every object has its own.")
         if not isinstance(self.name, str) or not isinstance(pose, Pose):
             which, value, wanted = ("pose", pose, "a Pose") if isinstance(self.name, str) else ("name", name, "a text")
             raise SceneError(

@@ -13,19 +13,28 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
+from scene2hap.scene.scene_warning import warn_of
 
 # A quaternion this close to unit length is kept to the last bit, so that JSON round trips are exact.
 _UNIT_TOLERANCE = 1e-9
+# Values rounded to one decimal are off by less, and so is the mean of two rotations 50 degrees apart.
+_FAR_FROM_UNIT = 0.1
+# Radians that are a whole number of these are degrees.
+_DEGREES = 15.0
+_LAST_ROW = 1e-6
 _LEAST_SLANT = 1e-9  # a target straighter above than this leaves no side
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Pose:
     """A rigid placement: x_world = R x_own + position.
 
     Parameters: position_m : three numbers [m]; rotation_xyzw : quaternion (x, y, z, w), normalised if it is not.
     Raises: SceneError: a component is not finite or the quaternion is zero.
+    Warns: SceneWarning: the length of the quaternion is far from 1.
     """
 
     position_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
@@ -37,6 +46,8 @@ class Pose:
         length = math.hypot(*rotation)
         if length < 1e-12:
             raise SceneError("rotation_xyzw has length 0; a rotation is a unit quaternion. Use (0, 0, 0, 1) for none.")
+        if abs(length - 1.0) > _FAR_FROM_UNIT:
+            _warn_of_length(rotation, length)
         if abs(length - 1.0) > _UNIT_TOLERANCE:
             rotation = tuple(component / length for component in rotation)
         object.__setattr__(self, "position_m", position)
@@ -72,6 +83,8 @@ class Pose:
 
     def compose(self, inner: Pose) -> Pose:
         """The pose whose frame is `inner`, given in the frame of this one."""
+        if not isinstance(inner, Pose):
+            raise SceneError(f"inner is {checks.represented(inner)}; it must be a Pose, as Pose(position_m).")
         ax, ay, az, aw = self.rotation_xyzw
         bx, by, bz, bw = inner.rotation_xyzw
         quaternion = (
@@ -93,6 +106,7 @@ class Pose:
     def from_yaw(cls, position_m: Sequence[float], yaw_rad: float, *, up_axis: Literal["y", "z"] = "y") -> Pose:
         """The pose of a thing that is turned about the vertical, counter-clockwise seen from above."""
         half = checks.number("yaw_rad", yaw_rad, "rad", error=SceneError) / 2
+        _warn_of_degrees("yaw_rad", yaw_rad)
         return cls(_given(position_m), _about(_axis(up_axis, "up_axis", "yz"), half))
 
     @classmethod
@@ -114,6 +128,8 @@ class Pose:
                 f"order is {checks.represented(order)}; it must be letters such as 'xyz' (world) or 'ZYX' (own axes)."
             )
         angles = checks.vector("angles_rad", angles_rad, "rad", size=len(order), error=SceneError)
+        for angle in angles:
+            _warn_of_degrees("angles_rad", angle)
         turned = cls()
         for letter, angle in zip(letters, angles, strict=True):
             turn = cls(rotation_xyzw=_about("xyz".index(letter), angle / 2))
@@ -148,9 +164,9 @@ class Pose:
 
     @classmethod
     def from_matrix(cls, matrix: ArrayLike) -> Pose:
-        """The pose of a rigid (4, 4) matrix.
+        """The pose of a rigid (4, 4) matrix, with the position in its last column.
 
-        Raises: SceneError: the upper left 3 x 3 block is not a rotation.
+        Raises: SceneError: the upper left 3 x 3 block is not a rotation, or the last row is not (0, 0, 0, 1).
         """
         m = checks.floats("matrix", matrix, "-", error=SceneError)
         if m.shape != (4, 4) or not np.isfinite(m).all():
@@ -158,7 +174,29 @@ class Pose:
         r = m[:3, :3]
         if np.abs(r).max() > 2.0 or not np.allclose(r @ r.T, np.eye(3), atol=1e-6) or np.linalg.det(r) < 0:
             raise SceneError("matrix is not rigid: bake its scale or mirroring into the mesh first.")
+        if np.abs(m[3] - (0.0, 0.0, 0.0, 1.0)).max() > _LAST_ROW:
+            raise SceneError(
+                f"matrix has {tuple(m[3].tolist())} in its last row; it must be (0, 0, 0, 1), with the position [m] in "
+                "the last column. Give matrix.T if the position stands in the last row."
+            )
         return cls(_triple(m[:3, 3]), _quaternion(r))
+
+
+def _warn_of_length(rotation: Sequence[float], length: float) -> None:
+    told = ", ".join(f"{component:g}" for component in rotation)
+    warn_of(
+        f"rotation_xyzw is ({told}), of length {length:.3g}; a rotation is a unit quaternion (x, y, z, w), so that "
+        "this one was divided by its length. For angles write Pose.from_euler(position_m, angles_rad), for a "
+        "quaternion that begins with w Pose.from_wxyz(position_m, rotation_wxyz)."
+    )
+
+
+def _warn_of_degrees(name: str, angle_rad: float) -> None:
+    if angle_rad != 0.0 and angle_rad % _DEGREES == 0.0:
+        warn_of(
+            f"{name} is or has {angle_rad:g} rad, {abs(angle_rad) / math.tau:.1f} turns, and looks like degrees; for "
+            f"degrees write math.radians({angle_rad:g})."
+        )
 
 
 def _given(position_m: Sequence[float]) -> tuple[float, float, float]:

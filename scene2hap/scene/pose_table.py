@@ -8,12 +8,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
 from scene2hap.scene.pose import Pose
 
 _UNIT_TOLERANCE = 1e-9  # As in `Pose`: such a rotation is kept as it is.
 
 
+@clear_construction
 class PoseTable(Mapping[str, Pose]):
     """A mapping from id to `Pose` that makes each pose on first access, for `ContactGraph.update` of many objects.
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from pydantic import PlainSerializer, PlainValidator
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
 from scene2hap.scene import sizes
 from scene2hap.scene.pose import Pose
@@ -29,6 +30,7 @@ else:
     Faces = Annotated[Any, *_JsonArray]
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Box:
     """A cuboid centred on its object's pose, axes along the object's own.
@@ -53,6 +55,7 @@ class Box:
         return TriMesh(corners * half, np.array(faces, dtype=np.int32))
 
 
+@clear_construction
 @dataclass(frozen=True, eq=False, repr=False)
 class TriMesh:
     """A triangle mesh in its object's own frame.
@@ -129,6 +132,7 @@ def geometry_of(value: object, owner: str) -> Geometry:
     )
 
 
+@clear_construction
 @dataclass(frozen=True)
 class DominantSurface:
     """The plate of an object, such as the top of a table, and where it lies in the object's own frame.
@@ -146,6 +150,8 @@ class DominantSurface:
     flags: tuple[SurfaceFlag, ...] = ()
 
     def __post_init__(self) -> None:
+        if not isinstance(self.pose, Pose):
+            raise SceneError(f"pose of the surface is {checks.described(self.pose)}; it must be a Pose.")
         for name in ("length_m", "width_m", "thickness_m"):
             object.__setattr__(
                 self, name, checks.number(name, getattr(self, name), "m", at_least=0.0, error=SceneError)
@@ -167,6 +173,8 @@ def _frozen_array(name: str, value: object, dtype: type[np.generic]) -> NDArray[
         raise SceneError(f"{name} has shape {array.shape}; it must be (n, 3).")
     if dtype is np.int32 and not (np.isfinite(array).all() and (np.abs(array) < 2**31).all()):
         raise SceneError(f"{name} holds values that are not vertex numbers; they must be integers from 0.")
+    if dtype is np.int32 and (array != np.rint(array)).any():
+        raise SceneError(f"{name} holds {array[array != np.rint(array)][0]:g}; vertex numbers must be integers from 0.")
     frozen = array.astype(dtype)
     frozen.flags.writeable = False
     return frozen

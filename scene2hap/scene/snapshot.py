@@ -9,11 +9,13 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from typing import SupportsIndex, overload
 
 from pydantic import InstanceOf
 
 from scene2hap import checks
-from scene2hap.errors import SceneError, UnknownObject
+from scene2hap.calls import clear_calls
+from scene2hap.errors import CallError, SceneError, UnknownObject
 from scene2hap.scene.check import Finding
 from scene2hap.scene.images import ImageSet
 from scene2hap.scene.objects import (
@@ -28,6 +30,25 @@ from scene2hap.scene.objects import (
 from scene2hap.scene.pose import Pose
 
 
+class ObjectTuple(tuple[SceneObject, ...]):
+    """Objects in their order, which tells how to find one by its id."""
+
+    __slots__ = ()
+
+    @overload
+    def __getitem__(self, key: SupportsIndex) -> SceneObject: ...
+    @overload
+    def __getitem__(self, key: slice) -> tuple[SceneObject, ...]: ...
+    def __getitem__(self, key: SupportsIndex | slice) -> SceneObject | tuple[SceneObject, ...]:
+        if isinstance(key, str):
+            raise CallError(f"objects is a tuple, so that [{key!r}] finds nothing; write scene.object({key!r}).")
+        return super().__getitem__(key)
+
+
+_MOST_OBJECTS, _MOST_CONTACTS = 10_000_000, 100_000_000  # as an endless generator would exceed
+
+
+@clear_calls
 @dataclass(frozen=True)
 class SceneSnapshot(SceneData):
     """All that is read out of a scene at one moment.
@@ -43,7 +64,14 @@ class SceneSnapshot(SceneData):
     def __post_init__(self) -> None:
         if not isinstance(self.up_axis, str) or self.up_axis not in ("y", "z"):
             raise SceneError(f"up_axis is {checks.represented(self.up_axis)}; it must be 'y' or 'z'.")
-        object.__setattr__(self, "objects", tuple(self.objects))
+        checks.text("name", self.name, error=SceneError)
+        objects = checks.items("objects", self.objects, at_most=_MOST_OBJECTS, error=SceneError)
+        for item in objects:
+            if not isinstance(item, SceneObject):
+                raise SceneError(
+                    f"an object is {checks.described(item)}; it must be a SceneObject(id, pose=, geometry=)."
+                )
+        object.__setattr__(self, "objects", ObjectTuple(objects))
         if not self.objects:
             raise SceneError(f"scene {self.name!r} has no object with a surface; nothing in it can be touched.")
         by_id = {item.id: item for item in self.objects}
@@ -52,8 +80,12 @@ class SceneSnapshot(SceneData):
             raise SceneError(f"object id {twice[0]!r} is used more than once; ids must be unique (names need not be).")
         object.__setattr__(self, "_by_id", by_id)
         if self.contacts is not None:
-            object.__setattr__(self, "contacts", tuple(self.contacts))
-            for contact in self.contacts:
+            contacts = checks.items("contacts", self.contacts, at_most=_MOST_CONTACTS, error=SceneError)
+            object.__setattr__(self, "contacts", contacts)
+            for contact in contacts:
+                if not isinstance(contact, Contact):
+                    told = checks.described(contact)
+                    raise SceneError(f"a contact is {told}; it must be a Contact(a, b, point_m) of two object ids.")
                 self.object(contact.a)
                 self.object(contact.b)
 
@@ -86,7 +118,7 @@ class SceneSnapshot(SceneData):
             turned.append(item)
         scene = cls(name, up_axis, tuple(turned), None if contacts is None else tuple(contacts))
         scene = replace(scene, objects=with_relative_heights(turned, up_axis))
-        warn_if_implausible(scene, stacklevel=3)
+        warn_if_implausible(scene, stacklevel=4)
         return scene
 
     def object(self, object_id: str) -> SceneObject:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
+from scene2hap.attributes import clear_attributes
 from scene2hap.calls import clear_call, clear_construction
 from scene2hap.errors import SessionError, UnknownObject
 
@@ -32,6 +33,7 @@ class Touch:
 Gains = NDArray[np.float32]
 
 
+@clear_attributes
 class HapticFrame:
     """The result of one update: gains of all hands.
 
@@ -74,6 +76,7 @@ class HapticFrame:
         return float(self.gains[self.hands.index(hand), self.sources.index(source_id)].max())
 
 
+@clear_attributes
 @dataclass(frozen=True)
 class SkipCounts:
     """How often each kind of work was left out; see `SkipConfig`.
@@ -96,6 +99,7 @@ class SkipCounts:
     unchanged_frames: int = 0
 
 
+@clear_attributes
 @dataclass(frozen=True)
 class SessionStats:
     """Counters of a session.
@@ -104,7 +108,8 @@ class SessionStats:
     gains_capped : gains of a source at a hand above the limit; bodiless : objects that carry no vibration, since their
     material is unknown; field_age_s : for how long the field in use has been out of date, 0 while it is not [s];
     field_latency_s : time from a change to the use of the field that includes it [s]; fields_failed : preparations that
-    the model refused, while the last field stayed in use; last_failure : the model's message.
+    the model refused, while the last field stayed in use; last_failure : the model's message; touches_off_surface :
+    touches more than 5 cm from the surface of their object, summed over updates.
     """
 
     updates: int = 0
@@ -116,6 +121,7 @@ class SessionStats:
     fields_failed: int = 0
     last_failure: str = ""
     skipped: SkipCounts = SkipCounts()
+    touches_off_surface: int = 0
 
 
 def unknown_hand(hand: str, hands: Sequence[str]) -> str:

@@ -135,4 +135,9 @@ def require_addable(item: object, haptics: object, loops: object) -> None:
         )
     for state, loop in (loops or {}).items():
         if not isinstance(loop, HapticLoop):
-            raise SessionError(f"loops[{state!r}] of {item.id!r} is {loop!r}; it must be a HapticLoop.")
+            told, hint = checks.described(loop), ""
+            if isinstance(loop, Mapping):
+                hint = f" Give the loops of one source, as bundle.loops[{state!r}]."
+            raise SessionError(f"loops[{state!r}] of {item.id!r} is {told}; it must be a HapticLoop.{hint}")
+        if not isinstance(state, str):
+            raise SessionError(f"loops of {item.id!r} has the state {checks.represented(state)}; it must be a text.")

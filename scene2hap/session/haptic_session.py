@@ -16,6 +16,7 @@ from types import TracebackType
 from typing import Any, NoReturn, Self
 
 from scene2hap import checks
+from scene2hap.attributes import read_only
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.given import given_pair
@@ -28,6 +29,7 @@ from scene2hap.haptics import ObjectHaptics
 from scene2hap.render.safety import SafetyStats
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.actuator_check import warn_if_other
 from scene2hap.session.config import SessionConfig
@@ -44,10 +46,13 @@ from scene2hap.session.given import (
 )
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.listening import Listening
+from scene2hap.session.off_surface import OffSurface
 from scene2hap.session.output import Output
 from scene2hap.session.playback import Playback
 from scene2hap.session.scene_state import SceneState
+from scene2hap.session.silent_object import SilentObjects
 from scene2hap.session.sources import Sources
+from scene2hap.session.w_first import warn_if_w_first
 
 MAX_RENDERED_FRAMES = 1 << 24
 """At once; assumed: minutes, where a sink asks for milliseconds."""
@@ -57,6 +62,7 @@ MAX_AHEAD_S = 3600
 
 
 @clear_calls
+@read_only
 class HapticSession:
     """A scene under hands.
 
@@ -82,8 +88,8 @@ class HapticSession:
     ) -> None:
         require_settings(config)
         scene, bundle = given_pair(scene, bundle)
-        self.config = SessionConfig.parse(config)
-        self.hands = checks.names("hands", hands)
+        self._config = SessionConfig.parse(config)
+        self._hands = checks.names("hands", hands)
         self._bundle = bundle
         warn_if_other(bundle, self.config.actuator)
         self._sources = Sources()
@@ -93,9 +99,21 @@ class HapticSession:
         self._state = SceneState(scene, bundle)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
         self._listening = Listening(self.config, self._state, self._sources, self._playback.peaks)
+        self._off_surface, self._silent_objects = OffSurface(self._state), SilentObjects()
         self._output = Output(sink, self.config)
         self._whole = WholeFrames(self.config.sample_rate_hz)
         self._last_stamp = self._updates = 0
+        self._warned_of_silence = self._has_moved = False
+
+    @property
+    def config(self) -> SessionConfig:
+        """The settings."""
+        return self._config
+
+    @property
+    def hands(self) -> tuple[str, ...]:
+        """Names of the outputs, in the order of channels."""
+        return self._hands
 
     @property
     def source_ids(self) -> tuple[str, ...]:
@@ -132,6 +150,7 @@ class HapticSession:
         tells, instead of those found from geometry; at_sample : the position on `render`'s clock from which the gains
         change, None for the next block.
         A single Touch, touches as the first argument, and (hand, object id, point) instead of a Touch are taken too.
+        Warns: SceneWarning: a hand touches an object more than 5 cm from its surface, once per hand; nothing vibrates.
         Raises: UnknownObject: a touched or moved object is not in the scene; SessionError: an unknown hand, a position
         before that of the last update, or something else than poses, touches and contacts.
         """
@@ -148,6 +167,9 @@ class HapticSession:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
         self._updates += 1
         self._output.feed(frame)
+        if felt:
+            self._warn_if_nothing_vibrates()
+            self._off_surface.look(felt)
         return frame
 
     def add(
@@ -161,6 +183,7 @@ class HapticSession:
         Without both, what the bundle says of its id holds, so that what was removed may come back as it was. Loops of
         new content are prepared by a worker, and fade in with the first `update` after that.
         Raises: SceneError: its id is taken; SessionError: a loop is none.
+        Warns: SceneWarning: it will neither vibrate nor carry vibration.
         """
         require_addable(object, haptics, loops)
         if haptics is None and loops is None:
@@ -315,8 +338,9 @@ class HapticSession:
         """Send the mix through the safety layer to the sink.
 
         Raises: SessionError: the session has no sink; DeviceError: it cannot be opened; ConfigError: the actuator's
-        budget is out of bounds.
+        budget is out of bounds. Warns: SceneWarning: nothing vibrates.
         """
+        self._warn_if_nothing_vibrates()
         self._output.start(self._rendered, self.hands)
 
     def stop(self) -> None:
@@ -347,7 +371,8 @@ class HapticSession:
     @property
     def stats(self) -> SessionStats:
         """What was done so far."""
-        return self._listening.stats(self._updates, self._playback.rows_not_mixed)
+        stats = self._listening.stats(self._updates, self._playback.rows_not_mixed)
+        return replace(stats, touches_off_surface=self._off_surface.n_touches)
 
     @property
     def safety_stats(self) -> SafetyStats:
@@ -366,6 +391,15 @@ class HapticSession:
             self._sources.add(item.id, loops, haptics, gain_db)
             self._playback.change_rows(self._sources.rows(), self._now)
         self._listening.apply(change, sources_changed=bool(loops))
+        self._silent_objects.look(item.id, haptics, loops)
+
+    def _warn_if_nothing_vibrates(self) -> None:
+        if not self._warned_of_silence and not self._sources.ids:
+            self._warned_of_silence = True
+            warn_of(
+                f"of {len(self._state.objects)} objects none vibrates, so that nothing will be felt; add or spawn "
+                "one with loops, or bundle.override(id, vibrates=True) and rebake(bundle)."
+            )
 
     def _stamp(self, at_sample: int | None) -> int:
         if at_sample is not None and type(at_sample) is not int:
@@ -385,7 +419,7 @@ class HapticSession:
         return self._last_stamp
 
     def _use_hands(self, hands: tuple[str, ...]) -> None:
-        self.hands = hands
+        self._hands = hands
         self._listening.levels_changed()
 
     def _by_hand(self, touches: Sequence[Touch] | None) -> Felt:
@@ -411,6 +445,9 @@ class HapticSession:
         return by_hand
 
     def _changed(self, moved: Mapping[str, Pose], contacts: Sequence[Contact] | None) -> ContactChange:
+        if moved and not self._has_moved:
+            self._has_moved = True
+            warn_if_w_first(moved, self._state.graph.pose, self._state.objects)
         try:
             return self._state.graph.update(moved, contacts=None if contacts is None else given_contacts(contacts))
         except SceneError:

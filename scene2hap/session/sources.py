@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
+from scene2hap.audio.gain_warning import warn_if_percent
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics
@@ -29,6 +30,7 @@ class Level:
         if gain_db is not None:
             hint = "Use mute for silence."
             bounded = checks.number("gain_db", gain_db, "dB", at_most=MAX_GAIN_DB, error=SessionError, hint=hint)
+            warn_if_percent(bounded)
             self.factor_unmuted = 10 ** (bounded / 20)
         if mute is not None:
             self.is_muted = checks.flag("mute", mute, error=SessionError)

@@ -12,6 +12,7 @@ PACKAGE = Path(__file__).parents[2] / "scene2hap"
 LAYERS = [
     {"errors", "printable", "quiet_logs"},
     {"checks", "compiled", "echoes"},
+    {"attributes"},
     {"calls"},
     {"plugins", "secret", "text_files", "web"},
     {"settings"},

@@ -1,6 +1,6 @@
 """The usual mistakes of users work where their meaning is plain, and end in one sentence of our own elsewhere.
 
-`usual_mistakes` is the table of them, written before any was mended.
+`usual_mistakes` and `more_mistakes` are the tables of them, written before any was mended.
 """
 
 import re
@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from mistakes_room import Room, is_answered, page_tables, with_tables
-from usual_mistakes import TOPICS, Mistake
+from mistakes_room import ALL_TOPICS, Room, is_answered, page_tables, with_tables
+from usual_mistakes import Mistake
 
-MISTAKES = [pytest.param(one, id=f"{topic}: {one.code}") for topic, ones in TOPICS.items() for one in ones]
+MISTAKES = [pytest.param(one, id=f"{topic}: {one.code}") for topic, ones in ALL_TOPICS.items() for one in ones]
 PAGE = Path(__file__).parents[2] / "docs" / "errors.md"
 
 
@@ -24,7 +24,7 @@ def room(tmp_path_factory: pytest.TempPathFactory) -> Room:
 def test_a_mistake_is_answered_or_works(room: Room, mistake: Mistake) -> None:
     answer = room.answer(mistake.code)
     assert is_answered(mistake, answer), answer
-    if answer.is_ours:
+    if answer.is_ours or answer.is_warning:
         assert "\n" not in answer.sentence
         assert len(answer.sentence) < 600
         assert answer.sentence.endswith((".", "?"))
@@ -36,6 +36,7 @@ def test_the_code_of_the_page_runs(room: Room, block: str) -> None:
     assert room.answer(block).kind is None, room.answer(block)
 
 
-def test_the_page_has_the_answers_as_they_are(room: Room) -> None:
+def test_the_page_has_the_answers_as_they_are(tmp_path: Path) -> None:
+    """In a room of its own, since mistakes leave files behind, whose names are then the nearest to others."""
     page = PAGE.read_text("utf-8")
-    assert page == with_tables(page, page_tables(room)), "run: python tests/mistakes_room.py"
+    assert page == with_tables(page, page_tables(Room(tmp_path))), "run: python tests/mistakes_room.py"

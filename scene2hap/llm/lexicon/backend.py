@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import BadAnswer, UnknownMaterial
 from scene2hap.llm.answers import Answer, MaterialAnswer, SceneAnswer, VibrationAnswer
 from scene2hap.llm.lexicon import describing, judging, places, stand_ins, table
@@ -15,6 +16,7 @@ from scene2hap.llm.protocol import Component, LLMReply, LLMRequest
 _Facts = Mapping[str, Any]
 
 
+@clear_construction
 class LexiconBackend:
     """Answers from `request.facts` alone; prompt, pictures and temperature do not matter.
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import BackendError, BudgetExceeded, ConfigError
 from scene2hap.llm.chat import UnusableAnswer
 from scene2hap.llm.protocol import LLMReply, LLMRequest
@@ -13,6 +14,7 @@ from scene2hap.llm.wrappers.prices import Price, PriceList, price_list
 from scene2hap.llm.wrappers.stack import Spec, Wrapper
 
 
+@clear_construction
 class BudgetBackend(Wrapper):
     """Passes calls on as long as the limits hold; None is no limit.
 

@@ -19,6 +19,7 @@ from typing import Any
 from filelock import AsyncFileLock
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError
 from scene2hap.llm.protocol import Component, LLMReply, LLMRequest
 from scene2hap.llm.request_key import request_key
@@ -42,6 +43,7 @@ class _Entry(BaseModel):
     usage: dict[str, int]
 
 
+@clear_construction
 class CacheBackend(Wrapper):
     """Answer from `folder` if possible; else call `inner` and keep the answer if it is valid.
 

@@ -10,12 +10,14 @@ from functools import cache
 from importlib.resources import files
 
 from scene2hap import checks
-from scene2hap.errors import ConfigError, Scene2HapError
+from scene2hap.calls import clear_construction
+from scene2hap.errors import ConfigError
 
 _SNAPSHOT = re.compile(r"-\d{4}-\d{2}-\d{2}$")
 """The date in the name of a model's version: gpt-4o-2024-08-06."""
 
 
+@clear_construction
 @dataclass(frozen=True)
 class Price:
     """What a model costs per million tokens; the list is in US dollars, your own prices should be too."""
@@ -62,7 +64,7 @@ def _price(model: str, price: Price | tuple[float, float]) -> Price:
         return price
     try:
         return Price(*price)
-    except Scene2HapError:
+    except ConfigError:
         raise
     except Exception as cause:  # what is no pair of numbers raises what it likes
         raise ConfigError(

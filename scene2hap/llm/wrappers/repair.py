@@ -6,6 +6,7 @@ from collections import Counter
 from dataclasses import replace
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError
 from scene2hap.llm.chat import Said, UnusableAnswer, require_willing, unusable
 from scene2hap.llm.chat import about as describe
@@ -18,6 +19,7 @@ _LONGEST_QUOTED = 4000
 """Characters of a bad answer that are handed back; assumed, three times the longest good one."""
 
 
+@clear_construction
 class RepairBackend(Wrapper):
     """Validate each reply as its component's answer; repeat the request up to `repairs` times if it is invalid.
 

@@ -7,6 +7,7 @@ import random
 from collections.abc import Awaitable, Callable
 
 from scene2hap import checks
+from scene2hap.calls import clear_construction
 from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.wrappers.stack import Spec, Wrapper
@@ -17,6 +18,7 @@ LEAST_SHARE = 0.75
 """Waits of min(0.5 * 2^n, 8) s times a share of 0.75 to 1, as OpenAI's own Python client does."""
 
 
+@clear_construction
 class RetryBackend(Wrapper):
     """Repeats a call that failed with a retryable `BackendUnavailable`, up to `retries` times.
 

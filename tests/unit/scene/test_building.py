@@ -1,6 +1,7 @@
 """Scenes made in Python: objects measure themselves, and `check` says what is almost surely wrong."""
 
 import math
+import tracemalloc
 from contextlib import nullcontext
 from dataclasses import replace
 
@@ -129,6 +130,62 @@ def test_what_is_wrong_is_found(
     found = scene.check()
     assert [(one.kind, one.object_ids) for one in found][:1] == [(kind, object_ids)]
     assert str(found[0]).endswith(".")
+
+
+@pytest.mark.parametrize(
+    ("up_m", "kind", "words"),
+    [
+        (0.0, None, ""),
+        (0.1, None, ""),
+        (0.4, "floating", "the room floats: the lowest of 4 objects over 'floor' is 0.40 m above it"),
+        (-0.09, None, ""),
+        (-0.15, "sunk", "'floor'"),
+    ],
+)
+def test_a_room_that_hangs_over_its_floor_or_is_let_into_it(up_m: float, kind: str | None, words: str) -> None:
+    """As after an export with two origins: everything but the floor is elsewhere."""
+    crates = [moved(ROOM[4], id=f"crate {k}", pose=Pose((1.2 - 0.6 * k, 0.2, -1.0))) for k in range(4)]
+    things = crates if kind == "sunk" else ROOM[1:]
+    lifted = [
+        moved(item, pose=Pose((item.pose.position_m[0], item.pose.position_m[1] + up_m, item.pose.position_m[2])))
+        for item in things
+    ]
+    found = SceneSnapshot.build([ROOM[0], *lifted]).check()
+    assert [one.kind for one in found] == ([kind] if kind else [])
+    if kind:
+        assert set(found[0].object_ids) == {item.id for item in things}
+        assert words in str(found[0])
+
+
+def test_the_room_of_a_scene_by_others_may_not_float() -> None:
+    scene = load_scene(needed(SCENES / "composed_kitchen_kaykit/composed_kitchen_kaykit.glb"))
+    up = {"y": 1, "z": 2}[scene.up_axis]
+    low = np.array([item.bounds_m[0] for item in scene.objects])
+    floor = scene.objects[int(low[:, up].argmin())].id
+    shift = np.eye(3)[up]
+    lifted = {
+        item.id: Pose(tuple(np.add(item.pose.position_m, shift)), item.pose.rotation_xyzw)
+        for item in scene.objects
+        if item.id != floor
+    }
+    assert "floating" in {one.kind for one in scene.with_poses(lifted).check()}
+
+
+def test_two_things_that_are_both_upside_down_begin_with_w() -> None:
+    flipped = [moved(item, pose=Pose(item.pose.position_m, (1.0, 0.0, 0.0, 0.0))) for item in ROOM[:2]]
+    assert [one.kind for one in SceneSnapshot.build(flipped).check()] == ["quaternions"]
+    assert SceneSnapshot.build([flipped[1], ROOM[0]]).check() == ()
+
+
+def test_a_scene_of_thousands_is_checked_in_bounded_memory() -> None:
+    crates = [
+        moved(ROOM[4], id=f"{k}", pose=Pose((k % 60, 0.2, k // 60)), surface=ROOM[4].surface) for k in range(3000)
+    ]
+    scene = SceneSnapshot("crowd", "y", tuple(crates))
+    tracemalloc.start()
+    assert scene.check() == ()
+    assert tracemalloc.get_traced_memory()[1] < 150e6
+    tracemalloc.stop()
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from scene2hap.errors import SceneError
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.scene_warning import SceneWarning
 
 coordinates = st.floats(-100, 100)
 directions = st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: math.hypot(*q) > 1e-3)
@@ -97,3 +99,43 @@ def test_what_is_no_pose_is_refused(arguments: dict[str, object], sentence: str)
 def test_a_matrix_that_is_not_rigid_is_refused(matrix: np.ndarray[tuple[int, int], np.dtype[np.float64]]) -> None:
     with pytest.raises(SceneError, match="not rigid"):
         Pose.from_matrix(matrix)
+
+
+@pytest.mark.parametrize("rotation", [(0.0, 90.0, 0.0, 0.0), (0.0, 0.0, 0.0, 2.0), (0.1, 0.2, 0.1, 0.3)])
+def test_a_quaternion_far_from_unit_length_is_told_and_normalised(rotation: tuple[float, float, float, float]) -> None:
+    with pytest.warns(SceneWarning, match=r"of length .*from_euler.*from_wxyz") as caught:
+        pose = Pose((0.0, 0.0, 0.0), rotation)
+    assert caught[0].filename == __file__
+    assert math.hypot(*pose.rotation_xyzw) == pytest.approx(1.0)
+
+
+@pytest.mark.filterwarnings("error::scene2hap.SceneWarning")
+def test_one_that_was_rounded_is_normalised_in_silence() -> None:
+    assert math.hypot(*Pose(rotation_xyzw=(0.7, 0.0, 0.0, 0.7)).rotation_xyzw) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: Pose.from_yaw((0, 0, 0), 90),
+        lambda: Pose.from_euler((0, 0, 0), (0, -45.0, 0)),
+        lambda: Pose.from_euler((0, 0, 0), (0, 0, 360)),
+    ],
+)
+def test_angles_that_are_degrees_are_told(make: Callable[[], Pose]) -> None:
+    with pytest.warns(SceneWarning, match=r"rad, .* turns, and looks like degrees; for degrees write math.radians"):
+        make()
+
+
+@pytest.mark.filterwarnings("error::scene2hap.SceneWarning")
+def test_angles_in_radians_are_not() -> None:
+    for k in range(-20, 21):
+        Pose.from_yaw((0, 0, 0), k * math.pi / 12)
+
+
+def test_a_transposed_matrix_and_one_with_perspective_are_refused() -> None:
+    matrix = np.eye(4)
+    matrix[3, :3] = (1.0, 2.0, 3.0)
+    with pytest.raises(SceneError, match=r"\(1.0, 2.0, 3.0, 1.0\) in its last row.*Give matrix.T"):
+        Pose.from_matrix(matrix)
+    assert Pose.from_matrix(matrix.T).position_m == (1.0, 2.0, 3.0)

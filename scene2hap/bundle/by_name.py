@@ -1,0 +1,38 @@
+"""Mappings of a bundle, which answer a key that is not there with the nearest."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import NoReturn, TypeVar
+
+from scene2hap import checks
+from scene2hap.errors import UnknownObject
+
+Thing = TypeVar("Thing")
+
+
+class ByName(dict[str, Thing]):
+    """A dictionary whose missing key is an UnknownObject, which is a KeyError too.
+
+    Parameters: what, of_what : what keys are, such as "state" and "of 'phone'".
+    """
+
+    def __init__(
+        self, entries: Mapping[str, Thing] | Iterable[tuple[str, Thing]] = (), what: str = "entry", of_what: str = ""
+    ) -> None:
+        super().__init__(entries)
+        self.what, self.of_what = what, of_what
+
+    def __missing__(self, key: object) -> NoReturn:
+        known = ", ".join(map(repr, list(self)[:_MOST_NAMED])) or "none"
+        near = checks.did_you_mean(key, self, f"There are {known}{', ...' if len(self) > _MOST_NAMED else ''}.")
+        told = f"{self.what} {checks.represented(key)} {self.of_what}".rstrip()
+        raise UnknownObject(f"the bundle has no {told}. {near}")
+
+
+def by_name(entries: Mapping[str, Thing], what: str, of_what: str = "") -> ByName[Thing]:
+    """Such a mapping of these entries; the same if they are one."""
+    return entries if isinstance(entries, ByName) else ByName(entries, what, of_what)
+
+
+_MOST_NAMED = 10

@@ -1,0 +1,20 @@
+"""The warning of a scene, or of its use, that is almost surely wrong."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+
+_PACKAGE = __name__.partition(".")[0]
+
+
+class SceneWarning(UserWarning):
+    """A scene, or a use of it, with something that is almost surely wrong."""
+
+
+def warn_of(sentence: str) -> None:
+    """Issue a SceneWarning that points at the line outside of this package from which it was called."""
+    level, frame = 2, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == _PACKAGE:
+        level, frame = level + 1, frame.f_back
+    warnings.warn(sentence, SceneWarning, stacklevel=level)

@@ -1,0 +1,105 @@
+"""Touches far from the surface of what they touch are counted, and told once per hand."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+from scene2hap import Box, HapticSession, Pose, SceneObject, SceneSnapshot, SceneWarning, Touch, bake
+from scene2hap.session.off_surface import MOST_TRIANGLES
+
+TABLE = SceneObject("table", pose=Pose((0.0, 0.7, 0.0)), geometry=Box((1.6, 0.04, 0.8)))
+PHONE = SceneObject("phone", pose=Pose((0.5, 0.725, 0.2)), geometry=Box((0.08, 0.01, 0.15)))
+ROOM = SceneSnapshot.build([TABLE, PHONE])
+
+
+@pytest.fixture(scope="module")
+def bundle() -> object:
+    return bake(ROOM)
+
+
+@pytest.fixture
+def session(bundle: object) -> HapticSession:
+    return HapticSession(bundle)  # type: ignore[arg-type]  # a bundle
+
+
+@pytest.mark.parametrize(
+    ("point", "is_off"),
+    [
+        ((0.3, 0.72, 0.1), False),
+        ((0.3, 0.769, 0.1), False),
+        ((0.3, 0.7711, 0.1), True),
+        ((0.3, 0.7, 0.1), False),  # within, 2 cm from both faces
+        ((0.86, 0.7, 0.1), True),  # beside it
+        ((300.0, 720.0, 100.0), True),  # millimetres
+        ((0.3, 0.02, 0.1), True),  # the object's own frame
+    ],
+)
+def test_a_touch_more_than_5_cm_from_the_surface_is_counted(
+    session: HapticSession, point: tuple[float, float, float], is_off: bool
+) -> None:
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        session.update(touches=[Touch("left", "table", point)])
+    assert session.stats.touches_off_surface == is_off
+    assert len(caught) == is_off
+    if is_off:
+        assert caught[0].category is SceneWarning
+        assert caught[0].filename == __file__
+        assert str(caught[0].message).startswith("hand 'left' touches 'table' at (")
+
+
+def test_each_hand_is_told_once_and_every_touch_counted(session: HapticSession) -> None:
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        for k in range(10):
+            point = (0.3 + 0.001 * k, 1.0, 0.1)
+            session.update(touches=[Touch("left", "table", point), Touch("right", "table", point)])
+    assert [str(one.message).split()[1] for one in caught] == ["'left'", "'right'"]
+    assert "0.28 m from its surface" in str(caught[0].message)
+    assert session.stats.touches_off_surface == 20
+
+
+@pytest.mark.filterwarnings("error::scene2hap.SceneWarning")
+def test_an_object_that_leaves_under_a_resting_hand_is_followed(session: HapticSession) -> None:
+    on_phone = [Touch("left", "phone", (0.5, 0.73, 0.2))]
+    session.update(touches=on_phone)
+    assert session.stats.touches_off_surface == 0
+    with pytest.warns(SceneWarning, match="'phone'"):
+        session.update({"phone": Pose((-0.5, 0.725, 0.2))}, on_phone)
+    session.update(touches=[Touch("left", "phone", (-0.5, 0.73, 0.2))])
+    assert session.stats.touches_off_surface == 1
+
+
+def test_a_thing_that_comes_back_in_another_shape_is_measured_anew(session: HapticSession) -> None:
+    touches = [Touch("left", "table", (0.3, 0.72, 0.1))]
+    session.update(touches=touches)
+    session.remove("table")
+    taller = SceneObject("table", pose=TABLE.pose, geometry=Box((1.6, 0.4, 0.8)))
+    session.add(taller)
+    with pytest.warns(SceneWarning, match=r"0.18 m"):
+        session.update(touches=touches)
+
+
+def test_a_slow_walk_off_the_surface_is_noticed_at_5_cm(session: HapticSession) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for k in range(100):
+            session.update(touches=[Touch("left", "table", (0.3, 0.7205 + 0.001 * k, 0.1))])
+    assert session.stats.touches_off_surface == 50  # 50.5 to 99.5 mm
+
+
+def test_meshes_too_large_to_sort_in_a_frame_are_not_judged(bundle: object) -> None:
+    n = 230
+    grid = np.stack(np.meshgrid(np.linspace(0, 1, n), [0.0], np.linspace(0, 1, n), indexing="ij"), axis=-1)
+    corner = np.arange(n * n).reshape(n, n)[:-1, :-1].ravel()
+    faces = np.concatenate(
+        [np.stack([corner, corner + 1, corner + n + 1], 1), np.stack([corner, corner + n + 1, corner + n], 1)]
+    )
+    assert len(faces) > MOST_TRIANGLES
+    field = SceneObject("field", geometry=(grid.reshape(-1, 3), faces))
+    session = HapticSession(bundle)  # type: ignore[arg-type]  # a bundle
+    with pytest.warns(SceneWarning, match="'field', of which nothing is known"):
+        session.add(field)
+    session.update(touches=[Touch("left", "field", (0.5, 3.0, 0.5))])
+    assert session.stats.touches_off_surface == 0

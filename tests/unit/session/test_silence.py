@@ -1,0 +1,95 @@
+"""What will not be felt is told in one sentence, and what carries or vibrates is not complained of."""
+
+import warnings
+from dataclasses import replace
+
+import pytest
+
+from scene2hap import (
+    Box,
+    HapticBundle,
+    HapticSession,
+    MemorySink,
+    ObjectHaptics,
+    Pose,
+    SceneObject,
+    SceneSnapshot,
+    SceneWarning,
+    Touch,
+    bake,
+    bake_object,
+)
+
+TABLE = SceneObject("table", pose=Pose((0.0, 0.7, 0.0)), geometry=Box((1.6, 0.04, 0.8)))
+PHONE = SceneObject("phone", pose=Pose((0.5, 0.725, 0.2)), geometry=Box((0.08, 0.01, 0.15)))
+VASE = SceneObject("vase", pose=Pose((-0.5, 0.8, 0.2)), geometry=Box((0.1, 0.15, 0.1)))
+ON_TABLE = [Touch("left", "table", (0.3, 0.72, 0.1))]
+
+
+@pytest.fixture(scope="module")
+def bundle() -> HapticBundle:
+    return bake(SceneSnapshot.build([TABLE, PHONE]))
+
+
+@pytest.fixture(scope="module")
+def silent() -> HapticBundle:
+    return bake_object(TABLE)
+
+
+def test_a_session_in_which_nothing_vibrates_says_so_once(silent: HapticBundle) -> None:
+    with pytest.warns(SceneWarning, match="of 1 objects none vibrates.*override") as caught:
+        HapticSession(silent, sink=MemorySink()).start()
+    assert caught[0].filename == __file__
+    session = HapticSession(silent)
+    with pytest.warns(SceneWarning, match="none vibrates"):
+        session.update(touches=ON_TABLE)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        session.update(touches=ON_TABLE)
+
+
+@pytest.mark.filterwarnings("error::scene2hap.SceneWarning")
+def test_a_session_that_is_filled_before_it_starts_does_not(silent: HapticBundle, bundle: HapticBundle) -> None:
+    session = HapticSession(silent, sink=MemorySink())
+    session.add(PHONE, bundle.objects["phone"], bundle.loops["phone"])
+    with session:
+        session.update(touches=ON_TABLE)
+
+
+def test_an_added_object_of_which_nothing_is_known(bundle: HapticBundle) -> None:
+    with pytest.warns(SceneWarning, match="'vase', of which nothing is known, is added without") as caught:
+        HapticSession(bundle).add(VASE)
+    assert caught[0].filename == __file__
+
+
+def test_an_added_object_that_should_vibrate_and_has_no_loops(bundle: HapticBundle) -> None:
+    with pytest.warns(SceneWarning, match="'vase', of which the haptics say.*stays silent.*loops="):
+        HapticSession(bundle).add(VASE, bundle.objects["phone"])
+
+
+def test_an_added_object_of_unknown_material(bundle: HapticBundle) -> None:
+    unknown: ObjectHaptics = replace(bundle.objects["table"], material=None)
+    with pytest.warns(SceneWarning, match="of unknown material, is added without loops: it neither"):
+        HapticSession(bundle).add(VASE, unknown)
+
+
+def test_a_crowd_of_silent_objects_is_named_in_part(bundle: HapticBundle) -> None:
+    session = HapticSession(bundle)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        for k in range(15):
+            session.add(replace(VASE, id=f"vase {k}", pose=Pose((k, 5.0, 0.0))))
+    assert len(caught) == 10
+    assert str(caught[-1].message).endswith("Further silent objects are not named.")
+
+
+@pytest.mark.filterwarnings("error::scene2hap.SceneWarning")
+def test_what_carries_or_vibrates_is_welcome(bundle: HapticBundle) -> None:
+    session = HapticSession(bundle)
+    session.add(VASE, bundle.objects["table"])
+    session.remove("phone")
+    session.add(PHONE)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SceneWarning)
+        prefab = bake_object(replace(VASE, id="oak table", name="oak table"))
+    session.spawn(prefab, "table 2", Pose((3.0, 0.0, 0.0)))

@@ -1,0 +1,110 @@
+"""Missing attributes of the public surface end in our own error; everything else that asks for attributes works."""
+
+import copy
+import dataclasses
+import pickle
+from typing import Any, Protocol, runtime_checkable
+
+import pytest
+
+import scene2hap
+from scene2hap import Box, HapticSession, Pose, SceneObject, SceneSnapshot
+from scene2hap.attributes import clear_attributes
+from scene2hap.bundle.by_name import ByName
+from scene2hap.errors import CallError, ReadOnlyAttribute, Scene2HapError, UnknownAttribute, UnknownObject
+
+CLASSES = [
+    one
+    for one in (getattr(scene2hap, name) for name in scene2hap.__all__)
+    if isinstance(one, type) and not getattr(one, "_is_protocol", False) and not issubclass(one, Warning)
+]
+
+
+def unmade(cls: type) -> Any:
+    """An instance that no constructor has seen."""
+    return cls.__new__(cls)
+
+
+@pytest.mark.parametrize("cls", CLASSES, ids=lambda cls: cls.__name__)
+def test_every_public_class_answers_a_name_that_it_does_not_have(cls: type) -> None:
+    thing = unmade(cls)
+    with pytest.raises(UnknownAttribute, match="has no attribute 'no_such_thing'"):
+        _ = thing.no_such_thing
+    assert not hasattr(thing, "no_such_thing")
+    assert not hasattr(thing, "__no_such_protocol__")
+    assert getattr(thing, "no_such_thing", 3) == 3
+
+
+def test_the_nearest_name_is_told() -> None:
+    scene = SceneSnapshot.build([SceneObject("mug", geometry=Box((0.1, 0.1, 0.1)))])
+    with pytest.raises(UnknownAttribute, match=r"SceneSnapshot has no attribute 'objetcs'. Did you mean 'objects'"):
+        _ = scene.objetcs  # type: ignore[attr-defined]  # as people write it
+    with pytest.raises(UnknownAttribute, match="HapticSession"):
+        _ = scene2hap.HapticSesion
+    with pytest.raises(UnknownAttribute, match="There are .*position_m.*rotation_xyzw"):
+        _ = Pose().scale  # type: ignore[attr-defined]  # as people write it
+
+
+def test_frozen_data_and_sessions_refuse_to_be_set() -> None:
+    mug = SceneObject("mug", geometry=Box((0.1, 0.1, 0.1)))
+    with pytest.raises(ReadOnlyAttribute, match=r"dataclasses.replace\(..., pose=...\)"):
+        mug.pose = Pose((1, 2, 3))  # type: ignore[misc]  # as people write it
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        mug.pose = Pose((1, 2, 3))  # type: ignore[misc]  # as people write it
+    session = unmade(HapticSession)
+    with pytest.raises(UnknownAttribute, match="gain_db"):
+        session.gain_db = -6
+    with pytest.raises(ReadOnlyAttribute, match="hands of a HapticSession cannot be set"):
+        session.hands = ("left",)
+
+
+def test_things_without_items_tell_what_they_have() -> None:
+    with pytest.raises(CallError, match="a Pose has no items.*position_m"):
+        Pose()[0]  # type: ignore[index]  # as people write it
+    with pytest.raises(TypeError):
+        list(Pose())  # type: ignore[call-overload]  # as people write it
+
+
+def test_copies_and_pickles_are_equal() -> None:
+    scene = SceneSnapshot.build([SceneObject("mug", geometry=Box((0.1, 0.1, 0.1)))])
+    for again in (copy.copy(scene), copy.deepcopy(scene), pickle.loads(pickle.dumps(scene))):
+        assert again == scene
+        assert again.object("mug") == scene.object("mug")
+
+
+def test_the_error_can_be_pickled() -> None:
+    with pytest.raises(UnknownAttribute) as caught:
+        _ = Pose().positon_m  # type: ignore[attr-defined]  # as people write it
+    assert str(pickle.loads(pickle.dumps(caught.value))) == str(caught.value)
+
+
+@runtime_checkable
+class _Speaks(Protocol):
+    def speak(self) -> str: ...
+
+
+@clear_attributes
+class _Broken:
+    @property
+    def depth(self) -> int:
+        return self.nothing  # type: ignore[attr-defined, no-any-return]  # the mistake is inside
+
+
+def test_a_property_that_fails_tells_its_own_error_and_protocols_are_asked() -> None:
+    with pytest.raises(UnknownAttribute, match="'nothing'"):
+        _ = _Broken().depth
+    assert not isinstance(_Broken(), _Speaks)
+
+
+def test_a_mapping_of_a_bundle_names_the_nearest() -> None:
+    objects = ByName({"phone": 1, "mug": 2}, "object")
+    with pytest.raises(UnknownObject, match="the bundle has no object 'phon'. Did you mean 'phone'") as caught:
+        objects["phon"]
+    assert isinstance(caught.value, KeyError)
+    assert isinstance(caught.value, Scene2HapError)
+    assert objects.get("phon") is None
+    assert "phon" not in objects
+    for again in (copy.deepcopy(objects), pickle.loads(pickle.dumps(objects)), objects):
+        assert again == {"phone": 1, "mug": 2}
+        with pytest.raises(UnknownObject, match="object"):
+            again[3]
