@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,14 +12,22 @@ from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.files import read_clip
 from scene2hap.errors import BundleError
-from scene2hap.haptics import ObjectHaptics
+from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.materials import Material, lookup
 from scene2hap.scene.sizes import with_thickness
 
 USER = "user"
 """Provenance of an overridden field."""
 
+ANY_STATE = "*"
+"""Stands for every state of an object that is not named itself."""
+
+MAKES_LOOPS = frozenset({"vibrates", "clip", "keep", "intensity", "pitch_hz"})
+"""Fields that decide how loops are made; while an object is locked they cannot change."""
+
 _MOST_GAIN_DB = 60.0
+_PITCH_HZ = (10.0, 1000.0)
+"""What hands feel as a pitch, which is also the band of an actuator without a profile."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +38,9 @@ class Override:
     material : its material, or a name in the table; clip : the sound that its vibration is made from, in every state,
     or the path of its file; keep : whether that sound stays at its own frequency and level, and the scene's other
     sources keep clear of it; else it is moved like any other; locked : whether its loops stay as they are, whatever is
-    baked again.
+    baked again; intensity : of the vibration at the object itself, 0..1 [-], and pitch_hz : the frequency at which it is
+    felt, 10..1000 [Hz], each a number for all states or a mapping by state; state : the one that it plays at first;
+    muted : whether it is silent until a game unmutes it.
     Raises: BundleError: a field of another type or out of bounds. UnknownMaterial.
     """
 
@@ -40,14 +50,23 @@ class Override:
     clip: AudioClip | None = None
     keep: bool = True
     locked: bool = False
+    intensity: Mapping[str, float] = field(default_factory=dict)
+    pitch_hz: Mapping[str, float] = field(default_factory=dict)
+    state: str | None = None
+    muted: bool = False
 
     def __post_init__(self) -> None:
         if self.vibrates is not None and not isinstance(self.vibrates, bool):
             raise BundleError(f"vibrates is {checks.represented(self.vibrates)}; it must be True, False or None.")
-        if not isinstance(self.keep, bool):
-            raise BundleError(f"keep is {checks.represented(self.keep)}; it must be True or False.")
-        if not isinstance(self.locked, bool):
-            raise BundleError(f"locked is {checks.represented(self.locked)}; it must be True or False.")
+        for name in ("keep", "locked", "muted"):
+            checks.flag(name, getattr(self, name), error=BundleError)
+        low_hz, high_hz = _PITCH_HZ
+        intensity = _by_state("intensity", self.intensity, "-", above=0.0, at_most=1.0)
+        pitch_hz = _by_state("pitch_hz", self.pitch_hz, "Hz", at_least=low_hz, at_most=high_hz)
+        object.__setattr__(self, "intensity", intensity)
+        object.__setattr__(self, "pitch_hz", pitch_hz)
+        if self.state is not None:
+            checks.text("state", self.state, error=BundleError)
         if self.gain_db is not None:
             gain = checks.number("gain_db", self.gain_db, "dB", at_most=_MOST_GAIN_DB, error=BundleError)
             object.__setattr__(self, "gain_db", gain)
@@ -65,8 +84,15 @@ class Override:
             )
 
     def changed(self, changes: Mapping[str, Any]) -> Override:
-        """With the fields that are not None in place of what they were."""
-        return replace(self, **{name: value for name, value in changes.items() if value is not None})
+        """With the fields that are not None in place of what they were; mappings by state are put on top."""
+        earlier = {one.name: getattr(self, one.name) for one in fields(self)}
+        now = replace(self, **{name: value for name, value in changes.items() if value is not None})
+        merged = {name: _on_top(earlier[name], getattr(now, name)) for name in ("intensity", "pitch_hz")}
+        return replace(now, **{name: value for name, value in merged.items() if changes.get(name) is not None})
+
+    def pitch_of(self, state: str) -> float | None:
+        """The frequency at which a state is to be felt [Hz], None where nobody has said."""
+        return self.pitch_hz.get(state, self.pitch_hz.get(ANY_STATE))
 
     def applied(self, haptics: ObjectHaptics) -> ObjectHaptics:
         """What is then said of the object. That it vibrates needs a state, which baking it again brings."""
@@ -83,4 +109,28 @@ class Override:
             haptics = replace(haptics, vibrates=False, states=())
         elif self.vibrates and haptics.states:
             provenance["vibrates"] = USER
+        if self.intensity and haptics.states:
+            provenance["intensity"] = USER
+            haptics = replace(haptics, states=tuple(map(self._as_strong, haptics.states)))
+        if self.state is not None:
+            haptics = replace(haptics, states=tuple(sorted(haptics.states, key=lambda one: one.name != self.state)))
         return replace(haptics, provenance=provenance)
+
+    def _as_strong(self, state: SourceState) -> SourceState:
+        strength = self.intensity.get(state.name, self.intensity.get(ANY_STATE))
+        return state if strength is None else replace(state, intensity=strength)
+
+
+def _by_state(name: str, value: object, unit: str, **bounds: float) -> dict[str, float]:
+    """A number for all states, or numbers by state. Raises: BundleError: something else, or out of bounds."""
+    given = value if isinstance(value, Mapping) else {ANY_STATE: value}
+    return {
+        checks.text(f"state of {name}", state, error=BundleError): checks.number(
+            name if state == ANY_STATE else f"{name}[{state!r}]", number, unit, error=BundleError, **bounds
+        )
+        for state, number in given.items()
+    }
+
+
+def _on_top(earlier: Mapping[str, float], later: Mapping[str, float]) -> Mapping[str, float]:
+    return later if ANY_STATE in later else {**earlier, **later}
