@@ -22,12 +22,13 @@ _PEAK = 10 ** (-TACTILE_HEADROOM_DB / 20)
 class SourceClip:
     """The chosen sound of one state of one source, its intensity 0..1, and the group within which sources may feel
     alike: objects of one kind, and so the states of one object. One that is to `keep` its place is not moved,
-    and the others keep clear of it."""
+    and the others keep clear of it; so with one that is to be felt at `pitch_hz`, which is moved there."""
 
     clip: AudioClip
     intensity: float
     group: str = ""
     keep: bool = False
+    pitch_hz: float | None = None
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,13 @@ def plan_scene(
     anchors = _anchors(sources, levels, actuator)
     known = [i for i, anchor in enumerate(anchors) if anchor is not None]
     voices = [
-        Voice(anchor.frequency_hz, level, source.group, anchor.crest_db, is_placed=source.keep)
+        Voice(
+            source.pitch_hz or anchor.frequency_hz,
+            level,
+            source.group,
+            anchor.crest_db,
+            is_placed=source.keep or source.pitch_hz is not None,
+        )
         for source, level, anchor in zip(sources, levels, anchors, strict=True)
         if anchor is not None
     ]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+import warnings
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from threading import Lock
@@ -23,8 +24,8 @@ from scene2hap.audio.select import Choice, explain_choice
 from scene2hap.audio.sources.chain import gather
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import OWN_CLIP, asked_for, converter_name, differences, made_by
-from scene2hap.bundle import Override
-from scene2hap.haptics import ObjectHaptics, SourceState, VibrationDescription
+from scene2hap.bundle import BundleWarning, Override
+from scene2hap.haptics import ActuatorProfile, ObjectHaptics, SourceState, VibrationDescription
 
 Progress = Callable[[str, str, int, int], None]
 """Called with (stage, the step, how many are done, of how many)."""
@@ -74,6 +75,7 @@ class _Part:
     asked: Mapping[str, str]
     earlier: HapticLoop | None
     keep: bool = False
+    pitch_hz: float | None = None
 
 
 async def make_loops(
@@ -93,11 +95,13 @@ async def make_loops(
     parts = []
     for done, (object_id, haptics, state) in enumerate(wanted, start=1):
         part, why = await asyncio.to_thread(chooser.part, object_id, haptics, state)
-        parts.append(part)
+        parts.append(replace(part, pitch_hz=_pitch_hz(object_id, state.name, wishes, config.actuator)))
         if why:
             sounds.choices.setdefault(object_id, {})[state.name] = why
         tell("sound", object_id, done, len(wanted))
-    sources = [SourceClip(part.clip, part.state.intensity, part.group, part.keep) for part in parts if part.clip]
+    sources = [
+        SourceClip(part.clip, part.state.intensity, part.group, part.keep, part.pitch_hz) for part in parts if part.clip
+    ]
     standing = [(part.earlier, part.group) for part in parts if part.clip is None and part.earlier is not None]
     plans = await asyncio.to_thread(plan_scene, sources, config.tactile, config.actuator, config.spread, standing)
     made = await _made(parts, plans, config, tell)
@@ -235,6 +239,23 @@ class _Maker:
         # A person's own clip is kept with the override; once that is gone another sound is to be chosen.
         source = None if part.asked["words"] == OWN_CLIP else clip
         return replace(self._made[key], source=source, fingerprint=fingerprint), reasons
+
+
+def _pitch_hz(object_id: str, state: str, wishes: Mapping[str, Override], actuator: ActuatorProfile) -> float | None:
+    """The pitch that a person wants [Hz], moved into the actuator's band with a warning."""
+    wish = wishes.get(object_id)
+    wanted_hz = wish.pitch_of(state) if wish is not None else None
+    if wish is None or wanted_hz is None:
+        return None
+    played_hz = min(max(wanted_hz, actuator.min_frequency_hz), actuator.max_frequency_hz)
+    if played_hz != wanted_hz and not wish.locked:
+        warnings.warn(
+            f"pitch_hz of {object_id!r} is {wanted_hz:g} Hz; the actuator {actuator.name!r} plays "
+            f"{actuator.min_frequency_hz:g} to {actuator.max_frequency_hz:g} Hz, so that {played_hz:g} Hz was made.",
+            BundleWarning,
+            stacklevel=2,
+        )
+    return played_hz
 
 
 def _asked(before: HapticLoop, asked: Mapping[str, str]) -> dict[str, str]:

@@ -54,6 +54,11 @@ class BundleContents:
         """Whom the sounds are owed to, each once, in order of source and state."""
         return tuple(dict.fromkeys(loop.audible.credit for states in self.loops.values() for loop in states.values()))
 
+    def is_muted(self, object_id: str) -> bool:
+        """Whether a source is silent until a game unmutes it."""
+        wish = self.overrides.get(object_id) if isinstance(object_id, str) else None
+        return wish is not None and wish.muted
+
     def gain_db(self, object_id: str) -> float:
         """The level of a source at the hand against the inferred one [dB]."""
         wish = self.overrides.get(object_id) if isinstance(object_id, str) else None

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle.contents import BundleContents
+from scene2hap.bundle.override import ANY_STATE
 from scene2hap.haptics import ObjectHaptics
 
 
@@ -40,6 +41,12 @@ def _said(bundle: BundleContents, object_id: str) -> Iterator[tuple[str, str]]:
         yield "gain", f"{bundle.gain_db(object_id):+.1f} dB"
         yield "sound", wish.clip.credit.title if wish.clip is not None else "chosen"
         yield "locked", "yes" if wish.locked else "no"
+        yield "muted", "yes" if wish.muted else "no"
+        for state, pitch_hz in wish.pitch_hz.items():
+            yield "pitch" if state == ANY_STATE else f"pitch {state}", f"{pitch_hz:g} Hz"
+    states = bundle.loops.get(object_id, {})
+    if len(states) > 1:
+        yield "first state", next(iter(states))
     for state, loop in bundle.loops.get(object_id, {}).items():
         yield f"loop {state}", _digest(loop)
     if bundle.actuator is not None and object_id in bundle.loops:

@@ -219,6 +219,8 @@ def _override_rows(bundle: BundleContents, folder: Path, written: list[str]) -> 
             row["clip"] = {"file": name, "credit": asdict(wish.clip.credit)}
         row["keep"] = None if wish.keep else False
         row["locked"] = True if wish.locked else None
+        row["intensity"], row["pitch_hz"] = wish.intensity or None, wish.pitch_hz or None
+        row["state"], row["muted"] = wish.state, True if wish.muted else None
         rows[object_id] = {field: value for field, value in row.items() if value is not None}
     return rows
 

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Self
+from typing import Any, Self
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.bundle.checking import require_plausible
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.folder import read_bundle, write_bundle
-from scene2hap.bundle.override import Override
+from scene2hap.bundle.override import ANY_STATE, MAKES_LOOPS, Override
 from scene2hap.calls import clear_calls
 from scene2hap.errors import BundleError
 from scene2hap.materials import Material
@@ -38,29 +39,45 @@ class HapticBundle(BundleContents):
         clip: AudioClip | str | os.PathLike[str] | None = None,
         keep: bool | None = None,
         locked: bool | None = None,
+        intensity: float | Mapping[str, float] | None = None,
+        pitch_hz: float | Mapping[str, float] | None = None,
+        state: str | None = None,
+        muted: bool | None = None,
     ) -> Self:
         """The bundle with a correction to one object, on top of earlier ones; None leaves a field as it is.
 
         A clip, or the path of one, stays at its own frequency unless `keep=False` allows to move it clear of the
-        scene's other sources. Kept in the folder and by `rebake`. Level, material and silence count at once; a new
-        sound, or vibration where none was inferred, counts after `rebake(bundle)`, which makes its loops. While an
-        object is locked, its loops stay as they are, byte for byte, whatever is baked again.
-        Raises: UnknownObject; BundleError: a field out of bounds; UnknownMaterial. Warns: SceneWarning: a clip for what
-        does not vibrate, or a level that looks like a percentage.
+        scene's other sources. Intensity and pitch are numbers for all states, or mappings by state; `state` is the one
+        that plays at first. Corrections are kept in the folder and by `rebake`. Level, material, first state, mute and
+        silence count at once. The others, and vibration where none was inferred, count after `rebake(bundle)`, which
+        makes the loops. The loops of a locked object stay as they are, byte for byte; a correction that would change
+        them is refused.
+        Raises: UnknownObject; BundleError: a field out of bounds, a state that the object has not, or one that would
+        change the loops of a locked object; UnknownMaterial. Warns: SceneWarning: a clip for an object that does not
+        vibrate, or a level that looks like a percentage.
         """
         self.snapshot.object(object_id)
-        wish = self.overrides.get(object_id, Override()).changed(
-            {
-                "vibrates": vibrates,
-                "gain_db": gain_db,
-                "material": material,
-                "clip": clip,
-                "keep": keep,
-                "locked": locked,
-            }
-        )
-        vibrates = self.objects[object_id].vibrates if wish.vibrates is None else wish.vibrates
-        if clip is not None and not vibrates:
+        changes = {
+            "vibrates": vibrates,
+            "gain_db": gain_db,
+            "material": material,
+            "clip": clip,
+            "keep": keep,
+            "locked": locked,
+            "intensity": intensity,
+            "pitch_hz": pitch_hz,
+            "state": state,
+            "muted": muted,
+        }
+        wish = self.overrides.get(object_id, Override())
+        self._require_unlocked(object_id, wish, changes)
+        wish = wish.changed(changes)
+        named = {*wish.intensity, *wish.pitch_hz} if intensity is not None or pitch_hz is not None else set()
+        self._require_states(object_id, [*sorted(named - {ANY_STATE}), *([] if state is None else [state])])
+        if pitch_hz is not None:
+            self._require_played(object_id, wish)
+        has_vibration = self.objects[object_id].vibrates if wish.vibrates is None else wish.vibrates
+        if clip is not None and not has_vibration:
             warn_of(
                 f"{object_id!r} does not vibrate, so that its clip is not played; write override({object_id!r}, "
                 "vibrates=True, clip=...)."
@@ -73,9 +90,43 @@ class HapticBundle(BundleContents):
             object_id: self.overrides[object_id].applied(haptics) if object_id in self.overrides else haptics
             for object_id, haptics in self.objects.items()
         }
-        silenced = {object_id for object_id, wish in self.overrides.items() if wish.vibrates is False}
-        loops = {object_id: states for object_id, states in self.loops.items() if object_id not in silenced}
+        loops = dict(self.loops)
+        for object_id, wish in self.overrides.items():
+            if wish.vibrates is False:
+                loops.pop(object_id, None)
+            elif wish.state is not None and wish.state in loops.get(object_id, {}):
+                # The first state is the one that plays.
+                loops[object_id] = {wish.state: loops[object_id][wish.state], **loops[object_id]}
         return replace(self, objects=objects, loops=loops)
+
+    def _require_unlocked(self, object_id: str, wish: Override, changes: Mapping[str, Any]) -> None:
+        asked = sorted(name for name in MAKES_LOOPS if changes[name] is not None)
+        if asked and wish.locked and changes["locked"] is not False and object_id in self.loops:
+            raise BundleError(
+                f"{object_id!r} is locked, so that {asked[0]} cannot change its loops. Unlock it first: "
+                f"`override({object_id!r}, locked=False)`, or `scene2hap edit BUNDLE unlock {object_id}`."
+            )
+
+    def _require_states(self, object_id: str, states: Sequence[str]) -> None:
+        haptics = self.objects.get(object_id)
+        known = [one.name for one in haptics.states] if haptics is not None else []
+        for state in states:
+            if state not in known:
+                has = f"it has {', '.join(map(repr, known))}" if known else "it does not vibrate and has none"
+                raise BundleError(f"{object_id!r} has no state {checks.shown(state)}; {has}.")
+
+    def _require_played(self, object_id: str, wish: Override) -> None:
+        """Raise a BundleError where the bundle's actuator does not play a pitch."""
+        actuator = self.actuator
+        if actuator is None:
+            return
+        low_hz, high_hz = actuator.min_frequency_hz, actuator.max_frequency_hz
+        for pitch_hz in wish.pitch_hz.values():
+            if not low_hz <= pitch_hz <= high_hz:
+                raise BundleError(
+                    f"pitch_hz of {object_id!r} is {pitch_hz:g} Hz; the actuator {actuator.name!r} of this bundle "
+                    f"plays {low_hz:g} to {high_hz:g} Hz. Choose a pitch in that band."
+                )
 
     def save(self, folder: str | os.PathLike[str]) -> Path:
         """Write the folder whole or not at all; a bundle that is there already is replaced, and what is not ours stays.

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,14 +14,22 @@ from scene2hap.audio.files import read_clip
 from scene2hap.audio.gain_warning import warn_if_percent
 from scene2hap.calls import clear_construction
 from scene2hap.errors import BundleError
-from scene2hap.haptics import ObjectHaptics
+from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.materials import Material, lookup
 from scene2hap.scene.sizes import with_thickness
 
 USER = "user"
 """Provenance of an overridden field."""
 
+ANY_STATE = "*"
+"""Stands for every state of an object that is not named itself."""
+
+MAKES_LOOPS = frozenset({"vibrates", "clip", "keep", "intensity", "pitch_hz"})
+"""Fields that decide how loops are made; while an object is locked they cannot change."""
+
 _MOST_GAIN_DB = 60.0
+_PITCH_HZ = (10.0, 1000.0)
+"""What hands feel as a pitch, which is also the band of an actuator without a profile."""
 
 
 @clear_construction
@@ -29,11 +37,15 @@ _MOST_GAIN_DB = 60.0
 class Override:
     """A correction; None leaves what was inferred.
 
-    vibrates : whether the object vibrates by itself; gain_db : its level at the hand against the inferred one [dB];
-    material : its material, or a name in the table; clip : the sound that its vibration is made from, in every state,
-    or the path of its file; keep : whether that sound stays at its own frequency and level, and the scene's other
-    sources keep clear of it; else it is moved like any other; locked : whether its loops stay as they are, whatever is
-    baked again.
+    vibrates : whether the object vibrates by itself.
+    gain_db : its level at the hand against the inferred one [dB].
+    material : its material, or a name in the table.
+    clip : the sound that its vibration is made from, in every state, or the path of its file; keep : whether that sound
+        stays at its own frequency and level, and the scene's other sources keep clear of it.
+    locked : whether its loops stay as they are, whatever is baked again.
+    intensity : of the vibration at the object itself, 0..1 [-]; pitch_hz : the frequency at which it is felt, 10..1000
+        [Hz]. Each is a number for all states or a mapping by state.
+    state : the one that it plays at first; muted : whether it is silent until a game unmutes it.
     Raises: BundleError: a field of another type or out of bounds. UnknownMaterial.
     """
 
@@ -43,14 +55,20 @@ class Override:
     clip: AudioClip | None = None
     keep: bool = True
     locked: bool = False
+    intensity: Mapping[str, float] = field(default_factory=dict)
+    pitch_hz: Mapping[str, float] = field(default_factory=dict)
+    state: str | None = None
+    muted: bool = False
 
     def __post_init__(self) -> None:
         if self.vibrates is not None and not isinstance(self.vibrates, bool):
             raise BundleError(f"vibrates is {checks.represented(self.vibrates)}; it must be True, False or None.")
-        if not isinstance(self.keep, bool):
-            raise BundleError(f"keep is {checks.represented(self.keep)}; it must be True or False.")
-        if not isinstance(self.locked, bool):
-            raise BundleError(f"locked is {checks.represented(self.locked)}; it must be True or False.")
+        for name in ("keep", "locked", "muted"):
+            checks.flag(name, getattr(self, name), error=BundleError)
+        object.__setattr__(self, "intensity", _by_state(self.intensity, _intensity, "intensity"))
+        object.__setattr__(self, "pitch_hz", _by_state(self.pitch_hz, _pitch_hz, "pitch_hz"))
+        if self.state is not None:
+            checks.text("state", self.state, error=BundleError)
         if self.gain_db is not None:
             gain = checks.number("gain_db", self.gain_db, "dB", at_most=_MOST_GAIN_DB, error=BundleError)
             warn_if_percent(gain)
@@ -69,8 +87,17 @@ class Override:
             )
 
     def changed(self, changes: Mapping[str, Any]) -> Override:
-        """With the fields that are not None in place of what they were."""
-        return replace(self, **{name: value for name, value in changes.items() if value is not None})
+        """With the fields that are not None in place of what they were; numbers by state are added to earlier ones."""
+        now = replace(self, **{name: value for name, value in changes.items() if value is not None})
+        return replace(
+            now,
+            intensity=_on_top(self.intensity, now.intensity),
+            pitch_hz=_on_top(self.pitch_hz, now.pitch_hz),
+        )
+
+    def pitch_of(self, state: str) -> float | None:
+        """The frequency at which a state is to be felt [Hz], None where nobody has said."""
+        return self.pitch_hz.get(state, self.pitch_hz.get(ANY_STATE))
 
     def applied(self, haptics: ObjectHaptics) -> ObjectHaptics:
         """What is then said of the object. That it vibrates needs a state, which baking it again brings."""
@@ -87,4 +114,37 @@ class Override:
             haptics = replace(haptics, vibrates=False, states=())
         elif self.vibrates and haptics.states:
             provenance["vibrates"] = USER
+        if self.intensity and haptics.states:
+            provenance["intensity"] = USER
+            haptics = replace(haptics, states=tuple(map(self._as_strong, haptics.states)))
+        if self.state is not None:
+            haptics = replace(haptics, states=tuple(sorted(haptics.states, key=lambda one: one.name != self.state)))
         return replace(haptics, provenance=provenance)
+
+    def _as_strong(self, state: SourceState) -> SourceState:
+        strength = self.intensity.get(state.name, self.intensity.get(ANY_STATE))
+        return state if strength is None else replace(state, intensity=strength)
+
+
+def _by_state(value: object, bounded: Callable[[str, object], float], name: str) -> dict[str, float]:
+    """A number for all states, or numbers by state. Raises: BundleError: something else, or out of bounds."""
+    given = value if isinstance(value, Mapping) else {ANY_STATE: value}
+    return {
+        checks.text(f"state of {name}", state, error=BundleError): bounded(
+            name if state == ANY_STATE else f"{name}[{state!r}]", number
+        )
+        for state, number in given.items()
+    }
+
+
+def _intensity(name: str, value: object) -> float:
+    return checks.number(name, value, "-", above=0.0, at_most=1.0, error=BundleError)
+
+
+def _pitch_hz(name: str, value: object) -> float:
+    low_hz, high_hz = _PITCH_HZ
+    return checks.number(name, value, "Hz", at_least=low_hz, at_most=high_hz, error=BundleError)
+
+
+def _on_top(earlier: Mapping[str, float], later: Mapping[str, float]) -> Mapping[str, float]:
+    return later if ANY_STATE in later else {**earlier, **later}

@@ -95,7 +95,8 @@ class HapticSession:
         self._sources = Sources()
         for object_id, loops in bundle.loops.items():
             if loops:
-                self._sources.add(object_id, loops, bundle.objects.get(object_id), bundle.gain_db(object_id))
+                haptics, muted = bundle.objects.get(object_id), bundle.is_muted(object_id)
+                self._sources.add(object_id, loops, haptics, bundle.gain_db(object_id), is_muted=muted)
         self._state = SceneState(scene, bundle)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
         self._listening = Listening(self.config, self._state, self._sources, self._playback.peaks)
@@ -188,7 +189,7 @@ class HapticSession:
         require_addable(object, haptics, loops)
         if haptics is None and loops is None:
             haptics, loops = self._bundle.objects.get(object.id), self._bundle.loops.get(object.id)
-        self._put(object, haptics, loops or {}, self._bundle.gain_db(object.id))
+        self._put(object, haptics, loops or {}, self._bundle, object.id)
 
     def spawn(self, prefab: HapticBundle, object_id: str, pose: Pose) -> None:
         """Add a copy of a prefab, which is a bundle of one object, as `bake_object` makes it.
@@ -211,7 +212,7 @@ class HapticSession:
         (original,) = prefab.snapshot.objects
         copy = replace(original, id=object_id, name=object_id, pose=pose)
         loops = prefab.loops.get(original.id, {})
-        self._put(copy, prefab.objects.get(original.id), loops, prefab.gain_db(original.id))
+        self._put(copy, prefab.objects.get(original.id), loops, prefab, original.id)
 
     def remove(self, object_id: str) -> None:
         """Take an object out of the scene; what is felt of it fades.
@@ -384,11 +385,18 @@ class HapticSession:
         return max(self._playback.position, self._last_stamp)
 
     def _put(
-        self, item: SceneObject, haptics: ObjectHaptics | None, loops: Mapping[str, HapticLoop], gain_db: float
+        self,
+        item: SceneObject,
+        haptics: ObjectHaptics | None,
+        loops: Mapping[str, HapticLoop],
+        corrected: HapticBundle,
+        its_id: str,
     ) -> None:
+        """Put in an object with the level and the mute switch that a bundle has for `its_id`."""
         change = self._state.add(item, haptics)
         if loops:
-            self._sources.add(item.id, loops, haptics, gain_db)
+            gain_db, muted = corrected.gain_db(its_id), corrected.is_muted(its_id)
+            self._sources.add(item.id, loops, haptics, gain_db, is_muted=muted)
             self._playback.change_rows(self._sources.rows(), self._now)
         self._listening.apply(change, sources_changed=bool(loops))
         self._silent_objects.look(item.id, haptics, loops)

@@ -78,12 +78,18 @@ class Sources:
         return object_id in self._sources
 
     def add(
-        self, object_id: str, loops: Mapping[str, HapticLoop], haptics: ObjectHaptics | None, gain_db: float = 0.0
+        self,
+        object_id: str,
+        loops: Mapping[str, HapticLoop],
+        haptics: ObjectHaptics | None,
+        gain_db: float = 0.0,
+        *,
+        is_muted: bool = False,
     ) -> None:
         """Take in a source with a loop for each of its states, at least one."""
         rows = {state: LoopRow(object_id, state, loop) for state, loop in loops.items()}
         needs = {state.name: state.needs_contact for state in haptics.states} if haptics is not None else {}
-        self._sources[object_id] = Source(rows, needs, next(iter(rows)), level=Level(10 ** (gain_db / 20)))
+        self._sources[object_id] = Source(rows, needs, next(iter(rows)), level=Level(10 ** (gain_db / 20), is_muted))
         self._list()
 
     def remove(self, object_id: str) -> None:
