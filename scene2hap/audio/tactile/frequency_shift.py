@@ -13,18 +13,15 @@ from dataclasses import dataclass
 
 from scene2hap import checks
 from scene2hap.audio.protocol import ConversionContext
-from scene2hap.audio.tactile.stages import ShiftStage, StageStream
+from scene2hap.audio.tactile.stages import LOWEST_FELT_HZ, ShiftStage, StageStream
 from scene2hap.errors import ConfigError
-
-LOWEST_FELT_HZ = 10.0
 
 
 @dataclass(frozen=True)
 class FrequencyShift:
     """Moves `low_hz`..`high_hz` by `shift_hz` (negative is down); what lies outside is dropped.
 
-    The default moves 300..1250 Hz to 50..1000 Hz. Where a source's own and target frequency are told, it is moved by
-    their difference instead.
+    The default moves 300..1250 Hz to 50..1000 Hz, the same for every context. What would land below 10 Hz is dropped.
     Raises: ConfigError: bounds that are not rising, or a band that would leave 10 Hz below itself; once the rate is
     known, a band that does not begin below 0.45 sample rates.
     """
@@ -49,7 +46,5 @@ class FrequencyShift:
         """A fresh conversion at that rate."""
         highest = 0.45 * sample_rate_hz
         checks.number("low_hz", self.low_hz, "Hz", below=highest, error=ConfigError, hint="Use a higher sample rate.")
-        shift = self.shift_hz
-        if context.own_hz is not None and context.target_hz is not None:
-            shift = max(context.target_hz - context.own_hz, LOWEST_FELT_HZ - self.low_hz)
-        return StageStream(ShiftStage(self.low_hz, min(self.high_hz, highest), shift, sample_rate_hz))
+        high = min(self.high_hz, highest)
+        return StageStream(ShiftStage(self.low_hz, high, self.shift_hz, sample_rate_hz))

@@ -12,13 +12,15 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import butter, sosfilt
+from scipy.signal import ellip, ellipord, sosfilt
 
 from scene2hap.audio.clip import Samples
 from scene2hap.errors import AudioError
 
 Signal = NDArray[np.float64]
 
+LOWEST_FELT_HZ = 10.0
+"""Slower movements are not felt as vibration."""
 _CACHED = 65_536
 """Samples per pass: what stays in the processor's cache runs twice as fast as a long sound in one piece."""
 _VANISHED = 1e-200
@@ -131,19 +133,25 @@ class ShiftStage:
 
         z = h * (x exp(-i 2 pi c t))        y = 2 Re(z exp(i 2 pi (c + shift) t))
 
-    What mirrors itself lies 2 c further off and is stopped by h. Distances between components stay, so that beats and
-    envelopes are kept and harmonics are not.
+    What mirrors itself lies 2 c further off and is stopped by h. So is what would land below 10 Hz, or fold over at 0 Hz
+    and come back as a false tone: the lower edge of the band is raised where it lies too near. Distances between
+    components stay, so that beats and envelopes are kept and harmonics are not.
     Source: D. K. Weaver, "A third method of generation and detection of single-sideband signals", Proc. IRE 44, 1956.
     """
 
-    _ORDER = 6
+    _RIPPLE_DB, _STOP_DB = 0.05, 70.0
+    _WIDEST, _NARROWEST = 0.3, 0.08
+    """Transition of h, as shares of w. Elliptic filters of order 8 to 10 do this."""
 
     def __init__(self, low_hz: float, high_hz: float, shift_hz: float, sample_rate_hz: float) -> None:
-        middle_hz = 0.5 * (low_hz + high_hz)
+        lowest_hz = max(0.0, LOWEST_FELT_HZ - shift_hz)
+        low_hz = min(max(low_hz, lowest_hz + self._NARROWEST * 0.5 * (high_hz - low_hz)), 0.99 * high_hz)
+        middle_hz, width = 0.5 * (low_hz + high_hz), min(0.5 * (high_hz - low_hz), 0.45 * sample_rate_hz)
+        stop = width + min(max(low_hz - lowest_hz, self._NARROWEST * width), self._WIDEST * width)
         self._down = Oscillator(middle_hz, sample_rate_hz)
         self._up = Oscillator(middle_hz + shift_hz, sample_rate_hz)
-        width = min(0.5 * (high_hz - low_hz), 0.49 * sample_rate_hz)
-        self._sections = butter(self._ORDER, width, fs=sample_rate_hz, output="sos")
+        order, _ = ellipord(width, min(stop, 0.49 * sample_rate_hz), self._RIPPLE_DB, self._STOP_DB, fs=sample_rate_hz)
+        self._sections = ellip(order, self._RIPPLE_DB, self._STOP_DB, width, fs=sample_rate_hz, output="sos")
         self._state = np.zeros((len(self._sections), 2, 2))
         self._position = 0
 

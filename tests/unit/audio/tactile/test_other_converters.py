@@ -4,7 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from scipy.signal import hilbert
 
+from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.envelope import EnvelopeCarrier
 from scene2hap.audio.tactile.frequency_shift import FrequencyShift
@@ -59,10 +62,28 @@ def test_frequency_shift_keeps_an_envelope() -> None:
     assert amplitude(y, 205) == pytest.approx(0.1, rel=0.02)
 
 
-def test_frequency_shift_takes_a_told_target() -> None:
-    context = ConversionContext(own_hz=1000.0, target_hz=730.0)
-    y = FrequencyShift(low_hz=600.0, high_hz=1500.0).stream(RATE, context).process(tone(1000))
-    assert amplitude(y, 730) == pytest.approx(0.5, rel=0.01)
+def test_frequency_shift_moves_a_source_of_a_scene_as_it_moves_a_file() -> None:
+    clip = AudioClip(tone(600), RATE)
+    (plan,) = plan_scene([SourceClip(clip, 0.5, "a")], FrequencyShift(), ActuatorProfile())
+    loop = felt_loop(clip, FrequencyShift(), plan)
+    assert loop.frequency_tactile_hz == pytest.approx(350, abs=0.5)
+
+
+@pytest.mark.parametrize("frequency_hz", [5, 20, 60, 120, 190, 240, 250, 255, 259])
+def test_frequency_shift_folds_nothing_and_leaves_nothing_below_ten_hertz(frequency_hz: int) -> None:
+    y = FrequencyShift().stream(RATE, PLAIN).process(tone(frequency_hz, 4.0))[-RATE:].astype(float)
+    assert 20 * math.log10(np.abs(np.fft.rfft(y)).max() * 2 / RATE / 0.5) < -60
+
+
+@pytest.mark.parametrize("shift_hz", [-250.0, -120.0, 80.0])
+def test_frequency_shift_is_that_of_the_analytic_signal(shift_hz: float) -> None:
+    rng = np.random.default_rng(5)
+    t = np.arange(4 * RATE) / RATE
+    x = sum(0.05 * np.sin(2 * np.pi * f * t + rng.uniform(0, 6)) for f in range(310, 1240, 37))
+    y = FrequencyShift(shift_hz=shift_hz).stream(RATE, PLAIN).process(x.astype(np.float32))
+    expected = np.real(hilbert(x) * np.exp(2j * np.pi * shift_hz * t))
+    got, wanted = (np.abs(np.fft.rfft(signal[-2 * RATE :])) / RATE for signal in (y.astype(float), expected))
+    assert np.abs(got - wanted).max() < 0.05 * 0.015
 
 
 def test_frequency_shift_refuses_to_fold_over() -> None:
