@@ -60,6 +60,7 @@ _HOME = {
     "scene2hap.baking": ("BakeConfig", "abake", "arebake", "bake", "bake_object", "rebake"),
     "scene2hap.session": ("HapticFrame", "HapticSession", "SessionConfig", "Touch"),
     "scene2hap.engines": ("EngineAdapter", "EngineLink", "MuJoCoLink", "Panda3DLink"),
+    "scene2hap.bundle_watch": ("BundleWatch",),
     "scene2hap.touch_track": ("TouchTrack",),
     "scene2hap.track_player": ("play_track",),
     "scene2hap.devices.protocol": ("ActuatorSink", "SinkEvent", "SinkStats"),
@@ -132,6 +133,7 @@ if TYPE_CHECKING:
     from scene2hap.baking import rebake as rebake
     from scene2hap.bundle import HapticBundle as HapticBundle
     from scene2hap.bundle import Override as Override
+    from scene2hap.bundle_watch import BundleWatch as BundleWatch
     from scene2hap.contact.graph import ContactChange as ContactChange
     from scene2hap.contact.graph import ContactGraph as ContactGraph
     from scene2hap.devices.memory import MemorySink as MemorySink

@@ -43,6 +43,7 @@ from scene2hap import (
     Plate,
     Pose,
     RigidBody,
+    SceneWarning,
     plate_modes,
 )
 from scene2hap.errors import Scene2HapError
@@ -274,6 +275,7 @@ def run(n_kernels: int, n_scenes: int, limit_s: float = 60.0, only: int | None =
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         warnings.simplefilter("ignore", ThinPlateWarning)
+        warnings.simplefilter("ignore", SceneWarning)  # materials are drawn from beyond what exists
         for case, n in ((kernels, n_kernels), (scenes, n_scenes)):
             for number in range(n) if only is None else [only]:
                 case(number, tallies, limit_s)

@@ -26,13 +26,15 @@ class BakeConfig(InferenceConfig):
     """Settings of a bake. Every part is chosen by a `kind`, or given ready made.
 
     llm : the backend of inference, whose course the settings of `InferenceConfig` decide. One that is reached over a
-        network gets retries, repairs and a cache around it (`standard_stack`), unless it is given ready made;
-    cache_dir : where its answers are kept, None for the user's folder of caches;
-    max_cost_usd : what the answers may cost, checked before each call, None for no limit;
-    prices : of models, in US dollars per million tokens read and written, beside the dated list;
-    audio : where sounds come from, tried in order until `enough_candidates` remain (1 is the paper's rule);
-    tactile : what turns sound into touch; actuator : what it is turned for, by name, CSV file or fields;
-    spread : how far a source may be moved in frequency and level to be distinct from the others;
+        network gets retries, repairs and a cache around it (`standard_stack`), unless it is given ready made.
+    cache_dir : where its answers are kept, None for the user's folder of caches.
+    max_cost_usd : what the answers may cost, checked before each call, None for no limit.
+    prices : of models, in US dollars per million tokens read and written, beside the dated list.
+    audio : where sounds come from, tried in order until `enough_candidates` remain.
+    enough_candidates : how many sounds to choose from; 1 is the paper's rule.
+    tactile : what turns sound into touch.
+    actuator : what it is turned for, by name, CSV file or fields.
+    spread : how far a source may be moved in frequency and level to be distinct from the others.
     seed : of everything that is synthesized.
     """
 

@@ -25,7 +25,7 @@ from scene2hap.audio.sources.chain import gather
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import OWN_CLIP, asked_for, converter_name, differences, made_by
 from scene2hap.bundle import BundleWarning, Override
-from scene2hap.haptics import ActuatorProfile, ObjectHaptics, SourceState, VibrationDescription
+from scene2hap.haptics import ObjectHaptics, SourceState, VibrationDescription
 
 Progress = Callable[[str, str, int, int], None]
 """Called with (stage, the step, how many are done, of how many)."""
@@ -95,7 +95,7 @@ async def make_loops(
     parts = []
     for done, (object_id, haptics, state) in enumerate(wanted, start=1):
         part, why = await asyncio.to_thread(chooser.part, object_id, haptics, state)
-        parts.append(replace(part, pitch_hz=_pitch_hz(object_id, state.name, wishes, config.actuator)))
+        parts.append(replace(part, pitch_hz=_pitch_hz(object_id, state.name, wishes, config)))
         if why:
             sounds.choices.setdefault(object_id, {})[state.name] = why
         tell("sound", object_id, done, len(wanted))
@@ -241,20 +241,26 @@ class _Maker:
         return replace(self._made[key], source=source, fingerprint=fingerprint), reasons
 
 
-def _pitch_hz(object_id: str, state: str, wishes: Mapping[str, Override], actuator: ActuatorProfile) -> float | None:
-    """The pitch that a person wants [Hz], moved into the actuator's band with a warning."""
-    wish = wishes.get(object_id)
+def _pitch_hz(object_id: str, state: str, wishes: Mapping[str, Override], config: BakeConfig) -> float | None:
+    """The pitch that a person wants [Hz], moved into the actuator's band.
+
+    Warns: BundleWarning: it was moved, or the converter does not move sources.
+    """
+    wish, actuator = wishes.get(object_id), config.actuator
     wanted_hz = wish.pitch_of(state) if wish is not None else None
-    if wish is None or wanted_hz is None:
+    if wish is None or wanted_hz is None or wish.locked:
+        return None
+    told = f"pitch_hz of {object_id!r} is {wanted_hz:g} Hz; "
+    if not getattr(config.tactile, "follows_target", False):
+        name = type(config.tactile).__name__
+        warnings.warn(f"{told}{name} does not move sources. Use the converter 'adaptive'.", BundleWarning, stacklevel=2)
         return None
     played_hz = min(max(wanted_hz, actuator.min_frequency_hz), actuator.max_frequency_hz)
-    if played_hz != wanted_hz and not wish.locked:
-        warnings.warn(
-            f"pitch_hz of {object_id!r} is {wanted_hz:g} Hz; the actuator {actuator.name!r} plays "
-            f"{actuator.min_frequency_hz:g} to {actuator.max_frequency_hz:g} Hz, so that {played_hz:g} Hz was made.",
-            BundleWarning,
-            stacklevel=2,
+    if played_hz != wanted_hz:
+        told += (
+            f"the actuator {actuator.name!r} plays {actuator.min_frequency_hz:g} to {actuator.max_frequency_hz:g} Hz"
         )
+        warnings.warn(f"{told}. The loop is at {played_hz:g} Hz.", BundleWarning, stacklevel=2)
     return played_hz
 
 

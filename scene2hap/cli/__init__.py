@@ -13,19 +13,39 @@ from collections.abc import Sequence
 from typing import Any
 
 from scene2hap import __version__
-from scene2hap.cli import bake, convert, demo, doctor, edit, inspect, play, render, report, streams
+from scene2hap.cli import (
+    audition,
+    bake,
+    convert,
+    demo,
+    doctor,
+    edit,
+    inspect,
+    play,
+    render,
+    report,
+    settings,
+    streams,
+)
+from scene2hap.cli import list as list_names
 from scene2hap.cli.console import Console
 from scene2hap.errors import Scene2HapError
 from scene2hap.printable import printable
 
-COMMANDS = (demo, bake, edit, render, play, convert, inspect, report, doctor)
+COMMANDS = (demo, bake, edit, render, play, audition, convert, inspect, report, list_names, settings, doctor)
+
+
+_DOCS = (
+    "Documentation by task: docs/README.md in the folder of the source. Every command: docs/command-line.md, or "
+    "scene2hap COMMAND --help. In Python: help(scene2hap.HapticSession)."
+)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command; the exit status is returned."""
     streams.prepare()
     try:
-        arguments = _parser().parse_args(argv)
+        arguments = command_parser().parse_args(argv)
     except SystemExit:  # after help or a word on wrong usage, which may have nowhere to go
         if Console(quiet=True).close():
             return 1
@@ -67,8 +87,9 @@ class _Parser(argparse.ArgumentParser):
             super()._print_message(printable(message, lines=True), file)
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(prog="scene2hap", description="Scene-wide vibrotactile haptics.")
+def command_parser() -> argparse.ArgumentParser:
+    """The parser of the command line."""
+    parser = _Parser(prog="scene2hap", description="Scene-wide vibrotactile haptics.", epilog=_DOCS)
     parser.add_argument("--version", action="version", version=f"scene2hap {__version__}")
     common = _Parser(add_help=False)
     common.add_argument("-q", "--quiet", action="store_true", help="show no progress and no tables")

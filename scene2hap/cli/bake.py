@@ -15,7 +15,6 @@ from typing import Any
 from scene2hap.baking import BakeConfig, bake
 from scene2hap.bundle import read_overrides, require_replaceable
 from scene2hap.cli.console import Console
-from scene2hap.cli.settings import read_settings
 from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
 from scene2hap.errors import ConfigError
 from scene2hap.llm.dry_run import dry_run
@@ -24,6 +23,7 @@ from scene2hap.llm.wrappers import identity
 from scene2hap.scene.capture import capture_images
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.settings import read_settings
 
 HELP = "scene file -> haptic bundle"
 
@@ -32,29 +32,33 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``scene2hap bake``."""
     parser.add_argument("scene", metavar="SCENE", help="glTF, GLB, OBJ, STL, PLY, COLLADA, MJCF, or scene JSON")
     parser.add_argument("-o", "--output", metavar="BUNDLE", help="folder to write (not needed with --dry-run)")
-    parser.add_argument("--prompt", default="", help="what you want told to the model; it outranks everything else")
+    parser.add_argument("--prompt", default="", help="text for the model, which outranks everything else")
     parser.add_argument("--llm", metavar="KIND[:MODEL]", help="lexicon (default), openai:MODEL, local:MODEL, ...")
     parser.add_argument("--base-url", metavar="URL", help="address of the model's server, if not the usual one")
-    parser.add_argument("--max-cost", type=float, metavar="DOLLARS", help="stop before the answers cost more")
+    parser.add_argument("--max-cost", type=float, metavar="DOLLARS", help="stop before the answers cost more than this")
     parser.add_argument("--cache", metavar="FOLDER", help="where answers are kept, if not in your folder of caches")
     parser.add_argument(
         "--pictures",
         action=argparse.BooleanOptionalAction,
         help="show the model pictures (extra `pictures`); the default for models behind an address",
     )
-    parser.add_argument("--dry-run", action="store_true", help="only tell calls, tokens and cost; ask nobody")
+    parser.add_argument("--dry-run", action="store_true", help="show calls, tokens and cost only; no model is called")
     parser.add_argument("--sounds", metavar="FOLDER", help="your own sounds, tried before the synthesizer")
     parser.add_argument("--actuator", metavar="NAME", help="name of an actuator, or a CSV file of Hz and dB")
-    parser.add_argument("--tactile", metavar="KIND", help="what turns sound into touch")
+    parser.add_argument("--tactile", metavar="KIND", help="converter from sound to touch")
     parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [bake]")
     add_scene_arguments(parser)
 
 
 def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
     """How to read a scene file that does not say everything about itself."""
-    parser.add_argument("--unit-m", type=float, metavar="METRES", help="length of the file's unit, if it lies")
-    parser.add_argument("--assets-root", metavar="FOLDER", help="what the scene may read, if not its own folder alone")
-    parser.add_argument("--up-axis", choices=("y", "z"), help="the file's up axis, if not its format's")
+    parser.add_argument(
+        "--unit-m", type=float, metavar="METRES", help="metres per unit of the file, overriding its own"
+    )
+    parser.add_argument(
+        "--assets-root", metavar="FOLDER", help="folder that the file may read from, instead of its own"
+    )
+    parser.add_argument("--up-axis", choices=("y", "z"), help="y or z, overriding the axis of the file's format")
     parser.add_argument(
         "--group", default="authored", metavar="RULE", help="authored (default), leaf, or a depth in the node tree"
     )

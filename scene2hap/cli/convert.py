@@ -1,7 +1,7 @@
 """Turn sound files into tactile ones, without a scene.
 
-    scene2hap convert hum.wav -o hum_felt.wav
-    scene2hap convert sounds/ more.flac -o felt/ --converter '{"kind": "svf_bandpass", "q": 2}' --actuator lra --picture
+scene2hap convert hum.wav -o hum_felt.wav
+scene2hap convert sounds/ more.flac -o felt/ --converter '{"kind": "svf_bandpass", "q": 2}' --actuator lra --picture
 
 Files and folders are converted in parallel and keep their names; each is written whole or not at all. Where one fails,
 the others go on, and the exit status is 1.
@@ -10,7 +10,6 @@ the others go on, and the exit status is 1.
 from __future__ import annotations
 
 import argparse
-import json
 import math
 from dataclasses import asdict
 from typing import Any
@@ -19,6 +18,7 @@ from scene2hap.audio.actuators import ACTUATORS
 from scene2hap.audio.conversion import FORMATS, Conversion, Failure, convert_files
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.cli.console import Console
+from scene2hap.cli.specs import given_spec
 from scene2hap.errors import AudioError, ConfigError
 
 HELP = "sound files -> tactile files"
@@ -63,7 +63,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             pictures=arguments.picture,
             workers=arguments.workers,
             progress=lambda name, done, total: tell("converting", name, done, total),
-            converter=_converter(arguments.converter),
+            converter=given_spec("--converter", arguments.converter),
             actuator=arguments.actuator,
             intensity=arguments.intensity,
             mono=arguments.mono,
@@ -87,16 +87,6 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             console.outcome(outcome)
         raise AudioError(f"{len(failed)} of {len(outcomes)} files were not converted.")
     return outcome
-
-
-def _converter(text: str) -> object:
-    """A kind, or the settings that JSON spells."""
-    if not text.lstrip().startswith("{"):
-        return text
-    try:
-        return json.loads(text)
-    except ValueError as cause:
-        raise ConfigError(f"--converter is {text!r}, which is no JSON ({cause}). Give a kind, or an object.") from cause
 
 
 def _show(console: Console, made: list[Conversion]) -> None:

@@ -9,7 +9,6 @@ each hand's sweep took from being asked for to that input.
 from __future__ import annotations
 
 import argparse
-import json
 import math
 import platform
 import re
@@ -26,6 +25,7 @@ from scene2hap import __version__, checks
 from scene2hap.audio.sources import SOURCES
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.cli.console import Console
+from scene2hap.cli.specs import given_spec
 from scene2hap.compiled import are_in_use
 from scene2hap.devices import SINKS, loop_back
 from scene2hap.devices.clock import has_clock
@@ -103,7 +103,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             console.say(f"  {line}")
     hands = checks.names("--hands", arguments.hands.split(","))
     if arguments.sweep:
-        outcome["sweep"] = sweep(_spec(arguments.sweep), hands, console, listen_to=arguments.loop_back)
+        outcome["sweep"] = sweep(given_spec("--sweep", arguments.sweep), hands, console, listen_to=arguments.loop_back)
     elif arguments.loop_back is not None:
         raise ConfigError("--loop-back listens to a sweep; add --sweep soundcard, or the sink that is to be measured.")
     return outcome
@@ -282,12 +282,3 @@ def _wave(t_s: NDArray[np.float64]) -> NDArray[np.float64]:
     edge = np.clip(np.minimum(t, SWEEP_S - t) / 0.05, 0.0, 1.0)
     wave: NDArray[np.float64] = 10 ** (LEVEL_DB / 20) * np.sin(phase) * edge
     return wave
-
-
-def _spec(text: str) -> object:
-    if not text.lstrip().startswith("{"):
-        return text
-    try:
-        return json.loads(text)
-    except ValueError as cause:
-        raise ConfigError(f"--sweep {text!r} is no JSON: {cause}.") from cause

@@ -1,5 +1,7 @@
 """Feel a bundle: arrow keys move a hand over a plan of the scene, meters show what it feels.
 
+The folder is watched: what is edited meanwhile, here or by `scene2hap edit`, is felt within a second.
+
 Keys: arrows move, space lifts the hand and puts it down, + and - turn the level, q ends.
 """
 
@@ -7,7 +9,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import json
 import shutil
 import sys
 import time
@@ -18,14 +19,15 @@ from rich.live import Live
 from rich.text import Text
 
 from scene2hap.bundle import HapticBundle
+from scene2hap.bundle_watch import BundleWatch
 from scene2hap.cli.console import Console
 from scene2hap.cli.plan import Plan
-from scene2hap.cli.settings import read_settings
+from scene2hap.cli.specs import given_spec, session_config
 from scene2hap.devices import SINKS
 from scene2hap.devices.clock import has_clock
 from scene2hap.devices.protocol import ActuatorSink, SinkEvent
 from scene2hap.errors import ConfigError
-from scene2hap.session import HapticFrame, HapticSession, SessionConfig, Touch
+from scene2hap.session import HapticFrame, HapticSession, Touch
 
 HELP = "feel a bundle with the arrow keys"
 
@@ -51,23 +53,25 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     if not sys.stdin.isatty():
         raise ConfigError("scene2hap play needs a terminal for its keys. Use `scene2hap render` for a file of touches.")
     bundle = HapticBundle.load(arguments.bundle)
-    config = SessionConfig.parse(read_settings(arguments.settings, "session"))
-    sink = SINKS.build(json.loads(arguments.sink) if arguments.sink.lstrip().startswith("{") else arguments.sink)
+    config = session_config(arguments.settings, bundle)
+    sink = SINKS.build(given_spec("--sink", arguments.sink))
     actuator = Actuator(sink)
     width, height = shutil.get_terminal_size()
     # Beside the plan stand a line for each source, one for the hand, one for the actuator, and one left free.
     player = Player(bundle, n_columns=max(_LEAST, width - 1), n_rows=max(_LEAST, height - len(bundle.loops) - 3))
     with (
         HapticSession(bundle.snapshot, bundle, config, hands=(HAND,), sink=actuator.sink) as session,
+        BundleWatch(session, arguments.bundle) as watch,
         keys() as pressed,
         Live(refresh_per_second=20, screen=True) as screen,
     ):
         silence(session, arguments.mute, arguments.solo)
         while player.press(pressed()):
+            watch.update()
             session.set_user(gain_db=player.gain_db)
             frame = session.update(touches=player.touches())
             actuator.take(config.sample_rate_hz)
-            screen.update(player.view(frame, actuator.problem))
+            screen.update(player.view(frame, actuator.problem, watch.problem))
             time.sleep(UPDATE_S)
     if not actuator.has_played:
         console.warn(f"nobody felt anything: {actuator.problem or 'the actuator was not reached'}")
@@ -153,11 +157,12 @@ class Player:
         found = self.plan.touched(*self._hand) if self._is_down else None
         return [Touch(HAND, *found)] if found else []
 
-    def view(self, frame: HapticFrame, problem: str = "") -> Text:
-        """Plan, touched object, a meter per source, and what keeps the actuator from playing."""
+    def view(self, frame: HapticFrame, problem: str = "", watch_problem: str = "") -> Text:
+        """Plan, touched object, a meter per source, and why the actuator does not play or an edit is not felt."""
         state = self.on or "nothing" if self._is_down else "lifted"
         lines = [f"hand on: {state}    level {self.gain_db:+g} dB    arrows, space, + -, q"]
-        lines.append(f"NOBODY FEELS THIS: {problem}" if problem else "")
+        told = f"NOBODY FEELS THIS: {problem}" if problem else ""
+        lines.append(told or (f"not felt yet: {watch_problem}" if watch_problem else ""))
         for source_id in frame.sources:
             gain = min(frame.gain(HAND, source_id), 1.0)
             lines.append(f"{source_id:<28.28} {'#' * round(_METER * gain):<{_METER}} {gain:5.3f}")

@@ -13,9 +13,9 @@ import numpy as np
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
-from scene2hap.cli.settings import read_settings
 from scene2hap.devices.wav import WavSink
 from scene2hap.session import HapticSession, SessionConfig
+from scene2hap.settings import read_settings
 from scene2hap.touch_track import TouchTrack
 from scene2hap.track_player import PlayedFrame, play_track
 
@@ -28,7 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--touches", metavar="FILE", required=True, help="touches and moves over time, JSON or CSV")
     parser.add_argument("-o", "--output", metavar="WAV", required=True, help="file to write")
     parser.add_argument("--propagation", metavar="KIND", help="exponential_plate (default), no_propagation, ...")
-    parser.add_argument("--update-rate-hz", type=float, default=100.0, help="frames per second of the game (100)")
+    parser.add_argument("--update-rate-hz", metavar="HZ", type=float, default=100.0, help="updates per second (100)")
     parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [session]")
 
 

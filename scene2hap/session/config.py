@@ -70,6 +70,7 @@ class SessionConfig(Settings):
         "blocking": `update` waits, so that output depends on input alone. A model with a live field, as
         `ExponentialPlate`, needs neither.
     gain_limit_db : cap on what one source may gain at a hand by propagation, None for no cap.
+    sample_rate_hz : rate of the samples that `render` and sinks get.
     tactile_rate_hz : rate at which loops are mixed, or the sample rate where that is lower; the mixed hands are
         resampled once. At least 2.5 times the highest band edge.
     control_period_s : usual time between updates; gain changes are spread over it, and over at least 10 ms.

@@ -24,7 +24,7 @@ from scene2hap.calls import clear_calls
 from scene2hap.contact.graph import ContactChange
 from scene2hap.devices.protocol import ActuatorSink, Block
 from scene2hap.devices.whole_frames import WholeFrames
-from scene2hap.errors import SceneError, SessionError, UnknownObject
+from scene2hap.errors import BundleError, SceneError, SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.render.safety import SafetyStats
 from scene2hap.scene.objects import Contact, SceneObject
@@ -32,6 +32,7 @@ from scene2hap.scene.pose import Pose
 from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.actuator_check import warn_if_other
+from scene2hap.session.bundle_changes import changed_objects
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.explain import Explanation
 from scene2hap.session.frame import HapticFrame, SessionStats, Touch, unknown_hand
@@ -214,6 +215,34 @@ class HapticSession:
         loops = prefab.loops.get(original.id, {})
         self._put(copy, prefab.objects.get(original.id), loops, prefab, original.id)
 
+    def use_bundle(self, bundle: HapticBundle) -> None:
+        """Go on with a corrected bundle of the same scene: loops that differ fade over, levels are felt at once.
+
+        Objects stay where they are, and sources stay in their state if they still have it, on or off; a level or mute
+        of `set_source` stays unless the bundle's own has changed. Objects that the session does not have are left out.
+        Raises: BundleError: no bundle, or one of another scene.
+        """
+        if not isinstance(bundle, HapticBundle):
+            raise BundleError(f"bundle is {checks.described(bundle)}; it must be a HapticBundle.")
+        if other := set(bundle.objects) ^ set(self._bundle.objects):
+            raise BundleError(
+                f"the bundle is of another scene: only one of it and the bundle in use has {min(other)!r}. Make "
+                "another session for another scene."
+            )
+        before, self._bundle = self._bundle, bundle
+        for object_id in changed_objects(before, bundle):
+            if object_id in self._state.objects:
+                self._exchange(object_id)
+        for object_id in bundle.loops:
+            if object_id in self._sources:
+                old, new = before.gain_db(object_id), bundle.gain_db(object_id)
+                mute = bundle.is_muted(object_id)
+                self.set_source(
+                    object_id,
+                    gain_db=None if new == old else new,
+                    mute=None if mute == before.is_muted(object_id) else mute,
+                )
+
     def remove(self, object_id: str) -> None:
         """Take an object out of the scene; what is felt of it fades.
 
@@ -222,6 +251,9 @@ class HapticSession:
         self._state.require(object_id)
         if len(self._state.objects) == 1 and object_id in self._state.objects:
             raise SessionError(f"{object_id!r} is the last object of the scene; add another one before removing it.")
+        self._take_out(object_id)
+
+    def _take_out(self, object_id: str) -> None:
         change = self._state.remove(object_id)
         is_source = object_id in self._sources
         if is_source:
@@ -400,6 +432,16 @@ class HapticSession:
             self._playback.change_rows(self._sources.rows(), self._now)
         self._listening.apply(change, sources_changed=bool(loops))
         self._silent_objects.look(item.id, haptics, loops)
+
+    def _exchange(self, object_id: str) -> None:
+        """Put in an object anew, as the bundle has it now and the game has it."""
+        item = replace(self._state.objects[object_id], pose=self._state.poses[object_id])
+        before, bundle = self._sources.get(object_id), self._bundle
+        self._take_out(object_id)
+        self._put(item, bundle.objects.get(object_id), bundle.loops.get(object_id, {}), bundle, object_id)
+        if before is not None and object_id in self._sources:
+            self._sources.go_on(object_id, before)
+            self._listening.levels_changed(is_other_state=True)
 
     def _warn_if_nothing_vibrates(self) -> None:
         if not self._warned_of_silence and not self._sources.ids:

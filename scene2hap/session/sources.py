@@ -97,6 +97,18 @@ class Sources:
         del self._sources[object_id]
         self._list()
 
+    def get(self, object_id: str) -> Source | None:
+        """A source, None if the object is none."""
+        return self._sources.get(object_id)
+
+    def go_on(self, source_id: str, before: Source) -> None:
+        """Let a source go on as it was before its loops were exchanged; the first state gives way to a new first."""
+        source = self._sources[source_id]
+        source.is_on, source.level = before.is_on, before.level
+        if before.state != next(iter(before.rows)) and before.state in source.rows:
+            source.state = before.state
+        self._list()
+
     def __getitem__(self, source_id: str) -> Source:
         """A source. Raises: UnknownObject."""
         if not isinstance(source_id, str) or source_id not in self._sources:

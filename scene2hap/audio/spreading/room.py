@@ -26,8 +26,11 @@ _ORDER_GAP_DB = 0.5
 
 
 class SpreadLimits(Settings):
-    """How far a source may be moved to be distinct from the others: `octaves` in frequency, `level_db` in level; 0 and
-    0 leave everything where it is."""
+    """How far a source may be moved to be distinct from the others; 0 and 0 leave everything where it is.
+
+    octaves : in frequency, up or down.
+    level_db : in level, up or down [dB].
+    """
 
     of_what = "spread"
 

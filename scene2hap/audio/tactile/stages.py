@@ -133,8 +133,8 @@ class ShiftStage:
 
         z = h * (x exp(-i 2 pi c t))        y = 2 Re(z exp(i 2 pi (c + shift) t))
 
-    What mirrors itself lies 2 c further off and is stopped by h. So is what would land below 10 Hz, or fold over at 0 Hz
-    and come back as a false tone: the lower edge of the band is raised where it lies too near. Distances between
+    The mirrored band lies 2 c further off and is stopped by h. So is all that would land below 10 Hz, or fold over at
+    0 Hz and come back as a false tone: the lower edge of the band is raised where it lies too near. Distances between
     components stay, so that beats and envelopes are kept and harmonics are not.
     Source: D. K. Weaver, "A third method of generation and detection of single-sideband signals", Proc. IRE 44, 1956.
     """

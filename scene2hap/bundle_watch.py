@@ -1,0 +1,87 @@
+"""Follow a bundle on the disk while a session plays it: what a designer saves is felt within a second."""
+
+from __future__ import annotations
+
+import threading
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from scene2hap import checks
+from scene2hap.bundle import HapticBundle
+from scene2hap.calls import clear_calls
+from scene2hap.errors import BundleError, Scene2HapError
+from scene2hap.file_stamp import Stamp, file_stamp
+from scene2hap.session import HapticSession
+
+POLL_S = 0.05
+"""How often the folder is looked at. A bundle that was saved is read at once, files that are edited by hand once they
+have stayed the same for as long."""
+
+
+@clear_calls
+class BundleWatch:
+    """Hands a bundle to a session whenever its folder was written anew.
+
+    A worker looks at the folder and reads it; `update` gives a new bundle to the session and is called in the game
+    loop. Files that are edited by hand are followed too. `problem` tells why the folder as it is now cannot be played,
+    "" if it can; what was read last plays on.
+
+    Parameters: session : plays the bundle; folder : where it was saved.
+    Raises: BundleError: no folder is there.
+    """
+
+    def __init__(self, session: HapticSession, folder: str | Path) -> None:
+        self.problem = ""
+        self._session, self._folder = session, checks.path("folder", folder, error=BundleError)
+        if not self._folder.is_dir():
+            raise BundleError(f"there is no folder {str(self._folder)!r} to watch; `bake` and `save` write one.")
+        self._read: HapticBundle | None = None
+        self._closed = threading.Event()
+        self._worker = threading.Thread(target=self._watch, args=(self._stamps(),), name="scene2hap-watch", daemon=True)
+        self._worker.start()
+
+    def update(self) -> bool:
+        """Hand a bundle that was read to the session, and say whether there was one.
+
+        Raises: BundleError: it is of another scene.
+        """
+        bundle, self._read = self._read, None
+        if bundle is None:
+            return False
+        self._session.use_bundle(bundle)
+        return True
+
+    def close(self) -> None:
+        """End the worker; may be called twice."""
+        self._closed.set()
+        self._worker.join()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def _watch(self, known: frozenset[tuple[str, Stamp]]) -> None:
+        last, last_folder = known, file_stamp(self._folder)
+        while not self._closed.wait(POLL_S):
+            folder, now = file_stamp(self._folder), self._stamps()
+            is_saved = folder is not None and last_folder is not None and folder[0] != last_folder[0]  # another folder
+            if now != known and (is_saved or now == last):
+                known = now
+                self._load()
+            last, last_folder = now, folder
+
+    def _load(self) -> None:
+        try:
+            self._read = HapticBundle.load(self._folder)
+            self.problem = ""
+        except Scene2HapError as error:
+            self.problem = str(error)
+
+    def _stamps(self) -> frozenset[tuple[str, Stamp]]:
+        found = ((str(path), file_stamp(path)) for path in self._folder.rglob("*"))
+        return frozenset((name, stamp) for name, stamp in found if stamp is not None)

@@ -1,0 +1,91 @@
+"""Feel or write one source of a bundle alone, as a hand feels it that touches the source itself.
+
+scene2hap audition kitchen.bundle fan
+scene2hap audition kitchen.bundle fan --state high -o fan.wav
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from typing import Any
+
+import numpy as np
+
+from scene2hap import checks
+from scene2hap.bundle import HapticBundle
+from scene2hap.cli.console import Console
+from scene2hap.cli.play import UPDATE_S, Actuator, silence
+from scene2hap.cli.specs import given_spec, session_config
+from scene2hap.devices import SINKS
+from scene2hap.devices.wav import WavSink
+from scene2hap.errors import ConfigError
+from scene2hap.haptics import ObjectHaptics
+from scene2hap.scene.objects import SceneObject
+from scene2hap.session import HapticSession, Touch
+
+HELP = "one source of a bundle alone"
+
+HAND = "right"
+MOST_S = 600.0
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``scene2hap audition``."""
+    parser.add_argument("bundle", metavar="BUNDLE", help="folder that bake wrote")
+    parser.add_argument("id", metavar="ID", help="id of a source")
+    parser.add_argument("--state", metavar="NAME", help="one of its states, instead of the first")
+    parser.add_argument("--seconds", type=float, default=5.0, help="how long (5)")
+    parser.add_argument("-o", "--output", metavar="WAV", help="write a file instead of playing")
+    parser.add_argument("--sink", default="soundcard", help="where to play: a kind, or JSON with one (soundcard)")
+    parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [session]")
+
+
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
+    """Play or write the source."""
+    seconds = checks.number("--seconds", arguments.seconds, "s", above=0.0, at_most=MOST_S, error=ConfigError)
+    bundle = HapticBundle.load(arguments.bundle)
+    config = session_config(arguments.settings, bundle, prepare="blocking")
+    wav = WavSink(arguments.output) if arguments.output else None
+    actuator = Actuator(wav or SINKS.build(given_spec("--sink", arguments.sink)))
+    with HapticSession(bundle, config=config, hands=(HAND,), sink=actuator.sink) as session:
+        silence(session, [], [arguments.id])
+        session.set_source(arguments.id, state=arguments.state, mute=False)
+        touch = Touch(HAND, arguments.id, _middle(session.snapshot.object(arguments.id)))
+        frame = session.update(touches=[touch])
+        if not frame.gain(HAND, arguments.id):
+            console.warn(f"{arguments.id!r} is silent: {_why_silent(bundle.objects[arguments.id], arguments.state)}.")
+        if wav is not None:
+            wav.pull_s(seconds)
+        else:
+            _play(session, touch, actuator, seconds)
+    if actuator.problem or not actuator.has_played:
+        console.warn(f"nobody felt anything: {actuator.problem or 'the actuator was not reached'}")
+    if arguments.output:
+        console.say(f"wrote {arguments.output}")
+    return {"source": arguments.id, "state": arguments.state, "wav": arguments.output, "played": actuator.has_played}
+
+
+def _why_silent(haptics: ObjectHaptics, name: str | None) -> str:
+    state = next((one for one in haptics.states if one.name == name), haptics.states[0])
+    if state.needs_contact is not None:
+        return f"state {state.name!r} needs contact with {state.needs_contact!r}, which the scene as it stands lacks"
+    return "its level is too low to be felt"
+
+
+def _play(session: HapticSession, touch: Touch, actuator: Actuator, seconds: float) -> None:
+    end_s = time.monotonic() + seconds
+    while time.monotonic() < end_s:
+        session.update(touches=[touch])
+        actuator.take(session.config.sample_rate_hz)
+        time.sleep(UPDATE_S)
+
+
+def _middle(item: SceneObject) -> tuple[float, float, float]:
+    """The triangle nearest to the middle of the dominant surface [m, world]."""
+    plate, mesh = item.surface, item.geometry.mesh
+    middle = plate.pose.to_world([[plate.length_m / 2, plate.width_m / 2, plate.thickness_m / 2]])
+    centroids = mesh.vertices_m[mesh.faces].mean(axis=1)
+    nearest = np.linalg.norm(centroids - middle, axis=1).argmin()
+    x, y, z = item.pose.to_world(centroids[[nearest]])[0].tolist()
+    return x, y, z

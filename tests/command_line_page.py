@@ -1,0 +1,89 @@
+"""The page of the command line, written from its parser: `python tests/command_line_page.py`."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from scene2hap.cli import command_parser
+
+PAGE = Path(__file__).parents[1] / "docs" / "command-line.md"
+
+_HEAD = """# The command line
+
+To see what a command takes. `scene2hap COMMAND --help` shows the same; this page is written from the parser by `python
+tests/command_line_page.py`, and a test compares it. Every command takes `-q` (no progress, no tables) and `--json` (the
+outcome as JSON). The exit status is 0, 1 for an error that you can act on, 2 for wrong usage.
+"""
+
+_COMMON = {"help", "quiet", "json"}
+
+
+def page() -> str:
+    """The page as it ought to be."""
+    return "\n".join([_HEAD, *_commands(command_parser())]).rstrip() + "\n"
+
+
+def _commands(parser: argparse.ArgumentParser) -> Iterator[str]:
+    for name, command in _below(parser).items():
+        yield f"## {name}\n"
+        yield _described(command.description or "")
+        rows = [*_rows(command)]
+        rows += [_verb(verb, below) for verb, below in _below(command).items()]
+        if rows:
+            yield "| argument | meaning |\n|---|---|"
+            yield from (f"| `{_cell(left)}` | {_cell(right)} |" for left, right in rows)
+            yield ""
+
+
+def _below(parser: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            return dict(action.choices)
+    return {}
+
+
+def _own(parser: argparse.ArgumentParser) -> list[argparse.Action]:
+    return [
+        action
+        for action in parser._actions
+        if action.dest not in _COMMON and not isinstance(action, argparse._SubParsersAction)
+    ]
+
+
+def _verb(name: str, parser: argparse.ArgumentParser) -> tuple[str, str]:
+    own = _own(parser)
+    takes = [f"[{_spelled(one)}]" if one.option_strings else _spelled(one) for one in own]
+    meanings = [f"`{_spelled(one)}`: {one.help}" for one in own if one.help and one.dest != "id"]
+    return " ".join([name, *takes]), "; ".join([parser.description or "", *meanings])
+
+
+def _rows(parser: argparse.ArgumentParser) -> Iterator[tuple[str, str]]:
+    for action in _own(parser):
+        yield _spelled(action), action.help or ""
+
+
+def _spelled(action: argparse.Action) -> str:
+    takes = "" if action.nargs == 0 else str(action.metavar or action.dest.upper())
+    spelled = f"{', '.join(action.option_strings)} {takes}".strip()
+    return f"[{spelled}]" if action.nargs == "?" and not action.option_strings else spelled
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", "\\|")
+
+
+def _described(text: str) -> str:
+    """Paragraphs as they are, lines that begin with the program's name as a block of code."""
+    paragraphs = []
+    for paragraph in re.split(r"\n\s*\n", text.strip()):
+        is_code = paragraph.startswith("scene2hap ")
+        paragraphs.append(f"```sh\n{paragraph}\n```" if is_code else paragraph)
+    return "\n\n".join(paragraphs) + "\n"
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")
+    print(PAGE)

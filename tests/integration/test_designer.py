@@ -1,0 +1,190 @@
+"""docs/designer.md as written, and the commands that it names."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import soundfile
+
+from command_line_page import PAGE, page
+from scene2hap import BundleWatch, HapticBundle, HapticSession, Touch, rebake
+from scene2hap.audio.files import write_wav
+from scene2hap.baking.config import BakeConfig
+from scene2hap.bundle import BundleWarning
+from scene2hap.cli import main
+from scene2hap.cli.settings import TABLES, setting_rows
+from scene2hap.demo import kitchen_path
+from scene2hap.session import SessionConfig
+
+TEXT = (Path(__file__).parents[2] / "docs" / "designer.md").read_text(encoding="utf-8")
+
+
+def tone(path: Path, frequency_hz: float) -> Path:
+    t = np.arange(2 * 44100) / 44100
+    write_wav(path, (0.5 * np.sin(2 * np.pi * frequency_hz * t)).astype(np.float32), 44100)
+    return path
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    assert main(["bake", str(kitchen_path()), "-o", "kitchen.bundle", "-q"]) == 0
+    return tmp_path / "kitchen.bundle"
+
+
+def outcome(capsys: pytest.CaptureFixture[str], *words: str) -> dict[str, object]:
+    capsys.readouterr()
+    assert main([*words, "--json"]) == 0
+    found: dict[str, object] = json.loads(capsys.readouterr().out)
+    return found
+
+
+def test_the_designers_day_runs_as_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(kitchen_path(), "kitchen.glb")
+    (tmp_path / "my_sounds").mkdir()
+    tone(tmp_path / "my_sounds" / "smartphone buzzing.wav", 180.0)
+    tone(tmp_path / "my_fan.wav", 110.0)
+    lines = re.findall(r"^scene2hap .*$", TEXT, re.MULTILINE)
+    assert len(lines) > 12
+    for line in lines:
+        words = shlex.split(line, comments=True)[1:]
+        if words[0] != "play" and "--watch" not in words:  # these need a terminal, and do not end by themselves
+            assert main([*words, "-q"]) == 0, line
+    bundle = HapticBundle.load("kitchen.bundle")
+    assert bundle.is_muted("microwave")
+    assert "cooker_hood" not in bundle.loops
+    (code,) = re.findall(r"```python\n(.*?)```", TEXT, re.DOTALL)
+    subprocess.run([sys.executable, "-W", "error", "-c", code], check=True)
+
+
+def test_intensity_changes_the_level_of_one_state(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    before = HapticBundle.load(folder)
+    (state,) = before.loops["smartphone"]
+    words = ["edit", str(folder), "intensity", "smartphone", "0.1", "--state", state]
+    remade = outcome(capsys, *words)["remade"]
+    assert isinstance(remade, dict)
+    assert remade["smartphone"] == {state: ["intensity"]}
+    after = HapticBundle.load(folder)
+    assert after.objects["smartphone"].states[0].intensity == 0.1
+    assert after.objects["smartphone"].provenance["intensity"] == "user"
+    quiet, loud = (np.abs(one.loops["smartphone"][state].tactile.samples).max() for one in (after, before))
+    assert quiet < 0.5 * loud
+
+
+def test_pitch_moves_what_is_felt_and_stays_in_the_band(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["edit", str(folder), "pitch", "handheld_fan", "90", "-q"]) == 0
+    loop = HapticBundle.load(folder).loops["handheld_fan"]["on"]
+    spectrum = np.abs(np.fft.rfft(loop.tactile.samples))
+    strongest_hz = spectrum.argmax() * loop.tactile.sample_rate_hz / len(loop.tactile.samples)
+    assert strongest_hz == pytest.approx(90.0, rel=0.05)
+    with pytest.warns(BundleWarning, match="plays 130 to 230 Hz. The loop is at 130 Hz"):
+        rebaked = rebake(str(folder), {"actuator": "lra"})
+    assert rebaked.loops["handheld_fan"]["on"].frequency_tactile_hz == pytest.approx(130.0, rel=0.05)
+    with pytest.warns(BundleWarning, match="Lowpass does not move sources"):
+        rebake(str(folder), {"tactile": "lowpass"})
+    assert main(["edit", str(folder), "rebake", "--actuator", "lra", "-q"]) == 0
+    assert main(["edit", str(folder), "pitch", "handheld_fan", "90"]) == 1
+    assert "130 to 230 Hz" in capsys.readouterr().err
+
+
+def test_locked_loops_refuse_what_would_change_them(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["edit", str(folder), "lock", "smartphone", "-q"]) == 0
+    for verb, value in (("intensity", "0.1"), ("pitch", "90"), ("sound", str(tone(folder.parent / "s.wav", 90.0)))):
+        assert main(["edit", str(folder), verb, "smartphone", value]) == 1
+        assert "locked" in capsys.readouterr().err
+    assert main(["edit", str(folder), "gain", "smartphone", "-3", "-q"]) == 0
+
+
+def test_a_muted_source_is_silent_until_the_game_unmutes_it(folder: Path) -> None:
+    assert main(["edit", str(folder), "mute", "smartphone", "-q"]) == 0
+    bundle = HapticBundle.load(folder)
+    session = HapticSession(bundle)
+    touch = Touch("left", "smartphone", bundle.snapshot.object("smartphone").pose.position_m)
+    assert session.update(touches=[touch]).gain("left", "smartphone") == 0.0
+    session.set_source("smartphone", mute=False)
+    assert session.update(touches=[touch]).gain("left", "smartphone") > 0.1
+
+
+def test_audition_writes_one_source_alone(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["edit", str(folder), "mute", "smartphone", "-q"]) == 0  # which an audition plays nevertheless
+    assert outcome(capsys, "audition", str(folder), "smartphone", "-o", "phone.wav", "--seconds", "2")["played"]
+    samples, rate = soundfile.read("phone.wav")
+    assert len(samples) >= 2 * rate
+    loop = HapticBundle.load(folder).loops["smartphone"]["ringing"].tactile
+    assert np.abs(samples).max() == pytest.approx(np.abs(loop.samples).max(), rel=0.1)
+    assert main(["audition", str(folder), "dining_table", "-o", "none.wav"]) == 1
+    assert "no source 'dining_table'" in capsys.readouterr().err
+    assert not Path("none.wav").exists()
+
+
+def test_lists_have_what_settings_take(capsys: pytest.CaptureFixture[str]) -> None:
+    lists = outcome(capsys, "list")
+    assert list(lists) == ["materials", "actuators", "kinds"]
+    for name in ("actuators", "kinds"):
+        rows = lists[name]
+        assert isinstance(rows, list)
+        assert all(isinstance(row, dict) and all(key[0] != ">" for key in row) for row in rows)
+    assert {"lra", "voice_coil"} <= {row["actuator"] for row in lists["actuators"]}  # type: ignore[attr-defined]
+    kinds = {(row["setting"], row["kind"]) for row in lists["kinds"]}  # type: ignore[attr-defined]
+    assert {("llm", "lexicon"), ("tactile", "adaptive"), ("propagation", "modal_plate"), ("sink", "wav")} <= kinds
+
+
+def test_every_setting_is_listed_with_its_meaning(capsys: pytest.CaptureFixture[str]) -> None:
+    shown = outcome(capsys, "settings")
+    assert list(shown) == list(TABLES)
+    for name, settings in (("bake", BakeConfig), ("session", SessionConfig)):
+        rows = [*setting_rows(settings)]
+        assert shown[name] == rows
+        assert {row["setting"].partition(".")[0] for row in rows} == set(settings.model_fields)
+        for row in rows:
+            assert row["meaning"], f"the docstring says nothing of {row['setting']}"
+            assert row["type"]
+
+
+def test_the_page_of_the_command_line_is_up_to_date() -> None:
+    assert PAGE.read_text(encoding="utf-8") == page(), "run: python tests/command_line_page.py"
+
+
+def test_help_says_where_the_docs_are(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["--help"])
+    assert "docs/README.md" in capsys.readouterr().out
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C is sent as a signal")
+def test_a_saved_sound_reaches_a_running_session(folder: Path) -> None:
+    """An audio editor saves a file, `edit --watch` makes the loop, and a session that watches the bundle plays it."""
+    sound = tone(folder.parent / "mine.wav", 110.0)
+    words = [sys.executable, "-m", "scene2hap", "edit", str(folder), "sound", "smartphone", str(sound), "--watch"]
+    edit = subprocess.Popen(words, env={**os.environ, "PYTHONUNBUFFERED": "1"}, stdout=subprocess.PIPE, text=True)
+    session = HapticSession(folder)
+    try:
+        with BundleWatch(session, folder) as watch:
+            for frequency_hz in (110.0, 170.0):
+                if frequency_hz != 110.0:
+                    assert edit.stdout is not None
+                    while "watching" not in edit.stdout.readline():
+                        pass
+                    tone(sound, frequency_hz)
+                until = time.monotonic() + 60
+                while not watch.update():
+                    assert time.monotonic() < until, watch.problem
+                    time.sleep(0.02)
+                (loop,) = session._bundle.loops["smartphone"].values()
+                assert loop.frequency_raw_hz == pytest.approx(frequency_hz, rel=0.02)
+    finally:
+        edit.send_signal(signal.SIGINT)
+    edit.communicate(timeout=30)
+    assert edit.returncode == 0

@@ -1,0 +1,153 @@
+"""A corrected bundle in a running session, from Python and from the disk."""
+
+from __future__ import annotations
+
+import json
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from scene2hap import AudioClip, BundleWatch, HapticBundle, HapticLoop, HapticSession, Pose, Touch
+from scene2hap.errors import BundleError
+from scenes import RATE, table_with_two_phones
+
+
+def buzz(frequency_hz: float) -> HapticLoop:
+    samples = (0.4 * np.sin(2 * np.pi * frequency_hz * np.arange(RATE) / RATE)).astype(np.float32)
+    return HapticLoop(AudioClip(samples, RATE), AudioClip(samples, RATE), frequency_hz, frequency_hz)
+
+
+def with_loops(bundle: HapticBundle, source: str, **loops: HapticLoop) -> HapticBundle:
+    return replace(bundle, loops={**bundle.loops, source: loops})
+
+
+@pytest.fixture
+def bundle() -> HapticBundle:
+    return table_with_two_phones()[1]
+
+
+def felt(session: HapticSession, source: str) -> float:
+    session.wait_prepared()
+    touch = Touch("left", source, session.poses[source].position_m)
+    session.update(touches=[touch])
+    session.render(9600)
+    session.update(touches=[touch])
+    return float(np.abs(session.render(9600)[:, 0]).max())
+
+
+def test_other_loops_are_played_and_the_rest_stays(bundle: HapticBundle) -> None:
+    source, other = bundle.loops
+    session = HapticSession(bundle)
+    place = Pose((*session.poses[source].position_m[:2], session.poses[source].position_m[2] + 0.001))
+    session.update({source: place})
+    session.set_source(other, on=False)
+    session.use_bundle(with_loops(bundle, source, ringing=buzz(60.0)))
+    assert session.poses[source] == place
+    assert set(session.source_ids) == {source, other}
+    assert felt(session, source) == pytest.approx(0.4, rel=0.02)
+    assert felt(session, other) < 0.4 * 10 ** (-60 / 20) or not session._sources[other].is_on
+
+
+def test_a_state_of_the_game_is_kept_and_a_new_first_state_is_taken(bundle: HapticBundle) -> None:
+    source = next(iter(bundle.loops))
+    both = with_loops(bundle, source, low=buzz(60.0), high=buzz(90.0))
+    session = HapticSession(both)
+    session.set_source(source, state="high", gain_db=-6.0)
+    session.use_bundle(with_loops(bundle, source, low=buzz(70.0), high=buzz(95.0)))
+    assert session._sources[source].state == "high"
+    assert session._sources[source].level.factor == pytest.approx(10 ** (-6 / 20))
+    session = HapticSession(both)
+    session.use_bundle(with_loops(bundle, source, high=buzz(90.0), low=buzz(60.0)))
+    assert session._sources[source].state == "high"
+    session.use_bundle(with_loops(bundle, source, off_peak=buzz(80.0)))
+    assert session._sources[source].state == "off_peak"
+
+
+def test_levels_mutes_and_silence_are_felt(bundle: HapticBundle) -> None:
+    source, other = bundle.loops
+    session = HapticSession(bundle)
+    before = felt(session, source)
+    session.use_bundle(bundle.override(source, gain_db=-6.0))
+    assert felt(session, source) == pytest.approx(before * 10 ** (-6 / 20), rel=1e-3)
+    session.use_bundle(bundle.override(source, muted=True))
+    assert felt(session, source) < 1e-6
+    session.use_bundle(bundle.override(source, vibrates=False).override(other, vibrates=False))
+    assert session.source_ids == ()
+    session.use_bundle(bundle)
+    assert felt(session, source) == pytest.approx(before, rel=1e-3)
+
+
+def test_what_was_removed_stays_away_until_it_is_added_again(bundle: HapticBundle) -> None:
+    source = next(iter(bundle.loops))
+    session = HapticSession(bundle)
+    session.remove(source)
+    session.use_bundle(with_loops(bundle, source, ringing=buzz(60.0)))
+    assert source not in session.object_ids
+    session.add(bundle.snapshot.object(source))
+    assert felt(session, source) == pytest.approx(0.4, rel=0.02)
+
+
+def test_a_scene_of_one_object_takes_a_corrected_bundle(bundle: HapticBundle) -> None:
+    from scene2hap import SceneSnapshot
+
+    source = next(iter(bundle.loops))
+    alone = SceneSnapshot("one", bundle.snapshot.up_axis, (bundle.snapshot.object(source),))
+    one = replace(
+        bundle, snapshot=alone, objects={source: bundle.objects[source]}, loops={source: bundle.loops[source]}
+    )
+    session = HapticSession(one)
+    session.use_bundle(with_loops(one, source, ringing=buzz(60.0)))
+    assert felt(session, source) == pytest.approx(0.4, rel=0.02)
+
+
+def test_another_scene_is_refused(bundle: HapticBundle) -> None:
+    from scene2hap import SceneObject, SceneSnapshot
+    from scene2hap.scene.shapes import Box
+
+    other = SceneSnapshot.build([SceneObject("lamp", geometry=Box((0.2, 0.2, 0.3)))])
+    session = HapticSession(bundle)
+    with pytest.raises(BundleError, match="another scene"):
+        session.use_bundle(HapticBundle(other, "room", {}, {}))
+    with pytest.raises(BundleError, match="must be a HapticBundle"):
+        session.use_bundle("kitchen.bundle")  # type: ignore[arg-type]
+
+
+def until(condition: object, watch: BundleWatch) -> None:
+    end = time.monotonic() + 30
+    while not condition():  # type: ignore[operator]
+        assert time.monotonic() < end, watch.problem
+        time.sleep(0.01)
+
+
+def test_a_saved_bundle_and_one_edited_by_hand_are_followed(bundle: HapticBundle, tmp_path: Path) -> None:
+    source = next(iter(bundle.loops))
+    folder = bundle.save(tmp_path / "b")
+    session = HapticSession(folder)
+    with BundleWatch(session, folder) as watch:
+        assert not watch.update()
+        bundle.override(source, gain_db=-6.0).save(folder)
+        until(watch.update, watch)
+        assert session._sources[source].level.factor == pytest.approx(10 ** (-6 / 20))
+
+        rows = json.loads((folder / "overrides.json").read_text(encoding="utf-8"))
+        rows[source]["gain_db"] = -12.0
+        (folder / "overrides.json").write_text(json.dumps(rows), encoding="utf-8")
+        until(watch.update, watch)
+        assert session._sources[source].level.factor == pytest.approx(10 ** (-12 / 20))
+
+        (folder / "overrides.json").write_text("{half", encoding="utf-8")
+        until(lambda: watch.problem, watch)
+        assert not watch.update()
+        assert "overrides.json" in watch.problem
+        bundle.save(folder)
+        until(watch.update, watch)
+        assert watch.problem == ""
+    watch.close()
+
+
+def test_there_must_be_a_folder(bundle: HapticBundle, tmp_path: Path) -> None:
+    with pytest.raises(BundleError, match="no folder"):
+        BundleWatch(HapticSession(bundle), tmp_path / "none")
