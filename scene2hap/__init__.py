@@ -58,7 +58,7 @@ _HOME = {
     "scene2hap.llm.chain": ("infer_haptics",),
     "scene2hap.bundle": ("HapticBundle", "Override"),
     "scene2hap.baking": ("BakeConfig", "abake", "arebake", "bake", "bake_object", "rebake"),
-    "scene2hap.session": ("HapticFrame", "HapticSession", "SessionConfig", "Touch"),
+    "scene2hap.session": ("HapticFrame", "HapticSession", "SessionConfig", "Touch", "UserProfile"),
     "scene2hap.engines": ("EngineAdapter", "EngineLink", "MuJoCoLink", "Panda3DLink"),
     "scene2hap.bundle_watch": ("BundleWatch",),
     "scene2hap.touch_track": ("TouchTrack",),
@@ -247,6 +247,9 @@ if TYPE_CHECKING:
     )
     from scene2hap.session import (
         Touch as Touch,
+    )
+    from scene2hap.session import (
+        UserProfile as UserProfile,
     )
     from scene2hap.touch_track import TouchTrack as TouchTrack
     from scene2hap.track_player import play_track as play_track

@@ -89,7 +89,7 @@ class Settings(BaseModel):
 
 _SUFFIXES = (".json", ".toml")
 
-SECTIONS = ("bake", "session")
+SECTIONS = ("bake", "session", "user")
 """The tables that a file of settings may have."""
 
 
@@ -109,11 +109,11 @@ def read_settings(path: str | None, section: str) -> dict[str, Any]:
             f"settings {path} cannot be read: {cause}. {near or 'They are TOML, or JSON in a .json file.'}"
         ) from cause
     if not isinstance(document, dict):
-        raise ConfigError(f"settings {path}: it must hold tables of settings, {' and '.join(SECTIONS)}.")
+        raise ConfigError(f"settings {path}: it must hold tables of settings, {', '.join(SECTIONS)}.")
     stray = [name for name in document if name not in SECTIONS]
     if stray:
         raise ConfigError(
-            f"settings {path}: {stray[0]!r} is outside of the tables {' and '.join(SECTIONS)}; write it into one of "
+            f"settings {path}: {stray[0]!r} is outside of the tables {', '.join(SECTIONS)}; write it into one of "
             f"them, as [{section}] in TOML."
         )
     found = document.get(section, {})

@@ -39,6 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", metavar="WAV", help="write a file instead of playing")
     parser.add_argument("--sink", default="soundcard", help="where to play: a kind, or JSON with one (soundcard)")
     parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [session]")
+    parser.add_argument("--profile", metavar="FILE", help="levels and limits of a person, see docs/profiles.md")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
@@ -48,7 +49,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     config = session_config(arguments.settings, bundle, prepare="blocking")
     wav = WavSink(arguments.output) if arguments.output else None
     actuator = Actuator(wav or SINKS.build(given_spec("--sink", arguments.sink)))
-    with HapticSession(bundle, config=config, hands=(HAND,), sink=actuator.sink) as session:
+    with HapticSession(bundle, config=config, hands=(HAND,), sink=actuator.sink, user=arguments.profile) as session:
         silence(session, [], [arguments.id])
         session.set_source(arguments.id, state=arguments.state, mute=False)
         touch = Touch(HAND, arguments.id, _middle(session.snapshot.object(arguments.id)))

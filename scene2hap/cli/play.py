@@ -46,6 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--mute", action="append", default=[], metavar="ID", help="silence a source; may be repeated")
     parser.add_argument("--solo", action="append", default=[], metavar="ID", help="play this source; may be repeated")
     parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [session]")
+    parser.add_argument("--profile", metavar="FILE", help="levels and limits of a person, see docs/profiles.md")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
@@ -60,7 +61,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     # Beside the plan stand a line for each source, one for the hand, one for the actuator, and one left free.
     player = Player(bundle, n_columns=max(_LEAST, width - 1), n_rows=max(_LEAST, height - len(bundle.loops) - 3))
     with (
-        HapticSession(bundle.snapshot, bundle, config, hands=(HAND,), sink=actuator.sink) as session,
+        HapticSession(bundle, config=config, hands=(HAND,), sink=actuator.sink, user=arguments.profile) as session,
         BundleWatch(session, arguments.bundle) as watch,
         keys() as pressed,
         Live(refresh_per_second=20, screen=True) as screen,

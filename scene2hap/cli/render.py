@@ -14,7 +14,7 @@ import numpy as np
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
 from scene2hap.devices.wav import WavSink
-from scene2hap.session import HapticSession, SessionConfig
+from scene2hap.session import HapticSession, SessionConfig, UserProfile
 from scene2hap.settings import read_settings
 from scene2hap.touch_track import TouchTrack
 from scene2hap.track_player import PlayedFrame, play_track
@@ -30,6 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--propagation", metavar="KIND", help="exponential_plate (default), no_propagation, ...")
     parser.add_argument("--update-rate-hz", metavar="HZ", type=float, default=100.0, help="updates per second (100)")
     parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [session]")
+    parser.add_argument("--profile", metavar="FILE", help="levels and limits of a person, see docs/profiles.md")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
@@ -40,7 +41,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     config = SessionConfig.parse(settings)
     track = TouchTrack.load(arguments.touches)
     bundle = HapticBundle.load(arguments.bundle)
-    frames = render_track(console, bundle, track, arguments.output, config, arguments.update_rate_hz)
+    user = UserProfile.parse(arguments.profile)
+    frames = render_track(console, bundle, track, arguments.output, config, arguments.update_rate_hz, user)
     highest = np.max([np.abs(frame.samples).max(axis=0) for frame in frames if len(frame.samples)], axis=0)
     peaks = {hand: float(highest[i]) for i, hand in enumerate(("left", "right"))}
     console.table(
@@ -59,6 +61,7 @@ def render_track(
     path: str,
     config: SessionConfig,
     update_rate_hz: float,
+    user: UserProfile | None = None,
 ) -> list[PlayedFrame]:
     """Play a track on a bundle into a WAV file, with a progress bar; the frames are returned.
 
@@ -67,7 +70,7 @@ def render_track(
     config = SessionConfig.parse(config, prepare="blocking")
     frames: list[PlayedFrame] = []
     sink = WavSink(path)
-    with console.progress() as tell, HapticSession(bundle.snapshot, bundle, config, sink=sink) as session:
+    with console.progress() as tell, HapticSession(bundle, config=config, sink=sink, user=user) as session:
 
         def on_frame(frame: PlayedFrame) -> None:
             frames.append(frame)

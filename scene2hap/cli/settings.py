@@ -1,9 +1,10 @@
-"""List every setting of a bake or of a session: its name, type, default and meaning.
+"""List every setting of a bake, of a session and of a person's profile: its name, type, default and meaning.
 
 scene2hap settings
 scene2hap settings session
 
-A settings file is TOML, or JSON, with tables [bake] and [session]; it is given by --settings.
+A settings file is TOML, or JSON, with tables [bake] and [session], and is given by --settings; a profile has a table
+[user], and is given by --profile.
 """
 
 from __future__ import annotations
@@ -18,19 +19,19 @@ from pydantic.fields import FieldInfo
 
 from scene2hap.baking.config import BakeConfig
 from scene2hap.cli.console import Console
-from scene2hap.session import SessionConfig
+from scene2hap.session import SessionConfig, UserProfile
 from scene2hap.settings import Settings
 
 HELP = "every setting, with its default"
 
-TABLES: dict[str, type[Settings]] = {"bake": BakeConfig, "session": SessionConfig}
+TABLES: dict[str, type[Settings]] = {"bake": BakeConfig, "session": SessionConfig, "user": UserProfile}
 
 _ENTRY = re.compile(r"^(\w+) : (.+(?:\n    .+)*)", re.MULTILINE)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``scene2hap settings``."""
-    parser.add_argument("table", metavar="TABLE", nargs="?", choices=TABLES, help="bake or session; both without it")
+    parser.add_argument("table", metavar="TABLE", nargs="?", choices=TABLES, help="bake, session, user; all without it")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:

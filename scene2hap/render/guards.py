@@ -57,12 +57,13 @@ class PeakGuard:
         u[n] = max_{k <= n} c[k] a^(n - k),   c = max(0, 1 - P / |x|),   y = x (1 - u)
 
     so that a signal that stays too loud is scaled rather than clipped. Symbols: P limit, a release per frame.
+    `limit` is a number, or one for each channel (n_channels,); it may be replaced at any time.
     """
 
     _CELL = 4096
 
     def __init__(self, limit: float, sample_rate_hz: float, n_channels: int) -> None:
-        self._limit = limit
+        self.limit: float | NDArray[np.float64] = limit
         self._release = math.exp(-1.0 / (RELEASE_S * sample_rate_hz))
         self._powers = self._release ** np.arange(self._CELL)[:, None]
         self._held = np.zeros(n_channels)
@@ -79,18 +80,18 @@ class PeakGuard:
         return np.concatenate(parts) if parts else x
 
     def _within_a_cell(self, x: Signal) -> Signal:
-        level = np.abs(x)
-        is_over = level > self._limit
+        level, limit = np.abs(x), self.limit
+        is_over = level > limit
         powers = self._powers[self._frame : self._frame + len(x)]
         self._frame += len(x)
         y = x
         if is_over.any() or self._held.any():
             self.n_limited += int(is_over.sum())
-            excess = np.where(is_over, 1.0 - self._limit / np.maximum(level, self._limit), 0.0)
+            excess = np.where(is_over, 1.0 - limit / np.maximum(level, limit), 0.0)
             # Referred to the cell's first frame, a decaying maximum is a plain one, free of rounding.
             held = np.maximum(np.maximum.accumulate(excess / powers, axis=0), self._held)
             self._held = held[-1]
-            y = np.clip(x * (1.0 - held * powers), -self._limit, self._limit)
+            y = np.clip(x * (1.0 - held * powers), -limit, limit)
         if self._frame == self._CELL:
             self._frame = 0
             self._held = self._held * self._release**self._CELL

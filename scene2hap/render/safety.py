@@ -11,7 +11,8 @@
 A mix within the budget meets steps 2 to 4 alone. The same samples come out however the input is cut in blocks; only the
 gate obeys the clock, and moves at the beginning of a block.
 
-Threads: `feed` and `release` belong to the game and `process` to whoever pulls samples; neither waits for the other.
+Threads: `feed`, `hold` and `release` belong to the game and `process` to whoever pulls samples; neither waits for the
+other.
 """
 
 from __future__ import annotations
@@ -141,6 +142,10 @@ class SafetyLayer:
     def feed(self) -> None:
         """Tell the watchdog that the game is alive."""
         self._fed_at = self._clock()
+
+    def hold(self, limits: NDArray[np.float64]) -> None:
+        """Hold each channel within a limit (n_channels,) [-] from now on, where that is below the actuator's."""
+        self._peak.limit = np.minimum(limits, self.budget.max_amplitude)
 
     def release(self) -> None:
         """Fade out for good; `silent` is true once that is done."""

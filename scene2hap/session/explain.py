@@ -14,6 +14,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from scene2hap.propagation.protocol import Carrier, CarryingField
 from scene2hap.session.frame import HapticFrame, Touch
 from scene2hap.session.loudest_path import LoudestPath, Point, loudest_path
@@ -104,7 +107,7 @@ class Explanation:
 class Explainer:
     """Explains one moment.
 
-    Parameters: field : in use, which `gains` asks; levels : what each source's volume comes to [-].
+    Parameters: field : in use, which `gains` asks; levels : of each source at the hand, by band (n_bands,) [-].
     """
 
     def __init__(
@@ -114,7 +117,7 @@ class Explainer:
         model: object,
         field: object,
         gains: TouchGains,
-        levels: Mapping[str, float],
+        levels: Mapping[str, NDArray[np.float64]],
     ) -> None:
         self._state, self._sources, self._model, self._gains, self._levels = state, sources, model, gains, levels
         self._field = field if isinstance(field, CarryingField) else None
@@ -137,7 +140,7 @@ class Explainer:
 
         touch = max(touches, key=lambda touch: gain_at(touch.object_id, touch.point_m))
         on, point_m = touch.object_id, touch.point_m
-        gain_db, level_db = decibels(gain_at(on, point_m)), decibels(self._levels.get(source_id, 0.0))
+        gain_db, level_db = decibels(gain_at(on, point_m)), decibels(float(self._levels[source_id][band]))
         steps: tuple[PathStep, ...] = ()
         carriers: tuple[Carrier, ...] = ()
         if self._field is not None and on != source_id:

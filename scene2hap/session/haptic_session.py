@@ -49,10 +49,12 @@ from scene2hap.session.hand_gains import Felt
 from scene2hap.session.listening import Listening
 from scene2hap.session.off_surface import OffSurface
 from scene2hap.session.output import Output
+from scene2hap.session.personal import PersonalLimit
 from scene2hap.session.playback import Playback
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.silent_object import SilentObjects
 from scene2hap.session.sources import Sources
+from scene2hap.session.user_profile import UserProfile
 from scene2hap.session.w_first import warn_if_w_first
 
 MAX_RENDERED_FRAMES = 1 << 24
@@ -69,7 +71,8 @@ class HapticSession:
 
     Parameters: scene : objects and where they are now; bundle : what was baked for them; config : a SessionConfig, its
     settings, or the path of a TOML or JSON file with a table `session`; hands : names of the outputs; sink : where
-    `start` sends the mix, None to call `render` oneself.
+    `start` sends the mix, None to call `render` oneself; user : levels and limits of the person who plays: a
+    UserProfile, its settings, or the path of a saved one.
     Scene and bundle may be paths, which are read here (`load_scene`, `HapticBundle.load`), and come in either order. A
     bundle alone, `HapticSession(bundle)` or `HapticSession("kitchen.bundle")`, is played on the scene that it was baked
     for.
@@ -86,6 +89,7 @@ class HapticSession:
         *,
         hands: Sequence[str] = ("left", "right"),
         sink: ActuatorSink | str | Mapping[str, Any] | None = None,
+        user: UserProfile | Mapping[str, Any] | str | os.PathLike[str] | None = None,
     ) -> None:
         require_settings(config)
         scene, bundle = given_pair(scene, bundle)
@@ -100,10 +104,13 @@ class HapticSession:
                 self._sources.add(object_id, loops, haptics, bundle.gain_db(object_id), is_muted=muted)
         self._state = SceneState(scene, bundle)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
-        self._listening = Listening(self.config, self._state, self._sources, self._playback.peaks)
+        self._listening = Listening(self.config, self._state, self._sources, self._playback.peaks, self._hands)
         self._off_surface, self._silent_objects = OffSurface(self._state), SilentObjects()
         self._output = Output(sink, self.config)
         self._whole = WholeFrames(self.config.sample_rate_hz)
+        self._user, device = UserProfile.parse(user), self.config.actuator.name
+        self._limit = PersonalLimit(self._user.limits(self._hands, device), self.config.sample_rate_hz)
+        self._use_profile()
         self._last_stamp = self._updates = 0
         self._warned_of_silence = self._has_moved = False
 
@@ -296,9 +303,22 @@ class HapticSession:
         """
         self._listening.levels_changed(self._sources.set(source_id, on, state, gain_db, mute))
 
-    def set_user(self, *, gain_db: float | None = None, mute: bool | None = None) -> None:
-        """Set the level of everything; felt from the next update on. Raises: SessionError: out of bounds."""
+    def set_user(
+        self,
+        *,
+        gain_db: float | None = None,
+        mute: bool | None = None,
+        profile: UserProfile | Mapping[str, Any] | str | os.PathLike[str] | None = None,
+    ) -> None:
+        """Set the level of everything, or the profile of another person; felt from the next update on.
+
+        Raises: SessionError: out of bounds; ConfigError: a profile that cannot be read or is out of bounds.
+        """
+        user = self._user if profile is None else UserProfile.parse(profile)
         self._sources.user.set(gain_db, mute)
+        if user is not self._user:
+            self._user = user
+            self._use_profile()
         self._listening.levels_changed()
 
     def pause(self) -> None:
@@ -356,7 +376,7 @@ class HapticSession:
                 error=SessionError,
                 hint="For a time give seconds: `render_s`, or `pull_s` of a sink.",
             )
-        return self._playback.render(n_frames)
+        return self._limit.applied(self._playback.render(n_frames))
 
     @property
     def position(self) -> int:
@@ -468,8 +488,17 @@ class HapticSession:
         self._last_stamp = self._now if at_sample is None else at_sample
         return self._last_stamp
 
+    def _use_profile(self) -> None:
+        self._listening.use_profile(self._user)
+        self._limit.limits = limits = self._user.limits(self._hands, self.config.actuator.name)
+        self._output.hold(limits)
+        if self._user.hands and not any(hand in self._user.hands for hand in self._hands):
+            named, own = (", ".join(map(repr, hands)) for hands in (self._user.hands, self._hands))
+            warn_of(f"the user's profile is for the hands {named}; this session has {own}. Rename one of them.")
+
     def _use_hands(self, hands: tuple[str, ...]) -> None:
         self._hands = hands
+        self._use_profile()
         self._listening.levels_changed()
 
     def _by_hand(self, touches: Sequence[Touch] | None) -> Felt:

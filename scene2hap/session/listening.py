@@ -20,9 +20,11 @@ from scene2hap.session.frame import HapticFrame, SessionStats
 from scene2hap.session.hand_gains import AllGains, Felt, GainMethod, HandGains, Loudness, PrunedGains
 from scene2hap.session.live_keeper import LiveKeeper
 from scene2hap.session.network import excitations_of
+from scene2hap.session.personal import PersonalGains
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.sources import LoopRow, Sources
 from scene2hap.session.touch_gains import TouchGains
+from scene2hap.session.user_profile import UserProfile
 
 PeaksOf = Callable[[Sequence[LoopRow]], NDArray[np.float32]]
 """Peaks (n_rows, 2, n_bands) of the loops of some rows, 0 of those that cannot be mixed yet."""
@@ -34,7 +36,9 @@ class Listening:
     What gains depend on besides the touches is remembered, and forgotten when it changes.
     """
 
-    def __init__(self, config: SessionConfig, state: SceneState, sources: Sources, peaks: PeaksOf) -> None:
+    def __init__(
+        self, config: SessionConfig, state: SceneState, sources: Sources, peaks: PeaksOf, hands: tuple[str, ...]
+    ) -> None:
         self._config, self._state, self._sources, self._peaks = config, state, sources, peaks
         self._counts = Counts()
         self._excitations: Sequence[Excitation] | None = None
@@ -42,6 +46,8 @@ class Listening:
         self._hearing_of: LiveField | None = None
         self._n_unreachable: int | None = None
         self._levels, self._are_levels_known = np.empty(0), False
+        self._profile, self._hands = UserProfile(), hands
+        self._personal: PersonalGains | None = None
         self._audibility: Audibility | None = None
         self._loudness: Loudness | None = None
         self._cutoff: tuple[PricedField, CutoffCost] | None = None
@@ -84,12 +90,20 @@ class Listening:
             self._forget_cast()
             self._ask()
 
+    def use_profile(self, profile: UserProfile) -> None:
+        """Go on with the levels of another person."""
+        self._profile = profile
+        self.levels_changed()
+
     def frame(
         self, hands: tuple[str, ...], felt: Felt, moved: Collection[str], *, is_paused: bool
     ) -> tuple[HapticFrame, HandGains | None]:
         """Gains of the hands, and the part to be mixed; None if nothing has changed."""
         if self.keeper.take():
             self._is_fresh = False
+        if hands is not self._hands:
+            self._hands = hands
+            self.levels_changed()
         if self._is_unchanged(felt, moved):
             self._counts.unchanged_frames += 1
             self.keeper.order()
@@ -115,7 +129,7 @@ class Listening:
         """Each source that a hand felt at the last frame, and its way there."""
         felt = (touch for touches in self._felt.values() for touch in touches)
         touches = [touch for touch in felt if touch.hand == hand and touch.object_id in self._state.objects]
-        levels = dict(zip(self._sources.ids, self._known_levels().tolist(), strict=True))
+        levels = self._levels_at(hand)
         gains = self._touch_gains(self.keeper.method(self._sources.ids, self._reach), Counts())
         explainer = Explainer(self._state, self._sources, self._config.propagation, self.keeper.field, gains, levels)
         return explainer.explain(hand, touches, self._frame, self.keeper.is_current)
@@ -174,10 +188,12 @@ class Listening:
                 self._counts.idle_hands += n_hands
             return HandGains(silence, silence)
         self._known_levels()
+        personal = self._personal
         field = self.keeper.method(self._sources.ids, self._reach)
         if self._method is None or self._hearing_of is not field:
             self._method, self._hearing_of = self._new_hearing(field), field
-        return self._method.of_hands(n_hands, felt)
+        gained = self._method.of_hands(n_hands, felt)
+        return gained if personal is None else personal.applied(gained)
 
     def _new_hearing(self, field: LiveField) -> GainMethod:
         skip, counts = self._config.skip, self._counts
@@ -205,10 +221,22 @@ class Listening:
         """What each source's signal is multiplied with (n_sources,) [-]."""
         if not self._are_levels_known:
             levels = self._sources.factors(self._state.graph.neighbours, self._state.category)
+            self._personal = None
+            if not self._profile.is_neutral:
+                config, rows = self._config, self._sources.active_rows()
+                self._personal = PersonalGains(self._profile, config.actuator.name, self._hands, rows, config.bands)
+                levels *= self._personal.highest
             if not np.array_equal(levels, self._levels):
                 self._levels, self._loudness, self._method = levels, None, None
             self._are_levels_known = True
         return self._levels
+
+    def _levels_at(self, hand: str) -> dict[str, NDArray[np.float64]]:
+        """The level of each source at a hand, by band (n_bands,) [-]."""
+        levels = np.repeat(self._known_levels()[:, None], self._config.bands.n_bands, axis=1)
+        if self._personal is not None and hand in self._hands:
+            levels *= self._personal.shares[self._hands.index(hand)]
+        return dict(zip(self._sources.ids, levels, strict=True))
 
     def _touch_gains(self, field: LiveField, counts: Counts) -> TouchGains:
         config = self._config

@@ -8,6 +8,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, cast
 
+import numpy as np
+from numpy.typing import NDArray
+
 from scene2hap import checks
 from scene2hap.devices import SINKS
 from scene2hap.devices.claims import claim_sink, give_back_sink
@@ -39,6 +42,7 @@ class Output:
         self._sink = built
         self._config = config
         self._safety: SafetyLayer | None = None
+        self._limits: NDArray[np.float64] | None = None
         self._show: Callable[[HapticFrame], None] | None = getattr(built, "show", None)
 
     @property
@@ -62,6 +66,12 @@ class Output:
             self._safety.feed()
             self.show(frame)
 
+    def hold(self, limits: NDArray[np.float64]) -> None:
+        """Hold each channel within a limit (n_hands,) [-], besides the actuator's."""
+        self._limits = limits
+        if self._safety is not None:
+            self._safety.hold(limits)
+
     def show(self, frame: HapticFrame) -> None:
         """Hand a frame to a started sink that wants gains."""
         if self._safety is not None and self._show is not None:
@@ -82,6 +92,8 @@ class Output:
         rate = self._config.sample_rate_hz
         watchdog_s = self._config.watchdog_s if has_clock(self._sink) else None
         safety = SafetyLayer(self._config.actuator, rate, len(hands), watchdog_s=watchdog_s)
+        if self._limits is not None:
+            safety.hold(self._limits)
         claim_sink(self._sink, self)
         try:
             self._sink.open(SinkFormat(rate, tuple(hands)))

@@ -168,7 +168,13 @@ def test_a_saved_sound_reaches_a_running_session(folder: Path) -> None:
     """An audio editor saves a file, `edit --watch` makes the loop, and a session that watches the bundle plays it."""
     sound = tone(folder.parent / "mine.wav", 110.0)
     words = [sys.executable, "-m", "scene2hap", "edit", str(folder), "sound", "smartphone", str(sound), "--watch"]
-    edit = subprocess.Popen(words, env={**os.environ, "PYTHONUNBUFFERED": "1"}, stdout=subprocess.PIPE, text=True)
+    edit = subprocess.Popen(
+        words,
+        env={**os.environ, "PYTHONUNBUFFERED": "1"},
+        stdout=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),  # ignored by a shell's background
+    )
     session = HapticSession(folder)
     try:
         with BundleWatch(session, folder) as watch:

@@ -1,0 +1,100 @@
+"""Levels and limits of one person: how strongly each hand, device and frequency is to be felt."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from pydantic import Field, field_validator
+
+from scene2hap import checks
+from scene2hap.audio.files import written_whole
+from scene2hap.errors import AudioError, ConfigError
+from scene2hap.settings import Settings
+
+MOST_DB = 40.0
+"""Bound on every level of a profile: a factor of 100."""
+
+LEAST_AMPLITUDE = 1e-4
+"""Smallest limit: -80 dB re full scale, which no actuator lets feel. Mute for silence."""
+
+_MOST_POINTS = 1000
+
+
+class Comfort(Settings):
+    """A level and a limit.
+
+    gain_db : added to the level of everything [dB].
+    max_amplitude : no sample exceeds it, in shares of full scale, 0.0001..1 [-].
+    """
+
+    of_what = "user"
+
+    gain_db: float = Field(default=0.0, ge=-MOST_DB, le=MOST_DB, allow_inf_nan=False)
+    max_amplitude: float = Field(default=1.0, ge=LEAST_AMPLITUDE, le=1.0)
+
+
+class UserProfile(Comfort):
+    """Levels and limits of one person. Levels add up, and the smallest limit counts.
+
+    curve_db : level against frequency, as points (frequency [Hz], level [dB]) of rising frequency, for people who feel
+        some frequencies more or less than others. Between points it is interpolated over the logarithm of frequency,
+        beyond them it is constant.
+    hands : a level and a limit for single hands, by name: left/right balance.
+    devices : a level and a limit for single devices, by the name of the actuator that the session is set to.
+    """
+
+    curve_db: tuple[tuple[float, float], ...] = ()
+    hands: dict[str, Comfort] = Field(default_factory=dict)
+    devices: dict[str, Comfort] = Field(default_factory=dict)
+
+    @field_validator("curve_db")
+    @classmethod
+    def _rising(cls, points: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
+        checks.items("curve_db", points, at_most=_MOST_POINTS, error=ConfigError)
+        for i, (frequency_hz, level_db) in enumerate(points):
+            checks.number(f"curve_db[{i}][0]", frequency_hz, "Hz", above=0.0, at_most=1e6, error=ConfigError)
+            checks.number(f"curve_db[{i}][1]", level_db, "dB", at_least=-MOST_DB, at_most=MOST_DB, error=ConfigError)
+        if any(one[0] >= other[0] for one, other in pairwise(points)):
+            raise ConfigError(f"curve_db has frequencies {[f for f, _ in points]} Hz; they must rise.")
+        return points
+
+    def level_db(self, hand: str, device: str, frequencies_hz: ArrayLike) -> NDArray[np.float64]:
+        """What is added to the level at a hand, on a device, at some frequencies [dB]; of their shape."""
+        asked = np.asarray(frequencies_hz, dtype=np.float64)
+        level = self.gain_db + sum(one.gain_db for one in self._special(hand, device))
+        if not self.curve_db:
+            return np.full(asked.shape, level)
+        frequency, curve = np.array(self.curve_db).T
+        return np.asarray(level + np.interp(np.log(np.maximum(asked, 1e-9)), np.log(frequency), curve))
+
+    def limits(self, hands: Sequence[str], device: str) -> NDArray[np.float64]:
+        """The largest sample at each hand on a device (n_hands,), in shares of full scale [-]."""
+        return np.array([min(one.max_amplitude for one in (self, *self._special(hand, device))) for hand in hands])
+
+    @property
+    def is_neutral(self) -> bool:
+        """Whether it changes nothing."""
+        parts = (self, *self.hands.values(), *self.devices.values())
+        return not self.curve_db and all(one.gain_db == 0.0 and one.max_amplitude == 1.0 for one in parts)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write all settings that are not the default, as JSON. Raises: ConfigError: the file cannot be written."""
+        document: dict[str, Any] = {self.of_what: self.model_dump(mode="json", exclude_defaults=True)}
+        file = checks.path("path", path, error=ConfigError)
+        if file.suffix != ".json":
+            raise ConfigError(f"path is {str(file)!r}; a profile is saved as JSON, in a file that ends in .json.")
+        try:
+            with written_whole(file) as beside:
+                beside.write_text(json.dumps(document, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+        except AudioError as cause:
+            raise ConfigError(str(cause)) from cause
+
+    def _special(self, hand: str, device: str) -> Sequence[Comfort]:
+        tables: tuple[tuple[Mapping[str, Comfort], str], ...] = ((self.hands, hand), (self.devices, device))
+        return [table[name] for table, name in tables if name in table]

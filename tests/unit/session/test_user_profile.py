@@ -1,0 +1,191 @@
+"""Levels and limits of a person: expected values are worked out from decibels by hand."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from scene2hap import ActuatorProfile, HapticBundle, HapticSession, MemorySink, SceneWarning, Touch, UserProfile
+from scene2hap.errors import ConfigError
+from scenes import table_with_two_phones
+
+DOCS = Path(__file__).parents[3] / "docs" / "profiles.md"
+
+
+@pytest.fixture
+def bundle() -> HapticBundle:
+    return table_with_two_phones()[1]
+
+
+def touches(bundle: HapticBundle, *hands: str) -> list[Touch]:
+    source = next(iter(bundle.loops))
+    return [Touch(hand, source, bundle.snapshot.object(source).pose.position_m) for hand in hands]
+
+
+def gains(bundle: HapticBundle, user: object, config: object = None) -> np.ndarray:
+    session = HapticSession(bundle, config=config, user=user)  # type: ignore[arg-type]
+    return session.update(touches=touches(bundle, "left", "right")).gains
+
+
+def db(value: float) -> float:
+    return 10 ** (value / 20)
+
+
+def test_levels_of_person_hand_and_device_add_up(bundle: HapticBundle) -> None:
+    user = {"gain_db": -3.0, "hands": {"left": {"gain_db": 2.0}}, "devices": {"mine": {"gain_db": -5.0}}}
+    config = {"actuator": ActuatorProfile("mine")}
+    plain, ours = gains(bundle, None, config), gains(bundle, user, config)
+    assert ours[0] == pytest.approx(plain[0] * db(-6.0), rel=1e-5)
+    assert ours[1] == pytest.approx(plain[1] * db(-8.0), rel=1e-5)
+    assert gains(bundle, user)[1] == pytest.approx(plain[1] * db(-3.0), rel=1e-5)  # on another device
+
+
+def test_the_curve_is_read_at_the_frequency_that_is_felt(bundle: HapticBundle) -> None:
+    source = next(iter(bundle.loops))
+    loop = next(iter(bundle.loops[source].values()))
+    felt_hz = loop.frequency_tactile_hz
+    curve = [(felt_hz / 2, -12.0), (felt_hz * 2, 0.0)]  # half way over the logarithm: -6 dB
+    plain, ours = gains(bundle, None), gains(bundle, {"curve_db": curve})
+    assert ours[:, 0] == pytest.approx(plain[:, 0] * db(-6.0), rel=1e-5)
+
+
+def test_the_curve_acts_band_by_band(bundle: HapticBundle) -> None:
+    config = {"bands": [50.0, 200.0, 800.0]}
+    source = next(iter(bundle.loops))
+    loop = next(iter(bundle.loops[source].values()))
+    own = loop.frequency_tactile_hz
+    plain = gains(bundle, None, config)
+    ours = gains(bundle, {"curve_db": [(50.0, 0.0), (800.0, -40.0)]}, config)
+    middles = [own if low <= own < high else (low * high) ** 0.5 for low, high in ((50, 200), (200, 800))]
+    expected = [db(-40.0 * np.log(f / 50) / np.log(16)) for f in middles]
+    assert (ours[:, 0] / plain[:, 0])[0] == pytest.approx(expected, rel=1e-4)
+
+
+def test_sources_that_a_person_turns_up_are_not_left_out(bundle: HapticBundle) -> None:
+    """A source 10 dB below what is felt is left out of the mix; for someone 40 dB up it is mixed."""
+    source, other = bundle.loops
+    bundle = bundle.override(other, muted=True)
+    faint = bundle.override(source, gain_db=-60.0)
+
+    def peak(user: object) -> float:
+        session = HapticSession(faint, hands=("left",), user=user)  # type: ignore[arg-type]
+        for _ in range(3):
+            session.update(touches=touches(bundle, "left"))
+            mix = session.render(9600)
+        return float(np.abs(mix).max())
+
+    assert peak(None) == 0.0
+    loud = HapticSession(bundle.override(source, gain_db=-20.0), hands=("left",))
+    for _ in range(3):
+        loud.update(touches=touches(bundle, "left"))
+        expected = float(np.abs(loud.render(9600)).max())
+    assert peak({"gain_db": 40.0}) == pytest.approx(expected, rel=1e-3)
+
+
+@given(
+    limit=st.floats(0.01, 1.0),
+    left=st.floats(0.01, 1.0),
+    gain=st.floats(-10, 40),
+    n_frames=st.integers(1, 3000),
+)
+def test_no_sample_exceeds_the_smallest_limit(limit: float, left: float, gain: float, n_frames: int) -> None:
+    bundle = table_with_two_phones()[1]
+    user = {"max_amplitude": limit, "gain_db": gain, "hands": {"left": {"max_amplitude": left}}}
+    sink = MemorySink()
+    with HapticSession(bundle, sink=sink, user=user) as session:
+        session.update(touches=touches(bundle, "left", "right"))
+        for _ in range(3):
+            sink.pull(n_frames)
+    alone = HapticSession(bundle, user=user)
+    alone.update(touches=touches(bundle, "left", "right"))
+    for mix in (sink.samples, alone.render(6000)):
+        peaks = np.abs(mix).max(axis=0)
+        assert peaks[0] <= min(limit, left) * (1 + 1e-6)
+        assert peaks[1] <= limit * (1 + 1e-6)
+
+
+def test_another_person_comes_without_a_click(bundle: HapticBundle) -> None:
+    sink = MemorySink()
+    with HapticSession(bundle, sink=sink, hands=("left",)) as session:
+        for k in range(60):
+            if k in (20, 40):
+                session.set_user(profile={"gain_db": 20.0, "max_amplitude": 0.05} if k == 20 else UserProfile())
+            session.update(touches=touches(bundle, "left"))
+            sink.pull_s(0.02)
+    high = np.abs(np.fft.rfft(sink.samples[:, 0] * np.hanning(len(sink.samples))))
+    frequency = np.fft.rfftfreq(len(sink.samples), 1 / 48000)
+    assert high[frequency > 3000].max() < 1e-3 * high.max()
+
+
+def test_what_a_profile_says_is_part_of_the_explanation(bundle: HapticBundle) -> None:
+    session = HapticSession(bundle, user={"hands": {"left": {"gain_db": -7.0}}})
+    session.update(touches=touches(bundle, "left", "right"))
+    assert session.explain("left").felt[0].level_db == pytest.approx(-7.0, abs=1e-4)
+    assert session.explain("right").felt[0].level_db == pytest.approx(0.0, abs=1e-4)
+
+
+def test_it_is_saved_and_read(tmp_path: Path) -> None:
+    user = UserProfile(
+        gain_db=-3, curve_db=[(60, 1.0), (100, 0)], hands={"left": {"gain_db": 2}}, devices={"lra": {"gain_db": 6}}
+    )
+    user.save(tmp_path / "ada.json")
+    assert UserProfile.parse(tmp_path / "ada.json") == user
+    assert "max_amplitude" not in (tmp_path / "ada.json").read_text(encoding="utf-8")
+    (tmp_path / "ada.toml").write_text("[user]\ngain_db = -3.0\n[user.hands.left]\ngain_db = 1.0\n", encoding="utf-8")
+    assert UserProfile.parse(str(tmp_path / "ada.toml")).hands["left"].gain_db == 1.0
+    with pytest.raises(ConfigError, match="ends in .json"):
+        user.save(tmp_path / "ada.toml")
+    with pytest.raises(ConfigError, match="cannot be written"):
+        user.save(tmp_path / "no" / "ada.json")
+
+
+@pytest.mark.parametrize(
+    ("wrong", "says"),
+    [
+        ({"gain_db": 50}, "40"),
+        ({"max_amplitude": 0.0}, "0.0001"),
+        ({"max_amplitude": 1.5}, "1"),
+        ({"curve_db": [(100, 0), (60, 0)]}, "rise"),
+        ({"curve_db": [(0, 0)]}, "Hz"),
+        ({"curve_db": [(100, float("nan"))]}, "dB"),
+        ({"hand": {}}, "hands"),
+        ({"hands": {"left": {"gain": 3}}}, "gain"),
+        (3, "mapping"),
+    ],
+)
+def test_what_cannot_be_is_told(bundle: HapticBundle, wrong: object, says: str) -> None:
+    with pytest.raises(ConfigError, match=re.escape(says)):
+        HapticSession(bundle, user=wrong)  # type: ignore[arg-type]
+    session = HapticSession(bundle)
+    with pytest.raises(ConfigError):
+        session.set_user(gain_db=-3.0, profile=wrong)  # type: ignore[arg-type]
+    assert session._sources.user.factor == 1.0  # nothing of a refused call counts
+
+
+def test_a_profile_for_other_hands_is_told(bundle: HapticBundle) -> None:
+    with pytest.warns(SceneWarning, match="'lefft'; this session has 'left', 'right'"):
+        HapticSession(bundle, user={"hands": {"lefft": {"gain_db": 3.0}}})
+
+
+def test_hands_that_come_and_go_have_their_levels(bundle: HapticBundle) -> None:
+    session = HapticSession(bundle, hands=("left",), user={"hands": {"left": {}, "foot": {"gain_db": -9.0}}})
+    session.add_hand("foot")
+    both = session.update(touches=touches(bundle, "left", "foot")).gains
+    assert both[1] == pytest.approx(both[0] * db(-9.0), rel=1e-5)
+    session.remove_hand("left")
+    assert session.update(touches=touches(bundle, "foot")).gains[0] == pytest.approx(both[1], rel=1e-5)
+    session.render(100)
+
+
+def test_the_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, bundle: HapticBundle) -> None:
+    monkeypatch.chdir(tmp_path)
+    bundle.save(tmp_path / "scene2hap-demo" / "bundle")
+    (code,) = re.findall(r"```python\n(.*?)```", DOCS.read_text(encoding="utf-8"), re.DOTALL)
+    exec(compile(code, str(DOCS), "exec"), {})
+    assert json.loads((tmp_path / "ada.json").read_text(encoding="utf-8"))["user"]["gain_db"] == -3.0
