@@ -289,7 +289,7 @@ class ContactGraph:
             self._current_junctions()
             self._finder = None
             return self._take_over({**dict.fromkeys(self._junctions), **junctions_of(contacts)})
-        stale = {x for x in before if poses.get(x) != before[x]} | {*removed, *(item.id for item in added)}
+        stale = {x for x in moved if x in before and poses[x] != before[x]} | {*removed, *(item.id for item in added)}
         if self._finder is None:
             return self._take_over({pair: None for x in stale for pair in self._pairs_of(x)})
         new = {item.id for item in added}

@@ -32,7 +32,7 @@ class Audibility:
     """
 
     def __init__(self, peaks: NDArray[np.float32], skip: SkipConfig, counts: Counts) -> None:
-        self._skip, self._counts = skip, counts
+        self._skip, self._counts, self.peaks = skip, counts, peaks
         self._felt = peaks[:, 0, :, None].copy()
         with np.errstate(divide="ignore", over="ignore"):
             self._least_gain = np.float32(SILENT) / peaks[:, 1]
@@ -44,9 +44,10 @@ class Audibility:
         n_sources, n_bands = self._least_gain.shape
         return n_sources, n_bands
 
-    def felt(self, gains: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Upper bound of each source at gains (n, n_sources, n_bands), in thresholds of touch (n, n_sources)."""
-        felt: NDArray[np.float32] = (gains[:, :, None] @ self._felt)[:, :, 0, 0]
+    def felt(self, gains: NDArray[np.float32], columns: Sequence[int]) -> NDArray[np.float32]:
+        """Upper bound of the sources in some columns at gains (n, n_columns, n_bands), in thresholds of touch
+        (n, n_columns)."""
+        felt: NDArray[np.float32] = (gains[:, :, None] @ self._felt[columns])[:, :, 0, 0]
         return felt
 
     def worth_mixing(self, gains: NDArray[np.float32]) -> tuple[NDArray[np.float32], Sequence[int]]:

@@ -8,13 +8,14 @@ table that is too high, so that at most too much is mixed. Another level needs o
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence, Set
+from collections.abc import Hashable, Sequence, Set
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
 from scene2hap.propagation.live import PricedField, Prices, checked
+from scene2hap.propagation.protocol import Excitation
 from scene2hap.session.audibility import SILENT, Audibility
 
 # From 1 to less than exp(-700) for any band between 8 Hz and 1 MHz, in steps of 6 %.
@@ -26,23 +27,31 @@ NOWHERE = -1.0
 class CutoffCost:
     """The vibration that arrives and that is felt of each source of a field, by path cost.
 
+    Sources of equal excitation and equal peaks, as copies of an object are, share one column of the table.
     Raises: ModelDomainError: the field answers in another shape.
     """
 
-    def __init__(self, field: PricedField, audibility: Audibility) -> None:
-        n, n_bands = audibility.shape
-        everything = field.at([[price] * n for price in _PRICES.tolist()])
-        gains = checked(everything, (len(_PRICES), n, n_bands)).astype(np.float32)
-        self._felt, self._least_felt = _falling(audibility.felt(gains)), audibility.least_felt
+    def __init__(self, field: PricedField, audibility: Audibility, excitations: Sequence[Excitation]) -> None:
+        n_bands = audibility.shape[1]
+        firsts: dict[Hashable, int] = {}
+        keys = [
+            (one.frequency_raw_hz, one.frequency_tactile_hz, one.mass_kg, audibility.peaks[i].tobytes())
+            for i, one in enumerate(excitations)
+        ]
+        self._column = np.array([firsts.setdefault(key, len(firsts)) for key in keys], dtype=np.intp)
+        columns = np.unique(self._column, return_index=True)[1].tolist()
+        everything = field.at([[price] * len(columns) for price in _PRICES.tolist()], columns)
+        gains = checked(everything, (len(_PRICES), len(columns), n_bands)).astype(np.float32)
+        self._felt, self._least_felt = _falling(audibility.felt(gains, columns)), audibility.least_felt
         self._arrives = _falling(gains.max(axis=2, initial=0.0))
 
     def felt(self, levels: NDArray[np.float64]) -> list[float]:
         """The cut-off of each source at levels (n_sources,) [-]; infinite where a source is felt however far it is."""
-        return _last_of(self._felt * levels >= self._least_felt)
+        return _last_of(self._felt.take(self._column, axis=1) * levels >= self._least_felt)
 
     def arrives(self, levels: NDArray[np.float64]) -> list[float]:
         """Beyond which no band of each source comes to more than `SILENT`."""
-        return _last_of(self._arrives * levels >= SILENT)
+        return _last_of(self._arrives.take(self._column, axis=1) * levels >= SILENT)
 
 
 @compiled

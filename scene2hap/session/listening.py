@@ -54,23 +54,35 @@ class Listening:
         self._felt: Felt = {}
         self._frame = self.silence(())
         self._is_fresh = False
+        self._pending: list[ContactChange] = []
+        self._must_ask, self._is_cast_known = False, True
         self._look_around()
         self.keeper = keeper_of(config, state, self._known_excitations())
         self._count_unreachable()
 
     def apply(self, change: ContactChange, *, sources_changed: bool = False) -> None:
-        """Take in a change of contacts, after objects came or went; `sources_changed` if sources did."""
-        matters = sources_changed or not self._config.skip.unreachable or self._reach.concerns(change)
+        """Take in a change of contacts, after objects came or went; `sources_changed` if sources did.
+
+        Objects and sources that come and go are worked out together by the next `frame`, since a game may add and
+        remove many between two.
+        """
         if sources_changed:
             self._forget_cast()
         if sources_changed or self._bodies is not self._state.bodies:
-            self._look_around()
-        elif change.appeared or change.vanished:
+            self._is_cast_known = False
+        if not self._is_cast_known:
+            if change or sources_changed:
+                self._is_fresh = False
+                self._pending.append(change)
+                self._must_ask = self._must_ask or sources_changed or self._matters(change)
+            return
+        matters = self._matters(change)
+        if change.appeared or change.vanished:
             self._reach.follow(change)
             self._n_unreachable = None
             if self._sources.need_contacts:
                 self._are_levels_known = False
-        if not change and not sources_changed:
+        if not change:
             return
         self._is_fresh = False
         if matters or self._reach.concerns(change):
@@ -88,7 +100,10 @@ class Listening:
         self._are_levels_known = self._is_fresh = False
         if is_other_state:
             self._forget_cast()
-            self._ask()
+            if self._is_cast_known:
+                self._ask()
+            else:
+                self._must_ask = True
 
     def use_profile(self, profile: UserProfile) -> None:
         """Go on with the levels of another person."""
@@ -99,6 +114,7 @@ class Listening:
         self, hands: tuple[str, ...], felt: Felt, moved: Collection[str], *, is_paused: bool
     ) -> tuple[HapticFrame, HandGains | None]:
         """Gains of the hands, and the part to be mixed; None if nothing has changed."""
+        self._catch_up()
         if self.keeper.take():
             self._is_fresh = False
         if hands is not self._hands:
@@ -123,10 +139,12 @@ class Listening:
         """Wait for the worker; false after the timeout [s]."""
         # Another field may be in use then, or `expect` may have changed this one.
         self._is_fresh = False
+        self._catch_up()
         return self.keeper.wait(timeout_s)
 
     def explain(self, hand: str) -> Explanation:
         """Each source that a hand felt at the last frame, and its way there."""
+        self._catch_up()
         felt = (touch for touches in self._felt.values() for touch in touches)
         touches = [touch for touch in felt if touch.hand == hand and touch.object_id in self._state.objects]
         levels = self._levels_at(hand)
@@ -148,6 +166,21 @@ class Listening:
             keeper.last_failure,
             self._counts.skipped(rows_not_mixed),
         )
+
+    def _matters(self, change: ContactChange) -> bool:
+        return not self._config.skip.unreachable or self._reach.concerns(change)
+
+    def _catch_up(self) -> None:
+        """Take in objects and sources that came and went."""
+        if self._is_cast_known:
+            return
+        pending, must_ask = self._pending, self._must_ask
+        self._pending, self._must_ask, self._is_cast_known = [], False, True
+        self._look_around()
+        if must_ask or any(map(self._reach.concerns, pending)):
+            self._ask()
+        else:
+            self._counts.changes_out_of_reach += len(pending)
 
     def _look_around(self) -> None:
         """Find connected objects again."""
@@ -208,7 +241,7 @@ class Listening:
         if not (wants_near and isinstance(self.keeper, LiveKeeper) and isinstance(field, PricedField)):
             return AllGains(gains, loudness, skip, counts)
         if self._cutoff is None or self._cutoff[0] is not field:
-            self._cutoff = (field, CutoffCost(field, self._audibility))
+            self._cutoff = (field, CutoffCost(field, self._audibility, self._known_excitations()))
         cutoff = self._cutoff[1]
         return PrunedGains(
             gains, field, cutoff, loudness, counts, skips_silent_bands=skip.silent_bands, graph=self._state.graph

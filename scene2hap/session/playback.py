@@ -63,6 +63,7 @@ class Playback:
         self._config = config
         self._tactile_rate_hz = min(config.tactile_rate_hz, config.sample_rate_hz)
         self._coming: dict[LoopRow, Future[PreparedLoop]] = {}
+        self._ready: dict[LoopRow, PreparedLoop] = {}
         self._position = 0
         self._paused_from: int | None = None
         self._frozen_at: int | None = None
@@ -106,7 +107,8 @@ class Playback:
     def peaks(self, rows: Sequence[LoopRow]) -> NDArray[np.float32]:
         """Peaks (n_rows, 2, n_bands), see `peaks.peaks_of`; 0 of loops that are still being prepared."""
         n_bands = self._config.bands.n_bands
-        found = [np.zeros((2, n_bands)) if row in self._coming else self._prepared(row).peaks for row in rows]
+        silent = np.zeros((2, n_bands))
+        found = [silent if row in self._coming else self._ready[row].peaks for row in rows]
         return np.array(found, dtype=np.float32).reshape(len(rows), 2, n_bands)
 
     def take_prepared(self) -> bool:
@@ -162,7 +164,10 @@ class Playback:
         """
         self._routes.clear()
         wanted = set(rows)
-        gone = [self._places.pop(row) for row in list(self._places) if row not in wanted]
+        gone_rows = [row for row in self._places if row not in wanted]
+        gone = [self._places.pop(row) for row in gone_rows]
+        for row in gone_rows:
+            del self._ready[row]
         for place in gone:
             place.free_at = at_frame + self._fade_frames
             for mixer in self._mixers:
@@ -187,6 +192,7 @@ class Playback:
     def _let_in(self, row: LoopRow, loop: PreparedLoop, n_wanted: int) -> None:
         place = self._places[row] = self._free_place(n_wanted)
         place.bank.slots[place.slot] = loop.bank
+        self._ready[row] = loop
         self._routes.clear()
 
     def add_hand(self) -> None:

@@ -61,9 +61,9 @@ class Reach:
         self._column = {source_id: column for column, source_id in enumerate(source_ids)}
         self._group: dict[str, _Group] = {}
         self._n_reached = 0
-        for x, others in beside.items():
-            for y in others:
-                self._join(x, y)
+        for x in beside:
+            if x in carriers and x not in self._group:
+                self._found(x)
 
     def follow(self, change: ContactChange) -> None:
         """Take in contacts that came and went; `beside` is as it is after."""
@@ -116,6 +116,19 @@ class Reach:
 
     def _groups_with_sources(self) -> set[_Group]:
         return {self._group[x] for x in self._column if x in self._group}
+
+    def _found(self, x: str) -> None:
+        """Group all that hangs together with an object."""
+        beside, carriers = self._beside, self._carriers
+        members, waiting = {x}, [x]
+        while waiting:
+            more = [y for y in beside.get(waiting.pop(), ()) if y not in members and y in carriers]
+            members.update(more)
+            waiting += more
+        if len(members) > 1:
+            group = _Group(members, self._sources_in(members))
+            self._group.update(dict.fromkeys(members, group))
+            self._n_reached += group.n_reached
 
     def _join(self, a: str, b: str) -> None:
         if a not in self._carriers or b not in self._carriers:
@@ -209,4 +222,5 @@ def reach_over(pairs: Iterable[Pair], carriers: Container[str], source_ids: Sequ
     beside: dict[str, list[str]] = {}
     for a, b in pairs:
         beside.setdefault(a, []).append(b)
+        beside.setdefault(b, []).append(a)
     return Reach(beside, carriers, source_ids)

@@ -71,8 +71,11 @@ class Sources:
 
     def __init__(self) -> None:
         self._sources: dict[str, Source] = {}
+        # Derived from these when asked for, since many may come and go between two frames.
+        self._ids: tuple[str, ...] | None = None
+        self._active_rows: tuple[LoopRow, ...] | None = None
+        self._need_contacts: bool | None = None
         self.user = Level()
-        self._list()
 
     def __contains__(self, object_id: object) -> bool:
         return object_id in self._sources
@@ -121,6 +124,8 @@ class Sources:
 
     def active_rows(self) -> tuple[LoopRow, ...]:
         """The row of each source, in their order; the same tuple until one changes."""
+        if self._active_rows is None:
+            self._active_rows = tuple([source.row for source in self._sources.values()])
         return self._active_rows
 
     def set(self, source_id: str, on: bool | None, state: str | None, gain_db: float | None, mute: bool | None) -> bool:
@@ -142,10 +147,22 @@ class Sources:
         return is_other
 
     def _list(self) -> None:
-        self.ids: tuple[str, ...] = tuple(self._sources)
-        self._active_rows = tuple(source.row for source in self._sources.values())
-        # Whether any of them vibrates only while it touches something.
-        self.need_contacts: bool = any(source.needs.get(source.state) is not None for source in self._sources.values())
+        """Forget what is derived from the sources and their states."""
+        self._ids = self._active_rows = self._need_contacts = None
+
+    @property
+    def ids(self) -> tuple[str, ...]:
+        """The sources, in the order in which they came; the same tuple until one comes or goes."""
+        if self._ids is None:
+            self._ids = tuple(self._sources)
+        return self._ids
+
+    @property
+    def need_contacts(self) -> bool:
+        """Whether any of them vibrates only while it touches something."""
+        if self._need_contacts is None:
+            self._need_contacts = any(one.needs.get(one.state) is not None for one in self._sources.values())
+        return self._need_contacts
 
     def factors(
         self, neighbours: Callable[[str], Iterable[str]], category: Callable[[str], str]

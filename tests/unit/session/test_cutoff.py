@@ -33,12 +33,12 @@ def ears(bands: Bands, **settings: Any) -> tuple[Any, Audibility, CutoffCost]:
     field = ExponentialPlate(**settings).live(ContactGraph(snapshot), bodies, excitations, bands)
     peaks = np.array([peaks_of(row.loop.tactile, bands) for row in sources.active_rows()], dtype=np.float32)
     audibility = Audibility(peaks, SkipConfig(), Counts())
-    return field, audibility, CutoffCost(field, audibility)
+    return field, audibility, CutoffCost(field, audibility, excitations)
 
 
 def felt_at(field: Any, audibility: Audibility, prices: list[float], levels: np.ndarray) -> np.ndarray:
     gains = field.at([prices]) * levels[:, None]
-    return audibility.felt(gains.astype(np.float32))[0] / audibility.least_felt
+    return audibility.felt(gains.astype(np.float32), range(len(prices)))[0] / audibility.least_felt
 
 
 @pytest.mark.parametrize("bands", ALL_BANDS, ids=["dominant", "octaves"])
@@ -59,6 +59,32 @@ def test_what_is_told_beyond_the_horizon_ends_where_it_comes_to_nothing(bands: B
     assert (gains[0] < SILENT).all()
     assert (gains[1] >= SILENT).all()
     assert np.greater(edge, cutoff.felt(LEVELS)).all()
+
+
+@pytest.mark.parametrize("bands", ALL_BANDS, ids=["dominant", "octaves"])
+def test_copies_have_the_cut_off_of_their_original(bands: Bands) -> None:
+    """Three copies of each phone, in any order, against each phone alone."""
+    snapshot, bundle = table_with_two_phones()
+    sources, originals = Sources(), list(bundle.loops)
+    order = [0, 1, 1, 0, 0, 1]
+    for n, original in enumerate(order):
+        sources.add(f"copy_{n}", bundle.loops[originals[original]], None)
+    rows = sources.active_rows()
+    excitations = excitations_of(rows, {})
+    field = ExponentialPlate().live(ContactGraph(snapshot), {}, excitations, bands)
+    peaks = np.array([peaks_of(row.loop.tactile, bands) for row in rows], dtype=np.float32)
+    levels = np.linspace(0.05, 1.0, len(order))
+
+    def edges(columns: list[int]) -> list[float]:
+        some = [excitations[i] for i in columns]
+        field = ExponentialPlate().live(ContactGraph(snapshot), {}, some, bands)
+        audibility = Audibility(peaks[columns], SkipConfig(), Counts())
+        audibility.least_felt = np.float32(10 ** (-10 / 20) / len(order))
+        return CutoffCost(field, audibility, some).felt(levels[columns])
+
+    together = CutoffCost(field, Audibility(peaks, SkipConfig(), Counts()), excitations).felt(levels)
+    assert together == [edges([i])[0] for i in range(len(order))]
+    assert len(set(together)) > 2
 
 
 def test_a_source_that_is_off_has_no_horizon_and_one_with_a_loud_floor_has_no_end() -> None:

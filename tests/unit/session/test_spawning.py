@@ -90,6 +90,31 @@ def test_an_id_that_is_taken_and_what_is_no_prefab_change_nothing() -> None:
     assert s.snapshot == before
 
 
+@pytest.mark.parametrize("n_between", [1, 7])
+def test_copies_that_come_and_go_between_two_frames_are_those_of_a_new_session(n_between: int) -> None:
+    """What many changes leave is what a session is that begins with it, to the last bit, passive objects included."""
+    s, prefabs = session(), (fan(), fan(171.0), bake_object(box("oak tray", (0.2, 0.02, 0.2), (0.0, 0.0, 0.0))))
+    rng = np.random.default_rng(3)
+    alive: dict[str, HapticBundle] = {}
+    for n in range(60):
+        if alive and rng.random() < 0.4:
+            gone = str(rng.choice(list(alive)))
+            s.remove(gone)
+            del alive[gone]
+        else:
+            alive[f"copy_{n}"] = prefab = prefabs[rng.integers(3)]
+            x, y, z = rng.uniform((0.1, 0.72, 0.1), (1.4, 0.82, 0.6)).tolist()
+            s.spawn(prefab, f"copy_{n}", Pose((x, y, z)))
+        if n % n_between == 0:
+            assert s.wait_prepared(20)
+            new = session()
+            for key, prefab in alive.items():
+                new.spawn(prefab, key, s.poses[key])
+            assert new.wait_prepared(20)
+            assert new.source_ids == s.source_ids
+            np.testing.assert_array_equal(s.update(touches=ON_TABLE).gains, new.update(touches=ON_TABLE).gains)
+
+
 def test_a_thousand_copies_leave_nothing_behind() -> None:
     s, prefab = session(), fan(171.0)
     copies: list[weakref.ref[object]] = []
