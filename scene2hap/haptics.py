@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from scene2hap import checks
 from scene2hap.calls import clear_construction
-from scene2hap.errors import ConfigError
+from scene2hap.errors import ConfigError, Scene2HapError
 from scene2hap.materials import Material
 from scene2hap.needs import stated, unmet
 
@@ -69,6 +69,8 @@ class ObjectHaptics:
 
     `estimated_size_m` is length, width and thickness of the dominant surface, corrected where the mesh cannot be
     right. `material` is None where nobody could tell; vibration then does not spread through the object.
+    `mass_kg` is what the whole object weighs [kg], None where nobody could tell; it decides how hard a source pushes
+    and how compact bodies move.
     `confidence` is 0..1; `reasons` explain category, size and vibration; `provenance` names the backend, the model
     and the prompt version that answered, by component.
     """
@@ -83,6 +85,7 @@ class ObjectHaptics:
     confidence: float = 1.0
     reasons: Mapping[str, str] = field(default_factory=dict)
     provenance: Mapping[str, str] = field(default_factory=dict)
+    mass_kg: float | None = None
 
     def __post_init__(self) -> None:
         size = checks.vector("estimated_size_m", self.estimated_size_m, "m", size=3, at_least=0.0, error=ConfigError)
@@ -92,11 +95,22 @@ class ObjectHaptics:
                 "or nothing spreads through it. Give the thickness that a real one has."
             )
         object.__setattr__(self, "estimated_size_m", size)
+        if self.mass_kg is not None:
+            object.__setattr__(self, "mass_kg", checked_mass_kg("mass_kg", self.mass_kg, ConfigError))
         confidence = checks.number("confidence", self.confidence, "-", at_least=0.0, at_most=1.0, error=ConfigError)
         object.__setattr__(self, "confidence", confidence)
         object.__setattr__(self, "states", tuple(self.states))
         if self.vibrates and not self.states:
             raise ConfigError(f"{self.object_category!r} vibrates but has no state; give it at least one SourceState.")
+
+
+LEAST_MASS_KG, MOST_MASS_KG = 1e-6, 1e7
+"""A grain of sand, and a loaded train."""
+
+
+def checked_mass_kg(name: str, value: object, error: type[Scene2HapError]) -> float:
+    """The mass of an object [kg]. Raises: error: it is out of bounds."""
+    return checks.number(name, value, "kg", at_least=LEAST_MASS_KG, at_most=MOST_MASS_KG, error=error)
 
 
 @clear_construction

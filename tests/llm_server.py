@@ -33,6 +33,7 @@ GOOD: dict[str, dict[str, Any]] = {
         "vibration_reason": "Its compressor runs.",
         "states": [{"name": "cooling", "intensity": 0.4, "needs_contact": None}],
         "confidence": 0.9,
+        "estimated_mass_kg": 75.0,
     },
     "material_estimator": {
         "density_kg_m3": 700.0,

@@ -56,6 +56,8 @@ def _said(bundle: BundleContents, object_id: str) -> Iterator[tuple[str, str]]:
 def _inferred(haptics: ObjectHaptics) -> Iterator[tuple[str, str]]:
     yield "category", haptics.object_category
     yield "material", haptics.material_category
+    if haptics.mass_kg is not None:
+        yield "mass", f"{haptics.mass_kg:.3g} kg"
     for state in haptics.states:
         yield f"intensity {state.name}", f"{state.intensity:.2f}"
 

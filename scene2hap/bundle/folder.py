@@ -210,6 +210,7 @@ def _override_rows(bundle: BundleContents, folder: Path, written: list[str]) -> 
     rows: dict[str, Any] = {}
     for object_id, wish in bundle.overrides.items():
         row: dict[str, Any] = {"vibrates": wish.vibrates, "gain_db": wish.gain_db}
+        row["mass_kg"] = wish.mass_kg
         row["material"] = asdict(wish.material) if wish.material is not None else None
         row["clip"] = None
         if wish.clip is not None:

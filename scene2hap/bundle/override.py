@@ -14,7 +14,7 @@ from scene2hap.audio.files import read_clip
 from scene2hap.audio.gain_warning import warn_if_percent
 from scene2hap.calls import clear_construction
 from scene2hap.errors import BundleError
-from scene2hap.haptics import ObjectHaptics, SourceState
+from scene2hap.haptics import ObjectHaptics, SourceState, checked_mass_kg
 from scene2hap.materials import Material, lookup
 from scene2hap.scene.sizes import with_thickness
 
@@ -39,6 +39,7 @@ class Override:
 
     vibrates : whether the object vibrates by itself.
     gain_db : its level at the hand against the inferred one [dB].
+    mass_kg : what the whole object weighs [kg].
     material : its material, or a name in the table.
     clip : the sound that its vibration is made from, in every state, or the path of its file; keep : whether that sound
         stays at its own frequency and level, and the scene's other sources keep clear of it.
@@ -59,6 +60,7 @@ class Override:
     pitch_hz: Mapping[str, float] = field(default_factory=dict)
     state: str | None = None
     muted: bool = False
+    mass_kg: float | None = None
 
     def __post_init__(self) -> None:
         if self.vibrates is not None and not isinstance(self.vibrates, bool):
@@ -73,6 +75,8 @@ class Override:
             gain = checks.number("gain_db", self.gain_db, "dB", at_most=_MOST_GAIN_DB, error=BundleError)
             warn_if_percent(gain)
             object.__setattr__(self, "gain_db", gain)
+        if self.mass_kg is not None:
+            object.__setattr__(self, "mass_kg", checked_mass_kg("mass_kg", self.mass_kg, BundleError))
         if isinstance(self.material, str):
             object.__setattr__(self, "material", lookup(self.material))
         if self.material is not None and not isinstance(self.material, Material):
@@ -109,6 +113,9 @@ class Override:
             haptics = replace(
                 haptics, material=self.material, material_category=self.material.name, estimated_size_m=size_m
             )
+        if self.mass_kg is not None:
+            provenance["mass_kg"] = USER
+            haptics = replace(haptics, mass_kg=self.mass_kg)
         if self.vibrates is False:
             provenance["vibrates"] = USER
             haptics = replace(haptics, vibrates=False, states=())

@@ -4,6 +4,7 @@ scene2hap edit kitchen.bundle gain fan -6
 scene2hap edit kitchen.bundle intensity fan 0.3
 scene2hap edit kitchen.bundle pitch fan 120 --state high
 scene2hap edit kitchen.bundle material table oak
+scene2hap edit kitchen.bundle mass microwave 14
 scene2hap edit kitchen.bundle sound fan my_fan.wav
 scene2hap edit kitchen.bundle sound fan my_fan.wav --watch
 scene2hap edit kitchen.bundle state fan high
@@ -61,6 +62,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         added.add_argument("--state", dest="only", metavar="NAME", help="of this state alone, instead of all")
     material = verb("material", "set the material of an object", _overridden)
     material.add_argument("material", metavar="NAME", help="a name in the table, see `scene2hap list materials`")
+    mass = verb("mass", "set what a whole object weighs", _overridden)
+    mass.add_argument("mass_kg", metavar="KG", type=float)
     sound = verb("sound", "make the vibration of an object from your sound, in every state", _with_sound)
     sound.add_argument("file", metavar="FILE", help="a WAV or FLAC file")
     sound.add_argument("--watch", action="store_true", help="repeat whenever the file is saved, until Ctrl-C")
@@ -133,7 +136,7 @@ def _watch(arguments: argparse.Namespace, console: Console, outcome: dict[str, A
         return outcome
 
 
-_FIELDS = ("gain_db", "intensity", "pitch_hz", "material", "state", "muted", "vibrates", "locked")
+_FIELDS = ("gain_db", "intensity", "pitch_hz", "material", "mass_kg", "state", "muted", "vibrates", "locked")
 
 
 def _overridden(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade) -> HapticBundle:

@@ -61,6 +61,7 @@ def bundle_outcome(bundle: HapticBundle) -> dict[str, Any]:
             object_id: {
                 "category": haptics.object_category,
                 "material": haptics.material.name if haptics.material else None,
+                "mass_kg": haptics.mass_kg,
                 "confidence": haptics.confidence,
                 "vibrates": haptics.vibrates,
                 "states": {
@@ -85,7 +86,7 @@ def show_bundle(console: Console, bundle: HapticBundle) -> None:
     console.table(
         f"{bundle.snapshot.name}: {bundle.scene_category}, "
         + ", ".join(f"{number} {what}" for what, number in counts.items()),
-        ("object", "is", "of", ">sure", "vibrates", ">raw Hz", ">felt Hz"),
+        ("object", "type", "material", ">mass kg", ">confidence", "vibrates", ">sound Hz", ">vibration Hz"),
         (
             _bundle_row(bundle, object_id)
             for object_id in sorted(bundle.objects, key=lambda key: key not in bundle.loops)
@@ -100,6 +101,7 @@ def _bundle_row(bundle: HapticBundle, object_id: str) -> tuple[str, ...]:
         object_id,
         haptics.object_category,
         haptics.material_category,
+        "" if haptics.mass_kg is None else f"{haptics.mass_kg:.3g}",
         f"{haptics.confidence:.2f}",
         ", ".join(f"{state.name} ({state.keywords})" for state in haptics.states),
         ", ".join(f"{loop.frequency_raw_hz:.0f}" for loop in loops.values()),

@@ -1,6 +1,7 @@
 """The shape of each component's answer. Units stand in the field names, bounds are checked here.
 
-Flat, without defaults and with every field required, since strict structured output allows no more. Types are strict:
+Flat and with every field required, since strict structured output allows no more; a field that came later has a
+default, for answers of before. Types are strict:
 "2700 kg/m^3" is no number and `true` is not 1.
 """
 
@@ -68,6 +69,7 @@ class ObjectAnswer(Answer):
     vibration_reason: str = Field(max_length=600)
     states: list[StateAnswer]
     confidence: float = Field(ge=0.0, le=1.0)
+    estimated_mass_kg: float | None = Field(default=None, gt=0.0, le=1e7)
 
     @model_validator(mode="after")
     def _states_fit(self) -> Self:

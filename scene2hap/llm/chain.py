@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import asyncio
 import os
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
@@ -33,6 +33,8 @@ from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.sharing import copies, reachable
 from scene2hap.llm.trust import Estimate, from_model, from_table, without_answer
 from scene2hap.llm.waiting import run_waiting
+from scene2hap.llm.weighing import bounded_mass_kg, mass_fault
+from scene2hap.materials import Material
 from scene2hap.scene.given import given_scene
 from scene2hap.scene.likeness import material_names
 from scene2hap.scene.objects import SceneObject
@@ -299,8 +301,14 @@ class _Chain:
             "size": answer.size_reason,
             "vibration": answer.vibration_reason,
         }
+        mass_kg, weighed_by, mass_doubt = self._mass(item, answer, size_m, estimate.material, found.analyst)
+        if mass_kg is not None:
+            provenance["mass_kg"] = weighed_by
+        if mass_doubt:
+            reasons["mass"] = mass_doubt
+            self._report.doubts[item.id] = (mass_doubt,)
         if doubts:
-            self._report.doubts[item.id] = doubts
+            self._report.doubts[item.id] = (*doubts, *self._report.doubts.get(item.id, ()))
             reasons["size"] = "; ".join((answer.size_reason, *doubts))
         if estimate.flags:
             reasons["material"] = "; ".join(estimate.flags)
@@ -315,7 +323,23 @@ class _Chain:
             confidence=answer.confidence,
             reasons=reasons,
             provenance=provenance,
+            mass_kg=mass_kg,
         )
+
+    def _mass(
+        self, item: SceneObject, answer: ObjectAnswer, size_m: Sequence[float], material: Material | None, analyst: str
+    ) -> tuple[float | None, str, str]:
+        """The mass of an object [kg], None if unknown; who says so; and what is doubtful."""
+        if item.mass_kg is not None:
+            return item.mass_kg, "scene", ""
+        mass_kg, whole_m = answer.estimated_mass_kg, item.whole_size_m(self._scene.up_axis)
+        if mass_kg is None:
+            return None, "", ""
+        if why := mass_fault(mass_kg, whole_m):
+            return None, "", f"mass: {why}; none is used"
+        if material is not None:
+            mass_kg = bounded_mass_kg(mass_kg, whole_m, size_m, material.density_kg_m3)
+        return mass_kg, analyst, ""
 
     def _with_unmet_needs(self, object_id: str, haptics: ObjectHaptics, categories: Mapping[str, str]) -> ObjectHaptics:
         """With a word on each state whose contact nothing here can give; it is silent until something can."""

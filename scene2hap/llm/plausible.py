@@ -11,10 +11,12 @@ from typing import Any, TypeGuard
 
 from scene2hap.errors import UnknownMaterial
 from scene2hap.llm.protocol import Component
+from scene2hap.llm.weighing import mass_fault
 from scene2hap.materials import MaterialRow, lookup_row
 from scene2hap.scene import sizes
 
 EDGES = ("length", "width", "thickness")
+_WHOLE = ("length", "width", "height")
 
 # Factors beyond the range that sources give, assumed: a slip of units is a thousand or a million, and the kinds of one
 # word ("wood", "foam") differ by less. Loss factors of built things are far above those of the bare material.
@@ -34,7 +36,7 @@ def implausible(component: Component, told: Mapping[str, Any], facts: Mapping[st
     Nothing without the facts of the request.
     """
     if component == "object_analyzer":
-        return _sizes(told, facts)
+        return _sizes(told, facts) | _mass(told, facts)
     if component == "material_estimator" and "material_category" in facts:
         return constants(str(facts["material_category"]), told)
     return {}
@@ -96,6 +98,13 @@ def _sizes(told: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]:
         [one if _is_number(one) else other for one, other in zip(stated, measured, strict=True)], measured
     )
     return {f"estimated_{edge}_m": why for edge, why in found.items() if _is_number(stated[EDGES.index(edge)])}
+
+
+def _mass(told: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]:
+    mass, whole = told.get("estimated_mass_kg"), [facts.get(f"whole_{edge}_m") for edge in _WHOLE]
+    edges = [edge for edge in whole if _is_number(edge)]
+    why = mass_fault(mass, edges) if _is_number(mass) and len(edges) == len(whole) else ""
+    return {"estimated_mass_kg": why} if why else {}
 
 
 def _plain(value: float) -> str:

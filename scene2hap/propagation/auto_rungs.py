@@ -116,7 +116,7 @@ def _modal(fineness: Fineness) -> Callable[[Plate, float, float], ElasticBody]:
 
 
 _MAKERS: dict[str, Callable[[Plate, float, float], ElasticBody]] = {
-    "rigid": lambda plate, max_frequency_hz, eta: RigidMotion.of(plate, plate.mass_kg, rocks=True),
+    "rigid": lambda plate, max_frequency_hz, eta: RigidMotion.of(plate, plate.moving_mass_kg, rocks=True),
     "infinite": lambda plate, max_frequency_hz, eta: InfiniteBody(plate, eta),
     **{rung: _modal(fineness) for rung, fineness in FINENESS.items()},
 }

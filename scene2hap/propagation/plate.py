@@ -33,7 +33,8 @@ class Plate:
     """A rectangular plate of one material.
 
     Parameters: length_m, width_m, thickness_m > 0 [m]; material : a Material, or its name in the table; boundary :
-    "free", "simply-supported", "clamped", or four letters F, S, C for the edges x=0, x=length, y=0, y=width.
+    "free", "simply-supported", "clamped", or four letters F, S, C for the edges x=0, x=length, y=0, y=width;
+    object_mass_kg : mass of the whole object, which counts where it moves as a whole, None for that of the plate [kg].
     Raises: ModelDomainError: a dimension is not positive and finite, or the boundary is not one of these.
     """
 
@@ -42,6 +43,7 @@ class Plate:
     thickness_m: float
     material: Material
     boundary: str = "free"
+    object_mass_kg: float | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.material, str):
@@ -56,6 +58,9 @@ class Plate:
                 name, getattr(self, name), "m", above=0.0, **_SIZES_M, error=ModelDomainError, hint=hint
             )
             object.__setattr__(self, name, value)
+        if self.object_mass_kg is not None:
+            mass = checks.number("object_mass_kg", self.object_mass_kg, "kg", above=0.0, error=ModelDomainError)
+            object.__setattr__(self, "object_mass_kg", mass)
         if not isinstance(self.boundary, str) or len(self.edges) != 4 or set(self.edges) - set("FSC"):
             raise ModelDomainError(
                 f"boundary is {checks.represented(self.boundary)}; it must be one of {', '.join(map(repr, _EDGES))}, "
@@ -69,8 +74,13 @@ class Plate:
 
     @property
     def mass_kg(self) -> float:
-        """Mass of the whole plate [kg]."""
+        """Mass of the plate alone [kg]."""
         return self.length_m * self.width_m * self.thickness_m * self.material.density_kg_m3
+
+    @property
+    def moving_mass_kg(self) -> float:
+        """Mass of the object where it moves as a whole [kg]."""
+        return self.mass_kg if self.object_mass_kg is None else self.object_mass_kg
 
     @cached_property
     def bending_stiffness_nm(self) -> float:
@@ -129,3 +139,8 @@ class RigidBody:
         if self.size_m is not None:
             size = checks.vector("size_m", self.size_m, "m", size=3, above=0.0, error=ModelDomainError)
             object.__setattr__(self, "size_m", size)
+
+    @property
+    def moving_mass_kg(self) -> float:
+        """Its mass [kg], as of a Plate."""
+        return self.mass_kg

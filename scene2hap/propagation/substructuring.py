@@ -91,7 +91,7 @@ def assemble(
         if object_id in mass_kg:
             rigid[object_id] = RigidMotion.of(body, mass_kg[object_id], rocks=object_id in network.poses)
         elif isinstance(body, RigidBody) or (isinstance(body, Plate) and is_compact(body)):
-            rigid[object_id] = RigidMotion.of(body, body.mass_kg, rocks=object_id in network.poses)
+            rigid[object_id] = RigidMotion.of(body, body.moving_mass_kg, rocks=object_id in network.poses)
         elif body is not None:
             check_thin(object_id, body, top_hz, outside_domain)
             plates[object_id] = body

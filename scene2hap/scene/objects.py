@@ -71,6 +71,7 @@ class SceneObject:
     such as a mesh of the package trimesh, becomes a TriMesh. `surface` is measured if it is not given, with y up;
     `SceneSnapshot.build` measures it for the scene's own up axis. `instance_key` is equal for objects of equal mesh and
     materials. `relative_height_m` is the height of the lowest point above the lowest point of the whole scene.
+    `mass_kg` is what an engine or an author says that it weighs [kg], None if nobody does.
     `appearance` is for pictures alone, None where unknown; `images` are those of `capture_images`.
     """
 
@@ -81,6 +82,7 @@ class SceneObject:
     surface: DominantSurface
     relative_height_m: float = 0.0
     instance_key: str = ""
+    mass_kg: float | None = None
     appearance: InstanceOf[Appearance] | None = field(default=None, compare=False, repr=False)
     images: InstanceOf[ObjectImages] | None = field(default=None, compare=False, repr=False)
     is_measured_with_y_up = False  # no field, so that a copy with its own surface has it not
@@ -94,6 +96,7 @@ class SceneObject:
         surface: DominantSurface | None = None,
         relative_height_m: float = 0.0,
         instance_key: str = "",
+        mass_kg: float | None = None,
         appearance: Appearance | None = None,
         images: ObjectImages | None = None,
     ) -> None:
@@ -104,7 +107,7 @@ class SceneObject:
             "surface": surface,
             "relative_height_m": relative_height_m,
         }
-        given |= {"instance_key": instance_key, "appearance": appearance, "images": images}
+        given |= {"instance_key": instance_key, "mass_kg": mass_kg, "appearance": appearance, "images": images}
         for key, value in given.items():
             object.__setattr__(self, key, value)
         if not isinstance(id, str):
@@ -126,6 +129,9 @@ class SceneObject:
             raise SceneError(f"object {checks.represented(self.name)} has an empty id; give every object its own.")
         height = checks.number("relative_height_m", self.relative_height_m, "m", error=SceneError)
         object.__setattr__(self, "relative_height_m", height)
+        if self.mass_kg is not None:
+            mass = checks.number("mass_kg", self.mass_kg, "kg", above=0.0, at_most=1e9, error=SceneError)
+            object.__setattr__(self, "mass_kg", mass)
 
     @property
     def size_m(self) -> tuple[float, float, float]:

@@ -205,7 +205,7 @@ class Listening:
 
     def _known_excitations(self) -> Sequence[Excitation]:
         if self._excitations is None:
-            self._excitations = excitations_of(self._sources.active_rows(), self._state.bodies)
+            self._excitations = excitations_of(self._sources.active_rows(), self._state.bodies, self._state.haptics)
         return self._excitations
 
     def _is_unchanged(self, felt: Felt, moved: Collection[str]) -> bool:

@@ -14,14 +14,14 @@ from scene2hap.scene.shapes import DominantSurface
 from scene2hap.session.sources import LoopRow
 
 UNKNOWN_MASS_KG = 1.0
-"""Mass of a source whose material is unknown."""
+"""Mass of a source of which neither mass nor material is known."""
 
 
 def body_of(haptics: ObjectHaptics | None) -> Plate | None:
     """The plate of an object whose material and thickness are known."""
     if haptics is None or haptics.material is None or not all(edge > 0 for edge in haptics.estimated_size_m):
         return None
-    return Plate(*haptics.estimated_size_m, haptics.material)
+    return Plate(*haptics.estimated_size_m, haptics.material, object_mass_kg=haptics.mass_kg)
 
 
 Corners = dict[str, tuple[Pose, SceneObject, Body, Pose]]
@@ -76,17 +76,27 @@ def _corner(surface: DominantSurface, length_m: float, width_m: float) -> Pose:
     return surface.pose.compose(Pose(middle))
 
 
-def excitations_of(rows: Iterable[LoopRow], bodies: Mapping[str, Body]) -> tuple[Excitation, ...]:
+def excitations_of(
+    rows: Iterable[LoopRow], bodies: Mapping[str, Body], haptics: Mapping[str, ObjectHaptics]
+) -> tuple[Excitation, ...]:
     """One excitation per source, in their order."""
     return tuple(
-        _excitation(
-            row.source_id,
-            row.loop.frequency_raw_hz,
-            row.loop.frequency_tactile_hz,
-            bodies[row.source_id].mass_kg if row.source_id in bodies else UNKNOWN_MASS_KG,
-        )
-        for row in rows
+        [
+            _excitation(
+                row.source_id,
+                row.loop.frequency_raw_hz,
+                row.loop.frequency_tactile_hz,
+                _mass_kg(bodies.get(row.source_id), haptics.get(row.source_id)),
+            )
+            for row in rows
+        ]
     )
+
+
+def _mass_kg(body: Body | None, haptics: ObjectHaptics | None) -> float:
+    if body is not None:
+        return body.moving_mass_kg
+    return UNKNOWN_MASS_KG if haptics is None or haptics.mass_kg is None else haptics.mass_kg
 
 
 # Sources that come and go one by one leave the others as they were, and an excitation checks its numbers.

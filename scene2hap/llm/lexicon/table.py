@@ -3,7 +3,8 @@
 `table.csv` gives for each noun its other names, the places where it stands, the material and thickness of its dominant
 surface, the span of its longest edge, its use, and the states in which it vibrates by itself. Each row names what it
 rests on. Intensities are ranked by published hand-arm vibration where there is any and assumed throughout, on the
-scale of `haptics.SourceState`; thicknesses and sizes are assumed unless the row's source says otherwise.
+scale of `haptics.SourceState`; thicknesses and sizes are assumed unless the row's source says otherwise. Masses are
+those of usual products (shop listings and data sheets, from memory), for the size in which they are usual.
 
 `role` tells names apart that hold two nouns: a "container" or "vessel" may be followed by its "content"
 (crate_tomatoes); a "part" belongs to the noun before it (oven_door). A "vehicle" that is far too small is a toy.
@@ -53,7 +54,8 @@ class StateRow:
 
 @dataclass(frozen=True)
 class ObjectRow:
-    """One everyday object; `min_size_m` and `max_size_m` bound its longest edge, where that matters."""
+    """One everyday object; `min_size_m` and `max_size_m` bound its longest edge, where that matters, and `mass_kg` is
+    what a usual one weighs [kg], None where they differ too much."""
 
     noun: str
     synonyms: tuple[str, ...]
@@ -62,6 +64,7 @@ class ObjectRow:
     thickness_m: float
     min_size_m: float | None
     max_size_m: float | None
+    mass_kg: float | None
     role: Role
     usage: str
     vibrates: bool
@@ -95,6 +98,7 @@ def _row(fields: dict[str, str]) -> ObjectRow:
         thickness_m=float(fields["thickness_m"]),
         min_size_m=_optional(fields["min_size_m"]),
         max_size_m=_optional(fields["max_size_m"]),
+        mass_kg=_optional(fields["mass_kg"]),
         role=cast("Role", fields["role"]),
         usage=fields["usage"],
         vibrates=fields["vibrates"] == "yes",

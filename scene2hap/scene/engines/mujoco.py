@@ -54,6 +54,7 @@ def snapshot(
     name: str | None = None,
     geom_groups: Collection[int] | None = None,
     contacts: Literal["engine"] | None = None,
+    masses: Literal["engine"] | None = None,
     unit_m: float = 1.0,
 ) -> SceneSnapshot:
     """The scene as it stands in `data`: after `mj_forward` now, after `mj_step` one time step ago.
@@ -64,6 +65,8 @@ def snapshot(
     geom_groups : the numbers of the groups that are drawn, instead of rule 3.
     contacts : None finds contacts from geometry; "engine" takes those in `data.contact`. MuJoCo tells none between
         bodies that cannot move against each other, such as a kettle welded to its stove.
+    masses : None has them inferred; "engine" takes `model.body_mass`, if its author gave masses: MuJoCo makes up those
+        that are missing, as if all were solid water.
     unit_m : metres per unit of the model.
 
     Raises: MissingExtra: MuJoCo is not installed. SceneError: nothing is drawn, or a number makes no sense.
@@ -72,6 +75,8 @@ def snapshot(
     unit_m = checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
     if contacts not in (None, "engine"):
         raise SceneError(f"contacts is {contacts!r}; it must be 'engine', or None to find them from geometry.")
+    if masses not in (None, "engine"):
+        raise SceneError(f"masses is {masses!r}; it must be 'engine', or None to have them inferred.")
     items = _layout(mujoco, model, geom_groups, anew=True)
     limits.at_most("the number of objects", len(items.all), "MAX_OBJECTS")
     placed = _poses(model, data, items, unit_m)
@@ -80,7 +85,8 @@ def snapshot(
     for item in items.all:
         group = _group(mujoco, model, item, tuple(map(reader.piece, item.geoms)))
         label = group.name or _name_of_geoms(mujoco, model, item) or item.id
-        objects.append(maker.make(item.id, label, group, placed[item.id]))
+        mass_kg = float(model.body_mass[item.body]) if masses is not None else 0.0
+        objects.append(maker.make(item.id, label, group, placed[item.id], mass_kg or None))
     if not objects:
         why = "the model has no geoms" if geom_groups is None else f"no geom is in geom_groups {set(geom_groups)}"
         raise SceneError(f"{why}; nothing in it can be touched.")

@@ -27,7 +27,7 @@ class ObjectMaker:
     def __post_init__(self) -> None:
         self._pool = MeshPool(self.unit_m)
 
-    def make(self, object_id: str, name: str, group: Group, pose: Pose) -> SceneObject:
+    def make(self, object_id: str, name: str, group: Group, pose: Pose, mass_kg: float | None = None) -> SceneObject:
         """The object made of a group's parts, at `pose` [m].
 
         Raises: SceneError: the geometry makes no sense, or the object is too far away; see `MeshPool.place`.
@@ -48,5 +48,6 @@ class ObjectMaker:
             geometry=placed.mesh,
             surface=surface,
             instance_key=placed.instance_key,
+            mass_kg=mass_kg,
             appearance=placed.appearance,
         )

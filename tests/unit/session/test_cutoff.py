@@ -29,7 +29,7 @@ def ears(bands: Bands, **settings: Any) -> tuple[Any, Audibility, CutoffCost]:
     for name, loops in bundle.loops.items():
         sources.add(name, loops, None)
     bodies = {name: body for name, known in bundle.objects.items() if (body := body_of(known)) is not None}
-    excitations = excitations_of(sources.active_rows(), bodies)
+    excitations = excitations_of(sources.active_rows(), bodies, {})
     field = ExponentialPlate(**settings).live(ContactGraph(snapshot), bodies, excitations, bands)
     peaks = np.array([peaks_of(row.loop.tactile, bands) for row in sources.active_rows()], dtype=np.float32)
     audibility = Audibility(peaks, SkipConfig(), Counts())
@@ -70,7 +70,7 @@ def test_copies_have_the_cut_off_of_their_original(bands: Bands) -> None:
     for n, original in enumerate(order):
         sources.add(f"copy_{n}", bundle.loops[originals[original]], None)
     rows = sources.active_rows()
-    excitations = excitations_of(rows, {})
+    excitations = excitations_of(rows, {}, {})
     field = ExponentialPlate().live(ContactGraph(snapshot), {}, excitations, bands)
     peaks = np.array([peaks_of(row.loop.tactile, bands) for row in rows], dtype=np.float32)
     levels = np.linspace(0.05, 1.0, len(order))

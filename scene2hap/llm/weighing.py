@@ -1,0 +1,36 @@
+"""Masses from a model or a table, compared with the size of the object."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+LEAST_DENSITY_KG_M3, MOST_DENSITY_KG_M3 = 0.5, 25_000.0
+"""Mass over the volume of the whole box: a lampshade has some 10, a solid block of tungsten 19,000; assumed."""
+
+
+def mass_fault(mass_kg: float, whole_m: Sequence[float]) -> str:
+    """Why an object of such a size cannot weigh so much, "" if it can.
+
+    Parameters: mass_kg [kg]; whole_m : edges of the box around the object [m]; one of 0 is no box to judge by.
+    """
+    volume_m3 = math.prod(whole_m)
+    if volume_m3 <= 0.0:
+        return ""
+    low, high = LEAST_DENSITY_KG_M3 * volume_m3, MOST_DENSITY_KG_M3 * volume_m3
+    if low <= mass_kg <= high:
+        return ""
+    size = " by ".join(f"{edge:.3g}" for edge in whole_m)
+    return f"{mass_kg:.3g} kg, but a box of {size} m weighs {low:.2g} to {high:.2g} kg"
+
+
+def bounded_mass_kg(mass_kg: float, whole_m: Sequence[float], size_m: Sequence[float], density_kg_m3: float) -> float:
+    """A usual mass, held between what the object's thin surface alone weighs and what its whole box weighs if solid.
+
+    Parameters: size_m : length, width, thickness of the dominant surface [m]; density_kg_m3 : of its material.
+    """
+    length, width, thickness = size_m
+    is_thin = thickness <= min(length, width) / 5
+    least = length * width * thickness * density_kg_m3 if is_thin else 0.0
+    most = math.prod(whole_m) * density_kg_m3 or math.inf  # a box without thickness bounds nothing
+    return max(least, min(mass_kg, most))
