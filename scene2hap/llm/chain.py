@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import asyncio
 import os
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
@@ -301,7 +301,7 @@ class _Chain:
             "size": answer.size_reason,
             "vibration": answer.vibration_reason,
         }
-        mass_kg, weighed_by, mass_doubt = self._mass(item, answer, size_m, estimate.material, found.analyst)
+        mass_kg, weighed_by, mass_doubt = self._mass(item, answer, estimate.material, found.analyst)
         if mass_kg is not None:
             provenance["mass_kg"] = weighed_by
         if mass_doubt:
@@ -327,7 +327,7 @@ class _Chain:
         )
 
     def _mass(
-        self, item: SceneObject, answer: ObjectAnswer, size_m: Sequence[float], material: Material | None, analyst: str
+        self, item: SceneObject, answer: ObjectAnswer, material: Material | None, analyst: str
     ) -> tuple[float | None, str, str]:
         """The mass of an object [kg], None if unknown; who says so; and what is doubtful."""
         if item.mass_kg is not None:
@@ -338,7 +338,7 @@ class _Chain:
         if why := mass_fault(mass_kg, whole_m):
             return None, "", f"mass: {why}; none is used"
         if material is not None:
-            mass_kg = bounded_mass_kg(mass_kg, whole_m, size_m, material.density_kg_m3)
+            mass_kg = bounded_mass_kg(mass_kg, whole_m, material.density_kg_m3)
         return mass_kg, analyst, ""
 
     def _with_unmet_needs(self, object_id: str, haptics: ObjectHaptics, categories: Mapping[str, str]) -> ObjectHaptics:

@@ -24,13 +24,9 @@ def mass_fault(mass_kg: float, whole_m: Sequence[float]) -> str:
     return f"{mass_kg:.3g} kg, but a box of {size} m weighs {low:.2g} to {high:.2g} kg"
 
 
-def bounded_mass_kg(mass_kg: float, whole_m: Sequence[float], size_m: Sequence[float], density_kg_m3: float) -> float:
-    """A usual mass, held between what the object's thin surface alone weighs and what its whole box weighs if solid.
+def bounded_mass_kg(mass_kg: float, whole_m: Sequence[float], density_kg_m3: float) -> float:
+    """A usual mass, or that of the whole box if it were solid, whichever is less: a shelf board is no whole shelf.
 
-    Parameters: size_m : length, width, thickness of the dominant surface [m]; density_kg_m3 : of its material.
+    Parameters: density_kg_m3 : of the object's material. A box without volume bounds nothing.
     """
-    length, width, thickness = size_m
-    is_thin = thickness <= min(length, width) / 5
-    least = length * width * thickness * density_kg_m3 if is_thin else 0.0
-    most = math.prod(whole_m) * density_kg_m3 or math.inf  # a box without thickness bounds nothing
-    return max(least, min(mass_kg, most))
+    return min(mass_kg, math.prod(whole_m) * density_kg_m3 or math.inf)
