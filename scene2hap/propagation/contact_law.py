@@ -13,6 +13,7 @@ Source: Johnson, Contact Mechanics (1985), section 4.2, and section 3.4 for the 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from scene2hap import checks
@@ -23,13 +24,18 @@ HARD_PLASTIC = Material("hard plastic", 1050.0, 2.4e9, 0.35, 0.02)
 """Stands for the surface of a body whose material is unknown, such as the case of an appliance (ABS, handbook)."""
 
 
+STANDARD_GRAVITY_M_S2 = 9.80665
+LEAST_PRELOAD_N = 1e-4
+"""A crumb; less would be no contact."""
+
+
 @dataclass(frozen=True)
 class ContactLaw:
     """Stiffness and loss of contacts.
 
     Parameters: tip_radius_m : > 0 [m], of the corner, foot or high place on which things rest; preload_n : > 0 [N], the
-    weight on it; loss_floor : 0..2 [-], smallest loss factor of a contact. The defaults are assumed: a quarter of a
-    0.2 kg phone on a corner of 5 mm, and the loss of a dry joint.
+    weight on it where no mass is known (else see `preload`); loss_floor : 0..2 [-], smallest loss factor of a contact.
+    The defaults are assumed: a quarter of a 0.2 kg phone on a corner of 5 mm, and the loss of a dry joint.
     Raises: ConfigError: out of bounds.
     """
 
@@ -42,13 +48,29 @@ class ContactLaw:
         checks.number("preload_n", self.preload_n, "N", above=0.0, error=ConfigError)
         checks.number("loss_floor", self.loss_floor, "-", at_least=0.0, at_most=2.0, error=ConfigError)
 
-    def stiffness(self, a: Material | None, b: Material | None, area_m2: float | None = None) -> tuple[float, float]:
-        """Stiffness [N/m] and loss factor [-] between two materials, None for one that is unknown."""
+    def preload(self, masses_kg: Sequence[float], n_contacts: int) -> float:
+        """Weight on each contact of a pair [N]: that of the lighter object, which rests on the other, in equal shares.
+
+        Parameters: masses_kg : of the objects of the pair whose mass is known; without any it is `preload_n`.
+        """
+        if not masses_kg:
+            return self.preload_n
+        return max(STANDARD_GRAVITY_M_S2 * min(masses_kg) / n_contacts, LEAST_PRELOAD_N)
+
+    def stiffness(
+        self, a: Material | None, b: Material | None, area_m2: float | None = None, preload_n: float | None = None
+    ) -> tuple[float, float]:
+        """Stiffness [N/m] and loss factor [-] between two materials, None for one that is unknown.
+
+        Parameters: area_m2 : of the contact [m2], None if unknown; preload_n : the weight on it [N], None for the
+        law's own.
+        """
+        load_n = self.preload_n if preload_n is None else preload_n
         modulus = 1 / sum(
             (1 - m.poisson_ratio**2) / (m.youngs_modulus_pa * complex(1, m.loss_factor))
             for m in (a or HARD_PLASTIC, b or HARD_PLASTIC)
         )
-        radius_m = (0.75 * self.preload_n * self.tip_radius_m / abs(modulus)) ** (1 / 3)
+        radius_m = (0.75 * load_n * self.tip_radius_m / abs(modulus)) ** (1 / 3)
         if area_m2:
             radius_m = min(radius_m, math.sqrt(area_m2 / math.pi))
         return 2 * modulus.real * radius_m, max(modulus.imag / modulus.real, self.loss_floor)

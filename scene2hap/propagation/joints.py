@@ -10,6 +10,7 @@ from functools import cache, lru_cache
 from scene2hap.materials import Material
 from scene2hap.propagation.contact_law import ContactLaw
 from scene2hap.propagation.coupling import Joint
+from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body, ContactNetwork
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
@@ -42,9 +43,11 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
     joints: list[Joint] = []
     for (a, b), contacts in pairs.items():
         materials = (_material(network, a), _material(network, b))
+        masses_kg = [mass for mass in (_known_mass_kg(network, a), _known_mass_kg(network, b)) if mass is not None]
+        preload_n = law.preload(masses_kg, len(contacts))
         found = []
         for contact in contacts:
-            k, loss = stiffness(*materials, contact.area_m2)
+            k, loss = stiffness(*materials, contact.area_m2, preload_n)
             found.append(Joint(a, b, next(places[a]), next(places[b]), contact.weight * k, loss))
         joints += _merged(found)
     joints.sort(key=lambda joint: (joint.a, joint.b))
@@ -103,6 +106,12 @@ def _merged(joints: Sequence[Joint]) -> list[Joint]:
         else:
             kept.append(joint)
     return kept
+
+
+def _known_mass_kg(network: ContactNetwork, object_id: str) -> float | None:
+    """Mass of a whole object [kg], None if nobody stated it."""
+    body = network.bodies.get(object_id)
+    return body.object_mass_kg if isinstance(body, Plate) else None
 
 
 def _material(network: ContactNetwork, object_id: str) -> Material | None:

@@ -1,0 +1,45 @@
+"""What rests on a contact: Hertz's law by hand, against the joints of a network with known masses."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from scene2hap import Contact, ContactNetwork, Plate, materials
+from scene2hap.propagation.contact_law import ContactLaw
+from scene2hap.propagation.joints import joints_of
+
+TABLE = Plate(1.2, 0.7, 0.02, materials.lookup("oak"), object_mass_kg=25.0)
+OVEN = Plate(0.5, 0.4, 0.3, materials.lookup("steel"), object_mass_kg=14.0)
+CORNERS = [Contact("oven", "table", (x, 0.0, z)) for x in (0.1, 0.5) for z in (0.1, 0.4)]
+
+
+def hertz(preload_n: float, radius_m: float = 0.005) -> float:
+    """k = (6 E*^2 R F)^(1/3) of oak on steel, losses left out, in which |E*| is real to a part in 10^4."""
+    compliance = sum((1 - m.poisson_ratio**2) / m.youngs_modulus_pa for m in (TABLE.material, OVEN.material))
+    return (6 * radius_m * preload_n / compliance**2) ** (1 / 3)
+
+
+def stiffness(oven: Plate, table: Plate, contacts: list[Contact]) -> float:
+    network = ContactNetwork({"oven": oven, "table": table}, contacts)
+    return sum(joint.stiffness_n_m for joint in joints_of(network, {"oven", "table"}, ContactLaw()))
+
+
+@pytest.mark.parametrize("n", [1, 3, 4])
+def test_the_lighter_object_rests_in_equal_shares(n: int) -> None:
+    expected = n * hertz(14.0 * 9.80665 / n)
+    assert stiffness(OVEN, TABLE, CORNERS[:n]) == pytest.approx(expected, rel=1e-3)
+
+
+def test_without_masses_the_laws_own_preload_counts() -> None:
+    bare = [replace(one, object_mass_kg=None) for one in (OVEN, TABLE)]
+    assert stiffness(*bare, CORNERS) == pytest.approx(4 * hertz(0.5), rel=1e-3)
+    assert stiffness(bare[0], TABLE, CORNERS) == pytest.approx(4 * hertz(25.0 * 9.80665 / 4), rel=1e-3)
+
+
+def test_heavier_things_stand_stiffer_by_the_third_root() -> None:
+    light, heavy = (stiffness(replace(OVEN, object_mass_kg=m), TABLE, CORNERS) for m in (0.2, 20.0))
+    assert heavy / light == pytest.approx(100 ** (1 / 3), rel=1e-3)
+    assert math.isfinite(stiffness(replace(OVEN, object_mass_kg=1e-6), TABLE, CORNERS))
