@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from functools import lru_cache
 
 from scene2hap.haptics import ObjectHaptics
@@ -11,6 +12,7 @@ from scene2hap.propagation.protocol import Body, Excitation
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import DominantSurface
+from scene2hap.session.furniture import ASSEMBLED_LOSS, is_assembled
 from scene2hap.session.sources import LoopRow
 
 UNKNOWN_MASS_KG = 1.0
@@ -18,10 +20,16 @@ UNKNOWN_MASS_KG = 1.0
 
 
 def body_of(haptics: ObjectHaptics | None) -> Plate | None:
-    """The plate of an object whose material and thickness are known."""
+    """The plate of an object whose material and thickness are known.
+
+    Furniture loses as much as assembled furniture does, unless a person chose its material.
+    """
     if haptics is None or haptics.material is None or not all(edge > 0 for edge in haptics.estimated_size_m):
         return None
-    return Plate(*haptics.estimated_size_m, haptics.material, object_mass_kg=haptics.mass_kg)
+    material = haptics.material
+    if material.loss_factor < ASSEMBLED_LOSS and is_assembled(haptics):
+        material = replace(material, loss_factor=ASSEMBLED_LOSS)
+    return Plate(*haptics.estimated_size_m, material, object_mass_kg=haptics.mass_kg)
 
 
 Corners = dict[str, tuple[Pose, SceneObject, Body, Pose]]

@@ -1,0 +1,50 @@
+"""The loss of assembled furniture: what a table loses in physical models, and in the paper's law."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from scene2hap import HapticSession, Touch, materials
+from scene2hap.session.network import body_of
+from scenes import table_with_two_phones
+
+
+@pytest.mark.parametrize(
+    ("category", "loss"),
+    [("dining table", 0.04), ("night stand", 0.04), ("mug", None), ("table tennis ball", None), ("unknown", None)],
+)
+def test_furniture_loses_in_its_joints(category: str, loss: float | None) -> None:
+    steel = materials.lookup("steel")
+    table = replace(table_with_two_phones()[1].objects["table"], object_category=category, material=steel)
+    body = body_of(table)
+    assert body is not None
+    assert body.material.loss_factor == (steel.loss_factor if loss is None else loss)
+    assert replace(body.material, loss_factor=steel.loss_factor) == steel
+
+
+def test_a_lossy_material_and_one_that_a_person_chose_stay() -> None:
+    _, bundle = table_with_two_phones()
+    rubber = materials.lookup("rubber")
+    table = replace(bundle.objects["table"], object_category="table", material=rubber)
+    body = body_of(table)
+    assert body is not None
+    assert body.material == rubber
+    chosen = body_of(
+        replace(bundle, objects={**bundle.objects, "table": table}).override("table", material="steel").objects["table"]
+    )
+    assert chosen is not None
+    assert chosen.material == materials.lookup("steel")
+
+
+def test_the_paper_law_knows_no_loss() -> None:
+    scene, bundle = table_with_two_phones()
+    named = [replace(bundle.objects["table"], object_category=one) for one in ("table", "slab")]
+    touch = [Touch("left", "table", scene.object("table").bounds_m[1])]
+    gains = [
+        HapticSession(replace(bundle, objects={**bundle.objects, "table": one})).update(touches=touch).gains
+        for one in named
+    ]
+    np.testing.assert_array_equal(gains[0], gains[1])
