@@ -23,7 +23,7 @@ from scene2hap.session.scene_state import SceneState
 FAR_M = 0.05
 """A finger tip is 2 cm thick, and a tracked hand is off by as much again; assumed."""
 
-MOST_TRIANGLES = 100_000
+MOST_TRIANGLES = 20_000
 """Touches of larger meshes are not judged: sorting their triangles for the first touch would cost frames."""
 
 _ANYWHERE_M = 1e9
