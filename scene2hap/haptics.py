@@ -70,7 +70,8 @@ class ObjectHaptics:
     `estimated_size_m` is length, width and thickness of the dominant surface, corrected where the mesh cannot be
     right. `material` is None where nobody could tell; vibration then does not spread through the object.
     `mass_kg` is what the whole object weighs [kg], None where nobody could tell; it decides how hard a source pushes
-    and how compact bodies move.
+    and how compact bodies move. `feet` is the material on which it stands on others, such as rubber; None where that is
+    `material` or unknown.
     `confidence` is 0..1; `reasons` explain category, size and vibration; `provenance` names the backend, the model
     and the prompt version that answered, by component.
     """
@@ -86,6 +87,7 @@ class ObjectHaptics:
     reasons: Mapping[str, str] = field(default_factory=dict)
     provenance: Mapping[str, str] = field(default_factory=dict)
     mass_kg: float | None = None
+    feet: Material | None = None
 
     def __post_init__(self) -> None:
         size = checks.vector("estimated_size_m", self.estimated_size_m, "m", size=3, at_least=0.0, error=ConfigError)
@@ -95,6 +97,8 @@ class ObjectHaptics:
                 "or nothing spreads through it. Give the thickness that a real one has."
             )
         object.__setattr__(self, "estimated_size_m", size)
+        if self.feet is not None and not isinstance(self.feet, Material):
+            raise ConfigError(f"feet is {checks.represented(self.feet)}; it must be a Material or None.")
         if self.mass_kg is not None:
             object.__setattr__(self, "mass_kg", checked_mass_kg("mass_kg", self.mass_kg, ConfigError))
         confidence = checks.number("confidence", self.confidence, "-", at_least=0.0, at_most=1.0, error=ConfigError)

@@ -34,6 +34,7 @@ GOOD: dict[str, dict[str, Any]] = {
         "states": [{"name": "cooling", "intensity": 0.4, "needs_contact": None}],
         "confidence": 0.9,
         "estimated_mass_kg": 75.0,
+        "feet_material": "hard plastic",
     },
     "material_estimator": {
         "density_kg_m3": 700.0,

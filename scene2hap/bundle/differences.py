@@ -58,6 +58,8 @@ def _inferred(haptics: ObjectHaptics) -> Iterator[tuple[str, str]]:
     yield "material", haptics.material_category
     if haptics.mass_kg is not None:
         yield "mass", f"{haptics.mass_kg:.3g} kg"
+    if haptics.feet is not None:
+        yield "feet", haptics.feet.name
     for state in haptics.states:
         yield f"intensity {state.name}", f"{state.intensity:.2f}"
 

@@ -210,7 +210,7 @@ def _override_rows(bundle: BundleContents, folder: Path, written: list[str]) -> 
     rows: dict[str, Any] = {}
     for object_id, wish in bundle.overrides.items():
         row: dict[str, Any] = {"vibrates": wish.vibrates, "gain_db": wish.gain_db}
-        row["mass_kg"] = wish.mass_kg
+        row["mass_kg"], row["feet"] = wish.mass_kg, asdict(wish.feet) if wish.feet is not None else None
         row["material"] = asdict(wish.material) if wish.material is not None else None
         row["clip"] = None
         if wish.clip is not None:
@@ -241,8 +241,9 @@ def read_overrides(folder: Path) -> dict[str, Override]:
 
 def _override(folder: Path, row: Mapping[str, Any]) -> Override:
     fields = dict(row)
-    if isinstance(fields.get("material"), dict):
-        fields["material"] = Material(**fields["material"])
+    for name in ("material", "feet"):
+        if isinstance(fields.get(name), dict):
+            fields[name] = Material(**fields[name])
     if isinstance(fields.get("clip"), dict):
         clip = fields["clip"]
         fields["clip"] = read_clip(own_file(folder, clip["file"]), read_credit(clip["credit"]))

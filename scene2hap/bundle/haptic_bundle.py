@@ -44,13 +44,14 @@ class HapticBundle(BundleContents):
         state: str | None = None,
         muted: bool | None = None,
         mass_kg: float | None = None,
+        feet: Material | str | None = None,
     ) -> Self:
         """The bundle with a correction to one object, on top of earlier ones; None leaves a field as it is.
 
         A clip, or the path of one, stays at its own frequency unless `keep=False` allows to move it clear of the
         scene's other sources. Intensity and pitch are numbers for all states, or mappings by state; `state` is the one
-        that plays at first. Corrections are kept in the folder and by `rebake`. Level, material, mass, first state,
-        mute and silence count at once. The others, and vibration where none was inferred, count after
+        that plays at first. Corrections are kept in the folder and by `rebake`. Level, material, mass, feet, first
+        state, mute and silence count at once. The others, and vibration where none was inferred, count after
         `rebake(bundle)`, which makes the loops. The loops of a locked object stay as they are, byte for byte; a
         correction that would change them is refused.
         Raises: UnknownObject; BundleError: a field out of bounds, a state that the object has not, or one that would
@@ -70,6 +71,7 @@ class HapticBundle(BundleContents):
             "state": state,
             "muted": muted,
             "mass_kg": mass_kg,
+            "feet": feet,
         }
         wish = self.overrides.get(object_id, Override())
         self._require_unlocked(object_id, wish, changes)

@@ -40,6 +40,7 @@ class Override:
     vibrates : whether the object vibrates by itself.
     gain_db : its level at the hand against the inferred one [dB].
     mass_kg : what the whole object weighs [kg].
+    feet : the material on which it stands on others, or a name in the table.
     material : its material, or a name in the table.
     clip : the sound that its vibration is made from, in every state, or the path of its file; keep : whether that sound
         stays at its own frequency and level, and the scene's other sources keep clear of it.
@@ -61,6 +62,7 @@ class Override:
     state: str | None = None
     muted: bool = False
     mass_kg: float | None = None
+    feet: Material | None = None
 
     def __post_init__(self) -> None:
         if self.vibrates is not None and not isinstance(self.vibrates, bool):
@@ -77,12 +79,14 @@ class Override:
             object.__setattr__(self, "gain_db", gain)
         if self.mass_kg is not None:
             object.__setattr__(self, "mass_kg", checked_mass_kg("mass_kg", self.mass_kg, BundleError))
-        if isinstance(self.material, str):
-            object.__setattr__(self, "material", lookup(self.material))
-        if self.material is not None and not isinstance(self.material, Material):
-            raise BundleError(
-                f"material is {checks.represented(self.material)}; it must be a Material or a name in the table."
-            )
+        for name in ("material", "feet"):
+            given = getattr(self, name)
+            if isinstance(given, str):
+                object.__setattr__(self, name, lookup(given))
+            elif given is not None and not isinstance(given, Material):
+                raise BundleError(
+                    f"{name} is {checks.represented(given)}; it must be a Material or a name in the table."
+                )
         if isinstance(self.clip, str | os.PathLike):
             object.__setattr__(self, "clip", read_clip(Path(self.clip)))
         if self.clip is not None and not isinstance(self.clip, AudioClip):
@@ -113,6 +117,9 @@ class Override:
             haptics = replace(
                 haptics, material=self.material, material_category=self.material.name, estimated_size_m=size_m
             )
+        if self.feet is not None:
+            provenance["feet"] = USER
+            haptics = replace(haptics, feet=self.feet)
         if self.mass_kg is not None:
             provenance["mass_kg"] = USER
             haptics = replace(haptics, mass_kg=self.mass_kg)

@@ -5,6 +5,7 @@ scene2hap edit kitchen.bundle intensity fan 0.3
 scene2hap edit kitchen.bundle pitch fan 120 --state high
 scene2hap edit kitchen.bundle material table oak
 scene2hap edit kitchen.bundle mass microwave 14
+scene2hap edit kitchen.bundle feet microwave rubber
 scene2hap edit kitchen.bundle sound fan my_fan.wav
 scene2hap edit kitchen.bundle sound fan my_fan.wav --watch
 scene2hap edit kitchen.bundle state fan high
@@ -64,6 +65,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     material.add_argument("material", metavar="NAME", help="a name in the table, see `scene2hap list materials`")
     mass = verb("mass", "set what a whole object weighs", _overridden)
     mass.add_argument("mass_kg", metavar="KG", type=float)
+    feet = verb("feet", "set the material on which an object stands on others", _overridden)
+    feet.add_argument("feet", metavar="NAME", help="a name in the table, such as rubber or felt")
     sound = verb("sound", "make the vibration of an object from your sound, in every state", _with_sound)
     sound.add_argument("file", metavar="FILE", help="a WAV or FLAC file")
     sound.add_argument("--watch", action="store_true", help="repeat whenever the file is saved, until Ctrl-C")
@@ -136,7 +139,7 @@ def _watch(arguments: argparse.Namespace, console: Console, outcome: dict[str, A
         return outcome
 
 
-_FIELDS = ("gain_db", "intensity", "pitch_hz", "material", "mass_kg", "state", "muted", "vibrates", "locked")
+_FIELDS = ("gain_db", "intensity", "pitch_hz", "material", "mass_kg", "feet", "state", "muted", "vibrates", "locked")
 
 
 def _overridden(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade) -> HapticBundle:

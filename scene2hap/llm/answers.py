@@ -70,6 +70,7 @@ class ObjectAnswer(Answer):
     states: list[StateAnswer]
     confidence: float = Field(ge=0.0, le=1.0)
     estimated_mass_kg: float | None = Field(default=None, gt=0.0, le=1e7)
+    feet_material: str | None = Field(default=None, max_length=60)
 
     @model_validator(mode="after")
     def _states_fit(self) -> Self:

@@ -25,6 +25,7 @@ from scene2hap.llm.answers import MaterialAnswer, ObjectAnswer, SceneAnswer, Sta
 from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.lexicon.judging import Measured, judge
 from scene2hap.llm.measured import size_without_answer, surface_size
+from scene2hap.llm.plausible import row_of
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.protocol import LLMBackend
 from scene2hap.llm.questions import Questions
@@ -304,6 +305,9 @@ class _Chain:
         mass_kg, weighed_by, mass_doubt = self._mass(item, answer, estimate.material, found.analyst)
         if mass_kg is not None:
             provenance["mass_kg"] = weighed_by
+        feet = _feet(answer)
+        if feet is not None:
+            provenance["feet"] = found.analyst
         if mass_doubt:
             reasons["mass"] = mass_doubt
             self._report.doubts[item.id] = (mass_doubt,)
@@ -324,6 +328,7 @@ class _Chain:
             reasons=reasons,
             provenance=provenance,
             mass_kg=mass_kg,
+            feet=feet,
         )
 
     def _mass(
@@ -359,6 +364,12 @@ async def _scene_category(scene: SceneSnapshot, questions: Questions) -> str:
         questions.report.errors[""] = str(problem)
         return "undefined"
     return answer.scene_category
+
+
+def _feet(answer: ObjectAnswer) -> Material | None:
+    """The material of an object's feet, None where it has none that the table knows."""
+    row = row_of(answer.feet_material) if answer.feet_material else None
+    return row.material if row is not None else None
 
 
 def _word(category: str) -> str:

@@ -42,9 +42,12 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
     stiffness = cache(law.stiffness)  # of few kinds
     joints: list[Joint] = []
     for (a, b), contacts in pairs.items():
-        materials = (_material(network, a), _material(network, b))
-        masses_kg = [mass for mass in (_known_mass_kg(network, a), _known_mass_kg(network, b)) if mass is not None]
-        preload_n = law.preload(masses_kg, len(contacts))
+        mass_a, mass_b = _known_mass_kg(network, a), _known_mass_kg(network, b)
+        preload_n = law.preload([mass for mass in (mass_a, mass_b) if mass is not None], len(contacts))
+        # The lighter one stands on the other; without masses neither does.
+        a_rests = mass_a is not None and (mass_b is None or mass_a < mass_b)
+        b_rests = mass_b is not None and (mass_a is None or mass_b <= mass_a)
+        materials = (_material(network, a, stands=a_rests), _material(network, b, stands=b_rests))
         found = []
         for contact in contacts:
             k, loss = stiffness(*materials, contact.area_m2, preload_n)
@@ -114,6 +117,9 @@ def _known_mass_kg(network: ContactNetwork, object_id: str) -> float | None:
     return body.object_mass_kg if isinstance(body, Plate) else None
 
 
-def _material(network: ContactNetwork, object_id: str) -> Material | None:
+def _material(network: ContactNetwork, object_id: str, *, stands: bool) -> Material | None:
+    """Material of an object where it is touched; that of its feet if it stands on them."""
     body = network.bodies.get(object_id)
+    if stands and isinstance(body, Plate) and body.feet is not None:
+        return body.feet
     return body.material if body is not None else None

@@ -34,7 +34,8 @@ class Plate:
 
     Parameters: length_m, width_m, thickness_m > 0 [m]; material : a Material, or its name in the table; boundary :
     "free", "simply-supported", "clamped", or four letters F, S, C for the edges x=0, x=length, y=0, y=width;
-    object_mass_kg : mass of the whole object, which counts where it moves as a whole, None for that of the plate [kg].
+    object_mass_kg : mass of the whole object, which counts where it moves as a whole, None for that of the plate [kg];
+    feet : material on which the object rests on heavier ones, None for its own.
     Raises: ModelDomainError: a dimension is not positive and finite, or the boundary is not one of these.
     """
 
@@ -44,6 +45,7 @@ class Plate:
     material: Material
     boundary: str = "free"
     object_mass_kg: float | None = None
+    feet: Material | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.material, str):
@@ -58,6 +60,8 @@ class Plate:
                 name, getattr(self, name), "m", above=0.0, **_SIZES_M, error=ModelDomainError, hint=hint
             )
             object.__setattr__(self, name, value)
+        if self.feet is not None and not isinstance(self.feet, Material):
+            raise ModelDomainError(f"feet is {checks.described(self.feet)}; it must be a Material or None.")
         if self.object_mass_kg is not None:
             mass = checks.number("object_mass_kg", self.object_mass_kg, "kg", above=0.0, error=ModelDomainError)
             object.__setattr__(self, "object_mass_kg", mass)

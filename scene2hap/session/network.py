@@ -29,7 +29,7 @@ def body_of(haptics: ObjectHaptics | None) -> Plate | None:
     material = haptics.material
     if material.loss_factor < ASSEMBLED_LOSS and is_assembled(haptics):
         material = replace(material, loss_factor=ASSEMBLED_LOSS)
-    return Plate(*haptics.estimated_size_m, material, object_mass_kg=haptics.mass_kg)
+    return Plate(*haptics.estimated_size_m, material, object_mass_kg=haptics.mass_kg, feet=haptics.feet)
 
 
 Corners = dict[str, tuple[Pose, SceneObject, Body, Pose]]

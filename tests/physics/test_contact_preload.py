@@ -43,3 +43,14 @@ def test_heavier_things_stand_stiffer_by_the_third_root() -> None:
     light, heavy = (stiffness(replace(OVEN, object_mass_kg=m), TABLE, CORNERS) for m in (0.2, 20.0))
     assert heavy / light == pytest.approx(100 ** (1 / 3), rel=1e-3)
     assert math.isfinite(stiffness(replace(OVEN, object_mass_kg=1e-6), TABLE, CORNERS))
+
+
+def test_the_lighter_stands_on_its_feet_and_the_heavier_does_not() -> None:
+    rubber, felt = materials.lookup("rubber"), materials.lookup("felt")
+    shod = stiffness(replace(OVEN, feet=rubber), replace(TABLE, feet=felt), CORNERS)
+    compliance = sum((1 - m.poisson_ratio**2) / m.youngs_modulus_pa for m in (rubber, TABLE.material))
+    by_hand = 4 * (6 * 0.005 * 14.0 * 9.80665 / 4 / compliance**2) ** (1 / 3)
+    assert shod == pytest.approx(by_hand, rel=0.01)  # the loss of rubber, 0.1, is left out by hand
+    assert 4e4 < shod < 4e5  # rubber feet of appliances come to some 1e4 to 1e5 N/m each
+    nobody = replace(OVEN, feet=rubber, object_mass_kg=None), replace(TABLE, object_mass_kg=None)
+    assert stiffness(*nobody, CORNERS) == pytest.approx(4 * hertz(0.5), rel=1e-3)  # who stands on whom is unknown

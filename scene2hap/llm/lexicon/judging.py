@@ -112,6 +112,7 @@ def _as_real(item: Measured, reading: NameReading, row: ObjectRow, neighbour_nam
         states=states,
         confidence=round(confidence * fitting.trust, 3),
         estimated_mass_kg=None if fitting.part_of else row.mass_kg,
+        feet_material=None if fitting.part_of else row.feet,
     )
 
 

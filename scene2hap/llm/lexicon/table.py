@@ -55,7 +55,7 @@ class StateRow:
 @dataclass(frozen=True)
 class ObjectRow:
     """One everyday object; `min_size_m` and `max_size_m` bound its longest edge, where that matters, and `mass_kg` is
-    what a usual one weighs [kg], None where they differ too much."""
+    what a usual one weighs [kg], None where they differ too much; `feet` is the material of its feet, if it has any."""
 
     noun: str
     synonyms: tuple[str, ...]
@@ -65,6 +65,7 @@ class ObjectRow:
     min_size_m: float | None
     max_size_m: float | None
     mass_kg: float | None
+    feet: str | None
     role: Role
     usage: str
     vibrates: bool
@@ -99,6 +100,7 @@ def _row(fields: dict[str, str]) -> ObjectRow:
         min_size_m=_optional(fields["min_size_m"]),
         max_size_m=_optional(fields["max_size_m"]),
         mass_kg=_optional(fields["mass_kg"]),
+        feet=fields["feet"] or None,
         role=cast("Role", fields["role"]),
         usage=fields["usage"],
         vibrates=fields["vibrates"] == "yes",

@@ -20,12 +20,14 @@ from scene2hap import (
     SceneSnapshot,
     Touch,
     bake,
+    materials,
 )
 from scene2hap.cli import main
 from scene2hap.errors import BundleError, ConfigError, SceneError
 from scene2hap.llm.answers import ObjectAnswer
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.lexicon.table import table
+from scene2hap.llm.plausible import row_of
 from scene2hap.llm.schema import strict_schema
 from scene2hap.llm.weighing import bounded_mass_kg, mass_fault
 from scene2hap.scene.engines import mujoco as mujoco_adapter
@@ -78,6 +80,22 @@ def test_every_mass_of_the_table_is_one_of_such_a_thing() -> None:
                 assert row.mass_kg <= 2700.0 * row.max_size_m**3, row.noun
     sources = [row for row in table() if row.vibrates and set(row.places) & {"kitchen", "bathroom", "office"}]
     assert sum(row.mass_kg is not None for row in sources) > 0.6 * len(sources)
+
+
+def test_feet_come_from_the_lexicon_and_from_a_person(tmp_path: Path) -> None:
+    _, _, bundle = weighed(room())
+    assert bundle.objects["microwave"].feet == materials.lookup("rubber")
+    folder = bundle.save(tmp_path / "b")
+    assert main(["edit", str(folder), "feet", "microwave", "felt", "-q"]) == 0
+    loaded = HapticBundle.load(folder)
+    assert loaded.objects["microwave"].feet == materials.lookup("felt")
+    assert loaded.objects["microwave"].provenance["feet"] == "user"
+    with pytest.raises(BundleError, match="feet"):
+        bundle.override("microwave", feet=3)  # type: ignore[arg-type]
+
+
+def test_every_foot_of_the_table_is_of_a_known_material() -> None:
+    assert all(row_of(row.feet) is not None for row in table() if row.feet)
 
 
 def test_a_model_is_asked_and_believed_within_what_can_be() -> None:

@@ -145,7 +145,7 @@ def test_sources_do_not_hide_what_is_assumed() -> None:
 
 def test_file_has_no_ragged_line() -> None:
     lines = files("scene2hap.llm.lexicon").joinpath("table.csv").read_text(encoding="utf-8").splitlines()
-    assert {len(fields) for fields in csv.reader(lines)} == {13}
+    assert {len(fields) for fields in csv.reader(lines)} == {14}
 
 
 def test_adjectives_of_material_are_in_the_material_table() -> None:
