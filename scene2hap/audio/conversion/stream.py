@@ -147,7 +147,7 @@ class _Felt:
     ) -> None:
         self.rate = int(file.samplerate)
         self.channels = 1 if mono else int(file.channels)
-        self.n_clipped = 0
+        self._n_clipped = 0
         self.before, self.after = (
             Meter(self.rate, self.channels, n_frames=int(file.frames), n_columns=n_columns) for _ in range(2)
         )
@@ -187,8 +187,13 @@ class _Felt:
         block = np.stack(channels, axis=1).astype(np.float32, copy=False)
         self.after.hear(block)
         if self.after.peak > 1.0:
-            self.n_clipped += int(np.count_nonzero(np.abs(block) > 1.0))
+            self._n_clipped += int(np.count_nonzero(np.abs(block) > 1.0))
         return block
+
+    @property
+    def n_clipped(self) -> int:
+        """Samples that were cut to full scale, by a stream that counts them or afterwards."""
+        return self._n_clipped + sum(getattr(stream, "n_clipped", 0) for stream in self._streams)
 
 
 def _steps(block: Block, *, is_beyond: bool) -> NDArray[np.int32]:

@@ -40,10 +40,14 @@ class Stage(Protocol):
 
 
 class StageStream:
-    """A `TactileStream` over stages in series: checks what comes in, bounds what goes out."""
+    """A `TactileStream` over stages in series: checks what comes in, bounds what goes out.
+
+    `n_clipped` counts the samples that were beyond full scale and were cut to it.
+    """
 
     def __init__(self, *stages: Stage) -> None:
         self._stages = stages
+        self.n_clipped = 0
 
     def process(self, block: Samples) -> Samples:
         """The next samples; computed in float64. Raises: AudioError: a sample is not finite, or not one channel."""
@@ -63,6 +67,7 @@ class StageStream:
     def _through(self, x: Signal, first: int) -> Samples:
         for stage in self._stages[first:]:
             x = stage.run(x)
+        self.n_clipped += int(np.count_nonzero(np.abs(x) > 1.0))
         return np.clip(x, -1.0, 1.0).astype(np.float32)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import soundfile
 from PIL import Image
+from scipy.signal import butter, sosfilt
 
 from scene2hap import audio
 from scene2hap.audio.clip import Samples
@@ -116,6 +117,18 @@ def test_mono_is_the_mean_of_the_channels(tmp_path: Path) -> None:
     made = audio.convert(source, tmp_path / "b.wav", converter=Held(), mono=True)
     assert made.channels == 1
     np.testing.assert_allclose(soundfile.read(made.output)[0], soundfile.read(source)[0].mean(axis=1), atol=2**-22)
+
+
+def test_what_our_own_streams_cut_is_counted(tmp_path: Path) -> None:
+    """A tone of amplitude 2 through a low-pass that lets it pass, against scipy's own filter."""
+    t = np.arange(2 * RATE) / RATE
+    loud = (2.0 * np.sin(2 * np.pi * 93.7 * t)).astype(np.float32)
+    source = write(tmp_path / "a.wav", loud, subtype="FLOAT")
+    made = audio.convert(source, tmp_path / "b.wav", converter="lowpass")
+    expected = sosfilt(butter(4, 250, fs=RATE, output="sos"), loud.astype(np.float64))
+    assert made.n_clipped == np.count_nonzero(np.abs(expected) > 1.0)
+    assert made.n_clipped > RATE
+    assert made.peak_out == 1.0
 
 
 def test_what_is_beyond_full_scale_is_cut_and_counted(tmp_path: Path) -> None:
