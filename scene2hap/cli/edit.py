@@ -20,8 +20,10 @@ scene2hap edit kitchen.bundle diff other.bundle
 from __future__ import annotations
 
 import argparse
-import time
-from collections.abc import Callable
+import contextlib
+import signal
+import threading
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -124,9 +126,8 @@ def _watch(arguments: argparse.Namespace, console: Console, outcome: dict[str, A
     path = Path(arguments.file)
     console.say(f"watching {path}; Ctrl-C ends")
     seen = file_stamp(path)
-    try:
-        while True:
-            time.sleep(POLL_S)
+    with interrupted() as is_interrupted:
+        while not is_interrupted.wait(POLL_S):
             stamp = file_stamp(path)
             if stamp is None or stamp == seen:
                 continue
@@ -135,8 +136,21 @@ def _watch(arguments: argparse.Namespace, console: Console, outcome: dict[str, A
                 outcome = _edit(arguments, console)
             except Scene2HapError as error:
                 console.warn(str(error))
-    except KeyboardInterrupt:
-        return outcome
+    return outcome
+
+
+@contextlib.contextmanager
+def interrupted() -> Iterator[threading.Event]:
+    """An event that Ctrl-C sets, instead of an exception wherever the program is.
+
+    One that is raised in a callback from C, as of a sound file that is being written, would be lost.
+    """
+    event = threading.Event()
+    before = signal.signal(signal.SIGINT, lambda *_: event.set())
+    try:
+        yield event
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 _FIELDS = ("gain_db", "intensity", "pitch_hz", "material", "mass_kg", "feet", "state", "muted", "vibrates", "locked")

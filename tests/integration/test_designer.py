@@ -173,7 +173,6 @@ def test_a_saved_sound_reaches_a_running_session(folder: Path) -> None:
         env={**os.environ, "PYTHONUNBUFFERED": "1"},
         stdout=subprocess.PIPE,
         text=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),  # ignored by a shell's background
     )
     session = HapticSession(folder)
     try:
