@@ -31,7 +31,7 @@ from scene2hap import Bands, Contact, ContactNetwork, Excitation, Plate, Pose, P
 from scene2hap.propagation import infinite_plate, modal_body, modes, rigid
 from scene2hap.propagation.auto import AutoFidelity, AutoField
 from scene2hap.propagation.auto_rungs import FINENESS, FLOOR_DB, Situation, body_of
-from scene2hap.propagation.contact_law import ContactLaw
+from scene2hap.propagation.contact_stiffness import ContactLaw
 from scene2hap.propagation.substructuring import CoupledField, assemble
 
 REPORTED, CALIBRATING = 0, 100_000

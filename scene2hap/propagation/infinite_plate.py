@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.calls import clear_construction
 from scene2hap.haptics import Bands
-from scene2hap.propagation.contact_law import ContactLaw
+from scene2hap.propagation.contact_stiffness import ContactLaw
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, warn_if_thick
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.points import as_points

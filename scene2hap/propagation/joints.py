@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import cache, lru_cache
 
 from scene2hap.materials import Material
-from scene2hap.propagation.contact_law import ContactLaw
+from scene2hap.propagation.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupling import Joint
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body, ContactNetwork

@@ -25,7 +25,7 @@ from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.haptics import Bands
-from scene2hap.propagation.contact_law import ContactLaw
+from scene2hap.propagation.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupling import ElasticBody
 from scene2hap.propagation.domain import (
     THIN_WAVELENGTHS,

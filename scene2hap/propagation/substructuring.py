@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
-from scene2hap.propagation.contact_law import ContactLaw
+from scene2hap.propagation.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupling import ElasticBody, Joint, couple
 from scene2hap.propagation.domain import OutsideDomain, check_choice, check_thin
 from scene2hap.propagation.joints import joints_of, source_groups

@@ -167,14 +167,14 @@ class SceneObject:
 
 
 def measured_surface(geometry: Geometry, pose: Pose, up_axis: UpAxis) -> DominantSurface:
-    """The dominant surface of a thing that stands so, see `scene.geometry`; equal meshes are measured once."""
+    """The dominant surface of a thing that stands so, see `scene.dominant_surface`; equal meshes are measured once."""
     up = pose.rotation[{"y": 1, "z": 2}[up_axis]].round(6)
     return _measured(geometry, tuple(up.tolist()))
 
 
 @lru_cache(maxsize=256)
 def _measured(geometry: Geometry, up: tuple[float, ...]) -> DominantSurface:
-    from scene2hap.scene.geometry import dominant_surface  # what is given or read is not measured
+    from scene2hap.scene.dominant_surface import dominant_surface  # what is given or read is not measured
 
     return dominant_surface(geometry.mesh, up=up)
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.scene import limits
-from scene2hap.scene.geometry import dominant_surface
+from scene2hap.scene.dominant_surface import dominant_surface
 from scene2hap.scene.shapes import DominantSurface, TriMesh
 
 _FREE = 18_000_000

@@ -45,8 +45,8 @@ from scene2hap.session.given import (
     require_settings,
     swapped_hint,
 )
+from scene2hap.session.hand_frames import HandFrames
 from scene2hap.session.hand_gains import Felt
-from scene2hap.session.listening import Listening
 from scene2hap.session.off_surface import OffSurface
 from scene2hap.session.output import Output
 from scene2hap.session.personal import PersonalLimit
@@ -104,7 +104,7 @@ class HapticSession:
                 self._sources.add(object_id, loops, haptics, bundle.gain_db(object_id), is_muted=muted)
         self._state = SceneState(scene, bundle)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
-        self._listening = Listening(self.config, self._state, self._sources, self._playback.peaks, self._hands)
+        self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
         self._off_surface, self._silent_objects = OffSurface(self._state), SilentObjects()
         self._output = Output(sink, self.config)
         self._whole = WholeFrames(self.config.sample_rate_hz)
@@ -168,10 +168,10 @@ class HapticSession:
         felt = self._by_hand(touches)
         stamp = self._stamp(at_sample)
         if self._playback.take_prepared():
-            self._listening.loops_came()
+            self._hand_frames.loops_came()
         if moved or contacts is not None:
-            self._listening.apply(self._changed(moved or {}, contacts))
-        frame, gained = self._listening.frame(self.hands, felt, moved or (), is_paused=self._playback.is_paused)
+            self._hand_frames.apply(self._changed(moved or {}, contacts))
+        frame, gained = self._hand_frames.frame(self.hands, felt, moved or (), is_paused=self._playback.is_paused)
         if gained is not None:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
         self._updates += 1
@@ -266,7 +266,7 @@ class HapticSession:
         if is_source:
             self._sources.remove(object_id)
             self._playback.change_rows(self._sources.rows(), self._now)
-        self._listening.apply(change, sources_changed=is_source)
+        self._hand_frames.apply(change, sources_changed=is_source)
 
     def add_hand(self, name: str) -> None:
         """Add an output. A sink that is running is faded out and opened anew with one channel more.
@@ -301,7 +301,7 @@ class HapticSession:
 
         Raises: UnknownObject: not a source; SessionError: it has no such state, or the gain is out of bounds.
         """
-        self._listening.levels_changed(self._sources.set(source_id, on, state, gain_db, mute))
+        self._hand_frames.levels_changed(self._sources.set(source_id, on, state, gain_db, mute))
 
     def set_user(
         self,
@@ -319,24 +319,24 @@ class HapticSession:
         if user is not self._user:
             self._user = user
             self._use_profile()
-        self._listening.levels_changed()
+        self._hand_frames.levels_changed()
 
     def pause(self) -> None:
         """Fade everything out now, and let all loops stand still; updates go on to follow the scene."""
         self._playback.pause(self._now)
-        self._listening.levels_changed()
-        self._output.show(self._listening.silence(self.hands))
+        self._hand_frames.levels_changed()
+        self._output.show(self._hand_frames.silence(self.hands))
 
     def resume(self) -> None:
         """Let all loops go on from where they stopped; felt from the next update on."""
         self._playback.resume()
-        self._listening.levels_changed()
+        self._hand_frames.levels_changed()
 
     def explain(self, hand: str) -> Explanation:
         """Each source that a hand felt at the last update, and its way there. Raises: SessionError: an unknown hand."""
         if not isinstance(hand, str) or hand not in self.hands:
             raise SessionError(unknown_hand(hand, self.hands))
-        return self._listening.explain(hand)
+        return self._hand_frames.explain(hand)
 
     def wait_prepared(self, timeout_s: float | None = None) -> bool:
         """Wait until the workers have prepared the scene as it is, and all loops; false after the timeout [s]. For
@@ -346,7 +346,7 @@ class HapticSession:
         end_s = None if timeout_s is None else time.monotonic() + timeout_s
         if not self._playback.wait(timeout_s):
             return False
-        return self._listening.wait(None if end_s is None else max(0.0, end_s - time.monotonic()))
+        return self._hand_frames.wait(None if end_s is None else max(0.0, end_s - time.monotonic()))
 
     def render(self, n_frames: int) -> Block:
         """The next samples of the mix (n_frames, n_hands) float32 in [-1, 1].
@@ -424,7 +424,7 @@ class HapticSession:
     @property
     def stats(self) -> SessionStats:
         """What was done so far."""
-        stats = self._listening.stats(self._updates, self._playback.rows_not_mixed)
+        stats = self._hand_frames.stats(self._updates, self._playback.rows_not_mixed)
         return replace(stats, touches_off_surface=self._off_surface.n_touches)
 
     @property
@@ -450,7 +450,7 @@ class HapticSession:
             gain_db, muted = corrected.gain_db(its_id), corrected.is_muted(its_id)
             self._sources.add(item.id, loops, haptics, gain_db, is_muted=muted)
             self._playback.change_rows(self._sources.rows(), self._now)
-        self._listening.apply(change, sources_changed=bool(loops))
+        self._hand_frames.apply(change, sources_changed=bool(loops))
         self._silent_objects.look(item.id, haptics, loops)
 
     def _exchange(self, object_id: str) -> None:
@@ -461,7 +461,7 @@ class HapticSession:
         self._put(item, bundle.objects.get(object_id), bundle.loops.get(object_id, {}), bundle, object_id)
         if before is not None and object_id in self._sources:
             self._sources.go_on(object_id, before)
-            self._listening.levels_changed(is_other_state=True)
+            self._hand_frames.levels_changed(is_other_state=True)
 
     def _warn_if_nothing_vibrates(self) -> None:
         if not self._warned_of_silence and not self._sources.ids:
@@ -489,7 +489,7 @@ class HapticSession:
         return self._last_stamp
 
     def _use_profile(self) -> None:
-        self._listening.use_profile(self._user)
+        self._hand_frames.use_profile(self._user)
         self._limit.limits = limits = self._user.limits(self._hands, self.config.actuator.name)
         self._output.hold(limits)
         if self._user.hands and not any(hand in self._user.hands for hand in self._hands):
@@ -499,7 +499,7 @@ class HapticSession:
     def _use_hands(self, hands: tuple[str, ...]) -> None:
         self._hands = hands
         self._use_profile()
-        self._listening.levels_changed()
+        self._hand_frames.levels_changed()
 
     def _by_hand(self, touches: Sequence[Touch] | None) -> Felt:
         if type(touches) is not list and type(touches) is not tuple:

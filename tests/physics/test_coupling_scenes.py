@@ -25,7 +25,7 @@ from scene2hap import (
     RigidBody,
     materials,
 )
-from scene2hap.propagation.contact_law import ContactLaw
+from scene2hap.propagation.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupling import couple
 from scene2hap.propagation.domain import ThinPlateWarning
 from scene2hap.propagation.joints import joints_of

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, ModalPlate, Plate, RigidBody, materials
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation import MODELS
-from scene2hap.propagation.contact_law import ContactLaw
+from scene2hap.propagation.contact_stiffness import ContactLaw
 from scene2hap.propagation.lattice import bending_lattice
 from scene2hap.propagation.mass_spring_damper import CoarsenedWarning, MassSpringDamper
 from scene2hap.propagation.stepping import NewmarkStepper, State

@@ -7,7 +7,7 @@ import trimesh
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from scene2hap.scene.geometry import RAYS_PER_SIDE, dominant_surface
+from scene2hap.scene.dominant_surface import RAYS_PER_SIDE, dominant_surface
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import Box, DominantSurface, TriMesh
 

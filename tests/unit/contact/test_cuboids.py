@@ -13,8 +13,8 @@ from contact_scenes import box
 from scene2hap.contact.body import Body
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.spread import spread_each
-from scene2hap.contact.toleranced.cuboid_patch import patches
-from scene2hap.contact.toleranced.cuboids import Gaps, Pairs, gaps
+from scene2hap.contact.stated_tolerance.cuboid_patch import patches
+from scene2hap.contact.stated_tolerance.cuboids import Gaps, Pairs, gaps
 from scene2hap.scene.pose import Pose
 
 Floats = NDArray[np.float64]

@@ -22,7 +22,7 @@ from scene2hap import (
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation import byte_bounded_lru
 from scene2hap.propagation.byte_bounded_lru import ByteBoundedLru
-from scene2hap.propagation.contact_law import ContactLaw
+from scene2hap.propagation.contact_stiffness import ContactLaw
 from scene2hap.propagation.modal_body import ModalBody
 from scene2hap.propagation.modes import first_bending_hz
 from scene2hap.propagation.rigid import is_compact

@@ -11,12 +11,13 @@ import pytest
 
 from scene2hap import load_scene
 from scene2hap.errors import SceneError
-from scene2hap.scene import collection, geometry, limits, mtl, stl_ply, surfaces
+from scene2hap.scene import collection, limits, mtl, stl_ply, surfaces
+from scene2hap.scene import dominant_surface as dominant_surface_module
 from scene2hap.scene.collection import Member, split
 from scene2hap.scene.cuboid import cuboid_bounds_m
+from scene2hap.scene.dominant_surface import dominant_surface
 from scene2hap.scene.engines import mjcf_files, mujoco_geoms
 from scene2hap.scene.engines.mjcf_files import check_files
-from scene2hap.scene.geometry import dominant_surface
 from scene2hap.scene.shapes import Box, TriMesh
 from scene2hap.scene.stl_ply import read_stl_ply
 from scene2hap.scene.tree import Piece
@@ -43,7 +44,7 @@ def test_boxes_are_measured_as_by_rays(
 ) -> None:
     mesh = shuffled(TriMesh(np.add(Box(size_m).mesh.vertices_m, (0.5, -2, 3)), Box(size_m).mesh.faces), seed=1)
     quick = dominant_surface(mesh, up=up)
-    monkeypatch.setattr(geometry, "cuboid_bounds_m", lambda mesh: None)
+    monkeypatch.setattr(dominant_surface_module, "cuboid_bounds_m", lambda mesh: None)
     by_rays = dominant_surface(mesh, up=up)
     assert quick.flags == by_rays.flags == ()
     sizes = [(one.length_m, one.width_m, one.thickness_m) for one in (quick, by_rays)]

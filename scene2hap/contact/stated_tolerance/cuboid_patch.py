@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from scene2hap.contact.spread import spread_each
-from scene2hap.contact.toleranced.cuboids import (
+from scene2hap.contact.stated_tolerance.cuboids import (
     AXES,
     FLUSH_M,
     MIDDLES,

@@ -30,7 +30,7 @@ PeaksOf = Callable[[Sequence[LoopRow]], NDArray[np.float32]]
 """Peaks (n_rows, 2, n_bands) of the loops of some rows, 0 of those that cannot be mixed yet."""
 
 
-class Listening:
+class HandFrames:
     """Turns touches into gains, and skips updates that change nothing.
 
     What gains depend on besides the touches is remembered, and forgotten when it changes.

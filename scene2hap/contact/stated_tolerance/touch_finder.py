@@ -18,9 +18,9 @@ from scene2hap.contact.mesh_distance import ROUNDING_M, MeshPair
 from scene2hap.contact.rule import CLEAR_M, PATCH_SHARE, weight, weights
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.contact.spread import MAX_POINTS
-from scene2hap.contact.toleranced.cuboid_patch import patches
-from scene2hap.contact.toleranced.cuboids import Pairs, gaps, times
-from scene2hap.contact.toleranced.touches import Difference, PairNames, Touches, difference
+from scene2hap.contact.stated_tolerance.cuboid_patch import patches
+from scene2hap.contact.stated_tolerance.cuboids import Pairs, gaps, times
+from scene2hap.contact.stated_tolerance.touches import Difference, PairNames, Touches, difference
 from scene2hap.contact.vectors import Indices, Marks, Rows, Triple, dot
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
