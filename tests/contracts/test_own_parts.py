@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from host import rasteriser_problem
 from scene2hap import MemorySink, WavSink
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.tactile import CONVERTERS
@@ -57,4 +58,6 @@ def test_sources() -> None:
 @pytest.mark.parametrize("kind", RENDERERS.kinds())
 def test_renderers(kind: str) -> None:
     pytest.importorskip({"embree": "embreex", "panda3d": "panda3d.core"}[kind], exc_type=ImportError)
+    if kind == "panda3d" and (problem := rasteriser_problem()):
+        pytest.skip(problem)
     check_renderer(RENDERERS.load(kind))  # type: ignore[arg-type]
