@@ -2,8 +2,7 @@
 
 A rung of `auto_rungs` is chosen for every plate that a source can reach, before anything is solved, and all are coupled
 as `substructuring` does. Along a chain of n plates each gets 1 / sqrt(n) of the tolerance, as errors that know nothing
-of one another add, but no less than the rung "fine" keeps: far down a chain little passes, and errors count from a
-floor. A fifth of the tolerance goes to sampling bands more thinly than `sampling` does for itself:
+of one another add. A fifth of the tolerance goes to sampling bands more thinly than `sampling` does for itself:
 
     error = 2 exp(-pi / d) of a resonance's power, sampled at d half-power widths
 
@@ -76,10 +75,7 @@ class AutoFidelity:
         scene = assemble(network, excitations, bands, self.contact, self.outside_domain)
         choices = {key: Choice(key, "rigid", 0.0, "a source, or so stiff that every rung is") for key in scene.rigid}
         for object_id, tolerance_db in self._tolerances(scene).items():
-            situation = self._situation(scene, object_id)
-            # A long chain alone sends no plate to the finest rung, which costs several times as much as `ModalPlate`.
-            own_db = max(tolerance_db, min(self.tolerance_db, situation.fine_db))
-            choices[object_id] = situation.choose(object_id, own_db)
+            choices[object_id] = self._situation(scene, object_id).choose(object_id, tolerance_db)
         elastic = {
             key: body_of(choices[key].rung, plate, scene.top_hz, self._loss_factor(plate))
             for key, plate in scene.plates.items()

@@ -99,11 +99,6 @@ class Situation:
         return self.top_hz / first_bending_hz(self.plate)
 
     @property
-    def fine_db(self) -> float:
-        """Bound on the error of the rung "fine" [dB]."""
-        return MODAL_DB[self.held]["fine"]
-
-    @property
     def held(self) -> str:
         """The row of `MODAL_DB`."""
         if self.plate.edges.count("F") >= 2:
