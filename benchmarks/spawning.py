@@ -1,7 +1,9 @@
 """What adding and removing copies of a prefab costs the game's thread, as a table in Markdown.
 
 OMP_NUM_THREADS=1 python benchmarks/spawning.py
+OMP_NUM_THREADS=1 python benchmarks/spawning.py --alive 50 --scene kitchen.glb --seed 2
 
+With a scene, copies come on its floor, at spots 20 cm apart in an order drawn with the seed; else on a lone table.
 A copy comes at 50 Hz and goes some seconds later; what it plays is rendered between the calls, and its clicks are what
 lies above 1 kHz against the whole.
 """
@@ -35,6 +37,8 @@ from scene2hap import (
     SceneSnapshot,
     SourceState,
     Touch,
+    bake,
+    load_scene,
     materials,
 )
 
@@ -74,18 +78,39 @@ def resident_mib() -> float:
         return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2**20
 
 
+def on_table(n_spots: int) -> tuple[HapticSession, list[Touch], list[Pose]]:
+    """A session with a table, a hand on it, and spots where copies do not touch each other."""
+    table = bundle_of(thing("table", (8.0, 0.05, 4.0), (0.0, 0.7, 0.0)), "oak", None)
+    session = HapticSession(table.snapshot, table, {"sample_rate_hz": RATE_HZ})
+    places = [divmod(n, N_COLUMNS) for n in range(n_spots)]
+    spots = [Pose((0.3 * column - 2.9, 0.775, 0.3 * row - 1.4)) for row, column in places]
+    return session, [Touch("left", "table", (-1.5, 0.725, -1.2))], spots
+
+
+def on_floor(path: str, seed: int) -> tuple[HapticSession, list[Touch], list[Pose]]:
+    """The same on the floor of a scene with y up."""
+    scene = load_scene(path)
+    session = HapticSession(bake(scene), config={"sample_rate_hz": RATE_HZ})
+    floor = next(item for item in scene.objects if "floor" in item.name.lower())
+    (x0, _, z0), (x1, top, z1) = floor.bounds_m
+    free = [(x, z) for x in np.arange(x0 + 0.3, x1 - 0.3, 0.2) for z in np.arange(z0 + 0.3, z1 - 0.3, 0.2)]
+    np.random.default_rng(seed).shuffle(free)
+    spots = [Pose((float(x), top + 0.05, float(z))) for x, z in free]
+    return session, [Touch("left", floor.id, ((x0 + x1) / 2, top, (z0 + z1) / 2))], spots
+
+
 def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--alive", type=int, default=200)
     parser.add_argument("--profile", action="store_true")
     parser.add_argument("--memory", action="store_true", help="trace allocations too, which makes all times longer")
+    parser.add_argument("--scene", help="a scene file with y up and a floor")
+    parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
 
-    table = bundle_of(thing("table", (8.0, 0.05, 4.0), (0.0, 0.7, 0.0)), "oak", None)
+    session, touches, spots = on_floor(given.scene, given.seed) if given.scene else on_table(given.alive)
     prefab = bundle_of(thing("cup", (0.1, 0.1, 0.1), (0.0, 0.0, 0.0)), "plastic", 120.0)
-    session = HapticSession(table.snapshot, table, {"sample_rate_hz": RATE_HZ})
-    touches = [Touch("left", "table", (-1.5, 0.725, -1.2))]
     adds: list[tuple[float, float]] = []
     removes: list[tuple[float, float]] = []
     updates: list[tuple[float, float]] = []
@@ -103,8 +128,8 @@ def main() -> None:
             if given.memory:
                 tracemalloc.start()
             n_warm, before_mib = n, resident_mib()
-        row, column = divmod(n % given.alive, N_COLUMNS)
-        pose = Pose((0.3 * column - 2.9, 0.775, 0.3 * row - 1.4))
+        # The table is filled row by row, and a copy takes the place of the one that goes.
+        pose = spots[n % (len(spots) if given.scene else given.alive)]
         if given.profile:
             profile.enable()
         if n >= given.alive:

@@ -51,7 +51,7 @@ def clear_attributes(cls: Class) -> Class:
                     raise
                 raise unknown_attribute(type(self).__name__, name, _public(self)) from None
         if any(name in vars(base) for base in type(self).__mro__):
-            return object.__getattribute__(self, name)  # a property that raised an AttributeError: its own is told
+            return object.__getattribute__(self, name)  # a property raised an AttributeError: report that one
         if name.startswith("_"):
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
         raise unknown_attribute(type(self).__name__, name, _public(self))

@@ -104,7 +104,7 @@ class Override:
         )
 
     def pitch_of(self, state: str) -> float | None:
-        """The frequency at which a state is to be felt [Hz], None where nobody has said."""
+        """The frequency at which a state is to be felt [Hz], None if it is not overridden."""
         return self.pitch_hz.get(state, self.pitch_hz.get(ANY_STATE))
 
     def applied(self, haptics: ObjectHaptics) -> ObjectHaptics:
