@@ -94,6 +94,13 @@ FIGURES = {
     "model-choice": Figure("propagation", "benchmarks/model_choice.py", 2, has_times=True),
     "spawning-10": Figure("spawning", "benchmarks/spawning.py --alive 10", 0.5, has_times=True),
     "spawning-200": Figure("spawning", "benchmarks/spawning.py --alive 200", 0.5, has_times=True),
+    "spawning-scene": Figure(
+        "spawning",
+        f"benchmarks/spawning.py --alive 50 --seed 2 --scene {SCENES}/aws_house_living/aws_house_living.glb",
+        1,
+        has_times=True,
+        needs="scenes",
+    ),
     "engine-links": Figure("engines", "benchmarks/engine_links.py", 0.5, has_times=True),
     "mixer": Figure("mixing", "benchmarks/mixer.py", 3, has_times=True),
     "inference": Figure("inference", "benchmarks/inference_eval.py", 3, has_times=False, needs="scenes"),

@@ -1,6 +1,6 @@
 """Time of a whole `HapticSession.update` in real scenes while things move, as a table in Markdown.
 
-OMP_NUM_THREADS=1 python benchmarks/real_movers.py SCENE [SCENE ...] [--passes 3] [--worst 5] [--only ID] [--five]
+OMP_NUM_THREADS=1 python benchmarks/real_movers.py SCENE [SCENE ...] [--passes 3] [--worst 5] [--only ID]
 
 Each scene is baked with the default backends and played by a default session in 20 bands, with one hand on each of the
 two objects that touch most others. Every object up to 1 m long is a mover. A mover is pushed about its place, carried

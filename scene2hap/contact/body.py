@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scene2hap.contact.free_region import FreeRegion
+from scene2hap.contact.free_region import FreeRegions
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.contact.stance import Stance
 from scene2hap.contact.vectors import Rows, Triple
@@ -37,7 +37,7 @@ class Body:
         self.size_m = shape.size_m
         self.pose = pose
         self.up_axis, self.v_axis = up_axis, 3 - up_axis
-        self.free_regions: dict[str, FreeRegion] = {}  # of guests by their ids; see `contact.free_space`
+        self.free_regions = FreeRegions()  # see `contact.free_space`
         stance = self._stance = Stance(shape, pose.rotation_xyzw, up_axis)
         x, y, z = self.position_m = pose.position_m
         low, high = stance.low, stance.high

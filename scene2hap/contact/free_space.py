@@ -16,7 +16,6 @@ import numpy as np
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.broad import Boxes
-from scene2hap.contact.broad_phase import SKIN_M
 from scene2hap.contact.free_region import FreeRegion
 from scene2hap.contact.ledge import Flat, Upright
 from scene2hap.contact.mesh_distance import INSET, INSET_M
@@ -27,6 +26,7 @@ from scene2hap.contact.stance import TopFace
 from scene2hap.contact.vectors import AABB, Marks
 
 _MOST_TILT_M = 1e-4  # A host may lean by so much over its whole size, which is the error of a ledge's height then.
+_AROUND_M = 0.8  # So far beyond a guest its host is searched: others who come find that region.
 _MANY_CORNERS = 8  # An outline of more is taken for a circle.
 _ROUNDING_M = 2e-6
 _NO_LEDGE: Flat = (math.inf, math.inf, -math.inf, -math.inf)
@@ -38,18 +38,19 @@ def ledge_under(guest: Body, host: Body) -> FreeRegion | None:
     own = _upright(host)
     if own is None:
         return None
-    known = _known(guest, host, own)
     taken, foot = _column(guest, host, own), _foot(guest, host, own)
-    if known is not None and _holds(known.room, taken):
-        if known.top_m is None:
-            return known
-        u0, v0, u1, v1 = known.ledge
-        is_on = foot[0] >= u0 and foot[1] >= v0 and foot[2] <= u1 and foot[3] <= v1
-        if is_on and taken[0][2] <= known.top_m <= taken[1][2]:
-            return known
-    found = _drawn(host, own, taken, foot)
-    if found is not None:
-        host.free_regions[guest.id] = found
+    low, high = taken[0][2], taken[1][2]
+
+    def serves(known: FreeRegion) -> bool:
+        if known.own != own or not known.holds(taken):
+            return False
+        return known.top_m is None or (low <= known.top_m <= high and known.bears(foot))
+
+    found = host.free_regions.find(guest.id, serves)
+    if found is None:
+        found = _drawn(host, own, taken, foot)
+        if found is not None:
+            host.free_regions.keep(guest.id, found)
     return found
 
 
@@ -61,12 +62,15 @@ def has_nothing_near(guest: Body, host: Body) -> bool:
     (u0, v0, h0), (u1, v1, h1) = _column(guest, host, own)
     reach_m = _reach_m(guest)
     taken = (u0 - reach_m, v0 - reach_m, h0 - reach_m), (u1 + reach_m, v1 + reach_m, h1 + reach_m)
-    known = _known(guest, host, own)
-    if known is None or known.top_m is not None or not _holds(known.room, taken):
+
+    def serves(known: FreeRegion) -> bool:
+        return known.own == own and known.top_m is None and known.holds(taken)
+
+    if host.free_regions.find(guest.id, serves) is None:
         near = _Near(host, own, taken)
         if near.meets(taken).any():
             return False
-        host.free_regions[guest.id] = FreeRegion(own, near.cut(taken), None, _NO_LEDGE)
+        host.free_regions.keep(guest.id, FreeRegion(own, near.cut(taken), None, _NO_LEDGE))
     return True
 
 
@@ -107,7 +111,7 @@ def free_planes(guest: Body, host: Body, *, stands: bool) -> tuple[Plane, ...] |
 
 
 def _known(guest: Body, host: Body, own: Upright) -> FreeRegion | None:
-    known = host.free_regions.get(guest.id)
+    known = host.free_regions.of(guest.id)
     return known if known is not None and known.own == own else None
 
 
@@ -156,11 +160,6 @@ def _foot(guest: Body, host: Body, own: Upright) -> Flat:
     return (u0 + hu, v0 + hv, u1 - hu, v1 - hv)
 
 
-def _holds(room: AABB, taken: AABB) -> bool:
-    ((a, b, c), (d, e, f)), ((u0, v0, h0), (u1, v1, h1)) = room, taken
-    return u0 >= a and v0 >= b and h0 >= c and u1 <= d and v1 <= e and h1 <= f
-
-
 def _drawn(host: Body, own: Upright, taken: AABB, foot: Flat) -> FreeRegion | None:
     near = _Near(host, own, taken)
     meets = np.flatnonzero(near.meets(taken))
@@ -185,7 +184,7 @@ class _Near:
     """The host's triangles around a guest: their `rows`, and the corners (3, n) of their boxes, as (u, v, h)."""
 
     def __init__(self, host: Body, own: Upright, taken: AABB) -> None:
-        self._low, self._high = np.array(taken[0]) - SKIN_M, np.array(taken[1]) + SKIN_M
+        self._low, self._high = np.array(taken[0]) - _AROUND_M, np.array(taken[1]) + _AROUND_M
         boxes, order = host.shape.boxes, [own.u, own.v, own.axis]
         one = np.empty((2, 3, 1))
         one[:, order, 0] = self._low, self._high

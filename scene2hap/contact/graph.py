@@ -294,7 +294,7 @@ class ContactGraph:
             return self._take_over({pair: None for x in stale for pair in self._pairs_of(x)})
         new = {item.id for item in added}
         elsewhere = {x: poses[x] for x in stale & poses.keys() if x not in new}
-        items = [replace(item, pose=poses[item.id]) for item in added]
+        items = [replace(item, pose=moved[item.id]) if item.id in moved else item for item in added]
         return self._replace(elsewhere, items, stale & before.keys() & {*removed})
 
     def _replace(
@@ -338,7 +338,11 @@ class ContactGraph:
             a, b = pair
             if junction is None:
                 vanished.append(pair)
-                del junctions[pair], beside[a][b], beside[b][a]
+                del junctions[pair]
+                for x, y in ((a, b), (b, a)):
+                    del beside[x][y]
+                    if not beside[x]:
+                        del beside[x]
                 continue
             (appeared if before is None else shifted).append(pair)
             junctions[pair] = junction

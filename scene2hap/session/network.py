@@ -108,4 +108,4 @@ def _mass_kg(body: Body | None, haptics: ObjectHaptics | None) -> float:
 
 
 # Sources that come and go one by one leave the others as they were, and an excitation checks its numbers.
-_excitation = lru_cache(maxsize=4096)(Excitation)
+_excitation = lru_cache(maxsize=1024)(Excitation)

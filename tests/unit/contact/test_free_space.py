@@ -9,11 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contact_scenes import box, boxes, chair, house, pairs, scene
-from scene2hap.contact import holding
+from scene2hap.contact import free_space, holding
 from scene2hap.contact import pair as narrow_phase
 from scene2hap.contact.body import Body
+from scene2hap.contact.free_region import FreeRegion, FreeRegions
 from scene2hap.contact.free_space import has_nothing_near, ledge_under
 from scene2hap.contact.graph import ContactGraph
+from scene2hap.contact.ledge import Upright
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.rule import fall_reach_m, hang_reach_m
 from scene2hap.scene.objects import SceneObject
@@ -133,6 +135,28 @@ def test_where_a_step_is_in_the_way_nothing_is_told() -> None:
     assert known.top_m == 0.0
     assert ledge_under(across, host) is None
     assert not has_nothing_near(on_podium, host)
+
+
+def test_what_is_known_of_a_floor_serves_whoever_comes(monkeypatch: pytest.MonkeyPatch) -> None:
+    host = Body.of(HOUSE, 1)
+    first = ledge_under(Body.of(box("first", (0.1, 0.1, 0.1), (0.0, 0.05, 0.9)), 1), host)
+    monkeypatch.setattr(free_space, "_drawn", lambda *_: pytest.fail("searched again"))
+    for n, x in enumerate((0.1, 0.2, -0.1)):
+        guest = Body.of(box(f"copy_{n}", (0.1, 0.1, 0.1), (x, 0.05, 0.9)), 1)
+        assert ledge_under(guest, host) is first
+
+
+def test_many_guests_keep_few_regions() -> None:
+    regions = FreeRegions()
+    for n in range(5000):
+        regions.keep(f"copy_{n}", FreeRegion(Upright(1, 1, 0, 2), ((n, 0, 0), (n + 1, 1, 1)), None, (0, 0, 0, 0)))
+    taken = (4990.2, 0.2, 0.2), (4990.4, 0.4, 0.4)
+    found = regions.find("other", lambda known: known.holds(taken))
+    assert found is not None
+    assert found.room[0][0] == 4990
+    assert regions.of("other") is found
+    assert regions.find("old", lambda known: known.room[0][0] == 0) is None
+    assert regions.of("copy_0") is None
 
 
 def test_a_leaning_host_tells_nothing() -> None:

@@ -168,6 +168,15 @@ def test_objects_come_and_go() -> None:
     assert graph.contacts == ContactGraph(scene(floor(), TABLE, box("plate", (0.2, 0.01, 0.2), (1, 0.005, 1)))).contacts
 
 
+def test_what_is_gone_leaves_nothing_behind() -> None:
+    graph = ContactGraph(scene(box("table", (1.0, 0.1, 1.0), (0.0, 0.0, 0.0))))
+    for n in range(3):
+        graph.update({}, added=[box(f"cup_{n}", (0.1, 0.1, 0.1), (0.0, 0.1, 0.0))])
+        assert set(graph.beside) == {"table", f"cup_{n}"}
+        graph.update({}, removed=[f"cup_{n}"])
+    assert not graph.beside
+
+
 def test_an_id_may_be_taken_out_and_in_at_once() -> None:
     graph = room()
     graph.update({}, removed=["cup"], added=[box("cup", (0.3, 0.3, 0.3), (2, 0.15, 2))])
