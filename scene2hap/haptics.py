@@ -192,14 +192,22 @@ class ActuatorProfile:
 class Bands:
     """The frequency bands of the gains.
 
-    Either true bands between neighbouring edges [Hz], or `Bands.dominant()`: one band that stands for each source's
-    own dominant frequency, as in the paper.
+    Either true bands between neighbouring edges [Hz], or `Bands.dominant()`: one band for each source, around its own
+    dominant frequency.
+
+    Parameters: octaves : 0..2, width of the latter [octaves]; at 0 the frequency itself, as in the paper.
+    Raises: ConfigError: edges that do not rise; a width out of bounds, or with edges.
     """
 
     edges_hz: tuple[float, ...]
     kind: Literal["edges", "dominant"] = "edges"
+    octaves: float = 0.0
 
     def __post_init__(self) -> None:
+        octaves = checks.number("octaves", self.octaves, "octaves", at_least=0.0, at_most=2.0, error=ConfigError)
+        object.__setattr__(self, "octaves", octaves)
+        if octaves and self.kind != "dominant":
+            raise ConfigError(f"octaves is {octaves:g} beside edges_hz; only Bands.dominant(octaves=...) takes it.")
         if self.kind == "dominant":
             object.__setattr__(self, "edges_hz", ())
             return
@@ -212,9 +220,19 @@ class Bands:
         object.__setattr__(self, "edges_hz", edges)
 
     @classmethod
-    def dominant(cls) -> Bands:
-        """One band: each source at its own dominant frequency."""
-        return cls((), "dominant")
+    def dominant(cls, octaves: float = 0.0) -> Bands:
+        """One band: each source at its own dominant frequency, or over so many octaves around it.
+
+        A model that resonates may meet a resonance at a single frequency, or miss it by a change of material that
+        nobody feels; the rms over a third or half of an octave is steadier. A law that is smooth in frequency, as
+        `ExponentialPlate`, answers at the frequency itself.
+        """
+        return cls((), "dominant", octaves)
+
+    def around_hz(self, frequency_hz: float) -> tuple[float, float]:
+        """Lower and upper edge of the band of a source with that dominant frequency [Hz]."""
+        half = 2.0 ** (self.octaves / 2)
+        return frequency_hz / half, frequency_hz * half
 
     @classmethod
     def third_octaves(cls, low_hz: float = 10.0, high_hz: float = 1000.0) -> Bands:

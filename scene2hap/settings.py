@@ -64,7 +64,7 @@ class Settings(BaseModel):
         if isinstance(settings, os.PathLike) or (isinstance(settings, str) and Path(settings).suffix in _SUFFIXES):
             settings = read_settings(str(settings), cls.of_what)
         if isinstance(settings, Settings) and issubclass(cls, type(settings)):
-            settings = {name: getattr(settings, name) for name in type(settings).model_fields}
+            settings = {name: getattr(settings, name) for name in settings.model_fields_set}
         if settings is not None and not isinstance(settings, Mapping):
             raise ConfigError(
                 f"{cls.of_what} settings are {checks.described(settings)}; they must be a mapping of names to values, "

@@ -31,7 +31,7 @@ from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_fre
 from scene2hap.propagation.modes import n_rigid_motions, points_on
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
-from scene2hap.propagation.sampling import SPACING
+from scene2hap.propagation.sampling import AROUND, SPACING
 from scene2hap.propagation.substructuring import Assembly, CoupledField, assemble, checked_law
 
 SAMPLING_SHARE = 0.2
@@ -65,6 +65,7 @@ class AutoFidelity:
     outside_domain: OutsideDomain = "warn"
     kind: Literal["auto"] = "auto"
     least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
+    usual_bands: ClassVar[Bands] = AROUND
 
     def __post_init__(self) -> None:
         checks.number("tolerance_db", self.tolerance_db, "dB", at_least=0.1, at_most=6.0, error=ConfigError)
@@ -163,7 +164,12 @@ class AutoFidelity:
             pushing.setdefault(joint.b if joint.a == object_id else joint.a, []).append(joint)
         if not pushing.keys() <= mass_kg.keys():
             return situation  # what pushes it is not known before the scene is solved
-        own_hz = [item.frequency_tactile_hz for item in scene.excitations if item.source_id in pushing]
+        own_hz = [
+            edge
+            for item in scene.excitations
+            if item.source_id in pushing
+            for edge in scene.bands.around_hz(item.frequency_tactile_hz)
+        ]
         pushed_by = [(mass_kg[key], several) for key, several in pushing.items()]
         peak = peak_level_db(plate, situation.loss_factor, pushed_by, scene.bands, own_hz)
         return replace(situation, peak_db=peak)

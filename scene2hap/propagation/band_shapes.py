@@ -14,7 +14,7 @@ Source: Halko, Martinsson, Tropp, Finding structure with randomness, SIAM Review
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from scene2hap.compiled import compiled
 from scene2hap.propagation.object_response import Gains
 from scene2hap.propagation.response_basis import ResponseBasis
-from scene2hap.propagation.sampling import Sampling
+from scene2hap.propagation.sampling import Band, Sampling
 
 CLOSE = 1e-3
 """Part of each source's motion in a band, over the whole body, that may be missed: 60 dB below."""
@@ -69,27 +69,46 @@ class BandLengths:
         return np.stack(found, axis=-1)
 
 
-def band_gains(response: ResponseBasis, forces: Complex, sampling: Sampling) -> Gains:
+class SourceLengths:
+    """Lengths of vectors, of which each source has a space of its own."""
+
+    def __init__(self, lengths: BandLengths) -> None:
+        self._lengths = lengths
+
+    def __call__(self, points_m: Floats) -> Floats:
+        """|R v| at points (n_points, 2) [m]: (n_points, n_spaces, 1)."""
+        return self._lengths(points_m).transpose(0, 2, 1)
+
+
+def band_gains(response: ResponseBasis, forces: Complex, sampling: Sampling, columns: NDArray[np.intp]) -> Gains:
     """Gains of sources at points of a body, from the contact forces of each source.
 
-    Parameters: forces : (n_frequencies, n_forces, n_sources).
+    Parameters: forces : (n_frequencies, n_forces, n_sources); columns : (n_sources,) the sources' numbers.
     """
     sizes, n_before = response.sizes[:, None], 0
     bases, carried, factors = [], [], []
-    for band in sampling.bands:
-        own = forces[band] * np.sqrt(sampling.weights[band])[:, None, None]
-        weights = response.weights(sampling.frequencies_hz[band], own.transpose(1, 2, 0)).view(np.float64)
-        columns, lengths = _of_length_one(weights * sizes[:, :, None])
-        basis, share = _few(columns.reshape(len(columns), -1), n_before + _MORE)
+    for (at, weights), sources in _spaces(sampling, columns):
+        own = forces[at, :, sources] * np.sqrt(weights)[:, None, None]
+        moved = response.weights(sampling.frequencies_hz[at], own.transpose(1, 2, 0)).view(np.float64)
+        turned, lengths = _of_length_one(moved * sizes[:, :, None])
+        basis, share = _few(turned.reshape(len(turned), -1), n_before + _MORE)
         bases.append(basis)
         carried.append(share)
-        factors.append(_factors(np.tensordot(basis.T, columns, axes=1)) * lengths[:, None, None])
+        factors.append(_factors(np.tensordot(basis.T, turned, axes=1)) * lengths[:, None, None])
         n_before = basis.shape[1]
     every = np.concatenate(bases, axis=1)
     common, _ = _few(every * np.concatenate(carried), 2 * n_before + _MORE)
     # Single precision is a thousand times as good as what is left out, and half of what has to be looked up.
     shapes = response.mixed((common / sizes).astype(np.float32))
-    return BandLengths(shapes, (common.T @ every).astype(np.float32), factors)
+    lengths_of_bands = BandLengths(shapes, (common.T @ every).astype(np.float32), factors)
+    return lengths_of_bands if sampling.is_shared else SourceLengths(lengths_of_bands)
+
+
+def _spaces(sampling: Sampling, columns: NDArray[np.intp]) -> Iterator[tuple[Band, slice]]:
+    """Each band, with the sources that it is for."""
+    if sampling.is_shared:
+        return ((band, slice(None)) for band in sampling.bands)
+    return ((sampling.bands[number], slice(k, k + 1)) for k, number in enumerate(columns.tolist()))
 
 
 def _of_length_one(weights: Floats) -> tuple[Floats, Floats]:

@@ -30,6 +30,7 @@ from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_fre
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
+from scene2hap.propagation.sampling import AROUND
 from scene2hap.propagation.substructuring import CoupledField, checked_law, prepare_coupled
 
 NEAREST_KR = 1e-4
@@ -83,6 +84,7 @@ class InfinitePlate:
     outside_domain: OutsideDomain = "warn"
     kind: Literal["infinite_plate"] = "infinite_plate"
     least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
+    usual_bands: ClassVar[Bands] = AROUND
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "contact", checked_law(self.contact, self.outside_domain))

@@ -47,6 +47,7 @@ from scene2hap.propagation.lattice_modes import (
 from scene2hap.propagation.modes import n_rigid_motions, points_on
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
+from scene2hap.propagation.sampling import AROUND
 from scene2hap.propagation.split_body import SplitBody
 from scene2hap.propagation.stepping import ExactStepper, NewmarkStepper, State, Stepper
 from scene2hap.propagation.substructuring import CoupledField, checked_law, prepare_coupled
@@ -79,6 +80,7 @@ class MassSpringDamper:
     outside_domain: OutsideDomain = "warn"
     kind: Literal["mass_spring_damper"] = "mass_spring_damper"
     least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
+    usual_bands: ClassVar[Bands] = AROUND
 
     def __post_init__(self) -> None:
         cells = checks.number("resolution", self.resolution, "cells", at_least=4, at_most=FINEST, error=ConfigError)

@@ -38,6 +38,7 @@ from scene2hap.propagation.near_field import NearField
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
 from scene2hap.propagation.ritz import products
+from scene2hap.propagation.sampling import AROUND
 from scene2hap.propagation.substructuring import CoupledField, checked_law, prepare_coupled
 
 
@@ -58,6 +59,7 @@ class ModalPlate:
     outside_domain: OutsideDomain = "warn"
     kind: Literal["modal_plate"] = "modal_plate"
     least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
+    usual_bands: ClassVar[Bands] = AROUND
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "contact", checked_law(self.contact, self.outside_domain, self.loss_floor))

@@ -5,14 +5,18 @@ width eta f; its mean over equally spaced frequencies d apart is off by 2 exp(-p
 d = 0.55 eta f by 0.7 % or 0.03 dB, and by more where resonances of several bodies coincide. Where a resonance is cut by
 the edge of its band, the midpoint rule would be off by d^2 / 24 times the slope there; the three frequencies next to
 each edge are weighted so as to take that away (the slope from two differences, derived here).
+
+Bands around the dominant frequencies of sources overlap. They share frequencies of one geometric row, and the outermost
+of a band weigh as much as it covers of their steps, so that a source's gain does not depend on which others there are.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import pairwise
+from typing import NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,18 +34,34 @@ MOST = 200_000
 END_WEIGHTS = np.array([13 / 12, 7 / 8, 25 / 24])
 """Of the frequencies next to the edge of a band, outermost first; all others weigh 1."""
 
+AROUND = Bands.dominant(octaves=0.5)
+"""Bands of a model that resonates, unless others are asked for: a single frequency meets a resonance or misses it. It
+reaches one just noticeable difference to each side, 0.18 to 0.25 of the frequency.
+
+Source: Israr, Tan, Reed, Frequency and amplitude discrimination along the kinesthetic-cutaneous continuum, JASA 120
+(2006) 2789. Chosen among widths by `benchmarks/bands.py`.
+"""
+
+Floats = NDArray[np.float64]
+
+
+class Band(NamedTuple):
+    """Where a band is among the frequencies, and what part of it each of these stands for (n,)."""
+
+    at: slice
+    weights: Floats
+
 
 @dataclass(frozen=True, eq=False)
 class Sampling:
     """Frequencies of a scene (n_frequencies,) [Hz].
 
-    starts : (n_bands,) where each band begins among them; None if there is one frequency for each source, its own;
-    weights : (n_frequencies,) what part of its band each stands for.
+    bands : those of everyone, or one for each source; is_shared : whether they are everyone's.
     """
 
-    frequencies_hz: NDArray[np.float64]
-    starts: NDArray[np.intp] | None
-    weights: NDArray[np.float64]
+    frequencies_hz: Floats
+    bands: tuple[Band, ...]
+    is_shared: bool
 
     @classmethod
     def of(cls, bands: Bands, excitations: Sequence[Excitation], loss_factor: float, density: float = 1.0) -> Sampling:
@@ -49,46 +69,75 @@ class Sampling:
 
         Raises: ModelDomainError: so little loss that they are too many.
         """
-        if bands.kind == "dominant":
-            own = np.array([item.frequency_tactile_hz for item in excitations])
-            return cls(own, None, np.ones(len(own)))
-        return _of_bands(bands, loss_factor, density)
+        if bands.kind == "edges":
+            return _of_edges(bands, loss_factor, density)
+        own_hz = [item.frequency_tactile_hz for item in excitations]
+        return _around(bands, own_hz, loss_factor, density) if bands.octaves else _at(own_hz)
 
     @property
-    def bands(self) -> list[slice]:
-        """Which frequencies are those of each band; none if there is one for each source."""
-        ends = [] if self.starts is None else [*self.starts.tolist(), len(self.frequencies_hz)]
-        return [slice(*pair) for pair in pairwise(ends)]
+    def is_single(self) -> bool:
+        """Whether each source has one frequency, its own; they are in the order of the sources then."""
+        return not self.is_shared and all(band.at.stop - band.at.start == 1 for band in self.bands)
 
-    def columns(self, sources: NDArray[np.intp]) -> NDArray[np.intp] | None:
-        """Which frequency is that of each source (n_sources,), None if all are everyone's."""
-        return sources if self.starts is None else None
+    def of_source(self, source: int, band: int) -> Band:
+        """The band of a source of that number."""
+        return self.bands[band if self.is_shared else source]
 
-    def gains(self, response: NDArray[np.complex128]) -> NDArray[np.float64]:
-        """Rms over each band (n_bands, ...) of a response (n_frequencies, ...)."""
-        if self.starts is None:
-            raise ValueError("one frequency per source makes no bands")
+    def gains(self, response: NDArray[np.complex128], sources: NDArray[np.intp]) -> Floats:
+        """Rms over each band (n_points, n_sources, n_bands) of a response (n_frequencies, n_points, n_sources) to the
+        sources of these numbers (n_sources,)."""
         squares = np.square(response.real)
         squares += np.square(response.imag)
-        squares *= self.weights.reshape(-1, *[1] * (squares.ndim - 1))
-        gains: NDArray[np.float64] = np.sqrt(np.add.reduceat(squares, self.starts, axis=0))
-        return gains
+        if self.is_shared:
+            gains = np.stack([np.einsum("f,fps->ps", weights, squares[at]) for at, weights in self.bands], axis=-1)
+        else:
+            mine = [self.bands[number] for number in sources.tolist()]
+            own = [weights @ squares[at, :, k] for k, (at, weights) in enumerate(mine)]
+            gains = np.stack(own, axis=-1)[:, :, None]
+        return cast("Floats", np.sqrt(gains, out=gains))
+
+
+def _at(own_hz: Sequence[float]) -> Sampling:
+    return Sampling(np.array(own_hz), tuple(Band(slice(i, i + 1), np.ones(1)) for i in range(len(own_hz))), False)
+
+
+def _around(bands: Bands, own_hz: Sequence[float], loss_factor: float, density: float) -> Sampling:
+    """Bands around frequencies: those of a row f_k = exp(k step), whose steps they cover wholly or in part."""
+    step = min(SPACING * loss_factor, bands.octaves * math.log(2) / LEAST) / density
+    _require_few(len(own_hz) * bands.octaves * math.log(2) / max(step, 1e-300), loss_factor)
+    ends = [tuple(math.log(edge) / step for edge in bands.around_hz(f)) for f in own_hz]
+    rows = np.unique([k for low, high in ends for k in range(round(low), round(high) + 1)]).astype(np.int64)
+    frequencies_hz, found = np.exp(step * rows), []
+    for low, high in ends:
+        at = slice(*np.searchsorted(rows, (round(low), round(high) + 1)).tolist())
+        k = rows[at]
+        covered = np.minimum(k + 0.5, high) - np.maximum(k - 0.5, low)
+        weights = covered * frequencies_hz[at]
+        found.append(Band(at, weights / weights.sum()))
+    return Sampling(frequencies_hz, tuple(found), False)
 
 
 @lru_cache(maxsize=16)
-def _of_bands(bands: Bands, loss_factor: float, density: float) -> Sampling:
+def _of_edges(bands: Bands, loss_factor: float, density: float) -> Sampling:
     low, high = bands.widths_hz().T
     wanted = np.ceil(density * (high - low) / (SPACING * max(loss_factor, 1e-300) * low))
-    if wanted.sum() > MOST:
-        raise ModelDomainError(
-            f"a loss factor of {loss_factor:.3g} takes {wanted.sum():.3g} frequencies to resolve its resonances in "
-            f"these bands; at most {MOST:,} are solved. Give a loss_floor (0.01 suits assembled objects) or "
-            "Bands.dominant()."
-        )
+    _require_few(float(wanted.sum()), loss_factor)
     counts = np.maximum(wanted, np.ceil(LEAST * density)).astype(np.intp)
     middles = [
         begin + (end - begin) * (np.arange(n) + 0.5) / n for begin, end, n in zip(low, high, counts, strict=True)
     ]
-    weights = [np.concatenate([END_WEIGHTS, np.ones(n - 6), END_WEIGHTS[::-1]]) / n for n in counts]
-    starts = np.concatenate([[0], np.cumsum(counts)[:-1]]).astype(np.intp)
-    return Sampling(np.concatenate(middles), starts, np.concatenate(weights))
+    ends = np.cumsum(counts).tolist()
+    found = [
+        Band(slice(end - n, end), np.concatenate([END_WEIGHTS, np.ones(n - 6), END_WEIGHTS[::-1]]) / n)
+        for n, end in zip(counts.tolist(), ends, strict=True)
+    ]
+    return Sampling(np.concatenate(middles), tuple(found), True)
+
+
+def _require_few(n_frequencies: float, loss_factor: float) -> None:
+    if n_frequencies > MOST:
+        raise ModelDomainError(
+            f"a loss factor of {loss_factor:.3g} takes {n_frequencies:.3g} frequencies to resolve its resonances in "
+            f"these bands; at most {MOST:,} are solved. Give a loss_floor (0.01 suits assembled objects) or "
+            "Bands.dominant()."
+        )

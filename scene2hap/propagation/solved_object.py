@@ -3,7 +3,7 @@
     u(x, f) = sum over contacts c of Y(x, x_c, f) g_c(f)
 
 If each source has one frequency, everything that does not depend on x is summed over the contacts on the first touch
-(`contracted`), so a touch costs the same for any number of contacts. In true bands a touch takes a product of small
+(`contracted`), so a touch costs the same for any number of contacts. In bands a touch takes a product of small
 matrices for every frequency, until the object is expected to be touched often: then the sum over contacts and
 frequencies is computed in advance (`band_shapes`), which takes as long as some dozen touches.
 
@@ -100,7 +100,7 @@ class SolvedObject:
     """An object that some sources reach.
 
     points_m : (n_joints, 2) [m]; rows, signs : (n_joints,) where its joints are in the forces of its group and which
-    way they pull; forces : (n_all_joints, n_sources, n_frequencies), or without the last axis, each source at its own
+    way they pull; forces : (n_all_joints, n_sources, n_frequencies), or without the last axis if each source has one
     frequency [N/m]; columns : (n_sources,) which of all sources these are; joints : all of its group.
     """
 
@@ -140,14 +140,11 @@ class SolvedObject:
         mine = np.flatnonzero(self.columns == column)
         if not mine.size:
             return np.zeros(len(self.rows))
-        if sampling.starts is None:
-            at, forces = slice(column, column + 1), self.own_forces[None, :, mine[0]]
-        else:
-            at = sampling.bands[band]
-            forces = self.own_forces[at, :, mine[0]]
+        at, weights = sampling.of_source(column, band)
+        forces = self.own_forces[None, :, mine[0]] if sampling.is_single else self.own_forces[at, :, mine[0]]
         frequencies = sampling.frequencies_hz[at]
         moved = np.einsum("fpc,fc->fp", self.body.receptance(self.points_m, self.points_m, frequencies), forces)
-        weights = frequencies * sampling.weights[at]
+        weights = frequencies * weights
         passed = weights @ (forces.conj() * moved)
         others, number = np.unique(self.others, return_inverse=True)
         brings, held = np.maximum(-passed.imag, 0.0), np.abs(passed)
@@ -161,19 +158,20 @@ class SolvedObject:
 
     def gains(self, sampling: Sampling, *, is_expected: bool) -> Gains:
         """Gains at points on the object, of its sources; quick ones in any case if each has one frequency."""
-        own = sampling.columns(self.columns)
-        if own is not None:
-            return Magnitudes(contracted(self.body, self.points_m, sampling.frequencies_hz[own], self.own_forces))
+        if sampling.is_single:
+            own_hz = sampling.frequencies_hz[self.columns]
+            return Magnitudes(contracted(self.body, self.points_m, own_hz, self.own_forces))
         if is_expected and isinstance(self.body, HasResponseBasis):
-            return band_gains(self.body.response_basis(self.points_m), self.own_forces, sampling)
+            return band_gains(self.body.response_basis(self.points_m), self.own_forces, sampling, self.columns)
         return lambda points_m: self._summed(points_m, sampling)
 
     def _summed(self, points_m: Floats, sampling: Sampling) -> Floats:
-        found = np.empty((len(points_m), len(self.columns), len(sampling.bands)))
+        n_bands = len(sampling.bands) if sampling.is_shared else 1
+        found = np.empty((len(points_m), len(self.columns), n_bands))
         for begin in range(0, len(points_m), POINTS_AT_ONCE):
             few = points_m[begin : begin + POINTS_AT_ONCE]
             moved = np.empty((len(sampling.frequencies_hz), len(few), len(self.columns)), dtype=np.complex128)
             for part, receptance in pieces(self.body, few, self.points_m, sampling.frequencies_hz):
                 moved[part] = receptance @ self.own_forces[part]
-            found[begin : begin + POINTS_AT_ONCE] = sampling.gains(moved).transpose(1, 2, 0)
+            found[begin : begin + POINTS_AT_ONCE] = sampling.gains(moved, self.columns)
         return found

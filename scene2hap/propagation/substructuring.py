@@ -81,9 +81,8 @@ def assemble(
     mass_kg = {item.source_id: item.mass_kg for item in excitations}
     joints = joints_of(network, network.bodies.keys() | mass_kg.keys(), law)
     groups = source_groups(joints, mass_kg)
-    top_hz = max(
-        (*bands.edges_hz, *(item.frequency_tactile_hz for item in excitations if not bands.edges_hz)), default=0.0
-    )
+    own_hz = [bands.around_hz(item.frequency_tactile_hz)[1] for item in excitations if not bands.edges_hz]
+    top_hz = max((*bands.edges_hz, *own_hz), default=0.0)
     rigid: dict[str, RigidMotion] = {}
     plates: dict[str, Plate] = {}
     for object_id in sorted({x for _, several in groups for joint in several for x in (joint.a, joint.b)}):
@@ -134,9 +133,8 @@ def _solved(
     solved = couple(bodies, joints, sources, sampling.frequencies_hz)
     forces = np.ascontiguousarray(solved.forces.transpose(1, 2, 0))
     columns = np.array([source_ids.index(x) for x in sources])
-    own = sampling.columns(columns)
-    if own is not None:
-        forces = np.take_along_axis(forces, own[None, :, None], axis=2)[:, :, 0]
+    if sampling.is_single:
+        forces = np.take_along_axis(forces, columns[None, :, None], axis=2)[:, :, 0]
     return {
         x: SolvedObject(bodies[x], ends.points_m, ends.rows, ends.signs, forces, columns, joints)
         for x, ends in solved.ends.items()
@@ -170,7 +168,7 @@ class CoupledField:
     def expect(self, object_id: str) -> None:
         """Prepare an object for many queries, see `ExpectantField`."""
         # If each source has one frequency, a response that exists is as fast as it can be.
-        ready = self._responses if self.sampling.starts is None else self._expected
+        ready = self._responses if self.sampling.is_single else self._expected
         if object_id not in ready:
             self._responses[object_id] = self._response(object_id, is_expected=True)
             self._expected.add(object_id)

@@ -13,6 +13,7 @@ from scene2hap.errors import ConfigError
 from scene2hap.haptics import ActuatorProfile, Bands
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.exponential_plate import ExponentialPlate
+from scene2hap.propagation.sampling import AROUND
 from scene2hap.settings import Settings
 
 MIN_RAMP_S = 0.010
@@ -23,14 +24,14 @@ MAX_GAIN_DB = 120.0
 
 
 def _bands(value: object) -> object:
-    named = {"dominant": Bands.dominant, "third-octaves": Bands.third_octaves}
+    named = {"dominant": Bands.dominant, "around": lambda: AROUND, "third-octaves": Bands.third_octaves}
     if isinstance(value, Bands | Mapping):
         return value
     if isinstance(value, list | tuple):
         return Bands(tuple(value))
     if isinstance(value, str) and value in named:
         return named[value]()
-    near = checks.did_you_mean(value, named, "They are 'dominant' or 'third-octaves'.")
+    near = checks.did_you_mean(value, named, "They are 'dominant', 'around' or 'third-octaves'.")
     raise ConfigError(f"bands are {checks.described(value)}; they must be Bands, rising edges [Hz], or a name. {near}")
 
 
@@ -64,8 +65,11 @@ class SessionConfig(Settings):
     """Settings of a session. Every part with alternatives is chosen by a `kind`, so that a table of TOML will do.
 
     propagation : a kind, a mapping with `kind` and settings, or a model; `scene2hap.propagation.MODELS` lists kinds.
-    bands : bands of the gains: Bands, their edges [Hz], "dominant" (the paper's) or "third-octaves" (20 from
-        10 to 1000 Hz).
+    bands : bands of the gains: Bands, their edges [Hz], "dominant" (each source's own frequency, as in the paper),
+        "around" (half an octave around it) or "third-octaves" (20 from 10 to 1000 Hz). The default is "around" for a
+        model that resonates, else "dominant".
+    reference : "source": gains are re the source's free vibration, as a model says; "felt_near": 0.1 m from where it
+        stands each source is as strong as by the paper's law, so that a model may be swapped for another.
     prepare : "background": a worker prepares the model while the last field plays on, and `update` never waits;
         "blocking": `update` waits, so that output depends on input alone. A model with a live field, as
         `ExponentialPlate`, needs neither.
@@ -83,6 +87,7 @@ class SessionConfig(Settings):
 
     propagation: Annotated[Any, BeforeValidator(MODELS.build)] = Field(default_factory=ExponentialPlate)
     bands: Annotated[Bands, BeforeValidator(_bands)] = Field(default_factory=Bands.dominant)
+    reference: Literal["source", "felt_near"] = "source"
     prepare: Literal["background", "blocking"] = "background"
     gain_limit_db: float | None = Field(default=0.0, le=MAX_GAIN_DB, allow_inf_nan=False)
     sample_rate_hz: int = Field(default=48000, ge=1000, le=192000)
@@ -91,6 +96,13 @@ class SessionConfig(Settings):
     watchdog_s: float = Field(default=0.1, ge=0.02, le=1.0)
     actuator: Annotated[ActuatorProfile, BeforeValidator(actuator_profile)] = Field(default_factory=ActuatorProfile)
     skip: Annotated[SkipConfig, BeforeValidator(_skip)] = Field(default_factory=SkipConfig)
+
+    @model_validator(mode="after")
+    def _bands_of_the_model(self) -> Self:
+        if "bands" not in self.model_fields_set:
+            # Not counted as set, so that they change with the model.
+            object.__setattr__(self, "bands", getattr(self.propagation, "usual_bands", self.bands))
+        return self
 
     @model_validator(mode="after")
     def _tactile_rate_holds_the_bands(self) -> Self:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scene2hap.contact.graph import ContactChange
 from scene2hap.propagation.live import LiveField, LiveModel, PricedField
 from scene2hap.propagation.protocol import Excitation
+from scene2hap.propagation.reference import FeltNear
 from scene2hap.session.audibility import Audibility
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.counts import Counts
@@ -288,6 +289,8 @@ def keeper_of(config: SessionConfig, state: SceneState, excitations: Sequence[Ex
     model, bands = config.propagation, config.bands
     if isinstance(model, LiveModel):
         return LiveKeeper(model, bands, state, excitations)
+    if config.reference == "felt_near":
+        model = FeltNear(model)
     is_background, skips_unreachable = config.prepare == "background", config.skip.unreachable
     return FieldKeeper(
         model, bands, state, excitations, is_background=is_background, skips_unreachable=skips_unreachable

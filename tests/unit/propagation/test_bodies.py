@@ -82,16 +82,14 @@ def test_a_rug_has_edges_only_where_waves_come_back() -> None:
 def test_frequencies_of_bands() -> None:
     bands, source = Bands.third_octaves(), [Excitation("s", 99.0, 44.0), Excitation("t", 99.0, 55.0)]
     sampling = Sampling.of(bands, source, 0.01)
-    assert sampling.starts is not None
-    for band, (low, high) in enumerate(bands.widths_hz()):
-        begin = sampling.starts[band]
-        end = sampling.starts[band + 1] if band + 1 < bands.n_bands else len(sampling.frequencies_hz)
-        inside = sampling.frequencies_hz[begin:end]
+    assert sampling.is_shared
+    for (at, _), (low, high) in zip(sampling.bands, bands.widths_hz(), strict=True):
+        inside = sampling.frequencies_hz[at]
         assert low < inside.min() < inside.max() < high
         assert np.diff(inside).max() <= 0.55 * 0.01 * low * (1 + 1e-9)
         assert inside.mean() == pytest.approx((low + high) / 2)
-    flat = sampling.gains(np.full((len(sampling.frequencies_hz), 2), 0.6 + 0.8j))
-    np.testing.assert_allclose(flat, np.ones((20, 2)))
+    flat = sampling.gains(np.full((len(sampling.frequencies_hz), 3, 2), 0.6 + 0.8j), np.array([0, 1]))
+    np.testing.assert_allclose(flat, np.ones((3, 2, 20)))
     assert len(Sampling.of(bands, source, math.inf).frequencies_hz) == 20 * 8
     assert Sampling.of(Bands.dominant(), source, 0.01).frequencies_hz.tolist() == [44.0, 55.0]
 

@@ -1,14 +1,17 @@
 """Every propagation model drives the same session; which one is a line of configuration."""
 
+import math
 import warnings
 from typing import Any
 
 import numpy as np
 import pytest
 
-from scene2hap import HapticSession, Pose, Touch
+from scene2hap import Bands, FullPropagation, HapticSession, Pose, Touch
+from scene2hap.errors import ConfigError
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.domain import ThinPlateWarning
+from scene2hap.session.config import SessionConfig
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
 
 SETTINGS: dict[str, dict[str, Any]] = {"mass_spring_damper": {"resolution": 8}}
@@ -17,7 +20,7 @@ HOME = Pose((0.1, 0.725, 0.4))
 
 
 @pytest.fixture(
-    params=[(kind, bands) for kind in MODELS.kinds() for bands in ("dominant", (40.0, 80.0, 160.0))], ids=str
+    params=[(kind, bands) for kind in MODELS.kinds() for bands in ("dominant", "around", (40.0, 80.0, 160.0))], ids=str
 )
 def config(request: pytest.FixtureRequest) -> dict[str, Any]:
     kind, bands = request.param
@@ -65,3 +68,28 @@ def test_a_session_lives_on_it(config: dict[str, Any]) -> None:
         assert np.abs(out).max() <= 1.0
         assert (np.abs(out[:, 0]).max() > 0) == (before.max() > 0)
         assert s.stats.fields_failed == 0
+
+
+def test_a_model_that_resonates_has_a_band_around_each_source() -> None:
+    around = Bands.dominant(octaves=0.5)
+    assert SessionConfig().bands == Bands.dominant()
+    given = SessionConfig(propagation="modal_plate")
+    assert given.bands == around
+    # What was not said follows the model, also from settings to settings.
+    assert SessionConfig.parse(given, propagation="exponential_plate").bands == Bands.dominant()
+    assert SessionConfig.parse(given, sample_rate_hz=8000).bands == around
+    said = SessionConfig(propagation="modal_plate", bands="dominant")
+    assert said.bands == Bands.dominant()
+    assert SessionConfig.parse(said, sample_rate_hz=8000).bands == Bands.dominant()
+    assert SessionConfig(propagation=FullPropagation(), bands="around").bands == around
+
+
+@pytest.mark.parametrize("octaves", [-0.1, 2.1, math.nan, "wide", None])
+def test_a_width_is_0_to_2_octaves(octaves: Any) -> None:
+    with pytest.raises(ConfigError, match="octaves"):
+        Bands.dominant(octaves)
+
+
+def test_edges_have_no_other_width() -> None:
+    with pytest.raises(ConfigError, match=r"only Bands\.dominant"):
+        Bands((40.0, 80.0), octaves=0.5)
