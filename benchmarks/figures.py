@@ -91,6 +91,7 @@ FIGURES = {
     "sound-card": Figure("actuators", "stress/sound_card.py", 60, has_times=True, is_text=True, needs="sound server"),
     "sound-card-hour": Figure("actuators", "stress/soak.py", 60, has_times=True, is_text=True, needs="sound server"),
     "masses": Figure("inference", "benchmarks/masses.py", 1, needs="scenes"),
+    "coupled": Figure("accuracy", "benchmarks/coupled.py", 5),
     "bands": Figure("propagation", "benchmarks/bands.py", 1),
     "model-choice": Figure("propagation", "benchmarks/model_choice.py", 2, has_times=True),
     "spawning-10": Figure("spawning", "benchmarks/spawning.py --alive 10", 0.5, has_times=True),

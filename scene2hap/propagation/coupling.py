@@ -20,7 +20,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,12 +51,26 @@ class ElasticBody(Protocol):
         ...
 
 
+class Along(NamedTuple):
+    """In which direction a joint pulls at a body (x, y, z), in the body's own coordinates, and how high over its
+    mid-plane [m]."""
+
+    x: float
+    y: float
+    z: float
+    height_m: float
+
+
+NORMAL = Along(0.0, 0.0, 1.0, 0.0)
+
+
 @dataclass(frozen=True)
 class Joint:
     """A spring with loss between a point of one body and a point of another.
 
     Parameters: a, b : two bodies; point_a_m, point_b_m : (x, y) [m], each in its body's own coordinates; stiffness_n_m
-    : >= 0 [N/m], infinite for a rigid joint; loss_factor : >= 0 [-]; damping_n_s_m : >= 0 [N s/m].
+    : >= 0 [N/m], infinite for a rigid joint; loss_factor : >= 0 [-]; damping_n_s_m : >= 0 [N s/m]; along_a, along_b :
+    the direction of the joint, as each body sees it.
     """
 
     a: str
@@ -66,6 +80,8 @@ class Joint:
     stiffness_n_m: float = math.inf
     loss_factor: float = 0.0
     damping_n_s_m: float = 0.0
+    along_a: Along = NORMAL
+    along_b: Along = NORMAL
 
     def __post_init__(self) -> None:
         given = (self.stiffness_n_m, self.loss_factor, self.damping_n_s_m)
@@ -90,8 +106,8 @@ def compliances_m_n(joints: Sequence[Joint], frequencies_hz: NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Ends:
-    """The joints of one body: points_m (n, 2) [m] where they are on it, rows (n,) which they are, and signs (n,), +1
-    where it is their a, -1 where their b."""
+    """The joints of one body: points_m (n, 2) [m] where they are on it, or ports (n, 6) of an `InclinedBody` if one of
+    them pulls aside; rows (n,) which they are, and signs (n,), +1 where it is their a, -1 where their b."""
 
     points_m: NDArray[np.float64]
     rows: NDArray[np.intp]
@@ -159,11 +175,22 @@ def couple(
 
 def ends_of(joints: Sequence[Joint]) -> dict[str, Ends]:
     """The joints of every body that has any."""
-    found: dict[str, list[tuple[tuple[float, float], int, float]]] = {}
+    found: dict[str, list[tuple[tuple[float, ...], int, float]]] = {}
+    inclined = inclined_in(joints)
     for row, joint in enumerate(joints):
-        found.setdefault(joint.a, []).append((joint.point_a_m, row, 1.0))
-        found.setdefault(joint.b, []).append((joint.point_b_m, row, -1.0))
+        for key, point_m, along, sign in (
+            (joint.a, joint.point_a_m, joint.along_a, 1.0),
+            (joint.b, joint.point_b_m, joint.along_b, -1.0),
+        ):
+            port = (*point_m, along.height_m, along.x, along.y, along.z) if key in inclined else point_m
+            found.setdefault(key, []).append((port, row, sign))
     return {body_id: Ends(*map(np.array, zip(*several, strict=True))) for body_id, several in found.items()}
+
+
+def inclined_in(joints: Sequence[Joint]) -> set[str]:
+    """The bodies at which some joint pulls aside."""
+    ends = ((key, along) for one in joints for key, along in ((one.a, one.along_a), (one.b, one.along_b)))
+    return {key for key, along in ends if along is not NORMAL}
 
 
 def solve_joints(

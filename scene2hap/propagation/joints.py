@@ -9,7 +9,7 @@ from functools import cache, lru_cache
 
 from scene2hap.materials import Material
 from scene2hap.propagation.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupling import Joint
+from scene2hap.propagation.coupling import NORMAL, Along, Joint
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body, ContactNetwork
 from scene2hap.scene.objects import Contact
@@ -17,6 +17,8 @@ from scene2hap.scene.pose import Pose
 
 SAME_POINT_M = 1e-6
 """Contacts of one pair that are nearer than this are one."""
+LEVEL = 0.9
+"""A contact whose direction has this part along a plate's normal pushes along it, up to 26 degrees off."""
 
 
 def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLaw) -> list[Joint]:
@@ -39,6 +41,7 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
         object_id: iter(_on_body(network, object_id, tuple([one.point_m for one in contacts])))
         for object_id, contacts in touching.items()
     }
+    directions = {object_id: iter(_directions(network, object_id, touching[object_id])) for object_id in touching}
     stiffness = cache(law.stiffness)  # of few kinds
     joints: list[Joint] = []
     for (a, b), contacts in pairs.items():
@@ -51,7 +54,9 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
         found = []
         for contact in contacts:
             k, loss = stiffness(*materials, contact.area_m2, preload_n)
-            found.append(Joint(a, b, next(places[a]), next(places[b]), contact.weight * k, loss))
+            point_a_m, point_b_m, weighed = next(places[a]), next(places[b]), contact.weight * k
+            alongs = next(directions[a]), next(directions[b])
+            found.append(Joint(a, b, point_a_m, point_b_m, weighed, loss, 0.0, *alongs))
         joints += _merged(found)
     joints.sort(key=lambda joint: (joint.a, joint.b))
     return joints
@@ -93,6 +98,27 @@ def _on_body(
 ) -> tuple[tuple[float, float], ...]:
     """As `ContactNetwork.on_body`, cached: most objects stay where they are."""
     return _remembered(network.bodies.get(object_id), network.poses.get(object_id), points_m)
+
+
+def _directions(network: ContactNetwork, object_id: str, contacts: Sequence[Contact]) -> Sequence[Along]:
+    """In which direction each contact pulls at an object; all along its normal where none is known to pull aside."""
+    body, pose = network.bodies.get(object_id), network.poses.get(object_id)
+    if not isinstance(body, Plate) or pose is None:
+        return [NORMAL] * len(contacts)
+    x, y, z = pose.rotation.T.tolist()
+    if all(one.normal is None or abs(_dot(z, one.normal)) >= LEVEL for one in contacts):
+        return [NORMAL] * len(contacts)
+    found = []
+    for contact, height_m in zip(contacts, pose.to_own([one.point_m for one in contacts])[:, 2].tolist(), strict=True):
+        # Either way is the same spring; but both of its bodies must take the same.
+        normal = contact.normal or z
+        sign = 1.0 if max(normal, key=abs) > 0 else -1.0
+        found.append(Along(sign * _dot(x, normal), sign * _dot(y, normal), sign * _dot(z, normal), height_m))
+    return found
+
+
+def _dot(one: Sequence[float], other: Sequence[float]) -> float:
+    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
 
 
 def _merged(joints: Sequence[Joint]) -> list[Joint]:

@@ -47,12 +47,12 @@ class Family:
         return coefficients
 
     @cached_property
-    def integrals(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """Integrals of X_i'' X_j'', X_i' X_j' and X_i X_j'' over xi, each (n, n)."""
+    def integrals(self) -> tuple[NDArray[np.float64], ...]:
+        """Integrals of X_i'' X_j'', X_i' X_j', X_i X_j'' and X_i X_j' over xi, each (n, n)."""
         derivative = _derivative(len(self.coefficients))
         first = derivative @ self.coefficients
         second = derivative @ first
-        return second.T @ second, first.T @ first, self.coefficients.T @ second
+        return second.T @ second, first.T @ first, self.coefficients.T @ second, self.coefficients.T @ first
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,6 +90,11 @@ class AxisBasis:
     def crossed(self) -> NDArray[np.float64]:
         """Integrals of X_i X_j'' (n, n) [m^-2]."""
         return self.family.integrals[2] * (2 / self.length_m) ** 2
+
+    @property
+    def climb(self) -> NDArray[np.float64]:
+        """Integrals of X_i X_j' (n, n) [m^-1]."""
+        return self.family.integrals[3] * (2 / self.length_m)
 
 
 def axis_bases(edges: str, length_m: float, n_terms: int) -> tuple[AxisBasis, ...]:

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from scene2hap.propagation.band_shapes import band_gains
 from scene2hap.propagation.coupling import ElasticBody, Joint
+from scene2hap.propagation.inclined_body import FeltInSpace, InclinedBody
 from scene2hap.propagation.object_response import Gains, Magnitudes
 from scene2hap.propagation.response_basis import HasResponseBasis
 from scene2hap.propagation.sampling import Sampling
@@ -99,9 +100,10 @@ def contracted(
 class SolvedObject:
     """An object that some sources reach.
 
-    points_m : (n_joints, 2) [m]; rows, signs : (n_joints,) where its joints are in the forces of its group and which
-    way they pull; forces : (n_all_joints, n_sources, n_frequencies), or without the last axis if each source has one
-    frequency [N/m]; columns : (n_sources,) which of all sources these are; joints : all of its group.
+    points_m : (n_joints, 2) [m], or ports (n_joints, 6) of an `InclinedBody`; rows, signs : (n_joints,) where its
+    joints are in the forces of its group and which way they pull; forces : (n_all_joints, n_sources, n_frequencies), or
+    without the last axis if each source has one frequency [N/m]; columns : (n_sources,) which of all sources these are;
+    joints : all of its group.
     """
 
     body: ElasticBody
@@ -158,6 +160,11 @@ class SolvedObject:
 
     def gains(self, sampling: Sampling, *, is_expected: bool) -> Gains:
         """Gains at points on the object, of its sources; quick ones in any case if each has one frequency."""
+        if isinstance(self.body, InclinedBody):
+            return FeltInSpace(self._gains(sampling, is_expected=is_expected), self.body)
+        return self._gains(sampling, is_expected=is_expected)
+
+    def _gains(self, sampling: Sampling, *, is_expected: bool) -> Gains:
         if sampling.is_single:
             own_hz = sampling.frequencies_hz[self.columns]
             return Magnitudes(contracted(self.body, self.points_m, own_hz, self.own_forces))

@@ -23,8 +23,9 @@ from scene2hap import checks
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupling import ElasticBody, Joint, couple
+from scene2hap.propagation.coupling import ElasticBody, Joint, couple, inclined_in
 from scene2hap.propagation.domain import OutsideDomain, check_choice, check_thin
+from scene2hap.propagation.inclined_body import InclinedBody, inclined
 from scene2hap.propagation.joints import joints_of, source_groups
 from scene2hap.propagation.object_response import ObjectResponse
 from scene2hap.propagation.plate import Plate, RigidBody
@@ -59,6 +60,8 @@ class Assembly:
         """
         source_ids = tuple(item.source_id for item in self.excitations)
         bodies: dict[str, ElasticBody] = {**self.rigid, **elastic}
+        for object_id in inclined_in([joint for _, joints in self.groups for joint in joints]):
+            bodies[object_id] = self._inclined(object_id, elastic.get(object_id))
         losses = [body.loss_factor for body in bodies.values()]
         losses += [joint.loss_factor for _, joints in self.groups for joint in joints]
         sampling = Sampling.of(self.bands, self.excitations, min(losses, default=1.0), density)
@@ -67,6 +70,12 @@ class Assembly:
             if joints:
                 reach |= _solved(bodies, joints, sources, source_ids, sampling)
         return CoupledField(source_ids, self.bands, self.network, sampling, reach)
+
+    def _inclined(self, object_id: str, bending: ElasticBody | None) -> InclinedBody:
+        plate, rigid = self.network.bodies[object_id], self.rigid.get(object_id)
+        assert isinstance(plate, Plate)
+        mass_kg = None if rigid is None else rigid.mass_kg
+        return inclined(plate, None if isinstance(bending, RigidMotion) else bending, mass_kg)
 
 
 def assemble(
@@ -180,7 +189,7 @@ class CoupledField:
             return ()
         shares = solved.shares_of_power(self.source_ids.index(source_id), band, self.sampling)
         pose = self.network.poses.get(object_id, Pose())
-        points = pose.to_world(np.column_stack([solved.points_m, np.zeros(len(solved.points_m))]))
+        points = pose.to_world(np.column_stack([solved.points_m[:, :2], np.zeros(len(solved.points_m))]))
         found = [
             Carrier(by, (float(x), float(y), float(z)), float(share))
             for by, (x, y, z), share in zip(solved.others, points, shares, strict=True)

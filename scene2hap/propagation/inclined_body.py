@@ -1,0 +1,210 @@
+"""Bodies that are pushed along their plane, as an upright board, a cabinet or a refrigerator on a floor.
+
+A plate bends under forces along its normal alone. Along its plane it goes, turns and strains as `in_plane` says, and
+pitches over contacts in front of it and behind. A compact body goes and turns as a whole. A port is a point of a body
+and a direction in which a joint pulls; between two of them
+
+    Y = n n' Y_b(x, x') + sum over the motions of s_i s_i' / (omega_i^2 (1 + j eta) - omega^2)
+
+where n is the direction's part along the normal, and s_i how far the port goes in a motion of modal mass 1.
+
+Letters: Y_b [m/N] receptance of the plate in bending, omega_i [rad/s] 0 for the motions of a rigid box, eta [-].
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.propagation.coupling import ElasticBody
+from scene2hap.propagation.in_plane import InPlaneModes, in_plane_modes
+from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.response_basis import AnyFloat, HasResponseBasis, ResponseBasis, real_times
+
+_ASIDE = 1e-6  # A direction with no more than this along the normal bends nothing.
+
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+class Box:
+    """The motions of a rigid box, along three axes and about them.
+
+    Parameters: mass_kg; size_m : length, width and thickness.
+    """
+
+    def __init__(self, mass_kg: float, size_m: tuple[float, float, float]) -> None:
+        x, y, z = np.square(size_m)
+        self._middle_m = np.array([size_m[0] / 2, size_m[1] / 2, 0.0])
+        self._roots = np.sqrt(mass_kg * np.array([1.0, 1.0, 1.0, (y + z) / 12, (x + z) / 12, (x + y) / 12]))
+        self.squares = np.zeros(6)
+
+    def shapes(self, ports: Floats) -> Floats:
+        """How far each port goes in each motion (n, 6) [kg^-1/2]."""
+        along = ports[:, 3:]
+        shapes: Floats = np.concatenate([along, np.cross(ports[:, :3] - self._middle_m, along)], axis=1) / self._roots
+        return shapes
+
+
+class Sheet:
+    """The motions of a plate in its plane, and its pitching about the two axes there as a box.
+
+    Parameters: modes, mass_kg, size_m : of the plate and all that goes along.
+    """
+
+    def __init__(self, modes: InPlaneModes, mass_kg: float, size_m: tuple[float, float, float]) -> None:
+        x, y, z = np.square(size_m)
+        self._modes, self._roots = modes, np.sqrt(mass_kg * np.array([y + z, x + z]) / 12)
+        self.squares = np.concatenate([modes.squares, np.zeros(2)])
+
+    def shapes(self, ports: Floats) -> Floats:
+        """How far each port goes in each motion (n, n_motions) [kg^-1/2]."""
+        height, along = ports[:, 2:3], ports[:, 3:5]
+        own = np.einsum("kpm,pk->pm", self._modes.shapes(np.ascontiguousarray(ports[:, :2])), along)
+        return np.concatenate([own, height * along[:, ::-1] * (-1.0, 1.0) / self._roots], axis=1)
+
+
+class Held:
+    """No motion: an edge holds the plate."""
+
+    squares = np.empty(0)
+
+    def shapes(self, ports: Floats) -> Floats:
+        """None (n, 0)."""
+        return np.empty((len(ports), 0))
+
+
+@dataclass(frozen=True, eq=False)
+class InclinedBody:
+    """An `ElasticBody` between ports (n, 6): x, y and height over its mid-plane [m], and a unit direction, all in its
+    own coordinates.
+
+    Parameters: bending : the plate along its normal, None for a compact body; motions : all others; strain_loss : loss
+    factor of those that strain.
+    """
+
+    bending: ElasticBody | None
+    motions: Box | Sheet | Held
+    strain_loss: float = 0.0
+
+    @property
+    def loss_factor(self) -> float:
+        """See `ElasticBody`."""
+        return math.inf if self.bending is None else self.bending.loss_factor
+
+    def receptance(self, points_m: Floats, forces_m: Floats, frequencies_hz: Floats) -> Complex:
+        """See `ElasticBody`; both are ports."""
+        pushed = self.motions.shapes(forces_m)
+        moved = pushed if points_m is forces_m else self.motions.shapes(points_m)
+        answer: Complex = (moved * self.yielding(frequencies_hz)[:, None, :]) @ pushed.T
+        if self.bending is None:
+            return answer
+        rows, places, normal = _bending(points_m)
+        columns, pushes, along = (rows, places, normal) if points_m is forces_m else _bending(forces_m)
+        if rows.size and columns.size:
+            bent = self.bending.receptance(places, pushes, frequencies_hz)
+            answer[:, rows[:, None], columns] += normal[:, None] * along * bent
+        return answer
+
+    def yielding(self, frequencies_hz: Floats) -> Complex:
+        """How far each motion goes under its own force (n_frequencies, n_motions)."""
+        stiff = self.motions.squares * complex(1.0, self.strain_loss)
+        yielding = 1 / (stiff - (2 * np.pi * frequencies_hz[:, None]) ** 2)
+        return yielding.astype(np.complex128, copy=False)
+
+    def felt(self, points_m: Floats) -> Floats:
+        """The ports of places (n, 2) [m] that together tell how far these go: (3 n, 6), direction by direction."""
+        n = len(points_m)
+        flat = np.column_stack([points_m, np.zeros(n)])
+        return np.concatenate([np.column_stack([flat, np.tile(axis, (n, 1))]) for axis in np.eye(3)[::-1]])
+
+
+class InclinedShapes(InclinedBody):
+    """An `InclinedBody` whose bending is none or has a `ResponseBasis`, and so has itself."""
+
+    def response_basis(self, forces_m: Floats) -> InclinedBasis:
+        """See `HasResponseBasis`."""
+        columns, pushes, along = _bending(forces_m)
+        assert self.bending is None or isinstance(self.bending, HasResponseBasis)
+        bent = None if self.bending is None or not columns.size else self.bending.response_basis(pushes)
+        return InclinedBasis(self, self.motions.shapes(forces_m).T, bent, columns, along)
+
+
+@dataclass(frozen=True, eq=False)
+class InclinedBasis:
+    """A `ResponseBasis` at ports: the body's motions, and behind them the shapes in which it bends.
+
+    pushed : (n_motions, n_forces); bent : None if no force bends it; columns, along : (n_bending,) the forces that do,
+    and their parts along the normal.
+    """
+
+    body: InclinedBody
+    pushed: Floats
+    bent: ResponseBasis | None
+    columns: NDArray[np.intp]
+    along: Floats
+
+    @property
+    def sizes(self) -> Floats:
+        """See `ResponseBasis`."""
+        own = np.abs(self.pushed).max(axis=1, initial=1e-12)
+        return own if self.bent is None else np.concatenate([own, self.bent.sizes])
+
+    def weights(self, frequencies_hz: Floats, forces: Complex) -> Complex:
+        """See `ResponseBasis`."""
+        own = real_times(self.pushed, forces) * self.body.yielding(frequencies_hz).T[:, None, :]
+        if self.bent is None:
+            return own
+        bending = np.ascontiguousarray(forces[self.columns] * self.along[:, None, None])
+        return np.concatenate([own, self.bent.weights(frequencies_hz, bending)])
+
+    def mixed(self, weights: NDArray[AnyFloat]) -> Callable[[Floats], NDArray[AnyFloat]]:
+        """See `ResponseBasis`; from ports."""
+        n_motions = len(self.pushed)
+        bent = None if self.bent is None else self.bent.mixed(np.ascontiguousarray(weights[n_motions:]))
+
+        def sums(ports: Floats) -> NDArray[AnyFloat]:
+            found = (self.body.motions.shapes(ports) @ weights[:n_motions]).astype(weights.dtype)
+            if bent is not None:
+                rows, places, normal = _bending(ports)
+                found[rows] += normal[:, None].astype(weights.dtype) * bent(places)
+            return found
+
+        return sums
+
+
+def inclined(plate: Plate, bending: ElasticBody | None, mass_kg: float | None = None) -> InclinedBody:
+    """The body of a plate that bends as `bending`, or that is compact; of its own mass unless another is given."""
+    if mass_kg is None:
+        mass_kg = plate.moving_mass_kg
+    size_m = plate.length_m, plate.width_m, plate.thickness_m
+    if bending is None:
+        return InclinedShapes(None, Box(mass_kg, size_m))
+    motions = Sheet(in_plane_modes(plate, mass_kg), mass_kg, size_m) if plate.edges == "FFFF" else Held()
+    kind = InclinedShapes if isinstance(bending, HasResponseBasis) else InclinedBody
+    # A plate without edges has no resonances and tells no loss.
+    loss = bending.loss_factor if math.isfinite(bending.loss_factor) else plate.material.loss_factor
+    return kind(bending, motions, loss)
+
+
+def _bending(ports: Floats) -> tuple[NDArray[np.intp], Floats, Floats]:
+    """Which ports have a part along the normal, where they are (n, 2) [m], and that part."""
+    rows = np.flatnonzero(np.abs(ports[:, 5]) > _ASIDE)
+    return rows, np.ascontiguousarray(ports[rows, :2]), ports[rows, 5]
+
+
+class FeltInSpace:
+    """Gains of a body that goes in three directions: the length of the motion, from that along each."""
+
+    def __init__(self, gains: Callable[[Floats], Floats], body: InclinedBody) -> None:
+        self._gains, self._body = gains, body
+
+    def __call__(self, points_m: Floats) -> Floats:
+        """See `Gains`."""
+        each = np.square(self._gains(self._body.felt(points_m)))
+        lengths: Floats = np.sqrt(each.reshape(3, len(points_m), *each.shape[1:]).sum(axis=0))
+        return lengths

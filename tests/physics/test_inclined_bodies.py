@@ -1,0 +1,188 @@
+"""Bodies pushed along their plane: against rigid mechanics, published frequencies and finite elements."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from scene2hap import (
+    Bands,
+    Contact,
+    ContactNetwork,
+    Excitation,
+    InfinitePlate,
+    Material,
+    ModalPlate,
+    Plate,
+    Pose,
+    materials,
+)
+from scene2hap.propagation.band_shapes import CLOSE, band_gains
+from scene2hap.propagation.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupling import inclined_in
+from scene2hap.propagation.in_plane import InPlaneModes
+from scene2hap.propagation.inclined_body import InclinedShapes, inclined
+from scene2hap.propagation.joints import joints_of
+from scene2hap.propagation.sampling import Sampling
+from scene2hap.propagation.solved_object import contracted
+
+OAK, STEEL = materials.lookup("oak"), materials.lookup("steel")
+UPRIGHT = (0.5**0.5, 0.0, 0.0, 0.5**0.5)
+UP = (0.0, 0.0, 1.0)
+F_HZ = np.array([45.0, 130.0, 390.0])
+
+
+def ports(*rows: tuple[float, ...]) -> np.ndarray:
+    return np.array(rows)
+
+
+def test_frequencies_in_its_plane_are_the_published_ones() -> None:
+    """Of a free square, omega a sqrt(rho (1 - nu^2) / E), nu = 0.3.
+
+    Source: Bardell, Langley, Dunsdon, J. Sound Vib. 191 (1996) 459, table of the completely free plate.
+    """
+    plate = Plate(0.5, 0.5, 0.01, Material("any", 2700.0, 7e10, 0.3, 0.01))
+    modes = InPlaneModes(plate, plate.mass_kg)
+    scale = 0.5 * math.sqrt(2700.0 * (1 - 0.3**2) / 7e10)
+    assert np.sqrt(modes.squares[:3]) == pytest.approx(0.0)
+    assert np.sqrt(modes.squares[3:9]) * scale == pytest.approx([2.321, 2.472, 2.472, 2.628, 2.987, 3.452], abs=2e-3)
+
+
+def test_far_below_its_first_mode_a_board_moves_as_a_rigid_one() -> None:
+    """Two forces up at the lower edge of an upright board: heave, and roll about the middle."""
+    board = Plate(0.6, 0.4, 0.02, OAK)
+    body = inclined(board, ModalPlate().elastic_body(board, 1000.0))
+    m, f = board.mass_kg, np.array([5.0])
+    at = ports((0.1, 0.0, 0.0, 0.0, 1.0, 0.0), (0.5, 0.0, 0.0, 0.0, 1.0, 0.0))
+    found = body.receptance(at, at, f)[0]
+    roll = m / 12 * (0.6**2 + 0.4**2)
+    expected = -np.array([[1 / m + 0.2**2 / roll, 1 / m - 0.2**2 / roll]] * 2) / (2 * np.pi * 5.0) ** 2
+    expected[1] = expected[1][::-1]
+    np.testing.assert_allclose(found, expected, rtol=2e-3)
+
+
+def test_over_feet_in_front_and_behind_a_box_pitches() -> None:
+    """A refrigerator that is no plate: heave and pitch of a box by its feet, in closed form."""
+    box = Plate(0.6, 0.5, 0.55, STEEL, object_mass_kg=75.0)
+    body = inclined(box, None)
+    at = ports((0.3, 0.0, 0.2, 0.0, 1.0, 0.0), (0.3, 0.0, -0.2, 0.0, 1.0, 0.0))
+    pitch = 75.0 / 12 * (0.5**2 + 0.55**2)
+    for k, f in enumerate(F_HZ):
+        own, across = 1 / 75.0 + 0.2**2 / pitch, 1 / 75.0 - 0.2**2 / pitch
+        expected = -np.array([[own, across], [across, own]]) / (2 * np.pi * f) ** 2
+        np.testing.assert_allclose(body.receptance(at, at, F_HZ)[k], expected, rtol=1e-12)
+    thin = Plate(0.6, 1.7, 0.05, STEEL, object_mass_kg=75.0)
+    sheet = inclined(thin, ModalPlate().elastic_body(thin, 1000.0))
+    found = sheet.receptance(at, at, np.array([3.0]))[0]
+    pitch = 75.0 / 12 * (1.7**2 + 0.05**2)
+    assert (found[0, 0] - found[0, 1]).real == pytest.approx(-2 * 0.2**2 / pitch / (2 * np.pi * 3.0) ** 2, rel=1e-9)
+
+
+@settings(derandomize=True, deadline=None, max_examples=60)
+@given(
+    length=st.floats(0.02, 3.0),
+    width=st.floats(0.02, 3.0),
+    thickness=st.floats(5e-4, 0.1),
+    is_compact=st.booleans(),
+    seed=st.integers(0, 1000),
+    f=st.floats(5.0, 1000.0),
+)
+def test_it_gains_no_energy(
+    length: float, width: float, thickness: float, is_compact: bool, seed: int, f: float
+) -> None:
+    plate = Plate(length, width, thickness, OAK)
+    body = inclined(plate, None if is_compact else InfinitePlate().elastic_body(plate, 1000.0))
+    rng = np.random.default_rng(seed)
+    directions = rng.normal(size=(5, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    at = np.column_stack([rng.uniform(0, 1, (5, 2)) * (length, width), rng.uniform(-0.2, 0.2, 5), directions])
+    found = body.receptance(at, at, np.array([f]))[0]
+    size = np.abs(found).max()
+    np.testing.assert_allclose(found, found.T, atol=1e-9 * size)
+    assert np.linalg.eigvalsh(found.imag).max() <= 1e-9 * size
+
+
+def test_what_is_summed_before_a_touch_is_the_sum() -> None:
+    board = Plate(0.9, 0.6, 0.004, STEEL)
+    body = inclined(board, ModalPlate().elastic_body(board, 1000.0))
+    assert isinstance(body, InclinedShapes)
+    rng = np.random.default_rng(2)
+    s = 0.5**0.5
+    at = ports((0.1, 0.0, 0.1, 0.0, 1.0, 0.0), (0.8, 0.0, -0.1, 0.0, s, s), (0.4, 0.3, 0.0, 0.0, 0.0, 1.0))
+    places = rng.uniform(0, 0.6, (7, 2))
+    felt = body.felt(places)
+    forces = rng.normal(size=(3, 4)) + 1j * rng.normal(size=(3, 4))
+    f = rng.uniform(20, 900, 4)
+    expected = np.einsum("fpc,cf->pf", body.receptance(felt, at, f), forces)
+    found = contracted(body, at, f, forces)(felt).view(np.complex128)
+    np.testing.assert_allclose(found, expected, atol=1e-10 * np.abs(expected).max())
+
+    sampling = Sampling.of(Bands.third_octaves(), (), 0.02)
+    n_f = len(sampling.frequencies_hz)
+    pushes = np.einsum("f,cs->fcs", np.ones(n_f), rng.normal(size=(3, 2)) + 0j)
+    moved = np.einsum("fpc,fcs->fps", body.receptance(felt, at, sampling.frequencies_hz), pushes)
+    exact = np.array([np.sqrt(np.einsum("f,fps->ps", w, np.abs(moved[one]) ** 2)) for one, w in sampling.bands])
+    quick = band_gains(body.response_basis(at), pushes, sampling, np.arange(2))(felt).transpose(2, 0, 1)
+    assert (np.abs(quick - exact) <= 3 * CLOSE * exact.max(axis=1, keepdims=True)).all()
+
+
+def on_a_table(normal: tuple[float, float, float] | None, pose: Pose) -> ContactNetwork:
+    table, board = Plate(1.2, 0.7, 0.02, OAK), Plate(0.6, 0.4, 0.004, STEEL)
+    points = [(0.3, 0.3, 0.0), (0.6, 0.3, 0.0), (0.9, 0.3, 0.0)]
+    contacts = [Contact("table", "board", at, normal=normal) for at in points]
+    contacts.append(Contact("table", "phone", (0.6, 0.6, 0.0), normal=normal))
+    return ContactNetwork({"table": table, "board": board}, contacts, {"table": Pose(), "board": pose})
+
+
+def test_only_what_is_pushed_aside_is_inclined() -> None:
+    phone = Excitation("phone", 150.0, 150.0, 0.2)
+    level, upright = Pose((0.3, 0.2, 0.0)), Pose((0.3, 0.3, 0.0), UPRIGHT)
+    for pose, normal, expected in ((level, UP, set()), (upright, None, set()), (upright, UP, {"board"})):
+        network = on_a_table(normal, pose)
+        assert inclined_in(joints_of(network, {"table", "board", "phone"}, ContactLaw())) == expected
+    at = [[0.9, 0.5, 0.0]]
+    with_normals, without = (
+        ModalPlate().prepare(on_a_table(normal, level), [phone], Bands.third_octaves()).attenuation("table", at)
+        for normal in (UP, None)
+    )
+    np.testing.assert_array_equal(with_normals, without)
+
+
+def test_an_upright_board_does_not_bend() -> None:
+    """Pushed alike on both halves of its edge it goes up and down as one stiff piece: as strong above as below, where
+    its bending, which nothing pushes, would have nodes."""
+    phone, at = Excitation("phone", 60.0, 60.0, 0.2), [[0.6, 0.3, height] for height in (0.02, 0.15, 0.3, 0.38)]
+    inclined_field, bending_field = (
+        ModalPlate().prepare(on_a_table(normal, Pose((0.3, 0.3, 0.0), UPRIGHT)), [phone], Bands.third_octaves(20, 400))
+        for normal in (UP, None)
+    )
+    stiff, bent = (20 * np.log10(one.attenuation("board", at)[:, 0]) for one in (inclined_field, bending_field))
+    assert np.ptp(stiff, axis=0).max() < 2.0 < np.ptp(bent, axis=0).max()
+    carriers = inclined_field.carriers("board", "phone", 5)
+    assert {one.by for one in carriers} == {"table"}
+    assert sum(one.share for one in carriers) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("felt_on", ["lower", "board"])
+def test_an_upright_board_beside_finite_elements(monkeypatch: pytest.MonkeyPatch, felt_on: str) -> None:
+    """One system of bending and plane stress; `benchmarks/coupled.py` has more cases and frequencies."""
+    pytest.importorskip("skfem", reason="scikit-fem is not installed; run: pip install scikit-fem")
+    monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "benchmarks"))
+    import coupled
+
+    monkeypatch.setattr(coupled, "GRID_M", 0.1)
+    monkeypatch.setattr(coupled, "FREQUENCIES_HZ", np.array([45.0, 110.0, 190.0, 330.0, 520.0]))
+    case = replace(coupled.cases()["oak board upright on its edge"], felt_on=felt_on)
+    points = coupled.points_on(case)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        errors = np.abs(20 * np.log10(coupled.found_by(ModalPlate(), case, points) / coupled.truth(case, points)))
+    assert np.median(errors) < 0.15
+    assert np.percentile(errors, 95) < 0.6
