@@ -47,7 +47,7 @@ from scene2hap import (
     plate_modes,
 )
 from scene2hap.errors import Scene2HapError
-from scene2hap.propagation.domain import ThinPlateWarning
+from scene2hap.propagation.domain import SlowPlateWarning, ThinPlateWarning
 from scene2hap.propagation.lattice import bending_lattice
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 from scene2hap.propagation.stepping import ExactStepper, NewmarkStepper, State, Stepper, viscous_difference_db
@@ -275,6 +275,7 @@ def run(n_kernels: int, n_scenes: int, limit_s: float = 60.0, only: int | None =
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         warnings.simplefilter("ignore", ThinPlateWarning)
+        warnings.simplefilter("ignore", SlowPlateWarning)
         warnings.simplefilter("ignore", SceneWarning)  # materials are drawn from beyond what exists
         for case, n in ((kernels, n_kernels), (scenes, n_scenes)):
             for number in range(n) if only is None else [only]:

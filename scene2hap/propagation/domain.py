@@ -26,6 +26,22 @@ class ThinPlateWarning(UserWarning):
     """A plate is thick beside its shortest bending wave, so thin-plate theory makes it too stiff."""
 
 
+class SlowPlateWarning(UserWarning):
+    """Modes of a plate are about to be worked out that take more than about a second; they are remembered then."""
+
+
+@lru_cache(maxsize=4096)
+def warn_if_slow(plate: Plate, size: int, most: int, what: str) -> None:
+    """Warn once per plate, by `SlowPlateWarning`, of a problem larger than `most`, which takes about a second."""
+    if size > most:
+        warnings.warn(
+            f"{size} {what} of a plate of {plate.length_m:g} × {plate.width_m:g} × {plate.thickness_m:g} m are worked "
+            f"out; more than {most} take over a second. A lower top frequency or InfinitePlate is quicker.",
+            SlowPlateWarning,
+            stacklevel=4,
+        )
+
+
 def as_frequencies(frequencies_hz: ArrayLike, *, positive_because: str = "") -> NDArray[np.float64]:
     """Frequencies as (n_frequencies,) float64 [Hz], >= 0; one may come as a bare number.
 

@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import ModelDomainError
+from scene2hap.propagation.domain import warn_if_slow
 from scene2hap.propagation.lattice import MOST_NODES, Lattice, bending_lattice, cells_of
 from scene2hap.propagation.modes import n_rigid_motions
 from scene2hap.propagation.plate import Plate
@@ -38,6 +39,8 @@ TERMS = 4
 """Terms of the series. Measured on furniture: with them the answer is within 0.02 dB of a direct solve at p95."""
 STIFFEST = 2e-12
 """Part of the stiffest springs that stands well clear of their rounding."""
+QUICK_NODES = 10_000
+"""Nodes whose lowest modes take less than about a second."""
 MOST_WORK = 1e8
 """Nodes times modes squared beyond which modes are not solved for: that is what Lanczos' method costs. A plate then
 takes some seconds at most."""
@@ -162,6 +165,7 @@ def _modes_up_to(plate: Plate, resolution: int, top_frequency_hz: float) -> Latt
 def _factorised(plate: Plate, resolution: int, top_k4: float) -> tuple[Lattice, SuperLU, float]:
     """The lattice, the factors of K + s A, and s, for modes up to k^4."""
     lattice = bending_lattice(plate, resolution)
+    warn_if_slow(plate, lattice.n_nodes, QUICK_NODES, "nodes of a lattice")
     # Large enough beside the stiffest springs for refinement to converge, small beside the modes of interest.
     shift = max(1e-2 * top_k4, STIFFEST * lattice.stiffest_k4)
     return lattice, _factors(lattice, shift), shift

@@ -11,14 +11,12 @@ from numpy.typing import NDArray
 
 from scene2hap.propagation.byte_bounded_lru import ByteBoundedLru
 from scene2hap.propagation.infinite_plate import InfiniteBody
-from scene2hap.propagation.modes import FINE, MARGIN, Fineness, largest_block
+from scene2hap.propagation.modes import FINE, MARGIN, QUICK_BLOCK, Fineness, largest_block
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.plate_terms import ContractedShapes, ForcedPlate, PlateTerms
 from scene2hap.propagation.response_basis import AnyFloat
 from scene2hap.propagation.split_body import SplitBody
 
-MOST_FUNCTIONS = 1100
-"""Size of the largest eigenproblem for a scene, some 0.4 s: a hundred modes without symmetry, four hundred with."""
 MOST_REMEMBERED = 65_536
 """Complex numbers of a receptance among contacts that is remembered, 1 MB: things that stay where they are need not be
 summed again when others move."""
@@ -39,7 +37,7 @@ def modal_body(
     shorter = min(plate.length_m, plate.width_m)
     k = min(float(plate.wavenumber_rad_m(max_frequency_hz)), 4 * NO_RETURN / (loss_factor * shorter))
     limit_hz = (k / plate.wavenumber_per_root_omega) ** 2 / (2 * np.pi)
-    most = max(MOST_FUNCTIONS, largest_block(plate, 0.0))  # what a narrow plate needs at any frequency
+    most = max(QUICK_BLOCK, largest_block(plate, 0.0))  # what a narrow plate needs at any frequency
     while largest_block(plate, MARGIN * limit_hz) > most:
         limit_hz *= 0.9
     if limit_hz >= max_frequency_hz * (1 - 1e-9):

@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.errors import ModelDomainError
+from scene2hap.propagation.domain import warn_if_slow
 from scene2hap.propagation.plate import MAX_FREQUENCY_HZ, Plate, require_plate
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.ritz import AxisBasis, axis_bases, products, stiffness
@@ -32,6 +33,8 @@ Number = TypeVar("Number", np.float64, np.complex128)
 
 LARGEST_BLOCK = 3000
 """Functions in one eigenproblem beyond which a plate is refused; it takes some 20 s, and hundreds of modes."""
+QUICK_BLOCK = 1000
+"""Functions in one eigenproblem that take less than about a second."""
 MARGIN = 1.5
 """Receptances take modes up to this many times their top frequency. Tuned: 2 halves the remaining error at twice the
 time."""
@@ -254,6 +257,7 @@ def _modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FIN
             f"modes up to {max_frequency_hz:g} Hz of a plate of {plate.length_m:g} × {plate.width_m:g} m need "
             f"{largest} functions in one eigenproblem; at most {LARGEST_BLOCK} are allowed. {remedy}"
         )
+    warn_if_slow(plate, largest, QUICK_BLOCK, "functions in one eigenproblem")
     bases_x = axis_bases(plate.edges[:2], plate.length_m, terms[0])
     bases_y = axis_bases(plate.edges[2:], plate.width_m, terms[1])
     shift = SHIFT * max(k, math.pi / max(plate.length_m, plate.width_m)) ** 4

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -9,9 +11,12 @@ from hypothesis import strategies as st
 
 from scene2hap import ModalPlate
 from scene2hap.errors import ModelDomainError
+from scene2hap.propagation.domain import SlowPlateWarning
 from scene2hap.propagation.modal_body import modal_body
-from scene2hap.propagation.modes import largest_block
+from scene2hap.propagation.modes import QUICK_BLOCK, largest_block
 from scene2hap.propagation.plate import Plate
+
+pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.SlowPlateWarning")
 
 # Deflection of an infinite strip of width b under a force F in its middle, w D / (F b^2), Poisson's ratio 0.3.
 # Source: Timoshenko, Woinowsky-Krieger, Theory of Plates and Shells (1959), tables 23 and 37, b/a of infinity.
@@ -82,8 +87,17 @@ def test_what_is_too_narrow_for_its_edges_is_refused() -> None:
 
 def test_a_plate_that_needs_many_functions_at_any_frequency_is_a_body() -> None:
     plate = Plate(1.0, 0.02, 0.002, "steel", "FFCF")
-    assert largest_block(plate, 0.0) > 1100
+    assert largest_block(plate, 0.0) > QUICK_BLOCK
     points = np.array([[0.5, 0.01], [0.52, 0.02]])
     answer = modal_body(plate, 400.0, 0.01).receptance(points, points, np.array([100.0]))[0]
     alone = ModalPlate(loss_floor=0.01).plate_receptance(plate, points[0], points, [100.0])[:, 0]
     np.testing.assert_allclose(answer[:, 0], alone, rtol=0.02)
+
+
+def test_what_takes_long_is_announced_once() -> None:
+    plate = Plate(1.0, 0.0213, 0.002, "steel", "FFCF")
+    with pytest.warns(SlowPlateWarning, match=r"functions in one eigenproblem of a plate of 1 × 0\.0213"):
+        ModalPlate().plate_receptance(plate, [0.5, 0.01], [[0.5, 0.01]], [50.0])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ModalPlate().plate_receptance(plate, [0.5, 0.01], [[0.5, 0.01]], [50.0])
