@@ -92,6 +92,17 @@ FIGURES = {
     "sound-card-hour": Figure("actuators", "stress/soak.py", 60, has_times=True, is_text=True, needs="sound server"),
     "masses": Figure("inference", "benchmarks/masses.py", 1, needs="scenes"),
     "coupled": Figure("accuracy", "benchmarks/coupled.py", 5),
+    "auto-scenes": Figure(
+        "propagation",
+        "benchmarks/auto_scenes.py scene2hap/demo/kitchen.glb "
+        + " ".join(
+            f"{SCENES}/{name}/{name}.glb"
+            for name in ("aws_house_bedroom", "aws_house_living", "composed_kitchen_kaykit", "composed_bathroom_kenney")
+        ),
+        2,
+        has_times=True,
+        needs="scenes",
+    ),
     "bands": Figure("propagation", "benchmarks/bands.py", 1),
     "model-choice": Figure("propagation", "benchmarks/model_choice.py", 2, has_times=True),
     "spawning-10": Figure("spawning", "benchmarks/spawning.py --alive 10", 0.5, has_times=True),

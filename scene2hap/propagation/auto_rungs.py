@@ -1,17 +1,16 @@
-"""The rungs of `auto`: models of one plate from the cheapest to the finest, and bounds of their errors.
+"""The rungs of `auto`: models of one plate from the cheapest to `ModalPlate`, and bounds of their errors against it.
 
-    rigid     moves as a whole               wrong by 25 dB (f / f_1)^2, calibrated
+    rigid     moves as a whole               wrong by 250 dB (f / f_1)^2, calibrated
     infinite  has no edges                   wrong by what rises above the floor of -40 dB, derived (`auto_level`)
     coarse    modes of a small basis         wrong by `MODAL_DB`, calibrated
     medium    ...
-    fine      slightly more than `ModalPlate`
-    finest    `ModalPlate` with 2.6 polynomials per half wave, converged to 0.1 dB; what all are held against
+    modal     `ModalPlate`                   what all are held against
 
 Every modal rung keeps its resonances one by one, the static share of all else, and the near field; they differ in the
 polynomials that they are made of. Errors are those of band gains, floored at -40 dB re the source, in the worst band.
 Calibrated: at least the 99th percentile over 600 draws of `benchmarks/auto_fidelity.py --calibrate`, none of which is
-among those that it reports; but for "held" by "fine", where 0.8 is the 97th of 56 and 1.6 the 99th, and "rigid", where
-25 is exceeded by some resonances on the source's feet. Both kept 1 dB in 98 % of the draws that are reported.
+among those that it reports. "rigid" is off most where a source resonates on several feet, near a corner most of all:
+210 dB (f / f_1)^2 at worst in 600 draws.
 
 Letters: f [Hz] top frequency, f_1 [Hz] first bending mode.
 """
@@ -25,28 +24,25 @@ from dataclasses import dataclass
 from scene2hap.propagation.coupling import ElasticBody
 from scene2hap.propagation.infinite_plate import InfiniteBody
 from scene2hap.propagation.modal_body import modal_body
-from scene2hap.propagation.modes import Fineness, first_bending_hz
+from scene2hap.propagation.modes import FINE, Fineness, first_bending_hz
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.rigid import RigidMotion
 
 FLOOR_DB = -40.0
 """Gains below this are as good as none: errors are counted from here, re the source."""
-RIGID_DB = 25.0
+RIGID_DB = 250.0
 FINENESS = {
     "coarse": Fineness(1.2 / math.pi, 3, 6),
     "medium": Fineness(1.6 / math.pi, 3, 12),
-    "fine": Fineness(2.0 / math.pi, 4, 16),
-    "finest": Fineness(2.6 / math.pi, 8, 26),
+    "modal": FINE,
 }
 MODAL_DB = {
-    "held, and quiet": {"coarse": 0.75, "medium": 0.4, "fine": 0.3},
-    "held": {"coarse": 5.0, "medium": 2.3, "fine": 0.8},
-    "free": {"coarse": 4.6, "medium": 0.9, "fine": 0.46},
+    "held, and quiet": {"coarse": 0.75, "medium": 0.4},
+    "held": {"coarse": 5.0, "medium": 2.3},
+    "free": {"coarse": 4.6, "medium": 0.9},
 }
 """Error of each basis by what holds the plate: "free" are two free edges or more; the rest is "held", and quiet where
 sources cannot bring it above `QUIET_DB`. Near edges that hold, a plate hardly moves, and small bases err most."""
-FINEST_DB = 0.1
-"""Against 4.2 polynomials per half wave; what thinner sampling adds at a wide tolerance is counted by `auto`."""
 QUIET_DB = 5.0
 
 
@@ -74,7 +70,7 @@ class Situation:
     peak_db: float = math.inf
 
     def choose(self, object_id: str, tolerance_db: float, *, may_be_infinite: bool = True) -> Choice:
-        """The cheapest rung whose bound is within the tolerance [dB]; the finest if none is."""
+        """The cheapest rung whose bound is within the tolerance [dB]; `ModalPlate` if none is."""
         ratio = self._bending(tolerance_db)
         if RIGID_DB * ratio**2 <= tolerance_db:
             why = f"{self.top_hz:g} Hz is {ratio:.2g} of its first bending mode"
@@ -87,7 +83,7 @@ class Situation:
         for rung, bound in MODAL_DB[held].items():
             if bound <= tolerance_db:
                 return Choice(object_id, rung, bound, f"the smallest basis that serves a plate that is {held}")
-        return Choice(object_id, "finest", FINEST_DB, f"no smaller basis serves a plate that is {held}")
+        return Choice(object_id, "modal", 0.0, f"no smaller basis serves a plate that is {held}")
 
     def _bending(self, tolerance_db: float) -> float:
         """Top frequency over that of the first bending mode, infinite where a glance shows that it is too high."""
@@ -121,4 +117,4 @@ _MAKERS: dict[str, Callable[[Plate, float, float], ElasticBody]] = {
     **{rung: _modal(fineness) for rung, fineness in FINENESS.items()},
 }
 RUNGS = tuple(_MAKERS)
-"""From the cheapest to the finest."""
+"""From the cheapest to the dearest."""

@@ -1,4 +1,4 @@
-"""AutoFidelity: its tolerance against the finest model, what it says about its choices, and where they come from."""
+"""AutoFidelity: its tolerance against `ModalPlate`, what it says about its choices, and where they come from."""
 
 import sys
 from dataclasses import replace
@@ -26,7 +26,7 @@ FIRST_SEED = 300_000
 
 
 def furniture(count: int) -> list[campaign.Draw]:
-    """Draws whose finest model is quick; the campaign takes all."""
+    """Draws whose model is quick; the campaign takes all."""
     drawn = (campaign.draw(seed) for seed in range(FIRST_SEED, FIRST_SEED + 400))
     quick = [one for one in drawn if modes.largest_block(one.plate, 1.5 * one.bands.edges_hz[-1]) < 110]
     return quick[:count]
@@ -41,7 +41,7 @@ def test_it_keeps_its_tolerance_on_furniture() -> None:
     errors, rungs = [], set()
     for one in furniture(60):
         field = MODEL.prepare(one.network, one.excitations, one.bands)
-        truth = campaign.asked(one, campaign.by_rung(one, "finest"))
+        truth = campaign.asked(one, campaign.by_rung(one, "modal"))
         errors.append(campaign.wrong_by(campaign.asked(one, field), truth))
         rungs.add(field.choices["plate"].rung)
     assert np.mean(np.array(errors) <= 1.0) >= 0.95  # 0.99 of 2,000 in the campaign
@@ -56,23 +56,26 @@ def test_no_gain_exceeds_the_level_that_is_promised() -> None:
             continue
         joints = [joint for _, several in scene.groups for joint in several]
         eta = max(one.plate.material.loss_factor, 0.01)
-        promised = peak_level_db(one.plate, eta, [(one.excitations[0].mass_kg, joints)], one.bands, [])
-        field = campaign.by_rung(one, "fine")
+        places = [joint.point_a_m if joint.a == "plate" else joint.point_b_m for joint in joints]
+        promised = peak_level_db(one.plate, eta, [(one.excitations[0].mass_kg, joints)], places, one.bands, [])
+        field = campaign.by_rung(one, "modal")
         size = [one.plate.length_m, one.plate.width_m, 0.0]
-        anywhere = np.random.default_rng(1).uniform(0.02, 0.98, (20, 3)) * size
-        loudest = 20 * np.log10(field.attenuation("plate", anywhere).max())
-        assert loudest <= promised + 6.0  # corners of free plates move twice as much as the bound allows for
+        parts = np.random.default_rng(1).uniform(0.02, 0.98, (20, 3))
+        parts[:8] = parts[:8].round()  # corners
+        parts[8:14, 0] = parts[8:14, 0].round()  # edges
+        loudest = 20 * np.log10(field.attenuation("plate", parts * size).max())
+        assert loudest <= promised
 
 
 @pytest.mark.parametrize(
     ("plate", "bands", "rung"),
     [
         (Plate(0.5, 0.3, 0.061, OAK), Bands.third_octaves(), "rigid"),  # compact
-        (Plate(0.6, 0.4, 0.02, OAK), Bands((10.0, 20.0)), "rigid"),  # its first mode lies near 250 Hz
+        (Plate(0.45, 0.35, 0.03, OAK), Bands((10.0, 20.0)), "rigid"),  # its first mode lies above 500 Hz
         (Plate(5.0, 4.0, 0.2, CONCRETE, "clamped"), Bands((50.0, 80.0)), "infinite"),
         (Plate(2.4, 1.2, 0.03, OAK, "SSSS"), Bands((40.0, 63.0, 100.0)), "coarse"),
         (Plate(1.2, 0.7, 0.025, OAK), Bands.third_octaves(), "medium"),
-        (Plate(0.5, 0.4, 0.002, STEEL, "clamped"), Bands.third_octaves(), "fine"),
+        (Plate(0.5, 0.4, 0.002, STEEL, "clamped"), Bands.third_octaves(), "modal"),
     ],
 )
 def test_which_rung(plate: Plate, bands: Bands, rung: str) -> None:
@@ -94,26 +97,28 @@ def test_a_tighter_tolerance_never_chooses_a_cheaper_rung() -> None:
             assert chosen[-1].bound_db <= 0.1
 
 
-def test_the_tightest_tolerance_is_the_finest_model() -> None:
+def test_at_the_tightest_tolerance_it_is_the_modal_plate() -> None:
     one = furniture(1)[0]
     field = AutoFidelity(0.1, outside_domain="ignore").prepare(one.network, one.excitations, one.bands)
-    truth = campaign.asked(one, campaign.by_rung(one, "finest"))
-    assert campaign.wrong_by(campaign.asked(one, field), truth) <= 0.1
+    truth = ModalPlate(outside_domain="ignore").prepare(one.network, one.excitations, one.bands)
+    assert field.choices["plate"].rung == "modal"
+    assert campaign.wrong_by(campaign.asked(one, field), campaign.asked(one, truth)) <= 0.1
 
 
-def test_a_chain_of_objects_shares_the_tolerance() -> None:
-    """A radio on a shelf on a table: two plates on the way, so each gets less than alone, and the sum still holds."""
+def test_a_chain_of_objects_keeps_the_tolerance() -> None:
+    """A radio on a shelf on a table: two plates on the way, each of a smaller basis."""
     shelf, table = Plate(0.6, 0.25, 0.018, OAK), Plate(1.4, 0.8, 0.03, OAK)
     contacts = [Contact("radio", "shelf", (0.3 + x, 0.1, 0.0)) for x in (0.0, 0.1)]
     contacts += [Contact("shelf", "table", (x, y, 0.0)) for x in (0.1, 0.55) for y in (0.05, 0.2)]
     network = ContactNetwork({"shelf": shelf, "table": table}, contacts)
     excitations, bands = [Excitation("radio", 150.0, 150.0, 1.0)], Bands.third_octaves()
     field = AutoFidelity(1.0).prepare(network, excitations, bands)
-    assert all(field.choices[key].bound_db <= 1 / np.sqrt(2) for key in ("shelf", "table"))
-    finest = AutoFidelity(0.1).prepare(network, excitations, bands)
-    assert {finest.choices[key].rung for key in ("shelf", "table")} == {"finest"}
-    for object_id, point in (("shelf", (0.1, 0.2, 0.0)), ("table", (1.2, 0.3, 0.0))):
-        gains = [np.maximum(one.attenuation(object_id, [point])[0, 0], 0.01) for one in (field, finest)]
+    assert {field.choices[key].rung for key in ("shelf", "table")} == {"medium"}
+    modal = ModalPlate().prepare(network, excitations, bands)
+    places = {"shelf": [(0.1, 0.2), (0.0, 0.0), (0.6, 0.1)], "table": [(1.2, 0.3), (1.4, 0.8), (0.7, 0.0)]}
+    for object_id, several in places.items():
+        points = [(x, y, 0.0) for x, y in several]
+        gains = [np.maximum(one.attenuation(object_id, points)[:, 0], 0.01) for one in (field, modal)]
         assert np.abs(20 * np.log10(gains[0] / gains[1])).max() < 1.0
 
 
