@@ -66,7 +66,7 @@ def main() -> None:
             modal, modal_s = prepared(ModalPlate(outside_domain="ignore"), network, excitations, bands)
             auto, auto_s = prepared(AutoFidelity(given.tolerance, outside_domain="ignore"), network, excitations, bands)
             assert isinstance(auto, AutoField)
-            errors = []
+            errors, worst = [], (0.0, "")
             for object_id in auto.choices:
                 body = network.bodies.get(object_id)
                 if isinstance(body, Plate):
@@ -76,12 +76,13 @@ def main() -> None:
                         for field in (auto, modal)
                     )
                     errors.append(np.abs(one - other).max(axis=(1, 2)))
+                    worst = max(worst, (float(errors[-1].max()), object_id))
             found = np.concatenate(errors)
             every.append(found)
             ratios.append(modal_s / auto_s)
             rungs = ", ".join(f"{n} {rung}" for rung, n in Counter(one.rung for one in auto.choices.values()).items())
             scene = path.replace("\\", "/").rsplit("/", 1)[-1]
-            kept = f"{len(found)} | {100 * np.mean(found <= given.tolerance):.1f} % | {found.max():.2f}"
+            kept = f"{len(found)} | {100 * np.mean(found <= given.tolerance):.1f} % | {worst[0]:.2f} on {worst[1]}"
             print(
                 f"| {scene} | {name} | {modal_s:.2f} | {auto_s:.2f} | {ratios[-1]:.1f} | {kept} | {rungs} |", flush=True
             )
