@@ -7,6 +7,8 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, lru_cache
 
+import numpy as np
+
 from scene2hap.materials import Material
 from scene2hap.propagation.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupling import NORMAL, Along, Joint
@@ -17,6 +19,7 @@ from scene2hap.scene.pose import Pose
 
 SAME_POINT_M = 1e-6
 """Contacts of one pair that are nearer than this are one."""
+_PLACE_DIGITS = 6
 LEVEL = 0.9
 """A contact whose direction has this part along a plate's normal pushes along it, up to 26 degrees off."""
 
@@ -60,6 +63,18 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
         joints += _merged(found)
     joints.sort(key=lambda joint: (joint.a, joint.b))
     return joints
+
+
+def legs_of(network: ContactNetwork, object_id: str, plate: Plate) -> list[tuple[float, float]]:
+    """Where an object stands on what is farther below its plate than this is thick: on legs, walls or a frame."""
+    pose = network.poses.get(object_id)
+    points = [one.point_m for one in network.contacts if object_id in (one.a, one.b) and one.weight > 0]
+    if pose is None or not points:
+        return []
+    heights_m = pose.to_own(points)[:, 2]
+    is_far = np.abs(heights_m) > plate.thickness_m
+    places = network.on_body(object_id, points)[is_far].round(_PLACE_DIGITS)
+    return sorted(set(map(tuple, places.tolist())))
 
 
 def source_groups(joints: Sequence[Joint], source_ids: Iterable[str]) -> list[tuple[list[str], list[Joint]]]:

@@ -26,7 +26,8 @@ from scene2hap.propagation.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupling import ElasticBody, Joint, couple, inclined_in
 from scene2hap.propagation.domain import OutsideDomain, check_choice, check_thin
 from scene2hap.propagation.inclined_body import InclinedBody, inclined
-from scene2hap.propagation.joints import joints_of, source_groups
+from scene2hap.propagation.joints import joints_of, legs_of, source_groups
+from scene2hap.propagation.legged_body import legged
 from scene2hap.propagation.object_response import ObjectResponse
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import as_points
@@ -59,7 +60,7 @@ class Assembly:
         Parameters: density : frequencies per band over what is needed.
         """
         source_ids = tuple(item.source_id for item in self.excitations)
-        bodies: dict[str, ElasticBody] = {**self.rigid, **elastic}
+        bodies: dict[str, ElasticBody] = {**self.rigid, **{key: self._legged(key, elastic[key]) for key in elastic}}
         for object_id in inclined_in([joint for _, joints in self.groups for joint in joints]):
             bodies[object_id] = self._inclined(object_id, elastic.get(object_id))
         losses = [body.loss_factor for body in bodies.values()]
@@ -70,6 +71,13 @@ class Assembly:
             if joints:
                 reach |= _solved(bodies, joints, sources, source_ids, sampling)
         return CoupledField(source_ids, self.bands, self.network, sampling, reach)
+
+    def _legged(self, object_id: str, plate: ElasticBody) -> ElasticBody:
+        """A plate, and what the rest of its object weighs, where it stands."""
+        own, bends = self.plates[object_id], not isinstance(plate, RigidMotion)
+        rest_kg = own.moving_mass_kg - own.mass_kg
+        legs = legs_of(self.network, object_id, own) if bends and rest_kg > 0 and own.edges == "FFFF" else []
+        return legged(plate, np.array(legs), np.full(len(legs), rest_kg / len(legs))) if legs else plate
 
     def _inclined(self, object_id: str, bending: ElasticBody | None) -> InclinedBody:
         plate, rigid = self.network.bodies[object_id], self.rigid.get(object_id)

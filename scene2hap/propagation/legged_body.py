@@ -1,0 +1,97 @@
+"""A plate with what the rest of its object weighs: legs, walls and a frame, as masses where the object stands.
+
+A mass m below a point l of a plate pulls by omega^2 m u(l). With the plate's receptance Y and those masses,
+
+    Y'(x, x') = Y(x, x') - Y(x, l) (Y(l, l) + Z)^-1 Y(l, x')        Z = -1 / (omega^2 m), diagonal
+
+Letters: Y [m/N], m [kg], u [m].
+Source: de Klerk, Rixen, Voormeeren, General framework for dynamic substructuring, AIAA J. 46 (2008) 1169, for coupling
+by receptances, of which this is the case of point masses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.propagation.byte_bounded_lru import ByteBoundedLru
+from scene2hap.propagation.coupling import ElasticBody
+from scene2hap.propagation.response_basis import AnyFloat, HasResponseBasis, ResponseBasis
+
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+class LeggedBody:
+    """An `ElasticBody` with masses.
+
+    Parameters: plate : the plate alone; legs_m : (n_legs, 2) [m] where they are; masses_kg : (n_legs,).
+    """
+
+    def __init__(self, plate: ElasticBody, legs_m: Floats, masses_kg: Floats) -> None:
+        self.plate, self.legs_m, self.masses_kg = plate, legs_m, masses_kg
+        self.pulled = ByteBoundedLru(self._pulled, room=4)
+
+    @property
+    def loss_factor(self) -> float:
+        """See `ElasticBody`."""
+        return self.plate.loss_factor
+
+    def receptance(self, points_m: Floats, forces_m: Floats, frequencies_hz: Floats) -> Complex:
+        """See `ElasticBody`."""
+        plain = self.plate.receptance(points_m, forces_m, frequencies_hz)
+        towards = self.plate.receptance(points_m, self.legs_m, frequencies_hz)
+        pulled = self.pulled(forces_m, frequencies_hz)
+        answer = plain + towards @ pulled
+        # To the last bit, which rounding is not.
+        return (answer + answer.transpose(0, 2, 1)) / 2 if points_m is forces_m else answer
+
+    def _pulled(self, forces_m: Floats, frequencies_hz: Floats) -> Complex:
+        """With what force each leg answers a force of 1 N (n_frequencies, n_legs, n_forces) [-]."""
+        among = self.plate.receptance(self.legs_m, self.legs_m, frequencies_hz).copy()
+        n = np.arange(len(self.masses_kg))
+        among[:, n, n] -= 1 / (self.masses_kg * (2 * np.pi * frequencies_hz[:, None]) ** 2)
+        moved = self.plate.receptance(self.legs_m, forces_m, frequencies_hz)
+        answered: Complex = -np.linalg.solve(among, moved).astype(np.complex128, copy=False)
+        return answered
+
+
+class LeggedShapes(LeggedBody):
+    """A `LeggedBody` whose plate has a `ResponseBasis`, and so has itself."""
+
+    def response_basis(self, forces_m: Floats) -> LeggedBasis:
+        """See `HasResponseBasis`."""
+        assert isinstance(self.plate, HasResponseBasis)
+        return LeggedBasis(self, forces_m, self.plate.response_basis(np.concatenate([forces_m, self.legs_m])))
+
+
+@dataclass(frozen=True, eq=False)
+class LeggedBasis:
+    """A `ResponseBasis`: that of the plate, pushed by the legs as well."""
+
+    body: LeggedBody
+    forces_m: Floats
+    plate: ResponseBasis
+
+    @property
+    def sizes(self) -> Floats:
+        """See `ResponseBasis`."""
+        return self.plate.sizes
+
+    def weights(self, frequencies_hz: Floats, forces: Complex) -> Complex:
+        """See `ResponseBasis`."""
+        answered = np.einsum("flc,cnf->lnf", self.body.pulled(self.forces_m, frequencies_hz), forces)
+        return self.plate.weights(frequencies_hz, np.concatenate([forces, answered]))
+
+    def mixed(self, weights: NDArray[AnyFloat]) -> Callable[[Floats], NDArray[AnyFloat]]:
+        """See `ResponseBasis`."""
+        return self.plate.mixed(weights)
+
+
+def legged(plate: ElasticBody, legs_m: Floats, masses_kg: Floats) -> LeggedBody:
+    """A plate with masses; with a `ResponseBasis` if it has one."""
+    kind = LeggedShapes if isinstance(plate, HasResponseBasis) else LeggedBody
+    return kind(plate, legs_m, masses_kg)
