@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import NamedTuple, cast
 
 import numpy as np
@@ -83,13 +83,20 @@ class Sampling:
         """The band of a source of that number."""
         return self.bands[band if self.is_shared else source]
 
+    @cached_property
+    def _side_by_side(self) -> tuple[list[int], Floats]:
+        """Where each of everyone's bands begins, and the weights of all (n_frequencies, 1, 1)."""
+        return [at.start for at, _ in self.bands], np.concatenate([one for _, one in self.bands])[:, None, None]
+
     def gains(self, response: NDArray[np.complex128], sources: NDArray[np.intp]) -> Floats:
         """Rms over each band (n_points, n_sources, n_bands) of a response (n_frequencies, n_points, n_sources) to the
         sources of these numbers (n_sources,)."""
         squares = np.square(response.real)
         squares += np.square(response.imag)
         if self.is_shared:
-            gains = np.stack([np.einsum("f,fps->ps", weights, squares[at]) for at, weights in self.bands], axis=-1)
+            starts, weights = self._side_by_side
+            squares *= weights
+            gains = np.add.reduceat(squares, starts, axis=0).transpose(1, 2, 0)
         else:
             mine = [self.bands[number] for number in sources.tolist()]
             own = [weights @ squares[at, :, k] for k, (at, weights) in enumerate(mine)]
