@@ -95,6 +95,7 @@ def test_modes_and_series_are_the_direct_solution(boundary: str) -> None:
     np.testing.assert_allclose(found[:, :3], expected[:, :3], rtol=2e-4)
 
 
+@pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.SlowPlateWarning")
 def test_it_tends_to_the_modal_plate() -> None:
     """Error in dB below the fifth mode, where a frequency slightly off does not yet pass over a resonance."""
     plate = Plate(1.2, 0.7, 0.025, replace(materials.lookup("oak"), loss_factor=0.05))
