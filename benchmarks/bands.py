@@ -1,11 +1,11 @@
-"""How much what is felt depends on moduli that nobody knows, by the width of the band, as a table in Markdown.
+"""How far levels depend on moduli that nobody knows, by the width of the band, as a table in Markdown.
 
 python benchmarks/bands.py [--draws 30] [--seed 5]
 
-A source stands on a plate of 1.2 x 0.7 m on four legs, or on a tray upon it, drawn anew for each case: material,
-thickness, places, frequency. Then Young's modulus of each part is drawn anew within 30 % of the table's. Told is the
-spread of the level at points on the plate (rms about each point's mean) around the source's dominant frequency, and its
-99th percentile. A model that resonates has half an octave by default.
+Each scene is a plate of 1.2 x 0.7 m on four legs with a tray on it and a source on either, of a material, thickness,
+place and frequency of its own. Young's modulus of each part is drawn within 30 % of the table's. The table gives the
+spread of the level at points on the plate, rms about each point's mean and 99th percentile, in a band around the
+source's dominant frequency. Models that resonate take half an octave by default.
 """
 
 from __future__ import annotations

@@ -18,6 +18,7 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,6 +41,7 @@ from scene2hap import (
     materials,
 )
 from scene2hap.propagation.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupling import Joint
 from scene2hap.propagation.domain import ThinPlateWarning
 from scene2hap.propagation.joints import joints_of
 
@@ -175,7 +177,7 @@ class Part:
         return both[component * len(points_m) : (component + 1) * len(points_m)]
 
 
-def plane_stress(body: Plate):  # type: ignore[no-untyped-def]
+def plane_stress(body: Plate) -> tuple[Any, csc_matrix, csc_matrix]:
     """Basis, stiffness and mass of a plate in its own plane, in quadratic triangles."""
     import skfem
     from skfem.helpers import ddot, dot, eye, sym_grad, trace
@@ -189,12 +191,12 @@ def plane_stress(body: Plate):  # type: ignore[no-untyped-def]
     scale = E * body.thickness_m / (1 - nu**2)
 
     @skfem.BilinearForm
-    def stiffness(u, v, _):  # type: ignore[no-untyped-def]
+    def stiffness(u: Any, v: Any, _: Any) -> Any:
         strain = sym_grad(u)
         return scale * ddot((1 - nu) * strain + nu * eye(trace(strain), 2), sym_grad(v))
 
     @skfem.BilinearForm
-    def mass(u, v, _):  # type: ignore[no-untyped-def]
+    def mass(u: Any, v: Any, _: Any) -> Any:
         return body.material.density_kg_m3 * body.thickness_m * dot(u, v)
 
     return basis, stiffness.assemble(basis).tocsc(), mass.assemble(basis).tocsc()
@@ -238,7 +240,7 @@ def matching(case: Case, a: str, b: str) -> list[Triple]:
     return [at for x, y, at in case.touching if {x, y} == {a, b}]
 
 
-def is_at(network: ContactNetwork, joint, at: Triple) -> bool:  # type: ignore[no-untyped-def]
+def is_at(network: ContactNetwork, joint: Joint, at: Triple) -> bool:
     """Whether a joint is where two objects touch at a world point."""
     here = [network.on_body(key, [at])[0] for key in (joint.a, joint.b)]
     return bool(np.allclose(here[0], joint.point_a_m, atol=1e-9) and np.allclose(here[1], joint.point_b_m, atol=1e-9))

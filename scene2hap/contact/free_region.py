@@ -64,6 +64,6 @@ class FreeRegions:
 
     def _note(self, guest_id: str, region: FreeRegion) -> None:
         if len(self._of_guests) >= _MOST_GUESTS:
-            # Guests that are gone are not told of; those that stay find their regions again.
+            # Nobody reports guests that left; those that stay find their regions again.
             self._of_guests.clear()
         self._of_guests[guest_id] = region

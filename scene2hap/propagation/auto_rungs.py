@@ -9,8 +9,8 @@
 Every modal rung keeps its resonances one by one, the static share of all else, and the near field; they differ in the
 polynomials that they are made of. Errors are those of band gains, floored at -40 dB re the source, in the worst band.
 Calibrated: at least the 99th percentile over 600 draws of `benchmarks/auto_fidelity.py --calibrate`, none of which is
-among those that it reports. "rigid" is off most where a source resonates on several feet, near a corner most of all:
-210 dB (f / f_1)^2 at worst in 600 draws.
+among those that it reports. The rigid rung errs most where a source resonates on several feet, above all near a corner:
+by 210 dB (f / f_1)^2 at worst in 600 draws.
 
 Letters: f [Hz] top frequency, f_1 [Hz] first bending mode.
 """

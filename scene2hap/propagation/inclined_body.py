@@ -84,7 +84,7 @@ class InclinedBody:
     own coordinates.
 
     Parameters: bending : the plate along its normal, None for a compact body; motions : all others; strain_loss : loss
-    factor of those that strain.
+    factor of motions that strain the plate.
     """
 
     bending: ElasticBody | None

@@ -19,7 +19,7 @@ from scene2hap.scene.pose import Pose
 
 SAME_POINT_M = 1e-6
 """Contacts of one pair that are nearer than this are one."""
-_PLACE_DIGITS = 6
+_PLACE_DIGITS = 6  # of metres, as `SAME_POINT_M`
 LEVEL = 0.9
 """A contact whose direction has this part along a plate's normal pushes along it, up to 26 degrees off."""
 
