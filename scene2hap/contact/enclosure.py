@@ -35,9 +35,7 @@ def enclosed(a: Body, b: Body) -> tuple[float, float]:
     reach_m = play_reach_m(guest.size_m)
     if within <= 0:
         return 0.0, math.inf
-    # Most of what is in a room is far from its walls.
-    low, high = ([[c + sign * (h + reach_m)] for c, h in zip(middle, half, strict=True)] for sign in (-1, 1))
-    if not len(host.shape.boxes.meeting(Boxes(np.array(low), np.array(high)))):
+    if not _has_sides(host, middle, half, reach_m):
         return 0.0, math.inf
     play_m = _play_m(guest, host, reach_m)
     return within * weight(play_m, reach_m), play_m
@@ -50,6 +48,19 @@ def _inside(host: Body, middle: Triple, half: Triple, least_m: float) -> float:
         common = min(a + b, c + h) - max(a - b, c - h)
         share *= max(common + least_m, 0.0) / (2 * h + least_m)
     return min(share, 1.0)
+
+
+def _has_sides(host: Body, middle: Triple, half: Triple, reach_m: float) -> bool:
+    """Whether a host may have something near on opposite sides of a box: most of what is in a room is far from its
+    walls, and where all that is near is beyond one side, as the leg of a table is, one of two opposite ways leads away
+    from it."""
+    centre, edge = np.array(middle)[:, None], np.array(half)[:, None]
+    boxes = host.shape.boxes
+    near = boxes.meeting(Boxes(centre - edge - reach_m, centre + edge + reach_m))
+    if not len(near):
+        return False
+    hull = boxes.some(near).hull()
+    return not ((hull.low > centre + edge) | (hull.high < centre - edge)).any()
 
 
 def _play_m(guest: Body, host: Body, reach_m: float) -> float:
