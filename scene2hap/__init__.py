@@ -21,6 +21,7 @@ _HOME = {
     "scene2hap.scene.pose": ("Pose",),
     "scene2hap.scene.pose_table": ("PoseTable",),
     "scene2hap.scene.objects": ("Contact", "SceneObject"),
+    "scene2hap.scene.outline": ("Outline",),
     "scene2hap.scene.shapes": ("Box", "DominantSurface", "TriMesh"),
     "scene2hap.scene.scene_warning": ("SceneWarning",),
     "scene2hap.scene.snapshot": ("SceneSnapshot",),
@@ -229,6 +230,7 @@ if TYPE_CHECKING:
     from scene2hap.scene.load import load_scene as load_scene
     from scene2hap.scene.objects import Contact as Contact
     from scene2hap.scene.objects import SceneObject as SceneObject
+    from scene2hap.scene.outline import Outline as Outline
     from scene2hap.scene.pose import Pose as Pose
     from scene2hap.scene.pose_table import PoseTable as PoseTable
     from scene2hap.scene.scene_warning import SceneWarning as SceneWarning

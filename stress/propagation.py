@@ -47,8 +47,8 @@ from scene2hap import (
     plate_modes,
 )
 from scene2hap.errors import Scene2HapError
+from scene2hap.propagation.bending_lattice import bending_lattice
 from scene2hap.propagation.domain import SlowPlateWarning, ThinPlateWarning
-from scene2hap.propagation.lattice import bending_lattice
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 from scene2hap.propagation.stepping import ExactStepper, NewmarkStepper, State, Stepper, viscous_difference_db
 
@@ -258,7 +258,7 @@ def lattice_steppers(
 
     for boundary in boundaries:
         lattice = bending_lattice(Plate(0.5, 0.4, 0.004, Material("glass", 2500.0, 70e9, 0.22), boundary), 6)
-        mass, stiffness = lattice.areas_m2 * 10.0, lattice.stiffness * lattice.plate.bending_stiffness_nm
+        mass, stiffness = lattice.masses.sum(axis=1) * 10.0, lattice.stiffness * lattice.plate.bending_stiffness_nm
         start = State(np.zeros(lattice.n_nodes), np.random.default_rng(1).standard_normal(lattice.n_nodes))
         for dt in LATTICE_STEPS_S:
             found = []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -79,4 +80,53 @@ def fe_receptance(
     for f in np.atleast_1d(frequencies_hz):
         dynamic = (D * K - m * (2 * np.pi * f) ** 2 * M)[free][:, free].tocsc()
         answers.append(look @ splu(dynamic).solve(force.astype(complex)))
+    return np.array(answers).T
+
+
+_UNITS_PER_M = 60.0  # Argyris' degrees of freedom are second derivatives, which small elements make singular
+
+
+def outline_mesh(lines_x: object, lines_y: object, is_cut: object) -> Any:
+    """Triangles between lines [m], without those whose middles `is_cut`(x, y)."""
+    skfem = pytest.importorskip("skfem", reason="scikit-fem is not installed; run: pip install scikit-fem")
+    mesh = skfem.MeshTri.init_tensor(np.unique(np.round(lines_x, 9)), np.unique(np.round(lines_y, 9)))
+    return mesh.remove_elements(np.flatnonzero(is_cut(*mesh.p[:, mesh.t].mean(axis=1))))  # type: ignore[operator]
+
+
+def refined_at(mesh: Any, corners_m: object, times: int) -> Any:
+    """The mesh with smaller triangles around corners, where curvature grows without bound."""
+    for k in range(times):
+        middle = mesh.p[:, mesh.t].mean(axis=1)
+        away = np.min([np.hypot(middle[0] - x, middle[1] - y) for x, y in np.asarray(corners_m)], axis=0)
+        mesh = mesh.refined(np.flatnonzero(away < 0.12 * 0.5**k))
+    return mesh
+
+
+def fe_receptance_within(
+    plate: Plate, mesh: Any, drive_m: object, points_m: object, frequencies_hz: object, eta: float
+) -> NDArray[np.complex128]:
+    """`fe_receptance` of a free plate within the outline of a mesh [m]."""
+    import skfem
+    from scipy.sparse.linalg import splu
+    from skfem.helpers import dd, ddot, eye, trace
+
+    nu, scale = plate.material.poisson_ratio, _UNITS_PER_M
+    basis = skfem.Basis(mesh.scaled(scale), skfem.ElementTriArgyris(), intorder=10)
+
+    @skfem.BilinearForm
+    def bending(u, v, _):  # type: ignore[no-untyped-def]
+        return ddot((1 - nu) * dd(u) + nu * eye(trace(dd(u)), 2), dd(v))
+
+    @skfem.BilinearForm
+    def mass(u, v, _):  # type: ignore[no-untyped-def]
+        return u * v
+
+    K, M = bending.assemble(basis).tocsc() * scale**2, mass.assemble(basis).tocsc() / scale**2
+    force = np.asarray(basis.probes(scale * np.atleast_2d(drive_m).T).todense())[0].astype(complex)
+    look = basis.probes(scale * np.atleast_2d(points_m).T)
+    D = plate.bending_stiffness_nm * (1 + 1j * eta)
+    m = plate.material.density_kg_m3 * plate.thickness_m
+    answers = [
+        look @ splu((D * K - m * (2 * np.pi * f) ** 2 * M).tocsc()).solve(force) for f in np.atleast_1d(frequencies_hz)
+    ]
     return np.array(answers).T

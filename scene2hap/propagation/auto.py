@@ -67,6 +67,7 @@ class AutoFidelity:
     kind: Literal["auto"] = "auto"
     least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
     usual_bands: ClassVar[Bands] = AROUND
+    follows_outlines: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         checks.number("tolerance_db", self.tolerance_db, "dB", at_least=0.1, at_most=6.0, error=ConfigError)

@@ -2,6 +2,7 @@
 
     rigid     moves as a whole               wrong by 250 dB (f / f_1)^2, calibrated
     infinite  has no edges                   wrong by what rises above the floor of -40 dB, derived (`auto_level`)
+    lattice   `MassSpringDamper`             what plates with an outline take that are not rigid
     coarse    modes of a small basis         wrong by `MODAL_DB`, calibrated
     medium    ...
     modal     `ModalPlate`                   what all are held against
@@ -19,10 +20,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from scene2hap.propagation.coupling import ElasticBody
 from scene2hap.propagation.infinite_plate import InfiniteBody
+from scene2hap.propagation.lattice_modes import lowest_frequencies_hz
+from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 from scene2hap.propagation.modal_body import modal_body
 from scene2hap.propagation.modes import FINE, Fineness, first_bending_hz
 from scene2hap.propagation.plate import Plate
@@ -44,6 +47,8 @@ MODAL_DB = {
 """Error of each basis by what holds the plate: "free" are two free edges or more; the rest is "held", and quiet where
 sources cannot bring it above `QUIET_DB`. Near edges that hold, a plate hardly moves, and small bases err most."""
 QUIET_DB = 5.0
+_COARSE_CELLS = 4
+"""Cells of a lattice that tells the first bending mode of an outline within some percent."""
 
 
 @dataclass(frozen=True)
@@ -75,6 +80,8 @@ class Situation:
         if RIGID_DB * ratio**2 <= tolerance_db:
             why = f"{self.top_hz:g} Hz is {ratio:.2g} of its first bending mode"
             return Choice(object_id, "rigid", RIGID_DB * ratio**2, why)
+        if self.plate.outline is not None:
+            return Choice(object_id, "lattice", 0.0, "its outline is no rectangle")
         above = max(0.0, self.peak_db - FLOOR_DB)
         if may_be_infinite and above <= tolerance_db:
             why = f"at most {self.peak_db:.0f} dB anywhere on it, and {FLOOR_DB:g} dB counts as none"
@@ -92,7 +99,10 @@ class Situation:
         beam_hz = 22.374 / (longer * self.plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
         if self.plate.edges != "FFFF" or RIGID_DB * (self.top_hz / beam_hz) ** 2 > tolerance_db:
             return math.inf
-        return self.top_hz / first_bending_hz(self.plate)
+        if self.plate.outline is not None and len(self.plate.outline.notches_m):
+            # Arms of an L and tongues beside a slot bend sooner than the rectangle.
+            return self.top_hz / float(lowest_frequencies_hz(self.plate, _COARSE_CELLS, 4)[3])
+        return self.top_hz / first_bending_hz(replace(self.plate, outline=None))
 
     @property
     def held(self) -> str:
@@ -114,6 +124,9 @@ def _modal(fineness: Fineness) -> Callable[[Plate, float, float], ElasticBody]:
 _MAKERS: dict[str, Callable[[Plate, float, float], ElasticBody]] = {
     "rigid": lambda plate, max_frequency_hz, eta: RigidMotion.of(plate, plate.moving_mass_kg, rocks=True),
     "infinite": lambda plate, max_frequency_hz, eta: InfiniteBody(plate, eta),
+    "lattice": lambda plate, max_frequency_hz, eta: MassSpringDamper(loss_floor=eta).elastic_body(
+        plate, max_frequency_hz
+    ),
     **{rung: _modal(fineness) for rung, fineness in FINENESS.items()},
 }
 RUNGS = tuple(_MAKERS)

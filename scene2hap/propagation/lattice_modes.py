@@ -3,7 +3,7 @@
     u(z) = Phi (Lambda - z)^-1 Phi^T p + sum over j of (z + s)^j R_j            z = k_c^4
     R_j = (G A)^j G p',  G = (K + s A)^-1,  p' = p - A Phi Phi^T p
 
-for (K - z A) u = p, where A holds the areas of the nodes. The series is that of the modes left out, which lie above z;
+for (K - z A) u = p, where A holds the masses of the nodes. The series is that of the modes left out, which lie above z;
 each term leaves less than half of the error before. One factorisation of K + s A gives the modes,
 by Lanczos' method, and the series; another counts the modes.
 
@@ -25,8 +25,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import ModelDomainError
+from scene2hap.propagation.bending_lattice import MOST_NODES, bending_lattice, n_nodes_of
 from scene2hap.propagation.domain import warn_if_slow
-from scene2hap.propagation.lattice import MOST_NODES, Lattice, bending_lattice, cells_of
+from scene2hap.propagation.lattice import Lattice
 from scene2hap.propagation.modes import n_rigid_motions
 from scene2hap.propagation.plate import Plate
 
@@ -44,7 +45,9 @@ QUICK_NODES = 6_000
 MOST_WORK = 1e8
 """Nodes times modes squared beyond which modes are not solved for: that is what Lanczos' method costs. A plate then
 takes some seconds at most."""
-SMALL = 500
+_EXACT = 1e-7
+"""Relative error at which a solution is good: that of a frequency is its square."""
+SMALL = 150
 """Nodes up to which all modes are solved at once, which is then faster than Lanczos' method."""
 
 
@@ -69,14 +72,14 @@ class LatticeModes:
 
     def stiffer(self, forces: NDArray[np.float64]) -> NDArray[np.float64]:
         """The series' terms R_j for forces (n_nodes, n_forces) -> (TERMS, n_nodes, n_forces)."""
-        areas = self.lattice.areas_m2[:, None]
+        masses = self.lattice.masses
         terms = np.empty((TERMS, *forces.shape))
         force = forces
         for j in range(TERMS):
-            force = force - areas * (self.shapes @ (self.shapes.T @ force))
+            force = force - masses @ (self.shapes @ (self.shapes.T @ force))
             terms[j] = solve_shifted(self.lattice, self.factors, self.shift_k4, force)
-            terms[j] -= self.shapes @ (self.shapes.T @ (areas * terms[j]))
-            force = areas * terms[j]
+            terms[j] -= self.shapes @ (self.shapes.T @ (masses @ terms[j]))
+            force = masses @ terms[j]
         return terms
 
 
@@ -85,7 +88,7 @@ def lattice_modes(plate: Plate, resolution: int, top_frequency_hz: float) -> Lat
 
     Raises: ModelDomainError: too many nodes, see `bending_lattice`; too many modes, see `MOST_WORK`.
     """
-    lowest_hz = (math.pi / max(plate.length_m, plate.width_m) / plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
+    lowest_hz = (math.pi / max(plate.extent_m) / plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
     thirds = math.ceil(3 * math.log2(max(top_frequency_hz / lowest_hz, 1.0)) - 1e-9)
     rounded_hz = lowest_hz * 2 ** (thirds / 3)
     check_work(plate, resolution, n_modes_up_to(plate, MARGIN * rounded_hz))
@@ -104,7 +107,7 @@ def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArra
         raise ModelDomainError(
             f"n_modes is {n_modes}; a lattice of resolution {resolution} has {n_nodes} modes. Raise the resolution."
         )
-    area, edge = plate.length_m * plate.width_m, 2 * (plate.length_m + plate.width_m)
+    area, edge = plate.area_m2, 2 * sum(plate.extent_m)
     k = edge / (2 * area) * (math.sqrt(1 + 16 * math.pi * area * n_modes / edge**2) - 1)  # Weyl, free edges
     lattice, factors, shift = _factorised(plate, resolution, k**4)
     count = n_modes
@@ -119,13 +122,13 @@ def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArra
 
 def n_modes_up_to(plate: Plate, frequency_hz: float) -> float:
     """About how many modes a plate with free edges has up to a frequency [Hz] (Weyl)."""
-    k, edge = float(plate.wavenumber_rad_m(frequency_hz)), 2 * (plate.length_m + plate.width_m)
-    return (plate.length_m * plate.width_m * k**2 + edge * k) / (4 * math.pi)
+    k, edge = float(plate.wavenumber_rad_m(frequency_hz)), 2 * sum(plate.extent_m)
+    return (plate.area_m2 * k**2 + edge * k) / (4 * math.pi)
 
 
 def is_too_much(plate: Plate, resolution: int, top_frequency_hz: float) -> bool:
     """Whether `lattice_modes` would refuse a plate for its nodes or modes."""
-    n_nodes = math.prod(n + 1 for n in cells_of(plate, resolution))
+    n_nodes = n_nodes_of(plate, resolution)
     n_modes = n_modes_up_to(plate, MARGIN * 2 ** (1 / 3) * top_frequency_hz)
     return n_nodes > MOST_NODES or _work(n_nodes, n_modes) > MOST_WORK
 
@@ -137,7 +140,7 @@ def _work(n_nodes: int, n_modes: float) -> float:
 
 def check_work(plate: Plate, resolution: int, n_modes: float) -> None:
     """Raises: ModelDomainError: so many modes would take more than `MOST_WORK`."""
-    needed = _work(math.prod(n + 1 for n in cells_of(plate, resolution)), n_modes)
+    needed = _work(n_nodes_of(plate, resolution), n_modes)
     if needed > MOST_WORK:
         raise ModelDomainError(
             f"a plate of {plate.length_m:g} × {plate.width_m:g} m of {1e3 * plate.thickness_m:g} mm "
@@ -173,10 +176,9 @@ def _factorised(plate: Plate, resolution: int, top_k4: float) -> tuple[Lattice, 
 
 def _factors(lattice: Lattice, shift_k4: float) -> SuperLU:
     """Factors of K + s A, with pivots on the diagonal."""
-    from scipy.sparse import diags_array
     from scipy.sparse.linalg import splu
 
-    shifted = (lattice.stiffness + shift_k4 * diags_array(lattice.areas_m2)).tocsc()
+    shifted = (lattice.stiffness + shift_k4 * lattice.masses).tocsc()
     return splu(shifted, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
 
@@ -197,10 +199,10 @@ def solve_shifted(
 ) -> NDArray[np.float64]:
     """Deflections u of (K + s A) u = p, (n_nodes, ...) each, refined."""
     found: NDArray[np.float64] = factors.solve(forces)
-    areas = lattice.areas_m2 if forces.ndim == 1 else lattice.areas_m2[:, None]
     # Each pass gains the digits that the shift has above the rounding of the stiffest springs.
-    for _ in range(1 if shift_k4 > 1e5 * STIFFEST * lattice.stiffest_k4 else 2):
-        found += factors.solve(forces - lattice.restoring(found) - shift_k4 * areas * found)
+    lost = np.finfo(float).eps * lattice.stiffest_k4 / shift_k4
+    for _ in range(math.ceil(math.log(_EXACT) / math.log(lost)) - 1):
+        found += factors.solve(forces - lattice.restoring(found) - shift_k4 * (lattice.masses @ found))
     return found
 
 
@@ -208,23 +210,21 @@ def _lowest(
     lattice: Lattice, factors: SuperLU, shift_k4: float, count: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """k^4 (n,) [m^-4], rising, and shapes (n_nodes, n) [1/m] of at least `count` modes, or of all."""
+    from scipy.linalg import eigh
     from scipy.sparse.linalg import LinearOperator, eigsh
 
-    n, root = lattice.n_nodes, np.sqrt(lattice.areas_m2)
+    n, masses = lattice.n_nodes, lattice.masses
 
     def compliance(force: NDArray[np.float64]) -> NDArray[np.float64]:
-        scale = root if force.ndim == 1 else root[:, None]
-        moved: NDArray[np.float64] = scale * solve_shifted(lattice, factors, shift_k4, scale * force)
-        return moved
+        return solve_shifted(lattice, factors, shift_k4, force)
 
     if n > SMALL and count < n // 3:
         operator = LinearOperator((n, n), matvec=compliance, matmat=compliance, dtype=np.float64)
         start = np.random.default_rng(0).standard_normal(n)
-        vectors = eigsh(operator, count, which="LM", v0=start)[1]
+        shapes = eigsh(lattice.stiffness, count, M=masses, sigma=-shift_k4, OPinv=operator, which="LM", v0=start)[1]
     else:
-        dense = compliance(np.eye(n))
-        vectors = np.linalg.eigh((dense + dense.T) / 2)[1]
-    shapes = vectors / root[:, None]
+        dense = masses @ compliance(masses.toarray())
+        shapes = eigh((dense + dense.T) / 2, masses.toarray(), subset_by_index=(max(n - count, 0), n - 1))[1]
     # Rayleigh's quotient over the springs: exact to the square of what the shapes still miss.
     k4 = np.einsum("in,in->n", shapes, lattice.restoring(shapes))
     order = np.argsort(k4)

@@ -74,6 +74,7 @@ class ModalPlate:
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
         """A plate, ready to be coupled, for frequencies up to `max_frequency_hz` [Hz]; see `modal_body`."""
+        _require_rectangle(plate)
         return modal_body(plate, max_frequency_hz, self._loss_factor(plate))
 
     def plate_transfer(
@@ -114,6 +115,7 @@ class ModalPlate:
     def _receptance(
         self, plate: Plate, drive_m: NDArray[np.float64], points_m: NDArray[np.float64], f: NDArray[np.float64]
     ) -> NDArray[np.complex128]:
+        _require_rectangle(plate)
         eta = self._loss_factor(plate)
         top = float(f.max(initial=0.0))
         modes = plate_modes(plate, max_frequency_hz=MARGIN * top)
@@ -141,3 +143,11 @@ def _held(plate: Plate, drive_m: NDArray[np.float64]) -> bool:
     (x, y), tolerance = drive_m[0], 1e-6
     distances = (x / plate.length_m, 1 - x / plate.length_m, y / plate.width_m, 1 - y / plate.width_m)
     return any(edge != "F" and d <= tolerance for edge, d in zip(plate.edges, distances, strict=True))
+
+
+def _require_rectangle(plate: Plate) -> None:
+    if plate.outline is not None:
+        raise ModelDomainError(
+            "ModalPlate is for rectangles, and this plate has an outline. Use MassSpringDamper or AutoFidelity, or "
+            "leave the outline out."
+        )

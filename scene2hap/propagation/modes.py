@@ -213,11 +213,14 @@ def points_on(plate: Plate, points_m: ArrayLike) -> NDArray[np.float64]:
     points = as_points(points_m, 2)
     size = np.array([plate.length_m, plate.width_m])
     outside = ((points < -1e-6 * size) | (points > (1 + 1e-6) * size)).any(axis=1)
+    if plate.outline is not None:
+        outside |= plate.outline.distance_m(points) > 1e-6 * size.max()
     if outside.any():
         x, y = points[outside][0]
         raise ModelDomainError(
-            f"point ({x:g}, {y:g}) m lies outside the plate of {plate.length_m:g} × {plate.width_m:g} m; points are "
-            "measured from its corner along length and width. Move it to the nearest point of the plate."
+            f"point ({x:g}, {y:g}) m lies outside the plate of {plate.length_m:g} × {plate.width_m:g} m"
+            f"{'' if plate.outline is None else ', or of its outline'}; points are measured from its corner along "
+            "length and width. Move it to the nearest point of the plate."
         )
     return points
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +18,7 @@ from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import ModelDomainError
 from scene2hap.materials import Material, lookup
+from scene2hap.scene.outline import Outline
 
 MAX_FREQUENCY_HZ = 1e9
 """Far beyond any vibration; assumed, so that no square of a frequency is too large for a number."""
@@ -30,13 +32,16 @@ _EDGES = {"free": "FFFF", "simply-supported": "SSSS", "clamped": "CCCC"}
 @clear_construction
 @dataclass(frozen=True)
 class Plate:
-    """A rectangular plate of one material.
+    """A plate of one material: a rectangle, or what an outline covers.
 
     Parameters: length_m, width_m, thickness_m > 0 [m]; material : a Material, or its name in the table; boundary :
     "free", "simply-supported", "clamped", or four letters F, S, C for the edges x=0, x=length, y=0, y=width;
     object_mass_kg : mass of the whole object, which counts where it moves as a whole, None for that of the plate [kg];
-    feet : material on which the object rests on heavier ones, None for its own.
-    Raises: ModelDomainError: a dimension is not positive and finite, or the boundary is not one of these.
+    feet : material on which the object rests on heavier ones, None for its own; outline : of a plate that is no
+    rectangle, within length and width, with free edges; None for the rectangle. `MassSpringDamper` and `AutoFidelity`
+    follow it, `ModalPlate` refuses it, and to the others a plate has no edges.
+    Raises: ModelDomainError: a dimension is not positive and finite, the boundary is not one of these, or it holds a
+    plate with an outline.
     """
 
     length_m: float
@@ -46,6 +51,7 @@ class Plate:
     boundary: str = "free"
     object_mass_kg: float | None = None
     feet: Material | None = None
+    outline: Outline | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.material, str):
@@ -71,15 +77,52 @@ class Plate:
                 "or four letters F, S, C for the edges x=0, x=length, y=0, y=width."
             )
 
+        if self.outline is not None and not isinstance(self.outline, Outline):
+            raise ModelDomainError(
+                f"outline is {checks.described(self.outline)}; it must be an Outline of rings of corners, or None."
+            )
+        if self.outline is not None and self.edges != "FFFF":
+            raise ModelDomainError(
+                f'boundary is {self.boundary!r}; a plate with an outline has free edges, boundary="free".'
+            )
+        if self.outline is not None:
+            x0, y0, x1, y1 = self.outline.box_m
+            length, width = 1e-6 * self.length_m, 1e-6 * self.width_m
+            if x0 < -length or y0 < -width or x1 > self.length_m + length or y1 > self.width_m + width:
+                raise ModelDomainError(
+                    f"the outline reaches from ({x0:g}, {y0:g}) to ({x1:g}, {y1:g}) m; it must be within the plate's "
+                    f"(0, 0) to ({self.length_m:g}, {self.width_m:g}) m. Plate.of_outline takes these from it."
+                )
+
+    @classmethod
+    def of_outline(cls, outline: Outline, thickness_m: float, material: Material, **others: Any) -> Plate:
+        """The plate that an outline makes, its corner that of the outline's box; other parameters as of `Plate`.
+
+        The outline is shifted so that its box starts at (0, 0): points on the plate are measured from there.
+        """
+        x0, y0, _, _ = outline.box_m
+        length, width = outline.extent_m
+        return cls(length, width, thickness_m, material, outline=outline.placed((1.0, 1.0), (-x0, -y0)), **others)
+
     @property
     def edges(self) -> str:
         """Four letters F, S, C for the edges x=0, x=length, y=0, y=width."""
         return _EDGES.get(self.boundary, self.boundary)
 
     @property
+    def extent_m(self) -> tuple[float, float]:
+        """Length and width, or those of the box around its outline [m]."""
+        return (self.length_m, self.width_m) if self.outline is None else self.outline.extent_m
+
+    @property
+    def area_m2(self) -> float:
+        """Area [m2]."""
+        return self.length_m * self.width_m if self.outline is None else self.outline.area_m2
+
+    @property
     def mass_kg(self) -> float:
         """Mass of the plate alone [kg]."""
-        return self.length_m * self.width_m * self.thickness_m * self.material.density_kg_m3
+        return self.area_m2 * self.thickness_m * self.material.density_kg_m3
 
     @property
     def moving_mass_kg(self) -> float:

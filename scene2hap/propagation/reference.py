@@ -55,6 +55,11 @@ class FeltNear:
         """Those of the model."""
         return getattr(self.model, "usual_bands", Bands.dominant())
 
+    @property
+    def follows_outlines(self) -> bool:
+        """As the model."""
+        return getattr(self.model, "follows_outlines", False)
+
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> PropagationField:
         """The model's field, scaled. Raises, warns: as the model."""
         field = self.model.prepare(network, excitations, bands)

@@ -8,6 +8,7 @@
    are met by few rays and do not move the median.
    A mesh that is open below has no such solid; its thickness reaches from its top, or from the sheet that most of it
    is, down to its lowest rim.
+   Where the surface is no rectangle, as a round top, its outline is the cut through that solid's middle.
 4. Length and width are the median spans of rays in the mid-plane of that solid, without what is fixed to its edge
    (`plate_edge`); where the surface is not flat (a bowl, a curtain), they are the median spans of its outline, seen
    along the normal.
@@ -19,6 +20,7 @@ Differs: the paper does not say in which frame or on which side the rays start; 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
@@ -26,9 +28,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.scene.cuboid import cuboid_bounds_m
+from scene2hap.scene.outline import Outline
 from scene2hap.scene.plate_edge import windows
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.rays import Hits, cast_grid, cut, first_solids, median_span, outline, share_open
+from scene2hap.scene.section import section_outline
 from scene2hap.scene.shapes import DominantSurface, SurfaceFlag, TriMesh
 
 Floats = NDArray[np.float64]
@@ -53,6 +57,8 @@ _THIN = 1 / 3  # ... and it is no thicker than this part of its width. It wins o
 _LYING_AREA = 0.6  # ... if it hides this part of that side's area (chairs 0.71-0.93) ...
 # ... and that is level in less than this part of its rectangle (chairs <= 0.58, cupboards >= 0.74).
 _FILLED_PLATE = 2 / 3
+_FULL = 0.97  # where rays of the box around it meet a plate in less than this share, it may be no rectangle; if not ...
+_LIKE = 0.5, 1.5  # ... its outline has an area of between these times that of the rectangle of medians
 _SAME_DIRECTION_RAD = np.deg2rad(1.0)
 _SIDES_TRIED = 12
 # What a mesh takes however few triangles it has, and each of these, in tests of a ray against a triangle (measured: 1.5
@@ -169,7 +175,7 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
     solids = first_solids(hits, _SAME_DEPTH * size)
     paired = np.isfinite(solids.bottom)
     cell = float(np.prod(high[:2] - low[:2])) / RAYS_PER_SIDE**2
-    spans = None
+    spans, outline_m = None, None
     if paired.mean() >= _PAIRED_SHARE:
         thickness = float(np.median((solids.top - solids.bottom)[paired]))
         middle = float(np.median((solids.top + solids.bottom)[paired])) / 2
@@ -177,6 +183,8 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
         if level.mean() >= _FLAT_SHARE:
             is_thick = ~(solids.top - solids.bottom < thickness / 2)
             spans = _flat_spans(cut(triangles, middle), hits.ray[hits.starts], level, is_thick, low, high)
+            if level.sum() < _FULL * RAYS_PER_SIDE**2 and thickness <= _THIN * float((high - low)[:2].min()):
+                outline_m = section_outline(triangles, middle)
     else:
         bottom, top = float(low[2]), _open_top(solids.top, hits.ray[hits.starts], low, high)
         thickness, middle = top - bottom, (top + bottom) / 2
@@ -191,7 +199,7 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
         spans = (high - low)[:2], (high + low)[:2] / 2
         flags = flags if "box-fallback" in flags else (*flags, "box-fallback")
     (u_m, v_m), (u_mid, v_mid) = spans
-    return _placed(np.array([u_m, v_m, thickness]), np.array([u_mid, v_mid, middle]), own_to_plate, flags)
+    return _placed(np.array([u_m, v_m, thickness]), np.array([u_mid, v_mid, middle]), own_to_plate, flags, outline_m)
 
 
 def _open_top(tops: Floats, ray: Ints, low: Floats, high: Floats) -> float:
@@ -245,16 +253,35 @@ def _box(points: Floats, axes: Floats, flags: tuple[SurfaceFlag, ...]) -> Domina
     return _placed(size, middle, own_to_plate, flags)
 
 
-def _placed(size: Floats, middle: Floats, own_to_plate: Floats, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
-    """The surface with its length along x, given size and middle [m] along the rows of `own_to_plate`."""
+def _placed(
+    size: Floats,
+    middle: Floats,
+    own_to_plate: Floats,
+    flags: tuple[SurfaceFlag, ...],
+    outline: Outline | None = None,
+) -> DominantSurface:
+    """The surface with its length along x, given size, middle and outline [m] along the rows of `own_to_plate`."""
     x, y, normal = own_to_plate
-    if size[1] > size[0]:
+    is_turned = bool(size[1] > size[0])
+    if is_turned:
         x, y = y, -x
         size, middle = size[[1, 0, 2]], middle[[1, 0, 2]] * [1, -1, 1]
+    if outline is not None:
+        outline = _own_outline(outline, size, middle, is_turned=is_turned)
     frame = np.eye(4)
     frame[:3, :3] = np.stack((x, y, normal), axis=1)
     frame[:3, 3] = frame[:3, :3] @ (middle - [size[0] / 2, size[1] / 2, 0.0])
-    return DominantSurface(Pose.from_matrix(frame), float(size[0]), float(size[1]), float(size[2]), flags)
+    return DominantSurface(Pose.from_matrix(frame), float(size[0]), float(size[1]), float(size[2]), flags, outline)
+
+
+def _own_outline(outline: Outline, size: Floats, middle: Floats, *, is_turned: bool) -> Outline | None:
+    """The outline from the plate's corner; None where it is a rectangle, or not that of the plate."""
+    share = outline.area_m2 / math.prod(outline.extent_m)
+    if share > _FULL or not _LIKE[0] < outline.area_m2 / float(size[0] * size[1]) < _LIKE[1]:
+        return None
+    if is_turned:
+        outline = Outline(tuple(tuple((y, -x) for x, y in ring) for ring in outline.rings_m))
+    return outline.placed((1.0, 1.0), (float(size[0] / 2 - middle[0]), float(size[1] / 2 - middle[1])))
 
 
 # -- the frame -------------------------------------------------------------------------------------------------------

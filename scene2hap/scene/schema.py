@@ -44,6 +44,9 @@ _WORDS = {
     "DominantSurface": "The plate that a person would name first, such as the top of a table.",
     "DominantSurface.pose": "A corner of the plate's mid-plane in the object's own frame; x runs along the length, "
     "y along the width, z along the normal.",
+    "DominantSurface.outline": "What it covers if it is no rectangle, from the corner along length and width [m]; "
+    "leave it out or null for a rectangle.",
+    "Outline.rings_m": "Rings of corners (x, y) [m], at least 3 each; a ring within another cuts a hole.",
     "DominantSurface.flags": "Why a measured surface wants a second look; leave it out where an engine knows.",
     "Contact": "Where two objects touch. A pair may have several.",
     "Contact.a": "An object's id.",

@@ -15,6 +15,7 @@ from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
 from scene2hap.scene import sizes
+from scene2hap.scene.outline import Outline
 from scene2hap.scene.pose import Pose
 
 SurfaceFlag = Literal["open-mesh", "zero-thickness", "box-fallback"]
@@ -139,7 +140,9 @@ class DominantSurface:
 
     `pose` puts the plate's corner frame into the object's own frame: its origin is a corner of the plate's mid-plane,
     x runs along the length, y along the width, z along the thickness (the plate's normal). `flags` tell why a
-    measured value wants a second look; an engine or a person who states it leaves them empty.
+    measured value wants a second look; an engine or a person who states it leaves them empty. `outline` is what a
+    surface covers that is no rectangle, from the same corner along length and width, beyond which it may reach: they
+    are then those of a rectangle like it.
     Raises: SceneError: a size that is negative, or no thickness without the flag that says so.
     """
 
@@ -148,6 +151,7 @@ class DominantSurface:
     width_m: float
     thickness_m: float
     flags: tuple[SurfaceFlag, ...] = ()
+    outline: Outline | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.pose, Pose):
@@ -157,6 +161,8 @@ class DominantSurface:
                 self, name, checks.number(name, getattr(self, name), "m", at_least=0.0, error=SceneError)
             )
         object.__setattr__(self, "flags", tuple(self.flags))
+        if self.outline is not None and not isinstance(self.outline, Outline):
+            raise SceneError(f"outline of the surface is {checks.described(self.outline)}; it must be an Outline.")
         least_m = sizes.NOTHING * min(self.length_m, self.width_m)
         if "zero-thickness" not in self.flags and self.thickness_m <= least_m:
             raise SceneError(

@@ -102,7 +102,8 @@ class HapticSession:
             if loops:
                 haptics, muted = bundle.objects.get(object_id), bundle.is_muted(object_id)
                 self._sources.add(object_id, loops, haptics, bundle.gain_db(object_id), is_muted=muted)
-        self._state = SceneState(scene, bundle)
+        follows_outlines = bool(getattr(self.config.propagation, "follows_outlines", False))
+        self._state = SceneState(scene, bundle, follows_outlines=follows_outlines)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
         self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
         self._off_surface, self._silent_objects = OffSurface(self._state), SilentObjects()

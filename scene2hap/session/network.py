@@ -10,6 +10,7 @@ from scene2hap.haptics import ObjectHaptics
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body, Excitation
 from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.outline import Outline
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import DominantSurface
 from scene2hap.session.furniture import ASSEMBLED_LOSS, is_assembled
@@ -19,8 +20,8 @@ UNKNOWN_MASS_KG = 1.0
 """Mass of a source of which neither mass nor material is known."""
 
 
-def body_of(haptics: ObjectHaptics | None) -> Plate | None:
-    """The plate of an object whose material and thickness are known.
+def body_of(haptics: ObjectHaptics | None, surface: DominantSurface | None = None) -> Plate | None:
+    """The plate of an object whose material and thickness are known, within the outline of its surface, if given.
 
     Furniture loses as much as assembled furniture does, unless a person chose its material.
     """
@@ -29,7 +30,18 @@ def body_of(haptics: ObjectHaptics | None) -> Plate | None:
     material = haptics.material
     if material.loss_factor < ASSEMBLED_LOSS and is_assembled(haptics):
         material = replace(material, loss_factor=ASSEMBLED_LOSS)
-    return Plate(*haptics.estimated_size_m, material, object_mass_kg=haptics.mass_kg, feet=haptics.feet)
+    length_m, width_m, thickness_m = haptics.estimated_size_m
+    if surface is None or surface.outline is None:
+        return Plate(length_m, width_m, thickness_m, material, object_mass_kg=haptics.mass_kg, feet=haptics.feet)
+    # What was corrected of the rectangle's size holds for the outline as well.
+    scale = length_m / surface.length_m, width_m / surface.width_m
+    outline = _scaled(surface.outline, scale)
+    return Plate.of_outline(outline, thickness_m, material, object_mass_kg=haptics.mass_kg, feet=haptics.feet)
+
+
+@lru_cache(maxsize=1024)
+def _scaled(outline: Outline, scale: tuple[float, float]) -> Outline:
+    return outline if scale == (1.0, 1.0) else outline.placed(scale, (0.0, 0.0))
 
 
 Corners = dict[str, tuple[Pose, SceneObject, Body, Pose]]
@@ -62,7 +74,7 @@ class PlatePoses(Mapping[str, Pose]):
                 raise KeyError(object_id)
             pose, item, last = self._poses[object_id], self._objects[object_id], self._corners.get(object_id)
             if last is None or last[0] is not pose or last[1] is not item or last[2] is not body:
-                corner = _corner(item.surface, body.length_m, body.width_m)
+                corner = _corner(item.surface, body.length_m, body.width_m, has_outline=body.outline is not None)
                 last = self._corners[object_id] = (pose, item, body, pose.compose(corner))
             found = self._known[object_id] = last[3]
         return found
@@ -78,10 +90,13 @@ class PlatePoses(Mapping[str, Pose]):
 
 
 @lru_cache(maxsize=4096)
-def _corner(surface: DominantSurface, length_m: float, width_m: float) -> Pose:
-    """A plate whose size was corrected shares its middle with the surface that was measured."""
-    middle = ((surface.length_m - length_m) / 2, (surface.width_m - width_m) / 2, 0.0)
-    return surface.pose.compose(Pose(middle))
+def _corner(surface: DominantSurface, length_m: float, width_m: float, *, has_outline: bool = False) -> Pose:
+    """A plate whose size was corrected shares its middle with the surface, or the outline, that was measured."""
+    x, y = surface.length_m, surface.width_m
+    if has_outline and surface.outline is not None:
+        x0, y0, x1, y1 = surface.outline.box_m
+        x, y = x0 + x1, y0 + y1
+    return surface.pose.compose(Pose(((x - length_m) / 2, (y - width_m) / 2, 0.0)))
 
 
 def excitations_of(

@@ -30,11 +30,11 @@ class ModelInput(NamedTuple):
 class SceneState:
     """The objects of a session. Its mappings are replaced, never changed, so that another thread may go on reading."""
 
-    def __init__(self, scene: SceneSnapshot, bundle: HapticBundle) -> None:
-        self._scene = scene
+    def __init__(self, scene: SceneSnapshot, bundle: HapticBundle, *, follows_outlines: bool = False) -> None:
+        self._scene, self._follows_outlines = scene, follows_outlines
         self.objects: Mapping[str, SceneObject] = {item.id: item for item in scene.objects}
         self.haptics: Mapping[str, ObjectHaptics] = bundle.objects
-        bodies = ((object_id, body_of(bundle.objects.get(object_id))) for object_id in self.objects)
+        bodies = ((item.id, self._body(item, bundle.objects.get(item.id))) for item in scene.objects)
         self.bodies: Mapping[str, Body] = {object_id: body for object_id, body in bodies if body is not None}
         self.graph = ContactGraph(scene)
         self._spelling = _Spelling()
@@ -72,13 +72,16 @@ class SceneState:
 
     def add(self, item: SceneObject, haptics: ObjectHaptics | None) -> ContactChange:
         """Put in an object. Raises: SceneError: its id is taken."""
-        body = body_of(haptics)
+        body = self._body(item, haptics)
         change = self.graph.update({}, added=[item])
         self.objects = _with(self.objects, item.id, item)
         self.ids = frozenset(self.objects)
         self.haptics = _with(self.haptics, item.id, haptics)
         self.bodies = _with(self.bodies, item.id, body)
         return change
+
+    def _body(self, item: SceneObject, haptics: ObjectHaptics | None) -> Body | None:
+        return body_of(haptics, item.surface if self._follows_outlines else None)
 
     def remove(self, object_id: str) -> ContactChange:
         """Take out an object. Raises: UnknownObject."""

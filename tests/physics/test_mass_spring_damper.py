@@ -3,6 +3,7 @@
 import math
 import warnings
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -12,8 +13,8 @@ from numpy.typing import NDArray
 
 from scene2hap import InfinitePlate, Material, ModalPlate, Plate, materials, plate_modes
 from scene2hap.errors import ConfigError, ModelDomainError
+from scene2hap.propagation.bending_lattice import bending_lattice
 from scene2hap.propagation.domain import ThinPlateWarning
-from scene2hap.propagation.lattice import bending_lattice
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 
 MATERIAL = Material("test", 2500.0, 70e9, 0.3, loss_factor=0.02)
@@ -35,17 +36,21 @@ def elastic(plate: Plate, resolution: int, n: int = 6) -> NDArray[np.float64]:
 
 
 def check_convergence(plate: Plate, exact_hz: NDArray[np.float64], least_order: float) -> None:
-    errors = [np.abs(elastic(plate, resolution) / exact_hz - 1) for resolution in (16, 32, 64)]
-    assert errors[1].max() < 0.02
-    assert np.log2(errors[0] / errors[1]).min() >= least_order
-    assert np.log2(errors[1] / errors[2]).min() >= least_order
+    """Of those errors that are above the digits of what they are held against."""
+    errors = [np.abs(elastic(plate, resolution) / exact_hz - 1) for resolution in (5, 10, 20)]
+    assert errors[1].max() < 0.004
+    for coarse, fine in pairwise(errors):
+        told = coarse > 2e-4
+        assert np.log2(coarse[told] / np.maximum(fine[told], 1e-6)).min(initial=9.0) >= least_order
 
 
 @pytest.mark.parametrize("boundary", TABLE)
 def test_squares_converge_to_the_table(boundary: str) -> None:
     plate = Plate(1.0, 1.0, 0.01, MATERIAL, boundary)
     m, D = 2500.0 * 0.01, 70e9 * 0.01**3 / (12 * (1 - 0.3**2))
-    check_convergence(plate, np.array(TABLE[boundary]) * math.sqrt(D / m) / (2 * math.pi), 1.8)
+    # At a corner between a clamped and a free edge curvature has no bound, and the order is less.
+    least_order = 1.5 if boundary in ("CFFF",) else 3.0
+    check_convergence(plate, np.array(TABLE[boundary]) * math.sqrt(D / m) / (2 * math.pi), least_order)
 
 
 @pytest.mark.parametrize(("boundary", "nu"), [("SFSF", 0.3), ("CCFF", 0.3), ("CFSF", 0.45)])
@@ -53,13 +58,13 @@ def test_rectangles_converge_to_the_ritz_plate(boundary: str, nu: float) -> None
     """Two free edges side by side, opposite, and beside clamps; a basis far larger than the modes need."""
     plate = Plate(1.0, 0.8, 0.01, replace(MATERIAL, poisson_ratio=nu), boundary)
     exact = plate_modes(plate, max_frequency_hz=3000.0).frequencies_hz
-    check_convergence(plate, exact[exact > 0][:6], 1.8)
+    check_convergence(plate, exact[exact > 0][:6], 1.3 if "C" in boundary else 3.0)
 
 
 def test_auxetic_corners_converge_more_slowly() -> None:
-    """At a clamped-free corner nu = -0.5 makes the moment singular: order 1.5 is what is left, still within 2 %."""
+    """At a clamped-free corner nu = -0.5 makes the moment singular: order 1.3 is what is left, still within 0.4 %."""
     plate = Plate(1.0, 0.8, 0.01, replace(MATERIAL, poisson_ratio=-0.5), "CFFF")
-    check_convergence(plate, plate_modes(plate, max_frequency_hz=4000.0).frequencies_hz[:6], 1.35)
+    check_convergence(plate, plate_modes(plate, max_frequency_hz=4000.0).frequencies_hz[:6], 1.2)
 
 
 @pytest.mark.parametrize(
@@ -74,7 +79,6 @@ def test_a_strip_of_1000_to_1_is_a_beam(boundary: str, beta: list[float]) -> Non
 
 @pytest.mark.parametrize("boundary", ["FFFF", "CFSF"])
 def test_modes_and_series_are_the_direct_solution(boundary: str) -> None:
-    from scipy.sparse import diags_array
     from scipy.sparse.linalg import splu
 
     plate = Plate(0.9, 0.6, 0.006, MATERIAL, boundary)
@@ -85,7 +89,7 @@ def test_modes_and_series_are_the_direct_solution(boundary: str) -> None:
     push, look = lattice.interpolation(drive).toarray()[0], lattice.interpolation(points)
     expected = np.stack(
         [
-            look @ splu((D * lattice.stiffness - m * w**2 * diags_array(lattice.areas_m2)).tocsc()).solve(push + 0j)
+            look @ splu((D * lattice.stiffness - m * w**2 * lattice.masses).tocsc()).solve(push + 0j)
             for w in 2 * np.pi * f
         ],
         axis=1,
@@ -95,7 +99,6 @@ def test_modes_and_series_are_the_direct_solution(boundary: str) -> None:
     np.testing.assert_allclose(found[:, :3], expected[:, :3], rtol=2e-4)
 
 
-@pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.SlowPlateWarning")
 def test_it_tends_to_the_modal_plate() -> None:
     """Error in dB below the fifth mode, where a frequency slightly off does not yet pass over a resonance."""
     plate = Plate(1.2, 0.7, 0.025, replace(materials.lookup("oak"), loss_factor=0.05))
@@ -107,12 +110,11 @@ def test_it_tends_to_the_modal_plate() -> None:
             np.abs(20 * np.log10(np.abs(MassSpringDamper(n).plate_receptance(plate, points[0], points, f) / expected))),
             0.95,
         )
-        for n in (16, 32, 64)
+        for n in (5, 10, 20)
     ]
-    assert errors[0] < 2.5
+    assert errors[0] < 0.5
     assert errors[1] < errors[0] / 3
-    assert errors[2] < errors[1] / 3
-    assert errors[2] < 0.15
+    assert errors[2] < 0.05
 
 
 def test_static_deflection_of_a_clamped_square() -> None:
@@ -196,15 +198,22 @@ def test_refusals() -> None:
         MassSpringDamper().plate_receptance(plate, [0.1, 0.1], [0.2, 0.2], [0.0])
     with pytest.raises(ModelDomainError, match="outside"):
         MassSpringDamper().plate_transfer(plate, [0.1, 0.1], [[0.2, 0.2], [9.0, 0.2]], [10.0])
-    with pytest.raises(ModelDomainError, match="must be at least 11"):
-        MassSpringDamper(8).plate_receptance(plate, [0.1, 0.1], [0.2, 0.2], [1000.0])
-    with pytest.raises(ModelDomainError, match="beyond 256; use InfinitePlate"):
+    with pytest.raises(ModelDomainError, match="resolution .*; at most 256 is solved. .* InfinitePlate"):
         MassSpringDamper(8).plate_receptance(replace(plate, thickness_m=1e-6), [0.1, 0.1], [0.2, 0.2], [1000.0])
     with pytest.raises(ModelDomainError, match="100000 are allowed"):
         MassSpringDamper(200).plate_receptance(replace(plate, length_m=3.0), [0.1, 0.1], [0.2, 0.2], [100.0])
     for wrong in ({"resolution": 3}, {"resolution": 8.5}, {"resolution": 10**9}, {"loss_floor": -1.0}):
         with pytest.raises(ConfigError, match=next(iter(wrong))):
             MassSpringDamper(**wrong)  # type: ignore[arg-type]
+
+
+def test_a_resolution_is_the_least() -> None:
+    """Waves get the cells that they need, whatever was asked for."""
+    plate = Plate(0.8, 0.5, 0.002, materials.lookup("steel"))
+    ask = (plate, [0.1, 0.1], [[0.5, 0.3], [0.7, 0.1]], np.geomspace(100.0, 900.0, 20))
+    exact = ModalPlate().plate_receptance(*ask)
+    found = MassSpringDamper(4).plate_receptance(*ask)
+    assert np.quantile(np.abs(20 * np.log10(np.abs(found / exact))), 0.95) < 3.0
 
 
 def test_thick_plates_warn_once() -> None:

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, ModalPlate, Plate, RigidBody, materials
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation import MODELS
+from scene2hap.propagation.bending_lattice import bending_lattice
 from scene2hap.propagation.contact_stiffness import ContactLaw
-from scene2hap.propagation.lattice import bending_lattice
 from scene2hap.propagation.mass_spring_damper import CoarsenedWarning, MassSpringDamper
 from scene2hap.propagation.stepping import NewmarkStepper, State
 
@@ -37,8 +37,8 @@ class Assembled:
 
         self.lattices = [bending_lattice(plate, resolution) for plate in plates]
         areal = [plate.material.density_kg_m3 * plate.thickness_m for plate in plates]
-        masses = [lattice.areas_m2 * m for lattice, m in zip(self.lattices, areal, strict=True)]
-        self.mass = np.concatenate([[mass_kg], *masses])
+        masses = [lattice.masses * m for lattice, m in zip(self.lattices, areal, strict=True)]
+        self.mass = csr_array(block_diag([np.array([[mass_kg]]), *masses]))
         D = [plate.bending_stiffness_nm for plate in plates]
         self.stiffness = [k * lattice.stiffness for k, lattice in zip(D, self.lattices, strict=True)]
         self.losses = [plate.material.loss_factor for plate in plates]
@@ -65,7 +65,7 @@ class Assembled:
 
         bodies = self._block([(1 + 1j * eta) * K for eta, K in zip(self.losses, self.stiffness, strict=True)])
         B = csc_array(np.array(apart))
-        whole = bodies + B.T @ self._diagonal(np.array(joints)) @ B - omega**2 * self._diagonal(self.mass)
+        whole = bodies + B.T @ self._diagonal(np.array(joints)) @ B - omega**2 * self.mass
         found: NDArray[np.complex128] = splu(csc_array(whole)).solve(force + 0j)
         return found
 
@@ -107,9 +107,9 @@ def test_a_scene_stepped_in_time_settles_to_its_harmonic_answer() -> None:
     B = csr_array(np.array(apart))
     K = whole._block(whole.stiffness) + k * (B.T @ B)
     stepper = NewmarkStepper(whole.mass, c * (B.T @ B), K, dt)
-    state = State(np.zeros(len(whole.mass)), np.zeros(len(whole.mass)))
+    state = State(np.zeros(whole.starts[-1]), np.zeros(whole.starts[-1]))
     forces = [force * np.cos(omega * i * dt) for i in range(6401)]
-    total = np.zeros(len(whole.mass), dtype=complex)
+    total = np.zeros(whole.starts[-1], dtype=complex)
     for i, (now, after) in enumerate(pairwise(forces), start=1):
         state = stepper.step(state, now, after)
         if i > 4800:  # ten periods of 160 steps
@@ -119,22 +119,22 @@ def test_a_scene_stepped_in_time_settles_to_its_harmonic_answer() -> None:
 
 
 def test_it_gives_what_the_modal_plate_gives() -> None:
-    """Third octaves over the same scene, in dB, where the lattice's frequencies are close: below 200 Hz."""
-    bands = Bands((10.0, 20.0, 40.0, 80.0, 160.0))
+    """Third octaves over the same scene, in dB."""
+    bands = Bands((10.0, 20.0, 40.0, 80.0, 160.0, 320.0))
     touches = [[0.05, 0.05, 0.0], [0.45, 0.35, 0.0], [0.31, 0.2, 0.0]]
     answers = [
         model.prepare(scene(), [Excitation("phone", 99.0, 99.0, PHONE_KG)], bands).attenuation("table", touches)
-        for model in (MassSpringDamper(32), ModalPlate())
+        for model in (MassSpringDamper(), ModalPlate())
     ]
-    assert np.abs(20 * np.log10(answers[0] / answers[1])).max() < 1.0
+    assert np.abs(20 * np.log10(answers[0] / answers[1])).max() < 0.2
 
 
 def test_it_is_chosen_by_kind_and_refines_thin_plates() -> None:
     model: MassSpringDamper = MODELS.build({"kind": "mass_spring_damper", "resolution": 8})  # type: ignore[assignment]
     foil = Plate(0.4, 0.3, 0.0005, materials.lookup("steel"))
     body = model.elastic_body(foil, 1000.0)
-    assert body.modes.lattice.cells[1] > 8
-    assert 2 * np.pi / float(foil.wavenumber_rad_m(1000.0)) >= 6 * max(body.modes.lattice.cell_m)
+    assert body.modes.lattice.cell_m[1] < foil.width_m / 8
+    assert 2 * np.pi / float(foil.wavenumber_rad_m(1000.0)) >= 4 * max(body.modes.lattice.cell_m)
     thinner = replace(foil, thickness_m=1e-6)
     with pytest.warns(CoarsenedWarning, match="as if it had no edges"):
         model.elastic_body(thinner, 1000.0)

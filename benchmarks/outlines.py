@@ -1,0 +1,149 @@
+"""Plates that are no rectangles: the lattice beside finite elements, and its time beside that of `ModalPlate`.
+
+python benchmarks/figures.py outlines      (needs scikit-fem)
+
+A disc, an L, a top with a cut-out for a sink, and slots, of oak and of steel, at 20-400 Hz. Truth: Argyris triangles
+(tests/plate_fe.py), smaller around corners that point inwards. Errors are those of levels at 12 points, the driven one
+among them, in dB. Times are the least of five, all caches cold; `ModalPlate` is asked for the rectangle of equal area.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+import warnings
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+
+from plate_fe import fe_receptance_within, outline_mesh, refined_at
+from scene2hap import ModalPlate, Outline, Plate, materials
+from scene2hap.propagation.bending_lattice import axes_of, bending_lattice
+from scene2hap.propagation.domain import ThinPlateWarning
+from scene2hap.propagation.lattice_body import lattice_body
+from scene2hap.propagation.lattice_modes import _modes_up_to
+from scene2hap.propagation.mass_spring_damper import MassSpringDamper
+
+FREQUENCIES_HZ = np.geomspace(20.0, 400.0, 60)
+LOSS, N_POINTS, SEED = 0.02, 12, 1
+MATERIALS = {"oak": 0.018, "steel": 0.002}
+Corners = tuple[tuple[float, float], ...]
+
+
+def rectangle(x0: float, y0: float, x1: float, y1: float) -> Corners:
+    return (x0, y0), (x1, y0), (x1, y1), (x0, y1)
+
+
+def inside(x0: float, y0: float, x1: float, y1: float) -> Callable[[Any, Any], Any]:
+    return lambda x, y: (x > x0) & (x < x1) & (y > y0) & (y < y1)
+
+
+def lines(step_m: float, *through_m: float) -> NDArray[np.float64]:
+    """Lines through these places, at most so far apart."""
+    parts = [np.linspace(a, b, int(np.ceil((b - a) / step_m - 1e-9)) + 1) for a, b in pairwise(through_m)]
+    return np.concatenate(parts)
+
+
+@cache
+def shapes() -> dict[str, tuple[Outline, Any, Corners]]:
+    """By name: the outline, a mesh of it, and where curvature grows without bound."""
+    import skfem
+
+    disc = skfem.MeshTri.init_circle(4).scaled(0.4).translated((0.4, 0.4))
+    rim = disc.p[:, np.unique(disc.facets[:, disc.boundary_facets()])].T - 0.4
+    ring = rim[np.argsort(np.arctan2(rim[:, 1], rim[:, 0]))] + 0.4
+    found: dict[str, tuple[Outline, Any, Corners]] = {
+        "disc of 0.8 m": (Outline((ring.tolist(),)), disc, ((9.0, 9.0),)),
+        "L of 1.2 m, arms of 0.6 m": (
+            Outline((((0, 0), (1.2, 0), (1.2, 0.6), (0.6, 0.6), (0.6, 1.2), (0, 1.2)),)),
+            outline_mesh(lines(0.08, 0, 0.6, 1.2), lines(0.08, 0, 0.6, 1.2), inside(0.6, 0.6, 9, 9)),
+            ((0.6, 0.6),),
+        ),
+    }
+    cuts = {
+        "1.2 x 0.6 m, sink of 0.4 x 0.3 m": (1.2, 0.6, (0.3, 0.15, 0.7, 0.45)),
+        "1.0 x 0.6 m, slot of 400 x 50 mm": (1.0, 0.6, (0.3, 0.3, 0.7, 0.35)),
+        "1.0 x 0.6 m, slot of 400 x 20 mm": (1.0, 0.6, (0.29, 0.29, 0.69, 0.31)),
+        "0.8 x 0.5 m, open slot of 500 x 20 mm": (0.8, 0.5, (0.0, 0.24, 0.5, 0.26)),
+        "0.8 x 0.5 m, open slot of 500 x 5 mm": (0.8, 0.5, (0.0, 0.25, 0.5, 0.255)),
+    }
+    for name, (length, width, cut) in cuts.items():
+        x0, y0, x1, y1 = cut
+        mesh = outline_mesh(
+            lines(0.07, 0, x0, x1, length) if x0 else lines(0.07, 0, x1, length),
+            lines(0.07, 0, y0, y1, width),
+            inside(*cut),
+        )
+        if x0:
+            rings: tuple[Corners, ...] = (rectangle(0, 0, length, width), rectangle(*cut))
+            tips: Corners = rectangle(*cut)
+        else:
+            rings = (((0, 0), (length, 0), (length, width), (0, width), (0, y1), (x1, y1), (x1, y0), (0, y0)),)
+            tips = ((x1, y0), (x1, y1))
+        found[name] = (Outline(rings), mesh, tips)
+    return found
+
+
+def cold_s(ask: Callable[[float], object]) -> float:
+    """Least time of five asks, each of a slightly different plate."""
+    taken = []
+    for k in range(5):
+        for kept in (bending_lattice, axes_of, _modes_up_to, lattice_body):
+            kept.cache_clear()
+        begin = time.perf_counter()
+        ask(1 + 1e-5 * (k + 1))
+        taken.append(time.perf_counter() - begin)
+    return min(taken)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--refined", type=int, default=3, help="times that the reference is refined at notches")
+    given = parser.parse_args()
+    warnings.simplefilter("ignore", ThinPlateWarning)
+    print("| plate | material | nodes | median [dB] | p95 [dB] | time [ms] | times `ModalPlate` |")
+    print("|---|---|---|---|---|---|---|")
+    model = MassSpringDamper()
+    for name, (outline, mesh, tips) in shapes().items():
+        middles = mesh.p[:, mesh.t].mean(axis=1).T
+        points = middles[np.random.default_rng(SEED).choice(len(middles), N_POINTS, replace=False)]
+        for kind, thickness_m in MATERIALS.items():
+            material = replace(materials.lookup(kind), loss_factor=LOSS)
+            plate = Plate.of_outline(outline, thickness_m, material)
+            truth = fe_receptance_within(
+                plate, refined_at(mesh, tips, given.refined), points[0], points, FREQUENCIES_HZ, LOSS
+            )
+            found = model.plate_receptance(plate, points[0], points, FREQUENCIES_HZ)
+            error = np.abs(20 * np.log10(np.abs(found / truth)))
+            resolution = model._fine_enough(plate, FREQUENCIES_HZ)
+            n_nodes = bending_lattice(plate, resolution).n_nodes
+            side_m = (plate.area_m2 * plate.length_m / plate.width_m) ** 0.5
+
+            def ask_lattice(scale: float, plate: Plate = plate, at: Any = points) -> object:
+                other = replace(plate, thickness_m=plate.thickness_m * scale)
+                return model.plate_receptance(other, at[0], at, FREQUENCIES_HZ)
+
+            def ask_modal(scale: float, plate: Plate = plate, side_m: float = side_m) -> object:
+                other = Plate(side_m * scale, plate.area_m2 / side_m, plate.thickness_m, plate.material)
+                at = np.linspace(0.1, 0.3, 2 * N_POINTS).reshape(-1, 2)
+                return ModalPlate().plate_receptance(other, at[0], at, FREQUENCIES_HZ)
+
+            taken_s, modal_s = cold_s(ask_lattice), cold_s(ask_modal)
+            print(
+                f"| {name} | {kind} | {n_nodes} | {np.median(error):.3f} | {np.quantile(error, 0.95):.2f} | "
+                f"{1e3 * taken_s:.0f} | {taken_s / modal_s:.1f} |",
+                flush=True,
+            )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,64 @@
+"""Which lattice a plate gets: how many cells, where their lines are, and of a rectangle or within an outline."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import numpy as np
+
+from scene2hap.errors import ModelDomainError
+from scene2hap.propagation.lattice import Lattice
+from scene2hap.propagation.outline_axes import outline_axes
+from scene2hap.propagation.outline_lattice import outline_lattice
+from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.rectangle_lattice import rectangle_lattice
+from scene2hap.propagation.spline_axis import SplineAxis
+
+LONGEST = 16
+"""Cells along the longer side, in resolutions: on plates more slender than that they are longer than wide."""
+MOST_NODES = 100_000
+"""Nodes beyond which a lattice is refused: its factors then fill about a gigabyte."""
+
+
+def cells_of(plate: Plate, resolution: int) -> tuple[int, int]:
+    """Cells along length and width: `resolution` along the shorter side and, up to `LONGEST`, square ones."""
+    shorter = min(plate.extent_m)
+    along, across = (
+        min(math.ceil(side / shorter * resolution * (1 - 1e-9)), LONGEST * resolution) for side in plate.extent_m
+    )
+    return along, across
+
+
+@lru_cache(maxsize=16)
+def axes_of(plate: Plate, resolution: int) -> tuple[SplineAxis, SplineAxis]:
+    """Where the lines of a plate's lattice are, along length and width."""
+    if plate.outline is not None:
+        return outline_axes(plate.outline, cells_of(plate, resolution))
+    along, across = cells_of(plate, resolution)
+    return (
+        SplineAxis.of(np.linspace(0.0, plate.length_m, along + 1)),
+        SplineAxis.of(np.linspace(0.0, plate.width_m, across + 1)),
+    )
+
+
+def n_nodes_of(plate: Plate, resolution: int) -> int:
+    """Nodes of its lattice, before edges hold some."""
+    if plate.outline is not None:
+        return math.prod(axis.n_nodes for axis in axes_of(plate, resolution))
+    return math.prod(n + 3 for n in cells_of(plate, resolution))
+
+
+@lru_cache(maxsize=16)
+def bending_lattice(plate: Plate, resolution: int) -> Lattice:
+    """The lattice of a plate, see `cells_of`.
+
+    Raises: ModelDomainError: it has more than `MOST_NODES` nodes.
+    """
+    if (n_nodes := n_nodes_of(plate, resolution)) > MOST_NODES:
+        raise ModelDomainError(
+            f"a lattice of {' × '.join(map(str, cells_of(plate, resolution)))} cells has {n_nodes} nodes; at most "
+            f"{MOST_NODES} are allowed. Ask for a resolution below {resolution}, or use ModalPlate."
+        )
+    axes = axes_of(plate, resolution)
+    return rectangle_lattice(plate, axes) if plate.outline is None else outline_lattice(plate, plate.outline, axes)

@@ -1,0 +1,53 @@
+"""Lines of a lattice within an outline: closer where the outline has a notch.
+
+At a corner that points into the plate, as of a slot, a sink or an L, curvature grows without bound, and cells are to be
+small there; away from it they grow with the distance. Lines also run through such corners.
+"""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.propagation.spline_axis import SplineAxis
+from scene2hap.scene.outline import Outline
+
+FINER = 16.0
+"""How much smaller than others cells at a notch are."""
+GROWTH = 0.7
+"""How much larger a cell is, per its distance from a notch."""
+
+Floats = NDArray[np.float64]
+
+
+def outline_axes(outline: Outline, cells: tuple[int, int]) -> tuple[SplineAxis, SplineAxis]:
+    """The axes of a lattice of at least this many cells along the outline's box."""
+    x0, y0, x1, y1 = outline.box_m
+    notches = outline.notches_m
+    return (
+        SplineAxis.of(_lines(x0, x1, cells[0], notches[:, 0])),
+        SplineAxis.of(_lines(y0, y1, cells[1], notches[:, 1])),
+    )
+
+
+def _lines(low: float, high: float, n: int, notches: Floats) -> Floats:
+    """Lines from `low` to `high` and through the notches, as far as these are not closer than the smallest cell."""
+    usual = (high - low) / n
+    least = usual / FINER
+    fixed = [low]
+    for place in np.sort(notches):
+        if place > fixed[-1] + least and place < high - least:
+            fixed.append(float(place))
+    fixed.append(high)
+    x = np.linspace(low, high, 64 * n + 1)
+    near = np.abs(x[:, None] - notches).min(axis=1, initial=np.inf)
+    cells_before = np.concatenate([[0.0], np.cumsum(np.diff(x) / np.minimum(least + GROWTH * near, usual)[:-1])])
+    lines = []
+    for a, b in itertools.pairwise(fixed):
+        first, last = np.interp([a, b], x, cells_before)
+        count = max(round(last - first), 1)
+        between = np.interp(np.linspace(first, last, count + 1), cells_before, x)
+        lines.append([a, *between[1:-1]])
+    return np.array([*(place for some in lines for place in some), high])

@@ -1,0 +1,48 @@
+"""The lattice of a rectangular plate: all integrals are products of those along its two axes."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.propagation.lattice import Lattice
+from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.spline_axis import SplineAxis
+
+
+def rectangle_lattice(plate: Plate, axes: tuple[SplineAxis, SplineAxis]) -> Lattice:
+    """The lattice of a rectangle over these lines, its edges held as they are."""
+    from scipy.sparse import block_array, csr_array, eye_array, kron
+
+    (x, y), nu = axes, plate.material.poisson_ratio
+    free_x, free_y = x.free(plate.edges[:2]), y.free(plate.edges[2:])
+    at_x, at_y = (csr_array(eye_array(axis.n_nodes))[:, free] for axis, free in ((x, free_x), (y, free_y)))
+    springs = block_array(
+        [
+            [kron(x.bend[:, free_x], at_y)],
+            [kron(at_x, y.bend[:, free_y])],
+            [kron(x.slope[:, free_x], y.slope[:, free_y])],
+        ]
+    )
+    (xx, yy), (mixed_x, mixed_y) = ((axis.products(3, 3) for axis in axes), (axis.products(1, 3) for axis in axes))
+    poisson = nu * kron(mixed_x, mixed_y.T)
+    weights = block_array(
+        [
+            [kron(x.products(1, 1), yy), poisson, None],
+            [poisson.T, kron(xx, y.products(1, 1)), None],
+            [None, None, 2 * (1 - nu) * kron(x.products(2, 2), y.products(2, 2))],
+        ]
+    )
+    masses = kron(xx[free_x, free_x], yy[free_y, free_y])
+    number = np.full((x.n_nodes, y.n_nodes), -1, dtype=np.intp)
+    number[free_x, free_y] = np.arange(masses.shape[0]).reshape(number[free_x, free_y].shape)
+
+    def interpolation(points_m: NDArray[np.float64]) -> csr_array:
+        (node_x, share_x), (node_y, share_y) = x.at(points_m[:, 0]), y.at(points_m[:, 1])
+        node = number[node_x[:, :, None], node_y[:, None, :]].ravel()
+        share = (share_x[:, :, None] * share_y[:, None, :]).ravel()
+        row = np.repeat(np.arange(len(points_m)), 16)[node >= 0]
+        return csr_array((share[node >= 0], (row, node[node >= 0])), shape=(len(points_m), masses.shape[0]))
+
+    cell_m = plate.length_m / (x.n_nodes - 3), plate.width_m / (y.n_nodes - 3)
+    return Lattice(plate, cell_m, csr_array(springs), csr_array(weights), csr_array(masses), interpolation)

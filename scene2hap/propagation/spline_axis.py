@@ -1,0 +1,93 @@
+"""Cubic B-splines along one coordinate: what the nodes of a lattice weigh, and what its springs store.
+
+    u = sum of c_i b_i,    u' = sum of (S c)_i q_i,    u'' = sum of (B c)_i g_i
+
+b, q and g are splines of the third, second and first degree over the same lines. A deflection is given by a value c at
+each of n + 3 nodes, for n cells between lines; its slope and its curvature are splines over first and second
+differences of these values, which are the strains of springs between neighbours. The first value is the deflection at
+the end.
+
+Source: C. de Boor, A Practical Guide to Splines (1978), chapter X.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
+Floats = NDArray[np.float64]
+_HELD = {"F": 0, "S": 1, "C": 2}
+"""Nodes that an edge holds: a support the deflection, a clamp the slope, too."""
+
+
+@dataclass(frozen=True, eq=False)
+class SplineAxis:
+    """Nodes and springs along one coordinate.
+
+    lines : between cells, rising (n + 1,) [m]; slope, bend : S (n + 2, n + 3) [m^-1] and B (n + 1, n + 3) [m^-2].
+    """
+
+    lines: Floats
+    slope: csr_array
+    bend: csr_array
+
+    @classmethod
+    def of(cls, lines: Floats) -> SplineAxis:
+        """The axis of these lines (n + 1,), rising [m]."""
+        slope = _differences(_knots(lines, 3), 3)
+        bend = _differences(_knots(lines, 2), 2) @ slope
+        bend.sort_indices()
+        return cls(lines, slope, bend)
+
+    @property
+    def n_nodes(self) -> int:
+        """Nodes, before edges hold some."""
+        return len(self.lines) + 2
+
+    def splines(self, x_m: Floats, degree: int = 3) -> csr_array:
+        """Values of its splines at places within it (n_places, n_splines), `degree` + 1 in each row."""
+        from scipy.interpolate import BSpline
+
+        return BSpline.design_matrix(x_m, _knots(self.lines, degree), degree)
+
+    def at(self, x_m: Floats) -> tuple[NDArray[np.intp], Floats]:
+        """Nodes and the values of their splines (n_places, 4) at places, or at the nearest end of the axis."""
+        if not len(x_m):
+            return np.empty((0, 4), dtype=np.intp), np.empty((0, 4))
+        found = self.splines(np.clip(x_m, self.lines[0], self.lines[-1]))
+        return found.indices.reshape(-1, 4).astype(np.intp), found.data.reshape(-1, 4)
+
+    def free(self, edges: str) -> slice:
+        """The nodes that its ends leave free, each F, S or C."""
+        return slice(_HELD[edges[0]], self.n_nodes - _HELD[edges[1]])
+
+    def products(self, degree: int, other_degree: int) -> csr_array:
+        """Integrals of products of splines of two degrees [m]."""
+        from scipy.sparse import csr_array, diags_array
+
+        places, weights = np.polynomial.legendre.leggauss(4)
+        h = np.diff(self.lines)[:, None]
+        x = (self.lines[:-1, None] + h * (places + 1) / 2).ravel()
+        weight = diags_array((h * weights / 2).ravel())
+        return csr_array(self.splines(x, degree).T @ weight @ self.splines(x, other_degree))
+
+
+def _knots(lines: Floats, degree: int) -> Floats:
+    return np.pad(lines, degree, mode="edge")
+
+
+def _differences(knots: Floats, degree: int) -> csr_array:
+    """From a spline's values to those of its derivative, of one degree less."""
+    from scipy.sparse import csr_array
+
+    n = len(knots) - degree - 1
+    per_m = degree / (knots[degree + 1 : n + degree] - knots[1:n])
+    row = np.arange(n - 1)
+    ends = (np.concatenate([row, row]), np.concatenate([row, row + 1]))
+    return csr_array((np.concatenate([-per_m, per_m]), ends), shape=(n - 1, n))

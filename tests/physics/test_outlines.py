@@ -1,0 +1,187 @@
+"""Plates that are no rectangles, against tables, finite elements, and themselves turned round."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+from scipy.special import iv, ivp, jv, jvp
+
+from plate_fe import fe_receptance_within, outline_mesh, refined_at
+from scene2hap import (
+    AutoFidelity,
+    Bands,
+    Contact,
+    ContactNetwork,
+    Excitation,
+    Material,
+    ModalPlate,
+    Outline,
+    Plate,
+    RigidBody,
+)
+from scene2hap.errors import ModelDomainError
+from scene2hap.propagation.bending_lattice import bending_lattice
+from scene2hap.propagation.mass_spring_damper import MassSpringDamper
+
+MATERIAL = Material("test", 2500.0, 70e9, 0.33, loss_factor=0.02)
+Floats = NDArray[np.float64]
+
+
+def outlined(outline: Outline, thickness_m: float = 0.006) -> Plate:
+    return Plate.of_outline(outline, thickness_m, MATERIAL)
+
+
+def disc(radius_m: float, n: int = 256) -> Outline:
+    turn = np.arange(n) * 2 * math.pi / n
+    corners = radius_m * np.column_stack([1 + np.cos(turn), 1 + np.sin(turn)])
+    return Outline((corners.tolist(),))
+
+
+L = Outline((((0, 0), (1.0, 0), (1.0, 0.4), (0.5, 0.4), (0.5, 0.9), (0, 0.9)),))
+SINK = Outline((((0, 0), (1.0, 0), (1.0, 0.6), (0, 0.6)), ((0.3, 0.15), (0.7, 0.15), (0.7, 0.45), (0.3, 0.45))))
+
+
+def p95_db(found: NDArray[np.complex128], expected: NDArray[np.complex128]) -> float:
+    return float(np.quantile(np.abs(20 * np.log10(np.abs(found / expected))), 0.95))
+
+
+def disc_roots(n: int, nu: float) -> list[float]:
+    """omega a^2 sqrt(m / D) of a free disc's modes of n nodal diameters, below 45: w = A J_n(k r) + B I_n(k r) without
+    moment and edge shear at r = a = 1. Source: Leissa, Vibration of Plates (NASA SP-160, 1969), section 2.1."""
+
+    def edge(k: float) -> float:
+        loads = []
+        for value, derivative, sign in ((jv, jvp, -1.0), (iv, ivp, 1.0)):
+            w, slope, bend = value(n, k), k * derivative(n, k, 1), k**2 * derivative(n, k, 2)
+            moment = bend + nu * (slope - n**2 * w)
+            shear = sign * k**2 * slope - (1 - nu) * n**2 * (slope - w)
+            loads.append((moment, shear))
+        return float(loads[0][0] * loads[1][1] - loads[0][1] * loads[1][0])
+
+    at = np.linspace(0.5, math.sqrt(45.0), 2000)
+    sign = np.sign([edge(float(k)) for k in at])
+    return [brentq(edge, *at[i : i + 2]) ** 2 for i in np.flatnonzero(sign[:-1] * sign[1:] < 0)]
+
+
+def test_a_free_disc_has_the_frequencies_of_bessels_functions() -> None:
+    plate = outlined(disc(0.4))
+    found = MassSpringDamper().natural_frequencies_hz(plate, 16)
+    scale = 2 * math.pi * 0.4**2 * plate.wavenumber_per_root_omega**2
+    exact = sorted(root for n in range(7) for root in disc_roots(n, 0.33) * (1 if n == 0 else 2))
+    assert exact[0] == pytest.approx(5.25, abs=0.02)  # as the table there has it
+    assert np.abs(found[:3]).max() == 0.0
+    np.testing.assert_allclose(found[3:] * scale, exact[:13], rtol=3e-3)
+
+
+def test_the_error_of_a_disc_falls_with_the_cell() -> None:
+    """Against a fine lattice, by order 1.8 and more, as far as pixels tell the rim."""
+    plate = outlined(disc(0.4))
+    exact = MassSpringDamper(40).natural_frequencies_hz(plate, 16)[3:]
+    errors = [np.abs(MassSpringDamper(n).natural_frequencies_hz(plate, 16)[3:] / exact - 1).max() for n in (4, 8, 16)]
+    assert errors[0] / errors[1] > 2**1.8
+    assert errors[1] / errors[2] > 2**1.8
+
+
+def test_a_rectangle_told_as_an_outline_is_that_rectangle() -> None:
+    outline = Outline((((0, 0), (0.9, 0), (0.9, 0.6), (0, 0.6)),))
+    f, points = np.geomspace(20.0, 600.0, 40), np.array([[0.1, 0.2], [0.9, 0.6], [0.45, 0.3]])
+    found = MassSpringDamper().plate_receptance(outlined(outline), points[0], points, f)
+    expected = MassSpringDamper().plate_receptance(Plate(0.9, 0.6, 0.006, MATERIAL), points[0], points, f)
+    np.testing.assert_allclose(found, expected, rtol=1e-6)
+
+
+def test_an_l_is_what_finite_elements_make_of_it() -> None:
+    mesh = outline_mesh(np.linspace(0, 1.0, 11), np.linspace(0, 0.9, 10), lambda x, y: (x > 0.5) & (y > 0.4))
+    points, f = np.array([[0.1, 0.1], [0.9, 0.35], [0.1, 0.85], [0.5, 0.4], [0.45, 0.2]]), np.geomspace(15, 300, 25)
+    expected = fe_receptance_within(outlined(L), refined_at(mesh, [(0.5, 0.4)], 2), points[0], points, f, 0.02)
+    assert p95_db(MassSpringDamper(12).plate_receptance(outlined(L), points[0], points, f), expected) < 1.0
+
+
+@pytest.mark.parametrize("angle", [0.3, 0.5 * math.pi, 2.0])
+@pytest.mark.parametrize("outline", [L, SINK], ids=["L", "sink"])
+def test_it_does_not_matter_how_a_plate_lies_on_its_grid(outline: Outline, angle: float) -> None:
+    turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+    rings = [np.array(ring) @ turn.T for ring in outline.rings_m]
+    low = np.concatenate(rings).min(axis=0)
+    other = outlined(Outline(tuple((ring - low).tolist() for ring in rings)))
+    points, f = np.array([[0.1, 0.1], [0.05, 0.55], [0.9, 0.05]]), np.geomspace(20.0, 250.0, 30)
+    turned = points @ turn.T - low
+    one = MassSpringDamper(16).plate_receptance(outlined(outline), points[0], points, f)
+    assert p95_db(MassSpringDamper(16).plate_receptance(other, turned[0], turned, f), one) < 0.6
+
+
+def test_nothing_is_passed_on_across_a_slot() -> None:
+    """Both sides of a slot of 1 mm have nodes of their own, but for those that reach around its end."""
+    comb = Outline((((0, 0), (1.0, 0), (1.0, 0.1), (0.1, 0.1), (0.1, 0.101), (1.0, 0.101), (1.0, 0.2), (0, 0.2)),))
+    lattice = bending_lattice(outlined(comb), 8)
+    for x, is_apart in ((0.05, False), (0.6, True), (0.95, True)):
+        below, above = lattice.interpolation(np.array([[x, 0.099], [x, 0.102]]))
+        assert set(below.indices).isdisjoint(above.indices) is is_apart
+
+
+@settings(derandomize=True, deadline=None, max_examples=15)
+@given(
+    radii=st.lists(st.floats(0.25, 1.0), min_size=3, max_size=9),
+    hole=st.floats(0.0, 0.6),
+    shares=st.lists(st.tuples(st.floats(0.0, 1.0), st.floats(0.65, 0.95)), min_size=3, max_size=3),
+)
+def test_any_outline_is_reciprocal_and_passive(
+    radii: list[float], hole: float, shares: list[tuple[float, float]]
+) -> None:
+    """Stars of any radii, with a star for a hole."""
+    turn = np.arange(len(radii)) * 2 * math.pi / len(radii)
+    star = np.array(radii)[:, None] * np.column_stack([np.cos(turn), np.sin(turn)])
+    low = star.min(axis=0)
+    rings = [star - low] + ([hole * star - low] if hole > 0.05 else [])
+    plate = outlined(Outline(tuple(ring.tolist() for ring in rings)))
+    # On a ray to a corner, beyond the hole.
+    points = np.array([star[int(share * (len(star) - 1))] * out - low for share, out in shares])
+    f = np.array([7.0, 60.0, 150.0])
+    Y = np.stack([MassSpringDamper().plate_receptance(plate, point, points, f) for point in points], axis=1)
+    assert np.isfinite(Y).all()
+    size = np.abs(Y).max(axis=(0, 1))
+    np.testing.assert_allclose(Y / size, Y.transpose(1, 0, 2) / size, atol=1e-7)
+    for k in range(len(f)):
+        assert np.linalg.eigvalsh(-(Y[..., k] - Y[..., k].conj().T) / 2j).min() > -1e-6 * size[k]
+
+
+def test_other_models_say_what_they_make_of_it() -> None:
+    plate = outlined(disc(0.4))
+    with pytest.raises(ModelDomainError, match="ModalPlate is for rectangles"):
+        ModalPlate().plate_receptance(plate, [0.4, 0.4], [0.4, 0.4], [100.0])
+    with pytest.raises(ModelDomainError, match="or of its outline"):
+        MassSpringDamper().plate_receptance(plate, [0.4, 0.4], [0.02, 0.02], [100.0])
+    with pytest.raises(ModelDomainError, match="free edges"):
+        replace(plate, boundary="CFFF")
+    with pytest.raises(ModelDomainError, match=r"must be within .* Plate.of_outline"):
+        replace(plate, length_m=0.5)
+
+
+def test_auto_fidelity_takes_the_lattice_where_there_is_an_outline() -> None:
+    model = AutoFidelity()
+    assert model.choose(outlined(disc(0.4)), 500.0).rung == "lattice"
+    assert model.choose(outlined(disc(0.04)), 200.0).rung == "rigid"
+    comb = Outline((((0, 0), (0.2, 0), (0.2, 0.02), (0.02, 0.02), (0.02, 0.03), (0.2, 0.03), (0.2, 0.05), (0, 0.05)),))
+    solid = Plate(0.2, 0.05, 0.006, MATERIAL)
+    top_hz = 40.0
+    assert model.choose(solid, top_hz).rung == "rigid"
+    assert model.choose(outlined(comb), top_hz).rung == "lattice"  # its tongues bend sooner
+
+
+def test_a_round_table_in_a_scene() -> None:
+    """A phone on a disc: the field is that of the lattice, and points beside the rim are taken to it."""
+    table = outlined(disc(0.4), 0.01)
+    network = ContactNetwork({"phone": RigidBody(0.2), "table": table}, [Contact("phone", "table", (0.4, 0.6, 0.0))])
+    excitation = [Excitation("phone", 150.0, 150.0, 0.2)]
+    field = MassSpringDamper().prepare(network, excitation, Bands((100.0, 200.0)))
+    touches = np.array([[0.4, 0.1, 0.0], [0.7, 0.4, 0.0], [0.01, 0.01, 0.0]])
+    gains = field.attenuation("table", touches)
+    assert (gains > 0).all()
+    auto = AutoFidelity().prepare(network, excitation, Bands((100.0, 200.0)))
+    assert auto.choices["table"].rung == "lattice"
+    np.testing.assert_allclose(auto.attenuation("table", touches), gains, rtol=0.03)

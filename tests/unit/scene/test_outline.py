@@ -1,0 +1,120 @@
+"""Outlines: what they cover, their notches, and how they are measured on meshes."""
+
+import math
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from scene2hap import TriMesh
+from scene2hap.errors import SceneError
+from scene2hap.scene.dominant_surface import dominant_surface
+from scene2hap.scene.outline import Outline
+
+SQUARE = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
+L = ((0.0, 0.0), (1.0, 0.0), (1.0, 0.4), (0.5, 0.4), (0.5, 1.0), (0.0, 1.0))
+HOLE = ((0.1, 0.1), (0.3, 0.1), (0.3, 0.15), (0.1, 0.15))
+
+
+def test_a_hole_is_not_covered() -> None:
+    outline = Outline((L, HOLE))
+    assert outline.area_m2 == pytest.approx(0.4 + 0.3 - 0.01, rel=1e-3)
+    assert outline.holds(np.array([[0.2, 0.12], [0.2, 0.3], [0.7, 0.7], [0.7, 0.2]])).tolist() == [
+        False,
+        True,
+        False,
+        True,
+    ]
+    assert outline.distance_m(np.array([[0.7, 0.7], [0.2, 0.125], [0.05, 0.9]])) == pytest.approx([0.2, 0.025, 0.0])
+
+
+@settings(derandomize=True, deadline=None, max_examples=50)
+@given(st.lists(st.floats(0.2, 1.0), min_size=3, max_size=12), st.integers(1, 40), st.integers(1, 40), st.booleans())
+def test_pixels_share_the_area(radii: list[float], nx: int, ny: int, backwards: bool) -> None:
+    """Of any star, by the shoelace formula, however it is cut into pixels and whichever way round it is told."""
+    turn = np.arange(len(radii)) * 2 * math.pi / len(radii)
+    star = np.array(radii)[:, None] * np.column_stack([np.cos(turn), np.sin(turn)])
+    outline = Outline(((star[::-1] if backwards else star).tolist(),))
+    x0, y0, x1, y1 = outline.box_m
+    shares = outline.coverage(np.linspace(x0, x1, nx + 1), np.linspace(y0, y1, ny + 1))
+    assert ((shares >= 0) & (shares <= 1)).all()
+    area = abs(float(star[:, 0] @ np.roll(star[:, 1], -1) - star[:, 1] @ np.roll(star[:, 0], -1))) / 2
+    found = shares.sum() * (x1 - x0) * (y1 - y0) / (nx * ny)
+    assert found == pytest.approx(area, abs=(x1 - x0) * (y1 - y0) / (8 * ny))
+
+
+def test_notches_are_corners_that_point_inwards() -> None:
+    assert Outline((SQUARE,)).notches_m.shape == (0, 2)
+    assert Outline((L,)).notches_m.tolist() == [[0.5, 0.4]]
+    assert Outline((L[::-1],)).notches_m.tolist() == [[0.5, 0.4]]
+    assert len(Outline((SQUARE, HOLE)).notches_m) == 4
+    turn = np.arange(64) * 2 * math.pi / 64
+    ring = np.column_stack([np.cos(turn), np.sin(turn)])
+    assert len(Outline((ring.tolist(), (0.5 * ring).tolist())).notches_m) == 0  # a curve has none
+
+
+@pytest.mark.parametrize(
+    ("rings", "words"),
+    [
+        ((), "has 0 corners; it must have 3"),
+        ((SQUARE[:2],), "ring 0 .* at least 3 corners"),
+        ((((0, 0), (1, 0), (2, 0)),), "must have an area"),
+        ((((0, 0), (1, 0), (math.nan, 1)),), "finite"),
+        (("round",), "ring 0"),
+    ],
+)
+def test_refusals(rings: object, words: str) -> None:
+    with pytest.raises(SceneError, match=words):
+        Outline(rings)  # type: ignore[arg-type]
+
+
+def mesh_of(mesh: trimesh.Trimesh) -> TriMesh:
+    return TriMesh(mesh.vertices, mesh.faces)
+
+
+def test_a_round_top_on_a_leg_has_its_outline() -> None:
+    top = trimesh.creation.cylinder(radius=0.45, height=0.03, sections=48)
+    top.apply_translation((0.1, -0.2, 0.7))
+    leg = trimesh.creation.cylinder(radius=0.04, height=0.66, sections=12)
+    leg.apply_translation((0.1, -0.2, 0.355))
+    surface = dominant_surface(mesh_of(trimesh.util.concatenate([top, leg])), up=(0.0, 0.0, 1.0))
+    outline = surface.outline
+    assert outline is not None
+    assert outline.area_m2 == pytest.approx(math.pi * 0.45**2, rel=0.02)
+    x0, y0, x1, y1 = outline.box_m
+    middle = surface.pose.to_world(np.array([[(x0 + x1) / 2, (y0 + y1) / 2, 0.0]]))[0]
+    assert middle == pytest.approx((0.1, -0.2, 0.7), abs=2e-3)
+    assert (x1 - x0, y1 - y0) == pytest.approx((0.9, 0.9), rel=0.01)
+
+
+def test_an_l_keeps_its_corner_wherever_it_lies() -> None:
+    slabs = [trimesh.creation.box((1.6, 0.6, 0.03)), trimesh.creation.box((0.6, 1.0, 0.03))]
+    slabs[1].apply_translation((-0.5, 0.8, 0.0))
+    # Two slabs that share a face inside are no closed ring; one L is.
+    ring = np.array([(-0.8, -0.3), (0.8, -0.3), (0.8, 0.3), (-0.2, 0.3), (-0.2, 1.3), (-0.8, 1.3)])
+    faces = [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5)]
+    vertices = np.concatenate([np.column_stack([ring, np.full(6, z)]) for z in (-0.015, 0.015)])
+    sides = [tri for k in range(6) for tri in ((k, (k + 1) % 6, k + 6), ((k + 1) % 6, (k + 1) % 6 + 6, k + 6))]
+    caps = [(c, b, a) for a, b, c in faces] + [(a + 6, b + 6, c + 6) for a, b, c in faces]
+    for angle in (0.0, 0.7):
+        turn = trimesh.transformations.rotation_matrix(angle, (0, 0, 1))[:3, :3]
+        surface = dominant_surface(TriMesh(vertices @ turn.T, np.array(sides + caps)), up=(0.0, 0.0, 1.0))
+        assert surface.outline is not None
+        assert surface.outline.area_m2 == pytest.approx(1.6 * 0.6 + 0.6, rel=5e-3)
+        (x, y), *more = surface.outline.notches_m
+        assert not more
+        at = surface.pose.to_world(np.array([[x, y, 0.0]]))[0]
+        assert at == pytest.approx(turn @ (-0.2, 0.3, 0.0), abs=3e-3)
+    assert dominant_surface(mesh_of(slabs[0]), up=(0.0, 0.0, 1.0)).outline is None
+
+
+@pytest.mark.parametrize("shape", ["box", "ball", "sheet"])
+def test_what_is_no_plate_of_an_odd_outline_has_none(shape: str) -> None:
+    meshes = {
+        "box": trimesh.creation.box((1.0, 0.6, 0.03)).subdivide(),
+        "ball": trimesh.creation.icosphere(radius=0.2),
+        "sheet": trimesh.Trimesh([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)]),
+    }
+    assert dominant_surface(mesh_of(meshes[shape]), up=(0.0, 0.0, 1.0)).outline is None
