@@ -92,6 +92,7 @@ FIGURES = {
     "sound-card-hour": Figure("actuators", "stress/soak.py", 60, has_times=True, is_text=True, needs="sound server"),
     "masses": Figure("inference", "benchmarks/masses.py", 1, needs="scenes"),
     "coupled": Figure("accuracy", "benchmarks/coupled.py", 5),
+    "outlines": Figure("accuracy", "benchmarks/outlines.py", 2, has_times=True),
     "auto-scenes": Figure(
         "propagation",
         "benchmarks/auto_scenes.py scene2hap/demo/kitchen.glb "

@@ -98,6 +98,11 @@ def response_db(profile: ActuatorProfile, frequencies_hz: ArrayLike) -> NDArray[
     return np.asarray(-10.0 * np.log10(1.0 + (profile.q * (r - 1.0 / r)) ** 2))
 
 
+def is_flat(profile: ActuatorProfile) -> bool:
+    """Whether it answers alike at all frequencies, so that nothing is to be made up for."""
+    return not profile.response_db and (profile.resonance_hz is None or profile.q is None)
+
+
 def inverse_db(
     profile: ActuatorProfile, frequencies_hz: ArrayLike, max_boost_db: float = MAX_BOOST_DB
 ) -> NDArray[np.float64]:
@@ -115,7 +120,7 @@ def equalize_loop(
 
     A loop is periodic, so that weighting its Fourier coefficients is exact.
     """
-    if not profile.response_db and (profile.resonance_hz is None or profile.q is None):
+    if is_flat(profile):
         return loop_samples
     spectrum = np.fft.rfft(loop_samples.astype(np.float64))
     f = np.fft.rfftfreq(len(loop_samples), 1.0 / sample_rate_hz)

@@ -9,8 +9,8 @@ from scene2hap.audio.actuators import MAX_BOOST_DB, equalize_loop
 from scene2hap.audio.anchor import Anchor, anchor_of
 from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.audio.haptic_loop import HapticLoop
-from scene2hap.audio.levels import at_level, felt_level_db, sensation_level_db
-from scene2hap.audio.loops import TACTILE_HEADROOM_DB, loop_pair
+from scene2hap.audio.levels import TACTILE_HEADROOM_DB, at_level, felt_level_db, sensation_level_db
+from scene2hap.audio.loops import loop_pair
 from scene2hap.audio.protocol import ConversionContext, TactileConverter
 from scene2hap.audio.spreading import Placement, SpreadLimits, Voice, spread
 from scene2hap.haptics import ActuatorProfile

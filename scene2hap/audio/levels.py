@@ -31,6 +31,9 @@ LEVEL_PER_DECADE_DB = 17.0
 (Verrillo 1970), which would ask for 22; touch has 45 dB where hearing has 100, so that some compression is usual (2:1
 after Merchel and Altinsoy). 17 leaves the scale's faintest example, a refrigerator's hum of 0.1, at 14 dB, which is
 still felt 12 dB further away; and leaves two level JNDs between a ringing phone (0.5) and a washing machine (1)."""
+TACTILE_HEADROOM_DB = 6.0
+"""Peak of the tactile loop of a source of full intensity, below full scale [dB]: two such sources add up to full scale
+(within 0.02 dB)."""
 TACTILE_RANGE_HZ = (10.0, 1000.0)
 
 _NOTHING_DB = -120.0

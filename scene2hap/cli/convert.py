@@ -22,6 +22,8 @@ from scene2hap.cli.specs import given_spec
 from scene2hap.errors import AudioError, ConfigError
 
 HELP = "sound files -> tactile files"
+_CLOSE_DB = 3.0
+"""About what is felt as a difference of level, so that nobody needs to be told of less."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -45,6 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--format", choices=[suffix[1:] for suffix in FORMATS], default="wav", help="in a folder, default wav"
     )
+    parser.add_argument("--raw", action="store_true", help="as the converter makes it: neither equalized nor levelled")
     parser.add_argument("--mono", action="store_true", help="mix the channels of each file first")
     parser.add_argument("--picture", action="store_true", help="draw spectrograms and envelopes beside each file")
     parser.add_argument("--force", action="store_true", help="overwrite files that exist")
@@ -67,6 +70,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             actuator=arguments.actuator,
             intensity=arguments.intensity,
             mono=arguments.mono,
+            raw=arguments.raw,
             overwrite=arguments.force,
         )
     made = [outcome for outcome in outcomes if isinstance(outcome, Conversion)]
@@ -80,6 +84,13 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     for one in made:
         if one.n_clipped:
             console.warn(f"{one.output}: {one.n_clipped} samples beyond full scale were cut to it.")
+        if one.level_db is not None and one.asked_level_db is not None:
+            missing_db = one.asked_level_db - one.level_db
+            if missing_db > _CLOSE_DB:
+                console.warn(
+                    f"{one.output}: is felt {missing_db:.0f} dB weaker than its intensity asks for; its peaks, or what "
+                    "the actuator renders, leave no more."
+                )
     for failure in failed:
         console.fail(failure.reason)
     if failed:
@@ -93,16 +104,16 @@ def _show(console: Console, made: list[Conversion]) -> None:
     total = sum(one.duration_s for one in made)
     console.table(
         f"{len(made)} files, {total:.1f} s of sound",
-        ("file", ">s", ">peak in dB", ">out", ">strongest in Hz", ">out", ">took s", ">x real time"),
+        ("file", ">s", ">peak in dB", ">out", ">felt dB", ">strongest in Hz", ">out", ">x real time"),
         (
             (
                 str(one.output),
                 f"{one.duration_s:.2f}",
                 _decibels(one.peak_in),
                 _decibels(one.peak_out),
+                _level(one.level_db),
                 _hertz(one.frequency_in_hz),
                 _hertz(one.frequency_out_hz),
-                f"{one.elapsed_s:.2f}",
                 f"{one.duration_s / one.elapsed_s:.0f}",
             )
             for one in made
@@ -116,6 +127,10 @@ def _outcome(one: Conversion) -> dict[str, Any]:
 
 def _decibels(peak: float) -> str:
     return f"{20 * math.log10(peak):.1f}" if peak > 0.0 else "silent"
+
+
+def _level(level_db: float | None) -> str:
+    return "-" if level_db is None else f"{level_db:.1f}"
 
 
 def _hertz(frequency: float | None) -> str:

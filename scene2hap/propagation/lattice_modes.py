@@ -47,6 +47,8 @@ MOST_WORK = 1e8
 takes some seconds at most."""
 _EXACT = 1e-7
 """Relative error at which a solution is good: that of a frequency is its square."""
+QUICK_WORK = 5e7
+"""Of these, what takes less than about a second."""
 SMALL = 150
 """Nodes up to which all modes are solved at once, which is then faster than Lanczos' method."""
 
@@ -139,8 +141,9 @@ def _work(n_nodes: int, n_modes: float) -> float:
 
 
 def check_work(plate: Plate, resolution: int, n_modes: float) -> None:
-    """Raises: ModelDomainError: so many modes would take more than `MOST_WORK`."""
-    needed = _work(n_nodes_of(plate, resolution), n_modes)
+    """Raises: ModelDomainError: so many modes would take more than `MOST_WORK`. Warns: SlowPlateWarning: seconds."""
+    n_nodes = n_nodes_of(plate, resolution)
+    needed = _work(n_nodes, n_modes)
     if needed > MOST_WORK:
         raise ModelDomainError(
             f"a plate of {plate.length_m:g} × {plate.width_m:g} m of {1e3 * plate.thickness_m:g} mm "
@@ -148,6 +151,7 @@ def check_work(plate: Plate, resolution: int, n_modes: float) -> None:
             f"{needed / MOST_WORK:.0f} times what is solved in seconds. Lower the frequency or the resolution, or use "
             "ModalPlate or InfinitePlate."
         )
+    warn_if_slow(plate, round(min(n_modes, n_nodes)), round(math.sqrt(QUICK_WORK / n_nodes)), "modes of a lattice")
 
 
 @lru_cache(maxsize=8)  # bodies keep their own

@@ -14,6 +14,7 @@ import soundfile
 
 from scene2hap import audio
 from scene2hap.audio.conversion import Conversion
+from scene2hap.audio.levels import threshold_db
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.baking import BakeConfig
 from scene2hap.cli import main
@@ -47,11 +48,14 @@ def test_converter_actuator_and_format_are_chosen_by_name(tmp_path: Path, capsys
     response = tmp_path / "mine.csv"
     response.write_text("Hz,dB\n50,-10\n150,0\n400,-8\n")
     chosen = ["--converter", '{"kind": "svf_bandpass", "q": 5}', "--actuator", str(response), "--format", "flac"]
+    chosen += ["--intensity", "0.05"]
     assert main(["convert", str(folder), "-o", str(tmp_path / "out"), "--json", "--workers", "1", *chosen]) == 0
     [made] = json.loads(capsys.readouterr().out)["converted"]
     assert made["output"] == str(tmp_path / "out" / "hum.flac")
     assert made["frequency_out_hz"] == pytest.approx(98.0, abs=0.02)
-    assert made["peak_out"] < 0.1
+    # The response answers 3.9 dB less at 98 Hz, where it takes as much more drive to be felt as at 0 dB.
+    assert made["level_db"] == pytest.approx(made["asked_level_db"], abs=0.1)
+    assert 20 * np.log10(made["peak_out"]) == pytest.approx(threshold_db(98.0) + made["asked_level_db"] + 3.9, abs=2.5)
 
 
 def test_one_bad_file_is_told_and_the_others_are_made(tmp_path: Path) -> None:

@@ -129,6 +129,7 @@ def test_it_gives_what_the_modal_plate_gives() -> None:
     assert np.abs(20 * np.log10(answers[0] / answers[1])).max() < 0.2
 
 
+@pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.SlowPlateWarning")
 def test_it_is_chosen_by_kind_and_refines_thin_plates() -> None:
     model: MassSpringDamper = MODELS.build({"kind": "mass_spring_damper", "resolution": 8})  # type: ignore[assignment]
     foil = Plate(0.4, 0.3, 0.0005, materials.lookup("steel"))

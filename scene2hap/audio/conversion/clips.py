@@ -17,11 +17,13 @@ PRE_ROLL_S = 1.0
 def convert_clip(clip: AudioClip, converter: TactileConverter, context: ConversionContext) -> AudioClip:
     """The tactile counterpart of a clip: equally long, same rate and credit, not scaled.
 
-    The beginning of the clip, mirrored in time, is played in first, so that filters are settled when it starts.
+    The beginning of the clip, mirrored in time, is played in first, so that filters are settled when it starts; its
+    offset, which is no sound, is not.
     Raises: AudioError: the converter returns more or fewer samples than it was given.
     """
     n_before = min(round(PRE_ROLL_S * clip.sample_rate_hz), len(clip.samples) - 1)
     fed = np.concatenate([clip.samples[n_before:0:-1], clip.samples])
+    fed -= clip.samples.mean(dtype=np.float64).astype(np.float32)
     stream = opened_stream(converter, clip.sample_rate_hz, context)
     felt = np.concatenate([one_channel(converter, stream.process(fed)), one_channel(converter, stream.finish())])
     if len(felt) != len(fed):

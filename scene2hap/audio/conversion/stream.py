@@ -1,21 +1,33 @@
-"""One sound file through a converter, block by block: memory does not grow with its length."""
+"""One sound file through a converter, block by block: memory does not grow with its length.
+
+The converter hears the sound without its offset. What it makes is then equalized for the actuator and brought to the
+level of its source, as the loops of a scene are (`felt_loop`). The level is known at the end only, so that the
+vibration waits on the disk until then.
+"""
 
 from __future__ import annotations
 
 import math
 import time
 from collections.abc import Iterator
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryFile
+from typing import IO
 
 import numpy as np
 import soundfile
 from numpy.typing import NDArray
+from scipy.signal import lfilter, lfilter_zi
 
 from scene2hap import checks
-from scene2hap.audio.actuators import actuator_profile
+from scene2hap.audio.actuators import actuator_profile, is_flat
+from scene2hap.audio.conversion.equalizer import Equalizer
+from scene2hap.audio.conversion.felt_level import FeltLevel
 from scene2hap.audio.conversion.meter import Meter
 from scene2hap.audio.files import opened_sound, require_finite, written_whole
+from scene2hap.audio.levels import TACTILE_HEADROOM_DB, sensation_level_db
 from scene2hap.audio.protocol import (
     ConversionContext,
     TactileConverter,
@@ -41,6 +53,11 @@ BLOCK_FRAMES = 65_536
 _FULL_SCALE = 2.0**23
 _NEARLY_FULL = 1.0 - 1.0 / _FULL_SCALE
 _PICTURE_COLUMNS = 900
+_NOTHING_DB = -120.0
+"""Below this level there are only errors of rounding."""
+_OFFSET_FRAMES = 65_536
+_SLOWEST_HZ = 1.0
+"""What is slower than this is an offset; touch begins at 10 Hz, where it takes 0.04 dB."""
 _LARGEST_WAV_BYTES = 0xFFFF_0000
 """Lengths in a WAV header have 32 bits; what may not fit becomes RF64 (EBU Tech 3306), which most programs read."""
 
@@ -49,7 +66,9 @@ _LARGEST_WAV_BYTES = 0xFFFF_0000
 class Conversion:
     """Result of converting a file. Peaks are absolute samples [re full scale], before clipping.
 
-    `n_clipped` samples were beyond full scale and were written as full scale. A dominant frequency is that of the mean
+    `n_clipped` samples were beyond full scale and were written as full scale. `level_db` is how far over the threshold
+    of touch the vibration is on the whole [dB], of `asked_level_db`, which head-room may forbid; None for silence, and
+    for what a converter made is left as it is. A dominant frequency is that of the mean
     power spectrum of all channels, 10 Hz to 20 kHz; None for silence. `picture` is None where none was drawn.
     """
 
@@ -65,6 +84,8 @@ class Conversion:
     frequency_out_hz: float | None
     elapsed_s: float
     picture: Path | None = None
+    level_db: float | None = None
+    asked_level_db: float | None = None
 
 
 def convert(
@@ -77,16 +98,19 @@ def convert(
     mono: bool = False,
     overwrite: bool = False,
     picture: str | Path | None = None,
+    raw: bool = False,
 ) -> Conversion:
-    """Turn a sound file into a tactile one, equally long, at the same rate and not scaled; written whole or not at all.
+    """Turn a sound file into a tactile one, equally long and at the same rate; written whole or not at all.
 
     Parameters:
     source : WAV, FLAC, Ogg or MP3, of at most `audio.files.MAX_FILE_SAMPLES`.
     output : its suffix (`FORMATS`) chooses the format.
     converter : a kind, a mapping with a `kind` and its settings, or one ready made; each channel gets its own stream.
-    actuator : a profile, its name, or a CSV file of its response; intensity : of the source, 0..1 [-].
+    actuator : a profile, its name, or a CSV file of its response, which is made up for; intensity : of the source, 0..1
+    [-], which sets the level that is felt (`sensation_level_db`).
     mono : mix the channels by their mean first; overwrite : replace files that exist.
-    picture : a PNG to draw: spectrograms before and after, and both envelopes.
+    picture : a PNG to draw: spectrograms before and after, and both envelopes; raw : the converter alone, which
+    hears the sound as it is, and is neither equalized nor scaled.
     Raises: ConfigError: settings that cannot work. AudioError: `source` cannot be read or holds a sample that is not
     finite, `output` exists or cannot be written, or the converter changes the length.
     """
@@ -98,9 +122,13 @@ def convert(
     if drawn is not None:
         _check_target(source, drawn, overwrite=overwrite)
     with opened_sound(source) as file, written_whole(output) as beside:
-        felt = _Felt(built, context, file, mono=mono, n_columns=_PICTURE_COLUMNS if drawn else 0)
-        with _opened_for_writing(output, beside, felt) as target:
-            for block in felt.blocks(source, file):
+        felt = _Felt(built, context, file, mono=mono, raw=raw, n_columns=_PICTURE_COLUMNS if drawn else 0)
+        blocks = felt.blocks(source, file)
+        with _opened_for_writing(output, beside, felt) as target, ExitStack() as held:
+            if not raw:
+                blocks = _at_level(blocks, felt, context, held.enter_context(TemporaryFile(dir=output.parent)))
+            for block in blocks:
+                felt.hear_after(block)
                 target.write(_steps(block, is_beyond=felt.after.peak >= _NEARLY_FULL))
         if drawn is not None:
             from scene2hap.audio.conversion.picture import draw_conversion
@@ -121,6 +149,8 @@ def convert(
         felt.after.dominant_frequency_hz(),
         time.perf_counter() - begin,
         drawn,
+        felt.level_db,
+        None if raw else sensation_level_db(context.intensity),
     )
 
 
@@ -143,14 +173,17 @@ class _Felt:
         file: soundfile.SoundFile,
         *,
         mono: bool,
+        raw: bool,
         n_columns: int,
     ) -> None:
         self.rate = int(file.samplerate)
         self.channels = 1 if mono else int(file.channels)
-        self._n_clipped = 0
+        self.level_db: float | None = None
+        self._n_clipped = self._n_made = 0
         self.before, self.after = (
             Meter(self.rate, self.channels, n_frames=int(file.frames), n_columns=n_columns) for _ in range(2)
         )
+        self._raw = raw
         self._converter, self._name = converter, type(converter).__name__
         self._mono = mono
         self._streams: list[TactileStream] = [
@@ -158,9 +191,9 @@ class _Felt:
         ]
 
     def blocks(self, source: Path, file: soundfile.SoundFile) -> Iterator[Block]:
-        """The converted file (n, channels), within full scale."""
-        stated = int(file.frames)
-        n_read = 0
+        """The converted file (n, channels), as the converter makes it."""
+        stated, n_read = int(file.frames), 0
+        rests = [] if self._raw else [_Rest(self.rate, offset) for offset in self._offsets(file)]
         while len(block := file.read(BLOCK_FRAMES, dtype="float32", always_2d=True)):
             if self._mono and block.shape[1] > 1:
                 block = block.mean(axis=1, keepdims=True, dtype=np.float32)
@@ -168,32 +201,85 @@ class _Felt:
             if not math.isfinite(self.before.peak):
                 require_finite(source, block, n_read)
             n_read += len(block)
-            yield self._felt([stream.process(block[:, i]) for i, stream in enumerate(self._streams)])
+            channels = [block[:, i] for i in range(self.channels)]
+            if not self._raw:
+                channels = [rest.taken_out(channel) for rest, channel in zip(rests, channels, strict=True)]
+            yield self._felt([stream.process(x) for stream, x in zip(self._streams, channels, strict=True)])
         if n_read == 0:
             raise AudioError(f"{source} has no samples. Use a sound that is longer than 0 s.")
         if n_read < stated and file.format != "MP3":  # the length of an MP3 is an estimate
             raise AudioError(f"{source} is cut short: {n_read} of {stated} frames. Copy it again.")
         yield self._felt([stream.finish() for stream in self._streams])
-        if self.after.n_frames != n_read:
+        if self._n_made != n_read:
             raise AudioError(
-                f"{self._name} made {self.after.n_frames} samples of {n_read}; touch must stay in step with sound. "
+                f"{self._name} made {self._n_made} samples of {n_read}; touch must stay in step with sound. "
                 "Its stream must return as many samples as it was given, counting finish()."
             )
+
+    def _offsets(self, file: soundfile.SoundFile) -> list[float]:
+        """Of each channel, over the beginning of the file."""
+        head = file.read(_OFFSET_FRAMES, dtype="float32", always_2d=True)
+        file.seek(0)
+        if not len(head) or not np.isfinite(head).all():  # which is told when it is converted
+            return [0.0] * self.channels
+        mean = head.mean(axis=0, dtype=np.float64)
+        return [float(mean.mean())] if self._mono else mean.tolist()
 
     def _felt(self, channels: list[NDArray[np.float32]]) -> Block:
         channels = [one_channel(self._converter, channel) for channel in channels]
         if len({len(channel) for channel in channels}) > 1:
             raise AudioError(f"{self._name} made {[len(channel) for channel in channels]} samples of equal channels.")
-        block = np.stack(channels, axis=1).astype(np.float32, copy=False)
+        self._n_made += len(channels[0])
+        return np.stack(channels, axis=1).astype(np.float32, copy=False)
+
+    def hear_after(self, block: Block) -> None:
+        """Meter what is written."""
         self.after.hear(block)
         if self.after.peak > 1.0:
             self._n_clipped += int(np.count_nonzero(np.abs(block) > 1.0))
-        return block
 
     @property
     def n_clipped(self) -> int:
         """Samples that were cut to full scale, by a stream that counts them or afterwards."""
         return self._n_clipped + sum(getattr(stream, "n_clipped", 0) for stream in self._streams)
+
+
+class _Rest:
+    """The offset of a recording, which is no sound: what it is at first, followed slowly from there."""
+
+    def __init__(self, sample_rate_hz: int, at_first: float) -> None:
+        share = 1.0 / (1.0 + 2.0 * math.pi * _SLOWEST_HZ / sample_rate_hz)
+        self._filter = np.array([share, -share]), np.array([1.0, -share])
+        self._state = lfilter_zi(*self._filter) * at_first
+
+    def taken_out(self, samples: NDArray[np.float32]) -> NDArray[np.float32]:
+        """The next samples (n,) without it."""
+        found, self._state = lfilter(*self._filter, samples, zi=self._state)
+        without: NDArray[np.float32] = found.astype(np.float32)
+        return without
+
+
+def _at_level(blocks: Iterator[Block], felt: _Felt, context: ConversionContext, held: IO[bytes]) -> Iterator[Block]:
+    """The blocks, equalized, at the level of their source or as near below as their peaks allow; kept in a file."""
+    heard = FeltLevel(felt.rate, felt.channels, context.actuator)
+    for block in blocks if is_flat(context.actuator) else _equalized(blocks, felt, context):
+        heard.hear(block)
+        held.write(block.tobytes())
+    now_db, gain = heard.level_db(), 1.0
+    if now_db > _NOTHING_DB:
+        asked_db = sensation_level_db(context.intensity)
+        gain = min(10 ** ((asked_db - now_db) / 20), 10 ** (-TACTILE_HEADROOM_DB / 20) / heard.peak)
+        felt.level_db = now_db + 20 * math.log10(gain)
+    held.seek(0)
+    while len(part := np.frombuffer(held.read(4 * BLOCK_FRAMES * felt.channels), dtype=np.float32)):
+        yield part.reshape(-1, felt.channels) * np.float32(gain)
+
+
+def _equalized(blocks: Iterator[Block], felt: _Felt, context: ConversionContext) -> Iterator[Block]:
+    equalizers = [Equalizer(context.actuator, felt.rate) for _ in range(felt.channels)]
+    for block in blocks:
+        yield np.stack([one.process(block[:, i]) for i, one in enumerate(equalizers)], axis=1)
+    yield np.stack([one.finish() for one in equalizers], axis=1)
 
 
 def _steps(block: Block, *, is_beyond: bool) -> NDArray[np.int32]:

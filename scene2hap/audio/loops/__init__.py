@@ -12,7 +12,6 @@ whole number of cycles; `seam` fades them over at constant power; `pair` cuts wh
 from scene2hap.audio.loops.pair import (
     AUDIBLE_PEAK_DBFS,
     AUDIBLE_RANGE_HZ,
-    TACTILE_HEADROOM_DB,
     loop_pair,
     make_loop,
     middle_of,
@@ -26,7 +25,6 @@ __all__ = [
     "CROSSFADE_S",
     "MAX_LOOP_S",
     "MIN_CLIP_S",
-    "TACTILE_HEADROOM_DB",
     "FadeLaw",
     "Seam",
     "apply_seam",

@@ -12,14 +12,12 @@ from scene2hap.audio import analysis
 from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.audio.levels import TACTILE_HEADROOM_DB
 from scene2hap.audio.loops.seam import apply_seam
 from scene2hap.audio.loops.seam_search import CROSSFADE_S, MAX_LOOP_S, find_seam
 from scene2hap.audio.protocol import ConversionContext, TactileConverter
 from scene2hap.errors import AudioError
 
-TACTILE_HEADROOM_DB = 6.0
-"""Peak of the tactile loop of a source of full intensity, below full scale [dB]: two such sources add up to full scale
-(within 0.02 dB)."""
 AUDIBLE_PEAK_DBFS = -1.0
 """Peak of every audible loop [dB re 1]; the usual margin for players that resample."""
 

@@ -12,9 +12,12 @@ from PIL import Image
 from scipy.signal import butter, sosfilt
 
 from scene2hap import audio
+from scene2hap.audio.actuators import actuator_profile, response_db
 from scene2hap.audio.clip import Samples
 from scene2hap.audio.conversion import stream as stream_module
+from scene2hap.audio.levels import felt_level_db, sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from scene2hap.errors import AudioError, ConfigError
 
@@ -62,7 +65,7 @@ def test_each_channel_goes_through_the_converter_whatever_the_blocks(
     whole = [SvfBandpass().stream(RATE, ConversionContext()).process(heard[:, i].copy()) for i in range(2)]
     for block in (65_536, 999):
         monkeypatch.setattr(stream_module, "BLOCK_FRAMES", block)
-        made = audio.convert(source, tmp_path / f"{block}.wav", converter="svf_bandpass")
+        made = audio.convert(source, tmp_path / f"{block}.wav", converter="svf_bandpass", raw=True)
         felt, rate = soundfile.read(made.output, dtype="float32")
         assert rate == RATE
         # Written as 24-bit steps: half of one is all that may differ.
@@ -72,7 +75,7 @@ def test_each_channel_goes_through_the_converter_whatever_the_blocks(
 def test_tells_peaks_and_frequencies_and_length(tmp_path: Path) -> None:
     samples = np.where(np.arange(2) == 0, sound(12.0, frequency_hz=93.7), 0.5 * sound(12.0, frequency_hz=310.2))
     samples[777, 1] = -0.9
-    made = audio.convert(write(tmp_path / "a.flac", samples, subtype="PCM_24"), tmp_path / "b.wav")
+    made = audio.convert(write(tmp_path / "a.flac", samples, subtype="PCM_24"), tmp_path / "b.wav", raw=True)
     assert (made.sample_rate_hz, made.channels, made.n_clipped) == (RATE, 2, 0)
     assert made.duration_s == 12.0
     assert made.peak_in == pytest.approx(0.9, abs=1e-6)
@@ -80,7 +83,7 @@ def test_tells_peaks_and_frequencies_and_length(tmp_path: Path) -> None:
     assert made.frequency_in_hz == pytest.approx(93.7, abs=0.02)
     # |H(93.7)| = 0.53 and |H(310.2)| = 0.96: half as loud before, nearly equal after; the first stays ahead.
     assert made.frequency_out_hz == pytest.approx(93.7, abs=0.02)
-    narrow = audio.convert(made.source, tmp_path / "c.wav", converter={"kind": "svf_bandpass", "q": 4.0})
+    narrow = audio.convert(made.source, tmp_path / "c.wav", converter={"kind": "svf_bandpass", "q": 4.0}, raw=True)
     assert narrow.frequency_out_hz == pytest.approx(310.2, abs=0.02)
 
 
@@ -98,7 +101,7 @@ def test_silence_has_no_frequency_and_stays_silent(tmp_path: Path) -> None:
 @pytest.mark.parametrize("suffix", ["wav", "flac", "ogg", "mp3"])
 def test_every_format_is_read_and_written(tmp_path: Path, suffix: str) -> None:
     source = write(tmp_path / f"a.{suffix}", sound())
-    made = audio.convert(source, tmp_path / f"b.{suffix}", converter="svf_bandpass")
+    made = audio.convert(source, tmp_path / f"b.{suffix}", converter="svf_bandpass", raw=True)
     felt, rate = soundfile.read(made.output)
     assert rate == RATE
     # |H(93.7 Hz)| of the paper's band-pass: 1 / sqrt(1 + Q^2 (f/250 - 250/f)^2), Q = 0.707.
@@ -108,13 +111,13 @@ def test_every_format_is_read_and_written(tmp_path: Path, suffix: str) -> None:
 
 def test_what_a_converter_holds_back_comes_at_the_end(tmp_path: Path) -> None:
     source = write(tmp_path / "a.wav", sound(), subtype="PCM_24")
-    made = audio.convert(source, tmp_path / "b.wav", converter=Held(held=5000))
+    made = audio.convert(source, tmp_path / "b.wav", converter=Held(held=5000), raw=True)
     np.testing.assert_array_equal(soundfile.read(made.output)[0], soundfile.read(source)[0])
 
 
 def test_mono_is_the_mean_of_the_channels(tmp_path: Path) -> None:
     source = write(tmp_path / "a.wav", sound(), subtype="PCM_24")
-    made = audio.convert(source, tmp_path / "b.wav", converter=Held(), mono=True)
+    made = audio.convert(source, tmp_path / "b.wav", converter=Held(), mono=True, raw=True)
     assert made.channels == 1
     np.testing.assert_allclose(soundfile.read(made.output)[0], soundfile.read(source)[0].mean(axis=1), atol=2**-22)
 
@@ -124,7 +127,7 @@ def test_what_our_own_streams_cut_is_counted(tmp_path: Path) -> None:
     t = np.arange(2 * RATE) / RATE
     loud = (2.0 * np.sin(2 * np.pi * 93.7 * t)).astype(np.float32)
     source = write(tmp_path / "a.wav", loud, subtype="FLOAT")
-    made = audio.convert(source, tmp_path / "b.wav", converter="lowpass")
+    made = audio.convert(source, tmp_path / "b.wav", converter="lowpass", raw=True)
     expected = sosfilt(butter(4, 250, fs=RATE, output="sos"), loud.astype(np.float64))
     assert made.n_clipped == np.count_nonzero(np.abs(expected) > 1.0)
     assert made.n_clipped > RATE
@@ -133,7 +136,7 @@ def test_what_our_own_streams_cut_is_counted(tmp_path: Path) -> None:
 
 def test_what_is_beyond_full_scale_is_cut_and_counted(tmp_path: Path) -> None:
     source = write(tmp_path / "a.wav", np.array([0.1, 0.6, -0.7, 0.4]), subtype="PCM_24")
-    made = audio.convert(source, tmp_path / "b.wav", converter=Held(gain=2.0))
+    made = audio.convert(source, tmp_path / "b.wav", converter=Held(gain=2.0), raw=True)
     assert made.n_clipped == 2
     assert made.peak_out == pytest.approx(1.4, abs=1e-6)
     np.testing.assert_allclose(soundfile.read(made.output)[0], [0.2, 1.0, -1.0, 0.8], atol=2**-22)
@@ -231,7 +234,7 @@ def test_memory_does_not_grow_with_length(tmp_path: Path) -> None:
 
 def test_the_picture_shows_both_sounds(tmp_path: Path) -> None:
     source = write(tmp_path / "a.ogg", sound(1.0))
-    made = audio.convert(source, tmp_path / "b.wav", picture=tmp_path / "b.png")
+    made = audio.convert(source, tmp_path / "b.wav", picture=tmp_path / "b.png", raw=True)
     assert made.picture == tmp_path / "b.png"
     with Image.open(made.picture) as image:
         pixels = np.asarray(image.convert("L"), dtype=float)
@@ -249,3 +252,89 @@ def test_hours_of_silence_in_a_small_file_are_refused_before_they_are_converted(
     with pytest.raises(AudioError, match=r"75,497,472 samples; it must have at most 67,108,864"):
         audio.convert(source, tmp_path / "felt.wav")
     assert not (tmp_path / "felt.wav").exists()
+
+
+def felt_of(
+    tmp_path: Path, samples: np.ndarray, name: str = "felt.wav", **settings: object
+) -> tuple[np.ndarray, float]:
+    """What a file becomes, and how far over the threshold a loop of it is felt on its actuator [dB]."""
+    source = write(tmp_path / "a.wav", samples, subtype="FLOAT")
+    made = audio.convert(source, tmp_path / name, overwrite=True, **settings)  # type: ignore[arg-type]
+    felt, rate = soundfile.read(made.output)
+    one = felt if felt.ndim == 1 else felt[:, 0]
+    whole_seconds = one[: len(one) // rate * rate]
+    return felt, felt_level_db(whole_seconds, rate, actuator_profile(settings.get("actuator", "flat")))
+
+
+@pytest.mark.parametrize("converter", sorted(CONVERTERS.builtins))
+@pytest.mark.parametrize("actuator", ["flat", "voice_coil"])
+def test_a_file_is_felt_at_the_level_of_its_source(tmp_path: Path, converter: str, actuator: str) -> None:
+    """By the levels of loops, which know nothing of streams; where peaks allow, 17 dB less for a tenth of it."""
+    source = write(tmp_path / "a.wav", sound(12.0, 1, 150.0), subtype="FLOAT")
+    reached = {}
+    for intensity in (0.5, 0.05):
+        made = audio.convert(
+            source, tmp_path / "b.wav", converter=converter, actuator=actuator, intensity=intensity, overwrite=True
+        )
+        felt, rate = soundfile.read(made.output)
+        reached[intensity] = felt_level_db(felt, rate, actuator_profile(actuator))
+        if reached[intensity] > 10.0:  # what is hardly felt at all, loops and pieces of a second tell apart
+            assert made.level_db == pytest.approx(reached[intensity], abs=1.0)
+        is_bounded = made.level_db < sensation_level_db(intensity) - 0.01
+        assert made.peak_out == pytest.approx(0.501, abs=1e-3) if is_bounded else made.peak_out < 0.502
+        if not is_bounded:
+            assert made.level_db == pytest.approx(sensation_level_db(intensity), abs=0.01)
+    assert reached[0.05] <= reached[0.5]
+
+
+def test_an_actuator_is_made_up_for(tmp_path: Path) -> None:
+    """Two tones, one at the resonance and one where it answers 10 dB less: as far apart on the actuator as before."""
+    t = np.arange(10 * RATE) / RATE
+    tones = (0.2 * (np.sin(2 * np.pi * 175.0 * t) + np.sin(2 * np.pi * 200.0 * t))).astype(np.float32)
+    ratios = {}
+    for actuator in ("flat", "lra"):
+        made = audio.convert(
+            write(tmp_path / "a.wav", tones, subtype="FLOAT"),
+            tmp_path / f"{actuator}.wav",
+            converter=Held(),
+            actuator=actuator,
+        )
+        spectrum = np.abs(np.fft.rfft(soundfile.read(made.output)[0][2 * RATE : 8 * RATE]))
+        ratios[actuator] = 20 * np.log10(spectrum[200 * 6] / spectrum[175 * 6])
+    answers = response_db(actuator_profile("lra"), [175.0, 200.0])
+    assert 8.0 < answers[0] - answers[1] < 12.0
+    assert ratios["lra"] - ratios["flat"] == pytest.approx(answers[0] - answers[1], abs=0.3)
+
+
+def test_blocks_do_not_matter_to_an_equalized_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    made = {}
+    for block in (65_536, 777):
+        monkeypatch.setattr(stream_module, "BLOCK_FRAMES", block)
+        made[block], _ = felt_of(tmp_path, sound(9.0), f"{block}.wav", actuator="lra", converter=Held(held=500))
+    np.testing.assert_allclose(made[777], made[65_536], atol=2**-22)
+
+
+def test_an_offset_is_no_thump(tmp_path: Path) -> None:
+    """A recording with an offset of 0.5 begins as calmly as one without."""
+    hum = sound(6.0, 1, 150.0)[:, 0] * 0.3
+    levelled = [felt_of(tmp_path, hum + offset, converter="svf_bandpass")[0] for offset in (0.0, 0.5)]
+    assert np.abs(levelled[1]).max() == pytest.approx(np.abs(levelled[0]).max(), rel=0.02)
+    np.testing.assert_allclose(levelled[1], levelled[0], atol=0.01)
+
+
+def test_level_and_bound_are_told(tmp_path: Path) -> None:
+    source = write(tmp_path / "a.wav", sound(4.0, 1, 150.0))
+    made = audio.convert(source, tmp_path / "b.wav", converter="svf_bandpass", intensity=0.3)
+    assert made.asked_level_db == pytest.approx(sensation_level_db(0.3))
+    assert made.level_db == pytest.approx(made.asked_level_db, abs=0.01)
+    clicks = np.zeros(4 * RATE)
+    clicks[RATE] = 1.0
+    bounded = audio.convert(write(tmp_path / "c.wav", clicks), tmp_path / "d.wav", converter="svf_bandpass")
+    assert bounded.level_db is not None
+    assert bounded.level_db < bounded.asked_level_db - 3.0  # type: ignore[operator]
+    assert bounded.peak_out == pytest.approx(0.501, abs=0.001)
+    assert bounded.n_clipped == 0
+    raw = audio.convert(source, tmp_path / "e.wav", converter="svf_bandpass", raw=True)
+    assert (raw.level_db, raw.asked_level_db) == (None, None)
+    short = audio.convert(write(tmp_path / "f.wav", sound(0.3, 1, 150.0)), tmp_path / "g.wav", intensity=0.3)
+    assert short.level_db == pytest.approx(sensation_level_db(0.3), abs=0.01)
