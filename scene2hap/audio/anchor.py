@@ -10,6 +10,7 @@ is felt as strongly, and what the peak exceeds it by ("crest"), must stay below 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,6 +29,14 @@ _FAINTEST_DB = -24.0
 _SINE_CREST_DB = 0.0
 _RANGE_HZ = (20.0, 1000.0)
 _CANDIDATES = 8
+STAYS_DB = 3.0
+"""An anchor that was followed stays while it is no weaker than the best by more; about what is felt as a difference."""
+LOST_DB = 12.0
+"""An anchor that falls so far behind the best within one stretch belonged to another sound; assumed."""
+_SAME = 1.06
+"""Between looks a component moves less than this; a faster one is another component."""
+_NEW_SHARE = 0.3
+"""Of the newest stretch in the averaged spectrum; assumed: two looks make half of it."""
 _APART = 2.0 ** (1.0 / 6.0)
 _GRID = 81
 
@@ -59,17 +68,58 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
     return best[1] if best else None
 
 
-def own_frequency_hz(
-    samples: ArrayLike, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile
-) -> float | None:
-    """The anchor of a stretch (n_samples,) of a sound that goes on, taken for steady, which is quicker [Hz]."""
-    x = np.asarray(samples, dtype=np.float64)
-    components = np.array(_components(x, sample_rate_hz, actuator))
-    if components.size == 0:
-        return None
-    drive = drive_db(components, level_db, actuator)
-    good = drive <= HIGHEST_PEAK_DB
-    return float(components[np.argmax(good)] if good.any() else components[np.argmin(drive)])
+class TrackedAnchor:
+    """The anchor of a sound that goes on, looked at in stretches of one length and taken for steady, which is quicker.
+
+    Spectra are averaged from look to look, and an anchor stays while its component is within `STAYS_DB` of the best: a
+    machine with two harmonics alike does not hop between them.
+
+    Parameters: sample_rate_hz : of the stretches; level_db : over the threshold, at which the sound is to be felt.
+    """
+
+    def __init__(self, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile) -> None:
+        self._rate_hz, self._level_db, self._actuator = sample_rate_hz, level_db, actuator
+        self._power: NDArray[np.float64] | None = None
+        self.own_hz: float | None = None
+
+    def look(self, stretch: NDArray[np.float64]) -> float | None:
+        """The anchor after another stretch (n_samples,); None while there is nothing [Hz]."""
+        magnitude = _spectrum(stretch)
+        self._power = self._averaged(magnitude)
+        found = _peaks(np.sqrt(self._power), self._rate_hz, self._actuator)
+        if not found:
+            return self.own_hz
+        hz, height_db = np.array(found).T
+        drive = drive_db(hz, self._level_db, self._actuator)
+        good = drive <= HIGHEST_PEAK_DB
+        best = int(np.argmax(good) if good.any() else np.argmin(drive))
+        if self.own_hz is not None:
+            near = int(np.argmin(np.abs(np.log(hz / self.own_hz))))
+            is_same = abs(np.log(hz[near] / self.own_hz)) < np.log(_SAME)
+            if is_same and good[near] == good[best] and height_db[near] >= height_db[best] - STAYS_DB:
+                best = near
+        self.own_hz = float(hz[best])
+        return self.own_hz
+
+    def _averaged(self, magnitude: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Power by bins, of this stretch and those before; of this one alone if the anchor is lost in it."""
+        power = magnitude**2
+        before, own_hz = self._power, self.own_hz
+        if before is None or own_hz is None or len(before) != len(power):
+            return power
+        per_bin = 2 * (len(power) - 1) / self._rate_hz
+        low, high = int(own_hz / _SAME * per_bin), int(own_hz * _SAME * per_bin) + 1
+        first, last = (int(edge * per_bin) for edge in _RANGE_HZ)
+        if power[low : high + 1].max() < power[first : last + 1].max() * 10 ** (-LOST_DB / 10):
+            return power
+        return _NEW_SHARE * power + (1.0 - _NEW_SHARE) * before
+
+    def share(self, passes: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> float:
+        """The power that a filter of this gain over frequency [Hz] lets through, of the stretches so far [-]."""
+        if self._power is None:
+            return 0.0
+        f = np.arange(len(self._power)) * self._rate_hz / (2 * (len(self._power) - 1))
+        return float(self._power @ passes(f) ** 2)
 
 
 def reachable_hz(
@@ -94,12 +144,25 @@ def reachable_hz(
 
 
 def _components(x: NDArray[np.float64], sample_rate_hz: float, actuator: ActuatorProfile) -> list[float]:
-    """Frequencies of the spectrum's peaks, strongest first, none within a sixth of an octave of a stronger one [Hz].
+    """Frequencies of the spectrum's peaks, strongest first, see `_peaks` [Hz]."""
+    return [hz for hz, _ in _peaks(_spectrum(x), sample_rate_hz, actuator)]
 
-    Hann window, zero-padding to twice the length, parabola through the logarithms of the three bins around a peak.
+
+def _spectrum(x: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Magnitudes under a Hann window, of the sound padded to an even number of twice its length and more."""
+    n = 2 * scipy.fft.next_fast_len(len(x), real=True)
+    magnitudes: NDArray[np.float64] = np.abs(scipy.fft.rfft((x - x.mean()) * np.hanning(len(x) + 2)[1:-1], n))
+    return magnitudes
+
+
+def _peaks(
+    magnitude: NDArray[np.float64], sample_rate_hz: float, actuator: ActuatorProfile
+) -> list[tuple[float, float]]:
+    """Peaks [Hz] and their heights [dB], strongest first, none within a sixth of an octave of a stronger one.
+
+    Parabola through the logarithms of the three bins around a peak.
     """
-    n = scipy.fft.next_fast_len(2 * len(x), real=True)
-    magnitude = np.abs(scipy.fft.rfft((x - x.mean()) * np.hanning(len(x) + 2)[1:-1], n))
+    n = 2 * (len(magnitude) - 1)
     low = max(_RANGE_HZ[0], actuator.min_frequency_hz)
     high = min(_RANGE_HZ[1], actuator.max_frequency_hz, 0.45 * sample_rate_hz)
     first, last = max(1, int(np.ceil(low * n / sample_rate_hz))), int(high * n / sample_rate_hz)
@@ -114,7 +177,10 @@ def _components(x: NDArray[np.float64], sample_rate_hz: float, actuator: Actuato
         k = int(bins[np.argmax(heights)])
         kept.append(k)
         heights[(bins <= k * _APART) & (bins >= k / _APART)] = 0.0
-    return [(k + _peak_offset(magnitude[k - 1 : k + 2])) * sample_rate_hz / n for k in kept]
+    return [
+        ((k + _peak_offset(magnitude[k - 1 : k + 2])) * sample_rate_hz / n, 20.0 * float(np.log10(magnitude[k])))
+        for k in kept
+    ]
 
 
 def _peak_offset(three: NDArray[np.float64]) -> float:

@@ -11,7 +11,7 @@ import math
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryFile
 from typing import IO
@@ -23,6 +23,7 @@ from scipy.signal import lfilter, lfilter_zi
 
 from scene2hap import checks
 from scene2hap.audio.actuators import actuator_profile, is_flat
+from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.conversion.equalizer import Equalizer
 from scene2hap.audio.conversion.felt_level import FeltLevel
 from scene2hap.audio.conversion.meter import Meter
@@ -56,6 +57,8 @@ _PICTURE_COLUMNS = 900
 _NOTHING_DB = -120.0
 """Below this level there are only errors of rounding."""
 _OFFSET_FRAMES = 65_536
+_LOOK_S = 10.0
+"""So much of a file is looked at for its own frequency, before it is converted."""
 _SLOWEST_HZ = 1.0
 """What is slower than this is an offset; touch begins at 10 Hz, where it takes 0.04 dB."""
 _LARGEST_WAV_BYTES = 0xFFFF_0000
@@ -122,6 +125,8 @@ def convert(
     if drawn is not None:
         _check_target(source, drawn, overwrite=overwrite)
     with opened_sound(source) as file, written_whole(output) as beside:
+        if not raw and getattr(built, "follows_target", False):
+            context = replace(context, own_hz=_own_frequency_hz(file, context))
         felt = _Felt(built, context, file, mono=mono, raw=raw, n_columns=_PICTURE_COLUMNS if drawn else 0)
         blocks = felt.blocks(source, file)
         with _opened_for_writing(output, beside, felt) as target, ExitStack() as held:
@@ -152,6 +157,18 @@ def convert(
         felt.level_db,
         None if raw else sensation_level_db(context.intensity),
     )
+
+
+def _own_frequency_hz(file: soundfile.SoundFile, context: ConversionContext) -> float | None:
+    """The source's own frequency, from the middle of the file; None for the converter to find out while it plays."""
+    n = round(_LOOK_S * file.samplerate)
+    file.seek(max(0, int(file.frames) - n) // 2)
+    heard = file.read(n, dtype="float32", always_2d=True).mean(axis=1, dtype=np.float64)
+    file.seek(0)
+    if len(heard) < 2 or not np.isfinite(heard).all():  # which is told when it is converted
+        return None
+    anchor = anchor_of(heard, file.samplerate, sensation_level_db(context.intensity), context.actuator)
+    return None if anchor is None else anchor.frequency_hz
 
 
 def settled(converter: object, actuator: object, intensity: float) -> tuple[TactileConverter, ConversionContext]:

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from scene2hap import checks
-from scene2hap.audio.anchor import BAND_Q, Anchor, own_frequency_hz, reachable_hz
+from scene2hap.audio.anchor import BAND_Q, Anchor, TrackedAnchor, reachable_hz
 from scene2hap.audio.distinctness import FREQUENCY_WEBER
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
@@ -37,6 +37,10 @@ _FADE_S = 0.05
 _MOVED = 0.25 * FREQUENCY_WEBER
 """A quarter of a JND: smaller changes of the own frequency are followed by the band's width alone."""
 _HIGHEST = 0.45
+_WIDE_Q = 0.5**0.5
+"""Of the paper's band-pass, see `svf_bandpass`."""
+_MOST_GAIN = 4.0
+"""A band takes over at most so much louder or softer [-]."""
 _SILENCE = 1e-4
 """A stretch whose amplitude stays below -80 dB re full scale says nothing about its source."""
 _SHIFT_BAND = (0.25, 1.75)
@@ -102,7 +106,8 @@ def clear_of(own_hz: float, neighbours_hz: tuple[float, ...], low_hz: float, hig
 class _Tracking:
     """Looks at the sound in stretches of fixed length, whatever the blocks, and follows it with the band.
 
-    Until the first stretch is over the band is the paper's, around 250 Hz.
+    Until the first stretch is over the band is the paper's, around 250 Hz. A narrow band gets as much louder as it lets
+    through less of the sound than that, so that nothing steps when it takes over.
     """
 
     def __init__(self, design: Adaptive, sample_rate_hz: float, context: ConversionContext) -> None:
@@ -113,8 +118,10 @@ class _Tracking:
         self._n_unchanged = 0
         self._n_seen = 0  # negative while the sound is left alone
         self._fade = max(1, round(_FADE_S * sample_rate_hz))
-        self._own_hz = min(250.0, 0.4 * sample_rate_hz)
-        self._band: list[Stage] = [SosStage(SvfBandpass(self._own_hz).section(sample_rate_hz))]
+        self._anchor = TrackedAnchor(sample_rate_hz / self._step, self._level_db, context.actuator)
+        self._own_hz: float | None = None
+        self._band: list[Stage] = [SosStage(SvfBandpass(min(250.0, 0.4 * sample_rate_hz)).section(sample_rate_hz))]
+        self._gain = self._retiring_gain = 1.0
         self._retiring: list[Stage] = []
         self._n_faded = 0
 
@@ -141,11 +148,11 @@ class _Tracking:
         return np.empty(0)
 
     def _filtered(self, x: Signal) -> Signal:
-        y = _through(self._band, x)
+        y = self._gain * _through(self._band, x)
         if not self._retiring:
             return y
         rising = np.arange(self._n_faded + 1, self._n_faded + len(x) + 1) / self._fade
-        y = rising * y + (1.0 - rising) * _through(self._retiring, x)
+        y = rising * y + (1.0 - rising) * self._retiring_gain * _through(self._retiring, x)
         self._n_faded += len(x)
         if self._n_faded == self._fade:
             self._retiring = []
@@ -155,17 +162,25 @@ class _Tracking:
         rest_s = _RESTS_S[min(self._n_unchanged, len(_RESTS_S) - 1)]
         self._n_seen = -round(rest_s * self._rate_hz)
         self._n_unchanged += 1
-        rate = self._rate_hz / self._step
         thinned = sum(self._seen[k :: self._step] for k in range(1, self._step)) + self._seen[:: self._step]
         thinned = thinned / self._step
         if np.abs(thinned).max() < _SILENCE:
             return
-        own_hz = own_frequency_hz(thinned, rate, self._level_db, self._context.actuator)
-        if own_hz is None or abs(np.log(own_hz / self._own_hz)) < np.log1p(_MOVED):
+        own_hz = self._anchor.look(thinned)
+        if own_hz is None or (self._own_hz is not None and abs(np.log(own_hz / self._own_hz)) < np.log1p(_MOVED)):
             return
+        wide = self._anchor.share(lambda f: _bandpass(f, 250.0, _WIDE_Q))
+        narrow = self._anchor.share(lambda f: _bandpass(f, own_hz, self._design.q) ** 2)
+        self._retiring_gain, self._gain = self._gain, float(np.clip((wide / narrow) ** 0.5, 1 / _MOST_GAIN, _MOST_GAIN))
         self._own_hz, self._n_unchanged = own_hz, 0
         self._retiring, self._n_faded = self._band, 0
         self._band = self._design.band(self._rate_hz, self._context, own_hz)
+
+
+def _bandpass(f_hz: Signal, centre_hz: float, q: float) -> Signal:
+    """Gain of a band-pass over frequency [-]."""
+    r = np.maximum(f_hz, 1e-3) / centre_hz
+    return np.asarray(1.0 / np.sqrt(1.0 + (q * (r - 1.0 / r)) ** 2))
 
 
 def _through(stages: list[Stage], x: Signal) -> Signal:

@@ -3,9 +3,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from scene2hap.audio.anchor import TrackedAnchor
+from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.adaptive import Adaptive, clear_of
+from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from scene2hap.errors import AudioError, ConfigError
+from scene2hap.haptics import ActuatorProfile
 
 RATE = 8000
 
@@ -23,11 +27,14 @@ def amplitude(y: np.ndarray, frequency_hz: float) -> float:
 
 def test_left_alone_it_finds_the_source_and_keeps_a_band_around_it() -> None:
     y = Adaptive().stream(RATE, ConversionContext(intensity=0.5)).process(tones(4, f187=0.3, f500=0.3, f40=0.5))
-    assert amplitude(y, 187) == pytest.approx(0.3, rel=0.01)
+    own = amplitude(y, 187)
     # |H|^2 of one band-pass of Q = 2 is 1 / (1 + 4 (r - 1 / r)^2), which two in series have as |H|.
     r = 500 / 187
-    assert amplitude(y, 500) == pytest.approx(0.3 / (1 + 4 * (r - 1 / r) ** 2), rel=0.05)
-    assert amplitude(y, 40) < 0.5 * 0.03
+    assert amplitude(y, 500) == pytest.approx(own / (1 + 4 * (r - 1 / r) ** 2), rel=0.05)
+    assert amplitude(y, 40) < 0.03 * own
+    # As much of the sound as the paper's band-pass would let through, which stood in until the source was found.
+    wide = [SvfBandpass().stream(RATE, ConversionContext()).process(tones(4, f187=0.3, f500=0.3, f40=0.5))]
+    assert np.std(y[-RATE:]) == pytest.approx(np.std(wide[0][-RATE:]), rel=0.05)
 
 
 def test_follows_a_source_whose_pitch_changes_without_a_click() -> None:
@@ -36,7 +43,7 @@ def test_follows_a_source_whose_pitch_changes_without_a_click() -> None:
         .stream(RATE, ConversionContext(intensity=0.5))
         .process(np.concatenate([tones(6, f150=0.3), tones(6, f300=0.3)]))
     )
-    assert amplitude(y, 300) == pytest.approx(0.3, rel=0.01)
+    assert amplitude(y, 300) == pytest.approx(0.3, rel=0.05)
     curvature = np.abs(np.diff(y[RATE:].astype(float), 2)).max()
     assert curvature < 2.0 * 0.3 * (2 * np.pi * 300 / RATE) ** 2
 
@@ -86,3 +93,36 @@ def test_bad_settings_are_refused() -> None:
         ConversionContext(target_hz=-3.0)
     with pytest.raises(AudioError, match=r"neighbours_hz\[1\] is 0 Hz"):
         ConversionContext(neighbours_hz=(100.0, 0.0))
+
+
+def steps_db(y: np.ndarray, window_s: float = 0.25) -> np.ndarray:
+    """Levels of windows, one after the other [dB]."""
+    n = round(window_s * RATE)
+    return 10 * np.log10(np.mean(np.square(y[: len(y) // n * n].reshape(-1, n).astype(float)), axis=1) + 1e-12)
+
+
+def test_nothing_steps_when_the_band_of_a_steady_source_takes_over() -> None:
+    """A hum with harmonics: the first half second was 5-12 dB louder than what followed."""
+    y = Adaptive().stream(RATE, ConversionContext(intensity=0.3)).process(tones(8, f100=0.1, f150=0.08, f300=0.1))
+    levels = steps_db(y[RATE // 4 :])
+    assert np.ptp(levels) < 1.5
+
+
+def test_two_harmonics_alike_do_not_take_turns() -> None:
+    """Either is the stronger in turn, by 2 dB, as a refrigerator has them."""
+    t = np.arange(40 * RATE) / RATE
+    turn = 10 ** (np.sign(np.sin(2 * np.pi * t / 7.0)) / 20)
+    x = (0.1 * turn * np.sin(2 * np.pi * 150 * t) + 0.1 / turn * np.sin(2 * np.pi * 240 * t)).astype(np.float32)
+    anchor = TrackedAnchor(RATE, sensation_level_db(0.3), ActuatorProfile())
+    found = [anchor.look(x[at : at + RATE // 2]) for at in range(0, len(x), RATE)]
+    assert np.ptp(np.array(found[1:])) < 3.0
+    hopping = [
+        TrackedAnchor(RATE, 20.0, ActuatorProfile()).look(x[at : at + RATE // 2]) for at in range(0, len(x), RATE)
+    ]
+    assert np.ptp(np.array(hopping)) > 80.0
+
+
+def test_a_source_at_250_hz_gets_a_band_of_its_own() -> None:
+    y = Adaptive().stream(RATE, ConversionContext(intensity=0.5)).process(tones(4, f250=0.2, f90=0.2, f700=0.2))
+    assert amplitude(y, 90) < 0.1 * amplitude(y, 250)
+    assert amplitude(y, 700) < 0.1 * amplitude(y, 250)
