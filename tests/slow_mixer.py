@@ -54,7 +54,10 @@ def slow_mix(
     h, up = kaiser_low_pass(rate_in_hz, rate_out_hz)
     down = rate_in_hz // math.gcd(rate_in_hz, rate_out_hz)
     out = upfirdn(h, mix, up, down, axis=0)[:n_frames]
-    threshold = 10 ** (-3 / 20)
-    over = np.abs(out) > threshold
-    excess = (np.abs(out) - threshold) / (1 - threshold)
-    return np.where(over, np.sign(out) * (threshold + (1 - threshold) * np.tanh(excess)), out)
+    threshold, release = 10 ** (-3 / 20), math.exp(-1 / rate_out_hz)
+    down_by = np.zeros(n_hands)
+    for k, sample in enumerate(out):
+        wanted = 1 - threshold / np.maximum(np.abs(sample), threshold)
+        down_by = np.maximum(release * down_by, wanted)
+        out[k] = sample * (1 - down_by)
+    return out

@@ -2,6 +2,10 @@
 
 from libc.math cimport copysign, fabs, tanh
 
+from scene2hap.render import limiter
+
+cdef double NOTHING = limiter.NOTHING
+
 ctypedef fused Sample:
     float
     double
@@ -13,6 +17,25 @@ def limit_in_place(Sample[:, ::1] mix, scratch, double threshold):
         for k in range(mix.shape[1]):
             if fabs(mix[i, k]) > threshold:
                 mix[i, k] = <Sample>limited(mix[i, k], threshold)
+
+
+def turn_down_in_place(Sample[:, ::1] mix, double[::1] held, double threshold, double release):
+    cdef Py_ssize_t i, k
+    cdef double u
+    for i in range(mix.shape[0]):
+        u = held[i]
+        for k in range(mix.shape[1]):
+            mix[i, k] = <Sample>turned_down(mix[i, k], &u, threshold, release)
+        held[i] = u if u >= NOTHING else 0
+
+
+cdef double turned_down(double x, double *u, double threshold, double release) noexcept:
+    """The next sample, given how much the last was turned down, which is replaced."""
+    cdef double level = fabs(x)
+    u[0] *= release
+    if level > threshold and 1 - threshold / level > u[0]:
+        u[0] = 1 - threshold / level
+    return x * (1 - u[0])
 
 
 cdef double limited(double x, double threshold) noexcept:

@@ -2,9 +2,11 @@
 
 from libc.math cimport fabs
 
-from scene2hap.render._limiter cimport limited
+from scene2hap.render._limiter cimport limited, turned_down
 from scene2hap.render._tactile_mix cimport TactileMix
 from scene2hap.render._upsampler cimport PolyphaseFilter
+
+import numpy as np
 
 from scene2hap.render import limiter, loop_bank
 
@@ -14,6 +16,7 @@ cdef enum:
 assert CELL == loop_bank.CELL
 
 cdef double THRESHOLD = limiter.THRESHOLD
+cdef double NOTHING = limiter.NOTHING
 
 
 cdef class Playhead:
@@ -21,6 +24,8 @@ cdef class Playhead:
     cdef TactileMix mix
     cdef PolyphaseFilter filter
     cdef float[:, ::1] inputs, outputs
+    cdef double[::1] held
+    cdef double release
     cdef object incoming, tactile_rate_hz, sample_rate_hz
     cdef long long up, down, tick, cell_begin, cell_frame, cell_end_frame
 
@@ -30,6 +35,7 @@ cdef class Playhead:
         self.filter, self.inputs, self.outputs = upsampler.filter, upsampler.inputs, upsampler.outputs(0)
         self.up, self.down = upsampler.up, upsampler.down
         self.tactile_rate_hz, self.sample_rate_hz = rates_hz
+        self.held, self.release = np.zeros(self.outputs.shape[0]), limiter.release_per_frame(rates_hz[1])
         self.tick = self.cell_frame = self.cell_end_frame = 0
         self.cell_begin = -CELL
 
@@ -37,7 +43,7 @@ cdef class Playhead:
         cdef long long frame = self.position, stop, begin = frame
         cdef long long end = frame + out.shape[0]
         cdef Py_ssize_t hand, k
-        cdef float x
+        cdef double x, u
         while frame < end:
             if frame == self.cell_end_frame:
                 self.enter_cell()
@@ -47,9 +53,11 @@ cdef class Playhead:
             if self.mix.compute():
                 self.filter.fill(self.outputs, self.inputs, self.cell_frame * self.down - self.cell_begin * self.up)
             for hand in range(out.shape[1]):
+                u = self.held[hand]
                 for k in range(stop - frame):
-                    x = self.outputs[hand, frame - self.cell_frame + k]
-                    out[frame - begin + k, hand] = <float>limited(x, THRESHOLD) if fabs(x) > THRESHOLD else x
+                    x = turned_down(self.outputs[hand, frame - self.cell_frame + k], &u, THRESHOLD, self.release)
+                    out[frame - begin + k, hand] = <float>(limited(x, THRESHOLD) if fabs(x) > THRESHOLD else x)
+                self.held[hand] = u if u >= NOTHING else 0
             frame = stop
         self.position = end
 

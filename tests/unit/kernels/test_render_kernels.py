@@ -133,3 +133,17 @@ def test_the_limiter(seed: int) -> None:
     for limit, block in zip(both("render.limiter.limit_in_place"), (told, compiled), strict=True):
         limit(block, np.empty_like(block), 0.7)
     np.testing.assert_allclose(compiled, told, atol=1e-6)
+
+
+@steady
+@given(seed=seeds)
+def test_turning_down(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    held = np.zeros((2, 2))
+    for _ in range(5):
+        mix = (rng.uniform(0, 3) * rng.normal(size=(2, rng.integers(0, 60)))).astype(np.float32)
+        told, compiled = mix.copy(), mix.copy()
+        for turn_down, block, u in zip(both("render.limiter.turn_down_in_place"), (told, compiled), held, strict=True):
+            turn_down(block, u, 0.7, 0.99)
+        np.testing.assert_allclose(compiled, told, atol=1e-6)
+        np.testing.assert_allclose(held[1], held[0], atol=1e-9)
