@@ -58,6 +58,7 @@ _LYING_AREA = 0.6  # ... if it hides this part of that side's area (chairs 0.71-
 # ... and that is level in less than this part of its rectangle (chairs <= 0.58, cupboards >= 0.74).
 _FILLED_PLATE = 2 / 3
 _FULL = 0.97  # where rays of the box around it meet a plate in less than this share, it may be no rectangle; if not ...
+_SEEN = 0.1  # ... its outline covers what rays see level within this share of its box ...
 _LIKE = 0.5, 1.5  # ... its outline has an area of between these times that of the rectangle of medians
 _SAME_DIRECTION_RAD = np.deg2rad(1.0)
 _SIDES_TRIED = 12
@@ -184,7 +185,7 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
             is_thick = ~(solids.top - solids.bottom < thickness / 2)
             spans = _flat_spans(cut(triangles, middle), hits.ray[hits.starts], level, is_thick, low, high)
             if level.sum() < _FULL * RAYS_PER_SIDE**2 and thickness <= _THIN * float((high - low)[:2].min()):
-                outline_m = section_outline(triangles, middle)
+                outline_m = _seen_outline(triangles, middle, float(level.sum()) * cell)
     else:
         bottom, top = float(low[2]), _open_top(solids.top, hits.ray[hits.starts], low, high)
         thickness, middle = top - bottom, (top + bottom) / 2
@@ -200,6 +201,18 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
         flags = flags if "box-fallback" in flags else (*flags, "box-fallback")
     (u_m, v_m), (u_mid, v_mid) = spans
     return _placed(np.array([u_m, v_m, thickness]), np.array([u_mid, v_mid, middle]), own_to_plate, flags, outline_m)
+
+
+def _seen_outline(triangles: Floats, middle: float, level_area_m2: float) -> Outline | None:
+    """The cut at a height if it covers what rays see level, with its holes or without those that are hollows within."""
+    outline = section_outline(triangles, middle)
+    if outline is None:
+        return None
+    whole = Outline(outline.rings_m[:1])
+    for found in (outline, whole):
+        if abs(found.area_m2 - level_area_m2) < _SEEN * math.prod(whole.extent_m):
+            return found
+    return None
 
 
 def _open_top(tops: Floats, ray: Ints, low: Floats, high: Floats) -> float:

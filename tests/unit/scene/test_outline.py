@@ -110,6 +110,49 @@ def test_an_l_keeps_its_corner_wherever_it_lies() -> None:
     assert dominant_surface(mesh_of(slabs[0]), up=(0.0, 0.0, 1.0)).outline is None
 
 
+def test_a_hole_is_seen_and_a_hollow_is_not() -> None:
+    """Two slabs of one outline, a rounded square: one pierced, one hollow within, which looks whole from above."""
+    turn = np.arange(24) * 2 * math.pi / 24
+    outer = 0.5 * np.column_stack([np.cos(turn), np.sin(turn)])
+
+    def shell(ring: np.ndarray, low: float, high: float, *, inside_out: bool, caps: bool) -> trimesh.Trimesh:
+        n = len(ring)
+        vertices = np.concatenate([np.column_stack([ring, np.full(n, z)]) for z in (low, high)])
+        faces = [f for k in range(n) for f in ((k, (k + 1) % n, k + n), ((k + 1) % n, (k + 1) % n + n, k + n))]
+        if caps:
+            faces += [(0, k + 1, k) for k in range(1, n - 1)] + [(n, n + k, n + k + 1) for k in range(1, n - 1)]
+        mesh = trimesh.Trimesh(vertices, faces, process=False)
+        if inside_out:
+            mesh.invert()
+        return mesh
+
+    def ring_cap(z: float, *, up: bool) -> trimesh.Trimesh:
+        vertices = np.column_stack([np.concatenate([outer, 0.6 * outer]), np.full(48, z)])
+        quads = [(k, (k + 1) % 24, 24 + (k + 1) % 24, 24 + k) for k in range(24)]
+        faces = [f for a, b, c, d in quads for f in ((a, b, c), (a, c, d))]
+        mesh = trimesh.Trimesh(vertices, faces, process=False)
+        if not up:
+            mesh.invert()
+        return mesh
+
+    sides = shell(outer, -0.05, 0.05, inside_out=False, caps=False)
+    bore = shell(0.6 * outer, -0.05, 0.05, inside_out=True, caps=False)
+    pierced = trimesh.util.concatenate([sides, bore, ring_cap(0.05, up=True), ring_cap(-0.05, up=False)])
+    hollow = trimesh.util.concatenate(
+        [
+            shell(outer, -0.05, 0.05, inside_out=False, caps=True),
+            shell(0.6 * outer, -0.03, 0.03, inside_out=True, caps=True),
+        ]
+    )
+    areas = []
+    for mesh in (pierced, hollow):
+        outline = dominant_surface(mesh_of(mesh), up=(0.0, 0.0, 1.0)).outline
+        areas.append(0.0 if outline is None else outline.area_m2)
+    disc = 12 * 0.25 * math.sin(2 * math.pi / 24)
+    assert areas[0] == pytest.approx(disc * (1 - 0.36), rel=0.02)
+    assert areas[1] in (0.0, pytest.approx(disc, rel=0.02))
+
+
 @pytest.mark.parametrize("shape", ["box", "ball", "sheet"])
 def test_what_is_no_plate_of_an_odd_outline_has_none(shape: str) -> None:
     meshes = {
