@@ -8,7 +8,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from scene2hap.audio.sources.synth.signals import Signal, Take, noise, partials, phase, times, unit_rms, wander
+from scene2hap.audio.sources.synth.signals import (
+    DURATION_S,
+    Signal,
+    Take,
+    noise,
+    partials,
+    phase,
+    ringing,
+    times,
+    unit_rms,
+    wander,
+)
 
 
 def motor(take: Take, *, shaft_hz: float = 48.0) -> Signal:
@@ -26,13 +37,13 @@ def motor(take: Take, *, shaft_hz: float = 48.0) -> Signal:
 def compressor(take: Take, *, slip: float = 0.018) -> Signal:
     """A refrigerator's piston compressor: a two-pole induction motor that turns a little slower than the mains.
 
-    Its second order beats slowly against the magnetic pull at twice the mains frequency.
+    Its second order beats slowly against the magnetic pull at twice the mains frequency. Gas and oil load it unevenly.
     """
     shaft_hz = take.mains_hz * (1.0 - take.about(slip, 0.3))
     phi = phase(shaft_hz * (1.0 + 0.0005 * wander(take.rng, 0.3)))
-    strokes = partials(phi, take.roll_off(10), take.rng)
+    strokes = partials(phi, take.roll_off(10), take.rng) * (1.0 + 0.25 * wander(take.rng, 5.0))
     pull = np.cos(2.0 * np.pi * 2.0 * take.mains_hz * times())
-    flow = noise(take.rng, 100.0, 2500.0, -4.0)
+    flow = noise(take.rng, 100.0, 2500.0, -4.0) * (1.0 + 0.3 * wander(take.rng, 5.0))
     return unit_rms(strokes) + 0.2 * unit_rms(pull) + (0.05 + 0.1 * take.drive) * flow
 
 
@@ -61,6 +72,20 @@ def spinner(take: Take, *, drum_hz: float = 18.5, belt_ratio: float = 11.5) -> S
         + (0.4 + 0.3 * take.drive) * unit_rms(partials(drum, [1.0, 0.5, 0.25], take.rng))
         + 0.25 * noise(take.rng, 40.0, 1500.0, -4.0)
     )
+
+
+def washing(take: Take, *, drum_hz: float = 0.85, slosh: float = 0.5, thump_hz: float = 60.0) -> Signal:
+    """A washing machine before it spins: a motor that hums at twice the mains, under a drum that lifts the laundry.
+
+    It falls once per turn of the drum, on a tub that rings at `thump_hz`; `slosh` is the level of the water.
+    """
+    hum = partials(phase(2.0 * take.mains_hz), take.roll_off(5, 0.5), take.rng)
+    n = max(1, round(take.about(drum_hz) * DURATION_S))
+    at = (np.arange(n) + 0.5 + 0.08 * take.rng.uniform(-1.0, 1.0, n)) / n * DURATION_S
+    load = 1.0 + 0.2 * np.cos(2.0 * np.pi * n * times() / DURATION_S)
+    falls = ringing(at, take.rng.uniform(0.6, 1.0, n), thump_hz, 4.0 / thump_hz)
+    water = noise(take.rng, 60.0, 1200.0, -3.0) * load * (1.0 + 0.2 * wander(take.rng, 3.0))
+    return unit_rms(hum) * load + 0.35 * unit_rms(falls) + slosh * (0.4 + 0.4 * take.drive) * water
 
 
 def pump(take: Take, *, shaft_hz: float = 48.0, vanes: int = 6) -> Signal:

@@ -17,7 +17,7 @@ from scene2hap.audio.sources.synth.oscillating import (
     vibration_motor,
 )
 from scene2hap.audio.sources.synth.patch import Patch
-from scene2hap.audio.sources.synth.rotating import compressor, fan, motor, power_tool, pump, spinner
+from scene2hap.audio.sources.synth.rotating import compressor, fan, motor, power_tool, pump, spinner, washing
 from scene2hap.audio.sources.synth.working import geared, jet, rolling, rotor_slap, stepper
 
 
@@ -78,6 +78,8 @@ _CRACKLING = Patch(
 )
 _RINGING_PHONE = Patch(ringing_motor, (175.0, 190.0), is_steady=False)
 _VIBRATION = Patch(vibration_motor, (175.0, 190.0))
+# A clockwork lets its escapement go four or five times a second.
+_TIMER = _strokes(4.5, 330.0, 0.015, click=0.6)
 _TICK = Patch(partial(blows, per_second=1.0, body_hz=210.0, decay_s=0.03), (180.0, 240.0), 0.3, is_steady=False)
 _ALARM = Patch(partial(buzzer, pitch_hz=240.0, on_s=0.25, off_s=0.25), (235.0, 245.0), is_steady=False)
 _HORN = Patch(partial(buzzer, pitch_hz=220.0), (215.0, 225.0))
@@ -91,7 +93,10 @@ _SMALL_ENGINE = _engine(25.0, 2, 1.0)
 _SHAKER = _shaker(60.0, 0.2)
 _TWO_STROKE = _engine(117.0, 1, 0.8)
 _DRILL = _tool(250.0, 18.0, 0.25)
-_MIXER = _tool(250.0, 18.0, 0.4)
+# Its blades sit on the motor; what they hit passes under them twice a turn, and now and then.
+_BLENDER = _tool(290.0, 290.0, 0.4, spindle=0.8)
+# A universal motor behind a planetary gear, whose beater meets the dough two or three times a second.
+_DOUGH_MIXER = _geared(165.0, 2.6, 0.4, load=0.3, rumble=0.3)
 _GRINDER = _tool(420.0, 183.0, 0.3, spindle=1.5, loud_hz=183.0)
 _CUTTER = _tool(300.0, 300.0, 0.3, spindle=0.0)
 _PUMP = Patch(pump, (276.0, 300.0), 0.3)
@@ -129,11 +134,15 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("grill, barbecue", "", _SIZZLING),
     ("dishwasher", "", Patch(pump, (276.0, 300.0), 0.6)),
     ("coffeemaker", "", _to_and_fro(50.0, rattle=0.2)),
-    ("blender, mixer, food processor, juicer, coffee grinder", "", _MIXER),
+    ("blender, food processor, juicer, coffee grinder", "", _BLENDER),
+    ("mixer", "", _DOUGH_MIXER),
     ("bread maker", "", _KNEADER),
     ("knife", "", _to_and_fro(50.0, rattle=0.3)),
     # bathroom and laundry
-    ("washer", "", Patch(spinner, (204.0, 221.0), 0.6)),
+    ("washer", "", Patch(washing, (99.8, 100.2))),
+    ("washer", "spin, centrifuge, dry", Patch(spinner, (204.0, 221.0), 0.6)),
+    ("washer", "rinse, fill, flow", Patch(partial(washing, drum_hz=0.7, slosh=1.2), (99.8, 100.2))),
+    ("washer", "drain, pump", Patch(partial(pump, vanes=3), (138.0, 150.0), 0.6)),
     ("dryer", "", _TUMBLER),
     ("toothbrush", "", _to_and_fro(260.0)),
     ("shaver, razor, trimmer, clipper, epilator", "", _to_and_fro(110.0, rattle=0.15)),
@@ -155,7 +164,8 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     # small things
     ("phone, smartwatch, pager, tablet", "", _RINGING_PHONE),
     ("gamepad, controller, joystick", "", _shaker(48.0)),
-    ("clock, watch, metronome, timer", "", _TICK),
+    ("clock, watch, metronome", "", _TICK),
+    ("timer", "", _TIMER),
     ("alarm clock, alarm, siren, smoke detector", "", _ALARM),
     ("clock, watch, timer, alarm clock", "ring, beep, buzz", _ALARM),
     ("clock, alarm clock", "tick", _TICK),

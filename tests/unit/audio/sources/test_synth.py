@@ -235,3 +235,49 @@ def test_the_state_may_hold_the_verb() -> None:
 
 def test_the_unknown_is_some_motor() -> None:
     assert patch_for("frobnicator", "frobnicator frobbing") is MOTOR
+
+
+# what things do that others of their family do not
+
+
+def onsets_per_s(y: Signal) -> float:
+    """Rises of the level of 5 ms by a factor of four, at least 50 ms apart."""
+    n = round(0.005 * SAMPLE_RATE_HZ)
+    level = np.sqrt(np.mean(np.square(y[: len(y) // n * n].reshape(-1, n)), axis=1))
+    rises = np.flatnonzero((level[1:] > 0.2 * level.max()) & (level[1:] > 4 * level[:-1]))
+    return (1 + np.count_nonzero(np.diff(rises) > 10)) / (len(y) / SAMPLE_RATE_HZ)
+
+
+def test_a_kitchen_timer_ticks_four_or_five_times_a_second_and_a_clock_once() -> None:
+    assert 4.0 <= onsets_per_s(make("kitchen timer", "kitchen timer ticking").samples.astype(float)) <= 5.0
+    assert onsets_per_s(make("wall clock", "clock ticking").samples.astype(float)) == pytest.approx(1.0)
+
+
+def test_a_washing_machine_does_not_sound_alike_whatever_it_does() -> None:
+    """Spin by its motor, rinse and wash by a hum at twice the mains, drain by its pump's vanes."""
+    heard = {
+        verb: strongest_hz(make("washing machine", f"washing machine {verb}").samples.astype(float))
+        for verb in ("washing", "rinsing", "spinning", "draining")
+    }
+    assert heard["rinsing"] == pytest.approx(100.0, abs=0.5)
+    assert heard["washing"] == pytest.approx(100.0, abs=0.5)
+    assert 204 <= heard["spinning"] <= 221
+    assert 138 <= heard["draining"] <= 150
+
+
+def test_a_blender_and_a_dough_mixer_are_two_things() -> None:
+    blender, mixer = (
+        strongest_hz(make(thing, f"{thing} mixing").samples.astype(float)) for thing in ("blender", "dough mixer")
+    )
+    assert abs(np.log(blender / mixer)) > 2 * np.log(1.18)
+
+
+def test_a_compressor_is_loaded_unevenly() -> None:
+    """Its level wavers by some 5-20 % between half a hertz and five; it was a tenth of that."""
+    y = make("refrigerator", "refrigerator humming", intensity=0.1).samples.astype(float)
+    n = SAMPLE_RATE_HZ // 20
+    level = np.sqrt(np.mean(np.square(y[: len(y) // n * n].reshape(-1, n)), axis=1))
+    spectrum = np.abs(np.fft.rfft(level / level.mean() - 1)) / len(level)
+    f = np.fft.rfftfreq(len(level), 0.05)
+    wavers = 2**0.5 * np.sqrt(np.square(spectrum[(f >= 0.4) & (f <= 5)]).sum())
+    assert 0.04 < wavers < 0.25
