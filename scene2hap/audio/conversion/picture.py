@@ -1,4 +1,4 @@
-"""Picture of a conversion: spectrograms before and after on one scale, and both envelopes."""
+"""Picture of a conversion: spectrograms before and after on one scale, both envelopes, and what is felt of it."""
 
 from __future__ import annotations
 
@@ -13,21 +13,29 @@ from PIL import Image, ImageDraw, ImageFont
 
 from scene2hap.audio.conversion.meter import Meter
 from scene2hap.audio.files import opened_sound
+from scene2hap.audio.levels import drive_db
+from scene2hap.haptics import ActuatorProfile
 
 Font = ImageFont.FreeTypeFont | ImageFont.ImageFont
 
 WIDTH, LANE, ENVELOPE, MARGIN, TOP = 900, 240, 110, 80, 44
 LOWEST_HZ, HIGHEST_HZ = 10.0, 20_000.0
 DEPTH_DB = 80.0
+"""From the loudest place of both sounds, and from full scale, down to what is drawn."""
 WINDOW_S = 0.1
 BLOCK_FRAMES = 65_536
-_INK, _GRID = "#22313f", "#d5dbe1"
+_INK, _GRID, _FELT = "#22313f", "#d5dbe1", "#00a0a0"
 _STOPS = np.array([[10, 12, 40], [70, 20, 110], [180, 45, 95], [245, 130, 50], [252, 250, 190]], dtype=np.float64)
 """Colours from quiet to loud, even steps of lightness apart."""
 
 
-def draw_conversion(title: str, source: Path, felt: Path, meters: tuple[Meter, Meter], path: Path) -> None:
+def draw_conversion(
+    title: str, source: Path, felt: Path, meters: tuple[Meter, Meter], actuator: ActuatorProfile, path: Path
+) -> None:
     """Draw sound and touch of a file one above the other, and save it as PNG.
+
+    Both spectrograms share one scale. What is strongest in the touch has a line, and so has, in its envelope, the least
+    drive of that frequency that is felt on the actuator.
 
     `felt` is the converted file; `meters` heard both and hold their envelopes (n_columns,). Each of `WIDTH` columns of
     a spectrogram is one window at its place in the file, so that memory does not grow with length.
@@ -38,12 +46,16 @@ def draw_conversion(title: str, source: Path, felt: Path, meters: tuple[Meter, M
     font = ImageFont.load_default(14)
     draw.text((MARGIN, 12), title, fill=_INK, font=ImageFont.load_default(18))
     top = TOP
-    for name, sound, meter in (("before", source, meters[0]), ("after", felt, meters[1])):
-        powers, rate = _spectrogram(sound, meter.n_frames)
-        draw.text((MARGIN, top), f"{name}: loudest to {DEPTH_DB:g} dB below it", fill=_INK, font=font)
-        image.paste(_coloured(powers), (MARGIN, top + 18))
+    spectrograms = [_spectrogram(sound, meter.n_frames) for sound, meter in zip((source, felt), meters, strict=True)]
+    loudest = max(float(powers.max()) for powers, _ in spectrograms)
+    felt_hz = meters[1].dominant_frequency_hz()
+    for name, (powers, rate), meter in zip(("before", "after"), spectrograms, meters, strict=True):
+        draw.text((MARGIN, top), f"{name}: {DEPTH_DB:g} dB down from the loudest of both", fill=_INK, font=font)
+        image.paste(_coloured(powers, loudest), (MARGIN, top + 18))
         _frequency_axis(draw, top + 18, min(HIGHEST_HZ, 0.5 * rate), font)
         _draw_envelope(draw, meter, top + 18 + LANE + 6, font)
+        if name == "after" and felt_hz is not None:
+            _draw_felt(draw, felt_hz, actuator, top + 18, min(HIGHEST_HZ, 0.5 * rate), font)
         top += LANE + ENVELOPE + 46
     duration_s = meters[0].n_frames / rate
     for share in (0.0, 0.25, 0.5, 0.75, 1.0):
@@ -82,8 +94,7 @@ def _windows(file: soundfile.SoundFile, n_frames: int, size: int) -> Iterator[ND
         kept, origin = kept[unused:], origin + unused
 
 
-def _coloured(powers: NDArray[np.float64]) -> Image.Image:
-    loudest = powers.max()
+def _coloured(powers: NDArray[np.float64], loudest: float) -> Image.Image:
     level_db = 10 * np.log10(np.maximum(powers / loudest if loudest > 0 else powers, 10 ** (-DEPTH_DB / 10)))
     place = (level_db / DEPTH_DB + 1.0) * (len(_STOPS) - 1)
     rgb = np.stack([np.interp(place, np.arange(len(_STOPS)), channel) for channel in _STOPS.T], axis=-1)
@@ -93,17 +104,40 @@ def _coloured(powers: NDArray[np.float64]) -> Image.Image:
 def _frequency_axis(draw: ImageDraw.ImageDraw, top: int, highest_hz: float, font: Font) -> None:
     for hz in (10, 30, 100, 300, 1000, 3000, 10_000):
         if hz <= highest_hz:
-            y = top + (LANE - 1) * np.log(highest_hz / hz) / np.log(highest_hz / LOWEST_HZ)
+            y = top + _row(hz, highest_hz)
             draw.line([(MARGIN - 6, y), (MARGIN - 1, y)], fill=_INK)
             draw.text((8, y - 9), f"{hz} Hz", fill=_INK, font=font)
 
 
+def _row(hz: float, highest_hz: float) -> float:
+    """Where a frequency is in a spectrogram, from its top."""
+    return float((LANE - 1) * np.log(highest_hz / hz) / np.log(highest_hz / LOWEST_HZ))
+
+
+def _depth(level_db: float) -> float:
+    """Where a level [dB re full scale] is in an envelope, from its top."""
+    return float(np.clip(-level_db / DEPTH_DB, 0.0, 1.0) * (ENVELOPE - 8) + 4)
+
+
 def _draw_envelope(draw: ImageDraw.ImageDraw, meter: Meter, top: int, font: Font) -> None:
-    middle, half = top + ENVELOPE / 2, ENVELOPE / 2 - 4
-    full = max(1.0, meter.peak)
-    for level in (-1.0, 0.0, 1.0):
-        draw.line([(MARGIN, middle - half * level), (MARGIN + WIDTH, middle - half * level)], fill=_GRID)
-    draw.text((8, middle - half - 4), f"{full:.2g}", fill=_INK, font=font)
-    for column, level in enumerate(meter.envelope * (half / full)):
-        x = MARGIN + column * WIDTH / len(meter.envelope)
-        draw.line([(x, middle - level), (x, middle + level)], fill="#1f77b4")
+    for level_db in (0.0, -20.0, -40.0, -60.0):
+        y = top + _depth(level_db)
+        draw.line([(MARGIN, y), (MARGIN + WIDTH, y)], fill=_GRID)
+        draw.text((8, y - 5), f"{level_db:.0f} dB", fill=_INK, font=font)
+    levels_db = 20.0 * np.log10(np.maximum(meter.envelope, 10 ** (-DEPTH_DB / 20)))
+    for column, level_db in enumerate(levels_db.tolist()):
+        x = MARGIN + column * WIDTH / len(levels_db)
+        draw.line([(x, top + _depth(level_db)), (x, top + _depth(-DEPTH_DB))], fill="#1f77b4")
+
+
+def _draw_felt(
+    draw: ImageDraw.ImageDraw, felt_hz: float, actuator: ActuatorProfile, top: int, highest_hz: float, font: Font
+) -> None:
+    y = top + _row(felt_hz, highest_hz)
+    draw.line([(MARGIN, y), (MARGIN + 12, y)], fill=_FELT, width=2)
+    draw.line([(MARGIN + WIDTH - 12, y), (MARGIN + WIDTH, y)], fill=_FELT, width=2)
+    draw.text((MARGIN + 16, y - 9), f"{felt_hz:.0f} Hz", fill="white", font=font)
+    least_db = float(drive_db(felt_hz, 0.0, actuator))
+    y = top + LANE + 6 + _depth(least_db)
+    draw.line([(MARGIN, y), (MARGIN + WIDTH, y)], fill=_FELT, width=2)
+    draw.text((MARGIN + 4, y - 18), f"felt from here on at {felt_hz:.0f} Hz", fill="white", font=font)

@@ -140,7 +140,7 @@ def convert(
 
             with written_whole(drawn) as picture_beside:
                 title = f"{source.name} through {type(built).__name__}"
-                draw_conversion(title, source, beside, (felt.before, felt.after), picture_beside)
+                draw_conversion(title, source, beside, (felt.before, felt.after), context.actuator, picture_beside)
     return Conversion(
         source,
         output,

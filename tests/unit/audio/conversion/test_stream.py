@@ -15,7 +15,7 @@ from scene2hap import audio
 from scene2hap.audio.actuators import actuator_profile, response_db
 from scene2hap.audio.clip import Samples
 from scene2hap.audio.conversion import stream as stream_module
-from scene2hap.audio.levels import felt_level_db, sensation_level_db
+from scene2hap.audio.levels import felt_level_db, sensation_level_db, threshold_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
@@ -242,6 +242,23 @@ def test_the_picture_shows_both_sounds(tmp_path: Path) -> None:
     before = pixels[62 : 62 + 240, 85:970]
     assert np.argmax(before.mean(axis=1)) / 239 == pytest.approx(np.log(4000 / 93.7) / np.log(400), abs=0.02)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.ogg", "b.png", "b.wav"]
+
+
+def test_the_picture_tells_what_is_felt(tmp_path: Path) -> None:
+    """A line where the least drive lies that is felt at the touch's frequency, and both sounds on one scale."""
+    source = write(tmp_path / "a.wav", sound(2.0, 1, 150.0), subtype="FLOAT")
+    made = audio.convert(source, tmp_path / "b.wav", intensity=0.1, picture=tmp_path / "b.png")
+    assert made.picture is not None
+    with Image.open(made.picture) as image:
+        pixels = np.asarray(image.convert("RGB")).astype(int)
+    line = (np.abs(pixels - [0, 160, 160]).sum(axis=2) < 20)[:, 90:900].all(axis=1)
+    (row, *_) = np.flatnonzero(line)
+    # The second envelope is 110 rows high, of which 102 stand for 80 dB, and begins below two lanes of 240.
+    top = 44 + (240 + 110 + 46) + 18 + 240 + 6 + 4
+    assert -(row + 0.5 - top) / 102 * 80 == pytest.approx(float(threshold_db(150.0)), abs=1.5)
+    brightest = [pixels[62 + lane : 62 + lane + 240, 200:960].sum(axis=2).max() for lane in (0, 396)]
+    louder = 0 if made.peak_in > made.peak_out else 1
+    assert brightest[louder] > brightest[1 - louder]
 
 
 def test_hours_of_silence_in_a_small_file_are_refused_before_they_are_converted(tmp_path: Path) -> None:
