@@ -11,7 +11,7 @@ ctypedef fused Sample:
     double
 
 
-def limit_in_place(Sample[:, ::1] mix, scratch, double threshold):
+def limit_in_place(Sample[:, :] mix, scratch, double threshold):
     cdef Py_ssize_t i, k
     for i in range(mix.shape[0]):
         for k in range(mix.shape[1]):
@@ -19,9 +19,12 @@ def limit_in_place(Sample[:, ::1] mix, scratch, double threshold):
                 mix[i, k] = <Sample>limited(mix[i, k], threshold)
 
 
-def turn_down_in_place(Sample[:, ::1] mix, double[::1] held, double threshold, double release):
+def turn_down_in_place(Sample[:, :] mix, double[::1] held, scratch, double threshold, powers):
     cdef Py_ssize_t i, k
-    cdef double u
+    cdef double u, release
+    if not mix.shape[1]:
+        return
+    release = powers[0]
     for i in range(mix.shape[0]):
         u = held[i]
         for k in range(mix.shape[1]):

@@ -35,7 +35,8 @@ cdef class Playhead:
         self.filter, self.inputs, self.outputs = upsampler.filter, upsampler.inputs, upsampler.outputs(0)
         self.up, self.down = upsampler.up, upsampler.down
         self.tactile_rate_hz, self.sample_rate_hz = rates_hz
-        self.held, self.release = np.zeros(self.outputs.shape[0]), limiter.release_per_frame(rates_hz[1])
+        self.held = np.zeros(self.outputs.shape[0])
+        self.release = limiter.releases(rates_hz[1], 1)[0]
         self.tick = self.cell_frame = self.cell_end_frame = 0
         self.cell_begin = -CELL
 

@@ -16,8 +16,6 @@ resampled, so that nothing can overshoot behind them.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -30,25 +28,42 @@ RELEASE_S = 1.0
 """Time constant of letting go: longer than beats that are felt one by one. At 0.3 s there are twice the harmonics."""
 
 
-def release_per_frame(sample_rate_hz: float) -> float:
-    """a [-]."""
-    return math.exp(-1.0 / (RELEASE_S * sample_rate_hz))
+def releases(sample_rate_hz: float, n_frames: int) -> NDArray[np.float64]:
+    """a, a^2, ... (n_frames,) [-]."""
+    return np.asarray(np.exp(np.arange(1, n_frames + 1) / (-RELEASE_S * sample_rate_hz)))
 
 
 @compiled
-def turn_down_in_place(mix: NDArray[np.float32], held: NDArray[np.float64], threshold: float, release: float) -> None:
-    """Turn down the next frames of a mix (n_channels, n_frames); `held` (n_channels,) is u of the last, and goes on."""
-    if not mix.size:
+def turn_down_in_place(
+    mix: NDArray[np.float32],
+    held: NDArray[np.float64],
+    scratch: NDArray[np.float64],
+    threshold: float,
+    powers: NDArray[np.float64],
+) -> None:
+    """Turn down the next frames of a mix (n_channels, n_frames); `held` (n_channels,) is u of the last, and goes on.
+
+    Parameters: scratch : (2, n_channels, n_frames), so that nothing large is allocated; powers : `releases`
+    (n_frames,).
+    """
+    x, u = scratch
+    np.copyto(x, mix)
+    np.abs(x, out=u)
+    if not mix.size or (not held.any() and np.maximum.reduce(u, axis=None) <= threshold):
         return
-    level = np.abs(mix).astype(np.float64)
-    if not held.any() and level.max() <= threshold:
-        return
-    powers = release ** np.arange(1, mix.shape[1] + 1)
-    excess = 1.0 - threshold / np.maximum(level, threshold)
+    np.maximum(u, threshold, out=u)
+    np.divide(threshold, u, out=u)
+    np.subtract(1.0, u, out=u)
     # Referred to the frame before the first, a decaying maximum is a plain one.
-    u = powers * np.maximum(np.maximum.accumulate(excess / powers, axis=1), held[:, None])
-    mix *= 1.0 - u
-    held[:] = np.where(u[:, -1] < NOTHING, 0.0, u[:, -1])
+    np.divide(u, powers, out=u)
+    np.maximum.accumulate(u, axis=1, out=u)
+    np.maximum(u, held[:, None], out=u)
+    np.multiply(u, powers, out=u)
+    held[:] = u[:, -1]
+    held[held < NOTHING] = 0.0
+    np.subtract(1.0, u, out=u)
+    np.multiply(u, x, out=u)
+    np.copyto(mix, u, casting="same_kind")
 
 
 def soft_limit(mix: NDArray[np.float32]) -> NDArray[np.float32]:

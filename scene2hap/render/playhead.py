@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from scene2hap.compiled import compiled
-from scene2hap.render.limiter import THRESHOLD, limit_in_place, release_per_frame, turn_down_in_place
+from scene2hap.render.limiter import THRESHOLD, limit_in_place, releases, turn_down_in_place
 from scene2hap.render.loop_bank import CELL
 from scene2hap.render.tactile_mix import Block, Gains, TactileMix
 from scene2hap.render.upsampler import Upsampler
@@ -41,8 +41,11 @@ class Playhead:
         self._mix, self._upsampler, self._incoming = mix, upsampler, incoming
         self._tactile_rate_hz, self._sample_rate_hz = rates_hz
         self._outputs = upsampler.outputs(0)
-        self._held = np.zeros(len(self._outputs))
-        self._release = release_per_frame(self._sample_rate_hz)
+        self._scratch = np.zeros((2, *self._outputs.shape))
+        self._soft = np.zeros_like(self._outputs)
+        # How much the last sample is turned down, and what it was before this cell, which may be computed again.
+        self._held, self._held_before = np.zeros((2, len(self._outputs)))
+        self._releases = releases(self._sample_rate_hz, self._outputs.shape[1])
         self._tick = 0
         self._cell_begin = -CELL
         self._cell_frame = self._cell_end_frame = 0
@@ -57,14 +60,20 @@ class Playhead:
             self._take_gains(self._upsampler.input_of(stop - 1) + 1)
             if self._mix.compute():
                 self._outputs = self._upsampler.outputs(self._cell_begin)
-            ready = self._outputs[:, frame - self._cell_frame : stop - self._cell_frame].copy()
-            turn_down_in_place(ready, self._held, THRESHOLD, self._release)
-            limit_in_place(ready, np.empty_like(ready), THRESHOLD)
+                self._limit(self._outputs[:, : self._cell_end_frame - self._cell_frame])
+            ready = self._outputs[:, frame - self._cell_frame : stop - self._cell_frame]
             out[frame - self.position : stop - self.position] = ready.T
             frame = stop
         self.position = end
 
+    def _limit(self, cell: Block) -> None:
+        n = cell.shape[1]
+        self._held[:] = self._held_before
+        turn_down_in_place(cell, self._held, self._scratch[:2, :, :n], THRESHOLD, self._releases[:n])
+        limit_in_place(cell, self._soft[:, :n], THRESHOLD)
+
     def _enter_cell(self) -> None:
+        self._held_before[:] = self._held
         self._cell_begin += CELL
         self._cell_frame = self._cell_end_frame
         self._cell_end_frame = self._upsampler.first_output_of(self._cell_begin + CELL)

@@ -144,6 +144,6 @@ def test_turning_down(seed: int) -> None:
         mix = (rng.uniform(0, 3) * rng.normal(size=(2, rng.integers(0, 60)))).astype(np.float32)
         told, compiled = mix.copy(), mix.copy()
         for turn_down, block, u in zip(both("render.limiter.turn_down_in_place"), (told, compiled), held, strict=True):
-            turn_down(block, u, 0.7, 0.99)
+            turn_down(block, u, np.empty((2, *block.shape)), 0.7, 0.99 ** np.arange(1, block.shape[1] + 1))
         np.testing.assert_allclose(compiled, told, atol=1e-6)
         np.testing.assert_allclose(held[1], held[0], atol=1e-9)
