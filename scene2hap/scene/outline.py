@@ -150,6 +150,6 @@ def _ring(number: int, ring: object) -> Ring:
     if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 3 or not np.isfinite(corners).all():
         raise SceneError(
             f"ring {number} of the outline has shape {corners.shape}; it must be (n_corners, 2) finite numbers [m], of "
-            "at least 3 corners."
+            "at least 3 corners. An outline is a list of rings, of one ring also: Outline([[(0, 0), (1, 0), (1, 1)]])."
         )
     return tuple((x, y) for x, y in corners.tolist())
