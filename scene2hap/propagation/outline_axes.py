@@ -14,8 +14,12 @@ from numpy.typing import NDArray
 from scene2hap.propagation.spline_axis import SplineAxis
 from scene2hap.scene.outline import Outline
 
-FINER = 16.0
-"""How much smaller than others cells at a notch are."""
+FINER = 2.0
+"""How much smaller than others cells at a notch are, per cell along the box's shorter side: 16 times with 8. So they
+shrink as the square of the others, and frequencies converge by the second order, which they would not in cells of one
+size."""
+FINEST = 24.0
+"""And at most; the stiffest springs would bury the longest waves in rounding."""
 GROWTH = 0.7
 """How much larger a cell is, per its distance from a notch."""
 
@@ -25,17 +29,17 @@ Floats = NDArray[np.float64]
 def outline_axes(outline: Outline, cells: tuple[int, int]) -> tuple[SplineAxis, SplineAxis]:
     """The axes of a lattice of at least this many cells along the outline's box."""
     x0, y0, x1, y1 = outline.box_m
-    notches = outline.notches_m
+    notches, finer = outline.notches_m, min(FINER * min(cells), FINEST)
     return (
-        SplineAxis.of(_lines(x0, x1, cells[0], notches[:, 0])),
-        SplineAxis.of(_lines(y0, y1, cells[1], notches[:, 1])),
+        SplineAxis.of(_lines(x0, x1, cells[0], notches[:, 0], finer)),
+        SplineAxis.of(_lines(y0, y1, cells[1], notches[:, 1], finer)),
     )
 
 
-def _lines(low: float, high: float, n: int, notches: Floats) -> Floats:
+def _lines(low: float, high: float, n: int, notches: Floats, finer: float) -> Floats:
     """Lines from `low` to `high` and through the notches, as far as these are not closer than the smallest cell."""
     usual = (high - low) / n
-    least = usual / FINER
+    least = usual / finer
     fixed = [low]
     for place in np.sort(notches):
         if place > fixed[-1] + least and place < high - least:

@@ -94,7 +94,10 @@ class _Pieces:
         inside = coverage > 0.5
         parts, n_parts = label(inside)
         if n_parts > 1:
-            inside = parts == np.argmax(np.bincount(parts[inside]))
+            largest = np.argmax(np.bincount(parts[inside]))
+            beside = distance_transform_edt(~inside, return_distances=False, return_indices=True)
+            coverage = np.where(parts[tuple(beside)] == largest, coverage, 0.0)
+            inside = parts == largest
         # With a gap around each cell, a part never reaches into the next one.
         apart = np.zeros((cells[0], PIXELS + 1, cells[1], PIXELS + 1), dtype=bool)
         apart[:, :PIXELS, :, :PIXELS] = inside.reshape(cells[0], PIXELS, cells[1], PIXELS)
@@ -106,11 +109,12 @@ class _Pieces:
         at: Ints = first[-(int(number.max()) + 1) :].astype(np.intp)
         one = np.column_stack([at // inside.shape[1], at % inside.shape[1]])
         cell = one // PIXELS
-        # A pixel on the rim counts with its piece where that is in the same cell.
+        # What is on the rim counts with its piece; where that is in another cell, at the piece's nearest pixel.
         pixel = np.indices(inside.shape)
-        own = (cell[number] == np.moveaxis(pixel, 0, -1) // PIXELS).all(axis=-1) & (coverage > 0)
+        is_own = (cell[number] == np.moveaxis(pixel, 0, -1) // PIXELS).all(axis=-1)
+        row, column = np.where(is_own, pixel, nearest) % PIXELS
         shares = np.zeros((len(cell), PIXELS, PIXELS))
-        np.add.at(shares, (number[own], pixel[0][own] % PIXELS, pixel[1][own] % PIXELS), coverage[own])
+        np.add.at(shares, (number, row, column), coverage)
         return cls(cells, inside, number, nearest, cell, one, shares)
 
     def nearest(self, points_m: Floats, x_m: Floats, y_m: Floats) -> tuple[Ints, Floats]:

@@ -78,9 +78,10 @@ def test_a_free_disc_has_the_frequencies_of_bessels_functions() -> None:
     np.testing.assert_allclose(found[3:] * scale, exact[:13], rtol=3e-3)
 
 
-def test_the_error_of_a_disc_falls_with_the_cell() -> None:
-    """Against a fine lattice, by order 1.8 and more, as far as pixels tell the rim."""
-    plate = outlined(disc(0.4))
+@pytest.mark.parametrize("outline", [disc(0.4), L, SINK], ids=["disc", "L", "sink"])
+def test_errors_fall_with_the_cell(outline: Outline) -> None:
+    """Against a fine lattice, by order 1.8 and more, curvature without bound at notches or not."""
+    plate = outlined(outline)
     exact = MassSpringDamper(40).natural_frequencies_hz(plate, 16)[3:]
     errors = [np.abs(MassSpringDamper(n).natural_frequencies_hz(plate, 16)[3:] / exact - 1).max() for n in (4, 8, 16)]
     assert errors[0] / errors[1] > 2**1.8
