@@ -59,7 +59,7 @@ _HOME = {
     "scene2hap.llm.chain": ("infer_haptics",),
     "scene2hap.bundle": ("HapticBundle", "Override"),
     "scene2hap.baking": ("BakeConfig", "abake", "arebake", "bake", "bake_object", "rebake"),
-    "scene2hap.session": ("HapticFrame", "HapticSession", "SessionConfig", "Touch", "UserProfile"),
+    "scene2hap.session": ("HapticFrame", "HapticSession", "Impact", "SessionConfig", "Touch", "UserProfile"),
     "scene2hap.engines": ("EngineAdapter", "EngineLink", "MuJoCoLink", "Panda3DLink"),
     "scene2hap.bundle_watch": ("BundleWatch",),
     "scene2hap.touch_track": ("TouchTrack",),

@@ -86,6 +86,25 @@ class PricedField(LiveField, Protocol):
 
 
 @runtime_checkable
+class PointField(Protocol):
+    """A live field that also answers for a source that is a point of an object, such as where something lands."""
+
+    def from_point(
+        self,
+        object_id: str,
+        point_m: tuple[float, float, float],
+        hands: Sequence[Sequence[TouchedPoint]],
+        frequencies_hz: NDArray[np.float64],
+    ) -> NDArray[np.float64]:
+        """Response at each hand over that at a point of an object [m], world.
+
+        Parameters: hands : the touched points of each; frequencies_hz : (n_frequencies,) > 0 [Hz].
+        Returns: (n_hands, n_frequencies) float64 [-], >= 0, 0 where nothing arrives.
+        """
+        ...
+
+
+@runtime_checkable
 class LiveModel(Protocol):
     """Offers live fields."""
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.propagation.band_rms import BandRms
+from scene2hap.propagation.contact_paths import Triple
 from scene2hap.propagation.live import Prices, TouchedPoint
 from scene2hap.propagation.live_paths import LivePaths
 
@@ -62,6 +63,15 @@ class LiveLaw:
         """See `PricedField`."""
         gamma = self._gamma(prices, columns)
         return np.maximum(gamma, self._floor * np.isfinite(prices)[:, :, None]) if self._floor else gamma
+
+    def from_point(
+        self, object_id: str, point_m: Triple, hands: Sequence[Sequence[TouchedPoint]], frequencies_hz: Floats
+    ) -> Floats:
+        """See `PointField`."""
+        costs = np.array(self._paths.costs_from(object_id, point_m, hands)).reshape(-1, 1)
+        gamma: Floats = np.exp(-costs * np.sqrt(2 * math.pi * frequencies_hz))
+        arrives: Floats = np.isfinite(costs).astype(np.float64)
+        return np.maximum(gamma, self._floor * arrives)
 
 
 class GammaAt:

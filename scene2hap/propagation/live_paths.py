@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from scene2hap.contact.junction import Junction
 from scene2hap.propagation.contact_paths import ContactPaths, Triple
 
 if TYPE_CHECKING:
     from scene2hap.contact.graph import ContactGraph
 
 _MOST_WEIGHTS = 1024
+
+_POINT = "\0point"
+"""Stands for a source that is a point of some object, and that the network has only while it is asked for."""
 
 
 class _CrossingCosts(dict[float, float]):
@@ -43,8 +47,9 @@ class LivePaths:
         max_hops: int | None,
     ) -> None:
         self._graph, self._beside = graph, graph.beside
-        rows = {source_id: row for row, source_id in enumerate(source_ids)}
-        self._paths = ContactPaths(dict(price_per_m), rows, _CrossingCosts(crossing_cost), max_hops)
+        rows = {source_id: row for row, source_id in enumerate((*source_ids, _POINT))}
+        self._point_row, self._crossing_costs = len(source_ids), _CrossingCosts(crossing_cost)
+        self._paths = ContactPaths(dict(price_per_m), rows, self._crossing_costs, max_hops)
         self._version = -1
 
     def __del__(self) -> None:
@@ -79,4 +84,19 @@ class LivePaths:
         Returns: one cost per source: 0 on a touched source, infinity without a path up to the limit.
         """
         self._follow_graph()
-        return self._paths.cheapest(touched, limits, among)
+        found = self._paths.cheapest(touched, limits, among)
+        found.pop()  # of the point
+        return found
+
+    def costs_from(self, object_id: str, point_m: Triple, hands: Iterable[Iterable[tuple[str, Triple]]]) -> list[float]:
+        """Cost of the cheapest path from a point of an object to the nearest point that each hand touches, as if a
+        source without extent stood there; infinity without a path."""
+        self._follow_graph()
+        contact, row = [(_POINT, object_id)], self._point_row
+        self._paths.update(contact, {_POINT: {object_id: Junction((point_m,), (1.0,), (None,))}})
+        try:
+            found = [self._paths.cheapest(touched, None, [row])[row] for touched in hands]
+        finally:
+            self._paths.update(contact, {})
+        # Its own contact is no crossing.
+        return [cost - self._crossing_costs[1.0] for cost in found]

@@ -81,6 +81,7 @@ class SessionConfig(Settings):
     watchdog_s : time without an update after which a sink with a clock of its own fades to zero.
     actuator : what the safety layer holds the output to; an ActuatorProfile, or as `audio.actuators` reads it.
     skip : a SkipConfig or its settings, or true or false for all or nothing.
+    impacts : whether objects that are moved are felt when they land on others; `HapticSession.strike` works anyway.
     """
 
     of_what = "session"
@@ -96,6 +97,7 @@ class SessionConfig(Settings):
     watchdog_s: float = Field(default=0.1, ge=0.02, le=1.0)
     actuator: Annotated[ActuatorProfile, BeforeValidator(actuator_profile)] = Field(default_factory=ActuatorProfile)
     skip: Annotated[SkipConfig, BeforeValidator(_skip)] = Field(default_factory=SkipConfig)
+    impacts: bool = True
 
     @model_validator(mode="after")
     def _bands_of_the_model(self) -> Self:

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from scene2hap.propagation.protocol import Carrier, CarryingField
 from scene2hap.session.frame import HapticFrame, Touch
+from scene2hap.session.impacts import Impact
 from scene2hap.session.loudest_path import LoudestPath, Point, loudest_path
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.sources import Sources
@@ -81,20 +82,22 @@ class FeltSource:
 @dataclass(frozen=True)
 class Explanation:
     """The sources that a hand feels now, the strongest first; `is_current` is false while a newer field is being
-    prepared."""
+    prepared; `impacts` are the impacts that it felt within the last second, the latest first."""
 
     hand: str
     touches: tuple[str, ...]
     felt: tuple[FeltSource, ...]
     is_current: bool = True
+    impacts: tuple[Impact, ...] = ()
 
     @property
     def text(self) -> str:
         """The same in words, a line for each source."""
         on = f"touches {', '.join(self.touches)}" if self.touches else "touches nothing"
         late = "" if self.is_current else " (the next field is still being prepared)"
-        lines = [f"{self.hand} {on}{late}" + (":" if self.felt else " and feels nothing.")]
-        return "\n".join([*lines, *(f"  {item}" for item in self.felt)])
+        lines = [f"{self.hand} {on}{late}" + (":" if self.felt or self.impacts else " and feels nothing.")]
+        struck = (f"  {item}, {decibels(item.felt[self.hand]):+.1f} dB re full scale" for item in self.impacts)
+        return "\n".join([*lines, *(f"  {item}" for item in self.felt), *struck])
 
     def to_data(self) -> dict[str, Any]:
         """The same as plain data, for JSON."""

@@ -17,6 +17,7 @@ from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.session.frame import Touch
+from scene2hap.session.impacts import KNOCK_M_S, Strike
 
 _TOUCH = "Touch(hand, object_id, point_m)"
 
@@ -114,6 +115,21 @@ def given_contacts(contacts: object) -> Sequence[Contact]:
             f"contacts is or has {checks.described(wrong)}; it must be a list, as [Contact('mug', 'table', point_m)]."
         )
     return found
+
+
+def given_strike(
+    object_id: str, point_m: object, with_object: str | None, speed_m_s: object, impulse_n_s: object
+) -> Strike:
+    """A strike; a knock where nobody says how hard. Raises: SessionError: numbers that are out of bounds."""
+    x, y, z = checks.vector("point_m", point_m, "m", size=3, error=SessionError)
+    if speed_m_s is not None and impulse_n_s is not None:
+        raise SessionError("speed_m_s and impulse_n_s are both given; give one of them.")
+    if impulse_n_s is not None:
+        impulse = checks.number("impulse_n_s", impulse_n_s, "N s", above=0.0, at_most=1e6, error=SessionError)
+        return Strike(object_id, (x, y, z), with_object, impulse_n_s=impulse)
+    given = KNOCK_M_S if speed_m_s is None else speed_m_s
+    speed = checks.number("speed_m_s", given, "m/s", above=0.0, at_most=1e4, error=SessionError)
+    return Strike(object_id, (x, y, z), with_object, speed)
 
 
 def require_addable(item: object, haptics: object, loops: object) -> None:

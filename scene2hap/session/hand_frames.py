@@ -132,6 +132,18 @@ class HandFrames:
         self.keeper.order()
         return self._frame, gained
 
+    @property
+    def felt(self) -> Felt:
+        """The touches of the last frame, of objects that are still there."""
+        objects = self._state.objects
+        return {i: [one for one in touches if one.object_id in objects] for i, touches in self._felt.items()}
+
+    @property
+    def field(self) -> object:
+        """The field in use, of the objects that there are."""
+        self._catch_up()
+        return self.keeper.field
+
     def silence(self, hands: tuple[str, ...]) -> HapticFrame:
         """A frame in which no hand is given anything."""
         return HapticFrame(self._nothing(len(hands)), hands, self._sources.ids)

@@ -39,6 +39,7 @@ from scene2hap.session.frame import HapticFrame, SessionStats, Touch, unknown_ha
 from scene2hap.session.given import (
     given_contacts,
     given_frame,
+    given_strike,
     given_touches,
     require_addable,
     require_pose,
@@ -47,6 +48,8 @@ from scene2hap.session.given import (
 )
 from scene2hap.session.hand_frames import HandFrames
 from scene2hap.session.hand_gains import Felt
+from scene2hap.session.impacts import Impact, Impacts, Strike
+from scene2hap.session.landings import Landings
 from scene2hap.session.off_surface import OffSurface
 from scene2hap.session.output import Output
 from scene2hap.session.personal import PersonalLimit
@@ -107,6 +110,12 @@ class HapticSession:
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
         self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
         self._off_surface, self._silent_objects = OffSurface(self._state), SilentObjects()
+        hand_frames, level = self._hand_frames, self._sources.user
+        self._impacts = Impacts(
+            self.config, self._state, self._playback, lambda: hand_frames.field, lambda: level.factor
+        )
+        self._landings = Landings(self._state.graph, self._state.middle_m, self.config.control_period_s)
+        self._follows_landings = self.config.impacts
         self._output = Output(sink, self.config)
         self._whole = WholeFrames(self.config.sample_rate_hz)
         self._user, device = UserProfile.parse(user), self.config.actuator.name
@@ -170,17 +179,47 @@ class HapticSession:
         stamp = self._stamp(at_sample)
         if self._playback.take_prepared():
             self._hand_frames.loops_came()
+        if moved and self._follows_landings:
+            self._landings.begin(moved, stamp / self.config.sample_rate_hz)
         if moved or contacts is not None:
             self._hand_frames.apply(self._changed(moved or {}, contacts))
         frame, gained = self._hand_frames.frame(self.hands, felt, moved or (), is_paused=self._playback.is_paused)
         if gained is not None:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
+        if self._follows_landings:
+            for landing in self._landings.look(moved or {}, stamp / self.config.sample_rate_hz):
+                self._strike(Strike(landing.onto, landing.point_m, landing.object_id, landing.speed_m_s), stamp)
         self._updates += 1
         self._output.feed(frame)
         if felt:
             self._warn_if_nothing_vibrates()
             self._off_surface.look(felt)
         return frame
+
+    def strike(
+        self,
+        object_id: str,
+        point_m: tuple[float, float, float],
+        *,
+        speed_m_s: float | None = None,
+        impulse_n_s: float | None = None,
+        with_object: str | None = None,
+    ) -> Impact:
+        """Strike an object at a point [m], world: felt once, from the next block on, by each hand that touched
+        something at the last update, as strongly as the model lets it arrive there.
+
+        Parameters: speed_m_s : at which they meet, or impulse_n_s : that they exchange; 0.5 m/s without either, a
+        knock; with_object : what strikes, None for a finger. Objects that are moved strike by themselves when they
+        land, unless `SessionConfig.impacts` is false.
+        Raises: UnknownObject; SessionError: a speed or impulse that is not above 0, or both.
+        """
+        self._state.require(object_id)
+        if with_object is not None:
+            self._state.require(with_object)
+        return self._strike(given_strike(object_id, point_m, with_object, speed_m_s, impulse_n_s), self._now)
+
+    def _strike(self, strike: Strike, stamp: int) -> Impact:
+        return self._impacts.strike(strike, self._hand_frames.felt, self.hands, self._user, stamp)
 
     def add(
         self,
@@ -334,10 +373,13 @@ class HapticSession:
         self._hand_frames.levels_changed()
 
     def explain(self, hand: str) -> Explanation:
-        """Each source that a hand felt at the last update, and its way there. Raises: SessionError: an unknown hand."""
+        """Each source that a hand felt at the last update, and its way there, and the impacts of the last second.
+
+        Raises: SessionError: an unknown hand.
+        """
         if not isinstance(hand, str) or hand not in self.hands:
             raise SessionError(unknown_hand(hand, self.hands))
-        return self._hand_frames.explain(hand)
+        return replace(self._hand_frames.explain(hand), impacts=self._impacts.felt_by(hand))
 
     def wait_prepared(self, timeout_s: float | None = None) -> bool:
         """Wait until the workers have prepared the scene as it is, and all loops; false after the timeout [s]. For
@@ -345,7 +387,7 @@ class HapticSession:
         if timeout_s is not None:
             timeout_s = checks.number("timeout_s", timeout_s, "s", at_least=0.0, at_most=86_400.0, error=SessionError)
         end_s = None if timeout_s is None else time.monotonic() + timeout_s
-        if not self._playback.wait(timeout_s):
+        if not (self._playback.wait(timeout_s) and self._impacts.wait(timeout_s)):
             return False
         return self._hand_frames.wait(None if end_s is None else max(0.0, end_s - time.monotonic()))
 
@@ -426,7 +468,13 @@ class HapticSession:
     def stats(self) -> SessionStats:
         """What was done so far."""
         stats = self._hand_frames.stats(self._updates, self._playback.rows_not_mixed)
-        return replace(stats, touches_off_surface=self._off_surface.n_touches)
+        return replace(
+            stats,
+            touches_off_surface=self._off_surface.n_touches,
+            impacts=self._impacts.n_told,
+            impacts_felt=self._impacts.n_felt,
+            impacts_left_out=self._impacts.n_left_out,
+        )
 
     @property
     def safety_stats(self) -> SafetyStats:

@@ -9,7 +9,7 @@ replaced and never changed; neither waits for the other.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Future, wait
 from dataclasses import dataclass
 
@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.devices.protocol import Block
+from scene2hap.render.bursts import Bursts, PlannedBurst
 from scene2hap.render.limiter import soft_limit
 from scene2hap.render.loop_bank import position_s
 from scene2hap.session.config import MIN_RAMP_S, SessionConfig
@@ -38,10 +39,15 @@ _Route = tuple[MixerInstance, list[int] | None, list[int], list[int], Indices | 
 
 @dataclass(frozen=True, eq=False)
 class _Plan:
-    """What is played: each mixer, the outputs of it that are heard, and the channels to which they go."""
+    """What is played: a token of each output; each mixer, those of its outputs that are heard, and their channels."""
 
-    n_channels: int
+    hands: tuple[int, ...]
     mixers: tuple[tuple[MixerInstance, Indices, Indices], ...]
+
+    @property
+    def n_channels(self) -> int:
+        """Number of outputs."""
+        return len(self.hands)
 
 
 @dataclass(eq=False)
@@ -76,7 +82,7 @@ class Playback:
         self._active: Sequence[LoopRow] = ()
         self._banks = [self._new_bank(len(rows))]
         self._mixers = [MixerInstance(config, self._banks[0], tuple(self._hands), 0)]
-        self._plan = self._new_plan()
+        self._plan, self._bursts = self._new_plan(), Bursts()
         # Twice the ramp, since gains that come too fast wait for each other.
         fade_s = 2 * max(config.control_period_s, MIN_RAMP_S) + self._mixers[0].mixer.delay_s + 0.01
         self._fade_frames = round(fade_s * config.sample_rate_hz)
@@ -135,6 +141,17 @@ class Playback:
         for mixer, own, slots, outputs, channels in self._routes_of(active, columns):
             told = gains if own is None else gains[:, own]
             mixer.move_to(told if channels is None else told[channels], slots, outputs, at_frame)
+
+    @property
+    def n_bursts(self) -> int:
+        """Number of bursts that sound, or are about to."""
+        return self._bursts.n_playing
+
+    def start_burst(self, samples: Mapping[int, NDArray[np.float32]], at_frame: int) -> None:
+        """Add samples (n,) to some channels, once, from a frame on; nothing in a pause."""
+        if self._paused_from is None:
+            by_token = {self._hands[channel]: one for channel, one in samples.items() if channel < len(self._hands)}
+            self._bursts.start(PlannedBurst(at_frame, by_token))
 
     def _routes_of(self, active: Sequence[LoopRow], columns: Sequence[int] | None) -> list[_Route]:
         """How some of the active rows go; the same few come again and again as a source is lifted and put down."""
@@ -213,6 +230,7 @@ class Playback:
         if self._paused_from is None:
             for mixer in self._mixers:
                 mixer.silence(at_frame)
+            self._bursts.fade(at_frame, self._fade_frames)
             self._paused_from = at_frame
 
     def resume(self) -> None:
@@ -240,6 +258,9 @@ class Playback:
             for mixer, outputs, channels in plan.mixers:
                 total[:, channels] += mixer.render(self._position, n_frames)[:, outputs]
             mix = soft_limit(total)
+        if not self._bursts.are_silent:
+            self._bursts.add_to(mix, self._position, plan.hands)
+            mix = soft_limit(mix)
         self._position += n_frames
         return mix
 
@@ -250,7 +271,7 @@ class Playback:
             gained = [(i, self._hands.index(hand)) for i, hand in enumerate(mixer.hands) if hand in self._hands]
             outputs, channels = np.array(gained, dtype=np.intp).reshape(-1, 2).T
             mixers.append((mixer, outputs, channels))
-        return _Plan(len(self._hands), tuple(mixers))
+        return _Plan(tuple(self._hands), tuple(mixers))
 
     def _new_bank(self, n_rows: int) -> SlotBank:
         n_slots = n_rows + max(SPARE_SLOTS, n_rows)

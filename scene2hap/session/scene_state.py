@@ -94,6 +94,19 @@ class SceneState:
         self._corners = _with(self._corners, object_id, None)
         return change
 
+    def middle_m(self, object_id: str) -> tuple[float, float, float]:
+        """Of the box around an object, in its own frame [m]."""
+        x, y, z = self.objects[object_id].geometry.mesh.bounds_m.mean(axis=0).tolist()
+        return x, y, z
+
+    def on_plate(self, object_id: str, point_m: tuple[float, float, float]) -> tuple[float, float] | None:
+        """A world point [m] along length and width of an object's plate, from its corner; None if it has none."""
+        if object_id not in self.bodies:
+            return None
+        poses = PlatePoses(self.objects, self.bodies, self.poses, self._corners)
+        ((x, y),) = ContactNetwork(self.bodies, (), poses).on_body(object_id, [point_m]).tolist()
+        return x, y
+
     def reach(self, source_ids: Sequence[str]) -> Reach:
         """Objects that each of the sources reaches now."""
         return Reach(self.graph.beside, {*self.bodies, *source_ids}, source_ids)

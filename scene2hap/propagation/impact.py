@@ -1,0 +1,142 @@
+"""What an impact makes of the object that it meets: a few sines that die away, at the point that is struck.
+
+Two bodies that meet at a speed v exchange the momentum J = (1 + e) v / (1/m + 1/m_s) through the spring of their
+contact, as a half sine of the time T = 1 / (2 f_c). The struck point moves by
+
+    contact     2 pi f_c J (1/m + pi f_c Y)        f_c = sqrt(k (1/m + 1/m_s)) / (2 pi),   Y = 1 / (8 sqrt(D m'))
+    modes       2 pi f_n J phi_n^2 S(f_n)          f_n of a plate that is supported along its edges
+
+as acceleration. Y is the mobility of a plate without edges, which is what a large one shows while an impact lasts;
+S(f) = |cos(pi f T) / (1 - (2 f T)^2)| is what is left at f of an impact of that length: a rubber ball excites no high
+mode. Furniture stands on legs, between free and supported; the latter's modes are known in closed form, rise with
+stiffness and fall with size and weight as all do, and cost no eigenproblem when something lands.
+
+Letters: J [N s], e [-] restitution, m, m_s [kg] of the struck body and of what strikes, k [N/m], D [N m], m' [kg/m2],
+phi [kg^-1/2].
+Source: Cremer, Heckl, Petersson, Structure-Borne Sound, chapters 3 and 5, for both mobilities; Goldsmith, Impact
+(1960), chapter 4, for the half sine.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.materials import Material
+from scene2hap.propagation.contact_stiffness import ContactLaw
+from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.protocol import Body
+from scene2hap.propagation.rigid import COMPACT_THICKNESS
+
+Floats = NDArray[np.float64]
+
+RESTITUTION = 0.3
+"""Of cups, books and tools on furniture; assumed (0 is clay, 0.9 a glass ball on steel)."""
+SLOWEST_HZ, FASTEST_HZ = 30.0, 250.0
+"""A contact rings within these: what is slower is a push, and what is faster a click, felt where touch is keenest."""
+HIGHEST_MODE_HZ = 400.0
+"""Beyond, touch grows dull, and onsets reach into what is heard."""
+CONTACT_LOSS = 0.3
+"""A contact that lets go again rings for a cycle or two; assumed."""
+SHORTEST_S, LONGEST_S = 0.008, 0.1
+"""A mode falls to 1/e within these: a shorter one is a click, and what would ring longer is damped by what stands on it
+and by hands; assumed."""
+MOST_MODES = 5
+LEAST_SHARE = 0.01
+"""Of the strongest mode, below which one is left out: on a node."""
+FINGER_KG, FINGER_N_M = 0.1, 2e4
+"""What strikes where nobody says: a fingertip with its part of the hand, soft enough for a thud of 70 Hz; assumed."""
+
+
+@dataclass(frozen=True, eq=False)
+class Burst:
+    """Decaying sines at a struck point, from the contact's to the strongest mode's and on.
+
+    frequencies_hz, decays_s (to 1/e), accelerations_m_s2 : (n,) float64, n >= 1, amplitudes at the beginning.
+    """
+
+    frequencies_hz: Floats
+    decays_s: Floats
+    accelerations_m_s2: Floats
+
+
+def burst_of(
+    struck: Body | None,
+    at_m: tuple[float, float] | None,
+    striker: Body | None = None,
+    *,
+    speed_m_s: float = 0.0,
+    impulse_n_s: float | None = None,
+    is_finger: bool = False,
+) -> Burst:
+    """What an impact on a body makes of the struck point.
+
+    Parameters: struck : None for one of unknown material, as stiff as hard plastic and as heavy as what strikes; at_m :
+    from the corner of a plate along length and width [m], None for its middle; striker : the other body, None for an
+    unknown one, or a finger; speed_m_s : at which they meet; impulse_n_s : exchanged, instead of a speed.
+    """
+    striker_kg = FINGER_KG if is_finger else 1.0 if striker is None else striker.moving_mass_kg
+    struck_kg = striker_kg if struck is None else struck.moving_mass_kg
+    per_kg = 1 / striker_kg + 1 / struck_kg
+    stiffness = FINGER_N_M if is_finger else _stiffness_n_m(struck, striker, min(striker_kg, struck_kg))
+    contact_hz = math.sqrt(stiffness * per_kg) / (2 * math.pi)
+    momentum = (1 + RESTITUTION) * speed_m_s / per_kg if impulse_n_s is None else impulse_n_s
+    felt_hz = min(max(contact_hz, SLOWEST_HZ), FASTEST_HZ)
+    yields = 1 / struck_kg
+    modes = np.empty((3, 0))
+    if isinstance(struck, Plate):
+        per_area = struck.mass_kg / struck.area_m2
+        yields += math.pi * felt_hz / (8 * math.sqrt(struck.bending_stiffness_nm * per_area))
+        modes = _modes(struck, at_m, per_area, 1 / (2 * contact_hz))
+    contact = (felt_hz, 2 / (CONTACT_LOSS * 2 * math.pi * felt_hz), 2 * math.pi * felt_hz * yields)
+    f, decays, accelerations = np.concatenate([np.array(contact)[:, None], modes], axis=1)
+    return Burst(f, decays, momentum * accelerations)
+
+
+def _stiffness_n_m(struck: Body | None, striker: Body | None, lighter_kg: float) -> float:
+    law = ContactLaw()
+    return law.stiffness(_material(struck), _material(striker), None, law.preload([lighter_kg], 1))[0]
+
+
+def _material(body: Body | None) -> Material | None:
+    return None if body is None else body.material
+
+
+def _modes(plate: Plate, at_m: tuple[float, float] | None, per_area_kg_m2: float, lasts_s: float) -> Floats:
+    """Frequency [Hz], decay [s] and acceleration per momentum [m/s2 / (N s)] of the strongest modes (3, n)."""
+    waves, f = _supported(plate)
+    point = np.array([plate.length_m / 2, plate.width_m / 2] if at_m is None else at_m)
+    shape = np.prod(np.sin(waves * point), axis=1)
+    velocities = 4 / (per_area_kg_m2 * plate.area_m2) * shape**2 * _share(f * lasts_s)
+    # By velocity, since the threshold of touch rises about as frequency does.
+    strongest = np.argsort(-velocities)[:MOST_MODES]
+    strongest = strongest[velocities[strongest] > LEAST_SHARE * velocities.max(initial=0.0)]
+    f, velocities = f[strongest], velocities[strongest]
+    decays = np.clip(1 / (np.pi * f * max(plate.material.loss_factor, 1e-6)), SHORTEST_S, LONGEST_S)
+    return np.stack([f, decays, 2 * np.pi * f * velocities])
+
+
+@lru_cache(maxsize=1024)
+def _supported(plate: Plate) -> tuple[Floats, Floats]:
+    """Wavenumbers along length and width (n_modes, 2) [rad/m] and frequencies (n_modes,) [Hz] of a plate supported
+    along its edges; none of what is too thick to bend."""
+    length, width = plate.extent_m
+    if plate.thickness_m > COMPACT_THICKNESS * min(length, width):
+        return np.empty((0, 2)), np.empty(0)
+    lowest = math.pi / 2 / plate.wavenumber_per_root_omega**2
+    # No more than a floor needs to have its strongest.
+    m, n = (min(40, int(side * math.sqrt(HIGHEST_MODE_HZ / lowest)) + 1) for side in (length, width))
+    waves = np.pi * np.stack(np.meshgrid(np.arange(1, m + 1) / length, np.arange(1, n + 1) / width), -1).reshape(-1, 2)
+    f = lowest / np.pi**2 * (waves**2).sum(axis=1)
+    return waves[f <= HIGHEST_MODE_HZ], f[f <= HIGHEST_MODE_HZ]
+
+
+def _share(cycles: Floats) -> Floats:
+    """S of a half sine that lasts so many cycles; pi / 4 at a half."""
+    near = np.abs(cycles - 0.5) < 1e-6
+    safe = np.where(near, 0.0, cycles)
+    return np.where(near, math.pi / 4, np.abs(np.cos(math.pi * safe) / (1 - (2 * safe) ** 2)))

@@ -1,0 +1,118 @@
+"""One-shot vibration: decaying sines that are added to the mix, once each.
+
+They are computed when they are ordered and only added while they sound; a scene in which nothing lands pays nothing.
+
+Threads: `start` and `fade` belong to the game or a worker, `add_to` to the audio thread; neither waits for the other.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+Samples = NDArray[np.float32]
+
+ATTACK_S = 0.005
+"""Over which a sine comes up, as half a cosine: a step of its slope would click. Assumed: too short to be felt."""
+END_DB = -46.0
+"""A wave ends when it has died away so far, over a last half cosine: full scale lies 45 dB over the threshold."""
+MOST_PLAYING = 32
+
+
+@lru_cache(maxsize=256)
+def wave_of(frequency_hz: float, decay_s: float, sample_rate_hz: int) -> Samples:
+    """A decaying sine (n_samples,) with a peak of 1, from 0 and back to 0; kept, since an object has few."""
+    n = round((ATTACK_S + decay_s * math.log(10 ** (-END_DB / 20))) * sample_rate_hz)
+    turn = cmath.exp((2j * math.pi * frequency_hz - 1 / decay_s) / sample_rate_hz)
+    turns = np.full(n, turn)
+    turns[0] = 1.0
+    wave = np.cumprod(turns).imag
+    edge = 0.5 - 0.5 * np.cos(np.pi * np.arange(max(1, round(ATTACK_S * sample_rate_hz))) / (ATTACK_S * sample_rate_hz))
+    wave[: len(edge)] *= edge
+    wave[-len(edge) :] *= edge[::-1]
+    found: Samples = (wave / np.abs(wave).max()).astype(np.float32)
+    found.setflags(write=False)
+    return found
+
+
+def summed(waves: Sequence[Samples], weights: Sequence[float]) -> Samples:
+    """Waves (n,) of any lengths, weighed and added (n_longest,)."""
+    total = np.zeros(max(map(len, waves)), dtype=np.float32)
+    for wave, weight in zip(waves, weights, strict=True):
+        total[: len(wave)] += np.float32(weight) * wave
+    return total
+
+
+@dataclass(frozen=True, eq=False)
+class PlannedBurst:
+    """Samples (n,) of each output that feels it, by the output's token, from a frame of the session's clock on."""
+
+    begin: int
+    samples: Mapping[int, Samples]
+
+    @property
+    def n_frames(self) -> int:
+        """How long it is."""
+        return max((len(one) for one in self.samples.values()), default=0)
+
+
+class Bursts:
+    """The bursts that are ordered or sound."""
+
+    def __init__(self) -> None:
+        self._incoming: deque[PlannedBurst] = deque(maxlen=MOST_PLAYING)
+        self._playing: list[PlannedBurst] = []
+        self._fade: tuple[int, int] | None = None
+
+    @property
+    def are_silent(self) -> bool:
+        """Whether there is nothing to add."""
+        return not self._playing and not self._incoming
+
+    @property
+    def n_playing(self) -> int:
+        """How many there are."""
+        return len(self._playing) + len(self._incoming)
+
+    def start(self, burst: PlannedBurst) -> None:
+        """Let a burst sound, from its frame on, or from the next one if that is over."""
+        self._incoming.append(burst)
+
+    def fade(self, at_frame: int, n_frames: int) -> None:
+        """Fade out all that sounds, over so many frames, and forget it."""
+        self._fade = (at_frame, n_frames)
+
+    def add_to(self, mix: Samples, position: int, outputs: Sequence[int]) -> None:
+        """Add to a mix (n_frames, n_outputs) that begins at a frame, its outputs being those of these tokens."""
+        while self._incoming:
+            burst = self._incoming.popleft()
+            self._playing.append(PlannedBurst(max(burst.begin, position), burst.samples))
+        del self._playing[:-MOST_PLAYING]
+        fade, n_frames = self._envelope(position, len(mix)), len(mix)
+        for burst in self._playing:
+            first = max(0, burst.begin - position)
+            for channel, token in enumerate(outputs):
+                samples = burst.samples.get(token)
+                if samples is not None and first < n_frames:
+                    begin = position + first - burst.begin
+                    part = samples[begin : begin + n_frames - first]
+                    share = 1.0 if fade is None else fade[first : first + len(part)]
+                    mix[first : first + len(part), channel] += part * share
+        end = position + n_frames
+        self._playing = [burst for burst in self._playing if burst.begin + burst.n_frames > end]
+        if self._fade is not None and end >= sum(self._fade):
+            self._playing, self._fade = [], None
+
+    def _envelope(self, position: int, n_frames: int) -> Samples | None:
+        if self._fade is None:
+            return None
+        at_frame, length = self._fade
+        x = np.clip((position - at_frame + np.arange(n_frames)) / max(1, length), 0.0, 1.0)
+        return (0.5 + 0.5 * np.cos(np.pi * x)).astype(np.float32)

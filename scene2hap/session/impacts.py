@@ -1,0 +1,230 @@
+"""Impacts: what is struck, or lands, is felt once by each hand that it reaches.
+
+    impact ── propagation.impact ──► Burst (decaying sines) ── model in use (`struck`) ──► at each hand ──► the mix
+
+Bounds: a pair of objects strikes once in `LEAST_INTERVAL_S`, `render.bursts.MOST_PLAYING` bursts sound at once, and
+each stays `PEAK` below full scale, as a source of full intensity does. Nothing is computed for an impact that no hand
+could feel.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future, ThreadPoolExecutor, wait
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.attributes import clear_attributes
+from scene2hap.audio.actuators import inverse_db, is_flat
+from scene2hap.audio.levels import TACTILE_HEADROOM_DB
+from scene2hap.errors import Scene2HapError
+from scene2hap.propagation.impact import Burst, burst_of
+from scene2hap.propagation.live import PointField, TouchedPoint
+from scene2hap.render.bursts import MOST_PLAYING, Samples, summed, wave_of
+from scene2hap.session.config import SessionConfig
+from scene2hap.session.hand_gains import Felt
+from scene2hap.session.playback import Playback
+from scene2hap.session.scene_state import SceneState
+from scene2hap.session.struck import struck_later, struck_live
+from scene2hap.session.user_profile import UserProfile
+
+Floats = NDArray[np.float64]
+Point = tuple[float, float, float]
+
+PEAK = 10 ** (-TACTILE_HEADROOM_DB / 20)
+LOUDEST_M_S2 = 1000.0
+"""Acceleration from which on an impact is as strong as it may be: of a cup put down on a steel sheet. Below, the level
+falls by 1 dB for 2 (2:1, usual from sound to touch after Merchel and Altinsoy): from a finger to a fallen chair lie
+80 dB, and an actuator has 40."""
+LEAST_INTERVAL_S = 0.03
+"""Impacts of one thing on another closer together are one; assumed: most bursts last as long."""
+LEAST_GAIN = 10 ** (-60 / 20)
+"""What is below it at a hand is not mixed: full scale lies 45 dB over the threshold."""
+MOST_WAITING = 4
+"""Impacts that a worker has yet to compute."""
+LATEST_S = 0.3
+"""After which an impact is not felt any more; assumed: what is later is taken for another one."""
+KEPT = 64
+KNOCK_M_S = 0.5
+"""Of a finger that knocks; assumed."""
+
+
+@clear_attributes
+@dataclass(frozen=True, eq=False)
+class Impact:
+    """An impact that was felt, or not.
+
+    Parameters: object_id : what was struck, at point_m [m], world; with_object : what struck it, None if nobody said;
+    speed_m_s : of their meeting, None if an impulse was given; frequency_hz : of its strongest component; at_sample :
+    when, on the clock of `render`; felt : the largest sample that it adds at each hand [-], hands that feel nothing
+    left out. Models without a live field fill that in once a worker has prepared them.
+    """
+
+    object_id: str
+    point_m: Point
+    with_object: str | None
+    speed_m_s: float | None
+    frequency_hz: float
+    at_sample: int
+    felt: dict[str, float] = field(default_factory=dict)
+
+    def __str__(self) -> str:
+        by = f" by {self.with_object}" if self.with_object is not None else ""
+        fast = f" at {self.speed_m_s:.2f} m/s" if self.speed_m_s is not None else ""
+        return f"{self.object_id} struck{by}{fast}, {self.frequency_hz:.0f} Hz"
+
+
+@dataclass(frozen=True)
+class Strike:
+    """What is struck where, by what and how hard; see `Impact`."""
+
+    object_id: str
+    point_m: Point
+    with_object: str | None = None
+    speed_m_s: float | None = None
+    impulse_n_s: float | None = None
+
+
+class Impacts:
+    """Turns impacts into bursts of a session's mix.
+
+    Parameters: field : gives the field in use; user_factor : gives the level of everything [-].
+    """
+
+    def __init__(
+        self,
+        config: SessionConfig,
+        state: SceneState,
+        playback: Playback,
+        field: Callable[[], object],
+        user_factor: Callable[[], float],
+    ) -> None:
+        self._config, self._state, self._playback = config, state, playback
+        self._field, self._user_factor = field, user_factor
+        self._last: dict[tuple[str, str | None], int] = {}
+        self._worker: ThreadPoolExecutor | None = None
+        self._waiting: list[Future[None]] = []
+        self._recent: deque[Impact] = deque(maxlen=KEPT)
+        self.n_told = self.n_felt = self.n_left_out = 0
+
+    def strike(self, strike: Strike, felt: Felt, hands: tuple[str, ...], profile: UserProfile, at_frame: int) -> Impact:
+        """Let an impact be felt by the hands that touch something."""
+        self.n_told += 1
+        struck = self._state.bodies.get(strike.object_id)
+        striker = None if strike.with_object is None else self._state.bodies.get(strike.with_object)
+        burst = burst_of(
+            struck,
+            self._state.on_plate(strike.object_id, strike.point_m),
+            striker,
+            speed_m_s=strike.speed_m_s or 0.0,
+            impulse_n_s=strike.impulse_n_s,
+            is_finger=strike.with_object is None,
+        )
+        strongest = float(burst.frequencies_hz[int(np.argmax(burst.accelerations_m_s2))])
+        impact = Impact(strike.object_id, strike.point_m, strike.with_object, strike.speed_m_s, strongest, at_frame)
+        if not felt or self._playback.is_paused or not self._user_factor():
+            return impact
+        if not self._is_admitted(strike, at_frame):
+            self.n_left_out += 1
+            return impact
+        touched: list[list[TouchedPoint]] = [[(x.object_id, x.point_m) for x in felt[i]] for i in felt]
+        channels, f = dict(zip(felt, (hands[i] for i in felt), strict=True)), burst.frequencies_hz
+
+        def sound(gains: Floats, begin: int) -> None:
+            # Most impacts of a busy scene are too far from every hand.
+            if gains.max() * PEAK >= LEAST_GAIN:
+                levels = self._levels(burst, [*channels.values()], profile)
+                self._sound(impact, burst, levels * self._capped(gains), channels, begin)
+
+        live = self._field()
+        if isinstance(live, PointField):
+            sound(struck_live(live, strike.object_id, strike.point_m, touched, f), at_frame)
+            return impact
+        model = self._config.propagation
+        prepared = struck_later(model, self._state, strike.object_id, strike.point_m, touched, f)
+        if self._config.prepare == "blocking":
+            sound(prepared(), at_frame)
+        else:
+            self._order(prepared, sound, at_frame)
+        return impact
+
+    def felt_by(self, hand: str) -> tuple[Impact, ...]:
+        """The impacts of the last second that a hand felt, the latest first."""
+        since = self._playback.position - self._config.sample_rate_hz
+        return tuple(one for one in reversed(self._recent) if hand in one.felt and one.at_sample >= since)
+
+    def wait(self, timeout_s: float | None) -> bool:
+        """Wait for impacts that a worker computes; false after the timeout [s]."""
+        return not wait(self._waiting, timeout_s).not_done
+
+    def _levels(self, burst: Burst, hands: list[str], profile: UserProfile) -> Floats:
+        """Amplitude of each sine at each of these hands, were it at the struck point (n_hands, n) [-]."""
+        actuator, f = self._config.actuator, burst.frequencies_hz
+        accelerations = burst.accelerations_m_s2
+        peak = float(np.abs(summed(self._waves(burst), accelerations.tolist())).max())
+        strength = min(1.0, math.sqrt(accelerations.sum() / LOUDEST_M_S2)) * self._user_factor()
+        drives = accelerations / peak * PEAK * strength
+        drives[(f < actuator.min_frequency_hz) | (f > actuator.max_frequency_hz)] = 0.0
+        if not is_flat(actuator):
+            boost = 10 ** (inverse_db(actuator, f) / 20)
+            drives *= boost / boost.max()
+        if profile.is_neutral:
+            return np.broadcast_to(drives, (len(hands), len(f)))
+        return drives * [10 ** (profile.level_db(hand, actuator.name, f) / 20) for hand in hands]
+
+    def _waves(self, burst: Burst) -> list[Samples]:
+        rate_hz = self._config.sample_rate_hz
+        components = zip(burst.frequencies_hz.tolist(), burst.decays_s.tolist(), strict=True)
+        return [wave_of(f, decay, rate_hz) for f, decay in components]
+
+    def _is_admitted(self, strike: Strike, at_frame: int) -> bool:
+        pair = (strike.object_id, strike.with_object)
+        is_new = at_frame - self._last.get(pair, -math.inf) >= LEAST_INTERVAL_S * self._config.sample_rate_hz
+        self._waiting = [one for one in self._waiting if not one.done()]
+        if not is_new or self._playback.n_bursts >= MOST_PLAYING or len(self._waiting) >= MOST_WAITING:
+            return False
+        self._last.pop(pair, None)
+        self._last[pair] = at_frame
+        while len(self._last) > KEPT:
+            del self._last[next(iter(self._last))]
+        return True
+
+    def _capped(self, gains: Floats) -> Floats:
+        limit_db = self._config.gain_limit_db
+        capped = np.fmax(gains, 0.0)
+        return capped if limit_db is None else np.minimum(capped, 10 ** (limit_db / 20))
+
+    def _sound(self, impact: Impact, burst: Burst, weights: Floats, channels: Mapping[int, str], at_frame: int) -> None:
+        waves, samples = self._waves(burst), dict[int, Samples]()
+        for (channel, hand), row in zip(channels.items(), weights, strict=True):
+            if row.max() >= LEAST_GAIN:
+                samples[channel] = summed(waves, row.tolist())
+                impact.felt[hand] = float(np.abs(samples[channel]).max())
+        if samples:
+            self._playback.start_burst(samples, at_frame)
+            self._recent.append(impact)
+            self.n_felt += 1
+
+    def _order(self, prepared: Callable[[], Floats], sound: Callable[[Floats, int], None], at_frame: int) -> None:
+        """Have a worker prepare what arrives, and let it sound then, unless that is too late to be of that impact."""
+        latest = at_frame + round(LATEST_S * self._config.sample_rate_hz)
+
+        def work() -> None:
+            try:
+                gains = prepared()
+            except Scene2HapError:  # the field in use fails in the same way, and says so
+                self.n_left_out += 1
+            else:
+                begin = self._playback.position
+                if begin <= latest:
+                    sound(gains, begin)
+                else:
+                    self.n_left_out += 1
+
+        if self._worker is None:
+            self._worker = ThreadPoolExecutor(1, thread_name_prefix="scene2hap impacts")
+        self._waiting.append(self._worker.submit(work))

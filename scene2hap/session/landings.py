@@ -1,0 +1,213 @@
+"""Finds when a moved object lands: a sudden stop while it touches what it moved towards.
+
+That a contact appears is no landing: contacts reach across gaps of centimetres, since in real scenes things that rest
+hover. Neither is a hand that puts something down gently, for it slows over many frames. What was nearing another object
+for some millimetres, and from one frame to the next goes on by less than a third as far, has met it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from scene2hap.contact.graph import ContactGraph
+from scene2hap.contact.junction import Junction
+from scene2hap.scene.pose import Pose
+
+WINDOW_S, MOST_STEPS = 0.05, 8
+"""Over which a speed is measured."""
+LEAST_TRAVEL_M = 0.004
+"""On one way: what jitters by a millimetre to each side of three axes never goes so far."""
+LEAST_SPEED_M_S = 0.1
+"""A cup put down more slowly is as good as not felt, and trackers shake as fast."""
+FASTEST_M_S = 10.0
+"""Faster is no fall (5 m) but something that the game puts elsewhere."""
+LEFT = 0.3
+"""Share of its speed that something still has, at most, after it landed."""
+HEAD_ON = 0.5
+"""Share of its travel along the normal of a contact, at least: what slides along does not land."""
+MOST_MOVING = 100
+"""Objects followed at once; what moves beside so many others is no event of its own."""
+
+Vector = tuple[float, float, float]
+
+
+class Landing(NamedTuple):
+    """An object that met another at a point [m], world, at a speed [m/s]."""
+
+    object_id: str
+    onto: str
+    point_m: Vector
+    speed_m_s: float
+
+
+class _Step(NamedTuple):
+    update: int
+    time_s: float
+    pose: Pose
+
+
+class _Track:
+    """A moving object: its latest steps, where it last turned or landed and went one way since, and its last step.
+
+    stride : updates from one step to the next.
+    """
+
+    __slots__ = ("n_steps", "origin_m", "position_m", "since", "step_m", "steps", "stride")
+
+    def __init__(self, step: _Step) -> None:
+        self.steps, self.stride = [step], 1
+        self.turn(step.update, step.pose.position_m)
+
+    def turn(self, update: int, position_m: Vector) -> None:
+        """Begin another way."""
+        self.since, self.n_steps, self.origin_m = update, 0, position_m
+        self.position_m, self.step_m = position_m, (0.0, 0.0, 0.0)
+
+    @property
+    def is_falling(self) -> bool:
+        """Whether it went on one way, far enough; a single step is something that the game put elsewhere."""
+        return self.n_steps > 1 and math.dist(self.origin_m, self.position_m) >= LEAST_TRAVEL_M
+
+    def follow(self, step: _Step) -> None:
+        """Take in a step."""
+        here, now, last = self.position_m, step.pose.position_m, self.steps[-1]
+        onward = (now[0] - here[0], now[1] - here[1], now[2] - here[2])
+        if _dot(onward, self.step_m) <= 0:
+            self.since, self.n_steps, self.origin_m = last.update, 0, here
+        self.position_m, self.step_m, self.stride = now, onward, max(1, step.update - last.update)
+        self.n_steps += 1
+        self.steps.append(step)
+        if len(self.steps) > 4 * MOST_STEPS:
+            del self.steps[:-MOST_STEPS]
+
+    def run(self) -> list[_Step]:
+        """The steps one way, of the latest time."""
+        end_s = self.steps[-1].time_s
+        kept = [x for x in self.steps[-MOST_STEPS:] if x.update >= self.since and end_s - x.time_s <= WINDOW_S]
+        return kept if len(kept) > 1 else self.steps[-2:]
+
+    def pose_at(self, update: int) -> Pose:
+        """Where the object was after an update, or as soon after as is known."""
+        return next((one.pose for one in self.steps if one.update >= update), self.steps[-1].pose)
+
+
+class Landings:
+    """Follows what moves.
+
+    Parameters: graph : the contacts, read at each `look`; middle_m : of an object's box, in its own frame [m];
+    period_s : usual time between updates, for a clock that stands still.
+    """
+
+    def __init__(self, graph: ContactGraph, middle_m: Callable[[str], Vector], period_s: float) -> None:
+        self._graph, self._middle_m, self._period_s = graph, middle_m, period_s
+        self._tracks: dict[str, _Track] = {}
+        self._n_updates = 0
+
+    def begin(self, moved: Mapping[str, Pose], time_s: float) -> None:
+        """Take note of where the objects are that are about to move; before the graph does."""
+        tracks = self._tracks
+        for object_id in moved:
+            if object_id not in tracks and len(tracks) < MOST_MOVING and object_id in self._graph:
+                pose = self._graph.pose(object_id)
+                tracks[object_id] = _Track(_Step(self._n_updates, time_s - self._period_s, pose))
+
+    def look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
+        """What landed by this update; after the graph moved."""
+        self._n_updates = now = self._n_updates + 1
+        onward: list[tuple[_Track, _Step]] = []
+        stopped: list[str] = []
+        found: list[Landing] = []
+        rests: list[str] = []
+        for object_id, track in self._tracks.items():
+            pose = moved.get(object_id)
+            if pose is not None and pose.position_m != track.position_m:
+                onward.append((track, _Step(now, time_s, pose)))
+                if _is_sudden(track, pose.position_m):
+                    stopped.append(object_id)
+                continue
+            late = now - track.steps[-1].update
+            if late == track.stride and track.is_falling:
+                stopped.append(object_id)
+            elif late > track.stride:
+                rests.append(object_id)
+        for object_id in stopped:
+            if self._graph.beside.get(object_id):
+                found += self._landing(object_id, self._tracks[object_id])
+        for track, step in onward:
+            track.follow(step)
+        for landing in found:
+            track = self._tracks[landing.object_id]
+            track.turn(now, track.position_m)
+        for object_id in rests:
+            del self._tracks[object_id]
+        return found
+
+    def _landing(self, object_id: str, track: _Track) -> list[Landing]:
+        """What it landed on, if on anything: of all that it touches, what it was nearing the fastest."""
+        run = track.run()
+        first, before, last = run[0], run[-2], run[-1]
+        best, most_m, now = None, LEAST_TRAVEL_M, self._n_updates
+        for other, junction in self._graph.beside.get(object_id, {}).items():
+            point = _middle(junction)
+            normal = self._normal(object_id, other, point, junction)
+            came = self._nearing(object_id, other, point, first.update, last.update)
+            closing = _dot(came, normal)
+            if closing > most_m and closing >= HEAD_ON * math.hypot(*came):
+                step = _dot(self._nearing(object_id, other, point, before.update, last.update), normal)
+                if _dot(self._nearing(object_id, other, point, last.update, now), normal) <= LEFT * step:
+                    best, most_m = (other, point), closing
+        if best is None:
+            return []
+        n_updates, elapsed_s = last.update - first.update, last.time_s - first.time_s
+        stands_still = elapsed_s <= 0 or (n_updates > 1 and run[1].time_s == last.time_s)
+        speed = most_m / (n_updates * self._period_s if stands_still else elapsed_s)
+        return [Landing(object_id, *best, speed)] if LEAST_SPEED_M_S <= speed <= FASTEST_M_S else []
+
+    def _nearing(self, object_id: str, other: str, point_m: Vector, since: int, until: int) -> Vector:
+        """How far what is at a point now went between two updates, as part of an object, re another one [m]."""
+        x, y, z = self._went(object_id, point_m, since, until)
+        a, b, c = self._went(other, point_m, since, until)
+        return x - a, y - b, z - c
+
+    def _went(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:
+        track, pose = self._tracks.get(object_id), self._graph.pose(object_id)
+        if track is None:
+            return 0.0, 0.0, 0.0
+        begin, end = track.pose_at(since), pose if until >= self._n_updates else track.pose_at(until)
+        if begin.rotation_xyzw == end.rotation_xyzw == pose.rotation_xyzw:
+            (a, b, c), (x, y, z) = begin.position_m, end.position_m
+            return x - a, y - b, z - c
+        own = pose.to_own([point_m])
+        x, y, z = (end.to_world(own) - begin.to_world(own))[0].tolist()
+        return x, y, z
+
+    def _normal(self, object_id: str, other: str, point_m: Vector, junction: Junction) -> Vector:
+        """From the object to the other; where the contact has none, from the object's middle to the contact."""
+        for normal in junction.normals:
+            if normal is not None:
+                x, y, z = normal
+                return normal if object_id < other else (-x, -y, -z)
+        middle = self._graph.pose(object_id).to_world([self._middle_m(object_id)])[0]
+        x, y, z = (np.array(point_m) - middle).tolist()
+        length = math.hypot(x, y, z)
+        return (x / length, y / length, z / length) if length > 0 else (0.0, 0.0, 0.0)
+
+
+def _is_sudden(track: _Track, position_m: Vector) -> bool:
+    """Whether an object goes on otherwise than it did; asked of all that moves."""
+    (x, y, z), (a, b, c), (u, v, w) = position_m, track.position_m, track.step_m
+    off = (x - a - u) ** 2 + (y - b - v) ** 2 + (z - c - w) ** 2
+    return off >= ((1 - LEFT) * HEAD_ON) ** 2 * (u * u + v * v + w * w) and track.is_falling
+
+
+def _middle(junction: Junction) -> Vector:
+    x, y, z = (sum(axis) / len(junction.points_m) for axis in zip(*junction.points_m, strict=True))
+    return x, y, z
+
+
+def _dot(one: Vector, other: Vector) -> float:
+    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]

@@ -1,0 +1,75 @@
+"""How much of an impact on an object arrives at each hand, by the model in use.
+
+A model with a live field answers at once (`PointField`). Others prepare a field of their own for the impact, in which a
+small source stands on the struck point; what arrives is taken re what that point does itself, so that neither the mass
+of that source nor the stiffness of its contact matters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.propagation.live import PointField, TouchedPoint
+from scene2hap.propagation.protocol import ContactNetwork, Excitation, PropagationModel
+from scene2hap.propagation.sampling import AROUND
+from scene2hap.scene.objects import Contact
+from scene2hap.session.scene_state import SceneState
+
+Floats = NDArray[np.float64]
+Point = tuple[float, float, float]
+
+_STRIKER, _STRIKER_KG = "\0striker", 1e-3
+
+
+def struck_live(
+    field: PointField, object_id: str, point_m: Point, hands: Sequence[Sequence[TouchedPoint]], frequencies_hz: Floats
+) -> Floats:
+    """What arrives (n_hands, n_frequencies) [-], >= 0, by a live field."""
+    gains = np.array(field.from_point(object_id, point_m, hands, frequencies_hz))
+    return _at_least_itself(gains, object_id, hands)
+
+
+def struck_later(
+    model: PropagationModel,
+    state: SceneState,
+    object_id: str,
+    point_m: Point,
+    hands: Sequence[Sequence[TouchedPoint]],
+    frequencies_hz: Floats,
+) -> Callable[[], Floats]:
+    """A function that prepares the model and tells the same; it may be called in any thread, and later."""
+    # What touches nothing is in no network of what a source reaches.
+    put_together = state.network([object_id] if state.graph.beside.get(object_id) else None)
+    touched = {touched_id for hand in hands for touched_id, _ in hand}
+
+    def prepared() -> Floats:
+        network = put_together(touched).network
+        strikers = [f"{_STRIKER}{i}" for i in range(len(frequencies_hz))]
+        contacts = [Contact(striker, object_id, point_m) for striker in strikers]
+        excitations = [
+            Excitation(striker, f, f, _STRIKER_KG) for striker, f in zip(strikers, frequencies_hz.tolist(), strict=True)
+        ]
+        with_them = ContactNetwork(network.bodies, (*network.contacts, *contacts), network.poses)
+        field = model.prepare(with_them, excitations, AROUND)
+        itself = field.attenuation(object_id, [point_m])[0, :, 0]
+        gains = np.zeros((len(hands), len(frequencies_hz)))
+        for row, hand in zip(gains, hands, strict=True):
+            for touched_id, touched_m in hand:
+                np.fmax(row, field.attenuation(touched_id, [touched_m])[0, :, 0], out=row)
+        passes = itself > 0
+        gains[:, passes] /= itself[passes]
+        gains[:, ~passes] = 0.0
+        return _at_least_itself(gains, object_id, hands)
+
+    return prepared
+
+
+def _at_least_itself(gains: Floats, object_id: str, hands: Sequence[Sequence[TouchedPoint]]) -> Floats:
+    """Where a model lets nothing pass, or knows no material, the struck object itself is felt."""
+    for row, hand in zip(gains, hands, strict=True):
+        if not row.any() and any(touched_id == object_id for touched_id, _ in hand):
+            row[:] = 1.0
+    return gains

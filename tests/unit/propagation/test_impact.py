@@ -1,0 +1,84 @@
+"""What an impact makes of a plate, against closed forms worked out here."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from scene2hap.materials import Material
+from scene2hap.propagation.impact import FINGER_KG, HIGHEST_MODE_HZ, LONGEST_S, SHORTEST_S, burst_of
+from scene2hap.propagation.plate import Plate, RigidBody
+
+OAK = Material("oak", 700.0, 11e9, 0.3, 0.03)
+RUBBER = Material("rubber", 1100.0, 5e6, 0.49, 0.2)
+TABLE = Plate(1.2, 0.8, 0.018, OAK)
+CUP = RigidBody(0.3, (0.08, 0.08, 0.1), Material("porcelain", 2400.0, 70e9, 0.22, 0.002))
+
+
+def test_modes_are_those_of_a_supported_plate_and_die_with_their_loss() -> None:
+    burst = burst_of(TABLE, None, CUP, speed_m_s=0.3)
+    d, per_area = 11e9 * 0.018**3 / (12 * (1 - 0.3**2)), 700.0 * 0.018
+    expected = [
+        math.pi / 2 * math.sqrt(d / per_area) * ((m / 1.2) ** 2 + (n / 0.8) ** 2)
+        for m in (1, 3, 5)
+        for n in (1, 3, 5)  # the middle is a node of every even mode
+    ]
+    modes = burst.frequencies_hz[1:]
+    assert len(modes) == 2  # 77, 265 and, of (3, 1) and others, none above 400 Hz
+    assert all(min(abs(f / x - 1) for x in expected) < 1e-9 for f in modes.tolist())
+    np.testing.assert_allclose(burst.decays_s[1:], np.clip(1 / (math.pi * modes * 0.03), SHORTEST_S, LONGEST_S))
+    assert modes.max() <= HIGHEST_MODE_HZ
+
+
+def test_the_lowest_mode_moves_by_the_momentum_over_its_mass() -> None:
+    burst = burst_of(TABLE, None, impulse_n_s=0.1)
+    lowest = int(np.argmin(np.where(burst.frequencies_hz > 70, burst.frequencies_hz, np.inf)))
+    f, table_kg = burst.frequencies_hz[lowest], 1.2 * 0.8 * 0.018 * 700.0
+    # Of a half sine so much shorter than a period, nearly all is left.
+    assert burst.accelerations_m_s2[lowest] == pytest.approx(2 * math.pi * f * 0.1 * 4 / table_kg, rel=0.05)
+
+
+@pytest.mark.parametrize("factor", [0.1, 3.0])
+def test_an_impact_grows_with_speed_and_with_momentum_alike(factor: float) -> None:
+    once, more = (burst_of(TABLE, (0.3, 0.3), CUP, speed_m_s=v) for v in (0.3, 0.3 * factor))
+    np.testing.assert_allclose(more.accelerations_m_s2, factor * once.accelerations_m_s2)
+    once, more = (burst_of(TABLE, (0.3, 0.3), CUP, impulse_n_s=j) for j in (0.1, 0.1 * factor))
+    np.testing.assert_allclose(more.accelerations_m_s2, factor * once.accelerations_m_s2)
+
+
+def test_light_stiff_plates_ring_higher_and_stronger_than_heavy_ones() -> None:
+    steel = Plate(1.2, 0.8, 0.002, Material("steel", 7850.0, 2e11, 0.3, 0.01))
+    floor = Plate(4.0, 6.0, 0.15, Material("concrete", 2400.0, 30e9, 0.2, 0.02))
+    at = (0.3, 0.3)
+    totals = [burst_of(plate, at, CUP, speed_m_s=0.3).accelerations_m_s2.sum() for plate in (steel, TABLE, floor)]
+    assert totals[0] > totals[1] > 20 * totals[2]
+
+
+def test_what_is_soft_strikes_low() -> None:
+    ball = RigidBody(0.3, (0.08, 0.08, 0.08), RUBBER)
+    hard, soft = (burst_of(TABLE, (0.3, 0.3), striker, speed_m_s=0.5) for striker in (CUP, ball))
+    assert soft.frequencies_hz[0] < hard.frequencies_hz[0]
+    finger = burst_of(TABLE, (0.3, 0.3), speed_m_s=0.5, is_finger=True)
+    assert finger.frequencies_hz[0] == pytest.approx(
+        math.sqrt(2e4 * (1 / FINGER_KG + 1 / TABLE.mass_kg)) / (2 * math.pi)
+    )
+    high = [(one.accelerations_m_s2 * (one.frequencies_hz > 200))[1:].sum() for one in (hard, soft, finger)]
+    low = [(one.accelerations_m_s2 * (one.frequencies_hz < 100))[1:].sum() for one in (hard, soft, finger)]
+    assert high[0] / low[0] > high[2] / low[2]
+
+
+@pytest.mark.parametrize("struck", [None, CUP, Plate(0.2, 0.2, 0.15, OAK)])
+def test_what_does_not_bend_has_the_contact_alone(struck: RigidBody | Plate | None) -> None:
+    burst = burst_of(struck, None, None, speed_m_s=0.5)
+    assert len(burst.frequencies_hz) == 1
+    assert 30.0 <= burst.frequencies_hz[0] <= 250.0
+    assert burst.accelerations_m_s2[0] > 0
+
+
+def test_a_large_floor_takes_no_longer_than_a_table() -> None:
+    hall = Plate(60.0, 40.0, 0.02, OAK)
+    burst = burst_of(hall, (30.1, 20.2), CUP, speed_m_s=1.0)
+    assert np.isfinite(burst.accelerations_m_s2).all()
+    assert (burst.frequencies_hz > 0).all()

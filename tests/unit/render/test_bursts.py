@@ -1,0 +1,84 @@
+"""One-shot vibration in a mix: whole, once, and without a click."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from scene2hap.render.bursts import MOST_PLAYING, Bursts, PlannedBurst, Samples, summed, wave_of
+
+RATE = 48_000
+
+
+def above_1_khz_db(samples: Samples) -> float:
+    power = np.abs(np.fft.rfft(samples, 1 << 17)) ** 2
+    return float(10 * np.log10(power[np.fft.rfftfreq(1 << 17, 1 / RATE) > 1000].sum() / power.sum()))
+
+
+@pytest.mark.parametrize(
+    ("frequency_hz", "decay_s"),
+    [(30.0, 0.035), (70.0, 0.015), (130.0, 0.1), (250.0, 0.0042), (400.0, 0.008), (400.0, 0.1)],
+)
+def test_a_wave_has_a_peak_of_1_and_no_click(frequency_hz: float, decay_s: float) -> None:
+    wave = wave_of(frequency_hz, decay_s, RATE)
+    assert np.abs(wave).max() == pytest.approx(1.0)
+    assert wave[0] == 0.0
+    assert abs(wave[-1]) < 1e-4
+    assert above_1_khz_db(wave) < -60.0
+
+
+def test_a_wave_is_the_sine_that_it_says_and_dies_as_it_says() -> None:
+    wave = wave_of(200.0, 0.05, RATE).astype(float)
+    t = np.arange(len(wave)) / RATE
+    inside = (t > 0.006) & (t < 0.2)
+    expected = np.exp(-t / 0.05) * np.sin(2 * np.pi * 200.0 * t)
+    scale = wave[inside] @ expected[inside] / (expected[inside] @ expected[inside])
+    np.testing.assert_allclose(wave[inside], scale * expected[inside], atol=1e-5)
+
+
+def test_waves_of_other_lengths_add_up() -> None:
+    total = summed([np.ones(3, np.float32), np.ones(5, np.float32)], [0.5, 0.25])
+    np.testing.assert_array_equal(total, np.float32([0.75, 0.75, 0.75, 0.25, 0.25]))
+
+
+@pytest.mark.parametrize("block", [1, 7, 64, 480, 5000])
+def test_blocks_do_not_matter(block: int) -> None:
+    wave, bursts = wave_of(100.0, 0.01, RATE), Bursts()
+    bursts.start(PlannedBurst(100, {7: wave}))
+    bursts.start(PlannedBurst(300, {7: wave, 8: 2 * wave}))
+    found = np.zeros((6000, 3), np.float32)
+    for begin in range(0, 6000, block):
+        bursts.add_to(found[begin : begin + block], begin, (6, 7, 8))
+    expected = np.zeros((6000, 3), np.float32)
+    expected[100 : 100 + len(wave), 1] += wave
+    expected[300 : 300 + len(wave), 1:] += np.outer(wave, [1, 2])
+    np.testing.assert_array_equal(found, expected)
+    assert bursts.are_silent
+
+
+def test_what_comes_late_begins_with_the_next_frame() -> None:
+    wave, bursts, mix = wave_of(100.0, 0.01, RATE), Bursts(), np.zeros((64, 1), np.float32)
+    bursts.start(PlannedBurst(10, {0: wave}))
+    bursts.add_to(mix, 1000, (0,))
+    np.testing.assert_array_equal(mix[:, 0], wave[:64])
+
+
+def test_no_more_sound_at_once_than_may() -> None:
+    wave, bursts, mix = np.ones(100, np.float32), Bursts(), np.zeros((10, 1), np.float32)
+    for _ in range(100):
+        bursts.start(PlannedBurst(0, {0: wave}))
+    bursts.add_to(mix, 0, (0,))
+    assert mix.max() == MOST_PLAYING
+    assert bursts.n_playing == MOST_PLAYING
+
+
+def test_a_fade_ends_all_without_a_click() -> None:
+    bursts, mix = Bursts(), np.zeros((9600, 1), np.float32)
+    bursts.start(PlannedBurst(0, {0: wave_of(100.0, 0.1, RATE)}))
+    bursts.fade(1000, 1500)
+    for begin in range(0, 9600, 480):
+        bursts.add_to(mix[begin : begin + 480], begin, (0,))
+    assert np.abs(mix[900:1000]).max() > 0.2
+    assert not mix[2500:].any()
+    assert above_1_khz_db(mix[:, 0]) < -60.0
+    assert bursts.are_silent

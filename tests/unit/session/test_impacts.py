@@ -1,0 +1,273 @@
+"""Impacts in a session: who feels them, how strongly, when, and what keeps them in bounds."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from scene2hap import ExponentialPlate, HapticSession, InfinitePlate, ModalPlate, Pose, Touch, UserProfile
+from scene2hap.errors import SessionError, UnknownObject
+from scene2hap.propagation.plate import Plate
+from scene2hap.render.bursts import wave_of
+from scene2hap.session.impacts import LEAST_INTERVAL_S, PEAK, Impact
+from scene2hap.session.struck import struck_later
+from scenes import table_with_two_phones
+
+RATE = 48_000
+TOP_M = 0.72
+NEAR, FAR = (0.5, TOP_M, 0.4), (1.0, TOP_M, 0.4)
+STRUCK = (0.4, TOP_M, 0.4)
+
+
+def session(**settings: Any) -> HapticSession:
+    scene, bundle = table_with_two_phones()
+    made = HapticSession(scene, bundle, settings)
+    made.update()
+    made.wait_prepared()
+    # Sources are of no interest here.
+    for source_id in made.source_ids:
+        made.set_source(source_id, on=False)
+    return made
+
+
+def touches(near: tuple[float, float, float] = NEAR, far: tuple[float, float, float] = FAR) -> list[Touch]:
+    return [Touch("left", "table", near), Touch("right", "table", far)]
+
+
+def rendered(made: HapticSession, seconds: float = 0.6) -> np.ndarray:
+    return np.concatenate([made.render(480) for _ in range(round(seconds * RATE / 480))])
+
+
+def amplitudes(samples: np.ndarray, burst: Any) -> np.ndarray:
+    """What of each decaying sine is in some samples, by least squares (n_hands, n)."""
+    waves = [wave_of(f, t, RATE) for f, t in zip(burst.frequencies_hz.tolist(), burst.decays_s.tolist(), strict=True)]
+    columns = np.zeros((len(samples), len(waves)))
+    for k, wave in enumerate(waves):
+        columns[: len(wave), k] = wave[: len(samples)]
+    return np.linalg.lstsq(columns, samples.astype(float), rcond=None)[0].T
+
+
+def burst_at(made: HapticSession, point_m: tuple[float, float, float]) -> Any:
+    from scene2hap.propagation.impact import burst_of
+
+    state = made._state
+    return burst_of(
+        state.bodies["table"], state.on_plate("table", point_m), state.bodies["cup"], speed_m_s=1.0, is_finger=False
+    )
+
+
+def test_by_the_papers_law_an_impact_falls_with_distance_as_the_law_says() -> None:
+    made = session(propagation=ExponentialPlate())
+    made.update(touches=touches())
+    made.strike("table", STRUCK, with_object="cup", speed_m_s=1.0)
+    burst = burst_at(made, STRUCK)
+    found = amplitudes(rendered(made), burst)
+    plate = made._state.bodies["table"]
+    assert isinstance(plate, Plate)
+    expected_db = -20 / math.log(10) * plate.wavenumber_rad_m(burst.frequencies_hz) * 0.5
+    np.testing.assert_allclose(20 * np.log10(found[1] / found[0]), expected_db, atol=0.2)
+
+
+@pytest.mark.parametrize("model", [ModalPlate(), InfinitePlate()])
+def test_by_a_physical_model_it_follows_that_model(model: ModalPlate | InfinitePlate) -> None:
+    scene, bundle = table_with_two_phones()
+    alone = HapticSession(scene, bundle, {"propagation": model, "prepare": "blocking"})
+    # On a table that nothing touches, the model's own answer for a plate is what arrives.
+    away = {x: Pose((10.0 + i, 10.0, 10.0)) for i, x in enumerate(("phone", "alarm", "block"))}
+    alone.update(away, touches())
+    burst, hands = burst_at(alone, STRUCK), [[("table", NEAR)], [("table", FAR)]]
+    gains = struck_later(model, alone._state, "table", STRUCK, hands, burst.frequencies_hz)()
+    plate = alone._state.bodies["table"]
+    assert isinstance(plate, Plate)
+    at, near, far = (np.array(alone._state.on_plate("table", point)) for point in (STRUCK, NEAR, FAR))
+    for k, f in enumerate(burst.frequencies_hz):
+        band = np.linspace(f * 2**-0.25, f * 2**0.25, 400)
+        # As acceleration, for a force that is equal at all frequencies of the band.
+        itself, *others = (
+            np.sqrt((np.abs(model.plate_receptance(plate, at, [to], band) * band**2) ** 2).mean())
+            for to in (at, near, far)
+        )
+        for found, one in zip(gains[:, k], others, strict=True):
+            assert 20 * abs(math.log10(found / (one / itself))) < 1.0
+
+
+def test_it_sounds_with_the_next_block_and_ends() -> None:
+    made = session()
+    made.update(touches=touches())
+    made.render(256)
+    impact = made.strike("table", STRUCK, with_object="cup")
+    assert impact.at_sample == 256
+    assert made.render(256)[:, 0].any()
+    rendered(made, 1.0)
+    assert not made.render(480).any()
+
+
+def test_every_sample_counts_from_the_strike() -> None:
+    made, blocks = session(), []
+    made.update(touches=touches())
+    impact = made.strike("table", STRUCK, with_object="cup", speed_m_s=2.0)
+    blocks = rendered(made)
+    assert np.abs(blocks[:, 0]).max() == pytest.approx(impact.felt["left"])
+    assert np.abs(blocks).max() <= PEAK * 1.001
+    power = np.abs(np.fft.rfft(blocks[:, 0], 1 << 17)) ** 2
+    above = np.fft.rfftfreq(1 << 17, 1 / RATE) > 1000
+    assert 10 * math.log10(power[above].sum() / power.sum()) < -60.0
+
+
+def test_harder_is_felt_more_and_the_hardest_within_bounds() -> None:
+    felt = []
+    for speed in (0.01, 0.1, 10.0, 1e4):
+        made = session()
+        made.update(touches=touches())
+        felt.append(made.strike("table", STRUCK, with_object="cup", speed_m_s=speed).felt["left"])
+    assert felt[0] < felt[1] < felt[2] == felt[3] <= PEAK
+    assert 20 * math.log10(felt[1] / felt[0]) == pytest.approx(10.0, abs=0.1)  # 2:1
+
+
+def test_a_finger_knocks_and_an_impulse_will_do() -> None:
+    made = session()
+    made.update(touches=touches())
+    knock = made.strike("table", STRUCK)
+    assert knock.speed_m_s == 0.5
+    assert knock.frequency_hz < 150
+    assert knock.felt["left"] > 0.005
+    made.render_s(0.1)
+    assert made.strike("table", STRUCK, impulse_n_s=1.0).felt["left"] > knock.felt["left"]
+
+
+def test_nobody_feels_what_nobody_touches() -> None:
+    made = session()
+    made.update()
+    assert made.strike("table", STRUCK).felt == {}
+    assert not rendered(made, 0.1).any()
+    made.update(touches=[Touch("left", "cup", (5.0, 0.05, 5.0))])
+    assert made.strike("table", STRUCK).felt == {}
+    assert (made.stats.impacts, made.stats.impacts_felt) == (2, 0)
+
+
+@pytest.mark.parametrize("propagation", ["exponential_plate", "no_propagation", "modal_plate"])
+def test_what_carries_nothing_is_felt_itself(propagation: str) -> None:
+    made = session(propagation=propagation, prepare="blocking")
+    made.update(touches=[Touch("left", "block", (0.8, 0.5, 0.6))])  # of unknown material
+    assert made.strike("block", (0.8, 0.5, 0.6)).felt["left"] > 0.005
+
+
+def test_a_worker_prepares_what_models_without_a_live_field_need() -> None:
+    made = session(propagation="modal_plate")
+    made.update(touches=touches())
+    impact = made.strike("table", STRUCK, with_object="cup", speed_m_s=1.0)
+    assert made.wait_prepared(30.0)
+    assert set(impact.felt) == {"left", "right"}
+    assert rendered(made, 0.1).any()
+
+
+def test_pause_and_mute_silence_impacts() -> None:
+    made = session()
+    made.update(touches=touches())
+    made.strike("table", STRUCK, speed_m_s=3.0)
+    made.pause()
+    made.render_s(0.3)
+    assert made.strike("table", STRUCK).felt == {}
+    made.resume()
+    made.update(touches=touches())
+    assert not made.render_s(0.1).any()
+    made.set_user(mute=True)
+    made.update(touches=touches())
+    assert made.strike("table", STRUCK).felt == {}
+
+
+def test_levels_of_the_user_hold_for_impacts() -> None:
+    made = session()
+    made.update(touches=touches(NEAR, NEAR))
+    plain = made.strike("table", STRUCK).felt["left"]
+    made.render_s(0.5)
+    made.set_user(profile=UserProfile(gain_db=-6.0, hands={"right": {"gain_db": -6.0}}))
+    made.update(touches=touches(NEAR, NEAR))
+    felt = made.strike("table", STRUCK).felt
+    assert 20 * math.log10(felt["left"] / plain) == pytest.approx(-6.0)
+    assert 20 * math.log10(felt["right"] / plain) == pytest.approx(-12.0)
+
+
+def test_impacts_that_come_too_fast_are_one() -> None:
+    made = session()
+    made.update(touches=touches())
+    made.strike("table", STRUCK)
+    assert made.strike("table", STRUCK).felt == {}
+    assert made.strike("table", STRUCK, with_object="cup").felt  # another pair
+    made.render_s(LEAST_INTERVAL_S)
+    made.update(touches=touches())
+    assert made.strike("table", STRUCK).felt
+    stats = made.stats
+    assert (stats.impacts, stats.impacts_felt, stats.impacts_left_out) == (4, 3, 1)
+
+
+def test_a_storm_of_impacts_stays_within_full_scale() -> None:
+    made, blocks = session(), []
+    rng = np.random.default_rng(3)
+    for _ in range(100):
+        made.update(touches=touches())
+        for x, z in rng.uniform(-0.1, 0.1, (5, 2)).tolist():
+            made.strike("table", (0.5 + x, TOP_M, 0.4 + z), with_object="cup", speed_m_s=float(rng.uniform(0.1, 20.0)))
+        blocks.append(made.render(480))
+    mix = np.concatenate(blocks)
+    assert np.isfinite(mix).all()
+    assert 0.05 < np.abs(mix).max() <= 1.0
+
+
+def test_what_lands_is_felt_and_explained_and_may_be_switched_off() -> None:
+    def drop(**settings: Any) -> tuple[HapticSession, list[Impact]]:
+        made, told = session(**settings), []
+        for step in range(60):
+            height = max(0.0, 0.4 - 9.81 * (step / 90) ** 2 / 2)
+            made.update({"cup": Pose((0.45, TOP_M + 0.05 + height, 0.4))}, touches())
+            made.render_s(1 / 90)
+            told += [x for x in made.explain("left").impacts if x not in told]
+        return made, told
+
+    made, told = drop()
+    (impact,) = told
+    assert (impact.object_id, impact.with_object) == ("table", "cup")
+    assert impact.speed_m_s == pytest.approx(math.sqrt(2 * 9.81 * 0.4), rel=0.3)
+    assert made.stats.impacts == 1
+    assert "table struck by cup" in made.explain("left").text
+    assert "impacts" in made.explain("left").to_data()
+    made, told = drop(impacts=False)
+    assert told == []
+    assert made.stats.impacts == 0
+
+
+def test_hands_come_and_go_under_a_burst() -> None:
+    made = session()
+    made.update(touches=touches())
+    made.strike("table", STRUCK, speed_m_s=2.0)
+    made.add_hand("foot")
+    assert made.render(480)[:, 0].any()
+    made.remove_hand("left")
+    assert made.render(480).shape == (480, 2)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"speed_m_s": -1.0}, "above 0"),
+        ({"speed_m_s": math.nan}, "finite"),
+        ({"impulse_n_s": 0.0}, "above 0"),
+        ({"speed_m_s": 1.0, "impulse_n_s": 1.0}, "one of them"),
+    ],
+)
+def test_a_strike_that_cannot_be_is_refused(given: dict[str, float], said: str) -> None:
+    with pytest.raises(SessionError, match=said):
+        session().strike("table", STRUCK, **given)
+
+
+def test_what_is_not_there_cannot_be_struck() -> None:
+    made = session()
+    with pytest.raises(UnknownObject, match="tabel"):
+        made.strike("tabel", STRUCK)
+    with pytest.raises(UnknownObject, match="mug"):
+        made.strike("table", STRUCK, with_object="mug")
+    with pytest.raises(SessionError, match="point_m"):
+        made.strike("table", (0.0, 1.0))  # type: ignore[arg-type]
