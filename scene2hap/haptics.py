@@ -17,6 +17,9 @@ from scene2hap.errors import ConfigError, Scene2HapError
 from scene2hap.materials import Material
 from scene2hap.needs import stated, unmet
 
+LONGEST_PASSAGE_S, LONGEST_TURN_S = 30.0, 86_400.0
+"""Bounds of a state's times [s]: what spins longer is not felt any more, and nothing takes a day to cool."""
+
 
 @clear_construction
 @dataclass(frozen=True)
@@ -31,6 +34,11 @@ class SourceState:
     keywords : "category verb"; drives sound retrieval.
     needs_contact : what it must touch to vibrate (a pan on a stove), as an id or in everyday words that are matched by
         meaning (`scene2hap.needs`); None, "", "none" and "null" mean always.
+    start_up_s, wind_down_s : how long it takes to come up when it is switched on, and to die away when it is switched
+        off, 0..30 [s].
+    spins : whether its pitch rises and falls with it, as of a motor; else its strength alone does.
+    on_s, off_s : how long it runs and rests by itself, in turns, as a thermostat has it, 0.1..86400 [s]; None, None
+        for one that runs as long as it is switched on.
     """
 
     name: str
@@ -38,8 +46,28 @@ class SourceState:
     sentence: str
     keywords: str
     needs_contact: str | None = None
+    start_up_s: float = 0.0
+    wind_down_s: float = 0.0
+    spins: bool = False
+    on_s: float | None = None
+    off_s: float | None = None
 
     def __post_init__(self) -> None:
+        for name in ("start_up_s", "wind_down_s"):
+            time_s = checks.number(
+                name, getattr(self, name), "s", at_least=0.0, at_most=LONGEST_PASSAGE_S, error=ConfigError
+            )
+            object.__setattr__(self, name, time_s)
+        checks.flag("spins", self.spins, error=ConfigError)
+        if (self.on_s is None) != (self.off_s is None):
+            raise ConfigError(
+                f"on_s is {self.on_s} and off_s is {self.off_s} of state {self.name!r}; give both, or neither."
+            )
+        for name in ("on_s", "off_s") if self.on_s is not None else ():
+            time_s = checks.number(
+                name, getattr(self, name), "s", at_least=0.1, at_most=LONGEST_TURN_S, error=ConfigError
+            )
+            object.__setattr__(self, name, time_s)
         intensity = checks.number("intensity", self.intensity, "-", above=0.0, at_most=1.0, error=ConfigError)
         object.__setattr__(self, "intensity", intensity)
         for name in ("name", "sentence", "keywords"):

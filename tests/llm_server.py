@@ -42,7 +42,15 @@ GOOD: dict[str, dict[str, Any]] = {
         "poisson_ratio": 0.3,
         "damping_ratio": 0.005,
     },
-    "vibration_describer": {"sentence": "A fridge compressor hums evenly.", "keywords": "fridge hum"},
+    "vibration_describer": {
+        "sentence": "A fridge compressor hums evenly.",
+        "keywords": "fridge hum",
+        "start_up_s": 0.5,
+        "wind_down_s": 0.8,
+        "spins": True,
+        "on_s": None,
+        "off_s": None,
+    },
 }
 
 

@@ -8,6 +8,7 @@ from typing import Any
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
 from scene2hap.errors import BundleError
+from scene2hap.haptics import SourceState
 
 HELP = "bundle -> who said what of each object, and why"
 
@@ -33,6 +34,18 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     return {"bundle": arguments.bundle, "objects": accounts}
 
 
+def _account_of_state(state: SourceState) -> str:
+    parts = [f"intensity {state.intensity:g}"]
+    if state.needs_contact:
+        parts.append(f"on {state.needs_contact}")
+    if state.start_up_s or state.wind_down_s:
+        spins = ", spinning" if state.spins else ""
+        parts.append(f"starts in {state.start_up_s:g} s and stops in {state.wind_down_s:g} s{spins}")
+    if state.on_s is not None and state.off_s is not None:
+        parts.append(f"runs {state.on_s:g} s and rests {state.off_s:g} s in turns")
+    return "; ".join(parts)
+
+
 def _account(bundle: HapticBundle, object_id: str) -> dict[str, Any]:
     if object_id not in bundle.objects:
         raise BundleError(f"{object_id!r} stands in the scene, but nothing was inferred of it. Bake again.")
@@ -51,8 +64,7 @@ def _account(bundle: HapticBundle, object_id: str) -> dict[str, Any]:
         *(
             (
                 f"state {state.name}",
-                f"{state.sentence} (intensity {state.intensity:g}"
-                + (f", on {state.needs_contact})" if state.needs_contact else ")"),
+                f"{state.sentence} ({_account_of_state(state)})",
                 by.get(f"states.{state.name}", ""),
             )
             for state in haptics.states

@@ -12,6 +12,8 @@ from typing import Annotated, Self
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
+from scene2hap.haptics import LONGEST_PASSAGE_S, LONGEST_TURN_S
+
 MOST_WORDS_IN_SENTENCE = 15
 """As in the paper, section "Vibration Describer"."""
 
@@ -97,7 +99,18 @@ class MaterialAnswer(Answer):
 
 
 class VibrationAnswer(Answer):
-    """Vibration Describer: one state in words, for making and for finding a sound."""
+    """Vibration Describer: one state in words, for making and for finding a sound, and how it starts and stops."""
 
     sentence: Annotated[str, _at_most(MOST_WORDS_IN_SENTENCE)] = Field(min_length=1, max_length=200)
     keywords: Annotated[str, _at_most(6), AfterValidator(_without_vibrate)] = Field(min_length=1, max_length=60)
+    start_up_s: float | None = Field(default=None, ge=0.0, le=LONGEST_PASSAGE_S)
+    wind_down_s: float | None = Field(default=None, ge=0.0, le=LONGEST_PASSAGE_S)
+    spins: bool | None = None
+    on_s: float | None = Field(default=None, ge=0.1, le=LONGEST_TURN_S)
+    off_s: float | None = Field(default=None, ge=0.1, le=LONGEST_TURN_S)
+
+    @model_validator(mode="after")
+    def _both_turns(self) -> Self:
+        if (self.on_s is None) != (self.off_s is None):
+            raise ValueError("on_s and off_s belong together; give both, or null for both")
+        return self

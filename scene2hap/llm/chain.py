@@ -233,13 +233,14 @@ class _Chain:
         }
         try:
             words, who = await self._questions.ask("vibration_describer", item.id, facts, VibrationAnswer)
-            sentence, keywords = words.sentence, words.keywords
+            sentence, keywords, times = words.sentence, words.keywords, _times(words)
         except _SPOILED as problem:
             self._report.errors[f"{item.id}, state {state.name}"] = str(problem)
             # The state itself was answered; its name is description enough to find or make a sound.
             sentence = keywords = f"{analysed.object_category} {state.name}"
+            times = {}
             who = f"error: {problem}"
-        return SourceState(state.name, state.intensity, sentence, keywords, state.needs_contact), who
+        return SourceState(state.name, state.intensity, sentence, keywords, state.needs_contact, **times), who
 
     def _begin_material(self, category: str) -> asyncio.Task[Estimate]:
         word = _word(category)
@@ -364,6 +365,12 @@ async def _scene_category(scene: SceneSnapshot, questions: Questions) -> str:
         questions.report.errors[""] = str(problem)
         return "undefined"
     return answer.scene_category
+
+
+def _times(words: VibrationAnswer) -> dict[str, Any]:
+    """What a description says of how a state starts and stops."""
+    named = ("start_up_s", "wind_down_s", "spins", "on_s", "off_s")
+    return {name: value for name in named if (value := getattr(words, name)) is not None}
 
 
 def _feet(answer: ObjectAnswer) -> Material | None:

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -79,9 +80,8 @@ class LoopBank:
     def __init__(self, loops: Sequence[AudioClip], bands: Bands, sample_rate_hz: int) -> None:
         self.sample_rate_hz = sample_rate_hz
         self.n_bands = bands.n_bands
-        stored = [_stored(loop, bands, sample_rate_hz) for loop in loops]
-        self.loops = [loop for loop, _ in stored]
-        self._nbytes = sum(nbytes for _, nbytes in stored)
+        self._stored = [_stored(loop, bands, sample_rate_hz) for loop in loops]
+        self.loops = [one.loop for one in self._stored]
         self._periods = [(len(loop.samples), loop.sample_rate_hz) for loop in loops]
 
     def __len__(self) -> int:
@@ -95,7 +95,16 @@ class LoopBank:
     @property
     def nbytes(self) -> int:
         """Memory that the loops take [byte]."""
-        return self._nbytes
+        return sum(one.samples.nbytes for one in self._stored)
+
+    def taken(self, loop: int, begin: int, n_samples: int) -> Block:
+        """Samples of the bands of a loop (n_samples, n_bands), from a tactile sample of the common clock on, to be
+        worked on: not in time for an audio thread."""
+        one = self._stored[loop]
+        first = begin * 2 * one.numerator + one.denominator
+        turn = 2 * one.denominator * one.length
+        at = (first % turn + np.arange(n_samples) * 2 * one.numerator) // (2 * one.denominator) % one.length
+        return one.samples[at]
 
     def read(self, loops: Sequence[int], begin: int, out: Block) -> None:
         """Write CELL samples of the bands of some loops into (n_loops * n_bands, CELL), from a tactile sample of the
@@ -112,8 +121,25 @@ def position_s(n: int, rate_hz: int, frame: int, sample_rate_hz: int) -> float:
     return (frame * rate_hz % (n * sample_rate_hz)) / (sample_rate_hz * rate_hz)
 
 
-def _stored(loop: AudioClip, bands: Bands, sample_rate_hz: int) -> tuple[StoredLoop, int]:
-    """A loop as it is stored, and the memory that it takes [byte]."""
+class _Stored(NamedTuple):
+    """A loop, and what it was made of; see `StoredLoop`."""
+
+    loop: StoredLoop
+    samples: Block
+    length: int
+    numerator: int
+    denominator: int
+
+
+def stored_once(samples: Block, begin: int) -> StoredLoop:
+    """Samples (n, n_bands) at the tactile rate as a loop that passes its first one at a tactile sample of the clock."""
+    n = len(samples)
+    turned = np.roll(samples, begin % n, axis=0)
+    return StoredLoop(np.concatenate([turned, turned[np.arange(CELL) % n]]), n, 1, 1, _FADE)
+
+
+def _stored(loop: AudioClip, bands: Bands, sample_rate_hz: int) -> _Stored:
+    """A loop as it is stored."""
     # Over `turns` turns the loop lasts exact / unit tactile samples.
     turns = _turns(len(loop.samples), loop.sample_rate_hz, sample_rate_hz)
     exact, unit = turns * len(loop.samples) * sample_rate_hz, loop.sample_rate_hz
@@ -123,7 +149,8 @@ def _stored(loop: AudioClip, bands: Bands, sample_rate_hz: int) -> tuple[StoredL
     samples[:length] = split.T
     samples[length:] = samples[np.arange(CELL) % length]
     common = math.gcd(length * unit, exact)
-    return StoredLoop(samples, length, length * unit // common, exact // common, _FADE), samples.nbytes
+    numerator, denominator = length * unit // common, exact // common
+    return _Stored(StoredLoop(samples, length, numerator, denominator, _FADE), samples, length, numerator, denominator)
 
 
 def _turns(n_samples: int, sample_rate_hz: int, tactile_rate_hz: int) -> int:

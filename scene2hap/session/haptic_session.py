@@ -57,6 +57,7 @@ from scene2hap.session.playback import Playback
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.silent_object import SilentObjects
 from scene2hap.session.sources import Sources
+from scene2hap.session.switching import Switching
 from scene2hap.session.user_profile import UserProfile
 from scene2hap.session.w_first import warn_if_w_first
 
@@ -108,6 +109,7 @@ class HapticSession:
         follows_outlines = bool(getattr(self.config.propagation, "follows_outlines", False))
         self._state = SceneState(scene, bundle, follows_outlines=follows_outlines)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
+        self._switching = Switching(self._sources, self._playback, self.config.sample_rate_hz)
         self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
         self._off_surface, self._silent_objects = OffSurface(self._state), SilentObjects()
         hand_frames, level = self._hand_frames, self._sources.user
@@ -177,6 +179,8 @@ class HapticSession:
             moved, touches = given_frame(moved, touches)
         felt = self._by_hand(touches)
         stamp = self._stamp(at_sample)
+        if self._switching.advance(stamp):
+            self._hand_frames.levels_changed()
         if self._playback.take_prepared():
             self._hand_frames.loops_came()
         if moved and self._follows_landings:
@@ -341,7 +345,9 @@ class HapticSession:
 
         Raises: UnknownObject: not a source; SessionError: it has no such state, or the gain is out of bounds.
         """
+        was_running = self._sources[source_id].is_running
         self._hand_frames.levels_changed(self._sources.set(source_id, on, state, gain_db, mute))
+        self._switching.switched(source_id, was_running, self._now, by_hand=on is not None)
 
     def set_user(
         self,

@@ -12,7 +12,7 @@ from scene2hap import checks
 from scene2hap.audio.gain_warning import warn_if_percent
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.errors import SessionError, UnknownObject
-from scene2hap.haptics import ObjectHaptics
+from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.needs import meets
 from scene2hap.session.config import MAX_GAIN_DB
 from scene2hap.session.frame import unknown_source
@@ -52,18 +52,30 @@ class LoopRow:
 
 @dataclass
 class Source:
-    """A vibrating object; `needs` is the contact that each state needs, by id or in words."""
+    """A vibrating object; `needs` is the contact that each state needs, by id or in words.
+
+    told : its states as inferred, by name; is_resting : whether it rests by itself, as by a thermostat; passing : the
+    row that is played while it starts or stops.
+    """
 
     rows: Mapping[str, LoopRow]
     needs: Mapping[str, str | None]
     state: str
     is_on: bool = True
     level: Level = field(default_factory=Level)
+    told: Mapping[str, SourceState] = field(default_factory=dict)
+    is_resting: bool = False
+    passing: LoopRow | None = None
 
     @property
     def row(self) -> LoopRow:
-        """The row of the state that it is in."""
-        return self.rows[self.state]
+        """The row that is played: of the state that it is in, or of its start or stop."""
+        return self.passing or self.rows[self.state]
+
+    @property
+    def is_running(self) -> bool:
+        """Whether it is on and does not rest."""
+        return self.is_on and not self.is_resting
 
 
 class Sources:
@@ -91,8 +103,10 @@ class Sources:
     ) -> None:
         """Take in a source with a loop for each of its states, at least one."""
         rows = {state: LoopRow(object_id, state, loop) for state, loop in loops.items()}
-        needs = {state.name: state.needs_contact for state in haptics.states} if haptics is not None else {}
-        self._sources[object_id] = Source(rows, needs, next(iter(rows)), level=Level(10 ** (gain_db / 20), is_muted))
+        told = {state.name: state for state in haptics.states} if haptics is not None else {}
+        needs = {name: state.needs_contact for name, state in told.items()}
+        level = Level(10 ** (gain_db / 20), is_muted)
+        self._sources[object_id] = Source(rows, needs, next(iter(rows)), level=level, told=told)
         self._list()
 
     def remove(self, object_id: str) -> None:
@@ -120,7 +134,14 @@ class Sources:
 
     def rows(self) -> list[LoopRow]:
         """The row of every state of every source."""
-        return [row for source in self._sources.values() for row in source.rows.values()]
+        sources = self._sources.values()
+        passing = [source.passing for source in sources if source.passing is not None]
+        return [row for source in sources for row in source.rows.values()] + passing
+
+    def let_pass(self, source_id: str, row: LoopRow | None) -> None:
+        """Play a row while a source starts or stops, None for that of its state again."""
+        self._sources[source_id].passing = row
+        self._active_rows = None
 
     def active_rows(self) -> tuple[LoopRow, ...]:
         """The row of each source, in their order; the same tuple until one changes."""
@@ -142,7 +163,7 @@ class Sources:
         source.is_on = is_on
         is_other = state is not None and state != source.state
         if is_other:
-            source.state = state or source.state
+            source.state, source.passing = state or source.state, None
             self._list()
         return is_other
 
@@ -184,7 +205,9 @@ class Sources:
         user = self.user.factor
         return np.array(
             [
-                source.level.factor * user if source.is_on and has_needed(source_id, source) else 0.0
+                source.level.factor * user
+                if (source.is_running or source.passing is not None) and has_needed(source_id, source)
+                else 0.0
                 for source_id, source in self._sources.items()
             ]
         )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from scene2hap.llm.answers import VibrationAnswer
 from scene2hap.llm.lexicon.names import read_name
 from scene2hap.llm.lexicon.places import UNDEFINED
+from scene2hap.llm.lexicon.starting import starting_of
 from scene2hap.llm.lexicon.table import StateRow
 
 MAX_WORDS = 15
@@ -40,7 +41,8 @@ def describe(category: str, state_name: str, scene_category: str = "") -> Vibrat
     if place and place != UNDEFINED:
         parts.append(f"in the {place}")
     keywords = f"{thing[: _MAX_KEYWORDS - len(verb) - 1].rstrip()} {verb}"
-    return VibrationAnswer(sentence=" ".join(parts), keywords=keywords)
+    starting = starting_of(read_name(category).row, verb)
+    return VibrationAnswer(sentence=" ".join(parts), keywords=keywords, **starting)
 
 
 def _state(category: str, state_name: str) -> StateRow:

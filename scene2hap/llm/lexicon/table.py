@@ -81,8 +81,15 @@ def table() -> tuple[ObjectRow, ...]:
 
 @cache
 def version() -> str:
-    """A short digest of the table, so that an answer's provenance changes exactly when a row does."""
-    return hashlib.sha256("\n".join(_text().splitlines()).encode()).hexdigest()[:8]
+    """A short digest of the tables, so that an answer's provenance changes exactly when a row does."""
+    rows = [line for text in (_text(), starting_text()) for line in text.splitlines()]
+    return hashlib.sha256("\n".join(rows).encode()).hexdigest()[:8]
+
+
+@cache
+def starting_text() -> str:
+    """How things start and stop, as it is in its file; see `lexicon.starting`."""
+    return files(__package__).joinpath("starting.csv").read_text(encoding="utf-8")
 
 
 @cache

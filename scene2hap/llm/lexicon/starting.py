@@ -1,0 +1,29 @@
+"""How long everyday things take to start and to stop, and which switch themselves: a table by noun and by verb."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+from scene2hap.llm.lexicon.table import ObjectRow, starting_text
+
+
+def starting_of(row: ObjectRow | None, verb: str) -> Mapping[str, Any]:
+    """`start_up_s`, `wind_down_s` [s], `spins`, `on_s` and `off_s` [s] of a thing that does so; empty if unknown.
+
+    A noun of the table, then its verb; a thing that is not in the lexicon is described by its verb.
+    """
+    table = _table()
+    return table.get(row.noun if row is not None else "") or table.get(verb, {})
+
+
+@cache
+def _table() -> Mapping[str, Mapping[str, Any]]:
+    return {fields["what"]: _row(fields) for fields in csv.DictReader(starting_text().splitlines())}
+
+
+def _row(fields: Mapping[str, str]) -> Mapping[str, Any]:
+    times = {name: float(fields[name]) for name in ("start_up_s", "wind_down_s", "on_s", "off_s") if fields[name]}
+    return {**times, "spins": fields["spins"] == "yes"}

@@ -1,0 +1,102 @@
+"""Sources that start and stop: they come up, die away, and some switch themselves, as a refrigerator does.
+
+All times are those of `render`'s clock, which stands still in a pause. A source that is cut short while it starts dies
+away from the speed that it has, and the other way round.
+"""
+
+from __future__ import annotations
+
+import zlib
+from dataclasses import dataclass
+
+from scene2hap.render.passage import Passage
+from scene2hap.session.playback import Playback
+from scene2hap.session.sources import LoopRow, Source, Sources
+
+
+@dataclass(frozen=True, eq=False)
+class _Passing:
+    passage: Passage
+    end_frame: int
+
+
+class Switching:
+    """Follows the sources of a session; those with turns of their own begin somewhere in their time on, each id always
+    at the same place, so that two refrigerators do not start together."""
+
+    def __init__(self, sources: Sources, playback: Playback, sample_rate_hz: int) -> None:
+        self._sources, self._playback, self._rate_hz = sources, playback, sample_rate_hz
+        self._passing: dict[str, _Passing] = {}
+        # When the turn of a source ends, and of which states that was told.
+        self._turns: dict[str, tuple[int, Source]] = {}
+        self._known: tuple[str, ...] | None = None
+
+    def switched(self, source_id: str, was_running: bool, now: int, *, by_hand: bool = True) -> None:
+        """A source may have been switched; one that a person switches on begins a turn."""
+        source = self._sources[source_id]
+        if by_hand and source.is_on and source.is_resting:
+            source.is_resting = False
+        if by_hand and source.is_on:
+            self._begin_turn(source_id, source, now, 0.0)
+        if source.is_running != was_running:
+            self._pass(source_id, source, now)
+
+    def advance(self, now: int) -> bool:
+        """Let what is over be over, and turns begin; true if anything changed."""
+        if self._known is not self._sources.ids:
+            self._look_around(now)
+        over = [source_id for source_id, one in self._passing.items() if now >= one.end_frame]
+        for source_id in over:
+            del self._passing[source_id]
+            if source_id in self._sources:
+                self._sources.let_pass(source_id, None)
+        if over:
+            self._playback.change_rows(self._sources.rows(), now)
+        due = [source_id for source_id, (end, _) in self._turns.items() if now >= end]
+        for source_id in due:
+            source = self._sources[source_id]
+            was_running = source.is_running
+            source.is_resting = not source.is_resting
+            self._begin_turn(source_id, source, now, 0.0)
+            self.switched(source_id, was_running, now, by_hand=False)
+        return bool(over or due)
+
+    def _look_around(self, now: int) -> None:
+        """Sources came or went."""
+        self._known = self._sources.ids
+        self._passing = {x: one for x, one in self._passing.items() if x in self._sources and self._sources[x].passing}
+        before, self._turns = self._turns, {}
+        for source_id in self._known:
+            source = self._sources[source_id]
+            if source_id in before and before[source_id][1] is source:
+                self._turns[source_id] = before[source_id]
+            else:
+                self._begin_turn(source_id, source, now, zlib.crc32(source_id.encode()) / 2**32)
+
+    def _begin_turn(self, source_id: str, source: Source, now: int, share: float) -> None:
+        """Begin to run or to rest, with a share of that time already over."""
+        told = source.told.get(source.state)
+        lasts_s = None if told is None else told.off_s if source.is_resting else told.on_s
+        if lasts_s is None:
+            self._turns.pop(source_id, None)
+        else:
+            self._turns[source_id] = (now + round((1 - share) * lasts_s * self._rate_hz), source)
+
+    def _pass(self, source_id: str, source: Source, now: int) -> None:
+        """Start to come up, or to die away."""
+        told, goes_up = source.told.get(source.state), source.is_running
+        before = self._passing.pop(source_id, None)
+        speed = float(not goes_up) if before is None else self._playback.speed(before.passage, now)
+        self._sources.let_pass(source_id, None)
+        lasts_s = 0.0 if told is None else told.start_up_s if goes_up else told.wind_down_s
+        is_there = speed >= 1.0 if goes_up else speed <= 0.0
+        if told is not None and lasts_s > 0.0 and not is_there:
+            steady = source.row
+            row = LoopRow(source_id, source.state, steady.loop)
+            passage = self._playback.pass_over(
+                row, steady, now, lasts_s, goes_up=goes_up, spins=told.spins, from_speed=speed
+            )
+            if passage is not None:
+                self._passing[source_id] = _Passing(passage, self._playback.end_frame(passage))
+                self._sources.let_pass(source_id, row)
+        self._playback.change_rows(self._sources.rows(), now)

@@ -1,0 +1,103 @@
+"""A loop on its way up and down: in step, as fast and as strong as it says, and without a click."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from scene2hap import AudioClip, Bands
+from scene2hap.render.loop_bank import CELL, LoopBank
+from scene2hap.render.passage import HOLD_S, LEAD_S, Passage
+
+RATE = 8000
+
+
+def bank(frequency_hz: float = 100.0, bands: Bands | None = None) -> LoopBank:
+    t = np.arange(RATE) / RATE
+    return LoopBank(
+        [AudioClip(np.sin(2 * np.pi * frequency_hz * t).astype(np.float32), RATE)], bands or Bands.dominant(), RATE
+    )
+
+
+def played(one: LoopBank, begin: int, n: int) -> np.ndarray:
+    out, cells = np.zeros((one.n_bands, CELL), np.float32), []
+    for at in range(begin, begin + n, CELL):
+        one.loops[0].fill(at, out)
+        cells.append(out.T.copy())
+    return np.concatenate(cells)[:n]
+
+
+def passage(**given: object) -> Passage:
+    told = {"lasts_s": 1.0, "goes_up": True, "spins": True, "from_speed": 0.0, **given}
+    return Passage(bank(), 12_345, **told)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("begin", [0, 7, 8000, 123_456_789])
+def test_a_bank_gives_what_it_plays(begin: int) -> None:
+    one = bank(100.0, Bands((50.0, 150.0, 400.0)))
+    np.testing.assert_allclose(one.taken(0, begin, 2400), played(one, begin, 2400), atol=1e-6)
+
+
+@pytest.mark.parametrize("spins", [True, False])
+def test_up_it_ends_as_the_loop_itself(spins: bool) -> None:
+    up = passage(spins=spins)
+    assert up.end == 12_345 + RATE
+    after = round(HOLD_S * RATE) - CELL
+    np.testing.assert_allclose(played(up, up.end, after), played(bank(), up.end, after), atol=5e-3)
+    assert np.abs(played(up, 12_345, 160)).max() < 0.02
+
+
+@pytest.mark.parametrize("spins", [True, False])
+def test_down_it_begins_as_the_loop_itself_and_ends_in_silence(spins: bool) -> None:
+    down = passage(goes_up=False, from_speed=1.0, spins=spins)
+    lead = round(LEAD_S * RATE)
+    np.testing.assert_allclose(played(down, 12_345, lead), played(bank(), 12_345, lead), atol=5e-3)
+    assert np.abs(played(down, down.end, round(HOLD_S * RATE) - CELL)).max() < 1e-6
+
+
+def crossings_hz(samples: np.ndarray) -> float:
+    signs = np.signbit(samples[:, 0])
+    return float(np.count_nonzero(signs[1:] != signs[:-1]) / 2 / (len(samples) / RATE))
+
+
+def test_what_spins_comes_up_in_pitch_and_force() -> None:
+    up = played(passage(), 12_345, RATE)
+    for x in (0.3, 0.5, 0.8):
+        around = up[round((x - 0.05) * RATE) : round((x + 0.05) * RATE)]
+        speed = x * (2 - x)
+        assert crossings_hz(around) == pytest.approx(100 * speed, abs=10)
+        assert np.abs(around).max() == pytest.approx(((x + 0.05) * (1.95 - x)) ** 2, rel=0.1)
+
+
+def test_what_does_not_spin_keeps_its_pitch() -> None:
+    up = played(passage(spins=False), 12_345, RATE)
+    assert crossings_hz(up[2000:6000]) == pytest.approx(100, abs=2)
+    assert np.abs(up[3900:4100]).max() == pytest.approx(0.5, rel=0.05)
+
+
+@pytest.mark.parametrize("goes_up", [True, False])
+@pytest.mark.parametrize("from_speed", [0.1, 0.5, 0.9])
+def test_it_may_start_under_way(goes_up: bool, from_speed: float) -> None:
+    one = passage(goes_up=goes_up, from_speed=from_speed)
+    whole = passage(goes_up=goes_up, from_speed=0.0 if goes_up else 1.0)
+    assert one.speed(12_345) == pytest.approx(from_speed)
+    assert one.speed(one.end) == pytest.approx(float(goes_up))
+    assert one.end < whole.end
+    assert np.abs(played(one, 12_345, 240)).max() == pytest.approx(from_speed**2, rel=0.25, abs=0.02)
+
+
+@pytest.mark.parametrize("goes_up", [True, False])
+@pytest.mark.parametrize("spins", [True, False])
+def test_it_does_not_click(goes_up: bool, spins: bool) -> None:
+    one = passage(goes_up=goes_up, spins=spins, from_speed=0.0 if goes_up else 1.0)
+    before = np.zeros((2000, 1)) if goes_up else played(bank(), 10_345, 2000)
+    samples = np.concatenate([before, played(one, 12_345, one.end - 12_345 + 2000)])[:, 0]
+    power = np.abs(np.fft.rfft(samples * np.hanning(len(samples)))) ** 2
+    f = np.fft.rfftfreq(len(samples), 1 / RATE)
+    assert 10 * np.log10(power[f > 1000].sum() / power.sum()) < -60.0
+
+
+def test_bands_go_together() -> None:
+    one = Passage(bank(100.0, Bands((50.0, 150.0, 400.0))), 0, 0.5, goes_up=True, spins=True, from_speed=0.0)
+    assert one.n_bands == 2
+    assert np.abs(played(one, one.end, 800)[:, 0]).max() > 0.9

@@ -1,0 +1,175 @@
+"""Sources that come up, die away, and switch themselves, in a session."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from scene2hap import HapticSession, SourceState, Touch
+from scene2hap.errors import ConfigError
+from scenes import table_with_two_phones
+
+RATE = 48_000
+TOUCH = [Touch("left", "phone", (0.1, 0.73, 0.4))]
+
+
+def session(first: dict[str, Any] | None = None, **settings: Any) -> HapticSession:
+    """The room of two phones, of which one starts and stops as told."""
+    scene, bundle = table_with_two_phones()
+    phone = bundle.objects["phone"]
+    states = tuple(replace(state, **(first or {})) for state in phone.states)
+    objects = {**bundle.objects, "phone": replace(phone, states=states)}
+    return HapticSession(scene, replace(bundle, objects=objects), {"prepare": "blocking", **settings})
+
+
+def envelope(made: HapticSession, seconds: float, step_s: float = 0.05) -> np.ndarray:
+    """Rms of the left hand by steps, with an update before each tenth of a second's fifth."""
+    blocks = []
+    for _ in range(round(seconds * 50)):
+        made.update(touches=TOUCH)
+        blocks.append(made.render(RATE // 50))
+    x = np.concatenate(blocks)[:, 0]
+    return np.sqrt((x.reshape(-1, round(step_s * RATE)) ** 2).mean(axis=1))
+
+
+def test_without_times_it_is_off_and_on_at_once() -> None:
+    made = session()
+    steady = envelope(made, 0.5)[-1]
+    made.set_source("phone", on=False)
+    assert envelope(made, 0.2)[-1] == 0.0
+    made.set_source("phone", on=True)
+    assert envelope(made, 0.2)[-1] == pytest.approx(steady, rel=0.02)
+
+
+@pytest.mark.parametrize("spins", [True, False])
+@pytest.mark.parametrize("bands", ["dominant", "third-octaves"])
+def test_it_comes_up_and_dies_away(spins: bool, bands: str) -> None:
+    made = session({"start_up_s": 1.0, "wind_down_s": 2.0, "spins": spins}, bands=bands)
+    steady = envelope(made, 1.0)[-1]
+    made.set_source("phone", on=False)
+    down = envelope(made, 2.5)
+    assert (np.diff(down[1:]) < 0.05 * steady).all()
+    assert down[5] > 0.3 * steady
+    assert down[20] < 0.6 * steady
+    assert down[-1] == 0.0
+    made.set_source("phone", on=True)
+    up = envelope(made, 1.5)
+    assert up[0] < 0.05 * steady
+    assert (np.diff(up) > -0.05 * steady).all()
+    assert up[-1] == pytest.approx(steady, rel=0.02)
+
+
+def test_it_is_in_step_with_its_position_afterwards() -> None:
+    made, plain = session({"start_up_s": 0.5, "wind_down_s": 0.5, "spins": True}), session()
+    for one in (made, plain):
+        one.set_source("alarm", on=False)
+        envelope(one, 0.5)
+        one.set_source("phone", on=False)
+        envelope(one, 1.0)
+        one.set_source("phone", on=True)
+        envelope(one, 1.0)
+        one.update(touches=TOUCH)
+    np.testing.assert_allclose(made.render(4800), plain.render(4800), atol=1e-4)
+
+
+def test_cut_short_it_goes_on_from_where_it_is() -> None:
+    made = session({"start_up_s": 2.0, "wind_down_s": 2.0, "spins": True})
+    steady = envelope(made, 0.5)[-1]
+    made.set_source("phone", on=False)
+    before = envelope(made, 0.5)[-1]
+    made.set_source("phone", on=True)
+    after = envelope(made, 2.0)
+    assert 0.1 * steady < before < 0.9 * steady
+    assert after[0] == pytest.approx(before, rel=0.4)
+    assert after.min() > 0.5 * before
+    assert after[-1] == pytest.approx(steady, rel=0.05)
+
+
+def test_nothing_clicks_on_the_way() -> None:
+    made = session({"start_up_s": 0.3, "wind_down_s": 0.6, "spins": True})
+    blocks = []
+    for step in range(300):
+        if step % 40 == 20:
+            made.set_source("phone", on=(step // 40) % 2 == 1)
+        made.update(touches=TOUCH)
+        blocks.append(made.render(RATE // 100))
+    x = np.concatenate(blocks)[:, 0]
+    power = np.abs(np.fft.rfft(x * np.hanning(len(x)))) ** 2
+    assert 10 * np.log10(power[np.fft.rfftfreq(len(x), 1 / RATE) > 1000].sum() / power.sum()) < -60.0
+
+
+def test_turns_of_its_own() -> None:
+    made = session({"on_s": 1.0, "off_s": 0.5})
+    e = envelope(made, 8.0)
+    running = e > 0.5 * e.max()
+    assert running[0]
+    changes = np.flatnonzero(running[1:] != running[:-1]) + 1
+    spans = np.diff(changes) * 0.05
+    assert len(spans) >= 7
+    assert set(np.round(spans, 1)) <= {0.5, 1.0, 0.4, 0.6, 0.9, 1.1}
+    made.set_source("phone", on=False)
+    assert envelope(made, 2.0)[2:].max() == 0.0
+    made.set_source("phone", on=True)
+    assert (envelope(made, 0.8)[2:] > 0.5 * e.max()).all()
+
+
+def test_a_pause_lets_turns_stand_still() -> None:
+    made = session({"on_s": 1.0, "off_s": 100.0})
+    envelope(made, 0.1)
+    made.pause()
+    for _ in range(200):
+        made.update(touches=TOUCH)
+        made.render(RATE // 50)
+    made.resume()
+    made.update(touches=TOUCH)
+    assert made._sources["phone"].is_running
+
+
+def test_sources_go_while_they_die_away() -> None:
+    made = session({"wind_down_s": 2.0})
+    envelope(made, 0.2)
+    made.set_source("phone", on=False)
+    envelope(made, 0.2)
+    made.remove("phone")
+    made.update(touches=[Touch("left", "table", (0.3, 0.72, 0.4))])
+    made.render(RATE)
+    made.update()
+    assert not made.render(RATE // 2).any()
+
+
+def test_another_state_ends_a_passage() -> None:
+    made = session({"wind_down_s": 5.0})
+    envelope(made, 0.2)
+    made.set_source("phone", on=False)
+    envelope(made, 0.2)
+    made.set_source("phone", state="alarm")
+    assert envelope(made, 0.3)[-1] == 0.0
+
+
+def test_a_long_life_leaves_nothing_behind() -> None:
+    made = session({"start_up_s": 0.05, "wind_down_s": 0.05})
+    for step in range(200):
+        made.set_source("phone", on=step % 2 == 1)
+        envelope(made, 0.2, 0.1)
+    places = made._playback._places
+    assert len(places) == 3
+    assert sum(one is not None for one in made._playback._banks[0].slots) <= 5
+    assert len(made._playback._banks) == 1
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"start_up_s": -1.0}, "start_up_s"),
+        ({"wind_down_s": 31.0}, "at most 30"),
+        ({"on_s": 1.0}, "give both"),
+        ({"on_s": 0.0, "off_s": 1.0}, "on_s"),
+        ({"spins": 2}, "spins"),
+    ],
+)
+def test_times_that_cannot_be_are_refused(given: dict[str, Any], said: str) -> None:
+    with pytest.raises(ConfigError, match=said):
+        SourceState("on", 0.5, "fan whirring", "fan whirring", **given)
