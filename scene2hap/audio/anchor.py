@@ -11,7 +11,7 @@ is felt as strongly, and what the peak exceeds it by ("crest"), must stay below 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.fft
@@ -28,6 +28,8 @@ _FAINTEST_DB = -14.0
 """Components this far below the strongest are not what the source is known by; better it is felt weaker. At 24 dB, most
 steady recordings at hand were felt as something 14-21 dB below what they sound like."""
 _SINE_CREST_DB = 0.0
+ROUGH_HZ = (20.0, 60.0)
+"""Rates of modulation that are felt as roughness, not one by one and not as another tone."""
 _RANGE_HZ = (20.0, 1000.0)
 _CANDIDATES = 8
 STAYS_DB = 3.0
@@ -44,15 +46,39 @@ _GRID = 81
 
 @dataclass(frozen=True)
 class Anchor:
-    """A source's own frequency [Hz], and what its band's peak exceeds that of an equally felt sine by [dB]."""
+    """A source's own frequency [Hz], and what its band's peak exceeds that of an equally felt sine by [dB].
+
+    rough_hz : the strongest component of the sound, where that is too low to be felt as itself and is to be kept as
+    roughness; None otherwise [Hz].
+    """
 
     frequency_hz: float
     crest_db: float = _SINE_CREST_DB
+    rough_hz: float | None = None
 
 
 def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile) -> Anchor | None:
     """The anchor of a whole sound (n_samples,) that is to be felt at a sensation level; None where there is none."""
     x = np.asarray(samples, dtype=np.float64)
+    found = _felt_anchor(x, sample_rate_hz, level_db, actuator)
+    return found and replace(found, rough_hz=_rough_hz(x, sample_rate_hz, found.frequency_hz))
+
+
+def _rough_hz(x: NDArray[np.float64], sample_rate_hz: float, felt_hz: float) -> float | None:
+    """The strongest component, if that is another one than is felt, and slow enough to be felt as roughness of it."""
+    low, high = ROUGH_HZ
+    magnitude = _spectrum(x)
+    n = 2 * (len(magnitude) - 1)
+    strongest = next(iter(_peaks(magnitude, sample_rate_hz, ActuatorProfile(min_frequency_hz=low))), None)
+    if strongest is None or not low <= strongest[0] <= high or felt_hz < strongest[0] * 1.25:
+        return None
+    felt_db = 20.0 * float(np.log10(max(magnitude[round(felt_hz * n / sample_rate_hz)], 1e-300)))
+    return strongest[0] if strongest[1] - felt_db >= STAYS_DB else None
+
+
+def _felt_anchor(
+    x: NDArray[np.float64], sample_rate_hz: float, level_db: float, actuator: ActuatorProfile
+) -> Anchor | None:
     spectrum = np.asarray(scipy.fft.rfft(x - x.mean()), dtype=np.complex128)
     f = scipy.fft.rfftfreq(len(x), 1.0 / sample_rate_hz)
     best: tuple[float, Anchor] | None = None

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from scene2hap.audio.actuators import MAX_BOOST_DB, equalize_loop
 from scene2hap.audio.anchor import Anchor, anchor_of
 from scene2hap.audio.clip import AudioClip, Samples
-from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.audio.haptic_loop import HapticLoop, Sensation
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB, at_level, felt_level_db, sensation_level_db
 from scene2hap.audio.loops import loop_pair
 from scene2hap.audio.protocol import ConversionContext, TactileConverter
@@ -80,6 +80,7 @@ def plan_scene(
                 tuple(dict.fromkeys(frequency for frequency, group in others if group != source.group)),
                 anchor.frequency_hz if anchor is not None else None,
                 placed[i].target_hz if i in placed else None,
+                anchor.rough_hz if anchor is not None else None,
             ),
             placed[i].level_db if i in placed else levels[i],
         )
@@ -116,4 +117,6 @@ def felt_loop(
     def at_planned_level(samples: Samples) -> Samples:
         return at_level(equalize_loop(samples, rate, actuator, max_boost_db), rate, plan.level_db, actuator, _PEAK)
 
-    return loop_pair(clip, converter, plan.context, at_planned_level)
+    loop = loop_pair(clip, converter, plan.context, at_planned_level)
+    level_db = felt_level_db(loop.tactile.samples, loop.tactile.sample_rate_hz, actuator)
+    return replace(loop, felt=Sensation(level_db, plan.level_db, plan.context.own_hz, plan.context.target_hz))

@@ -11,6 +11,43 @@ from scene2hap.calls import clear_construction
 from scene2hap.errors import AudioError
 
 
+@dataclass(frozen=True)
+class Sensation:
+    """How a tactile loop is felt by whoever touches the source.
+
+    Parameters: level_db : over the threshold of touch, of `asked_level_db`, which the actuator or head-room may forbid
+    [dB]; own_hz : the component of the sound that stands for the source, None where there is none; target_hz : where
+    that is felt [Hz].
+    """
+
+    level_db: float
+    asked_level_db: float
+    own_hz: float | None = None
+    target_hz: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("level_db", "asked_level_db"):
+            object.__setattr__(self, name, checks.number(name, getattr(self, name), "dB", error=AudioError))
+        for name in ("own_hz", "target_hz"):
+            if getattr(self, name) is not None:
+                checks.number(name, getattr(self, name), "Hz", above=0.0, error=AudioError)
+
+    def __str__(self) -> str:
+        weaker = f" of {self.asked_level_db:.1f} asked" if self.asked_level_db - self.level_db >= NOTICED_DB else ""
+        moved = f", moved from {self.own_hz:.0f}" if self.own_hz and self.is_moved else ""
+        at = f" at {self.target_hz:.0f} Hz{moved}" if self.target_hz else ""
+        return f"{self.level_db:.1f} dB over the threshold{weaker}{at}"
+
+    @property
+    def is_moved(self) -> bool:
+        """Whether it is felt elsewhere than it sounds, by a hertz or more."""
+        return self.own_hz is not None and self.target_hz is not None and abs(self.own_hz - self.target_hz) >= 1.0
+
+
+NOTICED_DB = 3.0
+"""A level that is missed by more is worth saying: about what is felt as a difference."""
+
+
 @clear_construction
 @dataclass(frozen=True, eq=False)
 class HapticLoop:
@@ -19,7 +56,7 @@ class HapticLoop:
     `frequency_raw_hz` is the peak of the audible loop's spectrum, which the paper puts into its attenuation law;
     `frequency_tactile_hz` is the peak of the tactile one, after conversion.
     `source` is the sound before it was cut, None for a person's own clip, which the bundle keeps anyway, or
-    if unknown; `fingerprint` has a digest of each input of the loops, empty if unknown.
+    if unknown; `fingerprint` has a digest of each input of the loops, empty if unknown; `felt` is None if unknown.
     Raises: AudioError: lengths or rates differ, or a frequency is not positive.
     """
 
@@ -29,6 +66,7 @@ class HapticLoop:
     frequency_tactile_hz: float
     source: AudioClip | None = None
     fingerprint: Mapping[str, str] = field(default_factory=dict)
+    felt: Sensation | None = None
 
     def __post_init__(self) -> None:
         shapes = [(len(clip.samples), clip.sample_rate_hz) for clip in (self.audible, self.tactile)]

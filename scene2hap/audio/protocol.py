@@ -32,7 +32,8 @@ class ConversionContext:
     actuator : what it converts for; intensity : of the source, 0..1; neighbours_hz : dominant frequencies of the
     scene's other sources [Hz]; unused if `target_hz` is given, which takes them into account.
     own_hz : the source's own dominant frequency where somebody has looked at the whole sound, None to find out while
-    it plays; target_hz : where that frequency is to be felt, None to leave that to the converter.
+    it plays; target_hz : where that frequency is to be felt, None to leave that to the converter; rough_hz : a stronger
+    component of the sound that is too low to be felt as itself, None if there is none.
     """
 
     actuator: ActuatorProfile = field(default_factory=ActuatorProfile)
@@ -40,9 +41,10 @@ class ConversionContext:
     neighbours_hz: tuple[float, ...] = ()
     own_hz: float | None = None
     target_hz: float | None = None
+    rough_hz: float | None = None
 
     def __post_init__(self) -> None:
-        for name in ("own_hz", "target_hz"):
+        for name in ("own_hz", "target_hz", "rough_hz"):
             if getattr(self, name) is not None:
                 checks.number(name, getattr(self, name), "Hz", above=0.0, error=AudioError)
         for i, neighbour in enumerate(checks.items("neighbours_hz", self.neighbours_hz, error=AudioError)):

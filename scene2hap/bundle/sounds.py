@@ -16,7 +16,7 @@ from typing import Any
 
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import fits_flac, read_clip, sound_digest, write_flac, write_wav
-from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.audio.haptic_loop import HapticLoop, Sensation
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.own_files import own_file
 
@@ -45,6 +45,8 @@ def write_loops(bundle: BundleContents, folder: Path, written: list[str]) -> dic
                 row[kind] = names[key]
             row["frequency_raw_hz"] = loop.frequency_raw_hz
             row["frequency_tactile_hz"] = loop.frequency_tactile_hz
+            if loop.felt is not None:
+                row["felt"] = asdict(loop.felt)
             row["credit"] = asdict(loop.audible.credit)
             if loop.fingerprint:
                 row["fingerprint"] = dict(loop.fingerprint)
@@ -70,7 +72,9 @@ class SoundReader:
         fingerprint = row.get("fingerprint", {})
         if not isinstance(fingerprint, dict) or not all(isinstance(value, str) for value in fingerprint.values()):
             raise TypeError("'fingerprint', which must be an object of texts")
-        return HapticLoop(audible, tactile, row["frequency_raw_hz"], row["frequency_tactile_hz"], source, fingerprint)
+        felt = Sensation(**row["felt"]) if "felt" in row else None
+        frequencies = row["frequency_raw_hz"], row["frequency_tactile_hz"]
+        return HapticLoop(audible, tactile, *frequencies, source, fingerprint, felt)
 
     def _clip(self, name: str, credit: Credit) -> AudioClip:
         path = own_file(self._folder, name)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import asdict
 from typing import Any
 
+from scene2hap.audio.haptic_loop import NOTICED_DB, Sensation
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
 from scene2hap.llm.chain import UNKNOWN
@@ -65,7 +67,11 @@ def bundle_outcome(bundle: HapticBundle) -> dict[str, Any]:
                 "confidence": haptics.confidence,
                 "vibrates": haptics.vibrates,
                 "states": {
-                    state: {"raw_hz": loop.frequency_raw_hz, "tactile_hz": loop.frequency_tactile_hz}
+                    state: {
+                        "raw_hz": loop.frequency_raw_hz,
+                        "tactile_hz": loop.frequency_tactile_hz,
+                        "felt": None if loop.felt is None else asdict(loop.felt),
+                    }
                     for state, loop in bundle.loops.get(object_id, {}).items()
                 },
             }
@@ -86,7 +92,7 @@ def show_bundle(console: Console, bundle: HapticBundle) -> None:
     console.table(
         f"{bundle.snapshot.name}: {bundle.scene_category}, "
         + ", ".join(f"{number} {what}" for what, number in counts.items()),
-        ("object", "type", "material", ">mass kg", ">confidence", "vibrates", ">sound Hz", ">vibration Hz"),
+        ("object", "type", "material", ">mass kg", ">confidence", "vibrates", ">sound Hz", ">vibration Hz", ">felt dB"),
         (
             _bundle_row(bundle, object_id)
             for object_id in sorted(bundle.objects, key=lambda key: key not in bundle.loops)
@@ -106,7 +112,16 @@ def _bundle_row(bundle: HapticBundle, object_id: str) -> tuple[str, ...]:
         ", ".join(f"{state.name} ({state.keywords})" for state in haptics.states),
         ", ".join(f"{loop.frequency_raw_hz:.0f}" for loop in loops.values()),
         ", ".join(f"{loop.frequency_tactile_hz:.0f}" for loop in loops.values()),
+        ", ".join(_level(loop.felt) for loop in loops.values()),
     )
+
+
+def _level(felt: Sensation | None) -> str:
+    """The level that is felt, and the one that was asked for where that is missed."""
+    if felt is None:
+        return "?"
+    missed = felt.asked_level_db - felt.level_db >= NOTICED_DB
+    return f"{felt.level_db:.0f}" + (f" of {felt.asked_level_db:.0f}" if missed else "")
 
 
 def show_report(

@@ -126,7 +126,7 @@ def convert(
         _check_target(source, drawn, overwrite=overwrite)
     with opened_sound(source) as file, written_whole(output) as beside:
         if not raw and getattr(built, "follows_target", False):
-            context = replace(context, own_hz=_own_frequency_hz(file, context))
+            context = _looked_at(file, context)
         felt = _Felt(built, context, file, mono=mono, raw=raw, n_columns=_PICTURE_COLUMNS if drawn else 0)
         blocks = felt.blocks(source, file)
         with _opened_for_writing(output, beside, felt) as target, ExitStack() as held:
@@ -159,16 +159,16 @@ def convert(
     )
 
 
-def _own_frequency_hz(file: soundfile.SoundFile, context: ConversionContext) -> float | None:
-    """The source's own frequency, from the middle of the file; None for the converter to find out while it plays."""
+def _looked_at(file: soundfile.SoundFile, context: ConversionContext) -> ConversionContext:
+    """The context with the source's own frequency, from the middle of the file; else a converter tracks it."""
     n = round(_LOOK_S * file.samplerate)
     file.seek(max(0, int(file.frames) - n) // 2)
     heard = file.read(n, dtype="float32", always_2d=True).mean(axis=1, dtype=np.float64)
     file.seek(0)
     if len(heard) < 2 or not np.isfinite(heard).all():  # which is told when it is converted
-        return None
+        return context
     anchor = anchor_of(heard, file.samplerate, sensation_level_db(context.intensity), context.actuator)
-    return None if anchor is None else anchor.frequency_hz
+    return context if anchor is None else replace(context, own_hz=anchor.frequency_hz, rough_hz=anchor.rough_hz)
 
 
 def settled(converter: object, actuator: object, intensity: float) -> tuple[TactileConverter, ConversionContext]:

@@ -6,13 +6,14 @@ from scene2hap.plugins import PluginGroup
 
 _HERE = "scene2hap.audio.tactile"
 
-DEFAULT_CONVERTER = "adaptive"
+DEFAULT_CONVERTER = "auto"
 """The default converter of scenes and files."""
 
 CONVERTERS = PluginGroup(
     "scene2hap.tactile",
     builtins={
         "adaptive": f"{_HERE}.adaptive:Adaptive",
+        "auto": f"{_HERE}.auto:Auto",
         "envelope": f"{_HERE}.envelope:EnvelopeCarrier",
         "frequency_shift": f"{_HERE}.frequency_shift:FrequencyShift",
         "lowpass": f"{_HERE}.lowpass:Lowpass",

@@ -46,7 +46,7 @@ class StageStream:
     """
 
     def __init__(self, *stages: Stage) -> None:
-        self._stages = stages
+        self.stages = stages
         self.n_clipped = 0
 
     def process(self, block: Samples) -> Samples:
@@ -62,10 +62,10 @@ class StageStream:
 
     def finish(self) -> Samples:
         """What is still held back."""
-        return _joined([self._through(stage.rest(), i + 1) for i, stage in enumerate(self._stages)])
+        return _joined([self._through(stage.rest(), i + 1) for i, stage in enumerate(self.stages)])
 
     def _through(self, x: Signal, first: int) -> Samples:
-        for stage in self._stages[first:]:
+        for stage in self.stages[first:]:
             x = stage.run(x)
         self.n_clipped += int(np.count_nonzero(np.abs(x) > 1.0))
         return np.clip(x, -1.0, 1.0).astype(np.float32)

@@ -56,3 +56,21 @@ def test_steady_recordings_keep_what_they_are_known_by(
         assert found is not None
         near = np.abs(f - found.frequency_hz) < 1.0
         assert 20 * np.log10(magnitude[near].max() / magnitude[rendered].max()) > -15.0
+
+
+@pytest.mark.parametrize(
+    ("amplitudes", "felt_hz", "rough_hz"),
+    [
+        ({"f40": 0.5, "f150": 0.3}, 150.0, 40.0),  # an engine, of which the firing cannot be felt as a tone
+        ({"f40": 0.3, "f150": 0.4}, 150.0, None),  # the strongest is felt as itself
+        ({"f200": 0.5, "f320": 0.3}, 200.0, None),
+        ({"f12": 0.5, "f150": 0.3}, 150.0, None),  # too slow for roughness
+    ],
+)
+def test_what_cannot_be_felt_as_a_tone_is_kept_as_roughness(
+    amplitudes: dict[str, float], felt_hz: float, rough_hz: float | None
+) -> None:
+    found = anchor_of(tones(**amplitudes), RATE, sensation_level_db(0.5), actuator_profile("flat"))
+    assert found is not None
+    assert found.frequency_hz == pytest.approx(felt_hz, abs=0.1)
+    assert found.rough_hz == (None if rough_hz is None else pytest.approx(rough_hz, abs=0.1))

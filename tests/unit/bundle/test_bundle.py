@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from scene2hap import Box, Credit, HapticBundle, HapticLoop
+from scene2hap.audio.haptic_loop import Sensation
 from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError, UnknownObject
 from scenes import box, haptics, scene, table_with_two_phones, tone_loop
 
@@ -171,3 +172,18 @@ def test_credits_are_written_once_each(tmp_path: Path) -> None:
     )
     text = (both.save(tmp_path / "b") / "credits.txt").read_text()
     assert text.count("Buzz, by Ann, CC-BY-4.0, https://example.org/buzz") == 1
+
+
+def test_how_a_loop_is_felt_is_kept(tmp_path: Path) -> None:
+    _, bundle = table_with_two_phones()
+    felt = Sensation(14.0, 20.0, 98.0, 80.0)
+    loop = replace(bundle.loops["alarm"]["ringing"], felt=felt)
+    folder = replace(bundle, loops={**bundle.loops, "alarm": {"ringing": loop}}).save(tmp_path / "b")
+    again = HapticBundle.load(folder)
+    assert again.loops["alarm"]["ringing"].felt == felt
+    assert again.loops["phone"]["ringing"].felt is None
+    rows = json.loads((folder / "loops.json").read_text(encoding="utf-8"))
+    rows["alarm"]["ringing"]["felt"]["level_db"] = "loud"
+    (folder / "loops.json").write_text(json.dumps(rows), encoding="utf-8")
+    with pytest.raises(BundleError, match="level_db"):
+        HapticBundle.load(folder)

@@ -38,4 +38,4 @@ def test_files_have_the_fields_that_are_written(tmp_path: Path) -> None:
     assert section("bundle.json") == set(json.loads((folder / "bundle.json").read_text(encoding="utf-8")))
     loops = json.loads((folder / "loops.json").read_text(encoding="utf-8"))
     written = {field for states in loops.values() for row in states.values() for field in row}
-    assert written <= section("loops.json") <= written | {"source", "choice", "fingerprint", "credit"}
+    assert written <= section("loops.json") <= written | {"source", "choice", "felt", "fingerprint", "credit"}

@@ -1,0 +1,79 @@
+"""The default: a band that follows the source, its roughness, and its onsets apart.
+
+What people prefer depends on the sound (Sound2Hap, CHI 2026). A hum is known by its frequency, an engine by its
+roughness, a tick by its moment.
+
+- The bed goes through `adaptive`.
+- Where the sound's strongest component is too low to be felt as itself (the 49 Hz of a compressor on a phone's motor),
+  the bed is modulated at that rate and by that component's own waveform r, whose envelope is e: y = bed (1 + r / 2e).
+- Each onset becomes a burst of its own (`onsets`).
+
+A sound without either comes out as from `adaptive`, bit for bit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.signal import butter
+
+from scene2hap.audio.actuators import response_db
+from scene2hap.audio.anchor import BAND_Q
+from scene2hap.audio.levels import threshold_db
+from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.tactile.adaptive import Adaptive
+from scene2hap.audio.tactile.onsets import WithOnsets
+from scene2hap.audio.tactile.stages import Signal, SosStage, Stage, StageStream
+from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
+
+_CARRIERS_HZ = np.geomspace(100.0, 300.0, 65)
+"""Where a burst of 8 ms still has a frequency, and touch is keen."""
+DEPTH = 0.5
+"""Of the modulation: felt as rough (the least depth that counts as a rhythm is 0.2, see `distinctness`), while side
+bands stay 12 dB below the bed and do not take its place where touch is keener."""
+_SLOWER = 4.0
+"""By which the envelope of a rough component is slower than it."""
+_NOTHING = 1e-6
+
+
+@dataclass(frozen=True)
+class Auto(Adaptive):
+    """`Adaptive`, with roughness and onsets; settings as there."""
+
+    def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
+        """A fresh conversion at that rate."""
+        bed: list[Stage] = [*super().stream(sample_rate_hz, context).stages]
+        if context.rough_hz is not None:
+            bed = [_Roughened(bed, context.rough_hz, sample_rate_hz)]
+        return StageStream(WithOnsets(bed, carrier_hz(context), sample_rate_hz))
+
+
+def carrier_hz(context: ConversionContext) -> float:
+    """Where bursts are felt: at the source's own place if that will do, else where the actuator is felt best."""
+    actuator, wanted = context.actuator, context.target_hz or context.own_hz
+    if wanted is not None and _CARRIERS_HZ[0] <= wanted <= _CARRIERS_HZ[-1]:
+        return wanted
+    felt_db = response_db(actuator, _CARRIERS_HZ) - threshold_db(_CARRIERS_HZ)
+    return float(_CARRIERS_HZ[int(np.argmax(felt_db))])
+
+
+class _Roughened:
+    """A bed that is modulated by a low component of the sound, at its own rate."""
+
+    def __init__(self, bed: list[Stage], rough_hz: float, sample_rate_hz: float) -> None:
+        section = SvfBandpass(rough_hz, BAND_Q).section(sample_rate_hz)
+        self._bed, self._band = bed, SosStage(np.concatenate([section, section]))
+        self._envelope = SosStage(butter(2, rough_hz / _SLOWER, fs=sample_rate_hz, output="sos"))
+
+    def run(self, x: Signal) -> Signal:
+        """Equally many samples."""
+        low = self._band.run(x)
+        envelope = np.maximum(self._envelope.run(np.abs(low)) * (0.5 * np.pi), _NOTHING)
+        for stage in self._bed:
+            x = stage.run(x)
+        return np.asarray(x * (1.0 + DEPTH * np.clip(low / envelope, -1.0, 1.0)))
+
+    def rest(self) -> Signal:
+        """Nothing."""
+        return np.empty(0)

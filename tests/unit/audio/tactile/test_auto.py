@@ -1,0 +1,78 @@
+"""The default converter: roughness at its own rate, and nothing else than `adaptive` where there is none."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
+from scene2hap.audio.haptic_loop import Sensation
+from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
+from scene2hap.errors import AudioError
+from scene2hap.haptics import ActuatorProfile
+
+RATE = 8000
+T = np.arange(4 * RATE) / RATE
+ENGINE = (0.5 * np.sin(2 * np.pi * 40 * T) + 0.2 * np.sin(2 * np.pi * 150 * T)).astype(np.float32)
+
+
+def felt(context: ConversionContext, kind: str = "auto") -> np.ndarray:
+    stream = CONVERTERS.build(kind).stream(RATE, context)
+    return np.concatenate([stream.process(ENGINE), stream.finish()])[RATE:]
+
+
+def line(samples: np.ndarray, frequency_hz: float) -> float:
+    """Amplitude of one frequency."""
+    t = np.arange(len(samples)) / RATE
+    return float(2 * abs((samples * np.exp(-2j * np.pi * frequency_hz * t)).mean()))
+
+
+def test_roughness_is_modulation_at_the_rate_of_the_low_component() -> None:
+    rough = felt(ConversionContext(own_hz=150.0, rough_hz=40.0))
+    plain = felt(ConversionContext(own_hz=150.0))
+    assert line(rough, 150.0) == pytest.approx(line(plain, 150.0), rel=0.02)
+    for side in (110.0, 190.0):
+        assert line(rough, side) - line(plain, side) == pytest.approx(0.25 * line(plain, 150.0), rel=0.2)
+
+
+def test_its_slow_envelope_is_that_of_the_bed() -> None:
+    rough, plain = (felt(ConversionContext(own_hz=150.0, rough_hz=hz)) for hz in (40.0, None))
+
+    def levels(samples: np.ndarray) -> np.ndarray:
+        return 20 * np.log10(np.sqrt((samples[: len(samples) // 800 * 800].reshape(-1, 800) ** 2).mean(axis=1)))
+
+    assert np.ptp(levels(rough)) < np.ptp(levels(plain)) + 0.5
+
+
+def test_without_roughness_and_onsets_it_is_adaptive() -> None:
+    context = ConversionContext(own_hz=150.0, target_hz=170.0)
+    np.testing.assert_array_equal(felt(context), felt(context, "adaptive"))
+
+
+def test_silence_stays_silent() -> None:
+    stream = CONVERTERS.build("auto").stream(RATE, ConversionContext(own_hz=150.0, rough_hz=40.0))
+    assert not stream.process(np.zeros(RATE, np.float32)).any()
+    assert not stream.finish().any()
+
+
+def test_a_scene_plans_it_and_says_how_each_source_is_felt() -> None:
+    converter, actuator = CONVERTERS.build(DEFAULT_CONVERTER), ActuatorProfile("lra", 100.0, 400.0, 175.0, 8.0)
+    source = SourceClip(AudioClip(ENGINE, RATE), 0.9)
+    (plan,) = plan_scene([source], converter, actuator)
+    assert plan.context.rough_hz == pytest.approx(40.0, abs=0.1)
+    loop = felt_loop(source.clip, converter, plan)
+    assert loop.felt is not None
+    assert loop.felt.asked_level_db == plan.level_db
+    assert loop.felt.own_hz == plan.context.own_hz
+    assert loop.felt.level_db < loop.felt.asked_level_db - 3.0
+    assert f"of {plan.level_db:.1f} asked" in str(loop.felt)
+
+
+def test_a_sensation_says_where_it_went() -> None:
+    assert str(Sensation(20.0, 21.0, 98.0, 80.0)) == "20.0 dB over the threshold at 80 Hz, moved from 98"
+    assert str(Sensation(20.0, 20.0, 98.0, 98.2)) == "20.0 dB over the threshold at 98 Hz"
+    assert str(Sensation(14.0, 20.0)) == "14.0 dB over the threshold of 20.0 asked"
+    with pytest.raises(AudioError, match="level_db"):
+        Sensation(float("nan"), 20.0)

@@ -1,0 +1,133 @@
+"""Onsets become bursts of their own; everything else goes through the bed untouched."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.signal import butter, sosfilt
+
+from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.tactile import CONVERTERS
+from scene2hap.audio.tactile.auto import carrier_hz
+from scene2hap.audio.tactile.onsets import WithOnsets
+from scene2hap.audio.tactile.stages import Signal
+from scene2hap.haptics import ActuatorProfile
+from sound_draws import recordings
+
+RATE = 48_000
+
+
+def recording(name: str) -> tuple[Signal, int]:
+    found = recordings()
+    if name not in found:
+        pytest.skip("needs the shared folder's recordings beside the project")
+    return found[name]
+
+
+class Silence:
+    """A bed of which nothing is felt, so that bursts are alone."""
+
+    def run(self, x: Signal) -> Signal:
+        return np.zeros_like(x)
+
+    def rest(self) -> Signal:
+        return np.empty(0)
+
+
+def bursts(sound: Signal, rate: int = RATE) -> Signal:
+    stage = WithOnsets([Silence()], 200.0, rate)
+    return np.concatenate([stage.run(sound), stage.rest()])
+
+
+def starts_s(felt: Signal, rate: int = RATE) -> Signal:
+    """Where silence ends."""
+    loud = np.abs(felt) > 1e-4
+    wide = np.convolve(loud, np.ones(rate // 200), "full")[: len(loud)] > 0
+    return np.flatnonzero(wide[1:] & ~wide[:-1]) / rate
+
+
+def ticks(times_s: Signal, hum: float, tick: float, seconds: float = 10.0, rate: int = RATE) -> Signal:
+    """Ticks of 3 to 9 kHz over a hum of 97 Hz and a little noise."""
+    rng, t = np.random.default_rng(0), np.arange(round(seconds * rate)) / rate
+    sound = hum * np.sin(2 * np.pi * 97 * t) + 0.003 * rng.standard_normal(len(t))
+    band = butter(2, [3000, 9000], "bandpass", fs=rate, output="sos")
+    for time in times_s:
+        one = sosfilt(band, rng.standard_normal(round(0.006 * rate)) * np.exp(-np.arange(round(0.006 * rate)) / 72))
+        at = round(time * rate)
+        sound[at : at + len(one)] += tick * one / np.abs(one).max()
+    return sound
+
+
+@pytest.mark.parametrize("hum", [0.0, 0.1, 0.3])
+@pytest.mark.parametrize("tick", [0.5, 0.15, 0.05])
+def test_every_tick_is_one_burst_at_its_moment(hum: float, tick: float) -> None:
+    times = 0.1 + 0.24 * np.arange(40)
+    found = starts_s(bursts(ticks(times, hum, tick)))
+    assert len(found) == 40
+    assert np.abs(found - times).max() < 0.006
+
+
+@pytest.mark.parametrize("rate", [8000, 22_050, 44_100, 96_000])
+def test_the_rate_does_not_matter(rate: int) -> None:
+    times = 0.2 + 0.5 * np.arange(8)
+    sound = np.zeros(5 * rate)
+    for time in times:
+        sound[round(time * rate) : round((time + 0.004) * rate)] = 0.5
+    found = starts_s(bursts(sound, rate), rate)
+    assert len(found) == 8
+    assert np.abs(found - times).max() < 0.006
+
+
+def test_a_louder_tick_is_a_stronger_burst_and_a_sharper_one_is_shorter() -> None:
+    def one(height: float, lasts_s: float) -> Signal:
+        sound = np.zeros(RATE)
+        t = np.arange(round(lasts_s * RATE)) / RATE
+        sound[RATE // 2 : RATE // 2 + len(t)] = height * np.sin(2 * np.pi * 3000 * t)
+        return bursts(sound)
+
+    soft, loud = one(0.2, 0.004), one(0.6, 0.004)
+    assert np.abs(loud).max() / np.abs(soft).max() == pytest.approx(3.0, rel=0.02)
+    lengths = [np.count_nonzero(np.abs(one(0.5, lasts)) > 1e-4) for lasts in (0.004, 0.05)]
+    assert 0.007 * RATE < lengths[0] < 0.010 * RATE
+    assert lengths[1] > 1.7 * lengths[0]
+
+
+def test_what_is_steady_is_untouched() -> None:
+    rng, t = np.random.default_rng(5), np.arange(5 * RATE) / RATE
+    for sound in (
+        np.zeros(RATE),
+        0.5 * np.sin(2 * np.pi * 30 * t),
+        0.1 * rng.standard_normal(len(t)),
+        0.3 * np.sin(2 * np.pi * 100 * t) * (1 + 0.9 * np.sin(2 * np.pi * 12 * t)),
+        0.3 * np.sin(2 * np.pi * 100 * t) + 0.3 * np.sin(2 * np.pi * 103 * t),
+    ):
+        assert not bursts(sound).any()
+
+
+@pytest.mark.parametrize("name", ["oven_hum.wav", "fridge_hum_kitchen.wav", "computer_fan_hum.wav"])
+def test_recorded_machines_come_out_as_from_adaptive(name: str) -> None:
+    sound, rate = recording(name)
+    sound = (sound - sound.mean()).astype(np.float32)
+    context = ConversionContext(own_hz=100.0)
+    auto, adaptive = (CONVERTERS.build(kind).stream(rate, context) for kind in ("auto", "adaptive"))
+    felt = np.concatenate([auto.process(sound), auto.finish()])
+    np.testing.assert_array_equal(felt, adaptive.process(sound))
+
+
+def test_a_recorded_clock_keeps_its_ticks() -> None:
+    sound, rate = recording("clock_tick_1-62849-A.ogg")
+    # By ear and by eye: five ticks of two strokes each.
+    strokes = np.array([0.304, 0.349, 1.285, 1.329, 2.287, 2.332, 3.285, 3.33, 4.265, 4.31])
+    felt = bursts(sound - sound.mean(), rate)
+    found = starts_s(np.where(np.abs(felt) > 1e-2 * np.abs(felt).max(), felt, 0.0), rate)
+    kept = sum(np.abs(found - stroke).min() < 0.02 for stroke in strokes)
+    assert kept >= 9
+    assert len(found) <= 12
+
+
+def test_bursts_are_felt_where_the_source_is_or_where_the_actuator_is_best() -> None:
+    assert carrier_hz(ConversionContext(own_hz=120.0)) == 120.0
+    assert carrier_hz(ConversionContext(own_hz=120.0, target_hz=150.0)) == 150.0
+    assert carrier_hz(ConversionContext(own_hz=50.0)) == pytest.approx(250.0, rel=0.05)
+    lra = ActuatorProfile(name="lra", resonance_hz=175.0, q=15.0)
+    assert carrier_hz(ConversionContext(lra, own_hz=50.0)) == pytest.approx(175.0, rel=0.03)
