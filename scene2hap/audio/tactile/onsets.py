@@ -31,6 +31,11 @@ QUIETEST = 1e-7
 LATE_S = 5.0
 SHARP_S, DULL_S = 0.008, 0.020
 TICKS_HZ = 1000.0
+ABOVE_BED, AROUND_S = 3.0, 0.25
+"""A burst is at most so much stronger than the bed around it (10 dB): what is stronger takes the room in which the bed
+is to reach its level."""
+NO_BED = 0.01
+"""Of a burst, below which a bed is none: between the ticks of a clock."""
 _WARM = round(MEAN_S / STEP_S)
 
 
@@ -48,6 +53,7 @@ class WithOnsets:
         self._n_decided, self._last = 0, -self._apart
         self._held = np.empty(0)  # of the bed
         self._n_released = 0
+        self._past = np.zeros(round(AROUND_S * sample_rate_hz))  # of the bed
         self._bursts: list[tuple[int, Signal]] = []
 
     def run(self, x: Signal) -> Signal:
@@ -83,14 +89,25 @@ class WithOnsets:
         n = round((SHARP_S + (DULL_S - SHARP_S) * left) * self._rate_hz)
         t = np.arange(n)
         shape = 0.5 - 0.5 * np.cos(2 * np.pi * t / n)
-        burst: Signal = np.sqrt(2.0 * height) * shape * np.sin(2 * np.pi * self._carrier_hz / self._rate_hz * t)
+        amplitude, bed = np.sqrt(2.0 * height), self._bed_around()
+        if bed > NO_BED * amplitude:
+            amplitude = min(amplitude, ABOVE_BED * bed)
+        burst: Signal = amplitude * shape * np.sin(2 * np.pi * self._carrier_hz / self._rate_hz * t)
         return burst
+
+    def _bed_around(self) -> float:
+        """The bed's peak around the step that is decided."""
+        here = self._n_decided * self._step - self._n_released
+        n = len(self._past)
+        around = np.concatenate([self._past, self._held])[here : here + n + (LOOK + 1) * self._step]
+        return float(np.abs(around).max())
 
     def _released(self, end: int) -> Signal:
         n = min(end - self._n_released, len(self._held))
         if n <= 0:
             return np.empty(0)
         out, self._held = self._held[:n].copy(), self._held[n:]
+        self._past = np.concatenate([self._past, out])[n:]
         begin, end = self._n_released, self._n_released + n
         for start, burst in self._bursts:
             first, last = max(start, begin), min(start + len(burst), end)

@@ -12,10 +12,27 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scene2hap.audio.sources.synth.signals import Signal, Take
+from scene2hap.audio.sources.synth.signals import Signal, Take, phase, wander
 
 SIZE_POWER = 0.5
 SIZE_FACTOR_BOUNDS = (0.75, 4.0 / 3.0)
+
+
+@dataclass(frozen=True)
+class Rhythm:
+    """A load that comes and goes: so many times a second, by a share of the amplitude, with a wavering rate.
+
+    Rates are those of what turns or is worked on; depths are assumed, below 5 dB of range for what is steady.
+    """
+
+    rate_hz: float
+    depth: float
+    wavers: float = 0.03
+
+    def applied(self, y: Signal, take: Take) -> Signal:
+        """A voice under that load."""
+        rate = take.about(self.rate_hz) * (1.0 + self.wavers * wander(take.rng))
+        return np.asarray(y * (1.0 + self.depth * np.cos(phase(rate) + take.rng.uniform(0.0, 2.0 * np.pi))))
 
 
 @dataclass(frozen=True)
@@ -23,13 +40,15 @@ class Patch:
     """A voice with its numbers.
 
     `dominant_hz` bounds the strongest frequency at reference size; `reference_m` is the longest side of the machine
-    meant by the numbers, None where size does not matter; `is_steady` says that it loops without ado.
+    meant by the numbers, None where size does not matter; `is_steady` says that it loops without ado; `rhythm` is what
+    its load does to all of it, None for nothing.
     """
 
     voice: Callable[[Take], Signal]
     dominant_hz: tuple[float, float]
     reference_m: float | None = None
     is_steady: bool = True
+    rhythm: Rhythm | None = None
 
     def size_factor(self, longest_m: float) -> float:
         """What multiplies frequencies for a machine of that size [m]; 1 where the size is unknown (0)."""

@@ -52,6 +52,8 @@ class Synthesizer:
 
 def _performed(patch: Patch, take: Take, description: VibrationDescription, index: int) -> AudioClip:
     y = patch.voice(take)
+    if patch.rhythm is not None:
+        y = patch.rhythm.applied(y, take)
     # Strokes push more one way than the other; an offset is neither heard nor felt, and takes room from what is.
     y = y - y.mean()
     voice = patch.voice.func if isinstance(patch.voice, partial) else patch.voice

@@ -5,6 +5,7 @@ Speeds of induction motors are those on a mains of 50 Hz.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 from scene2hap.audio.sources.synth.events import blows, bubbles, buzzer, music
@@ -16,7 +17,7 @@ from scene2hap.audio.sources.synth.oscillating import (
     ringing_motor,
     vibration_motor,
 )
-from scene2hap.audio.sources.synth.patch import Patch
+from scene2hap.audio.sources.synth.patch import Patch, Rhythm
 from scene2hap.audio.sources.synth.rotating import compressor, fan, motor, power_tool, pump, spinner, washing
 from scene2hap.audio.sources.synth.working import geared, jet, rolling, rotor_slap, stepper
 
@@ -71,7 +72,8 @@ MOTOR = Patch(motor, (46.0, 50.0), 0.4)
 _HUM = Patch(mains_hum, (99.8, 100.2))
 _COMPRESSOR = Patch(compressor, (48.5, 49.5))
 _PISTONS = _to_and_fro(47.5, rattle=0.3)
-_BOILING = Patch(partial(bubbles, largest_hz=90.0, smallest_hz=380.0), (80.0, 420.0))
+# Bubbles rise in surges.
+_BOILING = Patch(partial(bubbles, largest_hz=90.0, smallest_hz=380.0), (80.0, 420.0), rhythm=Rhythm(4.3, 0.25, 0.02))
 _SIZZLING = Patch(partial(bubbles, largest_hz=150.0, smallest_hz=500.0, per_second=1200.0), (130.0, 550.0))
 _CRACKLING = Patch(
     partial(bubbles, largest_hz=100.0, smallest_hz=400.0, per_second=40.0), (80.0, 440.0), is_steady=False
@@ -92,24 +94,29 @@ _DIESEL = _engine(35.0, 2, 7.0)
 _SMALL_ENGINE = _engine(25.0, 2, 1.0)
 _SHAKER = _shaker(60.0, 0.2)
 _TWO_STROKE = _engine(117.0, 1, 0.8)
-_DRILL = _tool(250.0, 18.0, 0.25)
+# Two cutting edges at 18 turns a second.
+_DRILL = replace(_tool(250.0, 18.0, 0.25), rhythm=Rhythm(36.0, 0.4))
 # Its blades sit on the motor; what they hit passes under them twice a turn, and now and then.
-_BLENDER = _tool(290.0, 290.0, 0.4, spindle=0.8)
+_BLENDER = replace(_tool(290.0, 290.0, 0.4, spindle=0.8), rhythm=Rhythm(13.0, 0.4, 0.05))
+# Beans break under the blades, more of them at a time than a blender's soft contents.
+_COFFEE_GRINDER = replace(_tool(260.0, 260.0, 0.25, spindle=0.6), rhythm=Rhythm(21.0, 0.5, 0.05))
 # A universal motor behind a planetary gear, whose beater meets the dough two or three times a second.
 _DOUGH_MIXER = _geared(165.0, 2.6, 0.4, load=0.3, rumble=0.3)
 _GRINDER = _tool(420.0, 183.0, 0.3, spindle=1.5, loud_hz=183.0)
 _CUTTER = _tool(300.0, 300.0, 0.3, spindle=0.0)
 _PUMP = Patch(pump, (276.0, 300.0), 0.3)
 _MUSIC = Patch(music, (60.0, 135.0), is_steady=False)
-_BREEZE = _fan(22.0, 5, 0.4, rotor=0.5, blade=1.0, flow=1.0)
+# Blades that are not quite alike, and air that leans on them.
+_BREEZE = replace(_fan(22.0, 5, 0.4, rotor=0.5, blade=1.0, flow=1.0), rhythm=Rhythm(1.9, 0.25, 0.02))
 _BLOWER = _fan(220.0, 9, 0.22, blade=0.2, flow=0.7)
-_COMPUTER = _fan(26.0, 7, 0.12, rotor=0.4, blade=1.0, flow=1.8)
+# Two fans that turn almost alike.
+_COMPUTER = replace(_fan(26.0, 7, 0.12, rotor=0.4, blade=1.0, flow=1.8), rhythm=Rhythm(0.7, 0.25, 0.02))
 _CENTRIFUGE = _fan(66.0, 4, 0.4, blade=0.1, flow=0.2)
 _KNEADER = _geared(48.0, 3.5, 0.35, load=0.25)
 _CONVEYOR = _geared(48.0, 9.0, 3.0, rumble=0.4)
 _WINCH = _geared(48.0, 6.0, 1.5)
 _ELECTRIC_DRIVE = _geared(90.0, 8.0, 1.5)
-_TUMBLER = _geared(48.0, 0.85, 0.6, load=0.1, thump_hz=70.0)
+_TUMBLER = replace(_geared(48.0, 0.85, 0.6, load=0.1, thump_hz=70.0), rhythm=Rhythm(0.85, 0.25, 0.0))
 _STEPPER = Patch(stepper, (85.0, 265.0))
 _ROLLING = Patch(rolling, (40.0, 60.0))
 _HISS = Patch(jet, (45.0, 300.0))
@@ -122,7 +129,8 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     # the kitchen
     ("refrigerator, freezer, minibar, wine cooler, water cooler, dehumidifier", "", _COMPRESSOR),
     ("water dispenser, vending machine, heat pump, ice machine, ice maker", "", _COMPRESSOR),
-    ("microwave", "", Patch(microwave, (99.8, 100.2))),
+    # Its transformer feeds a rectifier of one diode: every other half wave pulls harder.
+    ("microwave", "", Patch(microwave, (99.8, 100.2), rhythm=Rhythm(50.0, 0.4, 0.0))),
     ("hood", "", _fan(42.0, 7, 0.6, flow=0.7)),
     ("oven, stove, cooktop, cooker, hob, hotplate, toaster", "", _HUM),
     ("cooker, steamer", "boil, bubble, simmer", _BOILING),
@@ -132,9 +140,11 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("pan, pot, kettle, wok, cauldron, fryer, soup, rice cooker, slow cooker", "", _BOILING),
     ("pan, wok, fryer, iron", "sizzle, fry, sear", _SIZZLING),
     ("grill, barbecue", "", _SIZZLING),
-    ("dishwasher", "", Patch(pump, (276.0, 300.0), 0.6)),
+    # Two arms of 40 turns a minute spray what they pass.
+    ("dishwasher", "", Patch(pump, (276.0, 300.0), 0.6, rhythm=Rhythm(1.3, 0.25, 0.0))),
     ("coffeemaker", "", _to_and_fro(50.0, rattle=0.2)),
-    ("blender, food processor, juicer, coffee grinder", "", _BLENDER),
+    ("blender, food processor, juicer", "", _BLENDER),
+    ("coffee grinder, coffee mill, spice grinder", "", _COFFEE_GRINDER),
     ("mixer", "", _DOUGH_MIXER),
     ("bread maker", "", _KNEADER),
     ("knife", "", _to_and_fro(50.0, rattle=0.3)),
@@ -157,7 +167,8 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("workstation, gpu, network rack, mining rig, supercomputer", "", _COMPUTER),
     ("hard drive, hard disk", "", _fan(120.0, 3, 0.15, blade=0.05, flow=0.1)),
     ("vacuum sealer", "", _PISTONS),
-    ("vacuum", "", _fan(330.0, 7, 0.4, blade=0.1, flow=0.6)),
+    # The nozzle flutters on a carpet.
+    ("vacuum", "", replace(_fan(330.0, 7, 0.4, blade=0.1, flow=0.6), rhythm=Rhythm(2.8, 0.25, 0.02))),
     ("steam cleaner, steamer, iron, paint sprayer, sprayer", "", _STEAM),
     ("sprinkler, hose, car wash", "", _HISS),
     ("pressure washer", "", Patch(partial(pump, vanes=3), (138.0, 150.0), 0.6)),
@@ -197,7 +208,8 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("treadmill", "", _geared(60.0, 2.6, 1.8, rumble=0.3, thump_hz=75.0)),
     ("hoist, winch, lift, crane", "hum, whir", _WINCH),
     # garden and building site
-    ("chainsaw", "", _engine(150.0, 1, 0.8)),
+    # The chain bites, and the engine feels it.
+    ("chainsaw", "", replace(_engine(150.0, 1, 0.8), rhythm=Rhythm(7.0, 0.4, 0.3))),
     ("leafblower, string trimmer, brush cutter", "", _TWO_STROKE),
     ("lawnmower, generator, tiller, scarifier, snow blower, cultivator", "", _SMALL_ENGINE),
     ("robot mower", "", _fan(50.0, 3, 0.6)),
