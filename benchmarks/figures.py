@@ -74,6 +74,8 @@ FIGURES = {
         "contacts", f"stress/contacts.py {MOVERS} --moves 1500", 60, is_text=True, needs="scenes"
     ),
     "distinctness": Figure("conversion", "benchmarks/distinctness.py", 1),
+    "kinds": Figure("conversion", "benchmarks/kinds.py --seeds 4", 1),
+    "recordings": Figure("conversion", "benchmarks/recordings.py", 0.5, needs="recordings"),
     "conversion-cost": Figure("conversion", "benchmarks/convert.py", 5, has_times=True, is_text=True),
     "audio": Figure("audio", "stress/audio.py", 5, is_text=True, needs="recordings"),
     "accuracy": Figure("accuracy", "benchmarks/accuracy.py", 10, has_times=True),

@@ -35,6 +35,8 @@ TACTILE_HEADROOM_DB = 6.0
 """Peak of the tactile loop of a source of full intensity, below full scale [dB]: two such sources add up to full scale
 (within 0.02 dB)."""
 TACTILE_RANGE_HZ = (10.0, 1000.0)
+FAINTEST_PEAK_DB = -60.0
+"""Of a sound, below which it is taken for the noise of a recording, which is not to be felt [dB re full scale]."""
 
 _NOTHING_DB = -120.0
 """Below this there are only errors of rounding."""

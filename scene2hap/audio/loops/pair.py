@@ -12,7 +12,7 @@ from scene2hap.audio import analysis
 from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.haptic_loop import HapticLoop
-from scene2hap.audio.levels import TACTILE_HEADROOM_DB
+from scene2hap.audio.levels import FAINTEST_PEAK_DB, TACTILE_HEADROOM_DB
 from scene2hap.audio.loops.seam import apply_seam
 from scene2hap.audio.loops.seam_search import CROSSFADE_S, MAX_LOOP_S, find_seam
 from scene2hap.audio.protocol import ConversionContext, TactileConverter
@@ -61,6 +61,12 @@ def loop_pair(
     """
     intensity = checks.number("intensity", context.intensity, "-", above=0.0, at_most=1.0, error=AudioError)
     rate = clip.sample_rate_hz
+    peak = float(np.abs(clip.samples).max(initial=0.0))
+    if 0.0 < peak < 10 ** (FAINTEST_PEAK_DB / 20):
+        raise AudioError(
+            f"{clip.credit.title!r} peaks at {20 * np.log10(peak):.0f} dB re full scale; below {FAINTEST_PEAK_DB:g} dB "
+            "is the noise of a recording, which nobody wants to feel. Choose another sound, or raise its level."
+        )
     converted = convert_clip(clip, converter, context)
     seam = find_seam(clip.samples, rate, converted.samples)
     audible = apply_seam(clip.samples, seam)

@@ -11,6 +11,8 @@ high an onset rises, the stage holds back 10 ms.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from scipy.signal import butter
 
@@ -22,14 +24,16 @@ LOOK = 4
 RISE = 10.0
 """Of energy over its slow mean, for an onset (10 dB; tuned: ticks of a clock pass, pulses of a chainsaw do not)."""
 MEAN_S = 0.06
-APART_S = 0.045
-"""Onsets closer together are one."""
+APART_S, LOUDER = 0.025, 4.0
+"""Onsets closer together are one, unless the later one has so much more energy: strokes often begin with a scrape."""
 FAINTEST = 1e-4
 """Of the loudest of late, below which nothing is an onset (40 dB)."""
 QUIETEST = 1e-7
 """Energy that is silence (-70 dB re full scale)."""
 LATE_S = 5.0
 SHARP_S, DULL_S = 0.008, 0.020
+SPARED_S = 0.06
+"""After an onset the bed hears no more than there was before it for so long, or it would ring on."""
 TICKS_HZ = 1000.0
 ABOVE_BED, AROUND_S = 3.0, 0.25
 """A burst is at most so much stronger than the bed around it (10 dB): what is stronger takes the room in which the bed
@@ -40,109 +44,151 @@ _WARM = round(MEAN_S / STEP_S)
 
 
 class WithOnsets:
-    """A `Stage`: the bed through its own stages, plus a burst of `carrier_hz` for each onset."""
+    """A `Stage`: the bed through its own stages, which are spared onsets, plus a burst of `carrier_hz` for each."""
 
     def __init__(self, bed: list[Stage], carrier_hz: float, sample_rate_hz: float) -> None:
         self._bed, self._carrier_hz, self._rate_hz = bed, carrier_hz, sample_rate_hz
         self._step = max(1, round(STEP_S * sample_rate_hz))
         ticks_hz = min(TICKS_HZ, 0.4 * sample_rate_hz)
         self._high = SosStage(butter(2, ticks_hz, "highpass", fs=sample_rate_hz, output="sos"))
-        self._bands = [_Rise(), _Rise()]
-        self._apart = round(APART_S / STEP_S)
         self._heard = np.empty((2, 0))  # the sound and its ticks, not yet a whole step
-        self._n_decided, self._last = 0, -self._apart
-        self._held = np.empty(0)  # of the bed
-        self._n_released = 0
+        self._waiting = np.empty(0)  # of the sound, not decided
+        self._watch, self._n_released = _Watch(), 0
         self._past = np.zeros(round(AROUND_S * sample_rate_hz))  # of the bed
         self._bursts: list[tuple[int, Signal]] = []
 
     def run(self, x: Signal) -> Signal:
         """What is decided of the samples so far."""
+        self._waiting = np.concatenate([self._waiting, x])
         self._heard = np.concatenate([self._heard, [x, self._high.run(x)]], axis=1)
-        for stage in self._bed:
-            x = stage.run(x)
-        self._held = np.concatenate([self._held, x])
         n_steps = self._heard.shape[1] // self._step
         whole, self._heard = np.split(self._heard, [n_steps * self._step], axis=1)
-        for band, energies in zip(self._bands, (whole.reshape(2, n_steps, self._step) ** 2).mean(axis=2), strict=True):
-            band.energies += energies.tolist()
-        while len(self._bands[0].energies) > LOOK:
-            self._decide()
-        return self._released(self._n_decided * self._step)
+        parts = [np.empty(0)]
+        for step in self._watch.decided(*(whole.reshape(2, n_steps, self._step) ** 2).mean(axis=2).tolist()):
+            parts.append(self._felt(step.number * self._step, 1.0))
+            if step.height > 0.0:
+                self._bursts.append((self._n_released, self._burst(step.height, step.left)))
+            if step.share < 1.0:
+                parts.append(self._felt((step.number + 1) * self._step, step.share))
+        parts.append(self._felt(self._watch.n_decided * self._step, 1.0))
+        return np.concatenate(parts)
 
     def rest(self) -> Signal:
         """The last steps, in which no onset is looked for any more."""
-        return self._released(self._n_released + len(self._held))
-
-    def _decide(self) -> None:
-        """Whether the oldest step that is not decided is an onset, and go on to the next."""
-        if self._n_decided - self._last >= self._apart:
-            height, left = max(band.height() for band in self._bands)
-            if height > 0.0:
-                self._last = self._n_decided
-                self._bursts.append((self._n_decided * self._step, self._burst(height, left)))
-        for band in self._bands:
-            band.go_on()
-        self._n_decided += 1
+        return self._mixed(self._n_released, self._through(self._waiting))
 
     def _burst(self, height: float, left: float) -> Signal:
         n = round((SHARP_S + (DULL_S - SHARP_S) * left) * self._rate_hz)
         t = np.arange(n)
         shape = 0.5 - 0.5 * np.cos(2 * np.pi * t / n)
-        amplitude, bed = np.sqrt(2.0 * height), self._bed_around()
+        amplitude, bed = np.sqrt(2.0 * height), float(np.abs(self._past).max())
         if bed > NO_BED * amplitude:
             amplitude = min(amplitude, ABOVE_BED * bed)
         burst: Signal = amplitude * shape * np.sin(2 * np.pi * self._carrier_hz / self._rate_hz * t)
         return burst
 
-    def _bed_around(self) -> float:
-        """The bed's peak around the step that is decided."""
-        here = self._n_decided * self._step - self._n_released
-        n = len(self._past)
-        around = np.concatenate([self._past, self._held])[here : here + n + (LOOK + 1) * self._step]
-        return float(np.abs(around).max())
+    def _felt(self, end: int, share: float) -> Signal:
+        """What is felt up to a sample of the sound, of which the bed hears a share."""
+        begin, n = self._n_released, end - self._n_released
+        x, self._waiting = self._waiting[:n], self._waiting[n:]
+        self._n_released = end
+        bed = self._through(x if share == 1.0 else share * x)
+        self._past = np.concatenate([self._past, bed])[n:]
+        return self._mixed(begin, bed)
 
-    def _released(self, end: int) -> Signal:
-        n = min(end - self._n_released, len(self._held))
-        if n <= 0:
-            return np.empty(0)
-        out, self._held = self._held[:n].copy(), self._held[n:]
-        self._past = np.concatenate([self._past, out])[n:]
-        begin, end = self._n_released, self._n_released + n
+    def _through(self, x: Signal) -> Signal:
+        for stage in self._bed:
+            x = stage.run(x)
+        return x
+
+    def _mixed(self, begin: int, bed: Signal) -> Signal:
+        """The bed from a sample on, with its bursts."""
+        end, out = begin + len(bed), bed
         for start, burst in self._bursts:
             first, last = max(start, begin), min(start + len(burst), end)
             if first < last:
+                out = out.copy() if out is bed else out
                 out[first - begin : last - begin] += burst[first - start : last - start]
         self._bursts = [one for one in self._bursts if one[0] + len(one[1]) > end]
-        self._n_released = end
         return out
 
 
+class _Step(NamedTuple):
+    """A step that is more than bed: energy of the onset that it is, 0 for none, and the share of that after `LOOK`
+    steps; what share of the sound the bed hears."""
+
+    number: int
+    height: float
+    left: float
+    share: float
+
+
 class _Rise:
-    """The energies of steps that are not decided yet, and their slow mean before."""
+    """The slow mean of an energy, and its loudest of late."""
 
     _FORGET = float(np.exp(-STEP_S / LATE_S))
 
     def __init__(self) -> None:
         self.energies: list[float] = []
-        self._mean = self._loudest = 0.0
-        self._n_known = 0
+        self.mean = self.loudest = 0.0
 
-    def height(self) -> tuple[float, float]:
-        """Energy of the onset that the first step is, and the share of it after `LOOK` steps; 0, 0 for none."""
-        energy = self.energies[0]
-        if self._n_known < _WARM or energy <= RISE * self._mean or energy <= max(QUIETEST, FAINTEST * self._loudest):
-            return 0.0, 0.0
-        top = max(self.energies[: LOOK + 1])
-        return top - self._mean, min(self.energies[LOOK] / top, 1.0)
-
-    def go_on(self) -> None:
-        """Forget the first step. What a sound begins with is no onset: the mean is not known yet."""
-        energy = self.energies.pop(0)
-        if self._n_known < _WARM:
-            self._n_known += 1
-            self._mean += (energy - self._mean) / self._n_known
+    def follow(self, energy: float, n_known: int) -> None:
+        """Take in a step, after so many."""
+        if n_known < _WARM:
+            self.mean += (energy - self.mean) / (n_known + 1)
         else:
             # An onset raises the mean little by little, or the next one would be missed.
-            self._mean += (min(energy, 8.0 * self._mean + QUIETEST) - self._mean) / _WARM
-        self._loudest = max(energy, self._FORGET * self._loudest)
+            most = 8.0 * self.mean + QUIETEST
+            self.mean += ((energy if energy < most else most) - self.mean) / _WARM
+        faded = self._FORGET * self.loudest
+        self.loudest = energy if energy > faded else faded
+
+
+class _Watch:
+    """Finds onsets in the energies of the sound and of its ticks, step by step."""
+
+    _APART, _SPARED = round(APART_S / STEP_S), round(SPARED_S / STEP_S)
+
+    def __init__(self) -> None:
+        self._bands = _Rise(), _Rise()
+        self.n_decided, self._last = 0, -self._SPARED
+        self._before = self._height = 0.0  # energy of the sound before the last onset, and of that
+
+    def decided(self, whole: list[float], ticks: list[float]) -> list[_Step]:
+        """The steps that are more than bed, of those that are decided now."""
+        for band, energies in zip(self._bands, (whole, ticks), strict=True):
+            band.energies += energies
+        n = max(0, len(self._bands[0].energies) - LOOK)
+        found = [step for k in range(n) if (step := self._looked_at(k)) is not None]
+        for band in self._bands:
+            del band.energies[:n]
+        return found
+
+    def _looked_at(self, k: int) -> _Step | None:
+        number, (sound, high) = self.n_decided, self._bands
+        energy, step = sound.energies[k], None
+        # What a sound begins with is no onset: its mean is not known yet.
+        if number >= _WARM and (energy > RISE * sound.mean or high.energies[k] > RISE * high.mean):
+            step = self._onset(number, k)
+        if energy > 2.0 * self._before and number - self._last < self._SPARED:
+            share = (self._before / energy) ** 0.5
+            step = _Step(number, 0.0, 0.0, share) if step is None else step._replace(share=share)
+        sound.follow(energy, number)
+        high.follow(high.energies[k], number)
+        self.n_decided += 1
+        return step
+
+    def _onset(self, number: int, k: int) -> _Step | None:
+        height, left = 0.0, 0.0
+        for band in self._bands:
+            if band.energies[k] > max(RISE * band.mean, QUIETEST, FAINTEST * band.loudest):
+                top = max(band.energies[k : k + LOOK + 1])
+                if top - band.mean > height:
+                    height, left = top - band.mean, min(band.energies[k + LOOK] / top, 1.0)
+        since = number - self._last
+        if height <= (0.0 if since >= self._APART else LOUDER * self._height):
+            return None
+        # Between strokes that follow each other at once there is nothing but these.
+        self._before = self._bands[0].mean if since >= self._SPARED else self._before
+        self._last, self._height = number, height
+        return _Step(number, height, left, 1.0)

@@ -311,3 +311,14 @@ def test_a_pair_that_would_drift_apart_cannot_be_made() -> None:
             HapticLoop(a, other, 100.0, 100.0)
     with pytest.raises(AudioError, match="frequency_tactile_hz is 0 Hz"):
         HapticLoop(a, a, 100.0, 0.0)
+
+
+@pytest.mark.parametrize(("peak_db", "is_noise"), [(-80.0, True), (-61.0, True), (-59.0, False), (-20.0, False)])
+def test_the_noise_of_a_recording_becomes_no_loop(peak_db: float, is_noise: bool) -> None:
+    x = np.random.default_rng(0).standard_normal(3 * 8000)
+    clip = AudioClip((x / np.abs(x).max() * 10 ** (peak_db / 20)).astype(np.float32), 8000)
+    if is_noise:
+        with pytest.raises(AudioError, match=f"{peak_db:.0f} dB re full scale"):
+            loop_pair(clip, SvfBandpass(), ConversionContext())
+    else:
+        assert loop_pair(clip, SvfBandpass(), ConversionContext()).tactile.samples.any()

@@ -355,3 +355,12 @@ def test_level_and_bound_are_told(tmp_path: Path) -> None:
     assert (raw.level_db, raw.asked_level_db) == (None, None)
     short = audio.convert(write(tmp_path / "f.wav", sound(0.3, 1, 150.0)), tmp_path / "g.wav", intensity=0.3)
     assert short.level_db == pytest.approx(sensation_level_db(0.3), abs=0.01)
+
+
+@pytest.mark.parametrize(("peak_db", "is_noise"), [(-80.0, True), (-59.0, False)])
+def test_the_noise_of_a_recording_is_not_lifted(tmp_path: Path, peak_db: float, is_noise: bool) -> None:
+    x = np.random.default_rng(0).standard_normal((RATE, 1))
+    source = write(tmp_path / "a.wav", x / np.abs(x).max() * 10 ** (peak_db / 20), subtype="FLOAT")
+    made = audio.convert(source, tmp_path / "b.wav")
+    assert (made.level_db is None) == is_noise
+    assert (made.peak_out < 1e-3) == is_noise

