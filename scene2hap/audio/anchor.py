@@ -17,6 +17,7 @@ import numpy as np
 import scipy.fft
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.levels import drive_db, felt_level_of_spectrum_db
 from scene2hap.haptics import ActuatorProfile
 
@@ -62,6 +63,14 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
     x = np.asarray(samples, dtype=np.float64)
     found = _felt_anchor(x, sample_rate_hz, level_db, actuator)
     return found and replace(found, rough_hz=_rough_hz(x, sample_rate_hz, found.frequency_hz))
+
+
+def band_of(clip: AudioClip, anchor: Anchor) -> NDArray[np.float64]:
+    """What the adaptive converter keeps of a clip around its anchor (n_samples,)."""
+    x = clip.samples.astype(np.float64)
+    spectrum = scipy.fft.rfft(x - x.mean())
+    spectrum *= _band(scipy.fft.rfftfreq(len(x), 1.0 / clip.sample_rate_hz), anchor.frequency_hz)
+    return np.asarray(scipy.fft.irfft(spectrum, len(x)), dtype=np.float64)
 
 
 def _rough_hz(x: NDArray[np.float64], sample_rate_hz: float, felt_hz: float) -> float | None:

@@ -34,6 +34,7 @@ FAR_DB = 12.0
 _RATE_HZ = (0.5, 60.0)
 _LEAST_DEPTH = 0.2
 """Modulation index below which an envelope counts as steady [-]: 3.5 dB from trough to crest, assumed."""
+_SURE_DEPTH = 0.25
 
 
 @dataclass(frozen=True)
@@ -83,7 +84,7 @@ def feel_of(loop_samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorPr
     if not felt.any():
         raise AudioError("the loop is silent between 10 and 1000 Hz; there is nothing to tell apart.")
     level_db = felt_level_db(x, sample_rate_hz, actuator)
-    return Feel(float(f[np.argmax(felt)]), _envelope_rate_hz(x, sample_rate_hz), level_db)
+    return Feel(float(f[np.argmax(felt)]), _envelope_rate_hz(x, sample_rate_hz, _LEAST_DEPTH), level_db)
 
 
 def difference(first: str, one: Feel, second: str, other: Feel) -> Difference:
@@ -109,7 +110,12 @@ def frequency_jnds(one_hz: float, other_hz: float) -> float:
     return abs(math.log(a / b)) / math.log1p(FREQUENCY_WEBER)
 
 
-def _envelope_rate_hz(x: np.ndarray, sample_rate_hz: float) -> float | None:
+def rhythm_hz(samples: ArrayLike, sample_rate_hz: float) -> float | None:
+    """The rate at which a sound (n_samples,) surely rises and falls [Hz], whatever loop is cut from it; else None."""
+    return _envelope_rate_hz(np.asarray(samples, dtype=np.float64), sample_rate_hz, _SURE_DEPTH)
+
+
+def _envelope_rate_hz(x: np.ndarray, sample_rate_hz: float, least_depth: float) -> float | None:
     """The strongest rate in the Hilbert envelope of a loop; None where that hardly moves."""
     spectrum = np.fft.fft(x)
     spectrum[0] = 0.0
@@ -120,4 +126,4 @@ def _envelope_rate_hz(x: np.ndarray, sample_rate_hz: float) -> float | None:
     depth = 2.0 * np.abs(np.fft.rfft(envelope)) / len(x) / envelope.mean()
     depth[~inside] = 0.0
     k = int(np.argmax(depth))
-    return float(rates[k]) if depth[k] >= _LEAST_DEPTH else None
+    return float(rates[k]) if depth[k] >= least_depth else None

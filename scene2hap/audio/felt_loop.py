@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from scene2hap.audio.actuators import MAX_BOOST_DB, equalize_loop
-from scene2hap.audio.anchor import Anchor, anchor_of
+from scene2hap.audio.anchor import Anchor, anchor_of, band_of
 from scene2hap.audio.clip import AudioClip, Samples
+from scene2hap.audio.distinctness import rhythm_hz
 from scene2hap.audio.haptic_loop import HapticLoop, Sensation
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB, at_level, felt_level_db, sensation_level_db
 from scene2hap.audio.loops import loop_pair
@@ -61,6 +62,7 @@ def plan_scene(
             source.group,
             anchor.crest_db,
             is_placed=source.keep or source.pitch_hz is not None,
+            rhythm_hz=anchor.rough_hz or rhythm_hz(band_of(source.clip, anchor), source.clip.sample_rate_hz),
         )
         for source, level, anchor in zip(sources, levels, anchors, strict=True)
         if anchor is not None
@@ -101,7 +103,8 @@ def _anchors(sources: Sequence[SourceClip], levels: Sequence[float], actuator: A
 def _standing_voice(loop: HapticLoop, group: str, actuator: ActuatorProfile) -> Voice:
     clip = loop.tactile
     level_db = felt_level_db(clip.samples, clip.sample_rate_hz, actuator)
-    return Voice(loop.frequency_tactile_hz, level_db, group, is_placed=True)
+    rhythm = rhythm_hz(clip.samples, clip.sample_rate_hz)
+    return Voice(loop.frequency_tactile_hz, level_db, group, is_placed=True, rhythm_hz=rhythm)
 
 
 def felt_loop(

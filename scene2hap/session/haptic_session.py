@@ -522,7 +522,7 @@ class HapticSession:
         if not self._warned_of_silence and not self._sources.ids:
             self._warned_of_silence = True
             warn_of(
-                f"of {len(self._state.objects)} objects none vibrates, so that nothing will be felt; add or spawn "
+                f"of {len(self._state.objects)} objects none vibrates, so that nothing but impacts will be felt; add "
                 "one with loops, or bundle.override(id, vibrates=True) and rebake(bundle)."
             )
 

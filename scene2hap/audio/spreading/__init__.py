@@ -2,8 +2,9 @@
 
 Two sources are apart when they differ by two JNDs of frequency, or by one and two of level (`distinctness`). The order
 of levels is kept, and nobody is moved to where the actuator cannot bring its level. They are placed by the widest
-published JND of frequency if there is room, else by the middle one, by which distinctness is measured. A crowded scene
-comes out as distinct as the limits let it.
+published JND of frequency if there is room, else by the middle one, by which distinctness is measured. Where that takes
+too much room as well, those that differ in rhythm may share a frequency. A crowded scene comes out as distinct as the
+limits let it.
 """
 
 from __future__ import annotations
@@ -40,8 +41,8 @@ def spread(
     stay = {voice: Placement(voice.own_hz, voice.level_db) for voice in voices}
     if len(stay) < 2 or limits.octaves == limits.level_db == 0.0:
         return tuple(stay[voice] for voice in voices)
-    for weber in (WIDEST_WEBER, FREQUENCY_WEBER):
-        room = Room.of(tuple(stay), actuator or ActuatorProfile(), limits, weber)
+    for weber, counts_rhythm in ((WIDEST_WEBER, False), (FREQUENCY_WEBER, False), (FREQUENCY_WEBER, True)):
+        room = Room.of(tuple(stay), actuator or ActuatorProfile(), limits, weber, counts_rhythm=counts_rhythm)
         outcome = Programme(room).solve() if len(room.pairs) <= _EXACT_PAIRS else give_way(room)
         if outcome.shortage_oct < _ENOUGH_OCT:
             break

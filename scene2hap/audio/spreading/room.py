@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from scene2hap.audio.anchor import Anchor, reachable_hz
-from scene2hap.audio.distinctness import LEVEL_JND_DB
+from scene2hap.audio.distinctness import LEVEL_JND_DB, frequency_jnds
 from scene2hap.haptics import ActuatorProfile
 from scene2hap.settings import Settings
 
@@ -23,6 +23,8 @@ _MARGIN = 1.01
 few cycles."""
 LEVEL_STEP_DB = LEVEL_JND_DB * _MARGIN
 _ORDER_GAP_DB = 0.5
+_OTHER_RHYTHM = 2.2
+"""JNDs between two rhythms from which on these tell voices apart: two, and what a loop of few cycles may miss."""
 
 
 class SpreadLimits(Settings):
@@ -42,13 +44,15 @@ class SpreadLimits(Settings):
 class Voice:
     """A source before it is moved: its own frequency [Hz], the sensation level that its intensity asks for [dB], and a
     group; voices of one group need not differ (the states of an object, objects of one kind). `crest_db` is what its
-    peaks exceed a sine's by. One that `is_placed` already stays where it is."""
+    peaks exceed a sine's by. One that `is_placed` already stays where it is. `rhythm_hz` is the rate at which it rises
+    and falls, None if it hardly does."""
 
     own_hz: float
     level_db: float
     group: str = ""
     crest_db: float = 0.0
     is_placed: bool = False
+    rhythm_hz: float | None = None
 
 
 @dataclass(frozen=True)
@@ -56,7 +60,7 @@ class Room:
     """Bounds of frequency x (n,) [oct, re 1 Hz] and level l (n,) [dB] around where the voices are, x0 and l0.
 
     `jnd_oct` is one JND of frequency [oct]; `octaves` and `level_db` are the limits, which also weigh the two kinds of
-    moves against each other.
+    moves against each other; `counts_rhythm` lets voices of two rhythms share a frequency.
     """
 
     voices: tuple[Voice, ...]
@@ -69,9 +73,18 @@ class Room:
     jnd_oct: float
     octaves: float
     level_db: float
+    counts_rhythm: bool = False
 
     @classmethod
-    def of(cls, voices: Sequence[Voice], actuator: ActuatorProfile, limits: SpreadLimits, weber: float) -> Room:
+    def of(
+        cls,
+        voices: Sequence[Voice],
+        actuator: ActuatorProfile,
+        limits: SpreadLimits,
+        weber: float,
+        *,
+        counts_rhythm: bool = False,
+    ) -> Room:
         """The room that actuator, levels and limits leave, and a Weber fraction of frequency to measure it by."""
         octaves = limits.octaves / _MARGIN
         reach = [reachable_hz(Anchor(v.own_hz, v.crest_db), v.level_db, actuator, octaves) for v in voices]
@@ -89,6 +102,7 @@ class Room:
             float(np.log2(1.0 + weber)) * _MARGIN,
             max(limits.octaves, 1e-9),
             max(limits.level_db, 1e-9),
+            counts_rhythm,
         )
 
     @cached_property
@@ -108,8 +122,16 @@ class Room:
         one, other = self.voices[i], self.voices[j]
         if (one.group and one.group == other.group) or (one.is_placed and other.is_placed):
             return False
+        if self.counts_rhythm and _differ_in_rhythm(one, other):
+            return False
         gap = max(self.x_low[j] - self.x_high[i], self.x_low[i] - self.x_high[j])
         return bool(gap < 2.0 * self.jnd_oct)
+
+
+def _differ_in_rhythm(one: Voice, other: Voice) -> bool:
+    if one.rhythm_hz is None or other.rhythm_hz is None:
+        return False
+    return frequency_jnds(one.rhythm_hz, other.rhythm_hz) >= _OTHER_RHYTHM
 
 
 @dataclass(frozen=True)

@@ -59,6 +59,17 @@ def test_what_is_placed_stays_and_others_keep_clear_of_it() -> None:
     assert free.target_hz / 200.0 >= 1.25**2
 
 
+def test_where_there_is_no_room_voices_of_other_rhythms_share_a_frequency() -> None:
+    """Twelve voices at one frequency have no room; of three the rhythms tell them apart."""
+    steady = [Voice(200.0, 20.0, str(i)) for i in range(9)]
+    lively = [Voice(200.0, 20.0, f"r{i}", rhythm_hz=hz) for i, hz in enumerate((3.0, 10.0, 30.0))]
+    places = spread([*steady, *lively])[9:]
+    octaves = [abs(math.log2(a.target_hz / b.target_hz)) for a, b in combinations(places, 2)]
+    assert min(octaves) < math.log2(1.22)
+    few = spread(lively[:2])
+    assert abs(math.log2(few[0].target_hz / few[1].target_hz)) > math.log2(1.22)
+
+
 def test_nobody_is_moved_to_where_the_actuator_cannot_bring_its_level() -> None:
     weak_below = ActuatorProfile("lra", 20.0, 1000.0, 220.0, 6.0)
     level_db = 22.0
