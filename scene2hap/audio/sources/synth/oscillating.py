@@ -29,9 +29,9 @@ def mains_hum(take: Take) -> Signal:
     hum = partials(phi, take.roll_off(8), take.rng)
     leak = np.cos(2.0 * np.pi * take.mains_hz * times())
     return (
-        unit_rms(hum) * (1.0 + 0.03 * wander(take.rng, 0.5))
+        unit_rms(hum) * (1.0 + 0.15 * wander(take.rng, 3.0))
         + 0.1 * unit_rms(leak)
-        + (0.03 + 0.05 * take.drive) * noise(take.rng, 60.0, 1500.0, -3.0)
+        + (0.05 + 0.06 * take.drive) * noise(take.rng, 60.0, 1500.0, -1.5)
     )
 
 

@@ -43,8 +43,8 @@ def compressor(take: Take, *, slip: float = 0.018) -> Signal:
     phi = phase(shaft_hz * (1.0 + 0.0005 * wander(take.rng, 0.3)))
     strokes = partials(phi, take.roll_off(10), take.rng) * (1.0 + 0.25 * wander(take.rng, 5.0))
     pull = np.cos(2.0 * np.pi * 2.0 * take.mains_hz * times())
-    flow = noise(take.rng, 100.0, 2500.0, -4.0) * (1.0 + 0.3 * wander(take.rng, 5.0))
-    return unit_rms(strokes) + 0.2 * unit_rms(pull) + (0.05 + 0.1 * take.drive) * flow
+    flow = noise(take.rng, 100.0, 2500.0, -3.0) * (1.0 + 0.3 * wander(take.rng, 5.0))
+    return unit_rms(strokes) + 0.2 * unit_rms(pull) + (0.12 + 0.15 * take.drive) * flow
 
 
 def fan(
@@ -54,7 +54,7 @@ def fan(
     phi = phase(take.speed_hz(shaft_hz) * (1.0 + 0.003 * wander(take.rng)))
     turns = partials(phi, [1.0, 0.25, 0.11, 0.06], take.rng)
     passing = partials(blades * phi, take.roll_off(4), take.rng)
-    breeze = noise(take.rng, 40.0, 3000.0, -4.5) * (1.0 + 0.05 * wander(take.rng, 2.0))
+    breeze = noise(take.rng, 40.0, 3000.0, -3.5) * (1.0 + 0.05 * wander(take.rng, 2.0))
     return rotor * unit_rms(turns) + blade * unit_rms(passing) + flow * (0.6 + 0.6 * take.drive) * breeze
 
 
@@ -79,7 +79,7 @@ def washing(take: Take, *, drum_hz: float = 0.85, slosh: float = 0.5, thump_hz: 
 
     It falls once per turn of the drum, on a tub that rings at `thump_hz`; `slosh` is the level of the water.
     """
-    hum = partials(phase(2.0 * take.mains_hz), take.roll_off(5, 0.5), take.rng)
+    hum = partials(phase(2.0 * take.mains_hz), take.roll_off(5, 1.5), take.rng)
     n = max(1, round(take.about(drum_hz) * DURATION_S))
     at = (np.arange(n) + 0.5 + 0.08 * take.rng.uniform(-1.0, 1.0, n)) / n * DURATION_S
     load = 1.0 + 0.2 * np.cos(2.0 * np.pi * n * times() / DURATION_S)
