@@ -64,6 +64,9 @@ _HOME = {
     "scene2hap.bundle_watch": ("BundleWatch",),
     "scene2hap.touch_track": ("TouchTrack",),
     "scene2hap.track_player": ("play_track",),
+    "scene2hap.clips.haptic_clip": ("HapticClip",),
+    "scene2hap.clips.reading": ("read_haptic_clip",),
+    "scene2hap.export": ("export_bundle", "export_clip"),
     "scene2hap.devices.protocol": ("ActuatorSink", "SinkEvent", "SinkStats"),
     "scene2hap.devices.serial_amp": ("SerialAmplifierSink",),
     "scene2hap.devices.soundcard": ("SoundCardSink",),
@@ -80,6 +83,7 @@ _ROOMS = (
     "devices",
     "engines",
     "errors",
+    "export",
     "haptics",
     "llm",
     "materials",
@@ -135,6 +139,8 @@ if TYPE_CHECKING:
     from scene2hap.bundle import HapticBundle as HapticBundle
     from scene2hap.bundle import Override as Override
     from scene2hap.bundle_watch import BundleWatch as BundleWatch
+    from scene2hap.clips.haptic_clip import HapticClip as HapticClip
+    from scene2hap.clips.reading import read_haptic_clip as read_haptic_clip
     from scene2hap.contact.graph import ContactChange as ContactChange
     from scene2hap.contact.graph import ContactGraph as ContactGraph
     from scene2hap.devices.memory import MemorySink as MemorySink
@@ -159,6 +165,8 @@ if TYPE_CHECKING:
     from scene2hap.engines import (
         Panda3DLink as Panda3DLink,
     )
+    from scene2hap.export import export_bundle as export_bundle
+    from scene2hap.export import export_clip as export_clip
     from scene2hap.haptics import (
         ActuatorProfile as ActuatorProfile,
     )

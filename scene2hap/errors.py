@@ -17,9 +17,11 @@ that ``except ValueError`` keeps working for people who do not know the tree::
     │   └── UnknownMaterial (LookupError)   no row in the table under that name
     ├── ModelDomainError (ValueError)       a physical model asked outside the range where it holds
     ├── AudioError (ValueError)             a sound that cannot be used
+    │   └── ClipError                       a haptic clip, or its file, that cannot be used
     ├── BundleError (ValueError)            a bundle folder that cannot be read or written
     │   ├── BundleIncomplete                a file is missing, cut short or was changed by halves
     │   └── BundleVersionError              written by a newer scene2hap
+    ├── ExportError (ValueError)            an export that cannot be made
     ├── SessionError (ValueError)           play-time input that cannot be honoured
     ├── BackendError                        a language-model or sound service
     │   ├── BackendUnavailable (ConnectionError)  away, or refuses; tells whether trying again can help
@@ -98,6 +100,10 @@ class AudioError(Scene2HapError, ValueError):
     """A sound that cannot be used: empty, not finite, unreadable."""
 
 
+class ClipError(AudioError):
+    """A haptic clip that cannot be used: its file is none, or breaks a rule of its format."""
+
+
 class BundleError(Scene2HapError, ValueError):
     """A bundle folder that cannot be read or written."""
 
@@ -108,6 +114,10 @@ class BundleIncomplete(BundleError):
 
 class BundleVersionError(BundleError):
     """A bundle folder written by a newer scene2hap."""
+
+
+class ExportError(Scene2HapError, ValueError):
+    """An export that cannot be made: a signal, a setting or a folder that does not fit."""
 
 
 class SessionError(Scene2HapError, ValueError):

@@ -39,6 +39,8 @@ MAX_SAMPLE_RATE_HZ = 1_000_000
 class AudioClip:
     """A mono sound: float32 samples (n_samples,), nominally in [-1, 1].
 
+    `is_vibration` marks one that is to be felt as it is, as a hand-made haptic clip: it is looped whole, and converters
+    leave it alone.
     Raises: AudioError: no samples, a value that is not finite, or a sample rate outside of 1 to
     `MAX_SAMPLE_RATE_HZ`.
     """
@@ -46,6 +48,7 @@ class AudioClip:
     samples: Samples
     sample_rate_hz: int
     credit: Credit = field(default_factory=lambda: Credit("untitled", "unknown", "unknown"))
+    is_vibration: bool = False
 
     def __post_init__(self) -> None:
         most_hz = MAX_SAMPLE_RATE_HZ

@@ -270,7 +270,7 @@ def _asked(before: HapticLoop, asked: Mapping[str, str]) -> dict[str, str]:
 
 def _prepared(clip: AudioClip) -> AudioClip:
     """The part of a clip that loops are cut from, as a bundle keeps it: made again later, loops come out the same."""
-    return as_stored(middle_of(clip))
+    return as_stored(clip if clip.is_vibration else middle_of(clip))
 
 
 def _repeated(loop: AudioClip) -> AudioClip:

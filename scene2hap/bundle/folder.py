@@ -218,6 +218,8 @@ def _override_rows(bundle: BundleContents, folder: Path, written: list[str]) -> 
             write_wav(folder / name, wish.clip.samples, wish.clip.sample_rate_hz)
             written.append(name)
             row["clip"] = {"file": name, "credit": asdict(wish.clip.credit)}
+            if wish.clip.is_vibration:
+                row["clip"]["is_vibration"] = True
         row["keep"] = None if wish.keep else False
         row["locked"] = True if wish.locked else None
         row["intensity"], row["pitch_hz"] = wish.intensity or None, wish.pitch_hz or None
@@ -246,5 +248,7 @@ def _override(folder: Path, row: Mapping[str, Any]) -> Override:
             fields[name] = Material(**fields[name])
     if isinstance(fields.get("clip"), dict):
         clip = fields["clip"]
-        fields["clip"] = read_clip(own_file(folder, clip["file"]), read_credit(clip["credit"]))
+        read = read_clip(own_file(folder, clip["file"]), read_credit(clip["credit"]))
+        is_vibration = checks.flag("is_vibration", clip.get("is_vibration", False), error=BundleError)
+        fields["clip"] = replace(read, is_vibration=is_vibration)
     return Override(**fields)

@@ -5,14 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import Any
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.files import read_clip
 from scene2hap.audio.gain_warning import warn_if_percent
 from scene2hap.calls import clear_construction
+from scene2hap.clips.reading import read_any_clip
 from scene2hap.errors import BundleError
 from scene2hap.haptics import ObjectHaptics, SourceState, checked_mass_kg
 from scene2hap.materials import Material, lookup
@@ -42,8 +41,9 @@ class Override:
     mass_kg : what the whole object weighs [kg].
     feet : the material on which it stands on others, or a name in the table.
     material : its material, or a name in the table.
-    clip : the sound that its vibration is made from, in every state, or the path of its file; keep : whether that sound
-        stays at its own frequency and level, and the scene's other sources keep clear of it.
+    clip : the sound that its vibration is made from, in every state, or the path of its file, which may also be a
+        haptic clip (.haptic, .ahap), felt as it is; keep : whether that sound stays at its own frequency and level, and
+        the scene's other sources keep clear of it.
     locked : whether its loops stay as they are, whatever is baked again.
     intensity : of the vibration at the object itself, 0..1 [-]; pitch_hz : the frequency at which it is felt, 10..1000
         [Hz]. Each is a number for all states or a mapping by state.
@@ -88,7 +88,7 @@ class Override:
                     f"{name} is {checks.represented(given)}; it must be a Material or a name in the table."
                 )
         if isinstance(self.clip, str | os.PathLike):
-            object.__setattr__(self, "clip", read_clip(Path(self.clip)))
+            object.__setattr__(self, "clip", read_any_clip(self.clip))
         if self.clip is not None and not isinstance(self.clip, AudioClip):
             raise BundleError(
                 f"clip is {checks.described(self.clip)}; it must be an AudioClip or the path of a sound file."

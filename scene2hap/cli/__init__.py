@@ -20,6 +20,7 @@ from scene2hap.cli import (
     demo,
     doctor,
     edit,
+    export,
     inspect,
     play,
     render,
@@ -32,7 +33,7 @@ from scene2hap.cli.console import Console
 from scene2hap.errors import Scene2HapError
 from scene2hap.printable import printable
 
-COMMANDS = (demo, bake, edit, render, play, audition, convert, inspect, report, list_names, settings, doctor)
+COMMANDS = (demo, bake, edit, render, play, audition, export, convert, inspect, report, list_names, settings, doctor)
 
 
 _DOCS = (

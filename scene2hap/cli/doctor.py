@@ -31,6 +31,7 @@ from scene2hap.devices import SINKS, loop_back
 from scene2hap.devices.clock import has_clock
 from scene2hap.devices.protocol import ActuatorSink, Block, SinkFormat
 from scene2hap.errors import ConfigError, DeviceError, MissingExtra
+from scene2hap.export import EXPORTS
 from scene2hap.haptics import ActuatorProfile
 from scene2hap.llm import BACKENDS
 from scene2hap.propagation import MODELS
@@ -126,7 +127,7 @@ def extras() -> list[dict[str, str]]:
 
 def guests() -> list[dict[str, str]]:
     """Each plug-in that a package registered: its group, kind, package, and why it does not load if it does not."""
-    groups = (BACKENDS, SOURCES, CONVERTERS, MODELS, SINKS, RENDERERS)
+    groups = (BACKENDS, SOURCES, CONVERTERS, MODELS, SINKS, RENDERERS, EXPORTS)
     return [asdict(guest) for group in groups for guest in group.guests()]
 
 

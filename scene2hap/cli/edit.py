@@ -8,6 +8,7 @@ scene2hap edit kitchen.bundle mass microwave 14
 scene2hap edit kitchen.bundle feet microwave rubber
 scene2hap edit kitchen.bundle sound fan my_fan.wav
 scene2hap edit kitchen.bundle sound fan my_fan.wav --watch
+scene2hap edit kitchen.bundle sound fan my_fan.haptic
 scene2hap edit kitchen.bundle state fan high
 scene2hap edit kitchen.bundle mute fan
 scene2hap edit kitchen.bundle silence hood
@@ -27,7 +28,6 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from scene2hap.audio.files import read_clip
 from scene2hap.baking import rebake
 from scene2hap.baking.scene import OnRemade
 from scene2hap.bundle import HapticBundle, differences, require_replaceable
@@ -70,7 +70,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     feet = verb("feet", "set the material on which an object stands on others", _overridden)
     feet.add_argument("feet", metavar="NAME", help="a name in the table, such as rubber or felt")
     sound = verb("sound", "make the vibration of an object from your sound, in every state", _with_sound)
-    sound.add_argument("file", metavar="FILE", help="a WAV or FLAC file")
+    sound.add_argument(
+        "file",
+        metavar="FILE",
+        help="a sound (WAV, FLAC, ...), or a haptic clip (.haptic, .ahap), which is felt as it is",
+    )
     sound.add_argument("--watch", action="store_true", help="repeat whenever the file is saved, until Ctrl-C")
     state = verb("state", "set the state that an object plays at first", _overridden)
     state.add_argument("state", metavar="NAME")
@@ -168,7 +172,7 @@ def _remade(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade)
 
 
 def _with_sound(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade) -> HapticBundle:
-    return rebake(bundle.override(arguments.id, clip=read_clip(arguments.file)), on_remade=note)
+    return rebake(bundle.override(arguments.id, clip=arguments.file), on_remade=note)
 
 
 def _rebaked(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade) -> HapticBundle:

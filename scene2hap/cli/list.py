@@ -18,6 +18,7 @@ from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.cli.console import Console
 from scene2hap.devices import SINKS
 from scene2hap.errors import ConfigError, MissingExtra
+from scene2hap.export import EXPORTS
 from scene2hap.llm import BACKENDS
 from scene2hap.plugins import PluginGroup
 from scene2hap.propagation import MODELS
@@ -32,6 +33,7 @@ GROUPS: Mapping[str, PluginGroup] = {
     "propagation": MODELS,
     "sink": SINKS,
     "renderer": RENDERERS,
+    "export": EXPORTS,
 }
 """The exchangeable parts, by the setting that chooses them."""
 

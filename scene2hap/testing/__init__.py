@@ -6,6 +6,7 @@ They need no pytest; call them in a test of yours. Our own parts are held agains
 from scene2hap.testing.actuator_sink import check_actuator_sink
 from scene2hap.testing.audio_source import check_audio_source
 from scene2hap.testing.engine_adapter import check_engine_adapter
+from scene2hap.testing.exporter import check_exporter
 from scene2hap.testing.llm_backend import check_llm_backend
 from scene2hap.testing.propagation_model import check_propagation_model
 from scene2hap.testing.renderer import check_renderer
@@ -15,6 +16,7 @@ __all__ = [
     "check_actuator_sink",
     "check_audio_source",
     "check_engine_adapter",
+    "check_exporter",
     "check_llm_backend",
     "check_propagation_model",
     "check_renderer",

@@ -14,7 +14,8 @@ from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import FAINTEST_PEAK_DB, TACTILE_HEADROOM_DB
 from scene2hap.audio.loops.seam import apply_seam
-from scene2hap.audio.loops.seam_search import CROSSFADE_S, MAX_LOOP_S, find_seam
+from scene2hap.audio.loops.seam_search import CROSSFADE_S, MAX_LOOP_S, MIN_CLIP_S, find_seam
+from scene2hap.audio.loops.whole import whole_loop
 from scene2hap.audio.protocol import ConversionContext, TactileConverter
 from scene2hap.errors import AudioError
 
@@ -54,7 +55,8 @@ def loop_pair(
 
     The whole clip is converted before it is cut, so that a converter's start-up lies outside the loop. The seam suits
     both signals; each is faded by the law that suits it. The audible loop peaks at `AUDIBLE_PEAK_DBFS`, the tactile one
-    at `context.intensity` times full scale less `TACTILE_HEADROOM_DB`.
+    at `context.intensity` times full scale less `TACTILE_HEADROOM_DB`. A clip that is a vibration already is looped
+    whole, and converted only to move it.
 
     Parameters: finish : what is done to the tactile loop last, such as equalizing it for an actuator.
     Raises: AudioError: the clip is shorter than `MIN_CLIP_S` or silent, or its conversion is.
@@ -67,10 +69,7 @@ def loop_pair(
             f"{clip.credit.title!r} peaks at {20 * np.log10(peak):.0f} dB re full scale; below {FAINTEST_PEAK_DB:g} dB "
             "is the noise of a recording, which nobody wants to feel. Choose another sound, or raise its level."
         )
-    converted = convert_clip(clip, converter, context)
-    seam = find_seam(clip.samples, rate, converted.samples)
-    audible = apply_seam(clip.samples, seam)
-    tactile = apply_seam(converted.samples, seam.fitted(converted.samples))
+    audible, tactile = _looped(clip, converter, context)
     for name, loop in (("sound", audible), ("tactile signal", tactile)):
         if not loop.any():
             raise AudioError(f"{clip.credit.title!r}: the {name} is silent. Choose another sound or converter.")
@@ -82,6 +81,20 @@ def loop_pair(
         analysis.dominant_frequency_hz(audible, rate, range_hz=AUDIBLE_RANGE_HZ),
         analysis.dominant_frequency_hz(felt, rate),
     )
+
+
+def _looped(clip: AudioClip, converter: TactileConverter, context: ConversionContext) -> tuple[Samples, Samples]:
+    if clip.is_vibration:
+        if clip.duration_s < MIN_CLIP_S:
+            raise AudioError(
+                f"{clip.credit.title!r} lasts {clip.duration_s:g} s; it must last {MIN_CLIP_S:g} s at least."
+            )
+        vibration = clip if context.own_hz == context.target_hz else convert_clip(clip, converter, context)
+        loop = whole_loop(vibration.samples, clip.sample_rate_hz)
+        return loop, loop
+    converted = convert_clip(clip, converter, context)
+    seam = find_seam(clip.samples, clip.sample_rate_hz, converted.samples)
+    return apply_seam(clip.samples, seam), apply_seam(converted.samples, seam.fitted(converted.samples))
 
 
 def _with_peak(samples: Samples, peak: float) -> Samples:

@@ -1,0 +1,88 @@
+"""Write a bundle in the formats of platforms and programs; or one haptic clip or sound file.
+
+scene2hap export kitchen.bundle --to haptic -o quest/
+scene2hap export kitchen.bundle --to ahap --to android --touches tour.json -o phones/
+scene2hap export kitchen.bundle --to '{"kind": "openxr_pcm", "sample_rate_hz": 8000}' -o xr/
+scene2hap export kettle.haptic --to ahap -o kettle/
+
+A bundle gives every state of every source, and with --touches every hand over time. Beside the files stand
+manifest.json, by which an engine places them, and report.txt, which tells what each file lost.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from scene2hap.bundle import HapticBundle
+from scene2hap.cli.console import Console
+from scene2hap.cli.specs import given_spec, session_config
+from scene2hap.errors import ConfigError
+from scene2hap.export import EXPORTS, ExportReport, export_bundle, export_clip
+from scene2hap.export.exporting import ALL
+
+HELP = "bundle -> haptic formats of other platforms"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``scene2hap export``."""
+    parser.add_argument("source", metavar="BUNDLE", help="folder that bake wrote, or a .haptic, .ahap or sound file")
+    kinds = ", ".join(EXPORTS.builtins)
+    parser.add_argument(
+        "--to",
+        metavar="KIND",
+        action="append",
+        help=f"one of {kinds}, or JSON with a kind and its settings; again for more; default {ALL}",
+    )
+    parser.add_argument("-o", "--output", metavar="FOLDER", required=True, help="folder to write to")
+    parser.add_argument("--touches", metavar="FILE", help="export each hand over time too, see docs/touches.md")
+    parser.add_argument("--update-rate-hz", metavar="HZ", type=float, default=100.0, help="updates per second (100)")
+    parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [session]")
+
+
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
+    """Export, and show what each file lost."""
+    source = Path(arguments.source)
+    specs: list[Any] = [given_spec("--to", one) for one in arguments.to or [ALL]]
+    with console.progress() as tell:
+        if source.is_file() and source.name != "bundle.json":
+            if arguments.touches or arguments.settings:
+                raise ConfigError("--touches and --settings need a bundle; one clip has no scene to touch.")
+            report = export_clip(source, arguments.output, specs, progress=tell)
+        else:
+            bundle = HapticBundle.load(source)
+            config = session_config(arguments.settings, bundle)
+            report = export_bundle(
+                bundle,
+                arguments.output,
+                specs,
+                touches=arguments.touches,
+                config=config,
+                update_rate_hz=arguments.update_rate_hz,
+                progress=tell,
+            )
+    _show(console, report)
+    console.say(f"wrote {len(report.files)} files below {arguments.output}; what each lost: report.txt")
+    return report.to_data()
+
+
+def _show(console: Console, report: ExportReport) -> None:
+    rows = []
+    for row in report.rows:
+        found = row.fidelity
+        amplitude, frequency = row.points_per_s
+        rows.append(
+            (
+                row.kind,
+                f"{row.track}.{row.channel}" if row.channel else row.track,
+                f"{row.duration_s:.1f}",
+                f"{found.median_db:.2f}" if found else "-",
+                f"{found.p95_db:.2f}" if found else "-",
+                f"{found.median_jnd:.2f}" if found and found.median_jnd is not None else "-",
+                f"{amplitude:.0f} + {frequency:.0f}" if found and found.amplitude_points else "-",
+            )
+        )
+    console.table(
+        report.folder, ("format", "track", ">s", ">dB off", ">dB off (95 %)", ">JND off", ">points a second"), rows
+    )

@@ -1,0 +1,1 @@
+"""Haptic clips: vibration as envelopes over time, and the files that hold them."""

@@ -1,0 +1,325 @@
+"""AHAP, Apple's pattern of haptic events and parameter curves ("Representing haptic patterns in AHAP files").
+
+Intensity is the root of an amplitude, and the sharpness of continuous events the root of a frequency, as Meta's haptics
+SDK has it (`core/haptic_data/src/ahap.rs`); Apple publishes neither. Curves act on every event of their file, so that
+continuous events and transients are two files. At a transient the continuous intensity is lowered to 0.8 of its value,
+so that the two do not cancel each other.
+
+Times of control points are relative to their curve. Some programs write them from the file's beginning instead: a curve
+that starts after 0, and whose first point has the curve's own time, is read that way.
+"""
+
+from __future__ import annotations
+
+import warnings
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from scene2hap.clips.fields import Fields, read_fields
+from scene2hap.clips.haptic_clip import (
+    MAX_CLIP_S,
+    MAX_POINTS,
+    RANGE_HZ,
+    About,
+    Curve,
+    HapticClip,
+    Transient,
+    Values,
+)
+from scene2hap.errors import ClipError
+
+SUFFIX = ".ahap"
+MAX_EVENT_S = 30.0
+"""Longest continuous event [s]."""
+MAX_CURVE_POINTS = 16
+"""Of one curve; Lofelt's exporter keeps to it, Apple's documentation names no bound."""
+TRANSIENT_DIP = 0.8
+
+_INTENSITY, _SHARPNESS = "HapticIntensity", "HapticSharpness"
+_CONTROLS = (f"{_INTENSITY}Control", f"{_SHARPNESS}Control")
+_MOST_EVENTS = 200
+"""Continuous events of one file; assumed: ten times as many as a clip of ten minutes needs."""
+_AFTER_S = 0.05
+"""How long a clip goes on after its last transient [s], which is as long as one sounds."""
+
+Points = list[tuple[float, float]]
+
+
+class ClipWarning(UserWarning):
+    """Something in a file that is not played."""
+
+
+@dataclass(frozen=True)
+class _Event:
+    """A continuous event, from when to when [s], and its intensity and sharpness."""
+
+    start_s: float
+    end_s: float
+    intensity: float
+    sharpness: float
+
+
+@dataclass
+class _Control:
+    """The points of all curves of one kind, whose times count from the file's beginning."""
+
+    neutral: float
+    times_s: list[float] = field(default_factory=list)
+    values: list[float] = field(default_factory=list)
+
+    def set(self, points: Points) -> None:
+        """Take the points of all curves, in any order."""
+        points = sorted(points, key=lambda point: point[0])
+        self.times_s, self.values = [time for time, _ in points], [value for _, value in points]
+
+    def at(self, time_s: float, *, before: bool = False) -> float:
+        """The value at a time, or just `before` it; where no curve holds yet, the one that changes nothing."""
+        after = bisect_left(self.times_s, time_s) if before else bisect_right(self.times_s, time_s)
+        if after == 0:
+            return self.neutral
+        right = min(after, len(self.times_s) - 1)
+        t0, t1, v0, v1 = self.times_s[after - 1], self.times_s[right], self.values[after - 1], self.values[right]
+        if t1 <= t0:
+            return v0
+        return v1 if time_s >= t1 else v0 + (v1 - v0) * (time_s - t0) / (t1 - t0)
+
+
+@dataclass
+class _Pattern:
+    """One file: its events, and the controls of intensity and sharpness."""
+
+    continuous: list[_Event] = field(default_factory=list)
+    transients: list[Transient] = field(default_factory=list)
+    intensity: _Control = field(default_factory=lambda: _Control(1.0))
+    sharpness: _Control = field(default_factory=lambda: _Control(0.0))
+    points: dict[str, Points] = field(default_factory=dict)
+    ignored: set[str] = field(default_factory=set)
+
+
+def read_ahap(path: Path, *, range_hz: tuple[float, float] = RANGE_HZ) -> HapticClip:
+    """The clip in an AHAP file; of a pair of files, one for continuous events and one for transients, in both.
+
+    The pair is found by its names, `x.continuous.ahap` and `x.transients.ahap`. Values out of range are clamped and
+    unknown keys ignored, as Apple's player does.
+    Raises: ClipError: the file is none, or has no event. Warns: ClipWarning: events that are not haptic.
+    """
+    parts = [_pattern(read_fields(part, needed="Pattern", kind="AHAP")) for part in _pair(path)]
+    ignored = sorted(set[str]().union(*(part.ignored for part in parts)))
+    if ignored:
+        told = f"{path}: {', '.join(ignored)} in it is not played; haptic events alone are."
+        warnings.warn(told, ClipWarning, stacklevel=2)
+    transients = tuple(sorted((one for part in parts for one in _felt(part)), key=lambda one: one.time_s))
+    main = next((part for part in parts if part.continuous), parts[0])
+    if not main.continuous and not transients:
+        raise ClipError(f"{path}: Pattern has no haptic event; it must have at least one.")
+    dips = {one.time_s for one in transients} if len(parts) > 1 else set()
+    amplitude = _amplitude(main, dips, transients)
+    return HapticClip(amplitude, _frequency(main), transients, range_hz, About(editor=""))
+
+
+def compose_ahap(clip: HapticClip) -> dict[str, dict[str, Any]]:
+    """AHAP documents of a clip by the ending of their names: ".continuous" and ".transients", or "" for one alone.
+
+    The clip's curves are written point by point. Continuous events last 30 s at most and curves have 16 points at most;
+    each begins where, and at what, the one before it ended.
+    """
+    times, end_s = clip.amplitude.times_s, clip.duration_s
+    pattern = [
+        _event("HapticContinuous", start, {_INTENSITY: 1.0, _SHARPNESS: 0.0}, min(MAX_EVENT_S, end_s - start))
+        for start in np.arange(times[0], end_s, MAX_EVENT_S).tolist()
+    ]
+    pulses = {one.time_s for one in clip.transients}
+    intensity = np.sqrt(clip.amplitude.values)
+    intensity[[time in pulses for time in times.tolist()]] *= TRANSIENT_DIP
+    pattern += _curves(f"{_INTENSITY}Control", times, intensity)
+    frequency = clip.frequency or Curve(np.array([0.0]), np.array([0.5]))
+    pattern += _curves(f"{_SHARPNESS}Control", frequency.times_s, np.sqrt(frequency.values))
+    transients = [
+        _event("HapticTransient", one.time_s, {_INTENSITY: one.amplitude**0.5, _SHARPNESS: one.frequency})
+        for one in clip.transients
+    ]
+    if not transients:
+        return {"": _document(pattern)}
+    return {".continuous": _document(pattern), ".transients": _document(transients)}
+
+
+def _document(pattern: list[dict[str, Any]]) -> dict[str, Any]:
+    return {"Version": 1.0, "Pattern": pattern}
+
+
+def _event(kind: str, time_s: float, parameters: dict[str, float], duration_s: float | None = None) -> dict[str, Any]:
+    event: dict[str, Any] = {"Time": time_s, "EventType": kind}
+    if duration_s is not None:
+        event["EventDuration"] = duration_s
+    event["EventParameters"] = [{"ParameterID": name, "ParameterValue": value} for name, value in parameters.items()]
+    return {"Event": event}
+
+
+def _curves(control: str, times_s: Values, values: Values) -> list[dict[str, Any]]:
+    """Curves of `MAX_CURVE_POINTS` points at most, each from the last point of the one before it."""
+    curves = []
+    first = 0
+    while True:
+        end = min(len(times_s), first + MAX_CURVE_POINTS)
+        start_s = float(times_s[first])
+        points = [
+            {"Time": time - start_s, "ParameterValue": value}
+            for time, value in zip(times_s[first:end].tolist(), values[first:end].tolist(), strict=True)
+        ]
+        curve = {"ParameterID": control, "Time": start_s, "ParameterCurveControlPoints": points}
+        curves.append({"ParameterCurve": curve})
+        if end == len(times_s):
+            return curves
+        first = end - 1
+
+
+def _pair(path: Path) -> tuple[Path, ...]:
+    stem = path.name.removesuffix(SUFFIX)
+    for ending, other in (("continuous", "transients"), ("transients", "continuous")):
+        if stem.endswith((f".{ending}", f"_{ending}")):
+            beside = path.with_name(f"{stem.removesuffix(ending)}{other}{SUFFIX}")
+            return (path, beside) if beside.is_file() else (path,)
+    return (path,)
+
+
+def _pattern(fields: Fields) -> _Pattern:
+    pattern = _Pattern()
+    for item in fields.items("Pattern", MAX_POINTS):
+        if "Event" in item:
+            _read_event(item.within("Event"), pattern)
+        elif "ParameterCurve" in item:
+            _read_curve(item.within("ParameterCurve"), pattern)
+        elif "Parameter" in item:
+            one = item.within("Parameter")
+            _add(pattern, one.text("ParameterID"), [(_time(one), _value(one))])
+    if len(pattern.continuous) > _MOST_EVENTS:
+        told = f"has {len(pattern.continuous)} continuous events; it must have at most {_MOST_EVENTS}. Split the clip"
+        raise fields.error("Pattern", told)
+    for control, name in zip((pattern.intensity, pattern.sharpness), _CONTROLS, strict=True):
+        control.set(pattern.points.get(name, []))
+    return pattern
+
+
+def _read_event(event: Fields, pattern: _Pattern) -> None:
+    kind, start = event.text("EventType"), _time(event)
+    told = {_INTENSITY: 1.0, _SHARPNESS: 0.5}  # Apple's defaults
+    for one in event.items("EventParameters", MAX_POINTS) if "EventParameters" in event else ():
+        told[one.text("ParameterID")] = _unit(_value(one))
+    if kind == "HapticContinuous":
+        duration_s = min(event.number("EventDuration", at_most=MAX_CLIP_S, unit="s"), MAX_EVENT_S)
+        if duration_s > 0.0:
+            pattern.continuous.append(_Event(start, start + duration_s, told[_INTENSITY], told[_SHARPNESS]))
+    elif kind == "HapticTransient":
+        pattern.transients.append(Transient(start, told[_INTENSITY], told[_SHARPNESS]))
+    else:
+        pattern.ignored.add(f"an event of type {kind!r}")
+
+
+def _read_curve(curve: Fields, pattern: _Pattern) -> None:
+    start = _time(curve)
+    points: Points = []
+    for one in curve.items("ParameterCurveControlPoints", MAX_POINTS):
+        time = _time(one)
+        if points and time < points[-1][0]:
+            raise one.error("Time", f"is {time:g} s; it must not be before the point above it at {points[-1][0]:g} s")
+        points.append((time, _value(one)))
+    is_absolute = start > 0.0 and bool(points) and abs(points[0][0] - start) < 1e-9
+    _add(pattern, curve.text("ParameterID"), points if is_absolute else [(start + t, v) for t, v in points])
+
+
+def _add(pattern: _Pattern, control: str, points: Points) -> None:
+    if control in _CONTROLS:
+        pattern.points.setdefault(control, []).extend(points)
+    else:
+        pattern.ignored.add(f"the parameter {control!r}")
+
+
+def _time(fields: Fields) -> float:
+    return fields.number("Time", at_most=MAX_CLIP_S, unit="s", default=0.0)
+
+
+def _value(fields: Fields) -> float:
+    return fields.number("ParameterValue", at_least=-1e9, at_most=1e9, default=0.0)
+
+
+def _unit(value: float) -> float:
+    return min(max(value, 0.0), 1.0)
+
+
+def _felt(pattern: _Pattern) -> list[Transient]:
+    """The transients of a file under its controls, as amplitudes."""
+    return [
+        Transient(
+            one.time_s,
+            _unit(one.amplitude * pattern.intensity.at(one.time_s)) ** 2,
+            _unit(one.frequency + pattern.sharpness.at(one.time_s)),
+        )
+        for one in pattern.transients
+    ]
+
+
+def _playing(pattern: _Pattern, time_s: float, *, before: bool = False) -> list[_Event]:
+    return [
+        one
+        for one in pattern.continuous
+        if (one.start_s < time_s <= one.end_s if before else one.start_s <= time_s < one.end_s)
+    ]
+
+
+def _amplitude(pattern: _Pattern, dips: set[float], transients: tuple[Transient, ...]) -> Curve:
+    """Amplitude over time: the square of the intensities of all continuous events together under their control."""
+
+    def level(time_s: float, *, before: bool) -> float:
+        events = _playing(pattern, time_s, before=before)
+        return _unit(sum(one.intensity for one in events) * pattern.intensity.at(time_s, before=before))
+
+    last = max((one.time_s for one in transients), default=0.0)
+    edges = {time for one in pattern.continuous for time in (one.start_s, one.end_s)}
+    if not edges:
+        return Curve(np.array([0.0, last + _AFTER_S]), np.zeros(2), 2.0)
+    start, end = min(edges), max(edges)
+    bends = {time for time in pattern.intensity.times_s if start <= time <= end}
+    points: Points = []
+    for time in sorted(edges | bends):
+        earlier, later = level(time, before=True), level(time, before=False)
+        values = [later] if time == start else [earlier] if time == end or earlier == later else [earlier, later]
+        if time not in bends and start < time < end and len(values) == 1:
+            continue  # one event goes on where another ended
+        points += [(time, min(1.0, value / TRANSIENT_DIP) if time in dips else value) for value in values]
+    if last > end:
+        points += [(end, 0.0), (last + _AFTER_S, 0.0)]
+    return _squared(points)
+
+
+def _frequency(pattern: _Pattern) -> Curve | None:
+    """Frequency over time: the square of the sharpness of the strongest continuous event, and of its control."""
+    if not pattern.continuous:
+        return None
+
+    def sharpness(time_s: float, *, before: bool) -> float:
+        events = _playing(pattern, time_s, before=before) or _playing(pattern, time_s, before=not before)
+        own = max(events or pattern.continuous[-1:], key=lambda one: one.intensity).sharpness
+        return _unit(own + pattern.sharpness.at(time_s, before=before))
+
+    start, end = min(one.start_s for one in pattern.continuous), max(one.end_s for one in pattern.continuous)
+    bends = {min(time, end) for time in pattern.sharpness.times_s}
+    changes = {one.start_s for one in pattern.continuous}
+    points: Points = []
+    for time in sorted(bends | changes):
+        earlier, later = sharpness(time, before=True), sharpness(time, before=False)
+        is_first = not points
+        if time in bends or is_first or earlier != later:
+            points += [(time, later)] if is_first or earlier == later else [(time, earlier), (time, later)]
+    if points and points[0][0] == start and start not in bends and len(points) > 1 and points[1][1] == points[0][1]:
+        points = points[1:]
+    return _squared(points)
+
+
+def _squared(points: Iterable[tuple[float, float]]) -> Curve:
+    times, values = zip(*points, strict=True)
+    return Curve(np.array(times), np.array(values) ** 2, 2.0)

@@ -1,0 +1,128 @@
+"""The .haptic format, version 1 (Meta haptics SDK, `resources/haptic-file-spec.md`).
+
+A clip has at least two amplitude points and ends with the last of them. A point may have an emphasis, a transient whose
+amplitude is at least that of the point. Frequency points lie within the span of the amplitude points; files of
+an earlier program break this rule alone, which `legacy` allows.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from scene2hap.clips.fields import Fields, read_fields
+from scene2hap.clips.haptic_clip import MAX_CLIP_S, MAX_POINTS, RANGE_HZ, About, Curve, HapticClip, Transient
+from scene2hap.errors import ClipError
+
+SUFFIX = ".haptic"
+_VERSION = 1
+_SPAN_RULE = "lies outside of the amplitude curve"
+
+
+def read_haptic(path: Path, *, legacy: bool = False, range_hz: tuple[float, float] = RANGE_HZ) -> HapticClip:
+    """The clip in a .haptic file.
+
+    Parameters: legacy : accept frequency points outside of the amplitude curve, as files of earlier programs have them;
+    range_hz : frequencies that 0 and 1 stand for on the actuator [Hz].
+    Raises: ClipError: the file breaks a rule; file, field and bound are named.
+    """
+    fields = read_fields(path, needed="signals", kind=".haptic")
+    version = fields.within("version").number("major", at_most=1e6)
+    if version != _VERSION:
+        raise fields.error("version.major", f"is {version:g}; it must be {_VERSION}. Export the clip as version 1")
+    envelopes = fields.within("signals").within("continuous").within("envelopes")
+    rows = envelopes.items("amplitude", MAX_POINTS)
+    if len(rows) < 2:
+        raise envelopes.error("amplitude", f"has {len(rows)} points; it must have at least 2")
+    times = _times(rows)
+    amplitude = [row.number("amplitude") for row in rows]
+    if times[-1] <= times[0]:
+        raise envelopes.error("amplitude", f"lasts {times[-1] - times[0]:g} s; it must be longer than 0 s")
+    transients = tuple(
+        _emphasis(row.within("emphasis"), time, level)
+        for row, time, level in zip(rows, times, amplitude, strict=True)
+        if "emphasis" in row
+    )
+    frequency = None
+    if "frequency" in envelopes and (points := envelopes.items("frequency", MAX_POINTS)):
+        frequency = Curve(np.array(_times(points)), np.array([point.number("frequency") for point in points]))
+        outside = [point for point in points if not times[0] <= point.number("time", at_most=MAX_CLIP_S) <= times[-1]]
+        if outside and not legacy:
+            at = outside[0].number("time", at_most=MAX_CLIP_S)
+            raise outside[0].error(
+                "time",
+                f"is {at:g} s, which {_SPAN_RULE}, {times[0]:g} to {times[-1]:g} s. Read it with legacy=True, or "
+                "export it with a newer program",
+            )
+    return HapticClip(Curve(np.array(times), np.array(amplitude)), frequency, transients, range_hz, _about(fields))
+
+
+def breaks_span_rule(error: ClipError) -> bool:
+    """Whether a file was refused for the one rule that `legacy` drops."""
+    return _SPAN_RULE in str(error)
+
+
+def compose_haptic(clip: HapticClip) -> dict[str, Any]:
+    """The .haptic document of a clip.
+
+    A transient becomes the emphasis of the amplitude point at its time, which is put there if none is, and is as strong
+    as the curve there at least. Frequency points beyond the amplitude curve are moved to its ends.
+    """
+    times, values = clip.amplitude.times_s, clip.amplitude.values
+    pulses = {one.time_s: one for one in clip.transients if times[0] <= one.time_s <= times[-1]}
+    missing = sorted(set(pulses) - set(times.tolist()))
+    at = np.searchsorted(times, missing, side="right")
+    values = np.insert(values, at, clip.amplitude.at(np.array(missing)))
+    times = np.insert(times, at, missing)
+    rows = []
+    for time, value in zip(times.tolist(), values.tolist(), strict=True):
+        row: dict[str, Any] = {"time": time, "amplitude": value}
+        pulse = pulses.pop(time, None)
+        if pulse is not None:
+            row["emphasis"] = {"amplitude": max(pulse.amplitude, value), "frequency": pulse.frequency}
+        rows.append(row)
+    envelopes: dict[str, Any] = {"amplitude": rows}
+    if clip.frequency is not None:
+        inside = np.clip(clip.frequency.times_s, times[0], times[-1])
+        pairs = zip(inside.tolist(), clip.frequency.values.tolist(), strict=True)
+        envelopes["frequency"] = [{"time": time, "frequency": value} for time, value in pairs]
+    about = clip.about
+    return {
+        "version": {"major": _VERSION, "minor": 0, "patch": 0},
+        "metadata": {
+            "editor": about.editor,
+            "author": about.author,
+            "source": about.source,
+            "project": about.project,
+            "tags": list(about.tags),
+            "description": about.description,
+        },
+        "signals": {"continuous": {"envelopes": envelopes}},
+    }
+
+
+def _times(rows: tuple[Fields, ...]) -> list[float]:
+    times: list[float] = []
+    for row in rows:
+        time = row.number("time", at_most=MAX_CLIP_S, unit="s")
+        if times and time < times[-1]:
+            raise row.error("time", f"is {time:g} s; it must not be before the point above it at {times[-1]:g} s")
+        times.append(time)
+    return times
+
+
+def _emphasis(fields: Fields, time_s: float, level: float) -> Transient:
+    amplitude, frequency = fields.number("amplitude"), fields.number("frequency")
+    if amplitude < level:
+        raise fields.error("amplitude", f"is {amplitude:g}; it must be at least that of its point, {level:g}")
+    return Transient(time_s, amplitude, frequency)
+
+
+def _about(fields: Fields) -> About:
+    if "metadata" not in fields:
+        return About(editor="")
+    told = fields.within("metadata")
+    names = ("editor", "author", "source", "project", "description")
+    return About(tags=told.texts("tags"), **{name: told.text(name) for name in names})

@@ -1,0 +1,63 @@
+"""A clip that a person made, in any of the formats that are read: haptic clips and sounds."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.files import read_clip
+from scene2hap.clips import ahap, haptic_format
+from scene2hap.clips.ahap import ClipWarning, read_ahap
+from scene2hap.clips.haptic_clip import HapticClip
+from scene2hap.clips.haptic_format import breaks_span_rule, read_haptic
+from scene2hap.clips.synthesis import RATE_HZ, synthesize
+from scene2hap.errors import ClipError
+
+SUFFIXES = (haptic_format.SUFFIX, ahap.SUFFIX)
+"""Of haptic clips; files with any other are read as sounds."""
+
+
+def is_haptic_clip(path: str | os.PathLike[str]) -> bool:
+    """Whether a file is one of a haptic clip, by its suffix."""
+    return Path(path).suffix.lower() in SUFFIXES
+
+
+def read_haptic_clip(path: str | os.PathLike[str]) -> HapticClip:
+    """The clip in a .haptic or .ahap file.
+
+    Raises: ClipError: the file breaks a rule of its format, or is of another. Warns: ClipWarning: the frequency curve
+    of a .haptic file goes on behind its amplitude curve, as that of earlier programs; or events that are not haptic.
+    """
+    path = Path(path)
+    suffix = path.suffix.lower()
+    if suffix == ahap.SUFFIX:
+        return read_ahap(path)
+    if suffix != haptic_format.SUFFIX:
+        raise ClipError(f"{path}: a haptic clip is a file with the suffix {' or '.join(SUFFIXES)}.")
+    try:
+        return read_haptic(path)
+    except ClipError as error:
+        if not breaks_span_rule(error):
+            raise
+        clip = read_haptic(path, legacy=True)
+        warnings.warn(f"{error} It is read without what lies outside.", ClipWarning, stacklevel=2)
+        return clip
+
+
+def read_any_clip(path: str | os.PathLike[str]) -> AudioClip:
+    """The sound in a file, or the vibration of a haptic clip.
+
+    Raises: AudioError, ClipError: the file cannot be used.
+    """
+    if not is_haptic_clip(path):
+        return read_clip(Path(path))
+    clip = read_haptic_clip(path)
+    signal = synthesize(clip)
+    samples = (signal / max(1.0, float(np.abs(signal).max()))).astype(np.float32)
+    if not samples.any():
+        raise ClipError(f"{path}: the clip is silent: its amplitude is 0 throughout.")
+    return AudioClip(samples, RATE_HZ, clip.about.credit(Path(path).stem), is_vibration=True)

@@ -1,0 +1,108 @@
+"""From the envelope of a signal to a haptic clip of few points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from scene2hap import checks
+from scene2hap.audio.distinctness import FREQUENCY_WEBER
+from scene2hap.calls import clear_construction
+from scene2hap.clips.haptic_clip import RANGE_HZ, About, Curve, HapticClip, Transient
+from scene2hap.errors import ConfigError
+from scene2hap.export.envelope import FLOOR_DB, Envelope, Pulse, Signal, decibels
+from scene2hap.export.fidelity import Fidelity, fidelity
+from scene2hap.export.simplify import simplified
+from scene2hap.export.track import Channel
+
+
+@clear_construction
+@dataclass(frozen=True)
+class CurveSettings:
+    """How closely curves follow a signal, and with how many points.
+
+    Parameters:
+    range_hz : frequencies that 0 and 1 stand for on the actuator [Hz]; what lies outside is moved to the nearer end.
+    tolerance_db, tolerance_jnd : how far a curve may miss amplitude [dB] and frequency [JND].
+    amplitude_points, frequency_points : the most in a second; the usual ones of Meta's Haptics Studio.
+    transients : whether pulses become transients where that comes nearer to the signal.
+    Raises: ConfigError: a setting out of bounds.
+    """
+
+    range_hz: tuple[float, float] = RANGE_HZ
+    tolerance_db: float = 0.5
+    tolerance_jnd: float = 0.25
+    amplitude_points: int = 40
+    frequency_points: int = 30
+    transients: bool = True
+
+    def __post_init__(self) -> None:
+        low, high = checks.vector("range_hz", self.range_hz, "Hz", size=2, above=0.0, error=ConfigError)
+        checks.number("range_hz[1]", high, "Hz", above=low, at_most=1000.0, error=ConfigError)
+        object.__setattr__(self, "range_hz", (low, high))
+        for name, unit in (("tolerance_db", "dB"), ("tolerance_jnd", "JND")):
+            value = checks.number(name, getattr(self, name), unit, above=0.0, at_most=20.0, error=ConfigError)
+            object.__setattr__(self, name, value)
+        for name in ("amplitude_points", "frequency_points"):
+            checks.whole(name, getattr(self, name), "-", at_least=4, at_most=200, error=ConfigError)
+        checks.flag("transients", self.transients, error=ConfigError)
+
+
+def curves_of(
+    channel: Channel, settings: CurveSettings, *, power: float = 1.0, about: About | None = None
+) -> HapticClip:
+    """The clip of a channel: its own, if a person drew one, else curves that follow its envelope.
+
+    Parameters: power : of the curves; 2 where a format keeps roots (`Curve`).
+    """
+    if channel.clip is not None:
+        return channel.clip
+    plain = _clip(channel.envelope, settings, power, about or About(), with_pulses=False)
+    if not settings.transients or not channel.envelope.pulses:
+        return plain
+    pulsed = _clip(channel.envelope, settings, power, about or About(), with_pulses=True)
+    return min(plain, pulsed, key=lambda clip: _missed(fidelity(channel, clip)))
+
+
+def _missed(found: Fidelity) -> float:
+    return found.median_db + found.p95_db
+
+
+def _clip(envelope: Envelope, settings: CurveSettings, power: float, about: About, *, with_pulses: bool) -> HapticClip:
+    times = envelope.times_s
+    amplitude = np.minimum(envelope.without_pulses() if with_pulses else envelope.sharpened(), 1.0)
+    peak = float(envelope.amplitude.max())
+    low, high = settings.range_hz
+    pulses = envelope.pulses if with_pulses else ()
+    kept = [int(np.argmin(np.abs(times - pulse.start_s))) for pulse in pulses]
+    transients = tuple(_transient(times[i], pulse, settings) for i, pulse in zip(kept, pulses, strict=True))
+
+    def level(roots: Signal) -> Signal:
+        return decibels(roots**power, peak)
+
+    def pitch(roots: Signal) -> Signal:
+        return np.asarray(np.log(low + (high - low) * roots**power) / np.log1p(FREQUENCY_WEBER))
+
+    amplitude[decibels(amplitude, peak) <= FLOOR_DB] = 0.0
+    roots = amplitude ** (1.0 / power)
+    chosen = simplified(times, roots, level, settings.tolerance_db, per_second=settings.amplitude_points, kept=kept)
+    pitches = np.clip((envelope.frequency_hz - low) / (high - low), 0.0, 1.0) ** (1.0 / power)
+    bends = simplified(times, pitches, pitch, settings.tolerance_jnd, per_second=settings.frequency_points)
+    return HapticClip(
+        Curve(_rounded(times[chosen]), _rounded(roots[chosen] ** power), power),
+        Curve(_rounded(times[bends]), _rounded(pitches[bends] ** power), power),
+        transients,
+        settings.range_hz,
+        about,
+    )
+
+
+def _transient(time_s: float, pulse: Pulse, settings: CurveSettings) -> Transient:
+    low, high = settings.range_hz
+    pitch = min(max((pulse.frequency_hz - low) / (high - low), 0.0), 1.0)
+    return Transient(round(float(time_s), 6), min(round(pulse.amplitude, 6), 1.0), round(pitch, 6))
+
+
+def _rounded(values: Signal) -> Signal:
+    return np.round(values, 6)

@@ -1,0 +1,144 @@
+"""From a signal to amplitude, frequency and transients over time.
+
+Amplitude is the magnitude of the analytic signal (Hilbert transform; Oppenheim and Schafer, Discrete-Time Signal
+Processing, ch. 12), its power smoothed over `SMOOTHED_S`: that of a sine wave of equal power. Frequency is a ridge of
+the short-time spectrum (`ridge`). Transients are pulses that stand out of the amplitude by `PROMINENCE_DB` and are over
+in `LONGEST_PULSE_S`; a train of pulses that follow each other faster than `APART_S` is roughness, which stays in the
+amplitude.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.fft
+import scipy.signal
+from numpy.typing import NDArray
+
+from scene2hap.export.ridge import ridge_hz
+
+Signal = NDArray[np.float64]
+
+STEP_S = 0.005
+"""Time between two values of an envelope [s]."""
+SMOOTHED_S = 0.025
+"""Width of the window over which power is smoothed, at half its height [s]: as far apart as 40 points a second."""
+FLOOR_DB = -40.0
+"""Below the peak: what is weaker counts as that, since nobody feels it beside the rest."""
+
+_SHARPENING_STEPS = 5
+_PADDING_S = 0.1
+"""What a signal is continued by at both ends before it is transformed [s]: two cycles at 20 Hz."""
+PROMINENCE_DB = 9.0
+LONGEST_PULSE_S = 0.06
+APART_S = 0.08
+
+
+@dataclass(frozen=True)
+class Pulse:
+    """A short pulse: from when to when [s], its amplitude [-] and frequency [Hz]."""
+
+    start_s: float
+    end_s: float
+    amplitude: float
+    frequency_hz: float
+
+
+@dataclass(frozen=True, eq=False)
+class Envelope:
+    """A signal over time: times_s (n,), amplitude (n,) [-], frequency_hz (n,), and its pulses.
+
+    Times are `STEP_S` apart, from 0 to the end; the values of a loop are equal at both.
+    """
+
+    times_s: Signal
+    amplitude: Signal
+    frequency_hz: Signal
+    pulses: tuple[Pulse, ...] = ()
+
+    @property
+    def duration_s(self) -> float:
+        """Length [s]."""
+        return float(self.times_s[-1])
+
+    def sharpened(self) -> Signal:
+        """The amplitude (n,) that gives this envelope once it is played and analysed again, which smooths it again.
+
+        Some steps of Richardson (1972) and Lucy (1974), so that an attack stays one.
+        """
+        window = np.hanning(2 * round(SMOOTHED_S / STEP_S) + 3)[1:-1]
+        inside = scipy.signal.convolve(np.ones(len(self.times_s)), window, mode="same")
+        power = np.maximum(self.amplitude**2, 1e-12)
+        found = power.copy()
+        for _ in range(_SHARPENING_STEPS):
+            found *= np.clip(power / (scipy.signal.convolve(found, window, mode="same", method="direct") / inside), 0.1, 10.0)
+        return np.sqrt(found)
+
+    def without_pulses(self) -> Signal:
+        """`sharpened` as if there were no pulses: straight from before each to behind it."""
+        smooth = self.sharpened()
+        for pulse in self.pulses:
+            inside = np.flatnonzero((self.times_s >= pulse.start_s) & (self.times_s <= pulse.end_s))
+            first, last = max(0, inside[0] - 1), min(len(smooth) - 1, inside[-1] + 1)
+            smooth[first : last + 1] = np.minimum(
+                smooth[first : last + 1], np.linspace(smooth[first], smooth[last], last - first + 1)
+            )
+        return smooth
+
+
+def analyse(samples: Signal, sample_rate_hz: float, *, is_loop: bool) -> Envelope:
+    """The envelope of a signal (n_samples,); that of a loop has no beginning and no end."""
+    amplitude, times = amplitude_of(samples, sample_rate_hz, is_loop=is_loop)
+    frequency = ridge_hz(samples, sample_rate_hz, times, is_loop=is_loop)
+    return Envelope(times, amplitude, frequency, _pulses(times, amplitude, frequency))
+
+
+def amplitude_of(
+    samples: Signal, sample_rate_hz: float, *, is_loop: bool, smoothed_s: float = SMOOTHED_S
+) -> tuple[Signal, Signal]:
+    """The amplitude of a signal (n_samples,) and its times, (n,) [s] both."""
+    n = len(samples)
+    half = max(1, round(smoothed_s * sample_rate_hz))
+    window = np.hanning(2 * half + 3)[1:-1]
+    pad = half + round(_PADDING_S * sample_rate_hz)
+    power = _analytic_power(np.pad(samples, pad, mode="wrap" if is_loop else "constant"))
+    near = slice(pad - half, pad + n + half)
+    weight = np.ones(n + 2 * pad) if is_loop else np.pad(np.ones(n), pad)
+    inside = scipy.signal.oaconvolve(weight[near], window, mode="valid")
+    smooth = scipy.signal.oaconvolve((power * weight)[near], window, mode="valid") / inside
+    duration_s = n / sample_rate_hz
+    times = np.linspace(0.0, duration_s, max(2, round(duration_s / STEP_S) + 1))
+    at = np.arange(n + 1) / sample_rate_hz
+    power_at = np.append(smooth[:n], smooth[0] if is_loop else smooth[n - 1])
+    return np.sqrt(np.maximum(np.interp(times, at, power_at), 0.0)), times
+
+
+def _analytic_power(samples: Signal) -> Signal:
+    """Squared magnitude of the analytic signal (n,) of a signal (n,)."""
+    n = scipy.fft.next_fast_len(len(samples))
+    spectrum = scipy.fft.fft(samples, n)
+    spectrum[0] = 0.0
+    spectrum[(n + 1) // 2 :] = 0.0
+    return np.asarray(np.abs(2.0 * scipy.fft.ifft(spectrum)[: len(samples)]) ** 2)
+
+
+def decibels(amplitude: Signal, peak: float) -> Signal:
+    """Amplitudes against a peak [dB], `FLOOR_DB` at least."""
+    floor = 10.0 ** (FLOOR_DB / 20.0)
+    return np.asarray(20.0 * np.log10(np.maximum(amplitude / max(peak, 1e-12), floor)))
+
+
+def _pulses(times: Signal, amplitude: Signal, frequency_hz: Signal) -> tuple[Pulse, ...]:
+    level = decibels(amplitude, float(amplitude.max()))
+    widest = LONGEST_PULSE_S / STEP_S
+    tops, told = scipy.signal.find_peaks(level, prominence=PROMINENCE_DB, width=(None, widest), rel_height=0.5)
+    rhythm, _ = scipy.signal.find_peaks(level, prominence=PROMINENCE_DB / 2)
+    found = []
+    for top, left, right in zip(tops, told["left_ips"], told["right_ips"], strict=True):
+        others = rhythm[rhythm != top]
+        if others.size and np.abs(times[others] - times[top]).min() < APART_S:
+            continue
+        start, end = (float(np.interp(at, np.arange(len(times)), times)) for at in (left, right))
+        found.append(Pulse(start, end, float(amplitude[top]), float(frequency_hz[top])))
+    return tuple(found)

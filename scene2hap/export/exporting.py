@@ -1,0 +1,189 @@
+"""Exports of a bundle, of a hand's tour through it, or of one clip, into a folder.
+
+FOLDER/manifest.json      what an engine needs to place the files
+FOLDER/report.json, .txt  what each file lost against its signal
+FOLDER/KIND/NAME.*        the files of each track in each format
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from scene2hap import checks
+from scene2hap.audio.files import read_clip, written_whole
+from scene2hap.bundle import HapticBundle
+from scene2hap.bundle.sounds import file_stem
+from scene2hap.calls import clear_call
+from scene2hap.clips.reading import is_haptic_clip, read_haptic_clip
+from scene2hap.clips.synthesis import RATE_HZ, synthesize
+from scene2hap.devices.memory import MemorySink
+from scene2hap.errors import AudioError, ConfigError, ExportError
+from scene2hap.export.fidelity import fidelity
+from scene2hap.export.manifest import NAME, manifest_of
+from scene2hap.export.protocol import EXPORTS, Exported, Exporter, json_bytes
+from scene2hap.export.report import ExportReport, FileReport
+from scene2hap.export.track import Channel, Track
+from scene2hap.session import HapticSession, SessionConfig
+from scene2hap.touch_track import TouchTrack
+from scene2hap.track_player import play_track
+
+ALL = "all"
+Progress = Callable[[str, str, int, int], None]
+Kinds = str | Mapping[str, Any] | Exporter | Sequence[str | Mapping[str, Any] | Exporter]
+
+
+@clear_call
+def export_bundle(
+    bundle: HapticBundle,
+    folder: str | os.PathLike[str],
+    to: Kinds = ALL,
+    *,
+    touches: TouchTrack | str | os.PathLike[str] | None = None,
+    config: SessionConfig | Mapping[str, Any] | None = None,
+    update_rate_hz: float = 100.0,
+    progress: Progress | None = None,
+) -> ExportReport:
+    """Write every state of every source, and with `touches` every hand over time, in one or more formats.
+
+    Parameters: to : a kind, a mapping of a kind and its settings, an exporter, or several of these; "all" for every
+    kind that is known; touches : a track, or its file; config : of the session that plays it; progress : called with
+    stage, step, how many are done and of how many.
+    Returns: what was written, and what each file lost.
+    Raises: ConfigError: an unknown kind or setting; SessionError: touches that cannot be played; ExportError: the
+    folder cannot be written. Files are written whole, the manifest last.
+    """
+    exporters = _exporters(to)
+    if not isinstance(bundle, HapticBundle):
+        raise ExportError(f"bundle is {checks.described(bundle)}; it must be a HapticBundle.")
+    tracks: dict[str, Track] = {}
+    names: dict[str, tuple[str, str]] = {}
+    for source, states in bundle.loops.items():
+        for state, loop in states.items():
+            name = f"{file_stem(source)}.{file_stem(state)}"
+            names[name] = source, state
+            channel = Channel(np.asarray(loop.tactile.samples), loop.tactile.sample_rate_hz, is_loop=True)
+            tracks[name] = Track(name, {"": channel})
+    tours = {}
+    if touches is not None:
+        tour = _tour(bundle, touches, config, update_rate_hz)
+        tracks[tour.name], tours[tour.name] = tour, tour.duration_s
+    settings = SessionConfig.parse(config)
+
+    def manifest(report: ExportReport) -> bytes:
+        found = manifest_of(bundle, report, names, tours, settings.propagation)
+        return json_bytes(found.model_dump(mode="json"))
+
+    return _write(
+        list(tracks.values()), exporters, checks.path("folder", folder, error=ExportError), manifest, progress
+    )
+
+
+@clear_call
+def export_clip(
+    path: str | os.PathLike[str], folder: str | os.PathLike[str], to: Kinds = ALL, *, progress: Progress | None = None
+) -> ExportReport:
+    """Write one haptic clip (.haptic, .ahap) or one sound file in other formats; the curves of a clip stay as they are.
+
+    Raises: AudioError, ClipError: the file cannot be read; and as `export_bundle`.
+    """
+    path = checks.path("path", path, error=ExportError)
+    exporters = _exporters(to)
+    if is_haptic_clip(path):
+        clip = read_haptic_clip(path)
+        channel = Channel(np.clip(synthesize(clip), -1.0, 1.0), RATE_HZ, clip=clip)
+    else:
+        sound = read_clip(path)
+        channel = Channel(np.clip(sound.samples, -1.0, 1.0), sound.sample_rate_hz)
+    track = Track(file_stem(path.stem), {"": channel})
+    return _write([track], exporters, checks.path("folder", folder, error=ExportError), None, progress)
+
+
+def _exporters(to: Kinds) -> dict[str, Exporter]:
+    """Exporters by the names of their folders. Raises: ConfigError."""
+    if isinstance(to, str | Mapping) or not isinstance(to, Sequence):
+        to = [to]
+    wanted: list[Any] = [kind for one in to for kind in (EXPORTS.kinds() if one == ALL else [one])]
+    if not wanted:
+        raise ConfigError(f"to is {checks.represented(to)}; it must name a kind: {', '.join(EXPORTS.kinds())}, or all.")
+    found: dict[str, Exporter] = {}
+    for spec in wanted:
+        exporter: Any = EXPORTS.build(spec)
+        kind = spec if isinstance(spec, str) else spec.get("kind") if isinstance(spec, Mapping) else type(spec).__name__
+        name = str(kind)
+        while name in found:  # the same kind with other settings
+            name += "_2"
+        found[name] = exporter
+    return found
+
+
+def _tour(
+    bundle: HapticBundle,
+    touches: TouchTrack | str | os.PathLike[str],
+    config: SessionConfig | Mapping[str, Any] | None,
+    update_rate_hz: float,
+) -> Track:
+    track = touches if isinstance(touches, TouchTrack) else TouchTrack.load(touches)
+    name = "tour" if isinstance(touches, TouchTrack) else file_stem(Path(touches).stem)
+    sink = MemorySink()
+    settings = SessionConfig.parse(config, prepare="blocking")
+    with HapticSession(bundle, config=settings, sink=sink) as session:
+        play_track(session, track, sink, update_rate_hz=update_rate_hz)
+        hands, rate = session.hands, settings.sample_rate_hz
+        # Leaving the session fades out; what the hands felt until then is the tour.
+        samples = sink.samples[: round(track.duration_s * rate)].astype(np.float64)
+    return Track(name, {hand: Channel(samples[:, i], rate) for i, hand in enumerate(hands)})
+
+
+def _write(
+    tracks: Sequence[Track],
+    exporters: Mapping[str, Exporter],
+    folder: Path,
+    manifest: Callable[[ExportReport], bytes] | None,
+    progress: Progress | None,
+) -> ExportReport:
+    rows: list[FileReport] = []
+    total, done = len(tracks) * len(exporters), 0
+    for track in tracks:
+        for kind, exporter in exporters.items():
+            made = exporter.export(track)
+            for name, content in made.files.items():
+                _put(folder / kind, name, content)
+            rows += _rows(kind, track, made)
+            done += 1
+            if progress is not None:
+                progress("exporting", f"{track.name} to {kind}", done, total)
+    report = ExportReport(str(folder), tuple(rows))
+    _put(folder, "report.json", json_bytes(report.to_data()))
+    _put(folder, "report.txt", f"{report.text}\n".encode())
+    if manifest is not None:
+        _put(folder, NAME, manifest(report))
+    return report
+
+
+def _rows(kind: str, track: Track, made: Exported) -> list[FileReport]:
+    rows = []
+    for name, channel in track.channels.items():
+        mine = [one for one in made.files if one.startswith(f"{track.name}.{name}.")] if name else list(made.files)
+        files = tuple(f"{kind}/{one}" for one in mine or made.files)
+        played = made.played.get(name)
+        error = fidelity(channel, played) if played is not None else None
+        rows.append(FileReport(kind, track.name, name, files, channel.duration_s, error))
+    return rows
+
+
+def _put(folder: Path, name: str, content: bytes) -> None:
+    path = folder / name
+    if path.parent != folder or not name:
+        raise ExportError(f"an exporter names a file {name!r}; it must be a name without a folder.")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with written_whole(path) as beside:
+            beside.write_bytes(content)
+    except (OSError, AudioError) as cause:
+        told = getattr(cause, "strerror", None) or cause
+        raise ExportError(f"{path} cannot be written: {told}. Choose a folder that is yours.") from cause

@@ -1,0 +1,27 @@
+"""AHAP: iPhone (Core Haptics). One file a channel, or two where there are transients, to be played together."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from scene2hap.clips.ahap import SUFFIX, compose_ahap
+from scene2hap.export.curves import CurveSettings, curves_of
+from scene2hap.export.protocol import Exported, file_name, json_bytes
+from scene2hap.export.track import Track
+
+
+class AhapExport:
+    """Curves as AHAP files. Settings: those of `CurveSettings`. Raises: ConfigError."""
+
+    def __init__(self, **settings: Any) -> None:
+        self.settings = CurveSettings(**settings)
+
+    def export(self, track: Track) -> Exported:
+        """One or two files for each channel."""
+        clips = {name: curves_of(channel, self.settings, power=2.0) for name, channel in track.channels.items()}
+        files = {
+            file_name(track, name, f"{ending}{SUFFIX}"): json_bytes(document)
+            for name, clip in clips.items()
+            for ending, document in compose_ahap(clip).items()
+        }
+        return Exported(files, clips)

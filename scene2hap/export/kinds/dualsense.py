@@ -1,0 +1,34 @@
+"""DualSense on USB: a sound card of four channels, of which the third and fourth move the left and right actuator."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from scene2hap.export.kinds.wav import wav_bytes
+from scene2hap.export.protocol import Exported
+from scene2hap.export.track import Track
+
+SAMPLE_RATE_HZ = 48_000
+_N_CHANNELS = 4
+_ACTUATOR = {"left": 2, "right": 3}
+
+
+class DualSenseExport:
+    """A WAV file of four channels at 48 kHz. A track of one channel moves both actuators."""
+
+    def export(self, track: Track) -> Exported:
+        """One file with every channel; those that are neither left nor right are left out, if there are others."""
+        at_rate = {name: one.at_rate(SAMPLE_RATE_HZ) for name, one in track.channels.items()}
+        hands = {name: samples for name, samples in at_rate.items() if name in _ACTUATOR}
+        if not hands:
+            only = next(iter(at_rate.values()))
+            hands = {"left": only, "right": only}
+        frames = np.zeros((max(map(len, hands.values())), _N_CHANNELS))
+        for name, samples in hands.items():
+            frames[: len(samples), _ACTUATOR[name]] = samples
+        played = {
+            name: one.resampled(SAMPLE_RATE_HZ)
+            for name, one in track.channels.items()
+            if name in hands or len(at_rate) == 1
+        }
+        return Exported({f"{track.name}.wav": wav_bytes(frames, SAMPLE_RATE_HZ)}, played)

@@ -1,0 +1,39 @@
+"""Raw samples at any rate: little-endian 32-bit floats, channels interleaved, and a header. One pair a track."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from scene2hap import checks
+from scene2hap.errors import ConfigError
+from scene2hap.export.protocol import Exported, json_bytes
+from scene2hap.export.track import Channel, Track
+
+
+class PcmExport:
+    """Samples as raw floats. Parameters: sample_rate_hz [Hz]. Raises: ConfigError."""
+
+    def __init__(self, sample_rate_hz: float = 8000.0) -> None:
+        self.sample_rate_hz = checks.number(
+            "sample_rate_hz", sample_rate_hz, "Hz", at_least=100.0, at_most=384_000.0, error=ConfigError
+        )
+
+    def export(self, track: Track) -> Exported:
+        """A JSON file and a file of samples."""
+        channels = [one.at_rate(self.sample_rate_hz) for one in track.channels.values()]
+        frames = np.zeros((max(map(len, channels)), len(channels)), dtype="<f4")
+        for i, samples in enumerate(channels):
+            frames[: len(samples), i] = samples
+        header = {
+            "encoding": "float32, little-endian, channels interleaved",
+            "sample_rate_hz": self.sample_rate_hz,
+            "channels": [name or "vibration" for name in track.channels],
+            "frame_count": len(frames),
+            "loop": track.is_loop,
+            "samples": f"{track.name}.f32",
+        }
+        played = {
+            name: Channel(frames[: len(channels[i]), i].astype(np.float64), self.sample_rate_hz, one.is_loop)
+            for i, (name, one) in enumerate(track.channels.items())
+        }
+        return Exported({f"{track.name}.json": json_bytes(header), f"{track.name}.f32": frames.tobytes()}, played)

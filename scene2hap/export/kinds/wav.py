@@ -1,0 +1,40 @@
+"""WAV at any rate, for a sound card, an engine's audio, or another program. One file a track, a channel a hand."""
+
+from __future__ import annotations
+
+import io
+
+import numpy as np
+import soundfile
+from numpy.typing import NDArray
+
+from scene2hap import checks
+from scene2hap.errors import ConfigError
+from scene2hap.export.protocol import Exported
+from scene2hap.export.track import Track
+
+
+class WavExport:
+    """Samples as 24-bit WAV. Parameters: sample_rate_hz : whole hertz. Raises: ConfigError."""
+
+    def __init__(self, sample_rate_hz: int = 48_000) -> None:
+        self.sample_rate_hz = checks.whole(
+            "sample_rate_hz", sample_rate_hz, "Hz", at_least=100, at_most=384_000, error=ConfigError
+        )
+
+    def export(self, track: Track) -> Exported:
+        """One file with every channel."""
+        channels = [one.at_rate(self.sample_rate_hz) for one in track.channels.values()]
+        frames = np.zeros((max(map(len, channels)), len(channels)))
+        for i, samples in enumerate(channels):
+            frames[: len(samples), i] = samples
+        played = {name: one.resampled(self.sample_rate_hz) for name, one in track.channels.items()}
+        return Exported({f"{track.name}.wav": wav_bytes(frames, self.sample_rate_hz)}, played)
+
+
+def wav_bytes(frames: NDArray[np.float64], sample_rate_hz: int) -> bytes:
+    """Frames (n, channels) in [-1, 1] as a WAV file of 24 bits; equal frames give equal bytes."""
+    steps = np.minimum(np.rint(frames * 2.0**23), 2.0**23 - 1).astype(np.int32) << 8
+    encoded = io.BytesIO()
+    soundfile.write(encoded, steps, sample_rate_hz, subtype="PCM_24", format="WAV")
+    return encoded.getvalue()

@@ -1,0 +1,172 @@
+"""The manifest of an export: what an engine needs to place its files in the scene.
+
+`manifest.json` in the folder, by the schema in docs/manifest.schema.json.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from scene2hap.bundle import HapticBundle
+from scene2hap.export.paths import contact_paths
+from scene2hap.export.report import ExportReport
+from scene2hap.propagation.protocol import PropagationModel
+
+FORMAT: Literal["scene2hap/export"] = "scene2hap/export"
+VERSION: Literal[1] = 1
+NAME = "manifest.json"
+
+Triple = tuple[float, float, float]
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class FileEntry(_Part):
+    """Files of one channel in one format, relative to the folder."""
+
+    kind: str
+    channel: str = Field(description='"left", "right", or "" for one that any hand may feel')
+    files: tuple[str, ...]
+
+
+class StateEntry(_Part):
+    """One way in which a source vibrates, as a loop."""
+
+    name: str
+    intensity: float
+    needs_contact: str | None
+    duration_s: float
+    frequency_hz: float = Field(description="where it is felt [Hz]")
+    level_db: float | None = Field(description="over the threshold of touch, on the actuator [dB]")
+    start_up_s: float
+    wind_down_s: float
+    credit: dict[str, str]
+    files: tuple[FileEntry, ...]
+
+
+class SourceEntry(_Part):
+    """An object that vibrates; the first state is the one that plays at first."""
+
+    object_id: str
+    gain_db: float
+    muted: bool
+    states: tuple[StateEntry, ...]
+
+
+class ObjectEntry(_Part):
+    """An object of the scene: where it is, in world metres, and what is known of it."""
+
+    id: str
+    name: str
+    category: str
+    material: str | None
+    position_m: Triple
+    rotation_xyzw: tuple[float, float, float, float]
+    size_m: Triple
+    mass_kg: float | None
+
+
+class PathEntry(_Part):
+    """The gain of a source where it comes into an object through a contact (scene at rest, first states)."""
+
+    source: str
+    object_id: str
+    by: str
+    point_m: Triple
+    gain: float
+    decay_per_m: float | None = Field(description="gain(d) = gain * exp(-decay_per_m * d), d metres on the object")
+
+
+class TourEntry(_Part):
+    """Hands over time, played from a file of touches."""
+
+    name: str
+    duration_s: float
+    files: tuple[FileEntry, ...]
+
+
+class Manifest(_Part):
+    """The whole file."""
+
+    format: Literal["scene2hap/export"] = FORMAT
+    version: Literal[1] = VERSION
+    scene: str
+    scene_category: str
+    up_axis: str
+    actuator: str | None
+    objects: tuple[ObjectEntry, ...]
+    sources: tuple[SourceEntry, ...]
+    paths: tuple[PathEntry, ...]
+    tours: tuple[TourEntry, ...]
+    credits: tuple[str, ...]
+
+
+def manifest_of(
+    bundle: HapticBundle,
+    report: ExportReport,
+    tracks: dict[str, tuple[str, str]],
+    tours: dict[str, float],
+    model: PropagationModel | None = None,
+) -> Manifest:
+    """The manifest of an export.
+
+    Parameters: tracks : source and state by the name of their track; tours : length [s] by the name of theirs; model :
+    of propagation, for the gains.
+    """
+    files: dict[str, list[FileEntry]] = {}
+    for row in report.rows:
+        files.setdefault(row.track, []).append(FileEntry(kind=row.kind, channel=row.channel, files=row.files))
+    states: dict[str, list[StateEntry]] = {}
+    for name, (source, state) in tracks.items():
+        states.setdefault(source, []).append(_state(bundle, source, state, tuple(files.get(name, ()))))
+    return Manifest(
+        scene=bundle.snapshot.name,
+        scene_category=bundle.scene_category,
+        up_axis=bundle.snapshot.up_axis,
+        actuator=bundle.actuator.name if bundle.actuator is not None else None,
+        objects=tuple(_object(bundle, item) for item in bundle.snapshot.objects),
+        sources=tuple(
+            SourceEntry(
+                object_id=source, gain_db=bundle.gain_db(source), muted=bundle.is_muted(source), states=tuple(found)
+            )
+            for source, found in states.items()
+        ),
+        paths=tuple(PathEntry(**vars(path)) for path in contact_paths(bundle, model)),
+        tours=tuple(TourEntry(name=name, duration_s=s, files=tuple(files.get(name, ()))) for name, s in tours.items()),
+        credits=tuple(f"{one.title}, by {one.author}, {one.licence}" for one in bundle.credits),
+    )
+
+
+def _state(bundle: HapticBundle, source: str, name: str, files: tuple[FileEntry, ...]) -> StateEntry:
+    loop = bundle.loops[source][name]
+    told = next(one for one in bundle.objects[source].states if one.name == name)
+    return StateEntry(
+        name=name,
+        intensity=told.intensity,
+        needs_contact=told.needs_contact,
+        duration_s=loop.tactile.duration_s,
+        frequency_hz=loop.frequency_tactile_hz,
+        level_db=loop.felt.level_db if loop.felt is not None else None,
+        start_up_s=told.start_up_s,
+        wind_down_s=told.wind_down_s,
+        credit=vars(loop.audible.credit),
+        files=files,
+    )
+
+
+def _object(bundle: HapticBundle, item: Any) -> ObjectEntry:
+    haptics = bundle.objects.get(item.id)
+    return ObjectEntry(
+        id=item.id,
+        name=item.name,
+        category=haptics.object_category if haptics is not None else "unknown",
+        material=haptics.material.name if haptics is not None and haptics.material is not None else None,
+        position_m=item.pose.position_m,
+        rotation_xyzw=item.pose.rotation_xyzw,
+        size_m=item.size_m,
+        mass_kg=haptics.mass_kg if haptics is not None else None,
+    )

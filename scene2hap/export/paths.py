@@ -1,0 +1,72 @@
+"""How much of each source arrives at each contact of a scene at rest, for engines that place vibration themselves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from scene2hap.bundle import HapticBundle
+from scene2hap.contact.graph import ContactGraph
+from scene2hap.haptics import Bands
+from scene2hap.propagation.exponential_plate import ExponentialPlate
+from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.protocol import ContactNetwork, PropagationModel
+from scene2hap.session.network import PlatePoses, body_of, excitations_of
+from scene2hap.session.sources import LoopRow
+
+LEAST_GAIN = 1e-3
+"""Smaller gains are left out: 60 dB below the source nothing is felt [-]."""
+
+
+@dataclass(frozen=True)
+class ContactPath:
+    """What arrives of a source on an object where it touches another.
+
+    Parameters: source, object_id, by : the source, the object, and the object on the other side of the contact;
+    point_m : the contact [m], world; gain : amplitude there over that of the source [-]; decay_per_m : by the paper's
+    law, how fast it falls on the object with the distance from there, as exp(-decay_per_m * distance_m) [1/m]; None for
+    other models and for objects without a plate.
+    """
+
+    source: str
+    object_id: str
+    by: str
+    point_m: tuple[float, float, float]
+    gain: float
+    decay_per_m: float | None
+
+
+def contact_paths(bundle: HapticBundle, model: PropagationModel | None = None) -> tuple[ContactPath, ...]:
+    """The gain of each source, in its first state, on both sides of every contact, strongest first by source.
+
+    Parameters: model : of propagation; the paper's law if None.
+    """
+    model = model or ExponentialPlate()
+    scene = bundle.snapshot
+    rows = [
+        LoopRow(key, state, loop) for key, states in bundle.loops.items() for state, loop in list(states.items())[:1]
+    ]
+    objects = {item.id: item for item in scene.objects}
+    bodies = {key: body_of(bundle.objects.get(key), item.surface) for key, item in objects.items()}
+    known = {key: body for key, body in bodies.items() if body is not None}
+    poses = PlatePoses(objects, known, {key: item.pose for key, item in objects.items()})
+    contacts = ContactGraph(scene).contacts
+    network = ContactNetwork(known, contacts, poses)
+    excitations = excitations_of(rows, known, bundle.objects)
+    if not excitations:
+        return ()
+    field = model.prepare(network, excitations, Bands.dominant())
+    hertz = {one.source_id: one.frequency_tactile_hz for one in excitations}
+    found = []
+    for contact in contacts:
+        for here, there in ((contact.a, contact.b), (contact.b, contact.a)):
+            gains = field.attenuation(here, np.array([contact.point_m]))[0, :, 0]
+            for source, gain in zip(field.source_ids, gains.tolist(), strict=True):
+                if gain < LEAST_GAIN or source == here:
+                    continue
+                body = known.get(here)
+                is_law = isinstance(model, ExponentialPlate) and isinstance(body, Plate)
+                decay = float(body.wavenumber_rad_m(hertz[source])) if is_law and isinstance(body, Plate) else None
+                found.append(ContactPath(source, here, there, contact.point_m, gain, decay))
+    return tuple(sorted(found, key=lambda path: (path.source, -path.gain)))

@@ -1,0 +1,69 @@
+"""The interface of exporters, and how one is chosen."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from scene2hap.export.fidelity import Played
+from scene2hap.export.track import Track
+from scene2hap.plugins import PluginGroup
+
+
+@dataclass(frozen=True, eq=False)
+class Exported:
+    """The files of one track in one format.
+
+    Parameters: files : content by name; played : what a player makes of them, by channel, from which the error of the
+    export is measured; empty if unknown.
+    """
+
+    files: Mapping[str, bytes]
+    played: Mapping[str, Played] = field(default_factory=dict)
+
+
+class Exporter(Protocol):
+    """Writes tracks in one format. Configuration belongs to the constructor."""
+
+    def export(self, track: Track) -> Exported:
+        """The files of a track, their names beginning with that of the track. Raises: ExportError."""
+        ...
+
+
+_KINDS = "scene2hap.export.kinds"
+
+EXPORTS = PluginGroup(
+    "scene2hap.exports",
+    {
+        "haptic": f"{_KINDS}.haptic:HapticExport",
+        "ahap": f"{_KINDS}.ahap:AhapExport",
+        "hjif": f"{_KINDS}.hjif:HjifExport",
+        "openxr_pcm": f"{_KINDS}.openxr_pcm:OpenXrPcmExport",
+        "openxr_envelope": f"{_KINDS}.openxr_envelope:OpenXrEnvelopeExport",
+        "openxr_parametric": f"{_KINDS}.openxr_parametric:OpenXrParametricExport",
+        "android": f"{_KINDS}.android:AndroidExport",
+        "dualsense": f"{_KINDS}.dualsense:DualSenseExport",
+        "wav": f"{_KINDS}.wav:WavExport",
+        "pcm": f"{_KINDS}.pcm:PcmExport",
+    },
+    {},
+    {"export": ("track",)},
+)
+
+
+def file_name(track: Track, channel: str, suffix: str) -> str:
+    """The name of a file that holds one channel of a track."""
+    return f"{track.name}.{channel}{suffix}" if channel else f"{track.name}{suffix}"
+
+
+def json_bytes(document: Any) -> bytes:
+    """A JSON document as a file holds it; numbers that JSON cannot hold are an error of ours, not of the reader."""
+    return (json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode()
+
+
+def nanoseconds(time_s: float) -> int:
+    """A time as whole nanoseconds."""
+    return math.floor(time_s * 1e9 + 0.5)

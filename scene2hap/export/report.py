@@ -1,0 +1,61 @@
+"""What an export lost, by file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+from scene2hap.export.fidelity import Fidelity
+
+
+@dataclass(frozen=True)
+class FileReport:
+    """One channel of one track in one format: its files, and how near they come; None where nobody can tell."""
+
+    kind: str
+    track: str
+    channel: str
+    files: tuple[str, ...]
+    duration_s: float
+    fidelity: Fidelity | None
+
+    @property
+    def points_per_s(self) -> tuple[float, float]:
+        """Points of amplitude and of frequency a second."""
+        found = self.fidelity or Fidelity(0.0, 0.0)
+        return found.amplitude_points / self.duration_s, found.frequency_points / self.duration_s
+
+    def __str__(self) -> str:
+        name = f"{self.track}.{self.channel}" if self.channel else self.track
+        told = str(self.fidelity) if self.fidelity is not None else "its error is unknown"
+        points = ""
+        if self.fidelity is not None and self.fidelity.amplitude_points:
+            amplitude, frequency = self.points_per_s
+            points = f"; {amplitude:.1f} + {frequency:.1f} points a second, {self.fidelity.transients} transients"
+        return f"{self.kind} {name}: {told}{points}"
+
+
+@dataclass(frozen=True)
+class ExportReport:
+    """All files of an export."""
+
+    folder: str
+    rows: Sequence[FileReport] = field(default_factory=tuple)
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """Their names, relative to the folder."""
+        return tuple(dict.fromkeys(name for row in self.rows for name in row.files))
+
+    @property
+    def text(self) -> str:
+        """A line for each file."""
+        return "\n".join(map(str, self.rows))
+
+    def to_data(self) -> dict[str, Any]:
+        """The same as plain data, for JSON."""
+        return {"folder": self.folder, "files": [asdict(row) for row in self.rows]}
+
+    def __str__(self) -> str:
+        return self.text

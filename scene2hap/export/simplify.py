@@ -1,0 +1,65 @@
+"""Few points for a curve: those that a straight line between their neighbours would miss by most.
+
+The order is that of Ramer (1972) and Douglas and Peucker (1973): a line from end to end, then again and again the point
+that is missed by most. The worst of the whole curve comes first, so that a bound on points keeps the most important.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Callable, Iterable
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+Signal = NDArray[np.float64]
+
+
+def simplified(
+    times_s: Signal,
+    values: Signal,
+    measure: Callable[[Signal], Signal],
+    tolerance: float,
+    *,
+    per_second: float,
+    kept: Iterable[int] = (),
+) -> NDArray[np.intp]:
+    """Indices of the points of a curve (n,) between which straight lines miss it by no more than a tolerance.
+
+    Parameters: measure : from values to what is compared, such as decibels; per_second : the most points in each second
+    from the beginning on, and as many in proportion in the last part of one; the ends and those to be `kept` count.
+    Where that leaves too few, the error is greater.
+    """
+    measured = measure(values)
+    chosen = sorted({0, len(values) - 1, *kept})
+    room = np.floor(per_second * np.clip(times_s[-1] - np.arange(int(times_s[-1]) + 1), 0.0, 1.0))
+    blocks = np.minimum(times_s.astype(int), len(room) - 1)
+    np.subtract.at(room, blocks[chosen], 1.0)
+    # (minus the error, where it is, first and last point of the line)
+    waiting: list[tuple[float, int, int, int]] = []
+
+    def look(first: int, last: int) -> None:
+        if last - first < 2:
+            return
+        between = slice(first + 1, last)
+        share = (times_s[between] - times_s[first]) / (times_s[last] - times_s[first])
+        line = values[first] + share * (values[last] - values[first])
+        missed = np.abs(measure(line) - measured[between])
+        missed[room[blocks[between]] < 1.0] = 0.0
+        worst = int(missed.argmax())
+        if missed[worst] > tolerance:
+            heapq.heappush(waiting, (-float(missed[worst]), first + 1 + worst, first, last))
+
+    for first, last in pairwise(chosen):
+        look(first, last)
+    while waiting:
+        _, index, first, last = heapq.heappop(waiting)
+        if room[blocks[index]] < 1.0:
+            look(first, last)  # elsewhere on the line there may be room
+            continue
+        room[blocks[index]] -= 1.0
+        chosen.append(index)
+        look(first, index)
+        look(index, last)
+    return np.array(sorted(chosen), dtype=np.intp)

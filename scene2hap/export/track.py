@@ -1,0 +1,118 @@
+"""Vibration to export: a loop of a source, or all hands over time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+import scipy.signal
+from numpy.typing import NDArray
+
+from scene2hap import checks
+from scene2hap.calls import clear_construction
+from scene2hap.clips.haptic_clip import HapticClip
+from scene2hap.errors import ExportError
+from scene2hap.export.envelope import Envelope, analyse
+
+Signal = NDArray[np.float64]
+
+ANALYSIS_HZ = 8000
+"""Rate at which signals are analysed [Hz]; vibration that is felt ends at 1 kHz."""
+MAX_TRACK_S = 600.0
+
+
+@clear_construction
+@dataclass(frozen=True, eq=False)
+class Channel:
+    """One actuator's signal (n_samples,) in [-1, 1], played once or, as a loop, for ever.
+
+    `clip` has its curves where a person drew them.
+    Raises: ExportError: no samples, one that is not finite or beyond 1, or more than `MAX_TRACK_S`.
+    """
+
+    samples: Signal
+    sample_rate_hz: float
+    is_loop: bool = False
+    clip: HapticClip | None = None
+
+    def __post_init__(self) -> None:
+        rate = checks.number(
+            "sample_rate_hz", self.sample_rate_hz, "Hz", at_least=100.0, at_most=1e6, error=ExportError
+        )
+        samples = np.array(self.samples, dtype=np.float64)
+        if samples.ndim != 1 or not samples.size:
+            raise ExportError(f"samples has shape {samples.shape}; a channel is (n_samples,) with n_samples > 0.")
+        if not (np.abs(samples) <= 1.0).all():
+            first = int(np.argmin(np.abs(samples) <= 1.0))
+            raise ExportError(f"samples[{first}] is {samples[first]:g}; it must be within 1 [-].")
+        if len(samples) > MAX_TRACK_S * rate:
+            raise ExportError(f"the signal lasts {len(samples) / rate:g} s; it must last at most {MAX_TRACK_S:g} s.")
+        samples.flags.writeable = False
+        object.__setattr__(self, "samples", samples)
+        object.__setattr__(self, "sample_rate_hz", rate)
+
+    @property
+    def duration_s(self) -> float:
+        """Length [s]."""
+        return len(self.samples) / self.sample_rate_hz
+
+    def at_rate(self, sample_rate_hz: float) -> Signal:
+        """The signal at another rate, limited to [-1, 1]; a loop stays as seamless as it is.
+
+        A loop is resampled as the periodic signal that it is, to the nearest whole number of samples.
+        """
+        if sample_rate_hz not in self._resampled:
+            self._resampled[sample_rate_hz] = self._at_rate(sample_rate_hz)
+        return self._resampled[sample_rate_hz]
+
+    def resampled(self, sample_rate_hz: float) -> Channel:
+        """The same at another rate [Hz]; itself where that is its own."""
+        if sample_rate_hz == self.sample_rate_hz:
+            return self
+        return Channel(self.at_rate(sample_rate_hz), sample_rate_hz, self.is_loop)
+
+    def _at_rate(self, sample_rate_hz: float) -> Signal:
+        if sample_rate_hz == self.sample_rate_hz:
+            return self.samples
+        n = max(1, round(self.duration_s * sample_rate_hz))
+        if self.is_loop:
+            resampled = scipy.signal.resample(self.samples, n)
+        else:
+            # Padded by silence on both sides, so that its end does not leak into its beginning.
+            pad = max(1, round(0.05 * self.sample_rate_hz))
+            padded = np.pad(self.samples, (pad, pad))
+            n_padded = max(1, round(len(padded) / self.sample_rate_hz * sample_rate_hz))
+            first = round(pad / self.sample_rate_hz * sample_rate_hz)
+            resampled = scipy.signal.resample(padded, n_padded)[first : first + n]
+            resampled = np.pad(resampled, (0, n - len(resampled)))
+        return np.clip(np.asarray(resampled, dtype=np.float64), -1.0, 1.0)
+
+    @cached_property
+    def _resampled(self) -> dict[float, Signal]:
+        return {}
+
+    @cached_property
+    def envelope(self) -> Envelope:
+        """Amplitude, frequency and transients over time."""
+        return analyse(self.at_rate(ANALYSIS_HZ), ANALYSIS_HZ, is_loop=self.is_loop)
+
+
+@clear_construction
+@dataclass(frozen=True, eq=False)
+class Track:
+    """What one export is made of: a name, and the channels by actuator ("left", "right"), or one named ""."""
+
+    name: str
+    channels: Mapping[str, Channel] = field(default_factory=dict)
+
+    @property
+    def is_loop(self) -> bool:
+        """Whether it is played for ever."""
+        return all(one.is_loop for one in self.channels.values())
+
+    @property
+    def duration_s(self) -> float:
+        """Length of the longest channel [s]."""
+        return max(one.duration_s for one in self.channels.values())
