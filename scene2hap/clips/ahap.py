@@ -301,22 +301,26 @@ def _frequency(pattern: _Pattern) -> Curve | None:
     if not pattern.continuous:
         return None
 
-    def sharpness(time_s: float, *, before: bool) -> float:
-        events = _playing(pattern, time_s, before=before) or _playing(pattern, time_s, before=not before)
-        own = max(events or pattern.continuous[-1:], key=lambda one: one.intensity).sharpness
+    def sharpness(time_s: float, *, before: bool) -> float | None:
+        events = _playing(pattern, time_s, before=before)
+        if not events:
+            return None
+        own = max(events, key=lambda one: one.intensity).sharpness
         return _unit(own + pattern.sharpness.at(time_s, before=before))
 
     start, end = min(one.start_s for one in pattern.continuous), max(one.end_s for one in pattern.continuous)
-    bends = {min(time, end) for time in pattern.sharpness.times_s}
-    changes = {one.start_s for one in pattern.continuous}
+    bends = {min(time, end) for time in pattern.sharpness.times_s if start <= time}
     points: Points = []
-    for time in sorted(bends | changes):
+    for time in sorted(bends | {one.start_s for one in pattern.continuous}):
+        # In a pause nothing is felt: the frequency stays, and jumps where the next event begins.
         earlier, later = sharpness(time, before=True), sharpness(time, before=False)
-        is_first = not points
-        if time in bends or is_first or earlier != later:
-            points += [(time, later)] if is_first or earlier == later else [(time, earlier), (time, later)]
-    if points and points[0][0] == start and start not in bends and len(points) > 1 and points[1][1] == points[0][1]:
-        points = points[1:]
+        if earlier is None and points:
+            earlier = points[-1][1]
+        values = list(dict.fromkeys(value for value in (earlier, later) if value is not None))
+        if time in bends or not points or len(values) > 1:
+            points += [(time, value) for value in values]
+    if len(points) > 1 and start not in bends and points[0][1] == points[1][1]:
+        points = points[1:]  # the curve begins later, and the value before is its own
     return _squared(points)
 
 

@@ -72,7 +72,9 @@ class Envelope:
         power = np.maximum(self.amplitude**2, 1e-12)
         found = power.copy()
         for _ in range(_SHARPENING_STEPS):
-            found *= np.clip(power / (scipy.signal.convolve(found, window, mode="same", method="direct") / inside), 0.1, 10.0)
+            found *= np.clip(
+                power / (scipy.signal.convolve(found, window, mode="same", method="direct") / inside), 0.1, 10.0
+            )
         return np.sqrt(found)
 
     def without_pulses(self) -> Signal:

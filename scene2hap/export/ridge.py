@@ -43,9 +43,12 @@ def _levels(samples: Signal, sample_rate_hz: float, *, is_loop: bool) -> tuple[S
     top = min(RANGE_HZ[1], 0.45 * sample_rate_hz)
     octaves = np.log2(top / RANGE_HZ[0])
     grid = RANGE_HZ[0] * 2.0 ** (np.arange(int(octaves * PER_OCTAVE) + 1) / PER_OCTAVE)
-    at = np.clip(np.rint(grid / bins[1]).astype(int), 1, len(bins) - 1)
     loudest = max(float(power.max()), 1e-30)
-    return firsts / sample_rate_hz, 10.0 * np.log10(np.maximum(power[:, at] / loudest, 10.0 ** (_FLOOR_DB / 10))), grid
+    decibels = 10.0 * np.log10(np.maximum(power / loudest, 10.0 ** (_FLOOR_DB / 10)))
+    below = np.minimum((grid / bins[1]).astype(int), len(bins) - 2)
+    share = grid / bins[1] - below
+    levels = decibels[:, below] * (1.0 - share) + decibels[:, below + 1] * share
+    return firsts / sample_rate_hz, levels, grid
 
 
 def _best_way(levels: Signal, grid: Signal) -> NDArray[np.intp]:

@@ -36,6 +36,8 @@ def simplified(
     room = np.floor(per_second * np.clip(times_s[-1] - np.arange(int(times_s[-1]) + 1), 0.0, 1.0))
     blocks = np.minimum(times_s.astype(int), len(room) - 1)
     np.subtract.at(room, blocks[chosen], 1.0)
+    for second in range(len(room) - 1, 0, -1):  # the end of a curve may fall on a moment that has no room of its own
+        room[second - 1] += min(room[second], 0.0)
     # (minus the error, where it is, first and last point of the line)
     waiting: list[tuple[float, int, int, int]] = []
 

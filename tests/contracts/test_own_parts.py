@@ -12,6 +12,7 @@ from scene2hap import MemorySink, WavSink
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.devices.tee import TeeSink
+from scene2hap.export import EXPORTS
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.replay import RecordingBackend, ReplayBackend
 from scene2hap.propagation import MODELS
@@ -19,6 +20,7 @@ from scene2hap.scene.capture import RENDERERS
 from scene2hap.testing import (
     check_actuator_sink,
     check_audio_source,
+    check_exporter,
     check_llm_backend,
     check_propagation_model,
     check_renderer,
@@ -61,3 +63,8 @@ def test_renderers(kind: str) -> None:
     if kind == "panda3d" and (problem := rasteriser_problem()):
         pytest.skip(problem)
     check_renderer(RENDERERS.load(kind))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("kind", EXPORTS.kinds())
+def test_exporters(kind: str) -> None:
+    check_exporter(EXPORTS.build(kind))  # type: ignore[arg-type]

@@ -13,12 +13,14 @@ from scene2hap import Box, HapticSession, Pose, SceneObject, SceneSnapshot, Touc
 from scene2hap.audio.sources import SOURCES
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.devices import SINKS
+from scene2hap.export import EXPORTS, export_bundle
 from scene2hap.llm import BACKENDS
 from scene2hap.propagation import MODELS
 from scene2hap.scene.capture import RENDERERS, capture_images
 from scene2hap.testing import (
     check_actuator_sink,
     check_audio_source,
+    check_exporter,
     check_llm_backend,
     check_propagation_model,
     check_renderer,
@@ -47,8 +49,8 @@ def scene() -> SceneSnapshot:
     )
 
 
-def test_the_page_has_all_six_kinds_in_thirty_lines_each() -> None:
-    groups = (BACKENDS, SOURCES, CONVERTERS, MODELS, SINKS, RENDERERS)
+def test_the_page_has_all_seven_kinds_in_thirty_lines_each() -> None:
+    groups = (BACKENDS, SOURCES, CONVERTERS, MODELS, SINKS, RENDERERS, EXPORTS)
     assert {f"scene2hap.{kind}" for kind in CODE} == {group.name for group in groups}
     assert all(f"`{group.name}`" in PAGE for group in groups)
     assert max(len(code.splitlines()) for code in CODE.values()) <= 30
@@ -104,3 +106,13 @@ def test_renderer(scene: SceneSnapshot) -> None:
     assert images is not None
     assert images.isolated[0].startswith(b"\x89PNG")
     assert np.unique(np.frombuffer(images.isolated[0], dtype=np.uint8)).size > 10
+
+
+def test_export(scene: SceneSnapshot, tmp_path: Path) -> None:
+    exporter = part("exports", "Csv")()
+    check_exporter(exporter)
+    report = export_bundle(bake(scene), tmp_path, exporter)
+    (row,) = report.rows
+    assert row.fidelity is not None
+    assert row.fidelity.p95_db < 1.0
+    assert (tmp_path / row.files[0]).read_text().startswith("vibration\n")

@@ -77,7 +77,9 @@ class HjifExport:
 def _on_ticks(clip: HapticClip, ticks: int) -> HapticClip:
     """The clip as the file holds it: times in whole ticks, frequencies in whole hertz."""
     low, high = clip.range_hz
-    amplitude = Curve(np.round(clip.amplitude.times_s * ticks) / ticks, clip.amplitude.values)
+    times = np.round(clip.amplitude.times_s * ticks) / ticks
+    times[-1] = max(times[-1], 1 / ticks)  # a clip has a length
+    amplitude = Curve(times, clip.amplitude.values)
     frequency = None
     if clip.frequency is not None:
         whole_hz = np.round(low + (high - low) * clip.frequency.values)

@@ -1,0 +1,152 @@
+"""Exports as a user makes them: by command, and with the manifest that an engine reads."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import numpy as np
+import pytest
+
+from scene2hap import (
+    Box,
+    HapticBundle,
+    Pose,
+    SceneObject,
+    SceneSnapshot,
+    Touch,
+    bake,
+    export_bundle,
+    export_clip,
+    load_scene,
+)
+from scene2hap.cli import main
+from scene2hap.demo import kitchen_path, tour_path
+from scene2hap.errors import ClipError, ConfigError, ExportError
+from scene2hap.export import EXPORTS
+from scene2hap.export.schema import manifest_schema
+from scene2hap.session import HapticSession
+
+DOCS = Path(__file__).parents[2] / "docs"
+KINDS = tuple(EXPORTS.builtins)
+
+
+@pytest.fixture(scope="module")
+def kitchen(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return bake(load_scene(kitchen_path())).save(tmp_path_factory.mktemp("bundles") / "kitchen.bundle")
+
+
+@pytest.fixture(scope="module")
+def exported(kitchen: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
+    """The kitchen and its tour in every format, and the manifest."""
+    folder = tmp_path_factory.mktemp("out")
+    assert main(["export", str(kitchen), "-o", str(folder), "--touches", str(tour_path()), "-q"]) == 0
+    return folder, json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
+
+
+def test_every_state_and_every_hand_has_files_of_every_kind(
+    exported: tuple[Path, dict[str, Any]], kitchen: Path
+) -> None:
+    folder, manifest = exported
+    bundle = HapticBundle.load(kitchen)
+    states = {(one["object_id"], state["name"]): state for one in manifest["sources"] for state in one["states"]}
+    assert set(states) == {(key, state) for key, found in bundle.loops.items() for state in found}
+    (tour,) = manifest["tours"]
+    for entry in [*states.values(), tour]:
+        assert {one["kind"] for one in entry["files"]} == set(KINDS)
+        for one in entry["files"]:
+            assert one["files"]
+            assert all((folder / name).is_file() for name in one["files"])
+    assert {one["channel"] for one in tour["files"]} == {"left", "right"}
+
+
+def test_the_manifest_keeps_its_published_schema(exported: tuple[Path, dict[str, Any]]) -> None:
+    published = json.loads((DOCS / "manifest.schema.json").read_text(encoding="utf-8"))
+    assert published == manifest_schema()
+    jsonschema.Draft202012Validator(published).validate(exported[1])
+
+
+def test_paths_give_the_gains_of_a_session(exported: tuple[Path, dict[str, Any]], kitchen: Path) -> None:
+    """At contacts, and by the stated decay 5 cm beside one."""
+    bundle = HapticBundle.load(kitchen)
+    session = HapticSession(bundle, config={"prepare": "blocking"})
+    paths = [one for one in exported[1]["paths"] if one["source"] == "smartphone"]
+    assert paths
+    on = max((one for one in paths if one["decay_per_m"]), key=lambda one: one["gain"])
+    mine = [one for one in paths if one["object_id"] == on["object_id"]]
+    point = np.array(on["point_m"]) + [0.03, 0.0, 0.04]
+    frame = session.update(touches=[Touch("left", on["object_id"], tuple(point))])
+    away = [one["gain"] * np.exp(-one["decay_per_m"] * np.linalg.norm(point - one["point_m"])) for one in mine]
+    level = 10 ** (bundle.gain_db("smartphone") / 20)
+    assert frame.gain("left", "smartphone") == pytest.approx(max(away) * level, rel=0.02)
+
+
+def test_the_report_is_text_and_json(exported: tuple[Path, dict[str, Any]]) -> None:
+    folder, _ = exported
+    rows = json.loads((folder / "report.json").read_text(encoding="utf-8"))["files"]
+    lines = (folder / "report.txt").read_text(encoding="utf-8").splitlines()
+    assert len(rows) == len(lines)
+    assert all(row["fidelity"]["median_db"] < 1.0 for row in rows)
+    assert any("JND" in line for line in lines)
+
+
+def test_one_clip_is_turned_into_other_formats_and_back(tmp_path: Path) -> None:
+    points = [{"time": t, "amplitude": a} for t, a in ((0.0, 0.1), (0.4, 0.9), (1.0, 0.2))]
+    points[1]["emphasis"] = {"amplitude": 1.0, "frequency": 0.5}  # type: ignore[assignment]
+    envelopes = {"amplitude": points, "frequency": [{"time": 0.0, "frequency": 0.25}]}
+    clip = tmp_path / "kettle.haptic"
+    clip.write_text(json.dumps({"version": {"major": 1}, "signals": {"continuous": {"envelopes": envelopes}}}))
+    export_clip(clip, tmp_path / "a", ["haptic", "ahap"])
+    export_clip(tmp_path / "a" / "ahap" / "kettle.continuous.ahap", tmp_path / "b", "haptic")
+    for made in ("a/haptic/kettle.haptic", "b/haptic/kettle-continuous.haptic"):
+        path = next(tmp_path.glob(made.replace("kettle-continuous", "kettle*")))
+        found = json.loads(path.read_text())["signals"]["continuous"]["envelopes"]
+        for one, other in zip(found["amplitude"], points, strict=True):
+            assert one["time"] == other["time"]
+            assert one["amplitude"] == pytest.approx(other["amplitude"], abs=1e-6)
+        assert found["amplitude"][1]["emphasis"] == pytest.approx(points[1]["emphasis"])
+        assert found["frequency"][0]["frequency"] == pytest.approx(0.25, abs=1e-6)
+
+
+def test_wrong_requests_are_answered_and_write_nothing(
+    kitchen: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bundle = HapticBundle.load(kitchen)
+    out = tmp_path / "out"
+    for to, told in (
+        ("hapic", "no kind 'hapic'. Did you mean 'haptic'?"),
+        ({"kind": "haptic", "range_hz": [200, 55]}, r"range_hz\[1\] is 55 Hz; it must be above 200"),
+        ({"kind": "hjif", "profile": "Simple"}, "it must be Simple Parametric or Main"),
+        ({"kind": "openxr_pcm", "sample_rate_hz": 0}, "sample_rate_hz is 0 Hz; it must be at least 100"),
+        ({"kind": "ahap", "colour": 1}, "does not take"),
+        ([], "it must name a kind"),
+    ):
+        with pytest.raises(ConfigError, match=told):
+            export_bundle(bundle, out, to)  # type: ignore[arg-type]
+    assert not out.exists()
+    (tmp_path / "file").write_text("")
+    with pytest.raises(ExportError, match="cannot be written"):
+        export_bundle(bundle, tmp_path / "file", "haptic")
+    with pytest.raises(ClipError, match="absent.haptic"):
+        export_clip(tmp_path / "absent.haptic", out)
+    assert main(["export", str(tmp_path / "nowhere"), "-o", str(out)]) == 1
+    assert "there is no folder" in capsys.readouterr().err
+    sound = tmp_path / "x.haptic"
+    sound.write_text("{}")
+    assert main(["export", str(sound), "-o", str(out), "--touches", "t.json"]) == 1
+    assert "need a bundle" in capsys.readouterr().err
+    assert not out.exists()
+
+
+def test_scenes_without_sources_and_with_one_object(tmp_path: Path) -> None:
+    table = SceneObject("oak table", geometry=Box((1.2, 0.05, 0.7)))
+    silent = bake(SceneSnapshot.build([table]))
+    report = export_bundle(silent, tmp_path / "silent")
+    assert report.rows == ()
+    assert json.loads((tmp_path / "silent" / "manifest.json").read_text())["paths"] == []
+    phone = SceneObject("smartphone", pose=Pose((5.0, 1.0, 0.0)), geometry=Box((0.07, 0.01, 0.15)))
+    alone = bake(SceneSnapshot.build([phone]))
+    assert {row.kind for row in export_bundle(alone, tmp_path / "alone").rows} == set(KINDS)
+    assert json.loads((tmp_path / "alone" / "manifest.json").read_text())["paths"] == []
