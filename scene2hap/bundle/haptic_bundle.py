@@ -15,6 +15,7 @@ from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.folder import read_bundle, write_bundle
 from scene2hap.bundle.override import ANY_STATE, MAKES_LOOPS, Override
 from scene2hap.calls import clear_calls
+from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.errors import BundleError
 from scene2hap.materials import Material
 from scene2hap.scene.scene_warning import warn_of
@@ -36,7 +37,7 @@ class HapticBundle(BundleContents):
         vibrates: bool | None = None,
         gain_db: float | None = None,
         material: Material | str | None = None,
-        clip: AudioClip | str | os.PathLike[str] | None = None,
+        clip: AudioClip | HapticClip | str | os.PathLike[str] | None = None,
         keep: bool | None = None,
         locked: bool | None = None,
         intensity: float | Mapping[str, float] | None = None,

@@ -11,7 +11,8 @@ from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.gain_warning import warn_if_percent
 from scene2hap.calls import clear_construction
-from scene2hap.clips.reading import read_any_clip
+from scene2hap.clips.haptic_clip import HapticClip
+from scene2hap.clips.reading import as_vibration, read_any_clip
 from scene2hap.errors import BundleError
 from scene2hap.haptics import ObjectHaptics, SourceState, checked_mass_kg
 from scene2hap.materials import Material, lookup
@@ -89,9 +90,11 @@ class Override:
                 )
         if isinstance(self.clip, str | os.PathLike):
             object.__setattr__(self, "clip", read_any_clip(self.clip))
+        elif isinstance(self.clip, HapticClip):
+            object.__setattr__(self, "clip", as_vibration(self.clip))
         if self.clip is not None and not isinstance(self.clip, AudioClip):
             raise BundleError(
-                f"clip is {checks.described(self.clip)}; it must be an AudioClip or the path of a sound file."
+                f"clip is {checks.described(self.clip)}; it must be an AudioClip, a HapticClip, or the path of a file."
             )
 
     def changed(self, changes: Mapping[str, Any]) -> Override:

@@ -62,7 +62,9 @@ class Fields:
 
     def text(self, name: str, default: str = "") -> str:
         """The text in a field, or the default. Raises: ClipError: it is something else."""
-        value = self._document.get(name, default)
+        value = self._document.get(name)
+        if value is None:
+            return default
         if not isinstance(value, str):
             raise self.error(name, f"is {checks.represented(value)}; it must be a text")
         return value

@@ -55,9 +55,16 @@ def read_any_clip(path: str | os.PathLike[str]) -> AudioClip:
     """
     if not is_haptic_clip(path):
         return read_clip(Path(path))
-    clip = read_haptic_clip(path)
+    return as_vibration(read_haptic_clip(path), Path(path).stem)
+
+
+def as_vibration(clip: HapticClip, title: str = "haptic clip") -> AudioClip:
+    """A haptic clip as the vibration that a player makes of it, scaled down where its peaks exceed 1.
+
+    Raises: ClipError: the clip is silent.
+    """
     signal = synthesize(clip)
     samples = (signal / max(1.0, float(np.abs(signal).max()))).astype(np.float32)
     if not samples.any():
-        raise ClipError(f"{path}: the clip is silent: its amplitude is 0 throughout.")
-    return AudioClip(samples, RATE_HZ, clip.about.credit(Path(path).stem), is_vibration=True)
+        raise ClipError(f"{title!r} is silent: its amplitude is 0 throughout. Draw one that is not.")
+    return AudioClip(samples, RATE_HZ, clip.about.credit(title), is_vibration=True)

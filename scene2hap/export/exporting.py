@@ -59,7 +59,9 @@ def export_bundle(
     """
     exporters = _exporters(to)
     if not isinstance(bundle, HapticBundle):
-        raise ExportError(f"bundle is {checks.described(bundle)}; it must be a HapticBundle.")
+        raise ExportError(
+            f"bundle is {checks.described(bundle)}; it must be a HapticBundle, as HapticBundle.load(folder) reads."
+        )
     tracks: dict[str, Track] = {}
     names: dict[str, tuple[str, str]] = {}
     for source, states in bundle.loops.items():

@@ -10,6 +10,7 @@ import pytest
 
 from scene2hap import Box, HapticBundle, SceneObject, SceneSnapshot, bake, rebake
 from scene2hap.cli import main
+from scene2hap.clips.reading import read_haptic_clip
 from scene2hap.clips.haptic_clip import About, Curve, HapticClip, Transient
 from scene2hap.clips.haptic_format import compose_haptic
 from scene2hap.errors import AudioError, ClipError
@@ -32,6 +33,8 @@ def clip(tmp_path: Path) -> Path:
 
 def test_a_clip_is_looped_whole_and_felt_as_it_is(baked: HapticBundle, clip: Path, tmp_path: Path) -> None:
     bundle = rebake(baked.override("kettle", clip=clip))
+    drawn = rebake(baked.override("kettle", clip=read_haptic_clip(clip)))
+    np.testing.assert_array_equal(first_loop(drawn), first_loop(bundle))
     (loop,) = bundle.loops["kettle"].values()
     x = loop.tactile.samples
     assert 0.98 <= loop.tactile.duration_s <= 1.003  # less the rest of its last cycle
@@ -72,6 +75,11 @@ def test_clips_that_cannot_be_used_are_refused(baked: HapticBundle, tmp_path: Pa
     short.write_text(json.dumps(compose_haptic(made)))
     with pytest.raises(AudioError, match=r"'short' lasts 0.05 s; it must last 0.1 s at least"):
         rebake(baked.override("kettle", clip=short))
+
+
+def first_loop(bundle: HapticBundle) -> np.ndarray:
+    (loop,) = bundle.loops["kettle"].values()
+    return loop.tactile.samples
 
 
 def bundle_credits(folder: Path) -> str:

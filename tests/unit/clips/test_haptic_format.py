@@ -134,7 +134,7 @@ def test_a_million_points_and_files_that_are_none(tmp_path: Path) -> None:
         read_haptic(tmp_path)
     with pytest.raises(ClipError, match=r"suffix .haptic or .ahap"):
         read_haptic_clip(tmp_path / "sound.ogg")
-    with pytest.raises(ClipError, match="the clip is silent"):
+    with pytest.raises(ClipError, match="'kettle' is silent"):
         read_any_clip(put(tmp_path, document(points((0, 0), (1, 0)))))
 
 
