@@ -76,6 +76,7 @@ FIGURES = {
     "distinctness": Figure("conversion", "benchmarks/distinctness.py", 1),
     "kinds": Figure("conversion", "benchmarks/kinds.py --seeds 4", 1),
     "exports": Figure("exports", "benchmarks/export.py", 0.5, has_times=True, needs="scenes"),
+    "voices": Figure("conversion", "benchmarks/voices.py", 0.2, needs="recordings"),
     "recordings": Figure("conversion", "benchmarks/recordings.py", 0.5, needs="recordings"),
     "conversion-cost": Figure("conversion", "benchmarks/convert.py", 5, has_times=True, is_text=True),
     "audio": Figure("audio", "stress/audio.py", 5, is_text=True, needs="recordings"),

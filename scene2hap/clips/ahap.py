@@ -44,6 +44,8 @@ _INTENSITY, _SHARPNESS = "HapticIntensity", "HapticSharpness"
 _CONTROLS = (f"{_INTENSITY}Control", f"{_SHARPNESS}Control")
 _MOST_EVENTS = 200
 """Continuous events of one file; assumed: ten times as many as a clip of ten minutes needs."""
+_DECIMALS = 9
+"""Of times of points [s], so that adding a curve's time to them and taking it away again changes nothing."""
 _AFTER_S = 0.05
 """How long a clip goes on after its last transient [s], which is as long as one sounds."""
 
@@ -166,9 +168,9 @@ def _curves(control: str, times_s: Values, values: Values) -> list[dict[str, Any
     first = 0
     while True:
         end = min(len(times_s), first + MAX_CURVE_POINTS)
-        start_s = float(times_s[first])
+        start_s = round(float(times_s[first]), _DECIMALS)
         points = [
-            {"Time": time - start_s, "ParameterValue": value}
+            {"Time": round(time - start_s, _DECIMALS), "ParameterValue": value}
             for time, value in zip(times_s[first:end].tolist(), values[first:end].tolist(), strict=True)
         ]
         curve = {"ParameterID": control, "Time": start_s, "ParameterCurveControlPoints": points}
@@ -229,7 +231,9 @@ def _read_curve(curve: Fields, pattern: _Pattern) -> None:
             raise one.error("Time", f"is {time:g} s; it must not be before the point above it at {points[-1][0]:g} s")
         points.append((time, _value(one)))
     is_absolute = start > 0.0 and bool(points) and abs(points[0][0] - start) < 1e-9
-    _add(pattern, curve.text("ParameterID"), points if is_absolute else [(start + t, v) for t, v in points])
+    if not is_absolute:
+        points = [(round(start + time, _DECIMALS), value) for time, value in points]
+    _add(pattern, curve.text("ParameterID"), points)
 
 
 def _add(pattern: _Pattern, control: str, points: Points) -> None:

@@ -16,6 +16,9 @@ from scene2hap.export.fidelity import Fidelity, fidelity
 from scene2hap.export.simplify import simplified
 from scene2hap.export.track import Channel
 
+_SILENT = 1e-5
+"""An amplitude below this, -100 dB re full scale, is none [-]."""
+
 
 @clear_construction
 @dataclass(frozen=True)
@@ -84,7 +87,7 @@ def _clip(envelope: Envelope, settings: CurveSettings, power: float, about: Abou
     def pitch(roots: Signal) -> Signal:
         return np.asarray(np.log(low + (high - low) * roots**power) / np.log1p(FREQUENCY_WEBER))
 
-    amplitude[decibels(amplitude, peak) <= FLOOR_DB] = 0.0
+    amplitude[(decibels(amplitude, peak) <= FLOOR_DB) | (amplitude < _SILENT)] = 0.0
     roots = amplitude ** (1.0 / power)
     chosen = simplified(times, roots, level, settings.tolerance_db, per_second=settings.amplitude_points, kept=kept)
     pitches = np.clip((envelope.frequency_hz - low) / (high - low), 0.0, 1.0) ** (1.0 / power)

@@ -76,7 +76,7 @@ def test_paths_give_the_gains_of_a_session(exported: tuple[Path, dict[str, Any]]
     assert paths
     on = max((one for one in paths if one["decay_per_m"]), key=lambda one: one["gain"])
     mine = [one for one in paths if one["object_id"] == on["object_id"]]
-    point = np.array(on["point_m"]) + [0.03, 0.0, 0.04]
+    point = np.array(on["point_m"]) + np.array([0.03, 0.0, 0.04])
     frame = session.update(touches=[Touch("left", on["object_id"], tuple(point))])
     away = [one["gain"] * np.exp(-one["decay_per_m"] * np.linalg.norm(point - one["point_m"])) for one in mine]
     level = 10 ** (bundle.gain_db("smartphone") / 20)

@@ -9,12 +9,12 @@ from scene2hap.export.protocol import Exported
 from scene2hap.export.track import Track
 
 SAMPLE_RATE_HZ = 48_000
-_N_CHANNELS = 4
+_BITS, _N_CHANNELS = 16, 4
 _ACTUATOR = {"left": 2, "right": 3}
 
 
 class DualSenseExport:
-    """A WAV file of four channels at 48 kHz. A track of one channel moves both actuators."""
+    """A WAV file of four channels of 16 bits at 48 kHz, as the card takes it. A track of one channel moves both actuators."""
 
     def export(self, track: Track) -> Exported:
         """One file with every channel; those that are neither left nor right are left out, if there are others."""
@@ -31,4 +31,4 @@ class DualSenseExport:
             for name, one in track.channels.items()
             if name in hands or len(at_rate) == 1
         }
-        return Exported({f"{track.name}.wav": wav_bytes(frames, SAMPLE_RATE_HZ)}, played)
+        return Exported({f"{track.name}.wav": wav_bytes(frames, SAMPLE_RATE_HZ, _BITS)}, played)

@@ -20,6 +20,8 @@ from scene2hap.export.track import Track
 
 MAX_POINTS = 500
 """Of each kind in one call (XR_HAPTIC_PARAMETRIC_MAX_POINTS_TRANSIENTS_EXT)."""
+_LEAST_HZ = 1.0
+"""XR_HAPTIC_PARAMETRIC_FREQUENCY_MIN_HZ_EXT."""
 
 Rows = list[dict[str, Any]]
 
@@ -37,7 +39,7 @@ class OpenXrParametricExport:
 
     def __init__(
         self,
-        first_frame_s: float = 0.05,
+        first_frame_s: float = 0.1,
         frame_s: float = 0.05,
         stream: bool = False,
         range_hz: Any = (20.0, 500.0),
@@ -49,6 +51,7 @@ class OpenXrParametricExport:
         )
         self.stream = checks.flag("stream", stream, error=ConfigError)
         self.settings = CurveSettings(range_hz=range_hz, **settings)
+        checks.number("range_hz[0]", self.settings.range_hz[0], "Hz", at_least=_LEAST_HZ, error=ConfigError)
 
     def export(self, track: Track) -> Exported:
         """One file for each channel."""
@@ -77,9 +80,11 @@ class OpenXrParametricExport:
             now = [
                 [row for row in rows if start < row["time_ns"] <= edge] for rows in (amplitude, frequency, transients)
             ]
-            if not now[0] or now[0][-1]["time_ns"] < edge:
-                value = float(clip.amplitude.at(np.array([edge / 1e9]))[0])
-                now[0].append({"time_ns": edge, "value": round(value, 6)})
+            # A runtime draws no line to a point that it has not got yet, so that each frame ends with points of its own.
+            for curve, points in ((clip.amplitude, now[0]), (clip.frequency, now[1])):
+                if curve is not None and (not points or points[-1]["time_ns"] < edge):
+                    value = float(curve.at(np.array([edge / 1e9]))[0])
+                    points.append({"time_ns": edge, "value": round(value, 6)})
             kind = "first" if not calls else "last" if edge == end else "intermediate"
             calls.append(_call(kind, (low, high) if not calls else (0.0, 0.0), *now))
             start = edge

@@ -32,9 +32,10 @@ class WavExport:
         return Exported({f"{track.name}.wav": wav_bytes(frames, self.sample_rate_hz)}, played)
 
 
-def wav_bytes(frames: NDArray[np.float64], sample_rate_hz: int) -> bytes:
-    """Frames (n, channels) in [-1, 1] as a WAV file of 24 bits; equal frames give equal bytes."""
-    steps = np.minimum(np.rint(frames * 2.0**23), 2.0**23 - 1).astype(np.int32) << 8
+def wav_bytes(frames: NDArray[np.float64], sample_rate_hz: int, bits: int = 24) -> bytes:
+    """Frames (n, channels) in [-1, 1] as a WAV file of 16 or 24 bits; equal frames give equal bytes."""
+    full = 2.0 ** (bits - 1)
+    steps = np.minimum(np.rint(frames * full), full - 1).astype(np.int32) << (32 - bits)
     encoded = io.BytesIO()
-    soundfile.write(encoded, steps, sample_rate_hz, subtype="PCM_24", format="WAV")
+    soundfile.write(encoded, steps, sample_rate_hz, subtype=f"PCM_{bits}", format="WAV")
     return encoded.getvalue()

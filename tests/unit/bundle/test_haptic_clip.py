@@ -10,9 +10,9 @@ import pytest
 
 from scene2hap import Box, HapticBundle, SceneObject, SceneSnapshot, bake, rebake
 from scene2hap.cli import main
-from scene2hap.clips.reading import read_haptic_clip
 from scene2hap.clips.haptic_clip import About, Curve, HapticClip, Transient
 from scene2hap.clips.haptic_format import compose_haptic
+from scene2hap.clips.reading import read_haptic_clip
 from scene2hap.errors import AudioError, ClipError
 
 

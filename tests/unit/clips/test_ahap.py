@@ -32,7 +32,9 @@ def control_points(document: dict[str, Any], control: str, *, absolute: bool) ->
         curve = item.get("ParameterCurve")
         if curve and curve["ParameterID"] == control:
             start = 0.0 if absolute else curve["Time"]
-            found += [(start + one["Time"], one["ParameterValue"]) for one in curve["ParameterCurveControlPoints"]]
+            found += [
+                (round(start + one["Time"], 9), one["ParameterValue"]) for one in curve["ParameterCurveControlPoints"]
+            ]
     return list(dict.fromkeys(found))
 
 

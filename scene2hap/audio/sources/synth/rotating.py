@@ -44,7 +44,7 @@ def compressor(take: Take, *, slip: float = 0.018) -> Signal:
     strokes = partials(phi, take.roll_off(10), take.rng) * (1.0 + 0.25 * wander(take.rng, 5.0))
     pull = np.cos(2.0 * np.pi * 2.0 * take.mains_hz * times())
     flow = noise(take.rng, 100.0, 2500.0, -3.0) * (1.0 + 0.3 * wander(take.rng, 5.0))
-    return unit_rms(strokes) + 0.2 * unit_rms(pull) + (0.12 + 0.15 * take.drive) * flow
+    return unit_rms(strokes) + 0.2 * unit_rms(pull) + (0.2 + 0.25 * take.drive) * flow
 
 
 def fan(

@@ -73,7 +73,7 @@ _HUM = Patch(mains_hum, (99.8, 100.2))
 _COMPRESSOR = Patch(compressor, (48.5, 49.5))
 _PISTONS = _to_and_fro(47.5, rattle=0.3)
 # Bubbles rise in surges.
-_BOILING = Patch(partial(bubbles, largest_hz=90.0, smallest_hz=380.0), (80.0, 420.0), rhythm=Rhythm(4.3, 0.25, 0.02))
+_BOILING = Patch(partial(bubbles, largest_hz=90.0, smallest_hz=380.0), (80.0, 420.0), rhythm=Rhythm(4.3, 0.28, 0.02))
 _SIZZLING = Patch(partial(bubbles, largest_hz=150.0, smallest_hz=500.0, per_second=1200.0), (130.0, 550.0))
 _CRACKLING = Patch(
     partial(bubbles, largest_hz=100.0, smallest_hz=400.0, per_second=40.0), (80.0, 440.0), is_steady=False
@@ -107,16 +107,17 @@ _CUTTER = _tool(300.0, 300.0, 0.3, spindle=0.0)
 _PUMP = Patch(pump, (276.0, 300.0), 0.3)
 _MUSIC = Patch(music, (60.0, 135.0), is_steady=False)
 # Blades that are not quite alike, and air that leans on them.
-_BREEZE = replace(_fan(22.0, 5, 0.4, rotor=0.5, blade=1.0, flow=1.0), rhythm=Rhythm(1.9, 0.25, 0.02))
+_BREEZE = replace(_fan(22.0, 5, 0.4, rotor=0.5, blade=1.0, flow=1.0), rhythm=Rhythm(1.9, 0.28, 0.02))
 _BLOWER = _fan(220.0, 9, 0.22, blade=0.2, flow=0.7)
 # Two fans that turn almost alike.
-_COMPUTER = replace(_fan(26.0, 7, 0.12, rotor=0.4, blade=1.0, flow=1.8), rhythm=Rhythm(0.7, 0.25, 0.02))
+_COMPUTER = replace(_fan(26.0, 7, 0.12, rotor=0.4, blade=1.0, flow=1.8), rhythm=Rhythm(0.7, 0.32, 0.02))
+_CASE_FAN = replace(_fan(26.0, 7, 0.12, rotor=0.55, blade=1.0, flow=2.6), rhythm=Rhythm(0.7, 0.12, 0.02))
 _CENTRIFUGE = _fan(66.0, 4, 0.4, blade=0.1, flow=0.2)
 _KNEADER = _geared(48.0, 3.5, 0.35, load=0.25)
 _CONVEYOR = _geared(48.0, 9.0, 3.0, rumble=0.4)
 _WINCH = _geared(48.0, 6.0, 1.5)
 _ELECTRIC_DRIVE = _geared(90.0, 8.0, 1.5)
-_TUMBLER = replace(_geared(48.0, 0.85, 0.6, load=0.1, thump_hz=70.0), rhythm=Rhythm(0.85, 0.25, 0.0))
+_TUMBLER = replace(_geared(48.0, 0.85, 0.6, load=0.1, thump_hz=70.0), rhythm=Rhythm(0.85, 0.28, 0.0))
 _STEPPER = Patch(stepper, (85.0, 265.0))
 _ROLLING = Patch(rolling, (40.0, 60.0))
 _HISS = Patch(jet, (45.0, 300.0))
@@ -141,7 +142,7 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("pan, wok, fryer, iron", "sizzle, fry, sear", _SIZZLING),
     ("grill, barbecue", "", _SIZZLING),
     # Two arms of 40 turns a minute spray what they pass.
-    ("dishwasher", "", Patch(pump, (276.0, 300.0), 0.6, rhythm=Rhythm(1.3, 0.25, 0.0))),
+    ("dishwasher", "", Patch(pump, (276.0, 300.0), 0.6, rhythm=Rhythm(1.3, 0.28, 0.0))),
     ("coffeemaker", "", _to_and_fro(50.0, rattle=0.2)),
     ("blender, food processor, juicer", "", _BLENDER),
     ("coffee grinder, coffee mill, spice grinder", "", _COFFEE_GRINDER),
@@ -151,7 +152,7 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     # bathroom and laundry
     ("washer", "", Patch(washing, (99.8, 100.2))),
     ("washer", "spin, centrifuge, dry", Patch(spinner, (204.0, 221.0), 0.6)),
-    ("washer", "rinse, fill, flow", Patch(partial(washing, drum_hz=0.7, slosh=1.2), (99.8, 100.2))),
+    ("washer", "rinse, fill, flow", Patch(partial(washing, drum_hz=0.7, slosh=0.5), (99.8, 100.2))),
     ("washer", "drain, pump", Patch(partial(pump, vanes=3), (138.0, 150.0), 0.6)),
     ("dryer", "", _TUMBLER),
     ("toothbrush", "", _to_and_fro(260.0)),
@@ -163,12 +164,13 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     # moving air, cooling, cleaning
     ("fan, ventilator, purifier, humidifier, fan heater, aircon, vent", "", _BREEZE),
     ("handheld fan, hand fan, mini fan, usb fan", "", _fan(80.0, 3, 0.12)),
-    ("computer, laptop, server, console, projector, computer fan", "", _COMPUTER),
+    ("computer, laptop, server, console, projector", "", _COMPUTER),
+    ("computer fan, case fan", "", _CASE_FAN),
     ("workstation, gpu, network rack, mining rig, supercomputer", "", _COMPUTER),
     ("hard drive, hard disk", "", _fan(120.0, 3, 0.15, blade=0.05, flow=0.1)),
     ("vacuum sealer", "", _PISTONS),
     # The nozzle flutters on a carpet.
-    ("vacuum", "", replace(_fan(330.0, 7, 0.4, blade=0.1, flow=0.6), rhythm=Rhythm(2.8, 0.25, 0.02))),
+    ("vacuum", "", replace(_fan(330.0, 7, 0.4, blade=0.1, flow=0.6), rhythm=Rhythm(2.8, 0.28, 0.02))),
     ("steam cleaner, steamer, iron, paint sprayer, sprayer", "", _STEAM),
     ("sprinkler, hose, car wash", "", _HISS),
     ("pressure washer", "", Patch(partial(pump, vanes=3), (138.0, 150.0), 0.6)),

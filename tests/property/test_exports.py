@@ -1,0 +1,71 @@
+"""What must hold of every export, drawn at random; `stress/exports.py` draws thousands."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from export_draws import CHECKED, problems, random_exporter, random_track
+from scene2hap.clips.ahap import compose_ahap, read_ahap
+from scene2hap.clips.haptic_clip import RANGE_HZ
+from scene2hap.clips.haptic_format import compose_haptic, read_haptic
+from scene2hap.export import EXPORTS
+from scene2hap.export.fidelity import fidelity
+
+quick = settings(derandomize=True, deadline=None, max_examples=20)
+seeds = st.integers(0, 2**32 - 1)
+
+
+@pytest.mark.parametrize("kind", CHECKED)
+@given(seed=seeds)
+@quick
+def test_files_keep_every_rule_of_their_format(kind: str, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    track = random_track(rng)
+    exporter, chosen = random_exporter(rng, kind)
+    assert problems(kind, chosen, dict(exporter.export(track).files)) == []
+
+
+@pytest.mark.parametrize("kind", ["haptic", "ahap"])
+@given(seed=seeds)
+@quick
+def test_what_is_read_back_is_as_near_as_reported(
+    kind: str, seed: int, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    rng = np.random.default_rng(seed)
+    track = random_track(rng)
+    exporter, chosen = random_exporter(rng, kind)
+    range_hz = chosen.get("range_hz", RANGE_HZ)
+    made, folder = exporter.export(track), tmp_path_factory.mktemp("out")
+    for name, content in made.files.items():
+        (folder / name).write_bytes(content)
+    reader = read_haptic if kind == "haptic" else read_ahap
+    for channel, played in made.played.items():
+        stem = f"track.{channel}" if channel else "track"
+        first = next(name for name in made.files if name.startswith(f"{stem}."))
+        clip = reader(folder / first, range_hz=range_hz)
+        reported, found = (fidelity(track.channels[channel], one) for one in (played, clip))
+        assert found.median_db <= reported.median_db + 0.01
+        assert found.p95_db <= reported.p95_db + 0.01
+        again = {"": compose_haptic(clip)} if kind == "haptic" else compose_ahap(clip)
+        for ending, document in again.items():
+            before = json.loads(made.files[f"{stem}{ending}{Path(first).suffix}"])
+            assert json.loads(json.dumps(document)) == before
+
+
+@given(seed=seeds)
+@quick
+def test_samples_are_the_signal(seed: int) -> None:
+    """WAV, raw PCM and DualSense at the signal's own rate or above keep it to the last bits that they have."""
+    rng = np.random.default_rng(seed)
+    track = random_track(rng, longest_s=1.0)
+    for spec in ({"kind": "wav", "sample_rate_hz": 8000}, {"kind": "pcm", "sample_rate_hz": 8000}, "dualsense"):
+        made = EXPORTS.build(spec).export(track)  # type: ignore[attr-defined]
+        for name, channel in track.channels.items():
+            if name in made.played:
+                assert fidelity(channel, made.played[name]).p95_db < 0.5
