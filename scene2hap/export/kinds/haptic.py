@@ -1,4 +1,4 @@
-"""`.haptic`, version 1: Meta Quest (Haptics SDK for Unity and Unreal), and programs that read it. One file a channel."""
+"""`.haptic`, version 1: Meta Quest (Haptics SDK for Unity, Unreal), and programs that read it. One file a channel."""
 
 from __future__ import annotations
 

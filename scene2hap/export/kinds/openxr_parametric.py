@@ -80,7 +80,7 @@ class OpenXrParametricExport:
             now = [
                 [row for row in rows if start < row["time_ns"] <= edge] for rows in (amplitude, frequency, transients)
             ]
-            # A runtime draws no line to a point that it has not got yet, so that each frame ends with points of its own.
+            # A runtime draws no line to a point that it has not got yet, so each frame ends with points of its own.
             for curve, points in ((clip.amplitude, now[0]), (clip.frequency, now[1])):
                 if curve is not None and (not points or points[-1]["time_ns"] < edge):
                     value = float(curve.at(np.array([edge / 1e9]))[0])
