@@ -27,7 +27,7 @@ def _tracks() -> tuple[Track, ...]:
     hum = 0.3 * np.sin(2 * np.pi * 120 * t) * (1 + 0.5 * np.sin(2 * np.pi * 2 * t))
     click = np.zeros(_RATE_HZ)
     click[4000:4200] = 0.9 * np.sin(2 * np.pi * 160 * t[:200])
-    long = 0.5 * np.sin(2 * np.pi * 150 * np.arange(70 * _RATE_HZ) / _RATE_HZ) * np.repeat([1.0, 0.2] * 35, _RATE_HZ)
+    long = 0.5 * np.sin(2 * np.pi * 150 * np.arange(34 * _RATE_HZ) / _RATE_HZ) * np.repeat([1.0, 0.2] * 17, _RATE_HZ)
     return (
         Track("hum.on", {"": Channel(hum, _RATE_HZ, is_loop=True)}),
         Track("tour", {"left": Channel(hum, _RATE_HZ), "right": Channel(click, _RATE_HZ)}),

@@ -18,12 +18,14 @@ from scene2hap.export import EXPORTS
 from scene2hap.export.fidelity import fidelity
 
 quick = settings(derandomize=True, deadline=None, max_examples=20)
+many = settings(derandomize=True, deadline=None, max_examples=290)
+"""Two thousand exports over the seven kinds that have a checker."""
 seeds = st.integers(0, 2**32 - 1)
 
 
 @pytest.mark.parametrize("kind", CHECKED)
 @given(seed=seeds)
-@quick
+@many
 def test_files_keep_every_rule_of_their_format(kind: str, seed: int) -> None:
     rng = np.random.default_rng(seed)
     track = random_track(rng)

@@ -14,7 +14,7 @@ _ACTUATOR = {"left": 2, "right": 3}
 
 
 class DualSenseExport:
-    """A WAV file of four channels, 16 bits, 48 kHz, as the card takes it. A track of one channel moves both actuators."""
+    """WAV of four channels, 16 bits, 48 kHz, as the card takes it. A track of one channel moves both actuators."""
 
     def export(self, track: Track) -> Exported:
         """One file with every channel; those that are neither left nor right are left out, if there are others."""
