@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from datetime import datetime
+from functools import partial
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,63 +22,13 @@ ABOVE_ZERO = math.ulp(0.0)
 INT32, UINT32, INT64 = 2**31 - 1, 2**32 - 1, 2**63 - 1
 
 
-class _Number(NamedTuple):
-    low: float = -math.inf
-    high: float = math.inf
-    kind: type = float
-
-
-class _Items(NamedTuple):
-    shape: Any
-    least: int = 0
-    most: float = math.inf
-
-
-UNIT, TIME, NUMBER = _Number(0, 1), _Number(0), _Number()
-TICK, COUNT, NS = _Number(0, INT32, int), _Number(0, UINT32, int), _Number(0, INT64, int)
-
-
 class _Reading:
     """What is wrong with a document. If values are missing or of a wrong type, rules between values are left out."""
 
-    def __init__(self, shape: Any, document: object, where: str = "document", *, others: bool = False) -> None:
+    def __init__(self, shape: _Shape, document: object, where: str = "document") -> None:
         self.told: list[str] = []
         self.broken = False
-        self.others = others
-        self._hold(shape, document, where)
-
-    def _hold(self, shape: Any, value: Any, where: str) -> None:
-        """Hold a value against a shape: an object, maybe with optional keys "key?", or one of some strings, or a type.
-
-        A whole number may stand for a float, as JSON writes it without a point. All formats read at most 32-bit floats.
-        """
-        kind = {dict: dict, _Items: list, _Number: int | getattr(shape, "kind", int), tuple: str}.get(
-            type(shape), shape
-        )
-        if not isinstance(value, kind) or (kind is not bool and isinstance(value, bool)):
-            self.tell(where, f"is of the type {type(value).__name__}, which is wrong", breaks=True)
-        elif isinstance(shape, dict):
-            for key in shape.keys() - value.keys():
-                if not key.endswith("?"):
-                    self.tell(where, f"lacks {key}", breaks=True)
-            for key, one in value.items():
-                if key in shape or f"{key}?" in shape:
-                    self._hold(shape.get(key, shape.get(f"{key}?")), one, f"{where}.{key}")
-                elif not self.others:
-                    self.tell(where, f"has an unknown key {key!r}")
-        elif isinstance(shape, _Items):
-            if not shape.least <= len(value) <= shape.most:
-                text = f"has {len(value)} items, not {shape.least} to {shape.most}"
-                self.tell(where, text, breaks=len(value) < shape.least)
-            for i, one in enumerate(value):
-                self._hold(shape.shape, one, f"{where}[{i}]")
-        elif isinstance(shape, _Number):
-            if not abs(value) <= float(np.finfo(np.float32).max):
-                self.tell(where, "is not a finite number", breaks=True)
-            elif not shape.low <= value <= shape.high:
-                self.tell(where, f"is {value}, not from {shape.low} to {shape.high}")
-        elif isinstance(shape, tuple) and value not in shape:
-            self.tell(where, f"is {value!r}, not {' or '.join(shape)}", breaks=True)
+        shape(document, where, self)
 
     def tell(self, where: str, sentence: str, *, breaks: bool = False) -> None:
         self.told.append(f"{where} {sentence}.")
@@ -94,22 +45,82 @@ class _Reading:
             self.tell(where, "have ids that are not unique")
 
 
+_Shape = Callable[[Any, str, _Reading], None]
+_Shapes = Mapping[str, _Shape]
+
+
+def _number(low: float = -math.inf, high: float = math.inf, kind: type = float) -> _Shape:
+    def read(value: Any, where: str, found: _Reading) -> None:
+        # JSON writes a whole number without a point. All formats read at most 32-bit floats.
+        right = isinstance(value, int | kind) and not isinstance(value, bool)
+        if not right or not abs(value) <= float(np.finfo(np.float32).max):
+            found.tell(where, f"is not a finite {'number' if kind is float else 'integer'}", breaks=True)
+        elif not low <= value <= high:
+            found.tell(where, f"is {value}, not from {low} to {high}")
+
+    return read
+
+
+def _kind(kind: type, *allowed: str) -> _Shape:
+    def read(value: Any, where: str, found: _Reading) -> None:
+        if not isinstance(value, kind) or (allowed and value not in allowed):
+            found.tell(where, f"is {value!r}, not {' or '.join(allowed) or f'a {kind.__name__}'}", breaks=True)
+
+    return read
+
+
+def _items(shape: _Shape, least: int = 0, most: float = math.inf) -> _Shape:
+    def read(value: Any, where: str, found: _Reading) -> None:
+        if not isinstance(value, list):
+            found.tell(where, "is not a list", breaks=True)
+            return
+        if not least <= len(value) <= most:
+            found.tell(where, f"has {len(value)} items, not {least} to {most}", breaks=len(value) < least)
+        for i, one in enumerate(value):
+            shape(one, f"{where}[{i}]", found)
+
+    return read
+
+
+def _object(needed: _Shapes, optional: _Shapes | None = None, *, others: bool = False) -> _Shape:
+    """An object with the needed keys, maybe the optional ones, and unknown ones only if `others`."""
+    shapes = {**needed, **(optional or {})}
+
+    def read(value: Any, where: str, found: _Reading) -> None:
+        if not isinstance(value, dict):
+            found.tell(where, "is not an object", breaks=True)
+            return
+        for key in sorted(needed.keys() - value.keys()):
+            found.tell(where, f"lacks {key}", breaks=True)
+        for key, one in value.items():
+            if key in shapes:
+                shapes[key](one, f"{where}.{key}", found)
+            elif not others:
+                found.tell(where, f"has an unknown key {key!r}")
+
+    return read
+
+
+_open = partial(_object, others=True)
+_integer, _text = partial(_number, kind=int), partial(_kind, str)
+UNIT, TIME, TEXT, NUMBER, BOOLEAN = _number(0, 1), _number(0), _text(), _number(), _kind(bool)
+TICK, ID, COUNT = _integer(0, INT32), _integer(0, INT32), _integer(0, UINT32)
+
 # -- Meta .haptic: unknown keys pass, as Meta's reader ignores them ----------------------------------------------------
-_ENVELOPES = {
-    "amplitude": _Items({"time": TIME, "amplitude": UNIT, "emphasis?": {"amplitude": UNIT, "frequency": UNIT}}, 2),
-    "frequency?": _Items({"time": TIME, "frequency": UNIT}),
-}
-_TEXTS = dict.fromkeys(["editor?", "author?", "source?", "project?", "description?"], str)
-_HAPTIC = {
-    "version": {"major": _Number(1, 1, int), "minor?": COUNT, "patch?": COUNT},
-    "metadata?": {**_TEXTS, "tags?": _Items(str)},
-    "signals": {"continuous": {"envelopes": _ENVELOPES}},
-}
+_EMPHASIS = {"emphasis": _open({"amplitude": UNIT, "frequency": UNIT})}
+_ENVELOPES = _open(
+    {"amplitude": _items(_open({"time": TIME, "amplitude": UNIT}, _EMPHASIS), 2)},
+    {"frequency": _items(_open({"time": TIME, "frequency": UNIT}))},
+)
+_METADATA = {"tags": _items(TEXT)} | dict.fromkeys(["editor", "author", "source", "project", "description"], TEXT)
+_VERSIONS = _open({"major": _integer(1, 1)}, {"minor": COUNT, "patch": COUNT})
+_SIGNALS = _open({"continuous": _open({"envelopes": _ENVELOPES})})
+_HAPTIC = _open({"version": _VERSIONS, "signals": _SIGNALS}, {"metadata": _open({}, _METADATA)})
 
 
 def check_haptic(document: object, *, legacy: bool = False) -> list[str]:
     """Hold a .haptic document against Meta's Strict rules; `legacy` drops the one on the span of the frequency."""
-    found = _Reading(_HAPTIC, document, others=True)
+    found = _Reading(_HAPTIC, document)
     if found.broken:
         return found.told
     points, others = _points(document, "amplitude"), _points(document, "frequency")
@@ -153,29 +164,28 @@ def _line(points: Any, time: str, value: str, times: Samples) -> Samples:
 
 
 # -- Apple AHAP --------------------------------------------------------------------------------------------------------
+_PARAMETER = _object({"ParameterID": _text("HapticIntensity", "HapticSharpness"), "ParameterValue": UNIT})
+_EVENT = _object(
+    {"Time": TIME, "EventType": _text("HapticContinuous", "HapticTransient"), "EventParameters": _items(_PARAMETER)},
+    {"EventDuration": _number(ABOVE_ZERO, 30)},
+)
 _CONTROLS = ("HapticIntensityControl", "HapticSharpnessControl")
-_EVENT = {
-    "Time": TIME,
-    "EventType": ("HapticContinuous", "HapticTransient"),
-    "EventDuration?": _Number(ABOVE_ZERO, 30),
-    "EventParameters": _Items({"ParameterID": ("HapticIntensity", "HapticSharpness"), "ParameterValue": UNIT}),
-}
-_CURVE = {
-    "ParameterID": _CONTROLS,
-    "Time": TIME,
-    "ParameterCurveControlPoints": _Items({"Time": TIME, "ParameterValue": UNIT}, 1, 16),
-}
-_AHAP = {"Version": _Number(1, 1), "Pattern": _Items({"Event?": _EVENT, "ParameterCurve?": _CURVE})}
+_CONTROL_POINTS = _items(_object({"Time": TIME, "ParameterValue": UNIT}), 1, 16)
+_CURVE = _object({"ParameterID": _text(*_CONTROLS), "Time": TIME, "ParameterCurveControlPoints": _CONTROL_POINTS})
+
+
+def _pattern_item(value: Any, where: str, found: _Reading) -> None:
+    if isinstance(value, dict) and len(value.keys() & {"Event", "ParameterCurve"}) != 1:
+        found.tell(where, "does not have exactly one of Event and ParameterCurve", breaks=True)
+    else:
+        _object({}, {"Event": _EVENT, "ParameterCurve": _CURVE})(value, where, found)
 
 
 def check_ahap(document: Any) -> list[str]:
     """Hold an AHAP document against Apple's rules, and against joints without a gap."""
-    found = _Reading(_AHAP, document)
+    found = _Reading(_object({"Version": _number(1, 1), "Pattern": _items(_pattern_item)}), document)
     if found.broken:
         return found.told
-    for i, one in enumerate(document["Pattern"]):
-        if ("Event" in one) == ("ParameterCurve" in one):
-            found.tell(f"document.Pattern[{i}]", "does not have exactly one of Event and ParameterCurve")
     events = [one["Event"] for one in document["Pattern"] if "Event" in one]
     for one in events:
         if (one["EventType"] == "HapticContinuous") != ("EventDuration" in one):
@@ -268,51 +278,47 @@ _BODY_PARTS = (
     "Foot,Palm,Finger,Sole,Toe,Thumb,Index,Middle,Ring,Pinky,Hallux,Index-toe,Middle-toe,Ring-toe,Pinky-toe,"
     "First Phalanx,Second Phalanx,Third Phalanx,Minus,Plus"
 )
+_CURVE_TYPES = ("Unknown", "Cubic", "Linear", "Akima", "Bezier", "Bspline")
 _HERTZ = ("minimum_frequency", "resonance_frequency", "maximum_frequency")
 _DEVICE_NUMBERS = "maximum_amplitude impedance maximum_voltage maximum_current maximum_displacement weight size custom"
-_DEVICE_REST = {f"{key}?": NUMBER for key in (*_HERTZ, *_DEVICE_NUMBERS.split())}
-_DEVICE = {"id": TICK, "name": str, "body_part_mask?": COUNT, "type?": str, **_DEVICE_REST}
-_AVATAR_TYPES = ("Vibration", "Pressure", "Temperature", "Custom")
-_EFFECT = {
-    "effect_type": ("Basis",),
-    "position": TICK,
-    "phase": NUMBER,
-    "base_signal": ("Sine", "Square", "Triangle", "SawToothUp", "SawToothDown"),
-    "keyframes": _Items({"relative_position": TICK, "amplitude_modulation": NUMBER, "frequency_modulation?": TICK}, 1),
-}
-_BAND = {
-    "lower_frequency_limit": TICK,
-    "upper_frequency_limit": TICK,
-    "effects": _Items({**_EFFECT, "id?": TICK}),
-    "curve_type?": ("Unknown", "Cubic", "Linear", "Akima", "Bezier", "Bspline"),
-    "block_length?": _Number(1, INT32, int),
-}
-_CHANNEL = {
-    **{"id": TICK, "description": str, "gain": NUMBER, "mixing_coefficient": NUMBER, "body_part_mask": COUNT},
-    **{"frequency_sampling?": COUNT, "sample_count?": COUNT, "reference_device_id?": TICK, "vertices?": _Items(TICK)},
-    "body_part_target?": _Items(tuple(_BODY_PARTS.split(","))),
-    "direction?": dict.fromkeys("XYZ", _Number(-128, 127, int)),
-}
-# The loader refuses any effect_semantic_scheme, so that it is an unknown key here.
-_PERCEPTION = {
-    **{"id": TICK, "avatar_id": TICK, "description": str, "perception_modality": ("Vibrotactile",)},
-    **dict.fromkeys(["unit_exponent?", "perception_unit_exponent?"], _Number(-INT32 - 1, INT32, int)),
-    "effect_library": _Items({**_EFFECT, "id": TICK}),
-    "reference_devices": _Items(_DEVICE),
+_DEVICE_REST = {"body_part_mask": COUNT, "type": TEXT} | dict.fromkeys([*_HERTZ, *_DEVICE_NUMBERS.split()], NUMBER)
+_DEVICE = _object({"id": ID, "name": TEXT}, _DEVICE_REST)
+_AVATAR_TYPE = _text("Vibration", "Pressure", "Temperature", "Custom")
+# 0 is kept for "no avatar".
+_AVATAR = _object({"id": _integer(1, INT32), "lod": TICK, "type": _AVATAR_TYPE}, {"mesh": TEXT})
+_KEYFRAME = _object({"relative_position": TICK, "amplitude_modulation": NUMBER}, {"frequency_modulation": TICK})
+_EFFECT = {"effect_type": _text("Basis"), "position": TICK, "phase": NUMBER, "keyframes": _items(_KEYFRAME, 1)} | {
+    "base_signal": _text("Sine", "Square", "Triangle", "SawToothUp", "SawToothDown")
 }
 
 
-def _hjif(profile: str) -> Any:
-    bands = ("Transient", "Curve", "VectorialWave") + ("WaveletWave",) * (profile == "Main")
-    channels = _Items({**_CHANNEL, "bands": _Items({**_BAND, "band_type": bands})})
-    return {
-        **{"version": str, "profile": (profile,), "level": _Number(1, 2, int), "date": str, "description": str},
-        "timescale": _Number(*_TIMESCALES[profile], int),
-        # The id 0 is kept for "no avatar".
-        "avatars": _Items({"id": _Number(1, INT32, int), "lod": TICK, "type": _AVATAR_TYPES, "mesh?": str}),
-        "perceptions": _Items({**_PERCEPTION, "channels": channels}),
-        "syncs": _Items({"timestamp": TICK, "timescale?": _Number(1, UINT32, int)}),
-    }
+def _hjif(profile: str) -> _Shape:
+    bands = ["Transient", "Curve", "VectorialWave"] + ["WaveletWave"] * (profile == "Main")
+    effects = _items(_object(_EFFECT, {"id": ID}))
+    band = _object(
+        {"band_type": _text(*bands), "lower_frequency_limit": TICK, "upper_frequency_limit": TICK, "effects": effects},
+        {"curve_type": _text(*_CURVE_TYPES), "block_length": _integer(1, INT32)},
+    )
+    channel = _object(
+        {"id": ID, "description": TEXT, "body_part_mask": COUNT, "bands": _items(band)}
+        | {"gain": NUMBER, "mixing_coefficient": NUMBER},
+        {"frequency_sampling": COUNT, "sample_count": COUNT, "reference_device_id": ID, "vertices": _items(ID)}
+        | {"body_part_target": _items(_text(*_BODY_PARTS.split(",")))}
+        | {"direction": _object(dict.fromkeys("XYZ", _integer(-128, 127)))},
+    )
+    exponent = _integer(-INT32 - 1, INT32)
+    # The loader refuses any effect_semantic_scheme, so that it is an unknown key here.
+    perception = _object(
+        {"id": ID, "avatar_id": ID, "description": TEXT, "perception_modality": _text("Vibrotactile")}
+        | {"effect_library": _items(_object(_EFFECT | {"id": ID}))}
+        | {"channels": _items(channel), "reference_devices": _items(_DEVICE)},
+        {"unit_exponent": exponent, "perception_unit_exponent": exponent},
+    )
+    return _object(
+        {"version": TEXT, "profile": _text(profile), "level": _integer(1, 2), "date": TEXT, "description": TEXT}
+        | {"timescale": _integer(*_TIMESCALES[profile]), "avatars": _items(_AVATAR), "perceptions": _items(perception)}
+        | {"syncs": _items(_object({"timestamp": TICK}, {"timescale": _integer(1, UINT32)}))}
+    )
 
 
 def check_hjif(document: Any, profile: str) -> list[str]:
@@ -399,22 +405,25 @@ def hjif_duration_s(document: Any) -> float:
 
 
 # -- OpenXR ------------------------------------------------------------------------------------------------------------
-_PCM = {
-    **{"extension": ("XR_FB_haptic_pcm",), "loop": bool, "sample_rate_hz": _Number(ABOVE_ZERO), "samples": str},
-    **{"sample_count": _Number(1, UINT32, int), "buffer_size": _Number(1, 4000, int)},
-}
-_ENVELOPE = {
-    **{"extension": ("XR_FB_haptic_amplitude_envelope",), "loop": bool},
-    "calls": _Items({"duration_ns": _Number(1, INT64, int), "amplitudes": _Items(UNIT, 1, 4000)}, 1),
-}
+_PCM = _object(
+    {"extension": _text("XR_FB_haptic_pcm"), "sample_rate_hz": _number(ABOVE_ZERO), "loop": BOOLEAN, "samples": TEXT}
+    | {"sample_count": _integer(1, UINT32), "buffer_size": _integer(1, 4000)}
+)
+_ENVELOPE_CALL = _object({"duration_ns": _integer(1, INT64), "amplitudes": _items(UNIT, 1, 4000)})
+_ENVELOPE = _object(
+    {"extension": _text("XR_FB_haptic_amplitude_envelope"), "loop": BOOLEAN, "calls": _items(_ENVELOPE_CALL, 1)}
+)
 _SERIES = ("amplitude_points", "frequency_points")
-_CALL = {
-    "stream_frame_type": ("none", "first", "intermediate", "last"),
-    **dict.fromkeys(["min_frequency_hz", "max_frequency_hz"], _Number(0, 1000)),
-    **dict.fromkeys(_SERIES, _Items({"time_ns": NS, "value": UNIT}, 0, 500)),
-    "transients": _Items({"time_ns": NS, "amplitude": UNIT, "frequency": UNIT}, 0, 500),
-}
-_PARAMETRIC = {"extension": ("XR_EXT_haptic_parametric",), "loop": bool, "calls": _Items(_CALL, 1)}
+_NS = _integer(0, INT64)
+_PARAMETRIC_CALL = _object(
+    dict.fromkeys(_SERIES, _items(_object({"time_ns": _NS, "value": UNIT}), 0, 500))
+    | {"transients": _items(_object({"time_ns": _NS, "amplitude": UNIT, "frequency": UNIT}), 0, 500)}
+    | dict.fromkeys(["min_frequency_hz", "max_frequency_hz"], _number(0, 1000))
+    | {"stream_frame_type": _text("none", "first", "intermediate", "last")}
+)
+_PARAMETRIC = _object(
+    {"extension": _text("XR_EXT_haptic_parametric"), "loop": BOOLEAN, "calls": _items(_PARAMETRIC_CALL, 1)}
+)
 
 
 def check_openxr_pcm(header: Any, samples: bytes) -> list[str]:
@@ -475,12 +484,14 @@ def parametric_duration_s(document: Any) -> float:
 
 
 # -- Android -----------------------------------------------------------------------------------------------------------
-_STEPS = {"timings_ms": _Items(_Number(1, 10, int), 1), "amplitudes": _Items(_Number(0, 255, int), 1)}
+_ANDROID = _object(
+    {"timings_ms": _items(_integer(1, 10), 1), "amplitudes": _items(_integer(0, 255), 1), "repeat": _integer(-1, 0)}
+)
 
 
 def check_android(document: Any) -> list[str]:
     """Hold a document against the arguments of createWaveform, in steps of 10 ms."""
-    found = _Reading({**_STEPS, "repeat": _Number(-1, 0, int)}, document)
+    found = _Reading(_ANDROID, document)
     if not found.broken and len(document["timings_ms"]) != len(document["amplitudes"]):
         found.tell("document", "does not have as many timings as amplitudes")
     if not found.broken and any(1 <= one < 10 for one in document["timings_ms"][:-1]):
