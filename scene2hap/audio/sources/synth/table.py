@@ -111,7 +111,7 @@ _BREEZE = replace(_fan(22.0, 5, 0.4, rotor=0.5, blade=1.0, flow=1.0), rhythm=Rhy
 _BLOWER = _fan(220.0, 9, 0.22, blade=0.2, flow=0.7)
 # Two fans that turn almost alike.
 _COMPUTER = replace(_fan(26.0, 7, 0.12, rotor=0.4, blade=1.0, flow=1.8), rhythm=Rhythm(0.7, 0.32, 0.02))
-_CASE_FAN = replace(_fan(26.0, 7, 0.12, rotor=0.55, blade=1.0, flow=2.6), rhythm=Rhythm(0.7, 0.12, 0.02))
+_CASE_FAN = replace(_fan(26.0, 7, 0.12, rotor=0.6, blade=1.0, flow=2.3), rhythm=Rhythm(0.7, 0.12, 0.02))
 _CENTRIFUGE = _fan(66.0, 4, 0.4, blade=0.1, flow=0.2)
 _KNEADER = _geared(48.0, 3.5, 0.35, load=0.25)
 _CONVEYOR = _geared(48.0, 9.0, 3.0, rumble=0.4)
