@@ -75,6 +75,7 @@ FIGURES = {
     ),
     "distinctness": Figure("conversion", "benchmarks/distinctness.py", 1),
     "kinds": Figure("conversion", "benchmarks/kinds.py --seeds 4", 1),
+    "many-scenes": Figure("many-scenes", "benchmarks/bake_many.py", 6, has_times=True, needs="scenes"),
     "exports": Figure("exports", "benchmarks/export.py", 0.5, has_times=True, needs="scenes"),
     "voices": Figure("conversion", "benchmarks/voices.py", 0.2, needs="recordings"),
     "recordings": Figure("conversion", "benchmarks/recordings.py", 0.5, needs="recordings"),

@@ -61,6 +61,7 @@ _HOME = {
     "scene2hap.baking": ("BakeConfig", "abake", "arebake", "bake", "bake_object", "rebake"),
     "scene2hap.session": ("HapticFrame", "HapticSession", "Impact", "SessionConfig", "Touch", "UserProfile"),
     "scene2hap.engines": ("EngineAdapter", "EngineLink", "MuJoCoLink", "Panda3DLink"),
+    "scene2hap.baking.many": ("ManyReport", "abake_many", "bake_many"),
     "scene2hap.bundle_watch": ("BundleWatch",),
     "scene2hap.touch_track": ("TouchTrack",),
     "scene2hap.track_player": ("play_track",),
@@ -136,6 +137,9 @@ if TYPE_CHECKING:
     from scene2hap.baking import bake as bake
     from scene2hap.baking import bake_object as bake_object
     from scene2hap.baking import rebake as rebake
+    from scene2hap.baking.many import ManyReport as ManyReport
+    from scene2hap.baking.many import abake_many as abake_many
+    from scene2hap.baking.many import bake_many as bake_many
     from scene2hap.bundle import HapticBundle as HapticBundle
     from scene2hap.bundle import Override as Override
     from scene2hap.bundle_watch import BundleWatch as BundleWatch

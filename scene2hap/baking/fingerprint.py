@@ -37,7 +37,7 @@ _NO_FINGERPRINT = "no fingerprint"
 def asked_for(description: VibrationDescription, config: BakeConfig) -> dict[str, str]:
     """The names of what decides which sound is chosen."""
     asked = (description.object_category, description.state, description.sentence, description.keywords)
-    sources = [_told(source) for source in config.audio]
+    sources = [told(source) for source in config.audio]
     return {
         "words": _name([*asked, description.seed]),
         "sources": _name([*sources, config.enough_candidates]),
@@ -46,7 +46,7 @@ def asked_for(description: VibrationDescription, config: BakeConfig) -> dict[str
 
 def converter_name(converter: object) -> str:
     """The name of a converter and its settings; takes milliseconds, since guests are looked for among packages."""
-    return _name([converter_settings(converter), _told(converter)])
+    return _name([converter_settings(converter), told(converter)])
 
 
 def made_by(clip: AudioClip, converter: str, plan: Plan) -> dict[str, str]:
@@ -88,7 +88,7 @@ def converter_settings(converter: object) -> dict[str, Any]:
         return {"class": place}
 
 
-def _told(part: object) -> str:
+def told(part: object) -> str:
     """What a part says of itself; the usual text of an object holds its address, which says nothing."""
     return type(part).__qualname__ if type(part).__repr__ is object.__repr__ else repr(part)
 

@@ -83,12 +83,22 @@ async def abake(
     config = BakeConfig.parse(config)
     wishes = _of_this_scene(overrides or {}, scene)
     inference = await _infer(scene, config, wishes, user_prompt, progress, on_report)
-    objects = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in inference.objects.items()}
+    return await with_sounds(scene, inference.scene_category, inference.objects, wishes, config, progress)
+
+
+async def with_sounds(
+    scene: SceneSnapshot,
+    scene_category: str,
+    inferred: Mapping[str, ObjectHaptics],
+    wishes: Mapping[str, Override],
+    config: BakeConfig,
+    progress: Progress | None = None,
+) -> HapticBundle:
+    """The bundle of a scene whose objects are inferred; what `bake` does behind inference. Raises: AudioError."""
+    objects = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in inferred.items()}
     sounds = await make_loops(objects, wishes, config, progress or _say_nothing)
     _warn_of(scene, objects)
-    return HapticBundle(
-        scene, inference.scene_category, objects, sounds.loops, wishes, sounds.choices, _made_with(config)
-    )
+    return HapticBundle(scene, scene_category, objects, sounds.loops, wishes, sounds.choices, _made_with(config))
 
 
 @clear_call

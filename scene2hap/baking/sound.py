@@ -10,6 +10,7 @@ import asyncio
 import os
 import warnings
 from collections.abc import Callable, Collection, Mapping, Sequence
+from contextvars import ContextVar
 from dataclasses import dataclass, field, replace
 from threading import Lock
 
@@ -36,6 +37,8 @@ Remade = Mapping[str, Mapping[str, tuple[str, ...]]]
 _REPEATED_S = 3.0
 _MOST_THREADS = 4
 """Assumed: each holds the spectra of a clip, some 100 MB, and Python's own part runs in one thread at a time."""
+N_THREADS: ContextVar[int] = ContextVar("N_THREADS", default=0)
+"""Loops made at once, 0 for as many as there are processors: fewer where other processes bake beside this one."""
 _NEW: tuple[str, ...] = ("new",)
 _UNCHANGED: tuple[str, ...] = ()
 
@@ -120,7 +123,8 @@ async def _made(
     parts: Sequence[_Part], plans: Sequence[Plan], config: BakeConfig, tell: Progress
 ) -> list[tuple[HapticLoop, tuple[str, ...]]]:
     """The loops of each part, and why they were made; several are under way at once, each in a thread."""
-    maker, gate = _Maker(config), asyncio.Semaphore(min(_MOST_THREADS, os.cpu_count() or 1))
+    n_threads = N_THREADS.get() or min(_MOST_THREADS, os.cpu_count() or 1)
+    maker, gate = _Maker(config), asyncio.Semaphore(n_threads)
 
     async def one(part: _Part, plan: Plan | None) -> tuple[HapticLoop, tuple[str, ...]]:
         if part.clip is None or plan is None:

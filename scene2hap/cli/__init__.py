@@ -16,6 +16,7 @@ from scene2hap import __version__
 from scene2hap.cli import (
     audition,
     bake,
+    bake_many,
     convert,
     demo,
     doctor,
@@ -33,7 +34,22 @@ from scene2hap.cli.console import Console
 from scene2hap.errors import Scene2HapError
 from scene2hap.printable import printable
 
-COMMANDS = (demo, bake, edit, render, play, audition, export, convert, inspect, report, list_names, settings, doctor)
+COMMANDS = (
+    demo,
+    bake,
+    bake_many,
+    edit,
+    render,
+    play,
+    audition,
+    export,
+    convert,
+    inspect,
+    report,
+    list_names,
+    settings,
+    doctor,
+)
 
 
 _DOCS = (
@@ -98,7 +114,7 @@ def command_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     for module in COMMANDS:
         command = commands.add_parser(
-            module.__name__.rpartition(".")[2],
+            module.__name__.rpartition(".")[2].replace("_", "-"),
             parents=[common],
             help=module.HELP,
             description=module.__doc__,

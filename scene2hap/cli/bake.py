@@ -32,6 +32,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``scene2hap bake``."""
     parser.add_argument("scene", metavar="SCENE", help="glTF, GLB, OBJ, STL, PLY, COLLADA, MJCF, or scene JSON")
     parser.add_argument("-o", "--output", metavar="BUNDLE", help="folder to write (not needed with --dry-run)")
+    parser.add_argument("--dry-run", action="store_true", help="show calls, tokens and cost only; no model is called")
+    add_model_arguments(parser)
+    add_scene_arguments(parser)
+
+
+def add_model_arguments(parser: argparse.ArgumentParser) -> None:
+    """What infers, and what makes sounds."""
     parser.add_argument("--prompt", default="", help="text for the model, which outranks everything else")
     parser.add_argument("--llm", metavar="KIND[:MODEL]", help="lexicon (default), openai:MODEL, local:MODEL, ...")
     parser.add_argument("--base-url", metavar="URL", help="address of the model's server, if not the usual one")
@@ -42,12 +49,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action=argparse.BooleanOptionalAction,
         help="show the model pictures (extra `pictures`); the default for models behind an address",
     )
-    parser.add_argument("--dry-run", action="store_true", help="show calls, tokens and cost only; no model is called")
     parser.add_argument("--sounds", metavar="FOLDER", help="your own sounds, tried before the synthesizer")
     parser.add_argument("--actuator", metavar="NAME", help="name of an actuator, or a CSV file of Hz and dB")
     parser.add_argument("--tactile", metavar="KIND", help="converter from sound to touch")
     parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [bake]")
-    add_scene_arguments(parser)
 
 
 def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
@@ -66,23 +71,26 @@ def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
 
 def read_scene(arguments: argparse.Namespace) -> SceneSnapshot:
     """The scene that the arguments name."""
+    return load_scene(arguments.scene, **scene_options(arguments))
+
+
+def scene_options(arguments: argparse.Namespace) -> dict[str, Any]:
+    """What `load_scene` is told beside the path."""
     is_depth = arguments.group.isascii() and arguments.group.isdigit() and len(arguments.group) < 10
-    group: Any = int(arguments.group) if is_depth else arguments.group
-    return load_scene(
-        arguments.scene,
-        up_axis=arguments.up_axis,
-        unit_m=arguments.unit_m,
-        group=group,
-        assets_root=arguments.assets_root,
-    )
+    return {
+        "up_axis": arguments.up_axis,
+        "unit_m": arguments.unit_m,
+        "group": int(arguments.group) if is_depth else arguments.group,
+        "assets_root": arguments.assets_root,
+    }
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Bake, save, and show what was inferred and what it took."""
     if arguments.output is None and not arguments.dry_run:
         raise ConfigError("no output folder. Name one with -o BUNDLE, or ask for --dry-run.")
-    config = BakeConfig.parse(_settings(arguments))
-    pictures = _is_remote(config.llm) if arguments.pictures is None else arguments.pictures
+    config = BakeConfig.parse(bake_settings(arguments))
+    pictures = is_remote(config.llm) if arguments.pictures is None else arguments.pictures
     if arguments.dry_run:
         return _dry_run(arguments, config, console, pictures=pictures)
     target = Path(arguments.output)
@@ -110,7 +118,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     return {"bundle": str(folder), **bundle_outcome(bundle), "inference": accounts[0].as_json()}
 
 
-def _settings(arguments: argparse.Namespace) -> dict[str, Any]:
+def bake_settings(arguments: argparse.Namespace) -> dict[str, Any]:
+    """Settings of a bake: of the file, and on top those that the arguments name. Raises: ConfigError."""
     settings = read_settings(arguments.settings, "bake")
     if arguments.sounds:
         given = settings.get("audio", "synth")
@@ -154,5 +163,6 @@ def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console
     return told.as_json()
 
 
-def _is_remote(backend: object) -> bool:
+def is_remote(backend: object) -> bool:
+    """Whether a backend is behind an address, so that pictures are worth taking."""
     return "base_url" in identity(backend)

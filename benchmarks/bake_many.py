@@ -1,0 +1,117 @@
+"""How fast many scenes are baked in one process and in worker processes, as a table in Markdown.
+
+python benchmarks/bake_many.py [--scenes 24] [--seed 0]
+
+Scenes are variations of the demo kitchen and, where they are beside the project, of kitchens and rooms by others: a
+random half of the objects of each, somewhat displaced. Every run starts from nothing, and the ways are tried in an order
+that is drawn anew in each round. Bundles of all runs must be equal. Two programs at once, each with half of the scenes
+and no word between them, show what the machine allows.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import os
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from multiprocessing import get_context
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+
+from others import SCENES
+from scene2hap import ManyReport, Pose, SceneSnapshot, bake_many, load_scene
+from scene2hap.demo import kitchen_path
+
+RUNS = ("this process", "processes:1", "processes:2", "a pool of one", "a pool of two", "two programs")
+"""The pools are executors of somebody else's, whose workers use one thread each."""
+
+
+def write_variations(folder: Path, n: int, seed: int) -> list[Path]:
+    """Scene JSON files."""
+    files = [kitchen_path(), *sorted(SCENES.glob("composed_*/*.glb"))]
+    originals = [load_scene(path) for path in files]
+    for i in range(n):
+        rng = np.random.default_rng([seed, i])
+        scene = originals[i % len(originals)]
+        chosen = [item for item in scene.objects if rng.random() < 0.5] or list(scene.objects[:1])
+        moved = [replace(item, pose=_moved(item.pose, rng)) for item in chosen]
+        text = SceneSnapshot(f"{scene.name}_{i}", scene.up_axis, tuple(moved)).to_json()
+        (folder / f"scene_{i:04d}.json").write_text(text)
+    return sorted(folder.glob("*.json"))
+
+
+def _moved(pose: Pose, rng: np.random.Generator) -> Pose:
+    x, y, z = np.asarray(pose.position_m) + rng.uniform(-0.02, 0.02, 3) * (1, 0, 1)
+    return Pose((float(x), float(y), float(z)), pose.rotation_xyzw)
+
+
+def digest(folder: Path) -> str:
+    """Of all bundles."""
+    found = hashlib.sha256()
+    for path in sorted(folder.glob("*.bundle/**/*")):
+        if path.is_file():
+            found.update(str(path.relative_to(folder)).encode() + path.read_bytes())
+    return found.hexdigest()
+
+
+def baked(scenes: list[Path], folder: Path, run: str) -> ManyReport:
+    """Bake in one of the ways."""
+    if run.startswith("a pool"):
+        with ProcessPoolExecutor(1 if run.endswith("one") else 2, mp_context=get_context("spawn")) as pool:
+            return bake_many(scenes, folder, executor=pool)
+    if run == "two programs":
+        program = "import sys; from scene2hap import bake_many; bake_many(sys.argv[2:], sys.argv[1])"
+        halves = [scenes[0::2], scenes[1::2]]
+        both = [subprocess.Popen([sys.executable, "-c", program, str(folder), *map(str, half)]) for half in halves]
+        assert [one.wait() for one in both] == [0, 0]
+        return ManyReport([])
+    return bake_many(scenes, folder, executor=None if run == "this process" else run)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--scenes", type=int, default=24)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--rounds", type=int, default=1)
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as place:
+        (Path(place) / "scenes").mkdir()
+        scenes = write_variations(Path(place) / "scenes", arguments.scenes, arguments.seed)
+        times: dict[str, list[float]] = {run: [] for run in RUNS}
+        made = set()
+        order = np.random.default_rng(arguments.seed)
+        for turn in range(arguments.rounds):
+            for k in order.permutation(len(RUNS)):
+                folder = Path(place) / f"{turn}-{k}"
+                begun = time.perf_counter()
+                report = baked(scenes, folder, RUNS[k])
+                times[RUNS[k]].append(time.perf_counter() - begun)
+                assert not report.failed, report.failed[0].error
+                made.add(digest(folder))
+    one = statistics.median(times["a pool of one"])
+    print(
+        f"{arguments.scenes} scenes, seed {arguments.seed}, {os.cpu_count()} processors; bundles "
+        f"{'equal in all runs' if len(made) == 1 else 'DIFFER'}\n"
+    )
+    print("| executor | time [s], median | scenes a minute | against one worker of one thread |\n|---|---|---|---|")
+    for run, found in times.items():
+        middle = statistics.median(found)
+        print(f"| {run} | {middle:.1f} | {60 * arguments.scenes / middle:.0f} | {one / middle:.2f} |")
+    here, workers = (
+        resource.getrusage(who).ru_maxrss / 1024 for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
+    )
+    print(f"\nMost memory: {here:.0f} MB in this process, {workers:.0f} MB in the largest worker.")
+
+
+if __name__ == "__main__":
+    main()

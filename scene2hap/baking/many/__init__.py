@@ -1,0 +1,6 @@
+"""Thousands of scenes: reading and sounds on any executor, inference in one process."""
+
+from scene2hap.baking.many.report import ManyReport, SceneReport
+from scene2hap.baking.many.run import abake_many, bake_many
+
+__all__ = ["ManyReport", "SceneReport", "abake_many", "bake_many"]

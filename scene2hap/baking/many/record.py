@@ -1,0 +1,86 @@
+"""What is done: by a digest of the scene file and one of the settings, beside each bundle's draft."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import uuid
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from scene2hap import __version__
+from scene2hap.baking.config import BakeConfig
+from scene2hap.baking.fingerprint import converter_settings, told
+from scene2hap.errors import ConfigError
+from scene2hap.llm.config import InferenceConfig
+from scene2hap.llm.wrappers import identity
+
+_SELF_CONTAINED = frozenset({".glb", ".stl", ".ply", ".json"})
+_MOST_BESIDE = 10_000
+"""Files beside a scene that are looked at; assumed: more than any scene's textures and buffers."""
+_LITTLE_BYTES = 1 << 20
+
+Record = Mapping[str, Any]
+
+
+def scene_digest(path: Path) -> str:
+    """A name for all that a scene file says: its bytes, and for kinds that refer to other files, those beside it.
+
+    Of files larger than a megabyte beside it, size and time of the last change stand for the bytes.
+    """
+    found = hashlib.sha256(path.read_bytes())
+    if path.suffix.lower() not in _SELF_CONTAINED:
+        others = sorted(one for one in path.parent.rglob("*") if one != path and one.is_file())[:_MOST_BESIDE]
+        for other in others:
+            state = other.stat()
+            found.update(f"{other.relative_to(path.parent)} {state.st_size}".encode())
+            if state.st_size <= _LITTLE_BYTES:
+                found.update(other.read_bytes())
+            else:
+                found.update(str(state.st_mtime_ns).encode())
+    return found.hexdigest()[:32]
+
+
+def settings_digest(config: BakeConfig, user_prompt: str, options: Mapping[str, Any]) -> str:
+    """A name for all settings that decide what a bundle holds."""
+    backend = dict(identity(config.llm)) or type(getattr(config.llm, "inner", config.llm)).__qualname__
+    document = {
+        "version": __version__,
+        "llm": backend,
+        "inference": {name: getattr(config, name) for name in InferenceConfig.model_fields if name != "concurrency"},
+        "audio": [told(source) for source in config.audio],
+        "enough": config.enough_candidates,
+        "tactile": [converter_settings(config.tactile), told(config.tactile)],
+        "actuator": asdict(config.actuator),
+        "spread": config.spread.model_dump(),
+        "seed": config.seed,
+        "prompt": user_prompt,
+        "options": dict(options),
+    }
+    return hashlib.sha256(json.dumps(document, sort_keys=True, default=str).encode()).hexdigest()[:32]
+
+
+def read_record(path: Path) -> Record:
+    """What a record says; nothing where it is missing or damaged, so that its scene is done again."""
+    with suppress(OSError, ValueError):
+        found = json.loads(path.read_text(encoding="utf-8"))
+        if isinstance(found, dict):
+            return found
+    return {}
+
+
+def write_record(path: Path, record: Record) -> None:
+    """Write a record whole. Raises: ConfigError: it cannot be written."""
+    beside = path.with_name(f".{path.name}.{uuid.uuid4().hex}.part")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        beside.write_text(json.dumps(record, indent=1), encoding="utf-8")
+        os.replace(beside, path)
+    except OSError as cause:
+        raise ConfigError(f"{path} cannot be written: {cause.strerror}. Choose a folder that is yours.") from cause
+    finally:
+        beside.unlink(missing_ok=True)

@@ -1,0 +1,85 @@
+"""The account of a run over many scenes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from typing import Any, Literal
+
+Outcome = Literal["baked", "kept", "failed"]
+
+
+@dataclass(frozen=True)
+class SceneReport:
+    """One scene.
+
+    Parameters: outcome : "baked"; "kept", since neither file nor settings have changed since an earlier run; or
+    "failed"; seconds : by stage: "baking" in a worker, and where a model is asked "reading" and "inference"; calls :
+    questions; kept : how many of them a cache answered; cost_usd : None if unknown.
+    """
+
+    scene: str
+    bundle: str
+    outcome: Outcome
+    n_objects: int = 0
+    n_sources: int = 0
+    n_unknown: int = 0
+    calls: int = 0
+    kept: int = 0
+    cost_usd: float | None = 0.0
+    seconds: dict[str, float] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+    error: str = ""
+
+
+@dataclass(frozen=True)
+class ManyReport:
+    """All scenes, in the order in which they were given; how long the run took [s]; what the model's stack tells."""
+
+    scenes: Sequence[SceneReport]
+    seconds: float = 0.0
+    stack: dict[str, Any] = field(default_factory=dict)
+
+    def count(self, outcome: Outcome) -> int:
+        """How many scenes ended in an outcome."""
+        return sum(one.outcome == outcome for one in self.scenes)
+
+    @property
+    def failed(self) -> tuple[SceneReport, ...]:
+        """Scenes without a bundle."""
+        return tuple(one for one in self.scenes if one.outcome == "failed")
+
+    @property
+    def calls(self) -> int:
+        """Questions to the model in all scenes."""
+        return sum(one.calls for one in self.scenes)
+
+    @property
+    def kept(self) -> int:
+        """How many of them were answered from the cache, as those of another scene were."""
+        return sum(one.kept for one in self.scenes)
+
+    @property
+    def cost_usd(self) -> float | None:
+        """Of all answers; None if unknown."""
+        costs = [one.cost_usd for one in self.scenes]
+        return None if None in costs else sum(cost for cost in costs if cost is not None)
+
+    def to_data(self) -> dict[str, Any]:
+        """Plain data, for JSON."""
+        return {
+            "seconds": self.seconds,
+            "baked": self.count("baked"),
+            "kept": self.count("kept"),
+            "failed": self.count("failed"),
+            "calls": self.calls,
+            "calls_kept": self.kept,
+            "cost_usd": self.cost_usd,
+            "stack": {name: {key: str(value) for key, value in layer.items()} for name, layer in self.stack.items()},
+            "scenes": [asdict(one) for one in self.scenes],
+        }
+
+    def __str__(self) -> str:
+        cost = "unknown cost" if self.cost_usd is None else f"{self.cost_usd:.2f} dollars"
+        told = f"{self.count('baked')} scenes baked, {self.count('kept')} kept, {self.count('failed')} failed in "
+        return f"{told}{self.seconds:.0f} s; {self.calls} calls, {self.kept} answered from the cache, {cost}"

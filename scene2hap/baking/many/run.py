@@ -1,0 +1,272 @@
+"""Bake many scenes, each by itself, as workers and lanes come free.
+
+FOLDER/NAME.bundle                 the bundle of each scene
+FOLDER/.bake-many/NAME.json        what it was made of: digests of scene and settings
+FOLDER/.bake-many/NAME.draft/      what a model said, until the bundle is written
+FOLDER/report.json                 the account of the last run
+
+Sounds, and where no model is asked over a network everything, are made on an executor. A model is asked from here: one
+cache, one budget and one pace for all scenes.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import hashlib
+import os
+import shutil
+import time
+import warnings
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from scene2hap import checks
+from scene2hap.baking.config import BakeConfig
+from scene2hap.baking.many.pool import Pool, Submits
+from scene2hap.baking.many.record import read_record, scene_digest, settings_digest, write_record
+from scene2hap.baking.many.report import ManyReport, SceneReport
+from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds
+from scene2hap.bundle import HapticBundle
+from scene2hap.bundle.sounds import file_stem
+from scene2hap.calls import clear_call
+from scene2hap.errors import ConfigError, Scene2HapError
+from scene2hap.llm.chain import infer_scene
+from scene2hap.llm.lexicon import LexiconBackend
+from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.llm.waiting import run_waiting
+from scene2hap.llm.wrappers import identity, reports
+from scene2hap.llm.wrappers.prices import price_list
+from scene2hap.llm.wrappers.stack import Wrapper
+from scene2hap.scene.capture import capture_images
+from scene2hap.scene.load import load_scene
+from scene2hap.scene.snapshot import SceneSnapshot
+
+Progress = Callable[[str, str, int, int], None]
+"""Called with (stage, the scene, how many scenes are done, of how many)."""
+
+_COUNTS = ("n_objects", "n_sources", "n_unknown")
+_WORK = ".bake-many"
+_AHEAD = 4
+"""Scenes under way beyond those that workers have; assumed: as many as wait for a model while others are computed."""
+
+
+@clear_call
+def bake_many(
+    scenes: Iterable[str | os.PathLike[str]],
+    folder: str | os.PathLike[str],
+    *,
+    config: BakeConfig | Mapping[str, Any] | str | os.PathLike[str] | None = None,
+    executor: str | Submits | None = None,
+    options: Mapping[str, Any] | None = None,
+    pictures: bool = False,
+    user_prompt: str = "",
+    progress: Progress | None = None,
+) -> ManyReport:
+    """Bake scene files into bundles below a folder; `abake_many` for callers that run an event loop.
+
+    A scene whose file and settings are those of its last bake is kept. One that fails does not stop the others; it is
+    in the report with its error. A run that was stopped goes on where it was: at most the scenes under way are begun
+    again, and answers that were paid for are in the cache.
+
+    Parameters:
+    scenes : paths of scene files.
+    folder : where bundles go; each is named after its scene file, with a digest where two are alike.
+    config : as of `bake`.
+    executor : None for this process; "processes", "processes:N" or "dask:ADDRESS"; or an object with
+        `submit(function, *arguments)` that returns a concurrent.futures.Future: process pools, Dask's
+        `Client.get_executor()`, and executors for MPI or Slurm. Workers must see the same paths.
+    options : of `load_scene`, for all scenes: up_axis, unit_m, group, assets_root.
+    pictures : show the model pictures, rendered here by need.
+    Raises: ConfigError: settings or an executor that cannot work, no scenes.
+    """
+    running = abake_many(
+        scenes,
+        folder,
+        config=config,
+        executor=executor,
+        options=options,
+        pictures=pictures,
+        user_prompt=user_prompt,
+        progress=progress,
+    )
+    return run_waiting(running, "abake_many")
+
+
+@clear_call
+async def abake_many(
+    scenes: Iterable[str | os.PathLike[str]],
+    folder: str | os.PathLike[str],
+    *,
+    config: BakeConfig | Mapping[str, Any] | str | os.PathLike[str] | None = None,
+    executor: str | Submits | None = None,
+    options: Mapping[str, Any] | None = None,
+    pictures: bool = False,
+    user_prompt: str = "",
+    progress: Progress | None = None,
+) -> ManyReport:
+    """Bake scene files into bundles below a folder, awaitable; see `bake_many`."""
+    if isinstance(scenes, str | os.PathLike):
+        raise ConfigError(f"scenes is the path {str(scenes)!r}; give a list of paths, as sorted(Path(...).glob(...)).")
+    paths = [checks.path(f"scenes[{i}]", scene, error=ConfigError) for i, scene in enumerate(scenes)]
+    if not paths:
+        raise ConfigError("scenes is empty; name at least one scene file.")
+    parsed = BakeConfig.parse(config)
+    with Pool(executor) as pool:
+        run = _Run(
+            checks.path("folder", folder, error=ConfigError),
+            parsed.model_copy(update={"llm": _Lanes(parsed.llm, parsed.concurrency)}),
+            # A worker asks no model, and a connection cannot be sent to it.
+            parsed.model_copy(update={"llm": LexiconBackend()}) if "base_url" in identity(parsed.llm) else parsed,
+            dict(options or {}),
+            user_prompt,
+            pool,
+            pictures,
+            progress,
+        )
+        return await run.all(paths)
+
+
+class _Lanes(Wrapper):
+    """Lets so many questions at once through, of all scenes together."""
+
+    def __init__(self, inner: Any, n_lanes: int) -> None:
+        super().__init__(inner)
+        self._lanes = asyncio.Semaphore(n_lanes)
+
+    async def complete(self, request: LLMRequest) -> LLMReply:
+        """The inner backend's answer, once a lane is free."""
+        async with self._lanes:
+            return await self.inner.complete(request)
+
+
+@dataclass
+class _Run:
+    folder: Path
+    config: BakeConfig
+    for_workers: BakeConfig
+    options: dict[str, Any]
+    user_prompt: str
+    pool: Pool
+    pictures: bool
+    progress: Progress | None
+    done: int = 0
+    total: int = 0
+    settings: str = ""
+    names: dict[Path, str] = field(default_factory=dict)
+
+    async def all(self, paths: list[Path]) -> ManyReport:
+        """Bake them, and write the report."""
+        begun = time.perf_counter()
+        self.total, self.names = len(paths), _names(paths)
+        told = {**self.options, "pictures": self.pictures}
+        self.settings = settings_digest(self.config, self.user_prompt, told)
+        gate = asyncio.Semaphore(self.pool.n_workers + _AHEAD)
+
+        async def one(path: Path) -> SceneReport:
+            async with gate:
+                found = await self._scene(path)
+            self.done += 1
+            if self.progress is not None:
+                self.progress(found.outcome, self.names[path], self.done, self.total)
+            return found
+
+        found = await asyncio.gather(*(one(path) for path in paths))
+        stack = {name: dict(layer) for name, layer in reports(self.config.llm).items()}
+        report = ManyReport(found, time.perf_counter() - begun, stack)
+        write_record(self.folder / "report.json", report.to_data())
+        return report
+
+    async def _scene(self, path: Path) -> SceneReport:
+        """One scene, whatever becomes of it."""
+        name = self.names[path]
+        target, record = self.folder / f"{name}.bundle", self._work(name, ".json")
+        report = SceneReport(str(path), str(target), "failed")
+        try:
+            made_of = {"scene": await asyncio.to_thread(scene_digest, path), "settings": self.settings}
+            before = read_record(record)
+            stage = before.get("stage") if made_of.items() <= before.items() else None
+            if stage == "baked" and (target / "bundle.json").is_file():
+                counts = {key: before[key] for key in _COUNTS if isinstance(before.get(key), int)}
+                return replace(report, outcome="kept", **counts)
+            if self._is_remote:
+                draft = self._work(name, ".draft")
+                if stage != "inferred" or not (draft / "bundle.json").is_file():
+                    report = await self._inferred(path, draft, report)
+                    write_record(record, {**made_of, "stage": "inferred"})
+                made = await self.pool.run(make_sounds, str(draft), str(target), self.for_workers)
+                await asyncio.to_thread(shutil.rmtree, draft, ignore_errors=True)
+            else:
+                whole = (str(path), self.options, str(target), self.for_workers, self.user_prompt)
+                made = await self.pool.run(bake_scene, *whole)
+            report = _with(report, made)
+            write_record(record, {**made_of, "stage": "baked", **{key: getattr(report, key) for key in _COUNTS}})
+            return report
+        except (Scene2HapError, OSError, MemoryError) as error:
+            return replace(report, error=f"{type(error).__name__}: {error}")
+
+    async def _inferred(self, path: Path, draft: Path, report: SceneReport) -> SceneReport:
+        """Read a scene, ask the model, and write the draft."""
+        begun = time.perf_counter()
+        scene = await asyncio.to_thread(_read, path, self.options)
+        read_s, begun = time.perf_counter() - begun, time.perf_counter()
+        seen = capture_images(scene) if self.pictures else scene
+        found = await infer_scene(seen, self.config.llm, user_prompt=self.user_prompt, config=self.config)
+        inferred = HapticBundle(scene, found.scene_category, found.objects, {})
+        draft.parent.mkdir(parents=True, exist_ok=True)
+        await asyncio.to_thread(inferred.save, draft)
+        return replace(
+            report,
+            calls=sum(found.report.calls.values()),
+            kept=found.report.kept,
+            cost_usd=found.report.cost_usd(price_list(self.config.prices)),
+            seconds={"reading": read_s, "inference": time.perf_counter() - begun},
+        )
+
+    @property
+    def _is_remote(self) -> bool:
+        return "base_url" in identity(self.config.llm)
+
+    def _work(self, name: str, ending: str) -> Path:
+        return self.folder / _WORK / f"{name}{ending}"
+
+
+def _read(path: Path, options: Mapping[str, Any]) -> SceneSnapshot:
+    """A scene; what it is warned of, workers tell again when they check it."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return load_scene(path, **options)
+
+
+def _with(report: SceneReport, made: Counters) -> SceneReport:
+    return replace(
+        report,
+        outcome="baked",
+        n_objects=made.n_objects,
+        n_sources=made.n_sources,
+        n_unknown=made.n_unknown,
+        calls=report.calls + made.calls,
+        seconds={**report.seconds, "baking": made.seconds},
+        warnings=made.warnings,
+    )
+
+
+def _names(paths: list[Path]) -> dict[Path, str]:
+    """A name for each scene: that of its file, with a digest of its path where several files are called alike.
+
+    Raises: ConfigError: a scene is there twice.
+    """
+    twice = [path for path, n in Counter(paths).items() if n > 1]
+    if twice:
+        raise ConfigError(f"scenes has {str(twice[0])!r} twice; give each scene once.")
+    alike = Counter(file_stem(path.stem).casefold() for path in paths)
+    return {
+        path: stem if alike[(stem := file_stem(path.stem)).casefold()] == 1 else f"{stem}-{_digest(path)}"
+        for path in paths
+    }
+
+
+def _digest(path: Path) -> str:
+    return hashlib.sha256(os.fsencode(path.absolute())).hexdigest()[:8]

@@ -1,0 +1,94 @@
+"""The parts of a bake that run in workers: each gets paths and settings, and returns counters.
+
+Where no model is asked over a network, a worker does a scene from its file to its bundle. Else inference runs in the
+main process, and a worker gets a draft: a bundle without loops, on disk, so that nothing large goes through an executor
+and a later run goes on from there.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import time
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from scene2hap.baking.config import BakeConfig
+from scene2hap.baking.scene import bake, with_sounds
+from scene2hap.baking.sound import N_THREADS
+from scene2hap.bundle import HapticBundle, Override, read_overrides
+from scene2hap.llm.chain import UNKNOWN
+from scene2hap.llm.report import InferenceReport
+from scene2hap.scene.load import load_scene
+from scene2hap.scene.snapshot import SceneSnapshot
+
+
+@dataclass(frozen=True)
+class Counters:
+    """What a task did: time [s], objects, sources, objects that nobody could name, questions, and warnings."""
+
+    seconds: float
+    n_objects: int
+    n_sources: int
+    n_unknown: int
+    calls: int
+    warnings: tuple[str, ...]
+
+
+def bake_scene(
+    n_threads: int, scene: str, options: Mapping[str, Any], target: str, config: BakeConfig, user_prompt: str
+) -> Counters:
+    """Bake a scene file. Raises: as `bake`."""
+    with _watched(n_threads) as watch:
+        snapshot = load_scene(scene, **options)
+        accounts: list[InferenceReport] = []
+        wishes = _wishes(target, snapshot)
+        bundle = bake(snapshot, config, user_prompt=user_prompt, overrides=wishes, on_report=accounts.append)
+        bundle.save(target)
+    return _counted(bundle, watch, calls=sum(accounts[0].calls.values()))
+
+
+def make_sounds(n_threads: int, draft: str, target: str, config: BakeConfig) -> Counters:
+    """Make the loops of a draft, and write the bundle. Raises: AudioError, BundleError."""
+    with _watched(n_threads) as watch:
+        inferred = HapticBundle.load(draft)
+        wishes = _wishes(target, inferred.snapshot)
+        baking = with_sounds(inferred.snapshot, inferred.scene_category, inferred.objects, wishes, config)
+        bundle = asyncio.run(baking)
+        bundle.save(target)
+    return _counted(bundle, watch)
+
+
+def _wishes(target: str, scene: SceneSnapshot) -> dict[str, Override]:
+    """What was overridden in an earlier bundle at this place, of objects that are still there."""
+    known = {item.id for item in scene.objects}
+    return {key: wish for key, wish in read_overrides(Path(target)).items() if key in known}
+
+
+def _counted(bundle: HapticBundle, watch: _Watch, calls: int = 0) -> Counters:
+    n_unknown = sum(haptics.object_category in UNKNOWN for haptics in bundle.objects.values())
+    return Counters(watch.seconds, len(bundle.objects), len(bundle.loops), n_unknown, calls, tuple(watch.told))
+
+
+@dataclass
+class _Watch:
+    seconds: float = 0.0
+    told: list[str] = field(default_factory=list)
+
+
+@contextmanager
+def _watched(n_threads: int) -> Iterator[_Watch]:
+    """The time that a block takes with so many threads, and the warnings that it gives."""
+    before = N_THREADS.set(n_threads)
+    watch, begun = _Watch(), time.perf_counter()
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        try:
+            yield watch
+        finally:
+            watch.seconds = time.perf_counter() - begun
+            N_THREADS.reset(before)
+            watch.told = list(dict.fromkeys(str(one.message) for one in caught))

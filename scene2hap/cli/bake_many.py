@@ -1,0 +1,102 @@
+"""Bake many scene files, each into a bundle of its own; a run that was stopped goes on where it was.
+
+scene2hap bake-many levels/*.glb -o bundles/
+scene2hap bake-many levels/*.glb -o bundles/ --executor processes
+scene2hap bake-many levels/*.glb -o bundles/ --executor dask:tcp://10.0.0.1:8786 --llm openai:gpt-4o --max-cost 20
+
+Scenes whose file and settings have not changed are kept. Those that fail do not stop the others, and the exit status is
+1. BUNDLES/report.json has the account of every scene.
+"""
+
+from __future__ import annotations
+
+import argparse
+import glob
+import time
+from pathlib import Path
+from typing import Any
+
+from scene2hap.baking.config import BakeConfig
+from scene2hap.baking.many import ManyReport, bake_many
+from scene2hap.cli.bake import add_model_arguments, add_scene_arguments, bake_settings, is_remote, scene_options
+from scene2hap.cli.console import Console
+from scene2hap.errors import ConfigError, SceneError
+
+HELP = "many scene files -> haptic bundles"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``scene2hap bake-many``."""
+    parser.add_argument("scenes", metavar="SCENE", nargs="+", help="scene files, or patterns of them in quotes")
+    parser.add_argument("-o", "--output", metavar="FOLDER", required=True, help="folder of bundles")
+    parser.add_argument(
+        "--executor", metavar="WHERE", help="processes, processes:N, or dask:ADDRESS; without it, this process"
+    )
+    add_model_arguments(parser)
+    add_scene_arguments(parser)
+
+
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
+    """Bake, and show what became of each scene. Raises: SceneError: some were not baked."""
+    config = BakeConfig.parse(bake_settings(arguments))
+    begun = time.monotonic()
+    with console.progress() as tell:
+
+        def progress(stage: str, name: str, done: int, total: int) -> None:
+            rest_s = (time.monotonic() - begun) / done * (total - done)
+            tell("baking", f"{name} ({stage}, {rest_s:.0f} s left)", done, total)
+
+        report = bake_many(
+            _files(arguments.scenes),
+            arguments.output,
+            config=config,
+            executor=arguments.executor,
+            options=scene_options(arguments),
+            pictures=is_remote(config.llm) if arguments.pictures is None else arguments.pictures,
+            user_prompt=arguments.prompt,
+            progress=progress,
+        )
+    _show(console, report)
+    outcome = report.to_data()
+    if report.failed:
+        if arguments.json:
+            console.outcome(outcome)
+        raise SceneError(f"{len(report.failed)} of {len(report.scenes)} scenes were not baked; run again to go on.")
+    return outcome
+
+
+def _files(given: list[str]) -> list[str]:
+    """Files by name, and those that a pattern matches, each once. Raises: ConfigError: a pattern matches none."""
+    found: list[str] = []
+    for one in given:
+        matches = [one] if Path(one).exists() or not glob.has_magic(one) else sorted(glob.glob(one, recursive=True))
+        if not matches:
+            raise ConfigError(f"no file matches {one!r}. Check the pattern.")
+        found += matches
+    return list(dict.fromkeys(found))
+
+
+def _show(console: Console, report: ManyReport) -> None:
+    console.table(
+        "scenes",
+        ("scene", "outcome", ">objects", ">unknown", ">sources", ">calls", ">from cache", ">s"),
+        (
+            (
+                Path(one.bundle).stem,
+                one.outcome,
+                str(one.n_objects),
+                str(one.n_unknown),
+                str(one.n_sources),
+                str(one.calls),
+                str(one.kept),
+                f"{sum(one.seconds.values()):.1f}",
+            )
+            for one in report.scenes
+        ),
+    )
+    for one in report.scenes:
+        for sentence in one.warnings:
+            console.warn(f"{one.scene}: {sentence}")
+    for one in report.failed:
+        console.fail(f"{one.scene}: {one.error}")
+    console.say(str(report))

@@ -1,0 +1,283 @@
+"""Many scenes: the same bundles wherever they are made, and nothing lost or paid for twice when something dies."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import Future, ThreadPoolExecutor
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from llm_server import GOOD, Asked, Scripted, said, serving
+from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake, bake_many, load_scene
+from scene2hap.baking.many.record import scene_digest
+from scene2hap.cli import main
+from scene2hap.errors import ConfigError
+
+THINGS = {
+    "radio": (0.3, 0.2, 0.15),
+    "oak table": (1.2, 0.72, 0.7),
+    "refrigerator": (0.7, 1.8, 0.7),
+    "fan": (0.4, 0.5, 0.3),
+    "kettle": (0.2, 0.25, 0.2),
+}
+FIELDS = {
+    "scene_category": "scene_analyzer",
+    "vibrates": "object_analyzer",
+    "density_kg_m3": "material_estimator",
+    "keywords": "vibration_describer",
+}
+
+
+def write_scenes(folder: Path, n: int) -> list[Path]:
+    """Rooms of a few things each, one of them shared by all."""
+    folder.mkdir(parents=True)
+    for i in range(n):
+        names = ["radio", [*THINGS][1 + i % (len(THINGS) - 1)]]
+        things = [
+            SceneObject(name, pose=Pose((1.5 * k, THINGS[name][1] / 2, 0.1 * i)), geometry=Box(THINGS[name]))
+            for k, name in enumerate(names)
+        ]
+        (folder / f"room_{i}.json").write_text(SceneSnapshot.build(things, name=f"room_{i}").to_json())
+    return sorted(folder.glob("*.json"))
+
+
+def digests(folder: Path) -> dict[str, str]:
+    """Every file of every bundle, by its content."""
+    return {
+        str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(folder.glob("*.bundle/**/*"))
+        if path.is_file()
+    }
+
+
+def answered(asked: Asked) -> Scripted:
+    """A model that finds a fridge everywhere; which question it is, the schema tells."""
+    schema = json.dumps(asked.body["response_format"])
+    return said(GOOD[next(component for name, component in FIELDS.items() if f'"{name}"' in schema)])
+
+
+@pytest.fixture(scope="module")
+def scenes(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    return write_scenes(tmp_path_factory.mktemp("many") / "scenes", 4)
+
+
+@pytest.fixture(scope="module")
+def alone(scenes: list[Path], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The bundles, baked here one after another."""
+    folder = tmp_path_factory.mktemp("alone")
+    report = bake_many(scenes, folder)
+    assert report.count("baked") == len(scenes)
+    return folder
+
+
+@pytest.fixture
+def plain(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("HTTP_PROXY", "HTTPS_PROXY", "ALL_PROXY", "http_proxy", "https_proxy", "all_proxy"):
+        monkeypatch.delenv(name, raising=False)
+
+
+def test_a_bundle_is_the_one_that_bake_makes(scenes: list[Path], alone: Path, tmp_path: Path) -> None:
+    bake(load_scene(scenes[1])).save(tmp_path / f"{scenes[1].stem}.bundle")
+    mine = digests(tmp_path)
+    assert mine
+    assert mine.items() <= digests(alone).items()
+
+
+def test_processes_of_ours_and_executors_of_others_make_the_same(
+    scenes: list[Path], alone: Path, tmp_path: Path
+) -> None:
+    report = bake_many(scenes, tmp_path / "ours", executor="processes:2")
+    assert [one.scene for one in report.scenes] == [str(path) for path in scenes]
+    assert digests(tmp_path / "ours") == digests(alone)
+    with ThreadPoolExecutor(2) as executor:
+        bake_many(scenes[:2], tmp_path / "others", executor=executor)
+    assert digests(tmp_path / "others").items() <= digests(alone).items()
+
+
+DASK = """
+import sys
+from distributed import LocalCluster
+from scene2hap import bake_many
+if __name__ == "__main__":
+    with LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster:
+        print(bake_many(sys.argv[2:], sys.argv[1], executor=f"dask:{cluster.scheduler_address}"), flush=True)
+"""
+
+
+def test_dask_makes_the_same(scenes: list[Path], alone: Path, tmp_path: Path) -> None:
+    if find_spec("distributed") is None:
+        pytest.skip("distributed is not installed; pip install 'scene2hap[dask]'")
+    program = tmp_path / "run.py"
+    program.write_text(DASK)
+    command = [sys.executable, str(program), str(tmp_path / "out"), *map(str, scenes)]
+    run = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    assert "4 scenes baked" in run.stdout, run.stderr[-2000:]
+    assert digests(tmp_path / "out") == digests(alone)
+
+
+def test_what_is_done_is_kept_until_scene_or_settings_change(scenes: list[Path], tmp_path: Path) -> None:
+    copies = write_scenes(tmp_path / "scenes", 2)
+    folder = tmp_path / "out"
+    assert bake_many(copies, folder).count("baked") == 2
+    again = bake_many(copies, folder)
+    assert [one.outcome for one in again.scenes] == ["kept", "kept"]
+    assert again.scenes[0].n_objects == 2
+    copies[0].write_text(copies[0].read_text().replace("radio", "loudspeaker"))
+    assert [one.outcome for one in bake_many(copies, folder).scenes] == ["baked", "kept"]
+    assert [one.outcome for one in bake_many(copies, folder, config={"actuator": "lra"}).scenes] == ["baked", "baked"]
+    shutil.rmtree(folder / "room_1.bundle")
+    assert [one.outcome for one in bake_many(copies, folder, config={"actuator": "lra"}).scenes] == ["kept", "baked"]
+
+
+def test_overrides_stay_when_a_scene_is_baked_again(tmp_path: Path) -> None:
+    (scene,) = write_scenes(tmp_path / "scenes", 1)
+    folder = tmp_path / "out"
+    bake_many([scene], folder)
+    target = folder / "room_0.bundle"
+    HapticBundle.load(target).override("radio", gain_db=-6.0).save(target)
+    bake_many([scene], folder, config={"seed": 1})
+    assert HapticBundle.load(target).gain_db("radio") == -6.0
+
+
+def test_scenes_that_fail_do_not_stop_the_others(scenes: list[Path], tmp_path: Path) -> None:
+    broken = tmp_path / "broken.glb"
+    broken.write_bytes(b"glTF" + bytes(40))
+    report = bake_many([broken, tmp_path / "absent.glb", scenes[0]], tmp_path / "out")
+    assert [one.outcome for one in report.scenes] == ["failed", "failed", "baked"]
+    assert "SceneFormatError" in report.scenes[0].error
+    assert "absent.glb" in report.scenes[1].error
+    data = json.loads((tmp_path / "out" / "report.json").read_text())
+    assert (data["baked"], data["failed"]) == (1, 2)
+
+
+def test_a_model_is_asked_from_here_and_each_question_once(scenes: list[Path], plain: None, tmp_path: Path) -> None:
+    """Workers make the sounds; scenes that share a thing share its answer; a second run asks nothing."""
+    with serving(by=answered) as server:
+        config = {
+            "llm": {"kind": "local", "model": "scripted", "base_url": f"{server.base_url}/v1"},
+            "cache_dir": str(tmp_path / "cache"),
+        }
+        report = bake_many(scenes, tmp_path / "a", config=config, executor="processes:1")
+        n_asked = len(server.asked)
+        assert report.count("baked") == 4, [one.error for one in report.failed]
+        assert 0 < n_asked < report.calls
+        assert report.kept > 0
+        again = bake_many(scenes, tmp_path / "b", config=config)
+        assert len(server.asked) == n_asked
+        assert again.kept == again.calls
+    assert digests(tmp_path / "a") == digests(tmp_path / "b")
+    assert not list((tmp_path / "a" / ".bake-many").glob("*.draft"))
+
+
+class Killing:
+    """A pool of one process whose first task kills its worker: an executor of somebody else's, broken thereafter."""
+
+    def submit(self, fn: Any, /, *args: Any) -> Future[Any]:
+        found: Future[Any] = Future()
+        found.set_exception(OSError("the worker is gone"))
+        return found
+
+
+def test_a_worker_that_is_gone_costs_its_scene_alone(scenes: list[Path], tmp_path: Path) -> None:
+    report = bake_many(scenes[:1], tmp_path, executor=Killing())
+    assert "the worker is gone" in report.scenes[0].error
+    assert bake_many(scenes[:1], tmp_path).count("baked") == 1
+
+
+PROGRAM = """
+import sys
+from scene2hap import bake_many
+if __name__ == "__main__":
+    print(bake_many(sys.argv[2:], sys.argv[1], executor="processes:2"), flush=True)
+"""
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="children are found in /proc, on Linux")
+@pytest.mark.parametrize("who", ["worker", "parent"])
+def test_killed_on_the_way_the_bundles_are_those_of_an_undisturbed_run(
+    who: str, scenes: list[Path], alone: Path, tmp_path: Path
+) -> None:
+    program = tmp_path / "run.py"
+    program.write_text(PROGRAM)
+    command = [sys.executable, str(program), str(tmp_path / "out"), *map(str, scenes)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
+        children = _children(run.pid, seconds=30.0)
+        if who == "worker":
+            time.sleep(1.5)
+            os.kill(children[-1], signal.SIGKILL)
+        else:
+            run.kill()
+            for child in children:
+                os.kill(child, signal.SIGKILL)
+        told, errors = run.communicate(timeout=120)
+    if who == "worker":
+        assert "4 scenes baked" in told, errors[-2000:]
+    else:
+        report = bake_many(scenes, tmp_path / "out")
+        assert not report.failed
+    assert digests(tmp_path / "out") == digests(alone)
+
+
+def _children(parent: int, seconds: float) -> list[int]:
+    """Worker processes of a process, once there are two of them."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        found = []
+        for one in Path("/proc").glob("[0-9]*"):
+            try:
+                is_worker = b"spawn_main" in (one / "cmdline").read_bytes()
+                fields = (one / "stat").read_text().rpartition(")")[2].split()
+            except OSError:
+                continue
+            if is_worker and int(fields[1]) == parent:
+                found.append(int(one.name))
+        if len(found) == 2:
+            return sorted(found)
+        time.sleep(0.05)
+    raise AssertionError("no workers began")
+
+
+def test_wrong_requests_are_answered(scenes: list[Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for given, told in (
+        (([], "out"), "scenes is empty"),
+        ((str(scenes[0]), "out"), "give a list of paths"),
+        (([scenes[0], scenes[0]], tmp_path), "twice; give each scene once"),
+    ):
+        with pytest.raises(ConfigError, match=told):
+            bake_many(*given)  # type: ignore[arg-type]
+    for executor, told in (("threads", "'processes', 'processes:N'"), ("processes:0", "from 1 to 256"), (3, "submit")):
+        with pytest.raises(ConfigError, match=told):
+            bake_many(scenes, tmp_path, executor=executor)  # type: ignore[arg-type]
+    assert main(["bake-many", str(tmp_path / "*.glb"), "-o", str(tmp_path / "out")]) == 1
+    assert "no file matches" in capsys.readouterr().err
+
+
+def test_the_command_bakes_what_a_pattern_matches(scenes: list[Path], alone: Path, tmp_path: Path) -> None:
+    pattern = str(scenes[0].parent / "room_[01].json")
+    assert main(["bake-many", pattern, "-o", str(tmp_path), "-q"]) == 0
+    assert set(digests(tmp_path)) == {name for name in digests(alone) if name.startswith(("room_0", "room_1"))}
+
+
+def test_files_beside_a_scene_count(tmp_path: Path) -> None:
+    scene = tmp_path / "a.gltf"
+    scene.write_text("{}")
+    before = scene_digest(scene)
+    (tmp_path / "a.bin").write_bytes(b"1")
+    assert scene_digest(scene) != before
+
+
+def test_equal_file_names_get_bundles_of_their_own(scenes: list[Path], tmp_path: Path) -> None:
+    others = write_scenes(tmp_path / "b", 1)
+    report = bake_many([scenes[0], others[0]], tmp_path / "out")
+    assert len({one.bundle for one in report.scenes}) == 2
+    assert report.count("baked") == 2
