@@ -3,9 +3,9 @@
 python benchmarks/bake_many.py [--scenes 24] [--seed 0]
 
 Scenes are variations of the demo kitchen and, where they are beside the project, of kitchens and rooms by others: a
-random half of the objects of each, somewhat displaced. Every run starts from nothing, and the ways are tried in an order
-that is drawn anew in each round. Bundles of all runs must be equal. Two programs at once, each with half of the scenes
-and no word between them, show what the machine allows.
+random half of the objects of each, somewhat displaced. Every run starts from nothing, and the ways are tried in an
+order that is drawn anew in each round. Bundles of all runs must be equal. Two programs at once, each with half of the
+scenes and no word between them, show what the machine allows.
 """
 
 from __future__ import annotations
