@@ -36,7 +36,8 @@ OnReport = Callable[[InferenceReport], None]
 OnRemade = Callable[[Remade], None]
 
 
-_VIBRATES = "This object vibrates by itself: tell in which states."
+VIBRATES = "This object vibrates by itself: tell in which states."
+"""What a model is told of an object that a person wants to vibrate."""
 
 _ASSUMED_INTENSITY = 0.3
 """Of a state that a person wants and no model describes."""
@@ -277,7 +278,7 @@ async def _infer(
         progress=lambda what, done, total: tell("inference", what + _hits(config.llm), done, total),
         only=only,
         scene_category=scene_category,
-        wishes={key: _VIBRATES for key, wish in wishes.items() if wish.vibrates},
+        wishes={key: VIBRATES for key, wish in wishes.items() if wish.vibrates},
     )
     if on_report is not None:
         on_report(inference.report)

@@ -179,17 +179,17 @@ def test_a_model_is_asked_from_here_and_each_question_once(scenes: list[Path], p
     assert not list((tmp_path / "a" / ".bake-many").glob("*.draft"))
 
 
-class Killing:
-    """A pool of one process whose first task kills its worker: an executor of somebody else's, broken thereafter."""
+class Broken:
+    """An executor of somebody else's, which raises errors of its own."""
 
     def submit(self, fn: Any, /, *args: Any) -> Future[Any]:
         found: Future[Any] = Future()
-        found.set_exception(OSError("the worker is gone"))
+        found.set_exception(RuntimeError("the worker is gone"))
         return found
 
 
 def test_a_worker_that_is_gone_costs_its_scene_alone(scenes: list[Path], tmp_path: Path) -> None:
-    report = bake_many(scenes[:1], tmp_path, executor=Killing())
+    report = bake_many(scenes[:1], tmp_path, executor=Broken())
     assert "the worker is gone" in report.scenes[0].error
     assert bake_many(scenes[:1], tmp_path).count("baked") == 1
 

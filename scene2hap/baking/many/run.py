@@ -28,11 +28,12 @@ from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.many.pool import Pool, Submits
 from scene2hap.baking.many.record import read_record, scene_digest, settings_digest, write_record
 from scene2hap.baking.many.report import ManyReport, SceneReport
-from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds
+from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds, wishes_at
+from scene2hap.baking.scene import VIBRATES
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.sounds import file_stem
 from scene2hap.calls import clear_call
-from scene2hap.errors import ConfigError, Scene2HapError
+from scene2hap.errors import ConfigError
 from scene2hap.llm.chain import infer_scene
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.protocol import LLMReply, LLMRequest
@@ -194,7 +195,7 @@ class _Run:
             if self._is_remote:
                 draft = self._work(name, ".draft")
                 if stage != "inferred" or not (draft / "bundle.json").is_file():
-                    report = await self._inferred(path, draft, report)
+                    report = await self._inferred(path, draft, target, report)
                     write_record(record, {**made_of, "stage": "inferred"})
                 made = await self.pool.run(make_sounds, str(draft), str(target), self.for_workers)
                 await asyncio.to_thread(shutil.rmtree, draft, ignore_errors=True)
@@ -204,16 +205,19 @@ class _Run:
             report = _with(report, made)
             write_record(record, {**made_of, "stage": "baked", **{key: getattr(report, key) for key in _COUNTS}})
             return report
-        except (Scene2HapError, OSError, MemoryError) as error:
+        except Exception as error:  # executors of somebody else's raise what they like
             return replace(report, error=f"{type(error).__name__}: {error}")
 
-    async def _inferred(self, path: Path, draft: Path, report: SceneReport) -> SceneReport:
+    async def _inferred(self, path: Path, draft: Path, target: Path, report: SceneReport) -> SceneReport:
         """Read a scene, ask the model, and write the draft."""
         begun = time.perf_counter()
         scene = await asyncio.to_thread(_read, path, self.options)
         read_s, begun = time.perf_counter() - begun, time.perf_counter()
         seen = capture_images(scene) if self.pictures else scene
-        found = await infer_scene(seen, self.config.llm, user_prompt=self.user_prompt, config=self.config)
+        wishes = {key: VIBRATES for key, wish in wishes_at(target, scene).items() if wish.vibrates}
+        found = await infer_scene(
+            seen, self.config.llm, user_prompt=self.user_prompt, config=self.config, wishes=wishes
+        )
         inferred = HapticBundle(scene, found.scene_category, found.objects, {})
         draft.parent.mkdir(parents=True, exist_ok=True)
         await asyncio.to_thread(inferred.save, draft)

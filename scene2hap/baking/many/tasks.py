@@ -45,7 +45,7 @@ def bake_scene(
     with _watched(n_threads) as watch:
         snapshot = load_scene(scene, **options)
         accounts: list[InferenceReport] = []
-        wishes = _wishes(target, snapshot)
+        wishes = wishes_at(Path(target), snapshot)
         bundle = bake(snapshot, config, user_prompt=user_prompt, overrides=wishes, on_report=accounts.append)
         bundle.save(target)
     return _counted(bundle, watch, calls=sum(accounts[0].calls.values()))
@@ -55,17 +55,17 @@ def make_sounds(n_threads: int, draft: str, target: str, config: BakeConfig) -> 
     """Make the loops of a draft, and write the bundle. Raises: AudioError, BundleError."""
     with _watched(n_threads) as watch:
         inferred = HapticBundle.load(draft)
-        wishes = _wishes(target, inferred.snapshot)
+        wishes = wishes_at(Path(target), inferred.snapshot)
         baking = with_sounds(inferred.snapshot, inferred.scene_category, inferred.objects, wishes, config)
         bundle = asyncio.run(baking)
         bundle.save(target)
     return _counted(bundle, watch)
 
 
-def _wishes(target: str, scene: SceneSnapshot) -> dict[str, Override]:
+def wishes_at(target: Path, scene: SceneSnapshot) -> dict[str, Override]:
     """What was overridden in an earlier bundle at this place, of objects that are still there."""
     known = {item.id for item in scene.objects}
-    return {key: wish for key, wish in read_overrides(Path(target)).items() if key in known}
+    return {key: wish for key, wish in read_overrides(target).items() if key in known}
 
 
 def _counted(bundle: HapticBundle, watch: _Watch, calls: int = 0) -> Counters:
