@@ -6,9 +6,12 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
+from scene2hap.attributes import clear_attributes
+
 Outcome = Literal["baked", "kept", "failed"]
 
 
+@clear_attributes
 @dataclass(frozen=True)
 class SceneReport:
     """One scene.
@@ -32,6 +35,7 @@ class SceneReport:
     error: str = ""
 
 
+@clear_attributes
 @dataclass(frozen=True)
 class ManyReport:
     """All scenes, in the order in which they were given; how long the run took [s]; what the model's stack tells."""
