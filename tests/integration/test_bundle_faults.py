@@ -4,7 +4,9 @@ import json
 import os
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
@@ -15,7 +17,14 @@ NEVER = 7
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="each step is tried in a fork")
 
 
-def faults(work: Path, kind: str, how: str) -> list[dict[str, Any]]:
+@cache
+def faults(kind: str, how: str) -> list[dict[str, Any]]:
+    """What each fault left; tried once for all tests."""
+    with TemporaryDirectory() as work:
+        return _tried(Path(work) / "work", kind, how)
+
+
+def _tried(work: Path, kind: str, how: str) -> list[dict[str, Any]]:
     run = subprocess.run(
         [sys.executable, str(TESTS / "bundle_faults.py"), str(work), kind, how],
         env={**os.environ, "PYTHONPATH": str(TESTS)},
@@ -31,9 +40,9 @@ def faults(work: Path, kind: str, how: str) -> list[dict[str, Any]]:
 
 @pytest.mark.parametrize("how", ["exchange", "renames"])
 @pytest.mark.parametrize("kind", ["kill", "refuse"])
-def test_a_fault_at_each_step(tmp_path: Path, kind: str, how: str) -> None:
+def test_a_fault_at_each_step(kind: str, how: str) -> None:
     """And what is not ours is there, and the next save removes what the fault left."""
-    rows = faults(tmp_path / "work", kind, how)
+    rows = faults(kind, how)
     for row in rows:
         assert row["found"] in ("old", "new", "new, recovered"), row
         assert row["thesis"], row
@@ -46,12 +55,12 @@ def test_a_fault_at_each_step(tmp_path: Path, kind: str, how: str) -> None:
     assert {row["found"] for row in rows} >= {"old", "new"}
 
 
-def test_an_exchange_leaves_no_moment_without_a_bundle(tmp_path: Path) -> None:
+def test_an_exchange_leaves_no_moment_without_a_bundle() -> None:
     if not sys.platform.startswith(("linux", "darwin")):
         pytest.skip("this system has no exchange in one step")
-    assert not any(row["was_missing"] for row in faults(tmp_path / "work", "kill", "exchange"))
+    assert not any(row["was_missing"] for row in faults("kill", "exchange"))
 
 
-def test_without_it_the_moment_between_two_renames_is_mended_aloud(tmp_path: Path) -> None:
-    between = [row for row in faults(tmp_path / "work", "kill", "renames") if row["was_missing"]]
+def test_without_it_the_moment_between_two_renames_is_mended_aloud() -> None:
+    between = [row for row in faults("kill", "renames") if row["was_missing"]]
     assert [row["found"] for row in between] == ["new, recovered"]

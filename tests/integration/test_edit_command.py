@@ -6,12 +6,29 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from scene2hap import HapticBundle
+from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot
 from scene2hap.audio.files import write_wav
 from scene2hap.cli import main
 from scene2hap.cli.play import silence
-from scene2hap.demo import kitchen_path
 from scene2hap.session import HapticSession
+
+THINGS = {
+    "radio": (0.3, 0.2, 0.15),
+    "fan": (0.4, 0.5, 0.3),
+    "refrigerator": (0.7, 1.8, 0.7),
+    "oak table": (1.2, 0.7, 0.7),
+}
+
+
+def room(folder: Path) -> str:
+    """The path of a scene of three sources and a table."""
+    things = [
+        SceneObject(name, pose=Pose((1.5 * i, size_m[1] / 2, 0.0)), geometry=Box(size_m))
+        for i, (name, size_m) in enumerate(THINGS.items())
+    ]
+    path = folder / "room.json"
+    path.write_text(SceneSnapshot.build(things, name="room").to_json(), encoding="utf-8")
+    return str(path)
 
 
 def outcome(capsys: pytest.CaptureFixture[str], *words: str) -> dict[str, object]:
@@ -23,7 +40,7 @@ def outcome(capsys: pytest.CaptureFixture[str], *words: str) -> dict[str, object
 
 def test_edits_of_a_designer_stay_when_the_actuator_changes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder, sound = str(tmp_path / "kitchen.bundle"), tmp_path / "mine.wav"
-    assert main(["bake", str(kitchen_path()), "-o", folder, "--actuator", "voice_coil", "-q"]) == 0
+    assert main(["bake", room(tmp_path), "-o", folder, "--actuator", "voice_coil", "-q"]) == 0
     baked = HapticBundle.load(folder)
     assert baked.actuator is not None
     assert baked.actuator.name == "voice_coil"
@@ -60,7 +77,7 @@ def test_edits_of_a_designer_stay_when_the_actuator_changes(tmp_path: Path, caps
 
 def test_a_wrong_id_or_material_leaves_the_bundle_as_it_was(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = tmp_path / "kitchen.bundle"
-    assert main(["bake", str(kitchen_path()), "-o", str(folder), "-q"]) == 0
+    assert main(["bake", room(tmp_path), "-o", str(folder), "-q"]) == 0
     before = (folder / "bundle.json").stat().st_ino
     some = next(iter(HapticBundle.load(folder).objects))
     for words in (["gain", "no_such_thing", "3"], ["material", some, "no_such_stuff"]):
@@ -72,7 +89,7 @@ def test_a_wrong_id_or_material_leaves_the_bundle_as_it_was(tmp_path: Path, caps
 def test_a_locked_loop_stays_byte_for_byte(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A designer's day: bake, a sound of one's own, lock it, another actuator, compare, undo, and again."""
     folder, sound = tmp_path / "kitchen.bundle", tmp_path / "mine.wav"
-    assert main(["bake", str(kitchen_path()), "-o", str(folder), "--actuator", "voice_coil", "-q"]) == 0
+    assert main(["bake", room(tmp_path), "-o", str(folder), "--actuator", "voice_coil", "-q"]) == 0
     mine, *others = HapticBundle.load(folder).loops
     t = np.arange(2 * 44100) / 44100
     write_wav(sound, (0.5 * np.sin(2 * np.pi * 130.0 * t)).astype(np.float32), 44100)
@@ -104,7 +121,7 @@ def test_a_locked_loop_stays_byte_for_byte(tmp_path: Path, capsys: pytest.Captur
 
 def test_there_is_nothing_to_undo_at_first(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = tmp_path / "kitchen.bundle"
-    assert main(["bake", str(kitchen_path()), "-o", str(folder), "-q"]) == 0
+    assert main(["bake", room(tmp_path), "-o", str(folder), "-q"]) == 0
     assert main(["edit", str(folder), "undo"]) == 1
     assert "there is nothing to undo" in capsys.readouterr().err
     # A folder of somebody else's where the bundle before would be kept.

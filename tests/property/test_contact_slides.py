@@ -92,7 +92,7 @@ def stepped(item: SceneObject, step: tuple[float, float, float, float]) -> Scene
 
 
 @given(PATHS)
-@settings(derandomize=True, deadline=None, max_examples=700)
+@settings(derandomize=True, deadline=None, max_examples=350)
 def test_every_step_of_a_slide_ends_where_building_from_nothing_does(
     scene_and_path: tuple[list[SceneObject], list[dict[str, tuple[float, float, float, float]]]],
 ) -> None:
