@@ -29,7 +29,8 @@ class BakeConfig(InferenceConfig):
         network gets retries, repairs and a cache around it (`standard_stack`), unless it is given ready made.
     cache_dir : where its answers are kept, None for the user's folder of caches.
     max_cost_usd : what the answers may cost, checked before each call, None for no limit.
-    prices : of models, in US dollars per million tokens read and written, beside the dated list.
+    prices : of models, in US dollars per million tokens read and written (and read from the service's prompt cache),
+        beside the dated list.
     audio : where sounds come from, tried in order until `enough_candidates` remain.
     enough_candidates : how many sounds to choose from; 1 is the paper's rule.
     tactile : what turns sound into touch.
@@ -42,7 +43,7 @@ class BakeConfig(InferenceConfig):
 
     cache_dir: Path | None = None
     max_cost_usd: float | None = Field(default=None, ge=0.0)
-    prices: dict[str, tuple[float, float]] = Field(default_factory=dict)
+    prices: dict[str, tuple[float, float] | tuple[float, float, float]] = Field(default_factory=dict)
     llm: Any = Field(default="lexicon", validate_default=True)
     audio: Annotated[Any, BeforeValidator(_sources)] = Field(default="synth", validate_default=True)
     enough_candidates: int = Field(default=ENOUGH, ge=1, le=5)

@@ -11,7 +11,7 @@ from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
 from scene2hap.llm.chain import UNKNOWN
 from scene2hap.llm.report import InferenceReport
-from scene2hap.llm.wrappers import price_list
+from scene2hap.llm.wrappers.prices import Given, price_list
 from scene2hap.scene.snapshot import SceneSnapshot
 
 
@@ -124,9 +124,7 @@ def _level(felt: Sensation | None) -> str:
     return f"{felt.level_db:.0f}" + (f" of {felt.asked_level_db:.0f}" if missed else "")
 
 
-def show_report(
-    console: Console, report: InferenceReport, prices: Mapping[str, tuple[float, float]] | None = None
-) -> None:
+def show_report(console: Console, report: InferenceReport, prices: Mapping[str, Given] | None = None) -> None:
     """What an inference took: calls, tokens, cost, what was skipped, and what went wrong."""
     asked = sum(report.calls.values())
     tokens = sum(used.get("total_tokens", 0) for used in report.tokens.values())

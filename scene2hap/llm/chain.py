@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import asyncio
 import os
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
@@ -31,7 +31,7 @@ from scene2hap.llm.protocol import LLMBackend
 from scene2hap.llm.questions import Questions
 from scene2hap.llm.quoting import clean
 from scene2hap.llm.report import InferenceReport
-from scene2hap.llm.sharing import copies, reachable
+from scene2hap.llm.sharing import copies, of_any_scene, reachable
 from scene2hap.llm.trust import Estimate, from_model, from_table, without_answer
 from scene2hap.llm.waiting import run_waiting
 from scene2hap.llm.weighing import bounded_mass_kg, mass_fault
@@ -197,6 +197,19 @@ class _Chain:
         return {key: self._with_unmet_needs(key, haptics, categories) for key, haptics in said.items()}
 
     async def _analyse(self, item: SceneObject) -> _Analysis:
+        facts, images = self._shown(item)
+        answer, analyst = await self._questions.ask("object_analyzer", item.id, facts, ObjectAnswer, images)
+        if self._settings.inference == "eager":
+            self._begin_material(answer.material_category)
+        if not answer.vibrates:
+            self._report.skipped["silent"] += 1
+            return _Analysis(answer, analyst, (), ())
+        described = await asyncio.gather(*(self._describe(item, answer, state) for state in answer.states))
+        states, describers = zip(*described, strict=True)
+        return _Analysis(answer, analyst, states, describers)
+
+    def _shown(self, item: SceneObject) -> tuple[dict[str, Any], Sequence[bytes]]:
+        """The facts and pictures that the Object Analyzer gets of an object."""
         length, width, thickness = item.size_m
         whole_length, whole_width, whole_height = item.whole_size_m(self._scene.up_axis)
         facts = {
@@ -213,16 +226,9 @@ class _Chain:
             "material_names": [clean(name) for name in material_names(item)],
             "neighbour_names": [clean(self._scene.object(other).name) for other in self._graph.neighbours(item.id)],
         }
-        images = item.images.together if item.images is not None else ()
-        answer, analyst = await self._questions.ask("object_analyzer", item.id, facts, ObjectAnswer, images)
-        if self._settings.inference == "eager":
-            self._begin_material(answer.material_category)
-        if not answer.vibrates:
-            self._report.skipped["silent"] += 1
-            return _Analysis(answer, analyst, (), ())
-        described = await asyncio.gather(*(self._describe(item, answer, state) for state in answer.states))
-        states, describers = zip(*described, strict=True)
-        return _Analysis(answer, analyst, states, describers)
+        if not self._settings.share_scenes:
+            return facts, item.images.together if item.images is not None else ()
+        return of_any_scene(facts, item.name), item.images.isolated if item.images is not None else ()
 
     async def _describe(self, item: SceneObject, analysed: ObjectAnswer, state: StateAnswer) -> tuple[SourceState, str]:
         facts = {

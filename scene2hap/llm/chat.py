@@ -22,14 +22,22 @@ class BackendWarning(UserWarning):
 
 
 class UnusableAnswer(BadAnswer):
-    """A bad answer that was paid for: `model` wrote it, `usage` counts its tokens where they are known."""
+    """A bad answer that was paid for: `model` wrote it, `usage` counts its tokens where they are known, in the
+    service's tier `service_tier`."""
 
     def __init__(
-        self, message: str, raw_text: str = "", *, model: str = "", usage: Mapping[str, int] | None = None
+        self,
+        message: str,
+        raw_text: str = "",
+        *,
+        model: str = "",
+        usage: Mapping[str, int] | None = None,
+        service_tier: str = "",
     ) -> None:
         super().__init__(message, raw_text)
         self.model = model
         self.usage = dict(usage or {})
+        self.service_tier = service_tier
 
 
 class RefusedAnswer(UnusableAnswer, AnswerRefused):
@@ -46,6 +54,7 @@ class Said:
     usage: Mapping[str, int] = field(default_factory=dict)
     thoughts: str = ""
     refusal: str = ""
+    service_tier: str = ""
 
 
 def user_message(request: LLMRequest, text: str, detail: str) -> dict[str, Any]:
@@ -90,9 +99,10 @@ def read_chat(reply: HttpReply, model: str) -> Said:
         content=text_of(message.get("content")),
         model=text_of(body.get("model")) or model,
         finish_reason=text_of(choice.get("finish_reason")) or "stop",
-        usage=counts(body.get("usage")),
+        usage=_usage(body.get("usage")),
         thoughts=text_of(message.get("reasoning_content")) or text_of(message.get("reasoning")),
         refusal=text_of(message.get("refusal")),
+        service_tier=text_of(body.get("service_tier")),
     )
 
 
@@ -118,11 +128,11 @@ def require_willing(said: Said, asked: str) -> None:
     """
     if is_filtered(said.finish_reason):
         message = f"{asked}: the answer of {said.model} was withheld by a content filter ({said.finish_reason})."
-        raise RefusedAnswer(f"{message} {_AFTER_REFUSAL}", said.content, model=said.model, usage=said.usage)
+        raise RefusedAnswer(f"{message} {_AFTER_REFUSAL}", said.content, **_paid(said))
     refusal = said.refusal or refusal_in(said.content)
     if refusal:
         message = f"{asked}: {said.model} refused to answer: {shown(refusal)}. {_AFTER_REFUSAL}"
-        raise RefusedAnswer(message, refusal, model=said.model, usage=said.usage)
+        raise RefusedAnswer(message, refusal, **_paid(said))
 
 
 def is_withheld(reply: HttpReply) -> bool:
@@ -133,7 +143,11 @@ def is_withheld(reply: HttpReply) -> bool:
 
 def unusable(said: Said, message: str, raw_text: str) -> UnusableAnswer:
     """The error for what a model said, with what it cost."""
-    return UnusableAnswer(message, raw_text, model=said.model, usage=said.usage)
+    return UnusableAnswer(message, raw_text, **_paid(said))
+
+
+def _paid(said: Said) -> dict[str, Any]:
+    return {"model": said.model, "usage": said.usage, "service_tier": said.service_tier}
 
 
 def json_object(reply: HttpReply) -> dict[str, Any]:
@@ -163,6 +177,13 @@ def json_object(reply: HttpReply) -> dict[str, Any]:
 def text_of(value: object) -> str:
     """The value where it is a text, else ""."""
     return value if isinstance(value, str) else ""
+
+
+def _usage(usage: object) -> dict[str, int]:
+    """The token counts of a chat completion, with those of the prompt that were in the service's prompt cache."""
+    details = usage.get("prompt_tokens_details") if isinstance(usage, dict) else None
+    cached = counts(details).get("cached_tokens", 0)
+    return {**counts(usage), **({"cached_tokens": cached} if cached else {})}
 
 
 def counts(usage: object) -> dict[str, int]:

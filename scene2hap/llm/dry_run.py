@@ -19,7 +19,7 @@ from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.protocol import COMPONENTS, Component, LLMReply, LLMRequest
 from scene2hap.llm.report import InferenceReport
-from scene2hap.llm.wrappers.prices import Price, price_list
+from scene2hap.llm.wrappers.prices import Given, Price, price_list
 from scene2hap.scene.snapshot import SceneSnapshot
 
 _CHARACTERS_PER_TOKEN = 4.0
@@ -126,7 +126,7 @@ async def dry_run(
     config: InferenceConfig | Mapping[str, Any] | None = None,
     size_px: int = 512,
     detail: str = "low",
-    prices: Mapping[str, Price | tuple[float, float]] | None = None,
+    prices: Mapping[str, Price | Given] | None = None,
 ) -> DryRun:
     """Count what `infer_scene` would ask of `model` for a scene, and what that would cost.
 

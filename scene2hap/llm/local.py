@@ -125,7 +125,7 @@ class LocalBackend:
         if not text:
             message = f"{chat.about(request)}: {said.model} answered without content. Switch off its reasoning."
             raise chat.unusable(said, message, said.thoughts)
-        return LLMReply(text, said.model, said.finish_reason, said.usage)
+        return LLMReply(text, said.model, said.finish_reason, said.usage, service_tier=said.service_tier)
 
     @property
     def _is_ollama(self) -> bool:

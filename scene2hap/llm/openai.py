@@ -26,20 +26,41 @@ if TYPE_CHECKING:
 KEY_VARIABLE = "OPENAI_API_KEY"
 BASE_URL = "https://api.openai.com/v1"
 
-_GIVES_WAY = {"temperature": None, "top_p": None, "seed": None, "max_tokens": "max_completion_tokens"}
+_GIVES_WAY = {
+    "temperature": None,
+    "top_p": None,
+    "seed": None,
+    "service_tier": None,
+    "max_tokens": "max_completion_tokens",
+}
 """Parameters that some models reject, and under which other name they take them. Models that always reason take
-neither temperature nor top_p."""
+neither temperature nor top_p; some are not offered in the flex tier."""
+
+TIMEOUT_S, FLEX_TIMEOUT_S = 120.0, 900.0
+"""Of one answer; the latter as OpenAI's guide "Flex processing" advises."""
+
+_NO_CAPACITY = "resource_unavailable"
+"""The code of status 429 where a cheaper tier has no capacity now; such a call is not billed."""
 
 
 @clear_construction
 class OpenAIBackend:
     """Answers of an OpenAI model.
 
-    model : its name; api_key : else the environment variable OPENAI_API_KEY, read at each call; base_url : another
-    service that speaks the same; detail : of pictures, "low" (cheap) or "high", always sent since what OpenAI does
-    without it differs between models; timeout_s : for one answer; max_tokens : of one answer, reasoning included;
-    top_p : share of the likeliest words, 0..1; seed : best effort, on OpenAI's side too; reasoning_effort : "none" to
-    "xhigh", as the model has it; transport : for tests.
+    Parameters:
+    model : its name.
+    api_key : else the environment variable OPENAI_API_KEY, read at each call.
+    base_url : another service that speaks the same.
+    detail : of pictures, "low" (cheap) or "high"; always sent, since the default differs between models.
+    timeout_s : for one answer; None for 120 s, or 900 s in the flex tier.
+    max_tokens : of one answer, reasoning included.
+    top_p : share of the likeliest words, 0..1.
+    seed : best effort, on OpenAI's side too.
+    reasoning_effort : "none" to "xhigh", as the model has it.
+    service_tier : "flex" gives slower answers at half the price; None takes the project's tier. Where the model is not
+        offered in this tier, or the tier has no capacity, the question is sent again without it.
+    transport : for tests.
+
     Raises: ConfigError: a setting that cannot work.
     """
 
@@ -50,11 +71,12 @@ class OpenAIBackend:
         api_key: str | None = None,
         base_url: str = BASE_URL,
         detail: Literal["low", "high"] = "low",
-        timeout_s: float = 120.0,
+        timeout_s: float | None = None,
         max_tokens: int | None = None,
         top_p: float | None = None,
         seed: int | None = None,
         reasoning_effort: str | None = None,
+        service_tier: Literal["auto", "default", "flex", "priority"] | None = None,
         transport: Transport | None = None,
     ) -> None:
         if detail not in ("low", "high"):
@@ -63,8 +85,17 @@ class OpenAIBackend:
             checks.number("max_tokens", max_tokens, "tokens", at_least=1, error=ConfigError)
         if top_p is not None:
             checks.number("top_p", top_p, "-", above=0.0, at_most=1.0, error=ConfigError)
+        if service_tier not in (None, "auto", "default", "flex", "priority"):
+            raise ConfigError(
+                f"service_tier is {service_tier!r}; it must be 'auto', 'default', 'flex' (half the price), 'priority', "
+                "or None."
+            )
+        if timeout_s is None:
+            timeout_s = FLEX_TIMEOUT_S if service_tier == "flex" else TIMEOUT_S
         self.model = model
         self._detail = detail
+        self._tier = service_tier
+        self._without_capacity = 0
         self._secret = Secret(api_key, KEY_VARIABLE)
         self._endpoint = Endpoint(base_url, self._secret, timeout_s, transport)
         self._decoding = {
@@ -78,6 +109,11 @@ class OpenAIBackend:
 
     def __repr__(self) -> str:
         return f"OpenAIBackend({self.model!r}, base_url={self._endpoint.base_url!r})"
+
+    @property
+    def timeout_s(self) -> float:
+        """Longest wait for one answer [s]."""
+        return self._endpoint.timeout_s
 
     @property
     def identity(self) -> dict[str, Any]:
@@ -97,7 +133,11 @@ class OpenAIBackend:
         chat.require_whole(said, chat.about(request))
         if not said.content:
             raise chat.unusable(said, f"{chat.about(request)}: {said.model} answered without content.", "")
-        return LLMReply(said.content, said.model, said.finish_reason, said.usage)
+        return LLMReply(said.content, said.model, said.finish_reason, said.usage, service_tier=said.service_tier)
+
+    def report(self) -> dict[str, int]:
+        """Answers that were asked for in the standard tier, since their own had no capacity."""
+        return {"without_capacity": self._without_capacity}
 
     def _body(self, request: LLMRequest) -> dict[str, Any]:
         return {
@@ -106,14 +146,23 @@ class OpenAIBackend:
             "response_format": chat.json_schema_format(request, strict_schema(request.answer_schema)),
             "temperature": request.temperature,
             **{name: value for name, value in self._decoding.items() if value is not None},
+            **({} if self._tier is None else {"service_tier": self._tier}),
         }
 
     async def _ask(self, body: dict[str, Any]) -> chat.Said:
-        """Post, and once for each parameter that the model turns out not to take, post again without it."""
+        """Post, and once for each parameter that the model turns out not to take, post again without it.
+
+        So too without the tier, for this answer alone, where the tier has no capacity.
+        """
         while True:
             sent = self._adapted(body)
             reply = await self._endpoint.post("chat/completions", sent)
-            blamed = server_error(reply).param if reply.status == 400 else ""
+            error = server_error(reply)
+            if reply.status == 429 and _NO_CAPACITY in (error.code, error.type) and "service_tier" in sent:
+                self._without_capacity += 1
+                body = {name: value for name, value in body.items() if name != "service_tier"}
+                continue
+            blamed = error.param if reply.status == 400 else ""
             if blamed not in sent or blamed not in _GIVES_WAY:
                 break
             self._give_way(blamed, failure(reply))
@@ -128,5 +177,8 @@ class OpenAIBackend:
             return  # a call that was under way at the same time has learnt it already
         self._given_way.add(parameter)
         instead = _GIVES_WAY[parameter]
-        what = f"it is sent as {instead!r}" if instead else "it is no longer sent, so answers may vary more"
+        if parameter == "service_tier":
+            what = "it is no longer sent, so answers cost the standard price"
+        else:
+            what = f"it is sent as {instead!r}" if instead else "it is no longer sent, so answers may vary more"
         warnings.warn(f"{self.model} does not take {parameter!r}; {what}. {reason}", chat.BackendWarning, stacklevel=2)

@@ -40,6 +40,8 @@ class LLMRequest:
 class LLMReply:
     """One answer: `text` is a JSON document; `model` says who wrote it; `usage` counts tokens where known.
 
+    `usage` has prompt_tokens and completion_tokens, and cached_tokens: those of the prompt that the service had in its
+    prompt cache. `service_tier` is the tier that the service billed, "" for its standard one.
     `key` is the name under which a cache or recording keeps it, "" where none does; `is_kept` is true if it came
     from there and cost nothing now.
     """
@@ -50,6 +52,7 @@ class LLMReply:
     usage: Mapping[str, int] = field(default_factory=dict)
     key: str = ""
     is_kept: bool = False
+    service_tier: str = ""
 
 
 @runtime_checkable

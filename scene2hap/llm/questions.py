@@ -90,7 +90,9 @@ class Questions:
                 reply = await self._completed(request)
             except Scene2HapError as problem:
                 if isinstance(problem, chat.UnusableAnswer):  # it was paid for all the same
-                    self.report.take(LLMReply("", problem.model, usage=problem.usage))
+                    self.report.take(
+                        LLMReply("", problem.model, usage=problem.usage, service_tier=problem.service_tier)
+                    )
                 if not _is_about_one_question(problem):
                     self.closed_by = problem
                 raise

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Mapping
+from typing import Any
 
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.scene.likeness import copy_key
+from scene2hap.llm.quoting import clean
+from scene2hap.scene.likeness import copy_key, name_words
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.snapshot import SceneSnapshot
 
+_DIGITS = 4
+"""Tenths of a millimetre."""
 _BELOW = 0.5
 """Least cosine between a contact's normal and straight down for what lies there to be a support."""
 
@@ -28,6 +32,22 @@ def copies(scene: SceneSnapshot, graph: ContactGraph) -> dict[str, str]:
         on = supports.get(item.id) or graph.neighbours(item.id)
         standing_for[item.id] = first.setdefault((kinds[item.id], frozenset(kinds[other] for other in on)), item.id)
     return standing_for
+
+
+def of_any_scene(facts: Mapping[str, Any], name: str) -> dict[str, Any]:
+    """The facts about an object without those of the scene around it, so that they are equal for equal objects.
+
+    Lengths are rounded to what a prompt shows: turned in space, one mesh measures differently in the last digits.
+    """
+    lengths = {key: round(value, _DIGITS) for key, value in facts.items() if isinstance(value, float)}
+    words = " ".join(name_words(name))
+    return {
+        **facts,
+        **lengths,
+        "object_name": clean(words) or facts["object_name"],
+        "relative_height_m": None,
+        "neighbour_names": [],
+    }
 
 
 def reachable(sources: Iterable[str], graph: ContactGraph) -> frozenset[str]:

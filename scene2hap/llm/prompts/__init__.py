@@ -3,6 +3,9 @@
 A template names facts as {placeholders}, which are filled in as JSON (`llm.quoting`); doubled braces stand for braces.
 A user may replace any of the files by one of the same name in a folder of their own. Raise `VERSION` whenever a
 built-in file changes: it is part of what a recorded answer answers to.
+
+Instructions come first, then what is said of the place, then of the object: services bill a prefix that they have read
+before at a lower price.
 """
 
 from __future__ import annotations
@@ -23,7 +26,7 @@ from scene2hap.llm.protocol import COMPONENTS, Component
 from scene2hap.llm.quoting import IS_DATA, as_data
 from scene2hap.text_files import read_small_text
 
-VERSION = "4"
+VERSION = "5"
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from scene2hap.calls import clear_construction
 from scene2hap.errors import BackendError, BudgetExceeded, ConfigError
 from scene2hap.llm.chat import UnusableAnswer
 from scene2hap.llm.protocol import LLMReply, LLMRequest
-from scene2hap.llm.wrappers.prices import Price, PriceList, price_list
+from scene2hap.llm.wrappers.prices import Given, Price, PriceList, price_list
 from scene2hap.llm.wrappers.stack import Spec, Wrapper
 
 
@@ -18,8 +18,9 @@ from scene2hap.llm.wrappers.stack import Spec, Wrapper
 class BudgetBackend(Wrapper):
     """Passes calls on as long as the limits hold; None is no limit.
 
-    prices : model name -> `Price`, or (input, output) [US dollars per million tokens], beside or instead of those of
-    the dated list (`price_list()`); a model in neither has an unknown price, never none.
+    prices : model name -> `Price`, or (input, output) or (input, output, cached input) [US dollars per million
+    tokens], beside or instead of those of the dated list (`price_list()`); a model in neither has an unknown price,
+    never none.
     Checked before each call, with what is known then: calls under way at the same time can pass a limit on tokens or
     cost by what they use, a limit on calls never.
     Raises: ConfigError: a limit that is negative or a price that is none.
@@ -31,7 +32,7 @@ class BudgetBackend(Wrapper):
         max_calls: int | None = None,
         max_tokens: int | None = None,
         max_cost: float | None = None,
-        prices: Mapping[str, Price | tuple[float, float]] | None = None,
+        prices: Mapping[str, Price | Given] | None = None,
     ) -> None:
         super().__init__(inner)
         self._limits = {"calls": max_calls, "tokens": max_tokens, "cost": max_cost}
@@ -39,7 +40,7 @@ class BudgetBackend(Wrapper):
             if limit is not None:
                 checks.number(f"max_{name}", limit, "-", at_least=0, error=ConfigError)
         self._prices: PriceList = price_list(prices)
-        self._calls = self._failed = self._blind = self._input = self._output = 0
+        self._calls = self._failed = self._blind = self._input = self._cached = self._output = 0
         self._cost = 0.0
         self._unpriced: set[str] = set()
 
@@ -75,13 +76,14 @@ class BudgetBackend(Wrapper):
 
         Answers that were cut short, refused or empty are among the failed calls and are paid for. Calls that failed
         without any answer are in no sum, though a service may bill some; neither are answers without their usage.
-        Tokens that a service has in its cache count in full, so that the cost is an upper bound.
+        Input that the service had in its prompt cache, and cheaper service tiers, count at their own price.
         """
         return {
             "calls": self._calls,
             "failed_calls": self._failed,
             "calls_without_usage": self._blind,
             "input_tokens": self._input,
+            "cached_input_tokens": self._cached,
             "output_tokens": self._output,
             "cost": self.cost,
             "prices_of": self._prices.date,
@@ -110,8 +112,9 @@ class BudgetBackend(Wrapper):
             return
         self._input += read
         self._output += written
-        price = self._prices.of(reply.model)
-        if price is None:
+        self._cached += reply.usage.get("cached_tokens", 0)
+        cost = self._prices.cost_usd(reply.model, reply.usage, reply.service_tier)
+        if cost is None:
             self._unpriced.add(reply.model)
         else:
-            self._cost += (read * price.input_per_million + written * price.output_per_million) / 1e6
+            self._cost += cost

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
 
@@ -17,49 +17,76 @@ _SNAPSHOT = re.compile(r"-\d{4}-\d{2}-\d{2}$")
 """The date in the name of a model's version: gpt-4o-2024-08-06."""
 
 
+Given = tuple[float, float] | tuple[float, float, float]
+"""A price in settings: input, output, and if the service has a price for it cached input."""
+
+_STANDARD_TIERS = frozenset({"", "auto", "default"})
+
+
 @clear_construction
 @dataclass(frozen=True)
 class Price:
-    """What a model costs per million tokens; the list is in US dollars, your own prices should be too."""
+    """What a model costs per million tokens; the list is in US dollars, your own prices should be too.
+
+    cached_input_per_million : of input that the service had in its prompt cache; None: as all input.
+    """
 
     input_per_million: float
     output_per_million: float
+    cached_input_per_million: float | None = None
 
     def __post_init__(self) -> None:
-        for name in ("input_per_million", "output_per_million"):
-            checks.number(name, getattr(self, name), "-", at_least=0.0, error=ConfigError)
+        for name in ("input_per_million", "output_per_million", "cached_input_per_million"):
+            if getattr(self, name) is not None:
+                checks.number(name, getattr(self, name), "-", at_least=0.0, error=ConfigError)
+
+    def cost(self, usage: Mapping[str, int]) -> float:
+        """The cost of prompt_tokens, of which cached_tokens were in the prompt cache, and completion_tokens."""
+        cached = min(usage.get("cached_tokens", 0), usage["prompt_tokens"])
+        of_cached = self.input_per_million if self.cached_input_per_million is None else self.cached_input_per_million
+        fresh = (usage["prompt_tokens"] - cached) * self.input_per_million
+        return (fresh + cached * of_cached + usage["completion_tokens"] * self.output_per_million) / 1e6
 
 
 @dataclass(frozen=True)
 class PriceList:
-    """Prices by model, as of `date` (ISO 8601) and according to `source`."""
+    """Prices by model, as of `date` (ISO 8601) and according to `source`; `tiers` are factors on all of them."""
 
     date: str
     source: str
     prices: Mapping[str, Price]
+    tiers: Mapping[str, float]
 
     def of(self, model: str) -> Price | None:
         """The price of a model, or of the one that it is a dated snapshot of; None where it is not known."""
         return self.prices.get(model) or self.prices.get(_SNAPSHOT.sub("", model))
 
+    def cost_usd(self, model: str, usage: Mapping[str, int], service_tier: str = "") -> float | None:
+        """The cost of an answer; None where the price of its model or its tier is not known."""
+        price = self.of(model)
+        factor = 1.0 if service_tier in _STANDARD_TIERS else self.tiers.get(service_tier)
+        return None if price is None or factor is None else factor * price.cost(usage)
 
-def price_list(overrides: Mapping[str, Price | tuple[float, float]] | None = None) -> PriceList:
-    """The built-in list, with prices of one's own over it: model -> `Price` or (input, output) per million tokens.
+
+def price_list(overrides: Mapping[str, Price | Given] | None = None) -> PriceList:
+    """The built-in list, with prices of one's own over it: model -> `Price`, or (input, output) or (input, output,
+    cached input) per million tokens.
 
     Raises: ConfigError: a price that is none.
     """
     built_in = _built_in()
     own = {model: _price(model, price) for model, price in (overrides or {}).items()}
-    return PriceList(built_in.date, built_in.source, {**built_in.prices, **own})
+    return replace(built_in, prices={**built_in.prices, **own})
 
 
 @cache
 def _built_in() -> PriceList:
     table = json.loads(files(__package__).joinpath("prices.json").read_text(encoding="utf-8"))
-    return PriceList(table["date"], table["source"], {model: Price(*pair) for model, pair in table["usd"].items()})
+    prices = {model: Price(*numbers) for model, numbers in table["usd"].items()}
+    return PriceList(table["date"], table["source"], prices, table["tiers"])
 
 
-def _price(model: str, price: Price | tuple[float, float]) -> Price:
+def _price(model: str, price: Price | Given) -> Price:
     if isinstance(price, Price):
         return price
     try:
@@ -68,5 +95,6 @@ def _price(model: str, price: Price | tuple[float, float]) -> Price:
         raise
     except Exception as cause:  # what is no pair of numbers raises what it likes
         raise ConfigError(
-            f"the price of {model!r} is {checks.represented(price)}; it must be (input, output) per million."
+            f"the price of {model!r} is {checks.represented(price)}; it must be (input, output) or (input, output, "
+            "cached input) per million tokens."
         ) from cause

@@ -48,13 +48,13 @@ class RepairBackend(Wrapper):
                 problem.usage = dict(usage)
                 raise
             usage.update(reply.usage)
-            said = Said(reply.text, reply.model, reply.finish_reason, dict(usage))
+            said = Said(reply.text, reply.model, reply.finish_reason, dict(usage), service_tier=reply.service_tier)
             require_willing(said, about)
             if not reply.text.strip():
                 raise unusable(said, f"{about}: {reply.model} answered without content.", reply.text)
             if reply.finish_reason != "stop":
                 message = f"{about}: the answer ended by {reply.finish_reason!r}, not by itself."
-                raise UnusableAnswer(message, reply.text, model=reply.model, usage=usage)
+                raise unusable(said, message, reply.text)
             text = first_object(reply.text) or reply.text
             fault = find_fault(request.component, text, request.facts)
             if fault is None or (fault.is_minor and left == 0):
@@ -66,7 +66,7 @@ class RepairBackend(Wrapper):
             elif left == 0:
                 self._given_up += 1
                 message = f"{about}: still wrong after {self._repairs} repairs: {fault.reason}."
-                raise UnusableAnswer(message, reply.text, model=reply.model, usage=usage)
+                raise unusable(said, message, reply.text)
             left -= 1
             self._asked_again += 1
             asked = _repair(request, text, fault)

@@ -10,7 +10,7 @@ from scene2hap.llm import BACKENDS
 from scene2hap.llm.protocol import LLMBackend
 from scene2hap.llm.wrappers.budget import BudgetBackend
 from scene2hap.llm.wrappers.cache import CacheBackend
-from scene2hap.llm.wrappers.prices import Price
+from scene2hap.llm.wrappers.prices import Given, Price
 from scene2hap.llm.wrappers.repair import RepairBackend
 from scene2hap.llm.wrappers.retry import RetryBackend
 from scene2hap.llm.wrappers.stack import Spec, Wrapper
@@ -31,7 +31,7 @@ def standard_stack(
     max_calls: int | None = None,
     max_tokens: int | None = None,
     max_cost: float | None = None,
-    prices: Mapping[str, Price | tuple[float, float]] | None = None,
+    prices: Mapping[str, Price | Given] | None = None,
     sleep: Callable[[float], Awaitable[object]] = asyncio.sleep,
 ) -> LLMBackend:
     """Cache, repair, budget, retry, and then the model: `inner`, a backend or what builds one.
@@ -54,7 +54,7 @@ def build_backend(
     cache_folder: str | os.PathLike[str] | None = None,
     *,
     max_cost: float | None = None,
-    prices: Mapping[str, Price | tuple[float, float]] | None = None,
+    prices: Mapping[str, Price | Given] | None = None,
 ) -> object:
     """What a configuration names, with the standard stack around it where it needs one.
 

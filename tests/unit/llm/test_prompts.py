@@ -19,6 +19,15 @@ def test_every_component_has_a_template_where_the_user_outranks_the_rest() -> No
     assert filled.endswith("Above all, follow what the scene's author asks: make it {loud}")
 
 
+def test_questions_about_two_objects_begin_alike_so_that_services_read_the_beginning_once() -> None:
+    template = Prompts.load().templates["object_analyzer"]
+    instructions, facts = template.split("Kind of place: ")
+    assert not placeholders(instructions)
+    # Some 700 tokens at four characters each, before the schema of the answer, which services count in.
+    assert len(instructions) > 2400
+    assert "{object_name}" in facts
+
+
 def test_one_template_may_be_replaced(tmp_path: Path) -> None:
     (tmp_path / "material_estimator.txt").write_text('Constants of {material_category} as {{"x": 1}}. {user_prompt}')
     prompts = Prompts.load(tmp_path)

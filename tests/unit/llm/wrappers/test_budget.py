@@ -63,6 +63,7 @@ def test_report_of_what_was_spent() -> None:
         "failed_calls": 0,
         "calls_without_usage": 0,
         "input_tokens": 2000,
+        "cached_input_tokens": 0,
         "output_tokens": 400,
         "cost": pytest.approx(0.006),
         "prices_of": price_list().date,

@@ -17,10 +17,10 @@ def test_the_list_says_of_when_and_from_where_it_is() -> None:
 @pytest.mark.parametrize(
     ("model", "price"),
     [
-        ("gpt-4o", Price(2.5, 10.0)),
-        ("gpt-4o-2024-08-06", Price(2.5, 10.0)),
+        ("gpt-4o", Price(2.5, 10.0, 1.25)),
+        ("gpt-4o-2024-08-06", Price(2.5, 10.0, 1.25)),
         ("gpt-4o-2024-05-13", Price(5.0, 15.0)),  # the one snapshot that is dearer than its model
-        ("gpt-4o-mini-2024-07-18", Price(0.15, 0.6)),
+        ("gpt-4o-mini-2024-07-18", Price(0.15, 0.6, 0.075)),
         ("gpt-4", None),
         ("llava", None),
         ("gpt-4o-2024-08", None),
@@ -36,4 +36,20 @@ def test_own_prices_are_beside_or_instead_of_the_listed() -> None:
     assert own.of("llava") == Price(0.0, 0.0)
     assert own.of("gpt-4o-2024-11-20") == Price(1.0, 2.0)
     assert own.of("gpt-4.1") == price_list().of("gpt-4.1")
-    assert price_list().of("gpt-4o") == Price(2.5, 10.0)
+    assert price_list().of("gpt-4o") == Price(2.5, 10.0, 1.25)
+
+
+def test_cached_input_and_tiers_have_prices_of_their_own() -> None:
+    listed = price_list({"own": (4.0, 8.0, 1.0), "plain": (4.0, 8.0)})
+    usage = {"prompt_tokens": 1_000_000, "completion_tokens": 500_000, "cached_tokens": 250_000}
+    assert listed.cost_usd("own", usage) == pytest.approx(0.75 * 4 + 0.25 * 1 + 4)
+    assert listed.cost_usd("plain", usage) == pytest.approx(4 + 4)
+    assert listed.cost_usd("own", usage, "batch") == pytest.approx((0.75 * 4 + 0.25 * 1 + 4) / 2)
+    assert listed.cost_usd("own", usage, "default") == listed.cost_usd("own", usage)
+    assert listed.cost_usd("own", usage, "of tomorrow") is None
+    assert listed.cost_usd("nobody", usage) is None
+
+
+def test_cached_input_never_costs_more_than_fresh() -> None:
+    for model, price in price_list().prices.items():
+        assert (price.cached_input_per_million or 0.0) < price.input_per_million, model

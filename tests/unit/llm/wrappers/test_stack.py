@@ -117,7 +117,8 @@ def test_standard_stack(tmp_path: Path) -> None:
     model = "OpenAIBackend('gpt-4.1', base_url='https://api.openai.com/v1')"
     assert repr(stack) == f"CacheBackend(RepairBackend(BudgetBackend(RetryBackend({model}))))"
     assert repr(standard_stack("openai")).startswith("RepairBackend(BudgetBackend(")
-    assert list(reports(stack)) == ["CacheBackend", "RepairBackend", "BudgetBackend", "RetryBackend"]
+    layers = ["CacheBackend", "RepairBackend", "BudgetBackend", "RetryBackend", "OpenAIBackend"]
+    assert list(reports(stack)) == layers
 
 
 def test_limits_of_the_standard_stack_hold(tmp_path: Path) -> None:
