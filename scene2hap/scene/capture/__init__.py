@@ -21,6 +21,7 @@ from scene2hap import checks
 from scene2hap.calls import clear_call
 from scene2hap.errors import ConfigError
 from scene2hap.plugins import PluginGroup
+from scene2hap.scene.capture.alone import SUBJECT, by_itself
 from scene2hap.scene.capture.batch import capture_stats, render_all
 from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.protocol import RendererFactory
@@ -61,6 +62,7 @@ def capture_images(
     size_px: int | None = None,
     renderer: str | RendererFactory | None = None,
     config: CaptureConfig | Mapping[str, Any] | None = None,
+    alone: bool = False,
 ) -> SceneSnapshot:
     """The same scene with images. Nothing is rendered here: a picture is taken when it is first read.
 
@@ -68,6 +70,8 @@ def capture_images(
     object_ids : the objects that get images, None for all. The scene gets its own in any case.
     size_px, renderer : override what `config` says, which is 512 pixels and "embree". A renderer is a kind of
         `RENDERERS`, or a factory of your own (one that can be pickled, if workers are to use it).
+    alone : take each object upright at the origin, and without images of its surroundings. Equal objects of several
+        scenes then have equal images, so that `share_scenes` can make one question of them.
 
     Returns: a scene with `images`, 4 of the scene from above, and objects with `images.isolated` and `images.context`,
         8 each, of which the first 4 are from above. A scene captured before has its pictures in memory, or in
@@ -85,15 +89,18 @@ def capture_images(
     asked = None if object_ids is None else checks.items("object_ids", object_ids, error=ConfigError)
     wanted = {item.id for item in scene.objects} if asked is None else {scene.object(key).id for key in asked}
     studio = Studio(scene, settings, factory, name)
-    objects = tuple(
-        replace(item, images=_images(studio, item)) if item.id in wanted else item for item in scene.objects
-    )
+
+    def images(item: SceneObject) -> ObjectImages:
+        if not alone:
+            shots = settings.object_shots
+            return ObjectImages(
+                ImageSet(studio, shots("isolated", item.id)), ImageSet(studio, shots("context", item.id))
+            )
+        own = Studio(by_itself(item, scene.up_axis), settings, factory, name)
+        return ObjectImages(ImageSet(own, settings.object_shots("isolated", SUBJECT)), ImageSet(own, ()))
+
+    objects = tuple(replace(item, images=images(item)) if item.id in wanted else item for item in scene.objects)
     return replace(scene, objects=objects, images=ImageSet(studio, settings.scene_shots()))
-
-
-def _images(studio: Studio, item: SceneObject) -> ObjectImages:
-    shots = studio.config.object_shots
-    return ObjectImages(ImageSet(studio, shots("isolated", item.id)), ImageSet(studio, shots("context", item.id)))
 
 
 def _loaded(kind: str) -> RendererFactory:

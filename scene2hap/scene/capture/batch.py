@@ -43,11 +43,15 @@ def render_all(scene: SceneSnapshot, workers: int | None = None, *, progress: Pr
     for item in scene.objects:
         if item.images is not None:
             sets += (item.images.isolated, item.images.context)
-    wanted = studio.missing(shot for images in sets for shot in images.shots)
+    wanted = studio.missing(shot for images in sets if images.source is studio for shot in images.shots)
+    by_themselves = [images for images in sets if images.source is not studio]
     is_alone = workers <= 1 or len(wanted) <= 1
-    for n_done, _ in enumerate(_alone(studio, wanted) if is_alone else _shared(studio, wanted, workers - 1), start=1):
+    taken = _alone(studio, wanted) if is_alone else _shared(studio, wanted, workers - 1)
+    total = len(wanted) + sum(map(len, by_themselves))
+    # What is shown without its surroundings is a small stage of its own, which no other process need be sent.
+    for n_done, _ in enumerate(chain(taken, chain.from_iterable(by_themselves)), start=1):
         if progress is not None:
-            progress(n_done, len(wanted))
+            progress(n_done, total)
     return studio.stats
 
 
