@@ -32,13 +32,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--executor", metavar="WHERE", help="processes, processes:N, or dask:ADDRESS; without it, this process"
     )
+    parser.add_argument("--share-scenes", action="store_true", help="ask about equal objects of several scenes once")
     add_model_arguments(parser)
     add_scene_arguments(parser)
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Bake, and show what became of each scene. Raises: SceneError: some were not baked."""
-    config = BakeConfig.parse(bake_settings(arguments))
+    config = BakeConfig.parse(many_settings(arguments))
     begun = time.monotonic()
     with console.progress() as tell:
 
@@ -63,6 +64,12 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             console.outcome(outcome)
         raise SceneError(f"{len(report.failed)} of {len(report.scenes)} scenes were not baked; run again to go on.")
     return outcome
+
+
+def many_settings(arguments: argparse.Namespace) -> dict[str, Any]:
+    """Settings of a bake of many scenes. Raises: ConfigError."""
+    settings = bake_settings(arguments)
+    return {**settings, "share_scenes": True} if arguments.share_scenes else settings
 
 
 def _files(given: list[str]) -> list[str]:

@@ -15,10 +15,12 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+import trimesh
 
-from llm_server import GOOD, Asked, Scripted, said, serving
-from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake, bake_many, load_scene
+from llm_server import GOOD, KEY, Asked, Scripted, said, serving
+from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, TriMesh, bake, bake_many, load_scene
 from scene2hap.baking.many.record import scene_digest
 from scene2hap.cli import main
 from scene2hap.errors import ConfigError
@@ -174,6 +176,50 @@ def test_a_model_is_asked_from_here_and_each_question_once(scenes: list[Path], p
         assert again.kept == again.calls
     assert digests(tmp_path / "a") == digests(tmp_path / "b")
     assert not list((tmp_path / "a" / ".bake-many").glob("*.draft"))
+
+
+def radios(folder: Path, n: int) -> list[Path]:
+    """Rooms with one radio each, at its own place and beside its own thing."""
+    folder.mkdir(parents=True)
+    cabinet = trimesh.creation.box((0.3, 0.2, 0.15)).subdivide()
+    mesh = TriMesh(np.asarray(cabinet.vertices), np.asarray(cabinet.faces, np.int32))
+    for i in range(n):
+        beside = [*THINGS][1 + i]
+        things = (
+            SceneObject(f"radio.{i:03d}", pose=Pose.from_yaw((0.3 * i, 0.1, 0.0), 0.7 * i), geometry=mesh),
+            SceneObject(beside, pose=Pose((3.0, THINGS[beside][1] / 2, 0.0)), geometry=Box(THINGS[beside])),
+        )
+        (folder / f"room_{i}.json").write_text(SceneSnapshot.build(things, name="room").to_json())
+    return sorted(folder.glob("*.json"))
+
+
+@pytest.mark.skipif(find_spec("embreex") is None, reason="needs the extra 'pictures'")
+@pytest.mark.parametrize("share", [False, True])
+def test_equal_objects_of_several_scenes_are_asked_about_once_if_wished(
+    share: bool, plain: None, tmp_path: Path
+) -> None:
+    """In three rooms: three questions about radios, or one; pictures are a worker's."""
+    with serving(by=answered) as server:
+        config = {
+            "llm": {"kind": "openai", "api_key": KEY, "base_url": f"{server.base_url}/v1"},
+            "cache_dir": str(tmp_path / "cache"),
+            "share_scenes": share,
+        }
+        report = bake_many(
+            radios(tmp_path / "scenes", 3), tmp_path / "out", config=config, pictures=True, executor="processes:1"
+        )
+        assert not report.failed, report.failed[0].error
+        about_objects = [one for one in server.asked if '"vibrates"' in json.dumps(one.body["response_format"])]
+        n_asked = len(server.asked)
+    asked = [one for one in about_objects if "Your last answer was" not in one.prompt]
+    about_radios = [one for one in asked if "radio" in one.prompt.split("Authored object name:")[1].splitlines()[0]]
+    assert len(about_radios) == (1 if share else 3)
+    assert len(asked) == len(about_radios) + 3
+    n_pictures = {sum(part["type"] == "image_url" for part in one.body["messages"][0]["content"]) for one in asked}
+    assert n_pictures == {8 if share else 16}
+    n_repairs = len(about_objects) - len(asked)
+    assert report.calls - report.kept == n_asked - n_repairs
+    assert not list((tmp_path / "out" / ".bake-many").glob("*.pictures"))
 
 
 class Broken:

@@ -2,11 +2,12 @@
 
 FOLDER/NAME.bundle                 the bundle of each scene
 FOLDER/.bake-many/NAME.json        what it was made of: digests of scene and settings
+FOLDER/.bake-many/NAME.pictures/   what a model is shown, until it has answered
 FOLDER/.bake-many/NAME.draft/      what a model said, until the bundle is written
 FOLDER/report.json                 the account of the last run
 
-Sounds, and where no model is asked over a network everything, are made on an executor. A model is asked from here: one
-cache, one budget and one pace for all scenes.
+Pictures and sounds, and where no model is asked over a network everything, are made on an executor. A model is asked
+from here: one cache, one budget and one pace for all scenes.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.many.pool import Pool, Submits
 from scene2hap.baking.many.record import read_record, scene_digest, settings_digest, write_record
 from scene2hap.baking.many.report import ManyReport, SceneReport
-from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds, wishes_at
+from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds, take_pictures, wishes_at
 from scene2hap.baking.scene import VIBRATES
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.sounds import file_stem
@@ -80,7 +81,7 @@ def bake_many(
         `submit(function, *arguments)` that returns a concurrent.futures.Future: process pools, Dask's
         `Client.get_executor()`, and executors for MPI or Slurm. Workers must see the same paths.
     options : of `load_scene`, for all scenes: up_axis, unit_m, group, assets_root.
-    pictures : show the model pictures, rendered here by need.
+    pictures : show the model pictures, which workers take.
     Raises: ConfigError: settings or an executor that cannot work, no scenes.
     """
     running = abake_many(
@@ -177,6 +178,8 @@ class _Run:
         found = await asyncio.gather(*(one(path) for path in paths))
         stack = {name: dict(layer) for name, layer in reports(self.config.llm).items()}
         report = ManyReport(found, time.perf_counter() - begun, stack)
+        if not report.failed:
+            shutil.rmtree(self._work("all", ".pictures"), ignore_errors=True)
         write_record(self.folder / "report.json", report.to_data())
         return report
 
@@ -213,7 +216,7 @@ class _Run:
         begun = time.perf_counter()
         scene = await asyncio.to_thread(_read, path, self.options)
         read_s, begun = time.perf_counter() - begun, time.perf_counter()
-        seen = capture_images(scene) if self.pictures else scene
+        seen = await self._captured(path, scene) if self.pictures else scene
         wishes = {key: VIBRATES for key, wish in wishes_at(target, scene).items() if wish.vibrates}
         found = await infer_scene(
             seen, self.config.llm, user_prompt=self.user_prompt, config=self.config, wishes=wishes
@@ -221,6 +224,8 @@ class _Run:
         inferred = HapticBundle(scene, found.scene_category, found.objects, {})
         draft.parent.mkdir(parents=True, exist_ok=True)
         await asyncio.to_thread(inferred.save, draft)
+        if not self.config.share_scenes:
+            await asyncio.to_thread(shutil.rmtree, self._pictures(path), ignore_errors=True)
         return replace(
             report,
             calls=sum(found.report.calls.values()),
@@ -228,6 +233,16 @@ class _Run:
             cost_usd=found.report.cost_usd(price_list(self.config.prices)),
             seconds={"reading": read_s, "inference": time.perf_counter() - begun},
         )
+
+    async def _captured(self, path: Path, scene: SceneSnapshot) -> SceneSnapshot:
+        """The scene with pictures that a worker has taken."""
+        folder, alone = str(self._pictures(path)), self.config.share_scenes
+        await self.pool.run(take_pictures, str(path), self.options, folder, alone)
+        return capture_images(scene, config={"cache_dir": folder}, alone=alone)
+
+    def _pictures(self, path: Path) -> Path:
+        """Where pictures of a scene are kept until it is inferred; those of objects alone serve all scenes."""
+        return self._work("all" if self.config.share_scenes else self.names[path], ".pictures")
 
     @property
     def _is_remote(self) -> bool:

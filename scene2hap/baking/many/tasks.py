@@ -1,8 +1,8 @@
 """The parts of a bake that run in workers: each gets paths and settings, and returns counters.
 
 Where no model is asked over a network, a worker does a scene from its file to its bundle. Else inference runs in the
-main process, and a worker gets a draft: a bundle without loops, on disk, so that nothing large goes through an executor
-and a later run goes on from there.
+main process. A worker takes the pictures before it, into a folder. A worker gets a draft after it: a bundle without
+loops, on disk, so that nothing large goes through an executor and a later run goes on from there.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from scene2hap.baking.sound import N_THREADS
 from scene2hap.bundle import HapticBundle, Override, read_overrides
 from scene2hap.llm.chain import UNKNOWN
 from scene2hap.llm.report import InferenceReport
+from scene2hap.scene.capture import capture_images, render_all
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -49,6 +50,12 @@ def bake_scene(
         bundle = bake(snapshot, config, user_prompt=user_prompt, overrides=wishes, on_report=accounts.append)
         bundle.save(target)
     return _counted(bundle, watch, calls=sum(accounts[0].calls.values()))
+
+
+def take_pictures(n_threads: int, scene: str, options: Mapping[str, Any], folder: str, alone: bool) -> None:
+    """Take all pictures of a scene file into a folder. Raises: as `load_scene` and `capture_images`."""
+    with _watched(n_threads):
+        render_all(capture_images(load_scene(scene, **options), config={"cache_dir": folder}, alone=alone))
 
 
 def make_sounds(n_threads: int, draft: str, target: str, config: BakeConfig) -> Counters:
