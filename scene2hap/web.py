@@ -132,7 +132,8 @@ async def exchange(
     url: str,
     limits: Limits,
     *,
-    json_body: bytes | None = None,
+    body: bytes | None = None,
+    content_type: str = "application/json",
     params: Mapping[str, str] | None = None,
     authorization: Callable[[], str] | None = None,
     follow_redirects: bool = False,
@@ -162,8 +163,8 @@ async def exchange(
 
     # No compression is requested; a compressed reply is unpacked within the limit.
     headers = {"accept-encoding": "identity"}
-    if json_body is not None:
-        headers["content-type"] = "application/json"
+    if body is not None:
+        headers["content-type"] = content_type
     client = _client(transport, limits.timeout_s, check)
     try:
         with scrubbed(scrub):
@@ -173,7 +174,7 @@ async def exchange(
                 client.stream(
                     method,
                     url,
-                    content=json_body,
+                    content=body,
                     params=params,
                     headers=headers,
                     auth=authorise,

@@ -19,7 +19,7 @@ from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
 from scene2hap.errors import ConfigError
 from scene2hap.llm.dry_run import dry_run
 from scene2hap.llm.report import InferenceReport
-from scene2hap.llm.wrappers import identity
+from scene2hap.llm.wrappers import identity, innermost
 from scene2hap.scene.capture import capture_images
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -30,7 +30,7 @@ HELP = "scene file -> haptic bundle"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``scene2hap bake``."""
-    parser.add_argument("scene", metavar="SCENE", help="glTF, GLB, OBJ, STL, PLY, COLLADA, MJCF, or scene JSON")
+    parser.add_argument("scene", metavar="SCENE", help="glTF, GLB, OBJ, STL, PLY, COLLADA, MJCF, Habitat, scene JSON")
     parser.add_argument("-o", "--output", metavar="BUNDLE", help="folder to write (not needed with --dry-run)")
     parser.add_argument("--dry-run", action="store_true", help="show calls, tokens and cost only; no model is called")
     add_model_arguments(parser)
@@ -63,6 +63,9 @@ def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--assets-root", metavar="FOLDER", help="folder that the file may read from, instead of its own"
     )
+    parser.add_argument(
+        "--names", metavar="FILE", help="CSV or JSON with the names of templates, for Habitat scenes of hashes"
+    )
     parser.add_argument("--up-axis", choices=("y", "z"), help="y or z, overriding the axis of the file's format")
     parser.add_argument(
         "--group", default="authored", metavar="RULE", help="authored (default), leaf, or a depth in the node tree"
@@ -82,6 +85,7 @@ def scene_options(arguments: argparse.Namespace) -> dict[str, Any]:
         "unit_m": arguments.unit_m,
         "group": int(arguments.group) if is_depth else arguments.group,
         "assets_root": arguments.assets_root,
+        **({"names": arguments.names} if arguments.names else {}),
     }
 
 
@@ -157,6 +161,7 @@ def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console
             config=config,
             detail=identity(config.llm).get("detail", "low"),
             prices=config.prices,
+            service_tier=getattr(innermost(config.llm), "service_tier", ""),
         )
     )
     console.table(f"{scene.name}: what a bake would ask", ("what", ">how much"), told.rows())

@@ -19,7 +19,7 @@ from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.protocol import COMPONENTS, Component, LLMReply, LLMRequest
 from scene2hap.llm.report import InferenceReport
-from scene2hap.llm.wrappers.prices import Given, Price, price_list
+from scene2hap.llm.wrappers.prices import Given, Price, PriceList, price_list
 from scene2hap.scene.snapshot import SceneSnapshot
 
 _CHARACTERS_PER_TOKEN = 4.0
@@ -58,6 +58,9 @@ _PATCHES = (
 """Model, most patches of 32 px, tokens per patch."""
 
 _PATCH_PX, _TILE_PX, _SHORT_SIDE_PX = 32, 512, 768
+
+_PICTURE_PX = 512
+"""As `scene.capture` takes pictures if nothing else is wished."""
 
 
 def image_tokens(model: str, size_px: int, detail: str) -> int | None:
@@ -124,24 +127,26 @@ async def dry_run(
     *,
     user_prompt: str = "",
     config: InferenceConfig | Mapping[str, Any] | None = None,
-    size_px: int = 512,
+    size_px: int = _PICTURE_PX,
     detail: str = "low",
     prices: Mapping[str, Price | Given] | None = None,
+    service_tier: str = "",
 ) -> DryRun:
     """Count what `infer_scene` would ask of `model` for a scene, and what that would cost.
 
-    `size_px` is the edge of its pictures, `detail` what they are sent with; `prices` override the dated list.
+    `size_px` is the edge of its pictures, `detail` what they are sent with; `prices` override the dated list;
+    `service_tier` is what the service bills, "" for its standard tier.
     Raises: ConfigError.
     """
     counter = _Counter()
     inference = await infer_scene(scene, counter, user_prompt=user_prompt, config=config)
     known_prices = price_list(prices)
-    price, per_image = known_prices.of(model), image_tokens(model, size_px, detail)
+    per_image = image_tokens(model, size_px, detail)
     seen = 0 if not counter.images else None if per_image is None else per_image * counter.images
     cost = None
-    if price is not None and seen is not None:
-        read = (counter.text_tokens + seen) * price.input_per_million
-        cost = (read + counter.answer_tokens * price.output_per_million) / 1e6
+    if seen is not None:
+        usage = {"prompt_tokens": counter.text_tokens + seen, "completion_tokens": counter.answer_tokens}
+        cost = known_prices.cost_usd(model, usage, service_tier)
     return DryRun(
         model,
         counter.calls,
@@ -153,6 +158,22 @@ async def dry_run(
         known_prices.date,
         inference.report,
     )
+
+
+def estimated_cost_usd(
+    request: LLMRequest, model: str, detail: str, prices: PriceList, service_tier: str = ""
+) -> float | None:
+    """What the answer to one request will cost, about; None where it is not known. No picture is taken."""
+    per_image = image_tokens(model, _PICTURE_PX, detail) if request.images else 0
+    if per_image is None:
+        return None
+    read = _text_tokens(request) + per_image * len(request.images)
+    usage = {"prompt_tokens": read, "completion_tokens": _ANSWER_TOKENS[request.component]}
+    return prices.cost_usd(model, usage, service_tier)
+
+
+def _text_tokens(request: LLMRequest) -> int:
+    return math.ceil((len(request.prompt) + len(json.dumps(request.answer_schema))) / _CHARACTERS_PER_TOKEN)
 
 
 @dataclass
@@ -170,8 +191,7 @@ class _Counter:
     async def complete(self, request: LLMRequest) -> LLMReply:
         self.calls[request.component] += 1
         self.images += len(request.images)
-        characters = len(request.prompt) + len(json.dumps(request.answer_schema))
-        self.text_tokens += math.ceil(characters / _CHARACTERS_PER_TOKEN)
+        self.text_tokens += _text_tokens(request)
         self.answer_tokens += _ANSWER_TOKENS[request.component]
         try:
             reply = await LexiconBackend().complete(request)

@@ -1,4 +1,4 @@
-"""The one place that speaks HTTP: JSON goes out, a reply or an error of ours comes back.
+"""The one place that speaks HTTP: JSON or a file goes out, a reply or an error of ours comes back.
 
 What the key opens stays closed: it is revealed on one line, straight into the header; whatever a server says is
 searched for it before anyone else reads it, and no traceback that leaves here holds the header in a local variable.
@@ -29,6 +29,11 @@ _LOG = logging.getLogger(__name__)
 MAX_REPLY_BYTES = 4 << 20
 """Of one reply, unpacked; assumed: a hundred times the longest answer with its thoughts, and any list of models."""
 
+MAX_FILE_BYTES = 512 << 20
+"""Of one file of answers; assumed: ten times what the largest batch of ours comes to."""
+FILE_TIMEOUT_S = 900.0
+"""For a file of two hundred megabytes; assumed: a line of two megabits a second."""
+
 _HEADERS_READ = ("x-should-retry", "x-request-id", *waits.HEADERS)
 
 
@@ -57,17 +62,37 @@ class Endpoint:
         self.pace.heed(reply)
         return reply
 
+    async def upload(self, path: str, name: str, content: bytes, fields: Mapping[str, str]) -> HttpReply:
+        """Post a file and fields as a form; every status is a reply. Raises: BackendUnavailable: no reply came."""
+        import httpx
+
+        form = httpx.Request("POST", self.base_url, data=dict(fields), files={"file": (name, content)})
+        return await self._send("POST", path, form.read(), FILE_TIMEOUT_S, form.headers["content-type"])
+
     async def get(self, path: str, timeout_s: float) -> HttpReply:
         """What lies at a path below the base address. Raises: BackendUnavailable: no reply came."""
         return await self._send("GET", path, None, min(timeout_s, self.timeout_s))
 
-    async def _send(self, method: str, path: str, content: bytes | None, timeout_s: float) -> HttpReply:
+    async def download(self, path: str) -> HttpReply:
+        """The file at a path below the base address. Raises: BackendUnavailable: no reply came, or too large a one."""
+        return await self._send("GET", path, None, FILE_TIMEOUT_S, max_bytes=MAX_FILE_BYTES)
+
+    async def _send(
+        self,
+        method: str,
+        path: str,
+        content: bytes | None,
+        timeout_s: float,
+        content_type: str = "application/json",
+        max_bytes: int = MAX_REPLY_BYTES,
+    ) -> HttpReply:
         url = f"{self.base_url}/{path}"
         reply = await web.exchange(
             method,
             url,
-            web.Limits(timeout_s, MAX_REPLY_BYTES),
-            json_body=content,
+            web.Limits(timeout_s, max_bytes),
+            body=content,
+            content_type=content_type,
             authorization=self._authorization,
             scrub=self.secret.scrub,
             transport=self.transport,

@@ -7,6 +7,7 @@ Source: the OpenAPI description in openai/openai-openapi; OpenAI's guides "Struc
 from __future__ import annotations
 
 import warnings
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal
 
 from scene2hap import checks
@@ -15,6 +16,7 @@ from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm import chat
 from scene2hap.llm.http_client import Endpoint
 from scene2hap.llm.http_errors import failure, server_error
+from scene2hap.llm.http_reply import HttpReply
 from scene2hap.llm.image_tokens import ImagesAsText
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.schema import strict_schema
@@ -111,6 +113,16 @@ class OpenAIBackend:
         return f"OpenAIBackend({self.model!r}, base_url={self._endpoint.base_url!r})"
 
     @property
+    def endpoint(self) -> Endpoint:
+        """The server that is asked."""
+        return self._endpoint
+
+    @property
+    def service_tier(self) -> str:
+        """The tier that is asked for, "" for the project's own."""
+        return self._tier or ""
+
+    @property
     def timeout_s(self) -> float:
         """Longest wait for one answer [s]."""
         return self._endpoint.timeout_s
@@ -128,7 +140,14 @@ class OpenAIBackend:
         """
         if not self._secret.reveal():
             raise BackendUnavailable(f"no API key. Set {KEY_VARIABLE} or give api_key.")
-        said = await self._ask(self._body(request))
+        return self.judged(request, await self._ask(self._body(request)))
+
+    def body(self, request: LLMRequest) -> dict[str, Any]:
+        """What is posted for a request, without parameters that this model turned out not to take."""
+        return self._adapted(self._body(request))
+
+    def judged(self, request: LLMRequest, said: chat.Said) -> LLMReply:
+        """The reply that a chat completion makes. Raises: BadAnswer: as `complete`."""
         self._images_as_text.look(request, said)
         chat.require_whole(said, chat.about(request))
         if not said.content:
@@ -162,11 +181,20 @@ class OpenAIBackend:
                 self._without_capacity += 1
                 body = {name: value for name, value in body.items() if name != "service_tier"}
                 continue
-            blamed = error.param if reply.status == 400 else ""
-            if blamed not in sent or blamed not in _GIVES_WAY:
+            if not self.learns(reply, sent):
                 break
-            self._give_way(blamed, failure(reply))
         return chat.read_chat(reply, self.model)
+
+    def learns(self, reply: HttpReply, sent: Mapping[str, Any] | None = None) -> bool:
+        """Whether a reply blames a parameter that need not be sent; then it is not from now on.
+
+        One that is not in `sent`, if that is known, is no longer sent already.
+        """
+        blamed = server_error(reply).param if reply.status == 400 else ""
+        if blamed not in _GIVES_WAY or (sent is not None and blamed not in sent):
+            return False
+        self._give_way(blamed, failure(reply))
+        return True
 
     def _adapted(self, body: dict[str, Any]) -> dict[str, Any]:
         renamed = {_GIVES_WAY[name] if name in self._given_way else name: value for name, value in body.items()}

@@ -15,9 +15,11 @@ from typing import Any
 from scene2hap import __version__
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import converter_settings, told
-from scene2hap.errors import ConfigError
+from scene2hap.errors import ConfigError, SceneError
 from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.wrappers import identity
+from scene2hap.scene.files import is_habitat
+from scene2hap.scene.habitat import referenced_files
 
 _SELF_CONTAINED = frozenset({".glb", ".stl", ".ply", ".json"})
 _MOST_BESIDE = 10_000
@@ -27,22 +29,37 @@ _LITTLE_BYTES = 1 << 20
 Record = Mapping[str, Any]
 
 
-def scene_digest(path: Path) -> str:
+def scene_digest(path: Path, options: Mapping[str, Any] | None = None) -> str:
     """A name for all that a scene file says: its bytes, and for kinds that refer to other files, those beside it.
 
-    Of files larger than a megabyte beside it, size and time of the last change stand for the bytes.
+    Of a Habitat scene, which says what it refers to, these files count, with the options of `load_scene`. Of other
+    files larger than a megabyte, size and time of the last change stand for the bytes.
     """
     found = hashlib.sha256(path.read_bytes())
-    if path.suffix.lower() not in _SELF_CONTAINED:
+    if is_habitat(path):
+        others = _of_habitat(path, options or {})
+    elif path.suffix.lower() not in _SELF_CONTAINED:
         others = sorted(one for one in path.parent.rglob("*") if one != path and one.is_file())[:_MOST_BESIDE]
-        for other in others:
-            state = other.stat()
-            found.update(f"{other.relative_to(path.parent)} {state.st_size}".encode())
-            if state.st_size <= _LITTLE_BYTES:
-                found.update(other.read_bytes())
-            else:
-                found.update(str(state.st_mtime_ns).encode())
+    else:
+        others = []
+    for other in others:
+        state = other.stat()
+        found.update(f"{os.path.relpath(other, path.parent)} {state.st_size}".encode("utf-8", "surrogateescape"))
+        if state.st_size <= _LITTLE_BYTES:
+            found.update(other.read_bytes())
+        else:
+            found.update(str(state.st_mtime_ns).encode())
     return found.hexdigest()[:32]
+
+
+def _of_habitat(path: Path, options: Mapping[str, Any]) -> list[Path]:
+    """The files of a Habitat scene and its table of names; none if it cannot be read, which its bake then says."""
+    root, names = options.get("assets_root"), options.get("names")
+    try:
+        files = referenced_files(path, None if root is None else Path(root))
+    except SceneError:
+        return []
+    return files if names is None or isinstance(names, Mapping) else [*files, Path(names)]
 
 
 def settings_digest(config: BakeConfig, user_prompt: str, options: Mapping[str, Any]) -> str:

@@ -27,7 +27,7 @@ from typing import Any
 from scene2hap import checks
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.many.pool import Pool, Submits
-from scene2hap.baking.many.record import read_record, scene_digest, settings_digest, write_record
+from scene2hap.baking.many.record import Record, read_record, scene_digest, settings_digest, write_record
 from scene2hap.baking.many.report import ManyReport, SceneReport
 from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds, take_pictures, wishes_at
 from scene2hap.baking.scene import VIBRATES
@@ -35,14 +35,15 @@ from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.sounds import file_stem
 from scene2hap.calls import clear_call
 from scene2hap.errors import ConfigError
-from scene2hap.llm.chain import infer_scene
+from scene2hap.llm.chain import Inference, infer_scene
 from scene2hap.llm.lexicon import LexiconBackend
-from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.llm.protocol import LLMBackend, LLMReply, LLMRequest
 from scene2hap.llm.waiting import run_waiting
 from scene2hap.llm.wrappers import identity, reports
 from scene2hap.llm.wrappers.prices import price_list
 from scene2hap.llm.wrappers.stack import Wrapper
 from scene2hap.scene.capture import capture_images
+from scene2hap.scene.files import scene_stem
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -50,7 +51,8 @@ Progress = Callable[[str, str, int, int], None]
 """Called with (stage, the scene, how many scenes are done, of how many)."""
 
 _COUNTS = ("n_objects", "n_sources", "n_unknown")
-_WORK = ".bake-many"
+WORK = ".bake-many"
+"""The folder beside the bundles that has records and drafts."""
 _AHEAD = 4
 """Scenes under way beyond those that workers have; assumed: as many as wait for a model while others are computed."""
 
@@ -80,7 +82,7 @@ def bake_many(
     executor : None for this process; "processes", "processes:N" or "dask:ADDRESS"; or an object with
         `submit(function, *arguments)` that returns a concurrent.futures.Future: process pools, Dask's
         `Client.get_executor()`, and executors for MPI or Slurm. Workers must see the same paths.
-    options : of `load_scene`, for all scenes: up_axis, unit_m, group, assets_root.
+    options : of `load_scene`, for all scenes: up_axis, unit_m, group, assets_root, names.
     pictures : show the model pictures, which workers take.
     Raises: ConfigError: settings or an executor that cannot work, no scenes.
     """
@@ -110,14 +112,9 @@ async def abake_many(
     progress: Progress | None = None,
 ) -> ManyReport:
     """Bake scene files into bundles below a folder, awaitable; see `bake_many`."""
-    if isinstance(scenes, str | os.PathLike):
-        raise ConfigError(f"scenes is the path {str(scenes)!r}; give a list of paths, as sorted(Path(...).glob(...)).")
-    paths = [checks.path(f"scenes[{i}]", scene, error=ConfigError) for i, scene in enumerate(scenes)]
-    if not paths:
-        raise ConfigError("scenes is empty; name at least one scene file.")
-    parsed = BakeConfig.parse(config)
+    paths, parsed = scene_paths(scenes), BakeConfig.parse(config)
     with Pool(executor) as pool:
-        run = _Run(
+        run = Run(
             checks.path("folder", folder, error=ConfigError),
             parsed.model_copy(update={"llm": _Lanes(parsed.llm, parsed.concurrency)}),
             # A worker asks no model, and a connection cannot be sent to it.
@@ -129,6 +126,16 @@ async def abake_many(
             progress,
         )
         return await run.all(paths)
+
+
+def scene_paths(scenes: Iterable[str | os.PathLike[str]]) -> list[Path]:
+    """The scene files that somebody gives. Raises: ConfigError: none, or no list."""
+    if isinstance(scenes, str | os.PathLike):
+        raise ConfigError(f"scenes is the path {str(scenes)!r}; give a list of paths, as sorted(Path(...).glob(...)).")
+    paths = [checks.path(f"scenes[{i}]", scene, error=ConfigError) for i, scene in enumerate(scenes)]
+    if not paths:
+        raise ConfigError("scenes is empty; name at least one scene file.")
+    return paths
 
 
 class _Lanes(Wrapper):
@@ -144,8 +151,19 @@ class _Lanes(Wrapper):
             return await self.inner.complete(request)
 
 
+@dataclass(frozen=True)
+class _Inferred:
+    """What a model said of a scene, and how long it took [s] by stage."""
+
+    scene: SceneSnapshot
+    found: Inference
+    seconds: dict[str, float]
+
+
 @dataclass
-class _Run:
+class Run:
+    """One run over scenes: settings, where things stand on disk, and how far it is."""
+
     folder: Path
     config: BakeConfig
     for_workers: BakeConfig
@@ -159,12 +177,16 @@ class _Run:
     settings: str = ""
     names: dict[Path, str] = field(default_factory=dict)
 
-    async def all(self, paths: list[Path]) -> ManyReport:
-        """Bake them, and write the report."""
-        begun = time.perf_counter()
+    def name(self, paths: list[Path]) -> None:
+        """Settle which scenes there are, and by which settings they are made."""
         self.total, self.names = len(paths), _names(paths)
         told = {**self.options, "pictures": self.pictures}
         self.settings = settings_digest(self.config, self.user_prompt, told)
+
+    async def all(self, paths: list[Path]) -> ManyReport:
+        """Bake them, and write the report."""
+        begun = time.perf_counter()
+        self.name(paths)
         gate = asyncio.Semaphore(self.pool.n_workers + _AHEAD)
 
         async def one(path: Path) -> SceneReport:
@@ -185,53 +207,73 @@ class _Run:
 
     async def _scene(self, path: Path) -> SceneReport:
         """One scene, whatever becomes of it."""
-        name = self.names[path]
-        target, record = self.folder / f"{name}.bundle", self._work(name, ".json")
-        report = SceneReport(str(path), str(target), "failed")
+        report, target = self._unmade(path), self._target(path)
         try:
-            made_of = {"scene": await asyncio.to_thread(scene_digest, path), "settings": self.settings}
-            before = read_record(record)
-            stage = before.get("stage") if made_of.items() <= before.items() else None
+            made_of, before = await self._state(path)
+            stage = before.get("stage")
             if stage == "baked" and (target / "bundle.json").is_file():
                 counts = {key: before[key] for key in _COUNTS if isinstance(before.get(key), int)}
                 return replace(report, outcome="kept", **counts)
             if self._is_remote:
-                draft = self._work(name, ".draft")
+                draft = self._draft(path)
                 if stage != "inferred" or not (draft / "bundle.json").is_file():
-                    report = await self._inferred(path, draft, target, report)
-                    write_record(record, {**made_of, "stage": "inferred"})
+                    report = await self._drafted(path, made_of, await self._inferred(path, self.config.llm))
                 made = await self.pool.run(make_sounds, str(draft), str(target), self.for_workers)
                 await asyncio.to_thread(shutil.rmtree, draft, ignore_errors=True)
             else:
                 whole = (str(path), self.options, str(target), self.for_workers, self.user_prompt)
                 made = await self.pool.run(bake_scene, *whole)
             report = _with(report, made)
-            write_record(record, {**made_of, "stage": "baked", **{key: getattr(report, key) for key in _COUNTS}})
+            counts = {key: getattr(report, key) for key in _COUNTS}
+            write_record(self._record(path), {**made_of, "stage": "baked", **counts})
             return report
         except Exception as error:  # executors of somebody else's raise what they like
             return replace(report, error=f"{type(error).__name__}: {error}")
 
-    async def _inferred(self, path: Path, draft: Path, target: Path, report: SceneReport) -> SceneReport:
-        """Read a scene, ask the model, and write the draft."""
+    async def infer_ahead(self, path: Path, backend: LLMBackend, is_whole: Callable[[], bool]) -> bool:
+        """Infer a scene by a backend, and write its draft if `is_whole` then says so; whether it has one.
+
+        Raises: as `load_scene` and `infer_scene`.
+        """
+        made_of, before = await self._state(path)
+        made_at = {"baked": self._target(path), "inferred": self._draft(path)}.get(before.get("stage", ""))
+        if made_at is not None and (made_at / "bundle.json").is_file():
+            return True
+        found = await self._inferred(path, backend)
+        if is_whole():
+            await self._drafted(path, made_of, found)
+        return is_whole()
+
+    async def _state(self, path: Path) -> tuple[dict[str, str], Record]:
+        """Digests of what a scene is to be made of, and the record of it as it was last made, if of the same."""
+        made_of = {"scene": await asyncio.to_thread(scene_digest, path, self.options), "settings": self.settings}
+        before = read_record(self._record(path))
+        return made_of, before if made_of.items() <= before.items() else {}
+
+    async def _inferred(self, path: Path, backend: LLMBackend) -> _Inferred:
+        """Read a scene and ask the model."""
         begun = time.perf_counter()
         scene = await asyncio.to_thread(_read, path, self.options)
         read_s, begun = time.perf_counter() - begun, time.perf_counter()
         seen = await self._captured(path, scene) if self.pictures else scene
-        wishes = {key: VIBRATES for key, wish in wishes_at(target, scene).items() if wish.vibrates}
-        found = await infer_scene(
-            seen, self.config.llm, user_prompt=self.user_prompt, config=self.config, wishes=wishes
-        )
-        inferred = HapticBundle(scene, found.scene_category, found.objects, {})
+        wishes = {key: VIBRATES for key, wish in wishes_at(self._target(path), scene).items() if wish.vibrates}
+        found = await infer_scene(seen, backend, user_prompt=self.user_prompt, config=self.config, wishes=wishes)
+        return _Inferred(scene, found, {"reading": read_s, "inference": time.perf_counter() - begun})
+
+    async def _drafted(self, path: Path, made_of: Mapping[str, str], inferred: _Inferred) -> SceneReport:
+        """Write what was inferred, for a worker or a later run to go on from."""
+        found, draft = inferred.found, self._draft(path)
         draft.parent.mkdir(parents=True, exist_ok=True)
-        await asyncio.to_thread(inferred.save, draft)
+        await asyncio.to_thread(HapticBundle(inferred.scene, found.scene_category, found.objects, {}).save, draft)
+        write_record(self._record(path), {**made_of, "stage": "inferred"})
         if not self.config.share_scenes:
             await asyncio.to_thread(shutil.rmtree, self._pictures(path), ignore_errors=True)
         return replace(
-            report,
+            self._unmade(path),
             calls=sum(found.report.calls.values()),
             kept=found.report.kept,
             cost_usd=found.report.cost_usd(price_list(self.config.prices)),
-            seconds={"reading": read_s, "inference": time.perf_counter() - begun},
+            seconds=inferred.seconds,
         )
 
     async def _captured(self, path: Path, scene: SceneSnapshot) -> SceneSnapshot:
@@ -248,8 +290,20 @@ class _Run:
     def _is_remote(self) -> bool:
         return "base_url" in identity(self.config.llm)
 
+    def _unmade(self, path: Path) -> SceneReport:
+        return SceneReport(str(path), str(self._target(path)), "failed")
+
+    def _target(self, path: Path) -> Path:
+        return self.folder / f"{self.names[path]}.bundle"
+
+    def _record(self, path: Path) -> Path:
+        return self._work(self.names[path], ".json")
+
+    def _draft(self, path: Path) -> Path:
+        return self._work(self.names[path], ".draft")
+
     def _work(self, name: str, ending: str) -> Path:
-        return self.folder / _WORK / f"{name}{ending}"
+        return self.folder / WORK / f"{name}{ending}"
 
 
 def _read(path: Path, options: Mapping[str, Any]) -> SceneSnapshot:
@@ -280,9 +334,9 @@ def _names(paths: list[Path]) -> dict[Path, str]:
     twice = [path for path, n in Counter(paths).items() if n > 1]
     if twice:
         raise ConfigError(f"scenes has {str(twice[0])!r} twice; give each scene once.")
-    alike = Counter(file_stem(path.stem).casefold() for path in paths)
+    alike = Counter(file_stem(scene_stem(path)).casefold() for path in paths)
     return {
-        path: stem if alike[(stem := file_stem(path.stem)).casefold()] == 1 else f"{stem}-{_digest(path)}"
+        path: stem if alike[(stem := file_stem(scene_stem(path))).casefold()] == 1 else f"{stem}-{_digest(path)}"
         for path in paths
     }
 

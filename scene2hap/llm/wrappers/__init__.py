@@ -10,7 +10,7 @@ from scene2hap.llm.wrappers.cache import CacheBackend
 from scene2hap.llm.wrappers.prices import Price, PriceList, price_list
 from scene2hap.llm.wrappers.repair import RepairBackend
 from scene2hap.llm.wrappers.retry import RetryBackend
-from scene2hap.llm.wrappers.stack import identity, reports
+from scene2hap.llm.wrappers.stack import identity, innermost, reports
 from scene2hap.llm.wrappers.standard import build_backend, standard_stack
 
 __all__ = [
@@ -22,6 +22,7 @@ __all__ = [
     "RetryBackend",
     "build_backend",
     "identity",
+    "innermost",
     "price_list",
     "reports",
     "standard_stack",

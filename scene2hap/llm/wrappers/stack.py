@@ -33,6 +33,13 @@ def reports(backend: object) -> dict[str, Mapping[str, Any]]:
     return found
 
 
+def innermost(backend: object) -> object:
+    """The model that a stack of wrappers asks."""
+    while (inner := getattr(backend, "inner", None)) is not None:
+        backend = inner
+    return backend
+
+
 class Wrapper:
     """Base of the wrappers: holds `inner`."""
 

@@ -1,0 +1,13 @@
+"""Batches: many questions in one file, answered within a day at half the price.
+
+`backend` answers from what batches have brought and notes what none was asked yet; `folder` keeps both on disk;
+`service` speaks to the server. `scene2hap.baking.many.batch` sends whole chains of questions this way.
+
+Source: OpenAI, guide "Batch API" and the reference of `/v1/files` and `/v1/batches`.
+"""
+
+from scene2hap.llm.batch.backend import AnswerPending, BatchBackend
+from scene2hap.llm.batch.folder import BatchFolder, BatchRow
+from scene2hap.llm.batch.service import BatchService, BatchStatus
+
+__all__ = ["AnswerPending", "BatchBackend", "BatchFolder", "BatchRow", "BatchService", "BatchStatus"]

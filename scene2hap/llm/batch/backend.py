@@ -1,0 +1,132 @@
+"""BatchBackend: answers from what batches brought; what none was asked yet is noted for the next one."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import warnings
+from collections import Counter
+from dataclasses import replace
+from typing import Any
+
+from scene2hap.errors import BackendUnavailable, BadAnswer, Scene2HapError
+from scene2hap.llm import chat
+from scene2hap.llm.batch.folder import BatchFolder, Outcome, RequestWriter, keys_in
+from scene2hap.llm.dry_run import estimated_cost_usd
+from scene2hap.llm.http_reply import HttpReply
+from scene2hap.llm.openai import OpenAIBackend
+from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.llm.request_key import canonical
+from scene2hap.llm.wrappers.prices import PriceList
+
+TIER = "batch"
+"""The tier of prices."""
+_TRIES = 3
+"""How often a request is sent on which the server failed; what it had no time for is sent again without limit."""
+_NO_FAULT = frozenset({"batch_expired", "batch_cancelled"})
+
+
+class AnswerPending(BackendUnavailable):
+    """The question is in a batch, or will be in the next one."""
+
+    def __init__(self, message: str) -> None:
+        super().__init__(message, retryable=True)
+
+
+class BatchBackend:
+    """Answers of `model` from a folder of batches.
+
+    A question without an answer is written for the next batch, once, unless one that has not ended asks it. Parameters
+    that the model turned out not to take are left out from then on.
+    """
+
+    def __init__(self, model: OpenAIBackend, folder: BatchFolder, prices: PriceList) -> None:
+        self._model, self._folder, self._prices = model, folder, prices
+        self._answers: dict[str, HttpReply] = {}
+        self._failures: Counter[str] = Counter()
+        self._why: dict[str, str] = {}
+        rows = folder.rows()
+        self._asked = set(keys_in(rows, "written", "uploaded", "begun"))
+        self._writer: RequestWriter = folder.writer()
+        self.n_noted = 0
+        for key, outcome in folder.outcomes():
+            self._take(key, outcome)
+
+    @property
+    def identity(self) -> dict[str, Any]:
+        """Those of the model: an answer is the same, however it was asked for."""
+        return self._model.identity
+
+    @property
+    def cost_usd(self) -> float | None:
+        """What all answers in the folder cost; None if a price or a usage is unknown."""
+        costs = []
+        for reply in self._answers.values():
+            said = chat.read_chat(reply, self._model.model)
+            has_usage = {"prompt_tokens", "completion_tokens"} <= said.usage.keys()
+            costs.append(self._prices.cost_usd(said.model, said.usage, TIER) if has_usage else None)
+        return None if None in costs else sum(cost for cost in costs if cost is not None)
+
+    @property
+    def n_answers(self) -> int:
+        """How many requests were answered."""
+        return len(self._answers)
+
+    async def complete(self, request: LLMRequest) -> LLMReply:
+        """The answer. Raises: AnswerPending: it is still to come; BadAnswer: it came to nothing, or is unusable."""
+        body = self._body(request)
+        key = _key(body)
+        about = chat.about(request)
+        if key in self._answers:
+            said = chat.read_chat(self._answers[key], self._model.model)
+            return replace(self._model.judged(request, replace(said, service_tier=TIER)), service_tier=TIER)
+        if self._failures[key] >= _TRIES:
+            raise BadAnswer(f"{about}: batches brought no answer: {self._why.get(key, 'no reason given')}.")
+        if key not in self._asked:
+            self._asked.add(key)
+            cost_usd = estimated_cost_usd(request, self._model.model, self._detail, self._prices, TIER)
+            self._writer.add(key, body, cost_usd)
+            self.n_noted += 1
+        raise AnswerPending(f"{about}: no batch has answered yet.")
+
+    def close(self) -> None:
+        """Finish the file of what was noted."""
+        self._writer.close()
+
+    @property
+    def _detail(self) -> str:
+        return str(self.identity.get("detail", "low"))
+
+    def _body(self, request: LLMRequest) -> dict[str, Any]:
+        # A batch is a tier of its own.
+        return {name: value for name, value in self._model.body(request).items() if name != "service_tier"}
+
+    def _take(self, key: str, outcome: Outcome) -> None:
+        """Note what came of a request: an answer, a lesson about parameters, a failure, or nothing."""
+        if outcome.code:
+            if outcome.code not in _NO_FAULT:
+                self._failures[key] += 1
+                self._why[key] = f"{outcome.code}: {outcome.message}"
+            return
+        url = f"{self._model.endpoint.base_url}/chat/completions"
+        reply = HttpReply(url, outcome.status, json.dumps(outcome.body))
+        try:
+            chat.read_chat(reply, self._model.model)
+        except BackendUnavailable as problem:
+            with warnings.catch_warnings():
+                # Every later run reads this line again.
+                warnings.simplefilter("ignore", chat.BackendWarning)
+                is_lesson = self._model.learns(reply)
+            # After a lesson the question is another one, without the parameter.
+            self._failures[key] += 1 if problem.retryable or is_lesson else _TRIES
+            self._why[key] = str(problem)
+        except Scene2HapError as problem:
+            self._failures[key] += _TRIES
+            self._why[key] = str(problem)
+        else:
+            self._answers[key] = reply
+
+
+def _key(body: dict[str, Any]) -> str:
+    """A name for all that is sent."""
+    return hashlib.sha256(canonical(body).encode()).hexdigest()

@@ -1,0 +1,206 @@
+"""Batches on disk: what was asked in which, and what came of it.
+
+FOLDER/0001.json           one batch: its requests, its ids, how far it is
+FOLDER/0001.input.jsonl    what is sent, until the server has it
+FOLDER/0001.output.jsonl   what came back, as it came
+FOLDER/0001.error.jsonl    requests that came to nothing, as it came
+
+Every file is written whole or not at all. What a request has come to is read from these files alone, so that reading
+them again changes nothing.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import uuid
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any, BinaryIO, Literal
+
+from scene2hap.errors import ConfigError
+from scene2hap.llm.batch.service import COMPLETIONS, MOST_BYTES, MOST_REQUESTS
+
+Stage = Literal["written", "uploaded", "begun", "collected"]
+
+_PART_BYTES, _PART_REQUESTS = MOST_BYTES * 9 // 10, MOST_REQUESTS // 5
+"""Of one batch of ours: a part that fails as a whole costs less, and answers stay far below what is read at once."""
+
+
+@dataclass(frozen=True)
+class BatchRow:
+    """One batch.
+
+    Parameters: number : its place in the folder; requests : keys of what it asks; stage : "written" here, "uploaded" as
+    a file, "begun" on the server, "collected" again; estimate_usd : of its cost, None if unknown; status : what the
+    server last said; faults : of the batch as a whole.
+    """
+
+    number: int
+    requests: tuple[str, ...]
+    stage: Stage = "written"
+    estimate_usd: float | None = None
+    input_file: str = ""
+    batch: str = ""
+    status: str = ""
+    completed: int = 0
+    failed: int = 0
+    faults: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a request came to: the status and the body of the server's answer, or in place of both an error's code."""
+
+    status: int
+    body: Any
+    code: str = ""
+    message: str = ""
+
+
+class BatchFolder:
+    """The batches of one run. Raises: ConfigError: the folder cannot be read or written."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        try:
+            path.mkdir(parents=True, exist_ok=True)
+        except OSError as cause:
+            raise self._unwritable(cause) from cause
+
+    # -- rows ---------------------------------------------------------------------------------------------------------
+
+    def rows(self) -> list[BatchRow]:
+        """All batches, in the order in which they were written."""
+        found = []
+        for path in sorted(self.path.glob("[0-9]*.json")):
+            try:
+                fields = json.loads(path.read_text(encoding="utf-8"))
+                row = BatchRow(**{**fields, "requests": tuple(fields["requests"]), "faults": tuple(fields["faults"])})
+            except (OSError, ValueError, TypeError, KeyError) as cause:
+                raise ConfigError(
+                    f"{path} cannot be read: {cause}. It tells which questions are paid for; restore it from a backup, "
+                    "or move the folder away to ask everything again."
+                ) from cause
+            found.append(row)
+        return found
+
+    def save(self, row: BatchRow) -> BatchRow:
+        """Write a row, and forget its requests' text once the server has it."""
+        self._write(f"{row.number:04d}.json", json.dumps(asdict(row), indent=1).encode())
+        if row.stage in ("begun", "collected"):
+            self.input_path(row).unlink(missing_ok=True)
+        return row
+
+    def input_path(self, row: BatchRow) -> Path:
+        """The file that is sent."""
+        return self.path / f"{row.number:04d}.input.jsonl"
+
+    def keep(self, row: BatchRow, output: str, error: str) -> BatchRow:
+        """Store what came back, and the row as collected."""
+        for name, text in (("output", output), ("error", error)):
+            if text:
+                self._write(f"{row.number:04d}.{name}.jsonl", text.encode())
+        return self.save(replace(row, stage="collected"))
+
+    # -- outcomes -----------------------------------------------------------------------------------------------------
+
+    def outcomes(self) -> Iterator[tuple[str, Outcome]]:
+        """All that came back, by the key of its request, in the order of the batches; damaged lines are left out."""
+        for path in sorted(self.path.glob("[0-9]*.jsonl")):
+            if not path.name.endswith(".input.jsonl"):
+                with path.open("rb") as lines:
+                    yield from filter(None, map(_outcome, lines))
+
+    # -- requests -----------------------------------------------------------------------------------------------------
+
+    def writer(self) -> RequestWriter:
+        """Takes new requests into new rows."""
+        return RequestWriter(self)
+
+    def discard_unfinished(self) -> None:
+        """Remove files of requests that no row speaks of: their run ended before they were whole."""
+        known = {self.input_path(row) for row in self.rows()}
+        for path in (*self.path.glob("*.input.jsonl"), *self.path.glob(".*.part")):
+            if path not in known:
+                path.unlink(missing_ok=True)
+
+    def _write(self, name: str, content: bytes) -> None:
+        beside = self.path / f".{name}.{uuid.uuid4().hex}.part"
+        try:
+            with beside.open("wb") as file:
+                file.write(content)
+                file.flush()
+                os.fsync(file.fileno())
+            os.replace(beside, self.path / name)
+        except OSError as cause:
+            with suppress(OSError):
+                beside.unlink(missing_ok=True)
+            raise self._unwritable(cause) from cause
+
+    def _unwritable(self, cause: OSError) -> ConfigError:
+        return ConfigError(f"cannot write the batches in {self.path}: {cause}. Give a folder that can be written.")
+
+
+class RequestWriter:
+    """Writes requests into files of at most so many, and a row for each file once it is whole."""
+
+    def __init__(self, folder: BatchFolder) -> None:
+        self._folder = folder
+        self._number = max((row.number for row in folder.rows()), default=0)
+        self._file: BinaryIO | None = None
+        self._keys: list[str] = []
+        self._n_bytes = 0
+        self._estimate_usd: float | None = 0.0
+
+    def add(self, key: str, body: dict[str, Any], estimate_usd: float | None) -> None:
+        """Take one request, whose cost is estimated. Raises: ConfigError: it cannot be written."""
+        line = {"custom_id": key, "method": "POST", "url": COMPLETIONS, "body": body}
+        content = json.dumps(line, ensure_ascii=False, allow_nan=False).encode("utf-8", "replace") + b"\n"
+        if self._n_bytes + len(content) > _PART_BYTES or len(self._keys) >= _PART_REQUESTS:
+            self.close()
+        try:
+            if self._file is None:
+                self._number += 1
+                self._file = (self._folder.path / f"{self._number:04d}.input.jsonl").open("wb")
+            self._file.write(content)
+        except OSError as cause:
+            raise ConfigError(f"cannot write {self._folder.path}: {cause}. Free some space, and run again.") from cause
+        self._keys.append(key)
+        self._n_bytes += len(content)
+        both = (self._estimate_usd, estimate_usd)
+        self._estimate_usd = None if None in both else sum(cost for cost in both if cost is not None)
+
+    def close(self) -> None:
+        """End the file that is being written, if there is one."""
+        if self._file is None:
+            return
+        self._file.flush()
+        os.fsync(self._file.fileno())
+        self._file.close()
+        self._folder.save(BatchRow(self._number, tuple(self._keys), estimate_usd=self._estimate_usd))
+        self._file, self._keys, self._n_bytes, self._estimate_usd = None, [], 0, 0.0
+
+
+def _outcome(line: bytes) -> tuple[str, Outcome] | None:
+    try:
+        row = json.loads(line)
+    except ValueError:
+        return None
+    key = row.get("custom_id") if isinstance(row, dict) else None
+    if not isinstance(key, str):
+        return None
+    response, error = row.get("response"), row.get("error")
+    if isinstance(error, dict):
+        return key, Outcome(0, None, str(error.get("code") or ""), str(error.get("message") or ""))
+    status = response.get("status_code") if isinstance(response, dict) else None
+    if not isinstance(response, dict) or not isinstance(status, int):
+        return None
+    return key, Outcome(status, response.get("body"))
+
+
+def keys_in(rows: Iterable[BatchRow], *stages: Stage) -> frozenset[str]:
+    """What the batches of some stages ask."""
+    return frozenset(key for row in rows if row.stage in stages for key in row.requests)

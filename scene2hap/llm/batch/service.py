@@ -1,0 +1,135 @@
+"""The files and batches of an OpenAI-compatible server."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from scene2hap.errors import BackendUnavailable, BadAnswer
+from scene2hap.llm import chat
+from scene2hap.llm.http_client import Endpoint
+from scene2hap.llm.http_reply import HttpReply
+
+COMPLETIONS = "/v1/chat/completions"
+"""What every request of a batch is posted to."""
+MOST_REQUESTS = 50_000
+MOST_BYTES = 200 * 10**6
+"""Of one batch; the service's own limits."""
+
+_ENDED = frozenset({"completed", "failed", "expired", "cancelled"})
+_WAITS_S = (1.0, 4.0, 16.0)
+_PAGE = 100
+
+
+@dataclass(frozen=True)
+class BatchStatus:
+    """A batch as the server tells of it. `faults` are what is wrong with the whole of it."""
+
+    id: str
+    status: str
+    input_file: str = ""
+    output_file: str = ""
+    error_file: str = ""
+    completed: int = 0
+    failed: int = 0
+    faults: tuple[str, ...] = ()
+
+    @property
+    def has_ended(self) -> bool:
+        """Whether nothing more will come."""
+        return self.status in _ENDED
+
+
+class BatchService:
+    """Asks a server; whatever can be asked twice without harm is repeated where waiting can help.
+
+    Every method raises BackendUnavailable: no answer, or a refusal; BadAnswer: not what such a server answers.
+    """
+
+    def __init__(self, endpoint: Endpoint, *, sleep: Callable[[float], Awaitable[object]] = asyncio.sleep) -> None:
+        self._endpoint, self._sleep = endpoint, sleep
+
+    async def upload(self, name: str, content: bytes) -> str:
+        """Store a file of requests; its id."""
+        fields = {"purpose": "batch"}
+        reply = await self._patiently(lambda: self._endpoint.upload("files", name, content, fields))
+        return _id(reply, "file")
+
+    async def create(self, input_file: str) -> BatchStatus:
+        """Begin a batch, which costs money: never sent twice by itself."""
+        body = {"input_file_id": input_file, "endpoint": COMPLETIONS, "completion_window": "24h"}
+        return _status(chat.json_object(await self._endpoint.post("batches", body)))
+
+    async def status(self, batch: str) -> BatchStatus:
+        """How far a batch is."""
+        return _status(chat.json_object(await self._get(f"batches/{batch}")))
+
+    async def begun_with(self, input_file: str) -> BatchStatus | None:
+        """The batch that was begun with a file, should its answer have been lost; None if there is none."""
+        after = ""
+        while True:
+            page = chat.json_object(await self._get(f"batches?limit={_PAGE}{after}"))
+            rows = [row for row in page.get("data") or () if isinstance(row, dict)]
+            for row in rows:
+                if row.get("input_file_id") == input_file:
+                    return _status(row)
+            if not rows or not page.get("has_more"):
+                return None
+            after = f"&after={chat.text_of(rows[-1].get('id'))}"
+
+    async def cancel(self, batch: str) -> BatchStatus:
+        """End a batch early; what is answered by then is kept and billed."""
+        return _status(chat.json_object(await self._endpoint.post(f"batches/{batch}/cancel", {})))
+
+    async def content(self, file: str) -> str:
+        """The text of a file."""
+        reply = await self._patiently(lambda: self._endpoint.download(f"files/{file}/content"))
+        return reply.text
+
+    async def _get(self, path: str) -> HttpReply:
+        return await self._patiently(lambda: self._endpoint.get(path, self._endpoint.timeout_s))
+
+    async def _patiently(self, ask: Callable[[], Awaitable[HttpReply]]) -> HttpReply:
+        for wait_s in _WAITS_S:
+            try:
+                return _successful(await ask())
+            except BackendUnavailable as problem:
+                if not problem.retryable:
+                    raise
+                await self._sleep(problem.retry_after_s if problem.retry_after_s is not None else wait_s)
+        return _successful(await ask())
+
+
+def _successful(reply: HttpReply) -> HttpReply:
+    if not reply.ok:
+        chat.json_object(reply)  # raises what the status means
+    return reply
+
+
+def _id(reply: HttpReply, what: str) -> str:
+    found = chat.text_of(chat.json_object(reply).get("id"))
+    if not found:
+        raise BadAnswer(f"{reply.url} answered without the id of a {what}. Does this server have batches?", reply.text)
+    return found
+
+
+def _status(body: Mapping[str, Any]) -> BatchStatus:
+    batch, status = chat.text_of(body.get("id")), chat.text_of(body.get("status"))
+    if not batch or not status:
+        raise BadAnswer("the server answered without the id or status of a batch. Does it have batches?", repr(body))
+    counts = chat.counts(body.get("request_counts"))
+    errors = body.get("errors")
+    faults = errors.get("data") if isinstance(errors, dict) else None
+    told = [chat.text_of(fault.get("message")) for fault in faults or () if isinstance(fault, dict)]
+    return BatchStatus(
+        batch,
+        status,
+        chat.text_of(body.get("input_file_id")),
+        chat.text_of(body.get("output_file_id")),
+        chat.text_of(body.get("error_file_id")),
+        counts.get("completed", 0),
+        counts.get("failed", 0),
+        tuple(message for message in told if message),
+    )
