@@ -27,7 +27,12 @@ HELP = "many scene files -> haptic bundles"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``scene2hap bake-many``."""
-    parser.add_argument("scenes", metavar="SCENE", nargs="+", help="scene files, or patterns of them in quotes")
+    add_many_arguments(parser, "+")
+
+
+def add_many_arguments(parser: argparse.ArgumentParser, n_scenes: str) -> None:
+    """Which scenes are baked where, and by which settings."""
+    parser.add_argument("scenes", metavar="SCENE", nargs=n_scenes, help="scene files, or patterns of them in quotes")
     parser.add_argument("-o", "--output", metavar="FOLDER", required=True, help="folder of bundles")
     parser.add_argument(
         "--executor", metavar="WHERE", help="processes, processes:N, or dask:ADDRESS; without it, this process"
@@ -48,7 +53,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             tell("baking", f"{name} ({stage}, {rest_s:.0f} s left)", done, total)
 
         report = bake_many(
-            _files(arguments.scenes),
+            files(arguments.scenes),
             arguments.output,
             config=config,
             executor=arguments.executor,
@@ -72,7 +77,7 @@ def many_settings(arguments: argparse.Namespace) -> dict[str, Any]:
     return {**settings, "share_scenes": True} if arguments.share_scenes else settings
 
 
-def _files(given: list[str]) -> list[str]:
+def files(given: list[str]) -> list[str]:
     """Files by name, and those that a pattern matches, each once. Raises: ConfigError: a pattern matches none."""
     found: list[str] = []
     for one in given:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 import shutil
@@ -19,54 +18,15 @@ import numpy as np
 import pytest
 import trimesh
 
-from llm_server import GOOD, KEY, Asked, Scripted, said, serving
+from batch_server import answered
+from llm_server import KEY, serving
+from rooms_of_things import THINGS, digests, write_scenes
 from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, TriMesh, bake, bake_many, load_scene
 from scene2hap.baking.many.record import scene_digest
 from scene2hap.cli import main
 from scene2hap.errors import ConfigError
 
 N_SCENES = 3
-THINGS = {
-    "radio": (0.3, 0.2, 0.15),
-    "oak table": (1.2, 0.72, 0.7),
-    "refrigerator": (0.7, 1.8, 0.7),
-    "fan": (0.4, 0.5, 0.3),
-    "kettle": (0.2, 0.25, 0.2),
-}
-FIELDS = {
-    "scene_category": "scene_analyzer",
-    "vibrates": "object_analyzer",
-    "density_kg_m3": "material_estimator",
-    "keywords": "vibration_describer",
-}
-
-
-def write_scenes(folder: Path, n: int) -> list[Path]:
-    """Rooms of a few things each, one of them shared by all."""
-    folder.mkdir(parents=True)
-    for i in range(n):
-        names = ["radio", [*THINGS][1 + i % (len(THINGS) - 1)]]
-        things = [
-            SceneObject(name, pose=Pose((1.5 * k, THINGS[name][1] / 2, 0.1 * i)), geometry=Box(THINGS[name]))
-            for k, name in enumerate(names)
-        ]
-        (folder / f"room_{i}.json").write_text(SceneSnapshot.build(things, name=f"room_{i}").to_json())
-    return sorted(folder.glob("*.json"))
-
-
-def digests(folder: Path) -> dict[str, str]:
-    """Every file of every bundle, by its content."""
-    return {
-        str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
-        for path in sorted(folder.glob("*.bundle/**/*"))
-        if path.is_file()
-    }
-
-
-def answered(asked: Asked) -> Scripted:
-    """A model that finds a fridge everywhere; which question it is, the schema tells."""
-    schema = json.dumps(asked.body["response_format"])
-    return said(GOOD[next(component for name, component in FIELDS.items() if f'"{name}"' in schema)])
 
 
 @pytest.fixture(scope="module")

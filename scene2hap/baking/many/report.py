@@ -34,6 +34,9 @@ class SceneReport:
     warnings: tuple[str, ...] = ()
     error: str = ""
 
+    def __str__(self) -> str:
+        return self.outcome
+
 
 @clear_attributes
 @dataclass(frozen=True)

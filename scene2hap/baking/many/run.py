@@ -19,10 +19,10 @@ import shutil
 import time
 import warnings
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Awaitable, Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from scene2hap import checks
 from scene2hap.baking.config import BakeConfig
@@ -46,6 +46,8 @@ from scene2hap.scene.capture import capture_images
 from scene2hap.scene.files import scene_stem
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
+
+Report = TypeVar("Report")
 
 Progress = Callable[[str, str, int, int], None]
 """Called with (stage, the scene, how many scenes are done, of how many)."""
@@ -187,23 +189,27 @@ class Run:
         """Bake them, and write the report."""
         begun = time.perf_counter()
         self.name(paths)
-        gate = asyncio.Semaphore(self.pool.n_workers + _AHEAD)
-
-        async def one(path: Path) -> SceneReport:
-            async with gate:
-                found = await self._scene(path)
-            self.done += 1
-            if self.progress is not None:
-                self.progress(found.outcome, self.names[path], self.done, self.total)
-            return found
-
-        found = await asyncio.gather(*(one(path) for path in paths))
+        found = await self.each(paths, self._scene)
         stack = {name: dict(layer) for name, layer in reports(self.config.llm).items()}
         report = ManyReport(found, time.perf_counter() - begun, stack)
         if not report.failed:
             shutil.rmtree(self._work("all", ".pictures"), ignore_errors=True)
         write_record(self.folder / "report.json", report.to_data())
         return report
+
+    async def each(self, paths: list[Path], work: Callable[[Path], Awaitable[Report]]) -> list[Report]:
+        """What becomes of each scene, with so many under way as keep the workers busy."""
+        gate = asyncio.Semaphore(self.pool.n_workers + _AHEAD)
+
+        async def one(path: Path) -> Report:
+            async with gate:
+                found = await work(path)
+            self.done += 1
+            if self.progress is not None:
+                self.progress(str(found), self.names[path], self.done, self.total)
+            return found
+
+        return await asyncio.gather(*(one(path) for path in paths))
 
     async def _scene(self, path: Path) -> SceneReport:
         """One scene, whatever becomes of it."""

@@ -7,11 +7,11 @@ import json
 import warnings
 from collections import Counter
 from dataclasses import replace
-from typing import Any
+from typing import Any, get_args
 
 from scene2hap.errors import BackendUnavailable, BadAnswer, Scene2HapError
 from scene2hap.llm import chat
-from scene2hap.llm.batch.folder import BatchFolder, Outcome, RequestWriter, keys_in
+from scene2hap.llm.batch.folder import BatchFolder, Outcome, RequestWriter, Stage, keys_in
 from scene2hap.llm.dry_run import estimated_cost_usd
 from scene2hap.llm.http_reply import HttpReply
 from scene2hap.llm.openai import OpenAIBackend
@@ -49,8 +49,10 @@ class BatchBackend:
         self._asked = set(keys_in(rows, "written", "uploaded", "begun"))
         self._writer: RequestWriter = folder.writer()
         self.n_noted = 0
+        own = keys_in(rows, *get_args(Stage))
         for key, outcome in folder.outcomes():
-            self._take(key, outcome)
+            if key in own:
+                self._take(key, outcome)
 
     @property
     def identity(self) -> dict[str, Any]:

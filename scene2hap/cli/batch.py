@@ -1,0 +1,85 @@
+"""Ask a model about many scenes in batches, at half the price and within a day for each stage of questions.
+
+scene2hap batch submit levels/*.glb -o bundles/ --llm openai:gpt-5
+scene2hap batch status -o bundles/ --llm openai:gpt-5
+scene2hap batch collect levels/*.glb -o bundles/ --llm openai:gpt-5
+
+Give the same scenes and settings each time. Questions depend on earlier answers: send again after each collection,
+until none is left to send; then `scene2hap bake-many`, with the same arguments, makes the bundles without a question.
+What was asked and answered is in BUNDLES/.bake-many/batch. Nothing is asked twice, also if a run ends on the way.
+"""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from scene2hap.baking.config import BakeConfig
+from scene2hap.baking.many.batch import BatchReport, batch_status, collect_batch, submit_batch
+from scene2hap.cli.bake import scene_options
+from scene2hap.cli.bake_many import add_many_arguments, files, many_settings
+from scene2hap.cli.console import Console
+from scene2hap.errors import ConfigError, SceneError
+
+HELP = "questions about many scenes in batches: submit, status, collect, cancel"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``scene2hap batch``."""
+    parser.add_argument(
+        "verb",
+        choices=("submit", "status", "collect", "cancel"),
+        help="send what can be asked now; ask how far batches are; fetch answers; end batches early",
+    )
+    add_many_arguments(parser, "*")
+
+
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
+    """Do one step, and show how far the batches are. Raises: SceneError: some scenes cannot be asked about."""
+    config = BakeConfig.parse(many_settings(arguments))
+    if arguments.verb in ("status", "cancel"):
+        report = batch_status(arguments.output, config=config, cancel=arguments.verb == "cancel")
+    else:
+        if not arguments.scenes:
+            raise ConfigError(f"batch {arguments.verb} needs the scene files, the same ones each time.")
+        step = submit_batch if arguments.verb == "submit" else collect_batch
+        with console.progress() as tell:
+            report = step(
+                files(arguments.scenes),
+                arguments.output,
+                config=config,
+                executor=arguments.executor,
+                options=scene_options(arguments),
+                pictures=arguments.pictures is not False,
+                user_prompt=arguments.prompt,
+                progress=lambda stage, name, done, total: tell("asking", f"{name} ({stage})", done, total),
+            )
+    _show(console, report)
+    if report.errors:
+        if arguments.json:
+            console.outcome(report.to_data())
+        raise SceneError(f"{len(report.errors)} of {report.n_scenes} scenes cannot be asked about.")
+    return report.to_data()
+
+
+def _show(console: Console, report: BatchReport) -> None:
+    console.table(
+        "batches",
+        ("batch", "stage", "status", ">questions", ">answered", ">failed"),
+        (
+            (row.batch or "-", row.stage, row.status, str(len(row.requests)), str(row.completed), str(row.failed))
+            for row in report.batches
+        ),
+    )
+    for row in report.batches:
+        for fault in row.faults:
+            console.warn(f"{row.batch}: {fault}")
+    for scene, error in report.errors.items():
+        console.fail(f"{scene}: {error}")
+    console.say(str(report))
+    if report.n_scenes and report.n_ready == report.n_scenes:
+        console.say("all is answered: `scene2hap bake-many` with the same arguments makes the bundles")
+    elif report.n_to_send:
+        console.say("`scene2hap batch submit` with the same arguments sends what is left to ask")
+    elif report.n_under_way:
+        console.say("`scene2hap batch collect` with the same arguments fetches the answers once batches have ended")

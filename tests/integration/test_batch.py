@@ -1,0 +1,319 @@
+"""Questions in batches: whatever comes in whatever order, nothing is lost, and nothing answered is asked again."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from batch_server import BatchServer, Plan, answered, serving_batches
+from llm_server import KEY, Asked, Scripted, refused, said
+from rooms_of_things import digests, write_scenes
+from scene2hap import bake_many
+from scene2hap.baking.many import BatchReport, batch_status, collect_batch, submit_batch
+from scene2hap.baking.many import batch as batch_module
+from scene2hap.cli import main
+from scene2hap.errors import BackendUnavailable, BudgetExceeded, ConfigError
+from scene2hap.llm.batch import folder, service
+
+
+@pytest.fixture(autouse=True)
+def plain(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("HTTP_PROXY", "HTTPS_PROXY", "ALL_PROXY", "http_proxy", "https_proxy", "all_proxy"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr(service, "_WAITS_S", (0.0, 0.0))
+
+
+@pytest.fixture
+def server() -> Iterator[BatchServer]:
+    with serving_batches() as found:
+        yield found
+
+
+@pytest.fixture
+def scenes(tmp_path: Path) -> list[Path]:
+    return write_scenes(tmp_path / "scenes", 3)
+
+
+class Run:
+    """The same scenes and settings at each step."""
+
+    def __init__(self, server: BatchServer, scenes: list[Path], tmp_path: Path, **settings: Any) -> None:
+        self.server, self.scenes, self.folder = server, scenes, tmp_path / "out"
+        llm = {"kind": "openai", "model": "gpt-5", "api_key": KEY, "base_url": f"{server.base_url}/v1"}
+        self.config = {"llm": llm, "cache_dir": str(tmp_path / "cache"), **settings}
+
+    def submit(self) -> BatchReport:
+        return submit_batch(self.scenes, self.folder, config=self.config)
+
+    def collect(self) -> BatchReport:
+        return collect_batch(self.scenes, self.folder, config=self.config)
+
+    def to_the_end(self, *plans: Plan) -> int:
+        """Send and collect until nothing is left to ask; how many times. What is not planned ends well."""
+        for turn in range(12):
+            if self.submit().n_under_way == 0:
+                return turn
+            self.server.end(plans[turn] if turn < len(plans) else None)
+            self.collect()
+        raise AssertionError("it never ends")
+
+
+@pytest.fixture
+def run(server: BatchServer, scenes: list[Path], tmp_path: Path) -> Run:
+    return Run(server, scenes, tmp_path)
+
+
+def nothing_was_asked_twice(server: BatchServer) -> None:
+    assert server.answered
+    assert max(server.answered.values()) == 1
+
+
+def test_the_bundles_are_those_of_live_questions_and_none_is_asked_again(
+    run: Run, server: BatchServer, scenes: list[Path], tmp_path: Path
+) -> None:
+    """Kind of place, objects, materials and states, repairs of what was out of bounds: a batch each."""
+    turns = run.to_the_end()
+    assert 3 <= turns <= 7
+    assert len(server.batches) == turns
+    nothing_was_asked_twice(server)
+    report = run.collect()
+    assert (report.n_ready, report.n_to_send, report.n_under_way) == (3, 0, 0)
+    assert report.n_answers == sum(server.answered.values())
+    # 1000 tokens in and 20 out (tests/llm_server.py) at half of 1.25 and 10 dollars per million.
+    usage = said().body["usage"]
+    each = (usage["prompt_tokens"] * 1.25 + usage["completion_tokens"] * 10) / 2e6
+    assert report.cost_usd is not None
+    made = bake_many(scenes, run.folder, config=run.config)
+    assert made.count("baked") == 3, [one.error for one in made.failed]
+    assert not server.live
+    fresh = {**run.config, "cache_dir": str(tmp_path / "fresh")}
+    assert bake_many(scenes, tmp_path / "live", config=fresh).count("baked") == 3
+    assert len(server.live) == report.n_answers
+    assert digests(tmp_path / "live") == digests(run.folder)
+    if said().body["model"].startswith("gpt-5"):
+        assert report.cost_usd == pytest.approx(report.n_answers * each)
+
+
+def test_what_came_to_nothing_is_asked_again_and_nothing_else(run: Run, server: BatchServer) -> None:
+    """Expired, failed on the server, cut short by a cancellation: each in turn, of every third question."""
+    broken = refused(500, {"message": "try later", "type": "server_error", "param": None, "code": None})
+    plans = (
+        Plan("expired", lambda place, body: "expired" if place % 3 else "answered"),
+        Plan("completed", lambda place, body: broken if place % 3 == 1 else "answered"),
+        Plan("cancelled", lambda place, body: "answered" if place % 3 == 0 else "cancelled"),
+        Plan("failed", errors=("Enqueued token limit reached.",)),
+    )
+    run.to_the_end(*plans)
+    nothing_was_asked_twice(server)
+    assert run.collect().n_ready == 3
+    assert max(server.sent.values()) > 1
+
+
+def test_a_second_collection_fetches_nothing_and_changes_nothing(run: Run, server: BatchServer) -> None:
+    run.submit()
+    server.end()
+    first = run.collect()
+    assert sum("content" in line for line in server.log) == 1
+    state = {path: path.read_bytes() for path in (run.folder / ".bake-many" / "batch").iterdir() if path.name != "lock"}
+    again = run.collect()
+    assert again == first
+    assert sum("content" in line for line in server.log) == 1
+    for path, content in state.items():
+        assert path.read_bytes() == content
+
+
+def test_questions_under_way_are_not_sent_again(run: Run, server: BatchServer) -> None:
+    assert run.submit().n_under_way == 3  # what kind of place each is
+    again = run.submit()
+    assert (again.n_under_way, again.n_to_send) == (3, 0)
+    assert run.collect().n_under_way == 3
+    assert len(server.batches) == 1
+
+
+def test_a_batch_whose_beginning_was_not_answered_is_found_again(run: Run, server: BatchServer) -> None:
+    server.faults.append(("POST /v1/batches", "loses the answer"))
+    with pytest.raises(BackendUnavailable):
+        run.submit()
+    assert len(server.batches) == 1
+    report = run.submit()
+    assert [row.stage for row in report.batches] == ["begun"]
+    assert len(server.batches) == 1
+    run.server.end()
+    assert run.to_the_end() > 0
+    nothing_was_asked_twice(server)
+
+
+@pytest.mark.parametrize("path", ["POST /v1/files", "POST /v1/batches"])
+def test_what_was_written_is_sent_by_the_next_run(path: str, run: Run, server: BatchServer) -> None:
+    server.faults += [(path, "refuses")] * 3
+    with pytest.raises(BackendUnavailable):
+        run.submit()
+    assert not server.batches
+    server.faults.clear()
+    assert run.submit().n_under_way == 3
+    assert set(server.sent.values()) == {1}
+
+
+def test_a_lost_download_is_repeated(run: Run, server: BatchServer) -> None:
+    run.submit()
+    server.end()
+    (batch,) = server.batches.values()
+    server.faults.append((f"GET /v1/files/{batch.output_file}/content", "loses the answer"))
+    assert run.collect().n_answers == 3
+
+
+def test_a_parameter_that_the_model_does_not_take_is_left_out_of_the_next_batch(run: Run, server: BatchServer) -> None:
+    error = {"message": "no", "type": "invalid_request_error", "param": "temperature", "code": "unsupported_value"}
+    wrong = refused(400, error)
+    plan = Plan("completed", lambda place, body: wrong if "temperature" in body else "answered")
+    run.to_the_end(*[plan] * 12)
+    assert run.collect().n_ready == 3
+    with_it = [key for key, body in server.bodies.items() if "temperature" in body]
+    assert len(with_it) == 3  # of the first batch alone
+
+
+def test_a_question_that_is_refused_becomes_an_error_and_stops_no_other(run: Run, server: BatchServer) -> None:
+    filtered = refused(400, {"message": "no", "type": "invalid_request_error", "param": None, "code": "content_filter"})
+
+    def each(place: int, body: dict[str, Any]) -> str | Scripted:
+        is_fan = '"refrigerator"' in json.dumps(body).replace("\\", "").split("Authored object name:")[-1][:40]
+        return filtered if is_fan else "answered"
+
+    run.to_the_end(*[Plan("completed", each)] * 12)
+    assert run.collect().n_ready == 3
+    refused_ones = [key for key in server.sent if key not in server.answered]
+    assert [server.sent[key] for key in refused_ones] == [1]
+
+
+def test_an_end_that_is_asked_for_keeps_what_was_answered(run: Run, server: BatchServer) -> None:
+    run.submit()
+    report = batch_status(run.folder, config=run.config, cancel=True)
+    assert [row.status for row in report.batches] == ["cancelling"]
+    server.end(Plan("cancelled", lambda place, body: "answered" if place == 0 else "cancelled"))
+    assert run.collect().n_answers == 1
+    run.to_the_end()
+    nothing_was_asked_twice(server)
+
+
+def test_status_asks_the_server_and_fetches_nothing(run: Run, server: BatchServer) -> None:
+    run.submit()
+    server.end()
+    report = batch_status(run.folder, config=run.config)
+    assert [(row.status, row.completed) for row in report.batches] == [("completed", 3)]
+    assert not any("content" in line for line in server.log)
+
+
+def test_the_limit_on_cost_is_held_before_anything_is_sent(
+    server: BatchServer, scenes: list[Path], tmp_path: Path
+) -> None:
+    run = Run(server, scenes, tmp_path, max_cost_usd=1e-6)
+    with pytest.raises(BudgetExceeded, match="3 questions would bring the cost to about .* Nothing was sent"):
+        run.submit()
+    assert not server.batches
+    run.config["max_cost_usd"] = 10.0
+    assert run.submit().n_under_way == 3
+    run.config["llm"]["model"] = "of tomorrow"
+    with pytest.raises(BudgetExceeded, match="price of 'of tomorrow' is unknown"):
+        run.submit()
+
+
+def test_scenes_that_cannot_be_read_do_not_stop_the_others(run: Run, server: BatchServer, tmp_path: Path) -> None:
+    broken = tmp_path / "broken.glb"
+    broken.write_bytes(b"glTF" + bytes(40))
+    run.scenes = [broken, *run.scenes]
+    report = run.submit()
+    assert report.n_under_way == 3
+    assert list(report.errors) == [str(broken)]
+
+
+def test_no_key_is_on_disk(run: Run, server: BatchServer) -> None:
+    run.to_the_end()
+    for path in run.folder.rglob("*"):
+        if path.is_file():
+            assert KEY.encode() not in path.read_bytes()
+
+
+def test_large_batches_are_split(run: Run, server: BatchServer, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(folder, "_PART_REQUESTS", 2)
+    report = run.submit()
+    assert [len(row.requests) for row in report.batches] == [2, 1]
+    assert len(server.batches) == 2
+
+
+def test_wrong_requests_are_answered(run: Run, scenes: list[Path], tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match="batches need a model of kind 'openai'"):
+        submit_batch(scenes, tmp_path / "out", config={"llm": "lexicon"})
+    state = run.folder / ".bake-many" / "batch"
+    state.mkdir(parents=True)
+    (state / "0001.json").write_text("{")
+    with pytest.raises(ConfigError, match=r"0001\.json cannot be read.*restore it"):
+        run.submit()
+
+
+def test_two_runs_at_once_do_not_ask_the_same(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    told: list[str] = []
+
+    async def meanwhile(*_: object) -> None:
+        with pytest.raises(ConfigError, match="another run is at work") as caught:
+            async with batch_module._at_work(batch_module._Given(run.scenes, run.folder, run.config)):
+                pass
+        told.append(str(caught.value))
+
+    monkeypatch.setattr(batch_module._Work, "send", meanwhile)
+    run.submit()
+    assert told
+
+
+def test_the_command_leads_from_step_to_step(
+    server: BatchServer, scenes: list[Path], tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: Any
+) -> None:
+    monkeypatch.setenv("OPENAI_API_KEY", KEY)
+    same = [str(scenes[0]), "-o", str(tmp_path / "out"), "--llm", "openai:gpt-5", "--no-pictures"]
+    same += ["--base-url", f"{server.base_url}/v1", "--cache", str(tmp_path / "cache")]
+    assert main(["batch", "submit", *same]) == 0
+    assert "batch collect` with the same arguments" in capsys.readouterr().out
+    assert main(["batch", "status", *same[1:], "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["n_under_way"] == 1
+    server.end()
+    assert main(["batch", "collect", *same]) == 0
+    assert "batch submit` with the same arguments" in capsys.readouterr().out
+    for _ in range(8):
+        assert main(["batch", "submit", *same, "-q"]) == 0
+        server.end()
+        assert main(["batch", "collect", *same]) == 0
+        if "all is answered" in capsys.readouterr().out:
+            break
+    assert main(["bake-many", *same, "-q"]) == 0
+    assert not server.live
+    assert main(["batch", "collect", *same[1:]]) == 1
+    assert "needs the scene files" in capsys.readouterr().err
+
+
+def test_an_answer_to_a_question_that_no_one_asked_is_no_answer(run: Run, server: BatchServer) -> None:
+    run.submit()
+    server.end()
+    (batch,) = server.batches.values()
+    lines = server.files[batch.output_file].splitlines()
+    stranger = json.dumps({**json.loads(lines[0]), "custom_id": "another"}).encode()
+    server.files[batch.output_file] = b"\n".join([stranger, b"not json", b"[]", b"{}", *lines[1:], b'{"custom_id": 1}'])
+    report = run.collect()
+    # The lost one again; and of both other rooms the radio, which is one question, and what stands beside it.
+    assert report.n_to_send == 1 + 3
+    assert report.n_answers == 2
+
+
+def test_questions_that_a_cache_has_are_not_sent(run: Run, server: BatchServer, tmp_path: Path) -> None:
+    bake_many(run.scenes, tmp_path / "live", config=run.config)
+    n_live = len(server.live)
+    assert n_live
+    report = run.submit()
+    assert (report.n_ready, report.n_under_way) == (3, 0)
+    assert not server.batches
+
+
+def test_the_model_is_the_scripted_one() -> None:
+    assert answered(Asked("", {}, {"response_format": {"keywords": 1}})).status == 200
