@@ -21,6 +21,7 @@ import tempfile
 import time
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from importlib.util import find_spec
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -32,8 +33,17 @@ from others import SCENES
 from scene2hap import ManyReport, Pose, SceneSnapshot, bake_many, load_scene
 from scene2hap.demo import kitchen_path
 
-RUNS = ("this process", "processes:1", "processes:2", "a pool of one", "a pool of two", "two programs")
-"""The pools are executors of somebody else's, whose workers use one thread each."""
+RUNS = (
+    "this process",
+    "processes:1",
+    "processes:2",
+    "a pool of one",
+    "a pool of two",
+    "Dask, one worker",
+    "Dask, two workers",
+    "two programs",
+)
+"""The pools, and Dask, are executors of somebody else's, whose workers use one thread each."""
 
 
 def write_variations(folder: Path, n: int, seed: int) -> list[Path]:
@@ -69,6 +79,15 @@ def baked(scenes: list[Path], folder: Path, run: str) -> ManyReport:
     if run.startswith("a pool"):
         with ProcessPoolExecutor(1 if run.endswith("one") else 2, mp_context=get_context("spawn")) as pool:
             return bake_many(scenes, folder, executor=pool)
+    if run.startswith("Dask"):
+        from distributed import Client, LocalCluster
+
+        n_workers = 1 if "one" in run else 2
+        with (
+            LocalCluster(n_workers=n_workers, threads_per_worker=1, dashboard_address=None) as cluster,
+            Client(cluster) as client,
+        ):
+            return bake_many(scenes, folder, executor=client.get_executor())
     if run == "two programs":
         program = "import sys; from scene2hap import bake_many; bake_many(sys.argv[2:], sys.argv[1])"
         halves = [scenes[0::2], scenes[1::2]]
@@ -83,19 +102,23 @@ def main() -> None:
     parser.add_argument("--scenes", type=int, default=24)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--rounds", type=int, default=1)
+    parser.add_argument("--runs", nargs="+", choices=RUNS, metavar="RUN", help=f"of: {', '.join(RUNS)}")
     arguments = parser.parse_args()
+    runs = arguments.runs or RUNS
+    if find_spec("distributed") is None:
+        runs = [run for run in runs if not run.startswith("Dask")]
     with tempfile.TemporaryDirectory() as place:
         (Path(place) / "scenes").mkdir()
         scenes = write_variations(Path(place) / "scenes", arguments.scenes, arguments.seed)
-        times: dict[str, list[float]] = {run: [] for run in RUNS}
+        times: dict[str, list[float]] = {run: [] for run in runs}
         made = set()
         order = np.random.default_rng(arguments.seed)
         for turn in range(arguments.rounds):
-            for k in order.permutation(len(RUNS)):
+            for k in order.permutation(len(runs)):
                 folder = Path(place) / f"{turn}-{k}"
                 begun = time.perf_counter()
-                report = baked(scenes, folder, RUNS[k])
-                times[RUNS[k]].append(time.perf_counter() - begun)
+                report = baked(scenes, folder, runs[k])
+                times[runs[k]].append(time.perf_counter() - begun)
                 assert not report.failed, report.failed[0].error
                 made.add(digest(folder))
     one = statistics.median(times["a pool of one"])
