@@ -29,7 +29,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "verb",
         choices=("submit", "status", "collect", "cancel"),
-        help="send what can be asked now; ask how far batches are; fetch answers; end batches early",
+        metavar="VERB",
+        help="submit: send what can be asked now; status: how far batches are; collect: fetch answers; cancel: end batches",
     )
     add_many_arguments(parser, "*")
 
