@@ -1,9 +1,10 @@
 """Scene files broken in every way we can think of: only our own errors, no hang, bounded memory.
 
-python stress/fuzz_scenes.py [--files 2000] [--seed 0] [--seconds 5] [--megabytes 1024]
+python stress/fuzz_scenes.py [--files 2000] [--seed 0] [--seconds 5] [--megabytes 1024] [--kinds .meshopt.glb .urdf]
 
-Seeds are the demo kitchen as GLB, glTF-like JSON, OBJ, PLY, STL and scene JSON, built in memory. Each file is read in a
-child process with a limit on its data segment and an alarm, so that a hang or a crash names the file that caused it.
+Seeds are the demo kitchen as GLB, glTF-like JSON, OBJ, PLY, STL and scene JSON, built in memory, a robot arm as URDF,
+a laundry as gltfpack packs it, and a Habitat dataset of which one file or two are broken. Each file is read in a child
+process with a limit on its data segment and an alarm, so that a hang or a crash names the file that caused it.
 Prints a table of outcomes and exits with 1 if anything but success or a Scene2HapError came out.
 """
 
@@ -19,6 +20,7 @@ import re
 import resource
 import signal
 import struct
+import sys
 import tempfile
 import time
 import warnings
@@ -31,6 +33,12 @@ from scene2hap import load_scene
 from scene2hap.demo import kitchen_path
 from scene2hap.errors import Scene2HapError
 
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+from usd_seeds import usd_files
+
+from habitat_builder import mutated_dataset
+
+HABITAT = ".scene_instance.json"
 Mutation = Callable[[bytes, random.Random], bytes]
 
 
@@ -42,14 +50,35 @@ def seeds() -> dict[str, bytes]:
     """Small valid files by suffix."""
     box = trimesh.creation.box((1.0, 0.5, 0.2))
     kitchen = kitchen_path().read_bytes()
+    packed = Path(__file__).parents[1] / "tests" / "data" / "meshopt" / "quantised.glb"
     return {
         ".glb": kitchen,
+        ".meshopt.glb": packed.read_bytes(),
+        ".urdf": _URDF.encode(),
         ".gltf": _as_gltf(box),
         ".obj": box.export(file_type="obj").encode(),
         ".ply": box.export(file_type="ply"),
         ".stl": box.export(file_type="stl"),
         ".json": load_scene(kitchen_path()).to_json().encode(),
+        **usd_files(),
     }
+
+
+_SHAPES = ("box size='1 2 3'", "cylinder radius='0.1' length='2'", "sphere radius='0.2'", "mesh filename='case.obj'")
+_URDF = (
+    "<robot name='arm'><material name='red'><color rgba='1 0 0 1'/></material>"
+    + "".join(
+        f"<link name='l{i}'><inertial><mass value='{i + 1}'/></inertial><visual><origin xyz='0 0 {i}' rpy='0 0.1 {i}'/>"
+        f"<geometry><{shape}/></geometry><material name='red'/></visual></link>"
+        for i, shape in enumerate(_SHAPES)
+    )
+    + "".join(
+        f"<joint name='j{i}' type='revolute'><parent link='l{i}'/><child link='l{i + 1}'/>"
+        "<origin xyz='0 0 1' rpy='1 2 3'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>"
+        for i in range(len(_SHAPES) - 1)
+    )
+    + "</robot>"
+)
 
 
 def _as_gltf(mesh: trimesh.Trimesh) -> bytes:
@@ -142,7 +171,9 @@ def reader(inbox: multiprocessing.connection.Connection, seconds: float, megabyt
     while (path := inbox.recv()) is not None:
         begin = time.perf_counter()
         outcome = read_one(path, seconds)
-        peak_mb = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+        # USD files are read in a process of their own.
+        peaks = [resource.getrusage(who).ru_maxrss for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+        peak_mb = max(peaks) / 1024
         inbox.send((outcome, time.perf_counter() - begin, peak_mb))
 
 
@@ -182,32 +213,38 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--seconds", type=float, default=5.0)
     parser.add_argument("--megabytes", type=int, default=1024)
+    parser.add_argument("--kinds", nargs="+", choices=[*seeds(), HABITAT], help="ends of file names; by default all")
     arguments = parser.parse_args()
 
     print(f"Python {platform.python_version()}, {arguments.files} files, seed {arguments.seed}")
     outcomes: dict[str, collections.Counter[str]] = collections.defaultdict(collections.Counter)
     bad: list[str] = []
     slowest, peak = (0.0, ""), 0.0
-    originals = seeds()
+    originals = {kind: data for kind, data in {**seeds(), HABITAT: b""}.items() if kind in (arguments.kinds or [kind])}
     child = Child(arguments.seconds, arguments.megabytes)
     with tempfile.TemporaryDirectory() as folder:
+        # The mesh that the URDF names; an OBJ of its own takes its place, whole or broken.
+        (Path(folder) / "case.obj").write_bytes(seeds()[".obj"])
         for number in range(arguments.files):
             rng = random.Random(f"{arguments.seed}/{number}")
             suffix, mutation = rng.choice(list(originals)), rng.choice(MUTATIONS)
             data = originals[suffix]
-            for _ in range(rng.choice([1, 1, 2])):
-                data = mutation(data, rng) or b"\0"
-            path = Path(folder) / f"case{suffix}"
-            path.write_bytes(data)
-            outcome, seconds, peak_mb = child.read(path)
             name = f"file {number}: {mutation.__name__}{suffix}"
+            if suffix == HABITAT:
+                path, name = mutated_dataset(Path(folder) / str(number), rng), f"file {number}: mutated_dataset"
+            else:
+                for _ in range(rng.choice([1, 1, 2])):
+                    data = mutation(data, rng) or b"\0"
+                path = Path(folder) / f"case{suffix}"
+                path.write_bytes(data)
+            outcome, seconds, peak_mb = child.read(path)
             outcomes[suffix][outcome.split(":")[0]] += 1
             slowest, peak = max(slowest, (seconds, name)), max(peak, peak_mb)
             if outcome.split()[0] in ("HANG", "FOREIGN", "CRASH"):
                 bad.append(f"{name}: {outcome}")
     child.stop()
     for suffix, counts in outcomes.items():
-        print(f"{suffix:6}", ", ".join(f"{count} {outcome}" for outcome, count in counts.most_common()))
+        print(f"{suffix:20}", ", ".join(f"{count} {outcome}" for outcome, count in counts.most_common()))
     print(f"slowest {slowest[0]:.2f} s ({slowest[1]}), peak memory {peak:.0f} MB")
     print(f"{len(bad)} bad outcomes", *bad, sep="\n")
     return bool(bad)

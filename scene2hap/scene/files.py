@@ -9,6 +9,18 @@ from scene2hap import checks
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
 
+HABITAT_SUFFIX = ".scene_instance.json"
+
+
+def is_habitat(path: Path) -> bool:
+    """Whether a file is a Habitat scene, by its name."""
+    return path.name.lower().endswith(HABITAT_SUFFIX)
+
+
+def scene_stem(path: Path) -> str:
+    """A scene file's name without its suffix, also where this has two parts; never empty."""
+    return path.name[: -len(HABITAT_SUFFIX)] or "scene" if is_habitat(path) else path.stem
+
 
 def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
     """The path that a scene file means by `uri`, a relative reference from its own folder.
@@ -22,7 +34,7 @@ def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
             raise SceneError(f"{refusal} Addresses are never fetched: store the file beside the scene.")
         path = (folder / unquote(uri)).resolve()
         if not path.is_relative_to(assets_root.resolve()):
-            raise SceneError(f"{refusal} Copy it there, or give assets_root={_holding_both(path, assets_root)}.")
+            raise SceneError(f"{refusal} Copy it there, or give assets_root={holding_both(path, assets_root)}.")
     except SceneError:
         raise
     # What a broken address, a zero byte and a ring of links raise.
@@ -31,7 +43,7 @@ def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
     return path
 
 
-def _holding_both(path: Path, assets_root: Path) -> str:
+def holding_both(path: Path, assets_root: Path) -> str:
     """The nearest folder that holds both; a whole disk is never proposed."""
     roots = set(assets_root.resolve().parents)
     nearest = next((folder for folder in path.parents if folder in roots and folder != Path(folder.anchor)), None)
@@ -44,6 +56,15 @@ def read_bytes(path: Path) -> bytes:
     Raises: SceneError: it is missing, no regular file, unreadable or above `limits.MAX_FILE_BYTES`. SceneFormatError:
     it is empty.
     """
+    check_file(path)
+    try:
+        return path.read_bytes()
+    except OSError as cause:
+        raise SceneError(f"{str(path)!r} cannot be read: {cause}.") from cause
+
+
+def check_file(path: Path) -> None:
+    """Check a file that is to be read, without reading it. Raises: as `read_bytes`, unless it is unreadable."""
     try:
         if not path.exists():
             near = checks.near_files(path) or "Check the path, or export the scene with all its files."
@@ -56,12 +77,11 @@ def read_bytes(path: Path) -> bytes:
         if not path.is_file():
             raise SceneError(f"{str(path)!r} is not a file; give the path of the scene file itself, not its folder.")
         limits.at_most(f"the size of {path.name!r} in bytes", path.stat().st_size, "MAX_FILE_BYTES")
-        data = path.read_bytes()
+        is_empty = path.stat().st_size == 0
     except SceneError:
         raise
     # ValueError: a name with a zero byte in it.
     except (OSError, ValueError) as cause:
         raise SceneError(f"{str(path)!r} cannot be read: {cause}.") from cause
-    if not data:
+    if is_empty:
         raise SceneFormatError(f"{path.name!r} is empty (0 bytes). Export it again.")
-    return data

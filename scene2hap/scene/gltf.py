@@ -29,6 +29,7 @@ from scene2hap.scene.texture_files import TextureFiles
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
+_FLOAT = 5126
 # Vertex colours above this leave a material as it is.
 _NEARLY_WHITE = 0.999
 
@@ -55,6 +56,7 @@ class _Reader:
         self._file, self._materials = file, materials
         self._seen: set[int] = set()
         self._pieces: dict[int, tuple[Piece, ...]] = {}
+        self._scaled_pieces: dict[tuple[object, bytes], Piece] = {}
         self._n_triangles = 0
 
     def node(self, number: int, depth: int) -> AuthoredNode:
@@ -72,10 +74,44 @@ class _Reader:
             name = name or _name(mesh)
             self._n_triangles += sum(len(piece.faces) for piece in pieces)
             limits.at_most("the number of triangles", self._n_triangles, "MAX_TRIANGLES")
-        children = tuple(
-            self.node(child, depth + 1) for child in _numbers(row.get("children", []), f"{place}.children")
-        )
+        below = _numbers(row.get("children", []), f"{place}.children")
+        children = tuple(self.node(child, depth + 1) for child in below)
+        if "mesh" not in row:
+            rows = self._file.table("nodes")
+            only_scale = [self._only_scales(rows[number], child) for number, child in zip(below, children, strict=True)]
+            scaled = [child for child, is_one in zip(children, only_scale, strict=True) if is_one]
+            pieces = tuple(self._scaled(piece, child.matrix) for child in scaled for piece in child.pieces)
+            children = tuple(child for child, is_one in zip(children, only_scale, strict=True) if not is_one)
+            name = name or (scaled[0].name if len(scaled) == 1 else "")
         return AuthoredNode(name, _matrix(row, place), pieces, children)
+
+    def _only_scales(self, row: Json, node: AuthoredNode) -> bool:
+        """Whether a node only turns stored whole numbers into lengths.
+
+        gltfpack moves a quantised mesh into such a node below the one that the author gave it. Were it a node like
+        others, a door below a cupboard would be another object than in the file that was packed.
+        """
+        if node.children or not node.pieces or _name(row) or row.keys() & {"matrix", "rotation", "skin"}:
+            return False
+        primitives = self._file.table("meshes")[row["mesh"]]["primitives"]
+        return all(map(self._is_quantised, primitives)) and bool((np.diag(node.matrix) > 0).all())
+
+    def _is_quantised(self, primitive: Json) -> bool:
+        """Whether positions are whole numbers; False also for what is not drawn, or unpacked by Draco, and is broken."""
+        attributes, rows = primitive.get("attributes"), self._file.table("accessors")
+        number = attributes.get("POSITION") if isinstance(attributes, dict) else None
+        return isinstance(number, int) and 0 <= number < len(rows) and rows[number].get("componentType") != _FLOAT
+
+    def _scaled(self, piece: Piece, matrix: Matrix) -> Piece:
+        """A piece in the frame of the node above, from which `matrix` scales and moves it; copies share it."""
+        key = (piece.key, matrix.tobytes())
+        if key not in self._scaled_pieces:
+            # Nodes may scale one mesh in as many ways as there are nodes.
+            self._file.values.spend(piece.vertices.size, "a node that scales a quantised mesh")
+            with np.errstate(over="ignore", invalid="ignore"):
+                vertices = piece.vertices * np.diag(matrix)[:3] + matrix[:3, 3]
+            self._scaled_pieces[key] = replace(piece, key=key, vertices=vertices)
+        return self._scaled_pieces[key]
 
     def _mesh(self, number: int, mesh: Json, place: str) -> tuple[Piece, ...]:
         if number not in self._pieces:

@@ -3,7 +3,7 @@
 Read here rather than by trimesh (5.2), which ignores sparse values and leaves quantised positions 32767 times too
 large, each without an error.
 
-Source: glTF 2.0 specification, section 3.6.2; extension KHR_mesh_quantization.
+Source: glTF 2.0 specification, section 3.6.2; extensions KHR_mesh_quantization, EXT_meshopt_compression.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.gltf_container import GltfFile, Json, natural
+from scene2hap.scene.gltf_meshopt import decoded_view, meshopt_row
 
 _DTYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
@@ -110,13 +111,17 @@ def _strided(
 
 
 def view(file: GltfFile, number: object, place: str) -> tuple[memoryview, int]:
-    """The bytes of a buffer view, and its stride (0 for tightly packed)."""
+    """The bytes of a buffer view, unpacked if it is compressed, and its stride (0 for tightly packed)."""
     row = file.row("bufferViews", number, place)
     place = f"bufferViews[{number}]"
-    file.row("buffers", row.get("buffer"), place)
-    data = memoryview(file.buffer(row["buffer"]))
-    start = natural(row.get("byteOffset", 0), f"{place}.byteOffset")
     length = natural(row.get("byteLength"), f"{place}.byteLength")
+    if isinstance(number, int) and (compressed := meshopt_row(row)) is not None:
+        # The view's own buffer is for readers without a decoder, and may have no bytes.
+        data, start = decoded_view(file, number, compressed[1], f"{place}.extensions.{compressed[0]}"), 0
+    else:
+        file.row("buffers", row.get("buffer"), place)
+        data = memoryview(file.buffer(row["buffer"]))
+        start = natural(row.get("byteOffset", 0), f"{place}.byteOffset")
     if start + length > len(data):
         raise SceneFormatError(f"{place} wants bytes {start} to {start + length} of a buffer of {len(data)}.")
     return data[start : start + length], natural(row.get("byteStride", 0), f"{place}.byteStride")

@@ -31,7 +31,13 @@ _BIN_CHUNK = 0x004E4942
 _TABLES = ("accessors", "buffers", "bufferViews", "materials", "meshes", "nodes", "scenes")
 # Extensions that do not move a vertex, by the start of their names; geometry is read correctly without them.
 _HARMLESS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "EXT_lights_", "KHR_xmp", "MSFT_texture_")
-_UNDERSTOOD = ("KHR_draco_mesh_compression", "KHR_mesh_quantization", "KHR_animation_pointer")
+_UNDERSTOOD = (
+    "KHR_draco_mesh_compression",
+    "KHR_mesh_quantization",
+    "KHR_animation_pointer",
+    "EXT_meshopt_compression",
+    "KHR_meshopt_compression",
+)
 
 
 class GltfFile:
@@ -49,6 +55,7 @@ class GltfFile:
         self.values = limits.Budget("the numbers in its accessors", 1_000_000, 2.0, stored=stored)
         self.triangles = limits.Budget("its triangles", 100_000, 0.5, stored=stored)
         self.packed_triangles = limits.Budget("its packed triangles", 1_000_000, 1.0, stored=stored)
+        self.packed_bytes = limits.Budget("the bytes of its packed views", 16 << 20, 16.0, stored=stored)
         self.image_bytes = limits.Budget("the bytes of its images", 16 << 20, 4.0, stored=stored)
 
     def table(self, name: str) -> list[Json]:
@@ -97,7 +104,8 @@ class GltfFile:
                 "the bytes of its buffers", sum(map(len, self._files.values())) + len(data), "MAX_FILE_BYTES"
             )
             self._files[uri] = data
-            for budget in (self.values, self.triangles, self.packed_triangles, self.image_bytes):
+            budgets = (self.values, self.triangles, self.packed_triangles, self.packed_bytes, self.image_bytes)
+            for budget in budgets:
                 budget.stored += len(data)
         return self._files[uri]
 

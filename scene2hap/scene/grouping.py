@@ -14,6 +14,7 @@ c. A node without a mesh that holds nothing but one object, directly or through 
 d. Every other node without a mesh is a container, and is looked through.
 e. What (a) or (b) would make one object is several where it is a collection of items that stand apart
    (`scene.collection`): a pot, two cups and their saucers, but not a table with its legs.
+f. A node that the file itself calls one object (`AuthoredNode.is_object`) is one, with all below it.
 """
 
 from __future__ import annotations
@@ -55,11 +56,15 @@ _PLACE = re.compile(
 
 @dataclass(frozen=True, eq=False)
 class Group:
-    """The pieces of one object: `frame` is the world transform of the node that names it, each part its own."""
+    """The pieces of one object: `frame` is the world transform of the node that names it, each part its own.
+
+    `mass_kg` is what the file says that it weighs [kg], None if it says nothing.
+    """
 
     name: str
     frame: Matrix
     parts: tuple[tuple[Matrix, Piece], ...]
+    mass_kg: float | None = None
 
 
 def group_objects(roots: Sequence[AuthoredNode], how: Grouping = "authored") -> list[Group]:
@@ -114,6 +119,8 @@ class _Subtree:
 
 def _authored(node: AuthoredNode, above: Matrix) -> _Subtree:
     frame = above @ node.matrix
+    if node.is_object:
+        return _Subtree([Group(node.name, frame, tuple(_all_parts(node, above)), node.mass_kg)], has_head=True)
     members = [Member(node.name, frame, node.pieces)] if node.pieces else []
     below = []
     for child in node.children:
@@ -125,12 +132,15 @@ def _authored(node: AuthoredNode, above: Matrix) -> _Subtree:
     if members:
         several = split(node.name, members)
         if len(several) == 1:
-            return _Subtree([Group(node.name, frame, _parts(members)), *others], has_head=True)
+            mass_kg = None if others else node.mass_kg
+            return _Subtree([Group(node.name, frame, _parts(members), mass_kg), *others], has_head=True)
         items = [Group(item[0].name, item[0].frame, _parts(item)) for item in several]
         return _Subtree([*items, *others], has_head=bool(node.pieces))
     if len(below) == 1 and below[0].has_head:
         if _names_a_thing(node):
             others[0] = replace(others[0], name=node.name, frame=frame)
+        if node.mass_kg is not None and len(others) == 1:
+            others[0] = replace(others[0], mass_kg=node.mass_kg)
         return _Subtree(others, has_head=True)
     return _Subtree(others, has_head=False)
 
@@ -162,7 +172,8 @@ def _names_a_thing(node: AuthoredNode) -> bool:
 def _leaves(node: AuthoredNode, above: Matrix) -> Iterator[Group]:
     frame = above @ node.matrix
     if node.pieces:
-        yield Group(node.name, frame, tuple((frame, piece) for piece in node.pieces))
+        mass_kg = None if node.children else node.mass_kg
+        yield Group(node.name, frame, tuple((frame, piece) for piece in node.pieces), mass_kg)
     for child in node.children:
         yield from _leaves(child, frame)
 
@@ -170,7 +181,7 @@ def _leaves(node: AuthoredNode, above: Matrix) -> Iterator[Group]:
 def _at_depth(node: AuthoredNode, above: Matrix, depth: int) -> Iterator[Group]:
     frame = above @ node.matrix
     if depth == 1:
-        yield Group(node.name, frame, tuple(_all_parts(node, above)))
+        yield Group(node.name, frame, tuple(_all_parts(node, above)), node.mass_kg)
         return
     if node.pieces:
         yield Group(node.name, frame, tuple((frame, piece) for piece in node.pieces))

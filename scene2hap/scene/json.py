@@ -20,6 +20,7 @@ from scene2hap import checks
 from scene2hap.errors import SceneError
 from scene2hap.printable import read_json
 from scene2hap.scene import limits, sizes
+from scene2hap.scene.files import HABITAT_SUFFIX
 from scene2hap.scene.objects import SceneData, SceneObject, with_relative_heights
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import DominantSurface, Geometry
@@ -58,7 +59,9 @@ def parse(text: str) -> SceneData:
     except (ValueError, RecursionError) as cause:  # ValueError: also a number of thousands of digits
         raise SceneError(f'not JSON: {cause}. A scene file starts with {{"format": "{FORMAT}", ...}}.') from cause
     if not isinstance(document, dict) or document.get("format") != FORMAT:
-        raise SceneError(f'not a scene: the top level must be an object with "format": "{FORMAT}".')
+        looks_like_habitat = isinstance(document, dict) and {"stage_instance", "object_instances"} & document.keys()
+        hint = f" It looks like a Habitat scene; name its file NAME{HABITAT_SUFFIX}." if looks_like_habitat else ""
+        raise SceneError(f'not a scene: the top level must be an object with "format": "{FORMAT}".{hint}')
     version = document.get("version")
     if version != VERSION:
         raise SceneError(f"scene format version is {version!r}; this scene2hap reads version {VERSION}.")

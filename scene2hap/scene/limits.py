@@ -24,6 +24,10 @@ MAX_COORDINATE_M = 1e6
 
 MAX_OBJECTS = 4_000
 """Objects of a scene; each takes half a millisecond to place, and a shape of its own two more to measure."""
+MAX_DATASET_FILES = 500_000
+"""Files and folders of a dataset that are looked through for the templates of a scene."""
+MAX_DATASET_BYTES = 1 << 32
+"""Size of all files of a dataset that one scene reads."""
 
 
 def at_most(what: str, value: int, limit: str) -> None:

@@ -1,9 +1,11 @@
-"""Scene files as snapshots: glTF, GLB, OBJ, COLLADA, STL, PLY, MuJoCo's MJCF, and scene2hap's own JSON."""
+"""Scene files as snapshots: glTF, GLB, USD, OBJ, COLLADA, STL, PLY, URDF, MuJoCo's MJCF, Habitat scenes, and
+scene2hap's own JSON."""
 
 from __future__ import annotations
 
 import os
 import warnings
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +15,7 @@ from scene2hap.calls import clear_call
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.printable import writable
 from scene2hap.scene import limits
-from scene2hap.scene.files import read_bytes
+from scene2hap.scene.files import HABITAT_SUFFIX, is_habitat, read_bytes, scene_stem
 from scene2hap.scene.grouping import Grouping, group_objects, unique_ids
 from scene2hap.scene.meshes import MeshPool
 from scene2hap.scene.objects import SceneObject, UpAxis, with_relative_heights
@@ -25,7 +27,8 @@ from scene2hap.scene.units import UnitWarning, warn_if_implausible
 
 __all__ = ["TextureWarning", "UnitWarning", "load_scene"]
 
-SUFFIXES = (".glb", ".gltf", ".obj", ".dae", ".stl", ".ply", ".xml", ".json")
+_USD_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
+SUFFIXES = (".glb", ".gltf", *_USD_SUFFIXES, ".obj", ".dae", ".stl", ".ply", ".urdf", ".xml", ".json")
 # Textures that a warning lists one by one (assumed: who reads five knows what is wrong with all).
 _TOLD = 5
 
@@ -38,6 +41,7 @@ def load_scene(
     unit_m: float | None = None,
     group: Grouping = "authored",
     assets_root: str | os.PathLike[str] | None = None,
+    names: Mapping[str, str] | str | os.PathLike[str] | None = None,
 ) -> SceneSnapshot:
     """Read a scene file.
 
@@ -47,16 +51,21 @@ def load_scene(
     group : which nodes are objects; see `scene2hap.scene.grouping`. In a MuJoCo model, bodies are.
     assets_root : the folder that files beside the scene are read from, with those below it; None means the scene's own
         folder. Nothing outside it is opened. Where textures lie in a folder beside the scene's own, give the folder
-        that holds both.
+        that holds both. For a Habitat scene (`NAME.scene_instance.json`) it is the dataset's folder; None means the
+        nearest folder above the scene, up to five levels, that holds `*.scene_dataset_config.json`.
+    names : for Habitat scenes alone, whose templates may be hashes: names of objects by template, or the path of a
+        table of them: JSON that maps one to the other, or CSV with columns such as id and name. HSSD's own tables are
+        found without it; see `scene2hap.scene.habitat_names`.
 
     Returns: the scene named after the file. Each object stands where the node that names it stands, without scale;
     copies of one mesh share one TriMesh, and one instance_key if they look alike. Ids are the authored names, with
     `#2`, `#3`, ... behind the second and third of a name in file order, and the same on every load.
     Raises: SceneFormatError: the file is not what its name says, or broken. SceneError: it is missing, too large
     (`scene2hap.scene.limits`), empty, wants a file outside assets_root, or holds geometry that makes no sense.
-    MissingExtra: a decoder, or MuJoCo, is not installed.
+    MissingExtra: a decoder, MuJoCo or usd-core is not installed.
     Warns: UnitWarning: without unit_m, if sizes are implausible as metres. TextureWarning: textures are missing,
-    broken, too large or outside assets_root; the scene is read without them.
+    broken, too large or outside assets_root; the scene is read without them. SceneWarning: something of a Habitat
+    scene is left out.
     """
     path = checks.path("path", path, error=SceneError)
     if up_axis is not None and not (isinstance(up_axis, str) and up_axis in ("y", "z")):
@@ -67,21 +76,31 @@ def load_scene(
         unit_m = checks.number(
             "unit_m", unit_m, "m", above=0.0, error=SceneError, hint="A file in centimetres has 0.01."
         )
-    if path.suffix.lower() == ".json":
+    if names is not None and not is_habitat(path):
+        raise SceneError(
+            f"names is for Habitat scenes (NAME{HABITAT_SUFFIX}), and {path.name!r} is none. Leave it out; nodes of "
+            "other files get names by group={node: name}."
+        )
+    if path.suffix.lower() == ".json" and not is_habitat(path):
         return _from_json(path, up_axis, unit_m, group)
     root = path.parent if assets_root is None else checks.path("assets_root", assets_root, error=SceneError)
     if path.suffix.lower() == ".xml":
         unit = unit_m or 1.0
         snapshot = _from_mjcf(path, up_axis, unit, group, root)
     else:
-        authored = _read(path, root)
+        if is_habitat(path):
+            from scene2hap.scene.habitat import read_habitat
+
+            authored = read_habitat(path, None if assets_root is None else root, names, _read)
+        else:
+            authored = _read(path, root)
         if authored.left_out:
             n = len(authored.left_out)
             first = " ".join(authored.left_out[:_TOLD]) + (f" And {n - _TOLD} more." if n > _TOLD else "")
             message = f"{path.name!r} is read without {n} of its textures, in their plain colours: {first}"
             warnings.warn(message, TextureWarning, stacklevel=3)
         unit = unit_m or authored.unit_m or 1.0
-        snapshot = _snapshot(writable(path.stem), authored, up_axis or authored.up_axis, unit, group)
+        snapshot = _snapshot(writable(scene_stem(path)), authored, up_axis or authored.up_axis, unit, group)
     if unit_m is None:
         warn_if_implausible(snapshot, unit)
     return snapshot
@@ -99,6 +118,14 @@ def _read(path: Path, assets_root: Path) -> AuthoredScene:
         from scene2hap.scene.gltf import read_gltf
 
         return read_gltf(path, assets_root)
+    if suffix in _USD_SUFFIXES:
+        from scene2hap.scene.usd import read_usd
+
+        return read_usd(path, assets_root)
+    if suffix == ".urdf":
+        from scene2hap.scene.urdf import read_urdf
+
+        return read_urdf(path, assets_root, _read)
     data = read_bytes(path)
     if suffix == ".obj":
         from scene2hap.scene.obj import read_obj
@@ -154,6 +181,7 @@ def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float
                 geometry=placed.mesh,
                 surface=surface,
                 instance_key=placed.instance_key,
+                mass_kg=item.mass_kg,
                 appearance=placed.appearance,
             )
         )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Hashable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -81,12 +81,18 @@ def _used(corners: NDArray[np.integer], n_points: int) -> tuple[NDArray[np.int64
 
 @dataclass(frozen=True, eq=False)
 class AuthoredNode:
-    """A node of the author's tree: `matrix` places it in its parent; `name` is empty if the author gave none."""
+    """A node of the author's tree: `matrix` places it in its parent; `name` is empty if the author gave none.
+
+    `is_object` : whether the file says that the node, with all below it, is one object. `mass_kg` is what the file says
+    that this object weighs [kg], None if it says nothing.
+    """
 
     name: str
     matrix: Matrix
     pieces: tuple[Piece, ...] = ()
     children: tuple[AuthoredNode, ...] = ()
+    is_object: bool = False
+    mass_kg: float | None = None
 
     def walk(self) -> Iterator[AuthoredNode]:
         """The node and all below it, in file order."""
@@ -99,7 +105,7 @@ class AuthoredNode:
         children = tuple(kept for child in self.children if (kept := child.with_geometry()) is not None)
         if not children and not self.pieces:
             return None
-        return AuthoredNode(self.name, self.matrix, self.pieces, children)
+        return replace(self, children=children)
 
 
 @dataclass(frozen=True, eq=False)

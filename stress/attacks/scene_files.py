@@ -143,6 +143,21 @@ def embedded_pictures(rng: random.Random) -> Files:
     )
 
 
+def meshopt_zeros(rng: random.Random) -> Files:
+    """Packed views that unpack to many times their size, under one accessor or many."""
+    n, count = rng.choice([1, 40, 1000]), 256 * rng.choice([1, 200, 30_000])
+    # A block of 256 elements of zeros has four bytes of headers for each of 16 channels.
+    data = b"\xa0" + bytes(64 * (count // 256) + 32)
+    packed = {"buffer": 0, "byteLength": len(data), "byteStride": 16, "mode": "ATTRIBUTES", "count": count}
+    view = {"buffer": 0, "byteLength": 16 * count, "byteStride": 16}
+    return _gltf(
+        data,
+        bufferViews=[{**view, "extensions": {"EXT_meshopt_compression": packed}}] * n,
+        accessors=[_vec3(count, bufferView=i) for i in range(n)],
+        meshes=[{"primitives": [{"attributes": {"POSITION": i}} for i in range(n)]}],
+    )
+
+
 def _png(edge: int) -> bytes:
     """A picture of nothing, packed a thousand times."""
 
@@ -320,6 +335,111 @@ def mjcf_models(rng: random.Random) -> Files:
     return files
 
 
+# -- Habitat ---------------------------------------------------------------------------------------------------------
+
+
+def _habitat(templates: list[str], rng: random.Random, **files: bytes) -> Files:
+    """A scene of these templates, all about, with its dataset in one folder."""
+    rows = [
+        {"template_name": name, "translation": [i, 0, 0], "uniform_scale": rng.uniform(0.5, 2)}
+        for i, name in enumerate(templates)
+    ]
+    scene = {"translation_origin": rng.choice(["COM", "asset_local"]), "object_instances": rows}
+    return {"case.scene_instance.json": json.dumps(scene).encode(), **files}
+
+
+def habitat_instances(rng: random.Random) -> Files:
+    """One model, in as many sizes as objects are read."""
+    count, n = rng.choice([3, 300, 30_000]), rng.choice([100, 3900, 40_000])
+    model = _gltf(_floats(3 * count, rng), accessors=[_vec3(count, bufferView=0)])["case.gltf"]
+    return _habitat(["a"] * n, rng, **{"a.gltf": model})
+
+
+def habitat_models(rng: random.Random) -> Files:
+    """Many models, each of which asks for what one model may ask for."""
+    n, count = rng.choice([10, 400]), rng.choice([10**4, 10**5])
+    model = _gltf(_floats(9, rng), accessors=[_vec3(count), _vec3(3, bufferView=0)])["case.gltf"]
+    return _habitat([f"m{i}" for i in range(n)], rng, **{f"m{i}.gltf": model for i in range(n)})
+
+
+def habitat_patterns(rng: random.Random) -> Files:
+    """Folders that are listed again and again."""
+    patterns = rng.choice([["."] * 200_000, ["/".join("*" * 5000)], ["../" * 5000 + "*"], ["*a" * 100], ["/**" * 3000]])
+    dataset = {"objects": {"paths": {".json": patterns, ".gltf": patterns}}}
+    return _habitat(["a"], rng, **{"a.scene_dataset_config.json": json.dumps(dataset).encode()})
+
+
+def habitat_names(rng: random.Random) -> Files:
+    """A dataset file with as many templates as fit, for as many names as fit."""
+    n = rng.choice([10, 4000])
+    rows = [{"template_handle": f"t{i}", "attributes": {"render_asset": "a.gltf"}} for i in range(15_000)]
+    model = _gltf(_floats(9, rng), accessors=[_vec3(3, bufferView=0)])["case.gltf"]
+    files = {"a.scene_dataset_config.json": json.dumps({"objects": {"configs": rows}}).encode(), "a.gltf": model}
+    return _habitat([f"{i}" for i in range(n)], rng, **files)
+
+
+# -- USD -------------------------------------------------------------------------------------------------------------
+
+
+def usd_doubling(rng: random.Random) -> Files:
+    """Prims that draw the next one twice, by any kind of arc, as instances or not."""
+    arc = rng.choice(["references", "payload", "inherits", "specializes", "instanceable = true\nreferences"])
+    depth = rng.choice([12, 30, 200])
+    rows = "".join(
+        f'def Xform "a{i}" {{\ndef "x" ({arc} = </a{i + 1}>) {{\n}}\ndef "y" ({arc} = </a{i + 1}>) {{\n}}\n}}\n'
+        for i in range(depth)
+    )
+    return {"case.usda": f'#usda 1.0\n{rows}def Cube "a{depth}" {{\n}}\n'.encode()}
+
+
+def usd_files(rng: random.Random) -> Files:
+    """Layers that name two layers each, themselves, files outside, addresses."""
+    depth = rng.choice([3, 15, 300])
+    files = {}
+    for i in range(depth):
+        last = rng.choice(["case.usda", "../beside/bundle.json", "/etc/passwd", "https://127.0.0.1/a.usda", "gone.usda"])
+        inner = f"l{i + 1}.usda" if i + 1 < depth else last
+        arcs = rng.choice(["references", "payload"])
+        text = f'#usda 1.0\n(\ndefaultPrim = "a"\n)\ndef Xform "a" {{\ndef Cube "c" {{\n}}\n' + "".join(
+            f'def "{name}" ({arcs} = @{inner}@</a>) {{\n}}\n' for name in "xy"
+        )
+        files["case.usda" if i == 0 else f"l{i}.usda"] = (text + "}\n").encode()
+    return files
+
+
+def usd_text(rng: random.Random) -> Files:
+    """A megabyte of brackets, numbers and prims."""
+    nested = "dictionary a = {" * 30_000 + "}" * 30_000
+    body = rng.choice(
+        [
+            f'def "a" (customData = {{{nested}}}) {{\n}}\n',
+            'def Xform "a" {\n' * 40_000,
+            "".join(f'def Cube "c{i}" {{\n}}\n' for i in range(50_000)),
+            f'def Mesh "m" {{\nint[] faceVertexCounts = [{"3, " * 300_000}3]\n}}\n',
+            'def PointInstancer "p" {\nrel prototypes = </p>\nint[] protoIndices = [0, 0]\n'
+            "point3f[] positions = [(0, 0, 0), (1, 1, 1)]\n}\n",
+            f'def Mesh "m" {{\npoint3f[] points = [{"(0, 0, 1), (1, 0, 2), (0, 1, 3), " * 20_000}(0, 0, 0)]\n'
+            f"int[] faceVertexCounts = [60001]\nint[] faceVertexIndices = {list(range(60_001))}\n}}\n",
+        ]
+    )
+    return {"case.usda": f"#usda 1.0\n{body}".encode()[: 2 * _MB]}
+
+
+def usdz_promises(rng: random.Random) -> Files:
+    """An archive whose entries are one and the same, are packed, or promise what is not there."""
+    content = b'#usda 1.0\ndef Cube "c" {\n}\n' + b" " * rng.choice([0, 500_000])
+    n, size = rng.choice([1, 5_000]), rng.choice([len(content), 2**31])
+    how = rng.choice([0, 8])
+    head = struct.pack("<4s5H3I2H", b"PK\3\4", 20, 0, how, 0, 0, zlib.crc32(content), size, size, 6, 0) + b"a.usda"
+    rows = b""
+    for i in range(n):
+        name = b"a.usda" if i == 0 else b"%d.usda" % i
+        numbers = (20, 20, 0, how, 0, 0, zlib.crc32(content), size, size, len(name), 0, 0, 0, 0, 0, 0)
+        rows += struct.pack("<4s6H3I5H2I", b"PK\1\2", *numbers) + name
+    at = len(head) + len(content)
+    return {"case.usdz": head + content + rows + struct.pack("<4s4H2IH", b"PK\5\6", 0, 0, n, n, len(rows), at, 0)}
+
+
 BOMBS: tuple[Callable[[random.Random], Files], ...] = (
     accessors_without_bytes,
     sparse_accessors,
@@ -328,6 +448,7 @@ BOMBS: tuple[Callable[[random.Random], Files], ...] = (
     instances,
     deep_nodes,
     embedded_pictures,
+    meshopt_zeros,
     obj_continued,
     obj_many_objects,
     obj_heap,
@@ -344,4 +465,8 @@ BOMBS: tuple[Callable[[random.Random], Files], ...] = (
     mjcf_pictures,
     mjcf_copies,
     mjcf_models,
+    habitat_instances,
+    habitat_models,
+    habitat_patterns,
+    habitat_names,
 )

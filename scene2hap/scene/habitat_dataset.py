@@ -1,0 +1,487 @@
+"""Habitat datasets: which model file a template's name stands for, and how that model is scaled and turned.
+
+A scene names templates, such as `frl_apartment_chair_01` or a hash. They are found, in this order, as
+
+1. an entry of `configs` in the dataset's `*.scene_dataset_config.json`;
+2. `NAME.object_config.json`, `NAME.stage_config.json` or `NAME.ao_config.json` in a folder that this file lists under
+   `paths`;
+3. a model file that it lists: `NAME.glb`, or `NAME.urdf` of an articulated object;
+4. such a configuration or model anywhere below the dataset's folder, also where there is no dataset file.
+
+In 1 to 3 a name is a file's name, the end of its path, or, as in Habitat, any part of its path; then the first path in
+alphabetical order counts. In 4 it is a file's name or the end of its path.
+
+Habitat knows two values that it does not apply to the models that it draws; neither are they applied here: the stage's
+`origin`, and `units_to_meters`, which a warning tells if it is not 1.
+
+Sources: "Using JSON Files to configure Attributes" (docs/pages/attributesJSON.rst of habitat-sim,
+https://aihabitat.org/docs/habitat-sim/attributesJSON.html), and in habitat-sim's src/esp: the names of templates in
+metadata/managers/AbstractAttributesManager.h (`getFullAttrNameFromStr`, `buildAttrSrcPathsFromJSONAndLoad`) and
+SceneDatasetAttributesManager.cpp, their fields in AbstractObjectAttributesManager.h and ObjectAttributesManager.cpp,
+the frame in assets/ResourceManager.cpp (`buildFrameFromAttributes`) and geo/CoordinateFrame.cpp.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any, Literal
+from urllib.parse import quote
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap import checks
+from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.printable import read_json, writable
+from scene2hap.scene import limits
+from scene2hap.scene.files import inside, read_bytes
+from scene2hap.scene.scene_warning import warn_of
+from scene2hap.scene.tree import Matrix
+
+Json = dict[str, Any]
+Kind = Literal["objects", "stages", "articulated_objects"]
+
+MODEL_SUFFIXES = (".glb", ".gltf", ".obj", ".dae", ".stl", ".ply")
+_DATASET_SUFFIX = ".scene_dataset_config.json"
+_CONFIG_SUFFIX: dict[Kind, str] = {
+    "objects": ".object_config.json",
+    "stages": ".stage_config.json",
+    "articulated_objects": ".ao_config.json",
+}
+_URDF = ".urdf"
+# Folders above a scene in which its dataset file is looked for (assumed: converted datasets have up to four).
+_LEVELS_UP = 5
+# Shapes that Habitat makes itself; they have no file.
+_PRIMITIVE = re.compile(r"(capsule3D|cone|cube|cylinder|icosphere|uvSphere)(Solid|Wireframe)(_.*)?")
+_OWN_NAME = "%%CONFIG_NAME_AS_ASSET_FILENAME%%"
+_ORTHOGONAL = 1e-5
+
+
+@dataclass(frozen=True, eq=False)
+class Template:
+    """A model and how it is drawn.
+
+    Parameters: place : the file that says so, for messages; model : the file that is drawn, None for a shape that
+    Habitat makes itself; scale : (3,) [-]; frame : turns the model's own up and front to Y and -Z; com : (3,) the
+    centre of mass that the dataset gives, without scale, None for the middle of the model's box; mass_kg : [kg], None
+    if the dataset gives none.
+    """
+
+    place: str
+    model: Path | None
+    scale: NDArray[np.float64]
+    frame: Matrix
+    com: NDArray[np.float64] | None = None
+    mass_kg: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class _Source:
+    """Where a template is written: in a file, or in the dataset file as `attributes` on top of another template."""
+
+    file: Path | None = None
+    attributes: Json = field(default_factory=dict)
+    place: str = ""
+
+
+class Dataset:
+    """The templates of the dataset that a scene belongs to. Nothing outside `root` is opened."""
+
+    def __init__(self, scene: Path, assets_root: Path | None) -> None:
+        """Find the dataset file of a scene, at most five folders above it and not above `assets_root`.
+
+        Raises: SceneFormatError, SceneError: the dataset file is broken or too large.
+        """
+        self._n_listed = 0
+        self._listings: dict[Path, list[str]] = {}
+        self._n_bytes = 0
+        self._outside: list[str] = []
+        self._indices: dict[Kind, _Index] = {}
+        self._below: _Index | None = None
+        self._templates: dict[tuple[Kind, str], Template] = {}
+        self._documents: dict[Path, Json] = {}
+        self.files: list[Path] = []
+        """All files that were read, or that models to be read are in."""
+        self.folder, found = self._found(scene, assets_root)
+        self.root = self.folder if assets_root is None else assets_root
+        self._document, self._file = self._of_scene(found, scene) if found else ({}, "")
+
+    def template(self, kind: Kind, name: str, place: str) -> Template:
+        """The template that `place` calls `name`.
+
+        Raises: SceneFormatError, SceneError: there is none, it is broken, or its model is missing or outside the root.
+        """
+        if (kind, name) not in self._templates:
+            self._templates[kind, name] = self._read(kind, name, place)
+        return self._templates[kind, name]
+
+    def has(self, file: Path) -> bool:
+        """Whether there is such a file inside the root."""
+        return _is_file(file) and _resolved(file).is_relative_to(_resolved(self.root))
+
+    def count(self, file: Path) -> None:
+        """Count a file that is read. Raises: SceneError: all of them together are too large."""
+        try:
+            self._n_bytes += file.stat().st_size
+        except (OSError, ValueError):
+            return  # whoever reads it says so
+        self.files.append(file)
+        limits.at_most("the size of all files of the dataset in bytes", self._n_bytes, "MAX_DATASET_BYTES")
+
+    # -- the dataset file --------------------------------------------------------------------------------------------
+
+    def _found(self, scene: Path, assets_root: Path | None) -> tuple[Path, list[Path]]:
+        """The dataset's folder, and the dataset files in it."""
+        here = _resolved(scene).parent
+        folders = [here, *here.parents][: _LEVELS_UP + 1]
+        if assets_root is not None:
+            top = _resolved(assets_root)
+            folders = [folder for folder in folders if folder.is_relative_to(top)]
+            folders += [] if top in folders else [top]
+        for folder in folders:
+            files = [folder / name for name in self._listed(folder) if name.endswith(_DATASET_SUFFIX)]
+            if files:
+                return folder, files
+        return (here if assets_root is None else assets_root), []
+
+    def _of_scene(self, files: list[Path], scene: Path) -> tuple[Json, str]:
+        """Content and name of the dataset file that lists the scene's folder, of several; else of the first."""
+        here = _resolved(scene).parent
+        for file in files if len(files) > 1 else ():
+            patterns = _patterns(self._json(file), "scene_instances", file.name).get(".json", [])
+            if any(_resolved(match) == here for one in patterns for match in self._matching(self.folder, one)):
+                return self._json(file), file.name
+        return self._json(files[0]), files[0].name
+
+    def _json(self, file: Path) -> Json:
+        if file not in self._documents:
+            self._require_inside(file)
+            self.count(file)
+            self._documents[file] = read_object(file)
+        return self._documents[file]
+
+    def _require_inside(self, file: Path) -> None:
+        if not _resolved(file).is_relative_to(_resolved(self.root)):
+            raise SceneError(
+                f"{str(file)!r} leads outside {str(self.root)!r}; only files inside it are read. Copy it there, or "
+                "give assets_root=<the folder that holds both>."
+            )
+
+    # -- names -------------------------------------------------------------------------------------------------------
+
+    def _read(self, kind: Kind, name: str, place: str) -> Template:
+        index = self._index(kind)
+        source = index.find(name)
+        if source is None and _PRIMITIVE.fullmatch(name):
+            return Template(name, None, np.ones(3), np.eye(4))
+        if source is None:
+            below, plain = self._all_below(), _plain(name)
+            bare = _URDF if kind == "articulated_objects" else ""
+            source = below.exact(plain + _CONFIG_SUFFIX[kind]) or below.exact(plain + bare)
+        if source is None:
+            known = [*index.names(), *map(_plain, self._all_below().names())]
+            hint = checks.did_you_mean(_plain(name).rpartition("/")[2], known)
+            raise SceneError(
+                f"{place} names the template {name!r}, which the dataset in {str(self.folder)!r} does not have. "
+                f"{hint or self._advice(kind)}"
+            )
+        attributes, folder, written_in = self._attributes(kind, source)
+        own_name = plain_name(name if source.file is None else writable(source.file.name))
+        return self._template(kind, attributes, folder, written_in, own_name)
+
+    def _advice(self, kind: Kind) -> str:
+        if self._outside:
+            return f"{self._outside[0]} lies outside {str(self.root)!r}; give assets_root=<the folder that holds both>."
+        return (
+            f"It wants a file NAME{_CONFIG_SUFFIX[kind]} or NAME{_models(kind)[0]} there; give "
+            "assets_root=<the dataset's folder>, and download the dataset whole."
+        )
+
+    def _index(self, kind: Kind) -> _Index:
+        if kind not in self._indices:
+            index = self._indices[kind] = _Index()
+            section = _section(self._document, kind, self._file)
+            for i, row in enumerate(_list(section, "configs", f"{self._file}: {kind}")):
+                place = f"{self._file}: {kind}.configs[{i}]"
+                if not isinstance(row, dict) or not isinstance(row.get("attributes", {}), dict):
+                    raise SceneFormatError(f"{place} must be an object whose attributes are an object.")
+                handle = row.get("template_handle", row.get("original_file"))
+                if not isinstance(handle, str):
+                    raise SceneFormatError(f"{place} has no template_handle; give it a name.")
+                index.add(_plain(handle), _Source(None, row, place))
+            patterns = _patterns(self._document, kind, self._file)
+            for suffix, ones in sorted(patterns.items(), key=lambda pair: pair[0] != ".json"):
+                wanted = _CONFIG_SUFFIX[kind] if suffix == ".json" else suffix
+                if suffix == ".json" or suffix in _models(kind):
+                    for pattern in dict.fromkeys(ones):
+                        for handle, file in self._files_of(pattern, wanted):
+                            index.add(handle.removesuffix(wanted), _Source(file))
+        return self._indices[kind]
+
+    def _all_below(self) -> _Index:
+        """All models below the dataset's folder, and under names with their suffix all configurations and URDF."""
+        if self._below is None:
+            self._below = _Index()
+            found = list(self._walk())
+            for suffix in (*_CONFIG_SUFFIX.values(), _URDF, *MODEL_SUFFIXES):
+                for handle, file in found:
+                    if handle.endswith(suffix):
+                        handle = handle.removesuffix(suffix) if suffix in MODEL_SUFFIXES else handle
+                        self._below.add(handle, _Source(file))
+        return self._below
+
+    # -- fields ------------------------------------------------------------------------------------------------------
+
+    def _attributes(self, kind: Kind, source: _Source) -> tuple[Json, Path, str]:
+        """What is written about a template, the folder that its paths start from, and where that is written."""
+        if source.file is not None and source.file.name.endswith(_CONFIG_SUFFIX[kind]):
+            return {**self._defaults(kind), **self._json(source.file)}, source.file.parent, source.file.name
+        if source.file is not None:
+            own = {_key(kind): source.file.name}
+            return {**self._defaults(kind), **own}, source.file.parent, source.file.name
+        original = source.attributes.get("original_file")
+        own = source.attributes.get("attributes", {})
+        if original is None:
+            return {**self._defaults(kind), **own}, self.folder, source.place
+        if not isinstance(original, str):
+            raise SceneFormatError(f"{source.place}.original_file is {original!r}; it must be a file name.")
+        file = inside(self.root, self.folder, quote(_slashes(original)), f"{source.place}.original_file")
+        return {**self._defaults(kind), **self._json(file), **own}, file.parent, source.place
+
+    def _defaults(self, kind: Kind) -> Json:
+        section = _section(self._document, kind, self._file)
+        given = section.get("default_attributes", {})
+        if not isinstance(given, dict):
+            raise SceneFormatError(f"{self._file}: {kind}.default_attributes must be an object.")
+        # One mass for all objects of a dataset says nothing about any of them.
+        return {key: value for key, value in given.items() if key != "mass"}
+
+    def _template(self, kind: Kind, attributes: Json, folder: Path, place: str, name: str) -> Template:
+        def numbers(key: str, default: tuple[float, ...], **bounds: float) -> NDArray[np.float64]:
+            given = attributes.get(key, default)
+            return np.array(
+                checks.vector(f"{place}: {key}", given, "-", size=3, error=SceneFormatError, above=bounds.get("above"))
+            )
+
+        which = _key(kind) if attributes.get(_key(kind)) else "collision_asset"
+        model = attributes.get(which)
+        if not isinstance(model, str) or not model:
+            raise SceneFormatError(f"{place}: {_key(kind)} is {model!r}; it must be the name of a model file.")
+        unit = attributes.get("units_to_meters", 1.0)
+        if checks.number(f"{place}: units_to_meters", unit, "-", above=0.0, error=SceneFormatError) != 1.0:
+            warn_of(
+                f"{place} has units_to_meters {unit!r}, which Habitat keeps and does not apply; its model is read as "
+                "metres. If objects are then too large or too small, set scale there."
+            )
+        mass = attributes.get("mass", 0.0)
+        mass_kg = checks.number(f"{place}: mass", mass, "kg", at_least=0.0, at_most=1e9, error=SceneFormatError)
+        given = attributes.get("uniform_scale", 1.0) if kind == "articulated_objects" else 1.0
+        uniform = checks.number(f"{place}: uniform_scale", given, "-", above=0.0, error=SceneFormatError)
+        file = None
+        if not _PRIMITIVE.fullmatch(model):
+            file = self._model(kind, folder, model.replace(_OWN_NAME, name), f"{place}: {which}")
+        return Template(
+            place,
+            file,
+            uniform * numbers("scale", (1.0, 1.0, 1.0), above=0.0),
+            _frame(numbers("up", (0.0, 1.0, 0.0)), numbers("front", (0.0, 0.0, -1.0))),
+            numbers("COM", (0.0, 0.0, 0.0)) if "COM" in attributes else None,
+            mass_kg or None,
+        )
+
+    def _model(self, kind: Kind, folder: Path, name: str, place: str) -> Path:
+        file = inside(self.root, folder, quote(_slashes(name)), place)
+        if file.suffix.lower() not in _models(kind):
+            kinds = ", ".join(_models(kind))
+            raise SceneFormatError(f"{place} is {name!r}; models of these kinds are read: {kinds}.")
+        if not _is_file(file):
+            near = checks.near_files(file) or "Download the dataset with its models."
+            raise SceneError(f"{place} is {name!r}, but there is no file {str(file)!r}. {near}")
+        return file
+
+    # -- folders -----------------------------------------------------------------------------------------------------
+
+    def _listed(self, folder: Path) -> list[str]:
+        """The names in a folder in order, without hidden ones; none if it cannot be read."""
+        if folder not in self._listings:
+            try:
+                found = sorted(name for name in os.listdir(folder) if not name.startswith("."))
+            except (OSError, ValueError):
+                found = []
+            self._listings[folder] = found
+        names = self._listings[folder]
+        # Also where it is known: patterns may ask for it as often as they fit in a file.
+        self._n_listed += 1 + len(names)
+        limits.at_most("the number of files in the dataset's folders", self._n_listed, "MAX_DATASET_FILES")
+        return names
+
+    def _matching(self, folder: Path, pattern: str) -> list[Path]:
+        """The folders and files that a pattern such as `objects/*` means."""
+        found = [folder]
+        for part in _slashes(pattern).split("/"):
+            if part == "..":
+                found = [one.parent for one in found]
+            elif any(character in part for character in "*?["):
+                found = [one / name for one in found for name in self._listed(one) if fnmatchcase(name, part)]
+            elif part not in ("", "."):
+                found = [one / part for one in found]
+        return found
+
+    def _files_of(self, pattern: str, suffix: str) -> Iterator[tuple[str, Path]]:
+        """Handles and files of that suffix that a pattern means, or that are in the folders that it means."""
+        top = _resolved(self.root)
+        for match in self._matching(self.folder, pattern):
+            handle = writable(Path(os.path.relpath(match, self.folder)).as_posix())
+            if not _resolved(match).is_relative_to(top):
+                self._outside.append(f"{pattern!r} of {self._file}")
+            elif match.name.endswith(suffix):
+                yield handle, match
+            else:
+                for name in self._listed(match):
+                    if name.endswith(suffix):
+                        yield f"{handle}/{writable(name)}".removeprefix("./"), match / name
+
+    def _walk(self) -> Iterator[tuple[str, Path]]:
+        """Handles and paths of all configurations and models of the dataset; links to folders are not followed."""
+        folders = [("", self.folder)]
+        while folders:
+            handle, folder = folders.pop()
+            for name in self._listed(folder):
+                path = folder / name
+                if name.endswith((*MODEL_SUFFIXES, _URDF, *_CONFIG_SUFFIX.values())):
+                    yield handle + writable(name), path
+                elif path.is_dir() and not path.is_symlink():
+                    folders.append((f"{handle}{writable(name)}/", path))
+
+
+class _Index:
+    """Templates by their handles: paths without suffix."""
+
+    def __init__(self) -> None:
+        self._by_handle: dict[str, _Source] = {}
+        self._by_name: dict[str, list[str]] = {}
+
+    def add(self, handle: str, source: _Source) -> None:
+        """Keep a template; the first one of a handle counts."""
+        if handle not in self._by_handle:
+            self._by_handle[handle] = source
+            self._by_name.setdefault(handle.rpartition("/")[2], []).append(handle)
+
+    def names(self) -> list[str]:
+        """The last parts of all handles."""
+        return list(self._by_name)
+
+    def exact(self, name: str) -> _Source | None:
+        """The template whose handle is the name or ends in it."""
+        ends = [one for one in self._by_name.get(name.rpartition("/")[2], ()) if f"/{one}".endswith(f"/{name}")]
+        return self._by_handle[name if name in ends else min(ends)] if ends else None
+
+    def find(self, name: str) -> _Source | None:
+        """The template whose handle is the name, ends in it, or else has it in it."""
+        wanted = _plain(name)
+        found = self.exact(wanted)
+        if found is None and wanted:
+            holding = min((one for one in self._by_handle if wanted in one), default=None)
+            found = None if holding is None else self._by_handle[holding]
+        return found
+
+
+def plain_name(template: str) -> str:
+    """The name of a template without folders and suffix."""
+    return _plain(template).rpartition("/")[2]
+
+
+def read_object(file: Path) -> Json:
+    """The object in a JSON file.
+
+    Raises: SceneFormatError: it is not JSON, or no object. SceneError: it is missing, unreadable or too large.
+    """
+    try:
+        document = read_json(read_bytes(file).decode("utf-8-sig"))
+    except SceneError:
+        raise
+    except (ValueError, RecursionError) as cause:  # ValueError: also text that is no UTF-8
+        raise SceneFormatError(f"{file.name!r} is not JSON: {cause}.") from cause
+    if not isinstance(document, dict):
+        raise SceneFormatError(f"{file.name!r} holds a {type(document).__name__}; it must be a JSON object.")
+    return document
+
+
+def _models(kind: Kind) -> tuple[str, ...]:
+    """The suffixes of models that a kind of template has."""
+    return (_URDF,) if kind == "articulated_objects" else MODEL_SUFFIXES
+
+
+def _key(kind: Kind) -> str:
+    """The field that names the model."""
+    return "urdf_filepath" if kind == "articulated_objects" else "render_asset"
+
+
+def _frame(up: NDArray[np.float64], front: NDArray[np.float64]) -> Matrix:
+    """The rotation that takes `up` to Y and `front` to -Z; none if they are not at right angles, as in Habitat."""
+    matrix: Matrix = np.eye(4)
+    with np.errstate(all="ignore"):
+        up, front = up / np.linalg.norm(up), front / np.linalg.norm(front)
+    if abs(float(up @ front)) < _ORTHOGONAL:  # also false where one has no length
+        matrix[:3, :3] = np.cross(front, up), up, -front
+    return matrix
+
+
+def _section(document: Json, kind: str, place: str) -> Json:
+    section = document.get(kind, {})
+    if not isinstance(section, dict):
+        raise SceneFormatError(f"{place}: {kind} is {checks.represented(section)}; it must be an object.")
+    return section
+
+
+def _patterns(document: Json, kind: str, place: str) -> Mapping[str, list[str]]:
+    """Patterns of paths by the suffix of the files there."""
+    paths = _section(document, kind, place).get("paths", {})
+    if not isinstance(paths, dict):
+        raise SceneFormatError(f"{place}: {kind}.paths must be an object of lists.")
+    for suffix in paths:
+        for pattern in _list(paths, suffix, f"{place}: {kind}.paths"):
+            if not isinstance(pattern, str) or "\0" in pattern:
+                raise SceneFormatError(
+                    f"{place}: {kind}.paths[{suffix!r}] has {checks.represented(pattern)}; it must have paths."
+                )
+    return paths
+
+
+def _list(table: Json, key: str, place: str) -> list[Any]:
+    rows = table.get(key, [])
+    if not isinstance(rows, list):
+        raise SceneFormatError(f"{place}.{key} is {checks.represented(rows)}; it must be a list.")
+    return rows
+
+
+def _plain(name: str) -> str:
+    """A template's name without the suffix of a configuration or model."""
+    name = _slashes(name)
+    for suffix in (*_CONFIG_SUFFIX.values(), _URDF, *MODEL_SUFFIXES):
+        if name.endswith(suffix):
+            return name.removesuffix(suffix)
+    return name
+
+
+def _slashes(path: str) -> str:
+    return path.replace("\\", "/").removeprefix("./")
+
+
+def _resolved(path: Path) -> Path:
+    try:
+        return path.resolve()
+    except (OSError, ValueError, RuntimeError) as cause:  # a zero byte, a ring of links
+        raise SceneError(f"{str(path)!r} is no usable file name: {cause}.") from cause
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False

@@ -1,0 +1,412 @@
+"""Decoders of meshopt data: attributes (versions 0 and 1), triangles, indices, and the filters behind them.
+
+Written here, since the PyPI package `meshoptimizer` (0.2.30a0) is an alpha release without wheels: installing it takes
+a C++ compiler. Data is untrusted: every read is held against the end of the data, and nothing is allocated beyond what
+the caller asked for. Callers bound `count * stride`.
+
+Source: glTF extensions EXT_meshopt_compression and KHR_meshopt_compression, appendices "Bitstream" and "Filters".
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+from itertools import repeat
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+_Bytes = NDArray[np.uint8]
+
+# First bytes of data: kind of codec and version.
+_ATTRIBUTES, _TRIANGLES, _INDICES = (0xA0, 0xA1), 0xE1, 0xD1
+# Elements of an attribute block: at most this many, and at most this many bytes.
+_BLOCK_ELEMENTS, _BLOCK_BYTES = 256, 8192
+_GROUP = 16
+# Bits of a delta by the two header bits of its group: version 0, then version 1 with control 0 and 1.
+_BITS = ((0, 2, 4, 8), (0, 1, 2, 4), (1, 2, 4, 8))
+_ALL_ZERO, _VERBATIM = 2, 3
+# Bytes at the end of attribute data, with the first element in them; shorter tails are padded to this.
+_SHORTEST_TAIL = (32, 24)
+# One channel of a block reads at most this many bytes: 16 groups of 24.
+_MOST_OF_A_CHANNEL = 512
+# Groups that are unpacked at once; bounds memory beside the result.
+_GROUPS_AT_ONCE = 1 << 16
+_TRIANGLES_AT_ONCE = 1 << 16
+_CODES_BEHIND_TRIANGLES, _BYTES_BEHIND_INDICES = 16, 4
+_WORD = 0xFFFFFFFF
+
+
+def attributes(data: bytes, count: int, stride: int) -> _Bytes:
+    """Decode elements (count, stride) of attribute data; `stride` in bytes is a multiple of 4 up to 256.
+
+    Raises: ValueError: the data is broken.
+    """
+    if stride % 4 or not 0 < stride <= 256:
+        raise ValueError(f"attributes of {stride} bytes; they must have 4, 8, ... 256")
+    if not data or data[0] not in _ATTRIBUTES:
+        raise ValueError(f"attributes begin with {data[:1]!r}; they must begin with 0xa0 or 0xa1")
+    version = data[0] & 1
+    tail = stride + stride // 4 * version
+    end = len(data) - max(tail, _SHORTEST_TAIL[version])
+    if end < 1:
+        raise ValueError(f"attributes of {stride} bytes in data of {len(data)} bytes: cut short")
+    first = np.frombuffer(data, np.uint8, stride, len(data) - tail)
+    channels = data[len(data) - tail + stride :] if version else bytes(stride // 4)
+    deltas = np.empty((stride, count), np.uint8)
+    at, done = 1, 0
+    reader = _GroupReader(data, end)
+    per_block = min(_BLOCK_BYTES // stride // _GROUP * _GROUP, _BLOCK_ELEMENTS)
+    blocks_at_once = max(1, _GROUPS_AT_ONCE * _GROUP // (per_block * stride))
+    while done < count:
+        # Blocks of one length are unpacked together; the last is shorter.
+        n_elements = min(per_block, count - done)
+        n_blocks = max(1, min(blocks_at_once, (count - done) // per_block))
+        for _ in range(n_blocks):
+            at = reader.walk_block(at, n_elements, stride, version)
+        n = n_blocks * n_elements
+        groups = reader.unpack().reshape(n_blocks, stride, -1)[:, :, :n_elements]
+        deltas[:, done : done + n] = groups.transpose(1, 0, 2).reshape(stride, n)
+        done += n
+    if at != end:
+        raise ValueError(f"attributes end at byte {at} of their data; they must end at {end}")
+    return _summed(deltas, first, channels)
+
+
+class _GroupReader:
+    """Finds groups of 16 deltas in attribute data, and unpacks those found so far together.
+
+    Where a group ends depends on how many of its deltas are stored in full behind it; these are counted beforehand
+    for a group at any byte, so that finding the groups is one addition each.
+    """
+
+    def __init__(self, data: bytes, end: int) -> None:
+        self._data, self._end = data, end
+        # A broken group may reach beyond the data; zeros are read there, and the end is compared afterwards.
+        self._bytes = np.frombuffer(data + bytes(_MOST_OF_A_CHANNEL + 32), np.uint8)
+        self._sizes = {0: bytes(len(data) + _MOST_OF_A_CHANNEL), 8: bytes([_GROUP]) * (len(data) + _MOST_OF_A_CHANNEL)}
+        self._starts: list[int] = []
+        self._bits: list[int] = []
+
+    def walk_block(self, at: int, n_elements: int, stride: int, version: int) -> int:
+        """Find the groups of a block that begins at a byte; where it ends. Raises: ValueError: it is cut short."""
+        n_groups = -(-n_elements // _GROUP)
+        n_headers = -(-n_groups // 4)
+        control, at = at, at + stride // 4 * version
+        if at > self._end:
+            raise ValueError("attributes are cut short")
+        for channel in range(stride):
+            mode = self._data[control + channel // 4] >> channel % 4 * 2 & 3 if version else 0
+            if mode == _ALL_ZERO:
+                self._starts += repeat(at, n_groups)
+                self._bits += repeat(0, n_groups)
+            elif mode == _VERBATIM:
+                self._starts += range(at, at + n_elements, _GROUP)
+                self._bits += repeat(8, n_groups)
+                at += n_elements
+            else:
+                bits = _BITS[0 if not version else mode + 1]
+                headers, at = self._data[at : at + n_headers], at + n_headers
+                told = [bits[header >> shift & 3] for header in headers for shift in (0, 2, 4, 6)][:n_groups]
+                for width in told:
+                    self._starts.append(at)
+                    at += self._sizes_of(width)[at]
+                self._bits += told
+            if at > self._end:
+                raise ValueError("attributes are cut short")
+        return at
+
+    def _sizes_of(self, width: int) -> bytes:
+        """Bytes of a group of deltas of so many bits, by the byte at which it begins."""
+        if width not in self._sizes:
+            n, full = 2 * width, _N_FULL[width][self._bytes]
+            sizes = np.full(len(full) - n, n, np.uint8)
+            for i in range(n):
+                sizes += full[i : i - n]
+            self._sizes[width] = sizes.tobytes()
+        return self._sizes[width]
+
+    def unpack(self) -> _Bytes:
+        """The deltas (n, 16) of all groups found since the last call."""
+        starts, bits = np.array(self._starts, np.int64), np.array(self._bits, np.uint8)
+        self._starts, self._bits = [], []
+        deltas = np.zeros((len(starts), _GROUP), np.uint8)
+        for width in (1, 2, 4, 8):
+            rows = np.flatnonzero(bits == width)
+            at = starts[rows, None]
+            packed = self._bytes[at + np.arange(2 * width)]
+            if width == 8:
+                deltas[rows] = packed
+                continue
+            fields = _FIELDS[width][packed].reshape(-1, _GROUP)
+            is_full = fields == (1 << width) - 1
+            behind = np.cumsum(is_full, axis=1) + (at + (2 * width - 1))
+            fields[is_full] = self._bytes[behind[is_full]]
+            deltas[rows] = fields
+        return deltas
+
+
+def _fields(width: int) -> _Bytes:
+    """The fields (256, 8 / width) of each byte in order: single bits begin with the lowest, others with the highest."""
+    shifts = np.arange(8) if width == 1 else np.arange(8 - width, -1, -width)
+    return (np.arange(256)[:, None] >> shifts & ((1 << width) - 1)).astype(np.uint8)
+
+
+_FIELDS = {width: _fields(width) for width in (1, 2, 4)}
+# Fields of a byte that say: stored in full.
+_N_FULL = {width: (fields == (1 << width) - 1).sum(axis=1).astype(np.uint8) for width, fields in _FIELDS.items()}
+
+
+def _summed(deltas: _Bytes, first: _Bytes, channels: bytes) -> _Bytes:
+    """Elements (n, stride) of their deltas (stride, n): each word counts from that of the element before it."""
+    stride, n = deltas.shape
+    if all(channel & 3 == 0 for channel in channels):
+        steps = _unzigzag(deltas)
+        np.cumsum(steps, axis=1, dtype=np.uint8, out=steps)
+        steps += first[:, None]
+        return np.ascontiguousarray(steps.T)
+    result = np.empty((n, stride), np.uint8)
+    for word, channel in enumerate(channels):
+        rows, kind = slice(4 * word, 4 * word + 4), channel & 3
+        if kind == 3:
+            raise ValueError(f"attributes of channel kind {channel:#x}; 0, 1 and 2 are known")
+        dtype = np.dtype(("<u1", "<u2", "<u4")[kind])
+        steps = np.ascontiguousarray(deltas[rows].T).view(dtype)
+        before = np.ascontiguousarray(first[rows]).view(dtype)
+        if kind == 2:
+            turn = channel >> 4
+            steps = (steps >> turn) | (steps << (32 - turn & 31))
+            values = np.bitwise_xor.accumulate(steps, axis=0) ^ before
+        else:
+            values = np.cumsum(_unzigzag(steps), axis=0, dtype=dtype) + before
+        result[:, rows] = np.ascontiguousarray(values).view(np.uint8)
+    return result
+
+
+def _unzigzag(values: NDArray[Any]) -> NDArray[Any]:
+    """Differences, wrapped around as unsigned, of numbers that carry their sign in the lowest bit."""
+    return (values >> 1) ^ (0 - (values & 1))
+
+
+def triangles(data: bytes, count: int) -> NDArray[np.uint32]:
+    """Decode vertex numbers (count,) of a list of triangles.
+
+    Raises: ValueError: the data is broken.
+    """
+    n_triangles, rest = divmod(count, 3)
+    if rest:
+        raise ValueError(f"triangles of {count} indices; their number must be a multiple of 3")
+    if not data or data[0] != _TRIANGLES:
+        raise ValueError(f"triangles begin with {data[:1]!r}; they must begin with 0xe1")
+    end = len(data) - _CODES_BEHIND_TRIANGLES
+    if end < 1 + n_triangles:
+        raise ValueError(f"{n_triangles} triangles in data of {len(data)} bytes: cut short")
+    result = np.empty(count, np.uint32)
+    begin = 0
+    try:
+        for rows in _triangle_rows(data, n_triangles, end):
+            # Broken data may count beyond 32 bits, where the format counts from 0 again.
+            result[begin : begin + len(rows)] = np.array(rows, np.int64) & _WORD
+            begin += len(rows)
+    except IndexError as cause:
+        raise ValueError("triangles are cut short") from cause
+    return result
+
+
+def _triangle_rows(data: bytes, n_triangles: int, end: int) -> Iterator[list[int]]:
+    """Vertex numbers of so many triangles at once, three each.
+
+    A triangle shares an edge with one of the last 16, or a vertex with one of the last; what is new is the next vertex
+    that no triangle had, or is stored as a difference to the last one that was stored.
+    """
+    edges = deque(repeat((_WORD, _WORD), 16), maxlen=16)
+    vertices = deque(repeat(_WORD, 16), maxlen=16)
+    push_edge, push = edges.append, vertices.append
+    following = last = 0
+    at = 1 + n_triangles
+    pairs = data[end:]
+
+    def stored() -> int:
+        nonlocal at, last
+        value = 0
+        for shift in (0, 7, 14, 21, 28):
+            byte = data[at]
+            at += 1
+            value |= (byte & 0x7F) << shift
+            if byte < 0x80:
+                break
+        value &= _WORD
+        last += value >> 1 ^ -(value & 1)
+        return last
+
+    for begin in range(1, 1 + n_triangles, _TRIANGLES_AT_ONCE):
+        rows: list[int] = []
+        put = rows.extend
+        for code in data[begin : min(begin + _TRIANGLES_AT_ONCE, 1 + n_triangles)]:
+            if code < 0xF0:
+                a, b = edges[~(code >> 4)]
+                kind = code & 15
+                if kind == 0:
+                    c = following
+                    following += 1
+                    push(c)
+                elif kind < 13:
+                    c = vertices[~kind]
+                else:
+                    if kind == 15:
+                        c = stored()
+                    else:
+                        last += 1 if kind == 14 else -1
+                        c = last
+                    push(c)
+                push_edge((c, b))
+                push_edge((a, c))
+            else:
+                kind = code & 15
+                if kind < 14:
+                    pair = pairs[kind]
+                else:
+                    pair = data[at]
+                    at += 1
+                    if pair == 0:
+                        following = 0
+                if kind == 15:
+                    a = stored()
+                else:
+                    a = following
+                    following += 1
+                high, low = pair >> 4, pair & 15
+                if high == 0:
+                    b = following
+                    following += 1
+                else:
+                    b = stored() if high == 15 and kind >= 14 else vertices[-high]
+                if low == 0:
+                    c = following
+                    following += 1
+                else:
+                    c = stored() if low == 15 and kind >= 14 else vertices[-low]
+                push(a)
+                if high == 0 or (high == 15 and kind >= 14):
+                    push(b)
+                if low == 0 or (low == 15 and kind >= 14):
+                    push(c)
+                push_edge((b, a))
+                push_edge((c, b))
+                push_edge((a, c))
+            put((a, b, c))
+        # Behind the numbers is a table, which they may not reach into.
+        if at > end:
+            raise ValueError("triangles are cut short")
+        yield rows
+    if at != end:
+        raise ValueError(f"triangles end at byte {at} of their data; they must end at {end}")
+
+
+def indices(data: bytes, count: int) -> NDArray[np.uint32]:
+    """Decode numbers (count,) of a sequence that counts from two baselines.
+
+    Raises: ValueError: the data is broken.
+    """
+    if not data or data[0] != _INDICES:
+        raise ValueError(f"indices begin with {data[:1]!r}; they must begin with 0xd1")
+    stored = np.frombuffer(data, np.uint8)[1 : max(len(data) - _BYTES_BEHIND_INDICES, 1)]
+    ends = np.flatnonzero(stored < 0x80)
+    if len(ends) != count or ends[-1] != len(stored) - 1:
+        raise ValueError(f"{count} indices in data that has {len(ends)}")
+    begins = np.concatenate(([0], ends[:-1] + 1))
+    lengths = ends - begins + 1
+    if lengths.max() > 5:
+        raise ValueError(f"an index of {lengths.max()} bytes; up to 5 are used")
+    values = np.zeros(count, np.int64)
+    for i in range(5):
+        has = lengths > i
+        values[has] |= (stored[begins[has] + i].astype(np.int64) & 0x7F) << 7 * i
+    values &= _WORD
+    baseline, values = values & 1, values >> 1
+    steps = values >> 1 ^ -(values & 1)
+    sums = [np.cumsum(np.where(baseline == i, steps, 0)) for i in (0, 1)]
+    return (np.where(baseline == 1, sums[1], sums[0]) & _WORD).astype(np.uint32)
+
+
+def filtered(elements: _Bytes, name: str) -> _Bytes:
+    """Undo a filter of elements (n, stride): OCTAHEDRAL, QUATERNION, EXPONENTIAL or COLOR.
+
+    Raises: ValueError: there is no such filter, or none for elements of this stride.
+    """
+    if name not in _FILTERS:
+        raise ValueError(f"filter {name!r}; it must be NONE, {', '.join(_FILTERS)}")
+    undo, strides = _FILTERS[name]
+    stride = elements.shape[1]
+    if stride not in strides:
+        known = " or ".join(map(str, strides))
+        raise ValueError(f"filter {name} of elements of {stride} bytes; they must have {known}")
+    # Broken values divide by zero and overflow; what comes out is refused where it is used.
+    with np.errstate(all="ignore"):
+        return np.ascontiguousarray(undo(elements)).view(np.uint8)
+
+
+def _octahedral(elements: _Bytes) -> NDArray[Any]:
+    """Unit vectors, from points on an octahedron that was unfolded; the fourth number stays."""
+    dtype = np.dtype("<i1" if elements.shape[1] == 4 else "<i2")
+    stored = elements.view(dtype)
+    largest = np.iinfo(dtype).max
+    xy, one = stored[:, :2].astype(np.float64), stored[:, 2:3]
+    xy /= one
+    z = 1.0 - np.abs(xy).sum(axis=1, keepdims=True)
+    fold = np.maximum(-z, 0.0)
+    vectors = np.concatenate((xy - np.where(xy >= 0, fold, -fold), z), axis=1)
+    result = stored.copy()
+    result[:, :3] = _whole(vectors * (largest / np.linalg.norm(vectors, axis=1, keepdims=True)), dtype)
+    return result
+
+
+def _quaternion(elements: _Bytes) -> NDArray[Any]:
+    """Unit quaternions, from their three smaller components; the last number tells scale and place of the largest."""
+    stored = elements.view("<i2").astype(np.int64)
+    scale = np.sqrt(0.5) / (stored[:, 3] | 3)
+    small = stored[:, :3] * scale[:, None]
+    largest = np.sqrt(np.maximum(0.0, 1.0 - (small**2).sum(axis=1)))
+    result = np.empty((len(stored), 4), "<i2")
+    rows, place = np.arange(len(stored)), stored[:, 3] & 3
+    for i in range(3):
+        result[rows, (place + 1 + i) & 3] = _whole(small[:, i] * 32767.0, result.dtype)
+    result[rows, place] = _whole(largest * 32767.0, result.dtype)
+    return result
+
+
+def _exponential(elements: _Bytes) -> NDArray[Any]:
+    """Floating-point numbers, from 8 bits of exponent above 24 bits of mantissa."""
+    stored = elements.view("<i4")
+    mantissa = (stored << 8) >> 8
+    values: NDArray[Any] = np.ldexp(mantissa.astype(np.float64), stored >> 24).astype("<f4")
+    return values
+
+
+def _color(elements: _Bytes) -> NDArray[Any]:
+    """RGBA from YCoCg and alpha, whose highest bit tells how many bits all have."""
+    bits = 2 * elements.shape[1]
+    unsigned, signed = elements.view(f"<u{bits // 8}").astype(np.int64), elements.view(f"<i{bits // 8}")
+    y, alpha = unsigned[:, 0], unsigned[:, 3]
+    co, cg = signed[:, 1].astype(np.int64), signed[:, 2].astype(np.int64)
+    # frexp gives the number of bits of a whole number, 0 for 0.
+    largest = (1 << np.frexp(alpha)[1].astype(np.int64)) - 1
+    kept = alpha & (largest >> 1)
+    rgba = np.stack((y + co - cg, y + cg, y - co - cg, kept << 1 | kept & 1), axis=1)
+    return _whole(rgba * (((1 << bits) - 1) / largest[:, None]), np.dtype(f"<u{bits // 8}"))
+
+
+def _whole(values: NDArray[np.float64], dtype: np.dtype[Any]) -> NDArray[Any]:
+    """Numbers rounded to whole ones of a type: 0 for those that are not finite, the type's end for those beyond it."""
+    bound = np.iinfo(dtype)
+    rounded = np.floor(np.nan_to_num(values, nan=0.0, posinf=0.0, neginf=0.0) + 0.5)
+    return np.clip(rounded, bound.min, bound.max).astype(dtype)
+
+
+_FILTERS = {
+    "OCTAHEDRAL": (_octahedral, (4, 8)),
+    "QUATERNION": (_quaternion, (8,)),
+    "EXPONENTIAL": (_exponential, tuple(range(4, 257, 4))),
+    "COLOR": (_color, (4, 8)),
+}
