@@ -244,7 +244,8 @@ class _Reader:
         limits.at_most(f"the number of elements in {self.path.name!r}", self.n_elements, "MAX_NODES")
         limits.at_most(f"the depth of {self.path.name!r}", len(self.open_copies), "MAX_DEPTH")
         if not self.open_copies and self.depth == 0 and tag != "mujoco":
-            raise SceneFormatError(f"{self.path.name!r} begins with <{tag}>; an MJCF file begins with <mujoco>.")
+            hint = " A URDF file has the suffix .urdf." if tag == "robot" else ""
+            raise SceneFormatError(f"{self.path.name!r} begins with <{tag}>; an MJCF file begins with <mujoco>.{hint}")
         around = self.open_copies[-1] if self.open_copies else self.copies
         self.open_copies.append(self._counted(tag, attributes, place, around))
         if tag == "compiler":

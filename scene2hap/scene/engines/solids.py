@@ -38,6 +38,11 @@ def cylinder(radius_m: float, half_length_m: float) -> Triangles:
     return _turned(np.full(2, radius_m), rims, -half_length_m, half_length_m)
 
 
+def cone(radius_m: float, half_length_m: float) -> Triangles:
+    """A closed cone along z, its base below and its tip above."""
+    return _turned(np.array([radius_m]), np.array([-half_length_m]), -half_length_m, half_length_m)
+
+
 def capsule(radius_m: float, half_length_m: float) -> Triangles:
     """A cylinder along z whose ends are half spheres beyond its half length."""
     angles = np.linspace(0.0, np.pi / 2, SIDES // 4 + 1)[:-1]

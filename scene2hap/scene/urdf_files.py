@@ -1,0 +1,74 @@
+"""The files that a URDF file names: beside it, in ROS packages around it, and nothing outside the root."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from urllib.parse import unquote
+from xml.etree.ElementTree import Element
+
+from scene2hap.errors import SceneError
+from scene2hap.scene.files import holding_both
+
+_PACKAGES = ("package", "model")
+
+
+@dataclass(frozen=True, eq=False)
+class UrdfFiles:
+    """Finds files for the URDF file `path` inside `root`; `compiler` is MuJoCo's own element in it, if any."""
+
+    path: Path
+    root: Path
+    compiler: Element | None
+
+    def find(self, name: str, place: str) -> Path:
+        """The file that is meant.
+
+        Raises: SceneError: there is none, or it lies outside the root.
+        """
+        root, outside = self.root.resolve(), None
+        try:
+            for path in self._candidates(name, place):
+                path = path.resolve()
+                if not path.is_relative_to(root):
+                    outside = outside or path
+                elif path.is_file():
+                    return path
+        # What a name that is too long, one with a zero byte, and a ring of links raise.
+        except (ValueError, OSError, RuntimeError) as cause:
+            if isinstance(cause, SceneError):
+                raise
+            raise SceneError(f"{place} wants {name!r}, which is no usable file name: {cause}.") from cause
+        if outside is None:
+            raise SceneError(
+                f"{place} wants {name!r}; there is no such file. Copy it beside the scene, or give the folder that "
+                "holds the package as assets_root."
+            )
+        raise SceneError(
+            f"{place} wants {name!r}, which lies outside {str(self.root)!r}; only files inside it are read. Give "
+            f"assets_root={holding_both(outside, root)} if you trust the file."
+        )
+
+    def _candidates(self, name: str, place: str) -> Iterator[Path]:
+        """Where a name may lead: beside the file, into the folder for MuJoCo, or into a package around the file."""
+        folder = self.path.resolve().parent
+        scheme, is_address, rest = name.partition("://")
+        if not is_address:
+            plain = name.replace("\\", "/")
+            yield folder / plain
+            if (compiler := self.compiler) is not None:
+                # MuJoCo takes only the last part of a name, unless told otherwise.
+                is_whole = compiler.get("strippath") == "false"
+                yield folder / (compiler.get("meshdir") or "") / (plain if is_whole else PurePosixPath(plain).name)
+        elif scheme == "file":
+            yield Path(unquote(rest))
+        elif scheme in _PACKAGES:
+            package, _, inner = unquote(rest).partition("/")
+            for above in (folder, *folder.parents):
+                if above.name == package:
+                    yield above / inner
+                if above.is_relative_to(self.root.resolve()):
+                    yield above / package / inner
+        else:
+            raise SceneError(f"{place} wants {name!r}. Addresses are never fetched: store the file beside the scene.")
