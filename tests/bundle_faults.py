@@ -3,7 +3,7 @@
 A step is an operation of Python on files, seen by an audit hook before it happens: the process is ended there, or the
 operation is refused. Each try is a child of its own, which takes its hook with it.
 
-Run by tests/unit/bundle/test_faults.py: python bundle_faults.py FOLDER kill|refuse exchange|renames
+Run by tests/integration/test_bundle_faults.py: python bundle_faults.py FOLDER kill|refuse exchange|renames
 """
 
 import json
@@ -12,6 +12,7 @@ import shutil
 import sys
 import warnings
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 from scene2hap import HapticBundle
@@ -22,9 +23,11 @@ OPERATIONS = ("open", "os.", "shutil.", "tempfile.")
 NEVER = 7
 WORK = Path(sys.argv[1])
 ROOM = WORK / "room"
+BEFORE = WORK.with_name("before")
 THESIS = {"thesis.txt": b"ten years", "sounds/mine.txt": b"of mine", "notes/a/b.txt": b"deep"}
 
 
+@cache
 def old_and_new() -> tuple[HapticBundle, HapticBundle]:
     bundle = table_with_two_phones()[1]
     return bundle, bundle.override("phone", gain_db=-7.0)
@@ -32,11 +35,13 @@ def old_and_new() -> tuple[HapticBundle, HapticBundle]:
 
 def begin() -> None:
     shutil.rmtree(WORK, ignore_errors=True)
+    if not BEFORE.exists():
+        old_and_new()[0].save(BEFORE)
+        for name, content in THESIS.items():
+            (BEFORE / name).parent.mkdir(parents=True, exist_ok=True)
+            (BEFORE / name).write_bytes(content)
     WORK.mkdir()
-    old_and_new()[0].save(ROOM)
-    for name, content in THESIS.items():
-        (ROOM / name).parent.mkdir(parents=True, exist_ok=True)
-        (ROOM / name).write_bytes(content)
+    shutil.copytree(BEFORE, ROOM)
 
 
 def save_with_fault(step: int, kind: str) -> int:
