@@ -3,8 +3,9 @@
 python stress/fuzz_scenes.py [--files 2000] [--seed 0] [--seconds 5] [--megabytes 1024] [--kinds .meshopt.glb .urdf]
 
 Seeds are the demo kitchen as GLB, glTF-like JSON, OBJ, PLY, STL and scene JSON, built in memory, a robot arm as URDF,
-a laundry as gltfpack packs it, and a Habitat dataset of which one file or two are broken. Each file is read in a child
-process with a limit on its data segment and an alarm, so that a hang or a crash names the file that caused it.
+a laundry as gltfpack packs it, a small scene as USD where usd-core is there, and a Habitat dataset of which one file
+or two are broken. Each file is read in a child process with a limit on its data segment and an alarm, so that a hang or
+a crash names the file that caused it.
 Prints a table of outcomes and exits with 1 if anything but success or a Scene2HapError came out.
 """
 
@@ -28,14 +29,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 import trimesh
+from usd_seeds import usd_files
 
 from scene2hap import load_scene
 from scene2hap.demo import kitchen_path
 from scene2hap.errors import Scene2HapError
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
-from usd_seeds import usd_files
-
 from habitat_builder import mutated_dataset
 
 HABITAT = ".scene_instance.json"

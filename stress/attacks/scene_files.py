@@ -397,10 +397,10 @@ def usd_files(rng: random.Random) -> Files:
     depth = rng.choice([3, 15, 300])
     files = {}
     for i in range(depth):
-        last = rng.choice(["case.usda", "../beside/bundle.json", "/etc/passwd", "https://127.0.0.1/a.usda", "gone.usda"])
+        last = rng.choice(["case.usda", "../beside/bundle.json", "/etc/a.usda", "https://127.0.0.1/a.usda", "gone.usd"])
         inner = f"l{i + 1}.usda" if i + 1 < depth else last
         arcs = rng.choice(["references", "payload"])
-        text = f'#usda 1.0\n(\ndefaultPrim = "a"\n)\ndef Xform "a" {{\ndef Cube "c" {{\n}}\n' + "".join(
+        text = '#usda 1.0\n(\ndefaultPrim = "a"\n)\ndef Xform "a" {\ndef Cube "c" {\n}\n' + "".join(
             f'def "{name}" ({arcs} = @{inner}@</a>) {{\n}}\n' for name in "xy"
         )
         files["case.usda" if i == 0 else f"l{i}.usda"] = (text + "}\n").encode()
@@ -469,4 +469,8 @@ BOMBS: tuple[Callable[[random.Random], Files], ...] = (
     habitat_models,
     habitat_patterns,
     habitat_names,
+    usd_doubling,
+    usd_files,
+    usd_text,
+    usdz_promises,
 )

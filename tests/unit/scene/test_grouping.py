@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -279,3 +280,21 @@ def test_every_piece_of_a_collection_is_in_one_object() -> None:
     names = ["set_pot", "set_lid", "", "set_cup", "set_knob", "set_1"]
     tree = group("set", *(mesh(name, at=3.0 * k) for k, name in enumerate(names)))
     assert sorted(key for keys in objects(tree).values() for key in keys) == sorted(names)
+
+
+def test_a_mass_goes_to_the_object_that_the_node_is() -> None:
+    """Not where others hang below the node, or where the node is one of several parts."""
+
+    def masses(*roots: AuthoredNode, how: Any = "authored") -> dict[str, float | None]:
+        return {item.name: item.mass_kg for item in group_objects(roots, how)}
+
+    door = replace(mesh("door"), mass_kg=2.0)
+    fridge = replace(mesh("fridge", door), mass_kg=50.0)
+    assert masses(fridge) == {"fridge": 50.0}
+    assert masses(replace(group("kitchen_fridge", mesh("a")), mass_kg=7.0)) == {"kitchen_fridge": 7.0}
+    assert masses(group("fridge_1", fridge)) == {"fridge_1": 50.0}
+    assert masses(group("room", fridge, mesh("table"))) == {"fridge": 50.0, "table": None}
+    desk = replace(mesh("desk", mesh("drawer", mesh("handle"))), mass_kg=9.0)
+    assert masses(desk) == {"desk": None, "drawer": None}
+    assert masses(fridge, how="leaf") == {"fridge": None, "door": 2.0}
+    assert masses(group("room", fridge), how=2) == {"fridge": 50.0}

@@ -1,0 +1,45 @@
+"""Values of USD attributes at rest.
+
+An attribute that has a default is read there. One that has time samples alone, as animation exporters write even for
+what stands still, is read at its first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd
+
+_WEAK = (Usd.ResolveInfoSourceNone, Usd.ResolveInfoSourceFallback)
+
+
+def rest_time(attributes: Sequence[Any]) -> Any:
+    """The time at which attributes that belong together are read (`Usd.TimeCode`)."""
+    for attribute in attributes:
+        if attribute.GetNumTimeSamples() and attribute.GetResolveInfo(Usd.TimeCode.Default()).GetSource() in _WEAK:
+            return Usd.TimeCode.EarliestTime()
+    return Usd.TimeCode.Default()
+
+
+def value(attribute: Any) -> Any:
+    """What an attribute holds; None if it does not exist or holds nothing."""
+    return attribute.Get(rest_time((attribute,))) if attribute else None
+
+
+def floats(attribute: Any, columns: int) -> NDArray[np.float64]:
+    """An array attribute as (n, columns) float64; empty if it holds nothing."""
+    return np.array(value(attribute) or (), dtype=np.float64).reshape(-1, columns)
+
+
+def integers(attribute: Any) -> NDArray[np.int64]:
+    """An array attribute as (n,) int64; empty if it holds nothing."""
+    return np.array(value(attribute) or (), dtype=np.int64).reshape(-1)
+
+
+def positive(attribute: Any) -> float | None:
+    """A number above 0; None if it is none, which for masses and sizes means that the author gave none."""
+    number = value(attribute)
+    return float(number) if number is not None and np.isfinite(number) and number > 0 else None

@@ -1,0 +1,861 @@
+"""USD: its stage, layers, meshes, materials and masses; skipped where usd-core is not installed."""
+
+from __future__ import annotations
+
+import sys
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from looks import BLUE, GREEN, QUAD, UPRIGHT, image_file, looks, refused, shown
+from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
+from scene2hap.scene import limits
+from scene2hap.scene.colors import srgb
+from scene2hap.scene.load import load_scene
+from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.scene.usd import process
+from usd_writing import CUBE_POINTS, CUBE_QUADS, bind, mesh, new_stage, preview, textured, usd
+
+SUFFIXES = [".usda", ".usdc", ".usd"]
+HEADER = "#usda 1.0\n"
+
+
+@pytest.fixture(autouse=True)
+def _in_process(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Starting Python takes longer than most of these tests; those that ask for `child` start it."""
+    usd("Usd")
+    if "child" not in request.fixturenames:
+        monkeypatch.setattr(process, "can_start_python", lambda: False)
+
+
+@pytest.fixture
+def child() -> None:
+    """The file is read in a child process, as for users."""
+
+
+def scene_of(fill: Callable[[Any], object], folder: Path, *, suffix: str = ".usda", **options: Any) -> SceneSnapshot:
+    """The scene in a stage that `fill` fills."""
+    path = folder / f"scene{suffix}"
+    stage = new_stage(path)
+    fill(stage)
+    stage.Save()
+    return load_scene(path, unit_m=options.pop("unit_m", 1.0), **options)
+
+
+def text_file(folder: Path, text: str, name: str = "scene.usda") -> Path:
+    path = folder / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(HEADER + text, encoding="utf-8")
+    return path
+
+
+def ids(scene: SceneSnapshot) -> list[str]:
+    return [item.id for item in scene.objects]
+
+
+def volume(item: SceneObject) -> float:
+    """The signed volume of a mesh [m3]: above 0 if its faces turn outwards."""
+    corners = item.geometry.mesh.vertices_m[item.geometry.mesh.faces]
+    return float(np.linalg.det(corners).sum() / 6)
+
+
+# -- the tree --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_prims_keep_names_and_transforms(tmp_path: Path, suffix: str) -> None:
+    def fill(stage: Any) -> None:
+        geom = usd("UsdGeom")
+        geom.Xform.Define(stage, "/World").AddTranslateOp().Set((10, 0, 0))
+        shelf = geom.Xform.Define(stage, "/World/shelf")
+        shelf.AddTranslateOp().Set((0, 5, 0))
+        shelf.AddRotateZOp().Set(90.0)
+        shelf.AddScaleOp().Set((2, 1, 1))
+        mesh(stage, "/World/shelf/shape")
+        lamp = mesh(stage, "/World/lamp_01")
+        lamp.GetPrim().SetDisplayName("Ständerlampe")
+        lamp.AddTransformOp().Set(usd("Gf").Matrix4d([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [1, 2, 3, 1]]))
+
+    shelf, lamp = scene_of(fill, tmp_path, suffix=suffix).objects
+    assert (shelf.id, lamp.id) == ("shelf", "Ständerlampe")
+    np.testing.assert_allclose(shelf.bounds_m, [[9, 5, 0], [10, 7, 1]], atol=1e-9)
+    np.testing.assert_allclose(shelf.pose.position_m, [10, 5, 0], atol=1e-9)
+    np.testing.assert_allclose(lamp.bounds_m, [[11, 1, 3], [12, 2, 4]], atol=1e-9)
+    np.testing.assert_allclose(lamp.pose.rotation, [[1, 0, 0], [0, 0, -1], [0, 1, 0]], atol=1e-9)
+
+
+def test_a_reset_transform_starts_from_the_world(tmp_path: Path) -> None:
+    def fill(stage: Any) -> None:
+        usd("UsdGeom").Xform.Define(stage, "/World").AddTranslateOp().Set((10, 0, 0))
+        box = mesh(stage, "/World/box")
+        box.AddTranslateOp().Set((0, 3, 0))
+        box.SetResetXformStack(True)
+
+    (box,) = scene_of(fill, tmp_path).objects
+    np.testing.assert_allclose(box.bounds_m, [[0, 3, 0], [1, 4, 1]], atol=1e-9)
+
+
+def test_what_has_time_samples_alone_is_read_at_the_first(tmp_path: Path) -> None:
+    def fill(stage: Any) -> None:
+        moved = mesh(stage, "/moved").AddTranslateOp()
+        moved.Set((1, 0, 0), 5)
+        moved.Set((9, 0, 0), 10)
+        rests = mesh(stage, "/rests").AddTranslateOp()
+        rests.Set((2, 0, 0))
+        rests.Set((9, 0, 0), 10)
+
+    moved, rests = scene_of(fill, tmp_path, suffix=".usdc").objects
+    assert moved.bounds_m[0, 0] == pytest.approx(1)
+    assert rests.bounds_m[0, 0] == pytest.approx(2)
+
+
+@pytest.mark.parametrize(("up", "expected"), [("Y", "y"), ("Z", "z"), (None, "y")])
+def test_the_up_axis_is_that_of_the_stage(tmp_path: Path, up: str | None, expected: str) -> None:
+    stage = new_stage(tmp_path / "a.usda", up=up)
+    mesh(stage, "/box")
+    stage.Save()
+    assert load_scene(tmp_path / "a.usda", unit_m=1.0).up_axis == expected
+
+
+@pytest.mark.parametrize(("unit_m", "edge_m"), [(1.0, 1.0), (0.5, 0.5), (None, 0.01)])
+def test_the_unit_is_that_of_the_stage_and_centimetres_without(
+    tmp_path: Path, unit_m: float | None, edge_m: float
+) -> None:
+    path = tmp_path / "a.usda"
+    stage = new_stage(path, unit_m=unit_m)
+    mesh(stage, "/box")
+    stage.Save()
+    (box,) = load_scene(path).objects
+    np.testing.assert_allclose(box.bounds_m[1], edge_m)
+    (box,) = load_scene(path, unit_m=3.0).objects
+    np.testing.assert_allclose(box.bounds_m[1], 3.0)
+
+
+@pytest.mark.parametrize("unit", ["0", "-1", "nan"])
+def test_a_unit_that_is_none_is_refused(tmp_path: Path, unit: str) -> None:
+    path = text_file(tmp_path, f'(\n metersPerUnit = {unit}\n)\ndef Cube "a" {{}}\n')
+    with pytest.raises(SceneFormatError, match="metersPerUnit"):
+        load_scene(path)
+
+
+def test_what_is_not_drawn_is_left_out(tmp_path: Path) -> None:
+    def fill(stage: Any) -> None:
+        geom = usd("UsdGeom")
+        mesh(stage, "/shown")
+        mesh(stage, "/hidden").MakeInvisible()
+        geom.Xform.Define(stage, "/closed").MakeInvisible()
+        mesh(stage, "/closed/box")
+        mesh(stage, "/guide").CreatePurposeAttr("guide")
+        geom.Xform.Define(stage, "/stand_in").CreatePurposeAttr("proxy")
+        mesh(stage, "/stand_in/box")
+        geom.Xform.Define(stage, "/drawn").CreatePurposeAttr("render")
+        mesh(stage, "/drawn/box")
+        mesh(stage, "/off").GetPrim().SetActive(False)
+        stage.CreateClassPrim("/_class")
+        mesh(stage, "/_class/box")
+        stage.OverridePrim("/_over")
+        geom.BasisCurves.Define(stage, "/wire")
+        geom.Points.Define(stage, "/dust").CreatePointsAttr([(0, 0, 0)])
+        geom.Camera.Define(stage, "/camera")
+
+    assert ids(scene_of(fill, tmp_path)) == ["shown", "drawn"]
+
+
+def test_native_instances_share_their_mesh(tmp_path: Path) -> None:
+    def fill(stage: Any) -> None:
+        geom = usd("UsdGeom")
+        stage.CreateClassPrim("/_cup")
+        mesh(stage, "/_cup/shape")
+        for number in range(3):
+            cup = geom.Xform.Define(stage, f"/cup_{number}")
+            cup.GetPrim().GetReferences().AddInternalReference("/_cup")
+            cup.GetPrim().SetInstanceable(True)
+            cup.AddTranslateOp().Set((3 * number, 0, 0))
+
+    scene = scene_of(fill, tmp_path)
+    assert ids(scene) == ["cup_0", "cup_1", "cup_2"]
+    first, *others = scene.objects
+    assert all(item.geometry is first.geometry and item.instance_key == first.instance_key for item in others)
+    assert [item.bounds_m[0, 0] for item in scene.objects] == pytest.approx([0, 3, 6])
+
+
+def instancer(stage: Any, *, n: int = 3) -> Any:
+    """A point instancer of cubes at x = 0, 2, 4, ... and of one prototype that lies below it."""
+    made = usd("UsdGeom").PointInstancer.Define(stage, "/World/cups")
+    mesh(stage, "/World/cups/prototypes/cup")
+    made.CreatePrototypesRel().AddTarget("/World/cups/prototypes/cup")
+    made.CreateProtoIndicesAttr([0] * n)
+    made.CreatePositionsAttr([(2.0 * i, 0, 0) for i in range(n)])
+    return made
+
+
+def test_a_point_instancer_draws_one_object_for_each_point(tmp_path: Path) -> None:
+    def fill(stage: Any) -> None:
+        made = instancer(stage)
+        made.CreateScalesAttr([(1, 1, 1), (1, 1, 1), (2, 2, 2)])
+        made.CreateOrientationsAttr([usd("Gf").Quath(1, 0, 0, 0)] * 3)
+        made.AddTranslateOp().Set((0, 7, 0))
+
+    scene = scene_of(fill, tmp_path)
+    assert ids(scene) == ["cup", "cup#2", "cup#3"]
+    assert scene.objects[0].geometry is scene.objects[1].geometry
+    np.testing.assert_allclose(scene.objects[1].bounds_m, [[2, 7, 0], [3, 8, 1]], atol=1e-9)
+    np.testing.assert_allclose(scene.objects[2].bounds_m, [[4, 7, 0], [6, 9, 2]], atol=1e-9)
+
+
+def test_points_that_are_invisible_are_left_out(tmp_path: Path) -> None:
+    scene = scene_of(lambda stage: instancer(stage).CreateInvisibleIdsAttr([1]), tmp_path)
+    assert [item.bounds_m[0, 0] for item in scene.objects] == pytest.approx([0, 4])
+
+
+def test_a_point_without_a_prototype_or_place_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(SceneFormatError, match="protoIndices go to 7; it has 1 prototypes"):
+        scene_of(lambda stage: instancer(stage).CreateProtoIndicesAttr([0, 7, 0]), tmp_path)
+    (tmp_path / "scene.usda").unlink()
+    with pytest.raises(SceneFormatError, match="3 protoIndices and places for 0 copies"):
+        scene_of(lambda stage: instancer(stage).CreatePositionsAttr([(0, 0, 0)]), tmp_path)
+
+
+def test_a_component_is_one_object_unless_it_holds_all(tmp_path: Path) -> None:
+    def fill(stage: Any) -> None:
+        geom, models = usd("UsdGeom"), usd("Usd").ModelAPI
+        models(geom.Xform.Define(stage, "/kitchen").GetPrim()).SetKind("component")
+        models(geom.Xform.Define(stage, "/kitchen/chair").GetPrim()).SetKind("component")
+        for part in ("seat", "leg"):
+            geom.Xform.Define(stage, f"/kitchen/chair/{part}")
+            mesh(stage, f"/kitchen/chair/{part}/a")
+            mesh(stage, f"/kitchen/chair/{part}/b").AddTranslateOp().Set((0, 3, 0))
+        mesh(stage, "/kitchen/pot")
+
+    assert ids(scene_of(fill, tmp_path)) == ["chair", "pot"]
+
+
+def test_a_rigid_body_is_one_object(tmp_path: Path) -> None:
+    def fill(stage: Any) -> None:
+        geom, bodies = usd("UsdGeom"), usd("UsdPhysics").RigidBodyAPI
+        models = usd("Usd").ModelAPI
+        models(geom.Xform.Define(stage, "/cabinet").GetPrim()).SetKind("component")
+        for name in ("frame", "door"):
+            bodies.Apply(geom.Xform.Define(stage, f"/cabinet/{name}").GetPrim())
+            mesh(stage, f"/cabinet/{name}/visuals/left")
+            mesh(stage, f"/cabinet/{name}/visuals/right").AddTranslateOp().Set((4, 0, 0))
+        mesh(stage, "/floor")
+
+    assert ids(scene_of(fill, tmp_path)) == ["frame", "door", "floor"]
+
+
+# -- meshes ----------------------------------------------------------------------------------------------------------
+
+
+def test_quadrilaterals_become_triangles_that_face_outwards(tmp_path: Path) -> None:
+    (box,) = scene_of(lambda stage: mesh(stage, "/box"), tmp_path).objects
+    assert len(box.geometry.mesh.faces) == 12
+    assert volume(box) == pytest.approx(1.0)
+
+
+def test_left_handed_faces_are_turned(tmp_path: Path) -> None:
+    (box,) = scene_of(lambda stage: mesh(stage, "/box").CreateOrientationAttr("leftHanded"), tmp_path).objects
+    assert volume(box) == pytest.approx(-1.0)
+
+
+def test_holes_are_left_out(tmp_path: Path) -> None:
+    (box,) = scene_of(lambda stage: mesh(stage, "/box").CreateHoleIndicesAttr([1, 5]), tmp_path).objects
+    assert len(box.geometry.mesh.faces) == 8
+    assert box.geometry.mesh.bounds_m[1, 2] == 1.0
+
+
+STAR = [(np.cos(a) * r, np.sin(a) * r, 0.0) for a, r in zip(np.arange(10) * np.pi / 5, [1.0, 0.4] * 5, strict=True)]
+LETTER = [(0, 0, 0), (3, 0, 0), (3, 1, 0), (1, 1, 0), (1, 2, 0), (3, 2, 0), (3, 3, 0), (0, 3, 0)]
+ARROW = [(0, 0, 0), (1, -1, 0), (0, 2, 0), (-1, -1, 0)]
+
+
+def area_of_outline(points: Any) -> float:
+    x, y = np.array(points, float)[:, :2].T
+    return float(abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2)
+
+
+@pytest.mark.parametrize("outline", [ARROW, LETTER, STAR], ids=["arrow", "letter", "star"])
+@pytest.mark.parametrize("first", range(8))
+@pytest.mark.parametrize("normal", [(0, 0, 1), (0, 0, -1), (1, 2, 3)])
+def test_concave_faces_are_covered_once(outline: list[Any], first: int, normal: tuple[float, ...]) -> None:
+    """All triangles turn as their face does, and their areas sum to its area."""
+    from scene2hap.scene.usd.polygons import triangulated
+
+    n, up = len(outline), np.array(normal, float) / np.linalg.norm(normal)
+    side = np.cross(up, [1.0, 0.3, 0.2])
+    side /= np.linalg.norm(side)
+    frame = np.stack((side, np.cross(up, side), up))
+    points = np.roll(np.array(outline, float), -first, axis=0) @ frame
+    corners, faces = triangulated(points, np.array([2, n, 1]), np.array([0, 1, *range(n), 2]))
+    assert faces.tolist() == [1] * (n - 2)
+    a, b, c = np.moveaxis(points[np.array([0, 1, *range(n), 2])[corners]], 1, 0)
+    areas = np.cross(b - a, c - a) @ up / 2
+    assert (areas >= -1e-12).all()
+    assert areas.sum() == pytest.approx(area_of_outline(outline))
+
+
+def test_subsets_have_materials_of_their_own(tmp_path: Path) -> None:
+    def fill(stage: Any) -> None:
+        box = mesh(stage, "/box")
+        bind(box, preview(stage, "/Looks/wood", diffuseColor=(0.2, 0.1, 0.05)))
+        subset = usd("UsdGeom").Subset.CreateGeomSubset(box, "top", "face", usd("Vt").IntArray([1, 99]), "materialBind")
+        bind(subset, preview(stage, "/Looks/steel", diffuseColor=(0.5, 0.5, 0.5), opacity=0.25))
+
+    (box,) = scene_of(fill, tmp_path).objects
+    found = looks(box)
+    assert [material.name for material in found.materials] == ["wood", "steel"]
+    assert np.bincount(found.face_material).tolist() == [10, 2]
+    wood, steel = (material.color_rgba for material in found.materials)
+    np.testing.assert_allclose(wood, [*srgb((0.2, 0.1, 0.05)), 1.0], atol=1e-6)
+    np.testing.assert_allclose(steel, [*srgb((0.5, 0.5, 0.5)), 0.25], atol=1e-6)
+    tops = box.geometry.mesh.vertices_m[box.geometry.mesh.faces[found.face_material == 1]]
+    assert (tops[..., 2] == 1.0).all()
+
+
+@pytest.mark.parametrize(
+    ("kind", "numbers", "size", "exact"),
+    [
+        ("Cube", {"size": 3.0}, (3, 3, 3), 27.0),
+        ("Sphere", {"radius": 0.5}, (1, 1, 1), np.pi / 6),
+        ("Cylinder", {"radius": 0.5, "height": 4.0, "axis": "X"}, (4, 1, 1), np.pi),
+        ("Cylinder", {"radius": 0.5, "height": 4.0, "axis": "Y"}, (1, 4, 1), np.pi),
+        ("Cone", {"radius": 0.5, "height": 3.0, "axis": "Z"}, (1, 1, 3), np.pi / 4),
+        ("Capsule", {"radius": 0.5, "height": 1.0, "axis": "X"}, (2, 1, 1), np.pi / 4 + np.pi / 6),
+        ("Plane", {"width": 2.0, "length": 3.0, "axis": "Z"}, (2, 3, 0), 0.0),
+        ("Plane", {"width": 2.0, "length": 3.0, "axis": "Y"}, (2, 0, 3), 0.0),
+        ("Plane", {"width": 2.0, "length": 3.0, "axis": "X"}, (0, 3, 2), 0.0),
+    ],
+)
+def test_shapes_have_their_sizes(
+    tmp_path: Path, kind: str, numbers: dict[str, Any], size: tuple[float, ...], exact: float
+) -> None:
+    def fill(stage: Any) -> None:
+        prim = stage.DefinePrim("/shape", kind)
+        for name, number in numbers.items():
+            prim.GetAttribute(name).Set(number)
+
+    (item,) = scene_of(fill, tmp_path).objects
+    np.testing.assert_allclose(np.ptp(item.bounds_m, axis=0), size, atol=1e-9)
+    assert volume(item) == pytest.approx(exact, rel=0.02)
+
+
+def test_a_cone_has_its_tip_along_its_axis(tmp_path: Path) -> None:
+    (cone,) = load_scene(text_file(tmp_path, 'def Cone "a" { token axis = "Y"\n }\n'), unit_m=1.0).objects
+    points = cone.geometry.mesh.vertices_m
+    assert np.hypot(*points[points[:, 1] == points[:, 1].max()][:, [0, 2]].T).max() == 0.0
+
+
+# -- looks -----------------------------------------------------------------------------------------------------------
+
+
+def painted_square(stage: Any, file: str = "./floor.png", interpolation: str = "vertex") -> None:
+    """A square whose texture stands upright; st runs upwards."""
+    square = mesh(stage, "/square", QUAD, [0, 1, 2, 3], [4])
+    st = (
+        usd("UsdGeom")
+        .PrimvarsAPI(square)
+        .CreatePrimvar("map1", usd("Sdf").ValueTypeNames.TexCoord2fArray, interpolation)
+    )
+    st.Set([(0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75)])
+    bind(square, textured(stage, "/Looks/floor", file, primvar="map1"))
+
+
+@pytest.mark.parametrize("interpolation", ["vertex", "varying", "faceVarying"])
+@pytest.mark.parametrize("suffix", [".usda", ".usdc"])
+def test_textures_lie_as_the_file_says(tmp_path: Path, interpolation: str, suffix: str) -> None:
+    (tmp_path / "floor.png").write_bytes(image_file())
+    scene = scene_of(lambda stage: painted_square(stage, interpolation=interpolation), tmp_path, suffix=suffix)
+    assert shown(scene.objects[0]) == UPRIGHT
+
+
+def test_indexed_coordinates_and_their_transform_are_read(tmp_path: Path) -> None:
+    def fill(stage: Any) -> None:
+        painted_square(stage)
+        shade, types = usd("UsdShade"), usd("Sdf").ValueTypeNames
+        turn = shade.Shader.Define(stage, "/Looks/floor/turn")
+        turn.CreateIdAttr("UsdTransform2d")
+        turn.CreateInput("translation", types.Float2).Set((0.5, 0.0))
+        reader = shade.Shader(stage.GetPrimAtPath("/Looks/floor/reader"))
+        turn.CreateInput("in", types.Float2).ConnectToSource(reader.ConnectableAPI(), "result")
+        texture = shade.Shader(stage.GetPrimAtPath("/Looks/floor/texture"))
+        texture.GetInput("st").ConnectToSource(turn.ConnectableAPI(), "result")
+        primvar = usd("UsdGeom").PrimvarsAPI(stage.GetPrimAtPath("/square")).GetPrimvar("map1")
+        primvar.Set([(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)])
+        primvar.SetIndices([0, 1, 3, 2])
+
+    (tmp_path / "floor.png").write_bytes(image_file())
+    colors = shown(scene_of(fill, tmp_path).objects[0])
+    assert colors[(1.0, 0.0)] == BLUE
+    assert colors[(0.0, 1.0)] == GREEN
+
+
+def test_a_texture_that_is_missing_costs_no_scene(tmp_path: Path) -> None:
+    stage = new_stage(tmp_path / "a.usda")
+    painted_square(stage)
+    stage.Save()
+    scene, told = refused(tmp_path / "a.usda")
+    assert "there is no file" in told
+    assert "floor.png" in told
+    assert not looks(scene.objects[0]).materials[0].has_texture
+
+
+@pytest.mark.parametrize("file", ["../floor.png", "https://example.org/floor.png", "/etc/hostname"])
+def test_textures_outside_are_not_read(tmp_path: Path, file: str) -> None:
+    (tmp_path / "floor.png").write_bytes(image_file())
+    (tmp_path / "scenes").mkdir()
+    path = tmp_path / "scenes" / "a.usda"
+    stage = new_stage(path)
+    painted_square(stage, file)
+    stage.Save()
+    _, told = refused(path)
+    assert "lies outside" in told
+    if file.startswith(".."):
+        assert shown(load_scene(path, assets_root=tmp_path, unit_m=1.0).objects[0]) == UPRIGHT
+
+
+def test_colours_of_the_mesh_count_without_a_material(tmp_path: Path) -> None:
+    def fill(stage: Any) -> None:
+        mesh(stage, "/plain").CreateDisplayColorAttr([(0.5, 0.25, 0.125)])
+        faces = usd("UsdGeom").PrimvarsAPI(mesh(stage, "/faces"))
+        types = usd("Sdf").ValueTypeNames
+        faces.CreatePrimvar("displayColor", types.Color3fArray, "uniform").Set([(1, 0, 0)] * 5 + [(0, 0, 1)])
+        faces.CreatePrimvar("displayOpacity", types.FloatArray, "constant").Set([0.5])
+        mesh(stage, "/bare")
+
+    plain, faces, bare = scene_of(fill, tmp_path).objects
+    np.testing.assert_allclose(looks(plain).materials[0].color_rgba[:3], srgb((0.5, 0.25, 0.125)), atol=1 / 255)
+    by_face = [looks(faces).materials[i].color_rgba for i in looks(faces).face_material]
+    np.testing.assert_allclose(by_face, [(1, 0, 0, 0.5)] * 10 + [(0, 0, 1, 0.5)] * 2, atol=1 / 255)
+    assert bare.appearance is None
+
+
+def test_coordinates_that_do_not_fit_cost_the_texture(tmp_path: Path) -> None:
+    (tmp_path / "floor.png").write_bytes(image_file())
+    stage = new_stage(tmp_path / "a.usda")
+    painted_square(stage)
+    usd("UsdGeom").PrimvarsAPI(stage.GetPrimAtPath("/square")).GetPrimvar("map1").Set([(0, 0)])
+    stage.Save()
+    scene, told = refused(tmp_path / "a.usda")
+    assert "has 1 values, which do not fit" in told
+    assert looks(scene.objects[0]).uv is None
+
+
+def test_a_material_of_another_renderer_is_known_by_its_name(tmp_path: Path) -> None:
+    def fill(stage: Any) -> None:
+        shade = usd("UsdShade")
+        box = mesh(stage, "/box")
+        box.CreateDisplayColorAttr([(1, 1, 1)])
+        bind(box, shade.Material.Define(stage, "/Looks/Oak_Planks"))
+
+    snapshot = scene_of(fill, tmp_path)
+    other = tmp_path / "other"
+    other.mkdir()
+    bare = scene_of(lambda stage: mesh(stage, "/box").CreateDisplayColorAttr([(1, 1, 1)]), other)
+    assert snapshot.objects[0].instance_key != bare.objects[0].instance_key
+
+
+# -- masses ----------------------------------------------------------------------------------------------------------
+
+
+def weigh(prim: Any, *, mass: float | None = None, density: float | None = None) -> None:
+    api = usd("UsdPhysics").MassAPI.Apply(prim.GetPrim())
+    if mass is not None:
+        api.CreateMassAttr(mass)
+    if density is not None:
+        api.CreateDensityAttr(density)
+
+
+def test_masses_are_read(tmp_path: Path) -> None:
+    def fill(stage: Any) -> None:
+        geom = usd("UsdGeom")
+        weigh(mesh(stage, "/given"), mass=3.5, density=100.0)
+        weigh(mesh(stage, "/dense"), density=700.0)
+        mesh(stage, "/unknown")
+        weigh(mesh(stage, "/nothing"), mass=0.0)
+        body = geom.Xform.Define(stage, "/body")
+        body.AddScaleOp().Set((2, 1, 1))
+        weigh(body, density=10.0)
+        mesh(stage, "/body/shape")
+        whole = geom.Xform.Define(stage, "/whole")
+        weigh(whole, mass=8.0)
+        weigh(mesh(stage, "/whole/shape"), mass=1.0)
+        open_box = mesh(stage, "/open")
+        open_box.CreateHoleIndicesAttr([0])
+        weigh(open_box, density=700.0)
+        by_material = mesh(stage, "/by_material")
+        rubber = usd("UsdShade").Material.Define(stage, "/rubber")
+        usd("UsdPhysics").MaterialAPI.Apply(rubber.GetPrim()).CreateDensityAttr(1100.0)
+        bind(by_material, rubber, "physics")
+
+    found = {item.id: item.mass_kg for item in scene_of(fill, tmp_path).objects}
+    expected = {"given": 3.5, "dense": 700.0, "body": 20.0, "whole": 8.0, "by_material": 1100.0}
+    assert {name: kg for name, kg in found.items() if kg is not None} == pytest.approx(expected, rel=1e-6)
+    assert found.keys() >= {"unknown", "nothing", "open"}
+
+
+def test_masses_are_in_the_units_of_the_stage(tmp_path: Path) -> None:
+    """A cube of 100 cm at 0.001 mass units (of 2 kg) per cubic centimetre; the density follows no other unit_m."""
+    path = tmp_path / "a.usda"
+    stage = new_stage(path, unit_m=0.01)
+    usd("UsdPhysics").SetStageKilogramsPerUnit(stage, 2.0)
+    weigh(mesh(stage, "/given"), mass=3.0)
+    weigh(mesh(stage, "/dense", np.array(CUBE_POINTS) * 100.0), density=0.001)
+    stage.Save()
+    for options in ({}, {"unit_m": 0.02}):
+        given, dense = load_scene(path, **options).objects
+        assert given.mass_kg == pytest.approx(6.0)
+        assert dense.mass_kg == pytest.approx(2000.0)
+
+
+def test_parts_sum_up_only_if_all_are_known(tmp_path: Path) -> None:
+    def fill(stage: Any) -> None:
+        for table, parts in (("known", ("known_leg", "known_top")), ("partly", ("partly_leg", "partly_top"))):
+            usd("UsdGeom").Xform.Define(stage, f"/{table}")
+            for part in parts:
+                weigh(mesh(stage, f"/{table}/{part}"), mass=0.0 if part == "partly_top" else 2.0)
+
+    assert [(item.id, item.mass_kg) for item in scene_of(fill, tmp_path).objects] == [("known", 4.0), ("partly", None)]
+
+
+def test_copies_weigh_what_their_scale_makes_of_them(tmp_path: Path) -> None:
+    def fill(stage: Any) -> None:
+        instancer(stage).CreateScalesAttr([(1, 1, 1), (1, 1, 1), (2, 2, 2)])
+        weigh(stage.GetPrimAtPath("/World/cups/prototypes/cup"), density=5.0)
+
+    assert [item.mass_kg for item in scene_of(fill, tmp_path).objects] == pytest.approx([5.0, 5.0, 40.0])
+
+
+# -- layers ----------------------------------------------------------------------------------------------------------
+
+CUBE = '(\n defaultPrim = "cube"\n)\ndef Xform "cube" {\n def Cube "shape" { double size = 1\n }\n}\n'
+
+
+@pytest.mark.parametrize("arc", ["references", "prepend references", "payload", "append payload"])
+@pytest.mark.parametrize("name", ["./props/cube.usda", "props/cube.usda", "props/a%20b.usda"])
+def test_layers_beside_the_scene_are_read(tmp_path: Path, arc: str, name: str) -> None:
+    text_file(tmp_path, CUBE, name)
+    path = text_file(tmp_path, f'def Xform "box" ({arc} = @{name}@)\n{{\n}}\n')
+    assert ids(load_scene(path, unit_m=1.0)) == ["box"]
+
+
+def test_sublayers_and_their_own_layers_are_read_from_their_own_folders(tmp_path: Path) -> None:
+    text_file(tmp_path, CUBE, "sets/props/cube.usda")
+    text_file(tmp_path, 'def Xform "box" (references = @props/cube.usda@)\n{\n}\n', "sets/set.usda")
+    path = text_file(
+        tmp_path,
+        '(\n subLayers = [@sets/set.usda@]\n)\nover "box" {\n double3 xformOp:translate = (4, 0, 0)\n'
+        ' uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n',
+    )
+    (box,) = load_scene(path, unit_m=1.0).objects
+    np.testing.assert_allclose(box.bounds_m[:, 0], [3.5, 4.5])
+
+
+def test_textures_lie_beside_the_layer_that_names_them(tmp_path: Path) -> None:
+    (tmp_path / "props").mkdir()
+    (tmp_path / "props" / "floor.png").write_bytes(image_file())
+    stage = new_stage(tmp_path / "props" / "square.usdc")
+    painted_square(stage)
+    stage.Save()
+    path = text_file(tmp_path, "(\n subLayers = [@props/square.usdc@]\n)\n")
+    assert shown(load_scene(path, unit_m=1.0).objects[0]) == UPRIGHT
+
+
+@pytest.mark.parametrize("arc", ["references", "payload"])
+def test_a_layer_outside_needs_another_root(tmp_path: Path, arc: str) -> None:
+    text_file(tmp_path, CUBE, "props/cube.usda")
+    path = text_file(tmp_path, f'def Xform "box" ({arc} = @../props/cube.usda@)\n{{\n}}\n', "scenes/a.usda")
+    with pytest.raises(SceneError, match="prim /box wants '../props/cube.usda', which lies outside .*assets_root="):
+        load_scene(path)
+    assert ids(load_scene(path, assets_root=tmp_path, unit_m=1.0)) == ["box"]
+
+
+@pytest.mark.parametrize(
+    ("name", "sentence"),
+    [
+        ("https://example.org/a.usda", "never fetched"),
+        ("omniverse://server/a.usd", "never fetched"),
+        ("/etc/a.usda", "lies outside"),
+        ("gone.usda", "needs the layer 'gone.usda', and there is no file"),
+        ("chair.obj", "layers that are read end in .usd"),
+        ('`"${ROOM}.usda"`', "by the expression"),
+    ],
+)
+@pytest.mark.parametrize("arc", ["references", "payload", "subLayers"])
+def test_layers_that_are_not_read_are_named(tmp_path: Path, name: str, sentence: str, arc: str) -> None:
+    text = f"(\n subLayers = [@{name}@]\n)\n" if arc == "subLayers" else f'def Xform "box" ({arc} = @{name}@)\n{{\n}}\n'
+    with pytest.raises(SceneError, match=sentence):
+        load_scene(text_file(tmp_path, text + 'def Cube "cube" {\n}\n'), unit_m=1.0)
+
+
+def test_layers_that_the_stage_does_not_need_may_be_missing(tmp_path: Path) -> None:
+    variants = """def Xform "box" (
+        variants = { string size = "%s" }
+        prepend variantSets = "size"
+    ) {
+        variantSet "size" = {
+            "small" {
+                def Cube "cube" {
+                }
+            }
+            "large" (references = @gone.usda@) {
+            }
+        }
+    }
+    def Xform "off" (
+        active = false
+        references = @away.usda@
+    ) {
+    }
+    """
+    assert ids(load_scene(text_file(tmp_path, variants % "small"), unit_m=1.0)) == ["box"]
+    with pytest.raises(SceneError, match="needs the layer 'gone.usda'"):
+        load_scene(text_file(tmp_path, variants % "large"), unit_m=1.0)
+
+
+def test_files_of_materials_alone_may_be_missing(tmp_path: Path) -> None:
+    path = text_file(tmp_path, 'def Cube "cube" {\n}\ndef Material "m" (references = @wood.mtlx@</MaterialX>) {\n}\n')
+    scene, told = refused(path)
+    assert ids(scene) == ["cube"]
+    assert "'wood.mtlx', a file of materials" in told
+
+
+def test_layers_that_name_each_other_end(tmp_path: Path) -> None:
+    text_file(tmp_path, 'def Xform "b" (references = @scene.usda@</a>)\n{\n def Cube "cube" {\n }\n}\n', "b.usda")
+    path = text_file(tmp_path, 'def Xform "a" (references = @b.usda@</b>)\n{\n}\n')
+    assert len(load_scene(path, unit_m=1.0).objects) == 1
+
+
+def test_value_clips_open_no_file(tmp_path: Path) -> None:
+    text_file(tmp_path, 'def Cube "box" {\n double size.timeSamples = { 0: 9 }\n}\n', "clip.usda")
+    path = text_file(
+        tmp_path,
+        """def Cube "box" (
+        clips = { dictionary default = {
+            asset[] assetPaths = [@./clip.usda@]
+            double2[] active = [(0, 0)]
+            double2[] times = [(0, 0)]
+            string primPath = "/box"
+            asset manifestAssetPath = @./clip.usda@
+        } }
+        ) {
+        }
+        """,
+    )
+    (box,) = load_scene(path, unit_m=1.0).objects
+    np.testing.assert_allclose(np.ptp(box.bounds_m, axis=0), 2.0)
+
+
+# -- archives --------------------------------------------------------------------------------------------------------
+
+
+def archive(folder: Path) -> Path:
+    """A .usdz made by usd-core: a square with its texture."""
+    (folder / "floor.png").write_bytes(image_file())
+    stage = new_stage(folder / "square.usdc")
+    painted_square(stage)
+    stage.Save()
+    assert usd("UsdUtils").CreateNewUsdzPackage(str(folder / "square.usdc"), str(folder / "a.usdz"))
+    (folder / "floor.png").unlink()
+    return folder / "a.usdz"
+
+
+def zipped(path: Path, files: dict[str, str | bytes], how: int = zipfile.ZIP_STORED) -> Path:
+    with zipfile.ZipFile(path, "w", how) as out:
+        for name, content in files.items():
+            out.writestr(name, content)
+    return path
+
+
+def test_archives_are_read_with_their_textures(tmp_path: Path) -> None:
+    (square,) = load_scene(archive(tmp_path)).objects
+    assert square.id == "square"
+    assert shown(square) == UPRIGHT
+
+
+def test_archives_are_read_as_layers(tmp_path: Path) -> None:
+    archive(tmp_path)
+    path = text_file(tmp_path, 'def "tile" (references = @a.usdz@</square>)\n{\n}\n')
+    assert ids(load_scene(path, unit_m=1.0)) == ["tile"]
+
+
+def test_layers_in_an_archive_come_from_the_archive(tmp_path: Path) -> None:
+    text_file(tmp_path, CUBE, "cube.usda")
+    outer = HEADER + 'def Xform "box" (references = @%s@)\n{\n}\n'
+    inner = {"parts/cube.usda": HEADER + CUBE}
+    path = zipped(tmp_path / "a.usdz", {"scene.usda": outer % "parts/cube.usda", **inner})
+    assert ids(load_scene(path, unit_m=1.0)) == ["box"]
+    for name in ("cube.usda", "../cube.usda", "/etc/cube.usda", "https://example.org/cube.usda"):
+        with pytest.raises(SceneError, match="which the archive does not hold"):
+            load_scene(zipped(tmp_path / "b.usdz", {"scene.usda": outer % name, **inner}))
+
+
+def test_broken_archives_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "a.usdz"
+    with pytest.raises(SceneFormatError, match="packs or encrypts 'a.usda'"):
+        load_scene(zipped(path, {"a.usda": HEADER + CUBE}, zipfile.ZIP_DEFLATED))
+    with pytest.raises(SceneFormatError, match=r"'a\.usdz/read\.me' cannot be read as USD"):
+        load_scene(zipped(path, {"read.me": "hello"}))
+    with pytest.raises(SceneFormatError, match="promises 0 files"):
+        load_scene(zipped(path, {}))
+    path.write_bytes(b"PK\x03\x04 and so on")
+    with pytest.raises(SceneFormatError, match=r"'a\.usdz' cannot be read as USDZ"):
+        load_scene(path)
+    zipped(path, {"a.usda": HEADER + CUBE + " " * 5000})
+    data = path.read_bytes()
+    # The size in the entry at the end, of both kinds.
+    at = data.rindex(b"PK\x01\x02")
+    path.write_bytes(data[: at + 20] + b"\xff\xff\xff\x0f" * 2 + data[at + 28 :])
+    with pytest.raises(SceneFormatError, match="promises 1 files of 268,435,455 bytes"):
+        load_scene(path)
+
+
+# -- broken files ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("a shopping list", "'scene.usda' cannot be read as USD"),
+        ('def Cube "a" {', "'scene.usda' cannot be read as USD"),
+        ('def Xform "a" {\n}\n', "holds no triangles"),
+        ('def Mesh "a" {\n int[] faceVertexCounts = [3]\n int[] faceVertexIndices = [0, 1, 2]\n}\n', "there are 0"),
+        ('def Mesh "a" {\n int[] faceVertexCounts = [4]\n int[] faceVertexIndices = [0, 1, 2]\n}\n', "come to 4"),
+        ('def Mesh "a" {\n int[] faceVertexCounts = [-3, 6]\n int[] faceVertexIndices = [0, 1, 2]\n}\n', "come to 3"),
+        (
+            'def Mesh "a" {\n point3f[] points = [(0, 0, 0), (1, 0, 0), (nan, 1, 0)]\n int[] faceVertexCounts = [3]\n'
+            " int[] faceVertexIndices = [0, 1, 2]\n}\n",
+            "every coordinate must be finite",
+        ),
+        ('def Cube "a" {\n double size = 1e300\n}\n', "1e\\+300|finite|coordinates of up to"),
+        (
+            'def Cube "a" {\n matrix4d xformOp:transform = ((1,0,0,1),(0,1,0,0),(0,0,1,0),(0,0,0,1))\n'
+            ' uniform token[] xformOpOrder = ["xformOp:transform"]\n}\n',
+            "whose last column is",
+        ),
+        ('def Mesh "a" {\n string points = "abc"\n}\n', "cannot be read as USD|holds no triangles"),
+        ('def Mesh "a" {\n string[] faceVertexCounts = ["abc"]\n}\n', "cannot be read as USD|holds no triangles"),
+        ('def Cube "a" {\n string size = "abc"\n}\n', "cannot be read as USD|holds no triangles"),
+        ('def Cube "a" {\n double[] visibility = [1, 2]\n double3 size = (1, 2, 3)\n}\n', "cannot be read as USD"),
+        (
+            'def Cube "a" {\n string xformOp:translate = "abc"\n uniform token[] xformOpOrder = '
+            '["xformOp:translate"]\n}\ndef PointInstancer "b" {\n string protoIndices = "abc"\n}\n',
+            "cannot be read as USD",
+        ),
+        ('def Xform "a" {\n' * 300 + 'def Cube "b" {\n}\n' + "}\n" * 300, "the depth of the node tree is 201"),
+    ],
+)
+def test_broken_text_is_refused(tmp_path: Path, text: str, sentence: str) -> None:
+    with pytest.raises(SceneError, match=sentence):
+        load_scene(text_file(tmp_path, text), unit_m=1.0)
+
+
+@pytest.mark.usefixtures("child")
+def test_a_crash_of_the_reader_is_an_error(tmp_path: Path) -> None:
+    """Text that is nested so deeply overflows usd-core's stack."""
+    text = 'def "a" (\n customData = {' + "dictionary a = {" * 100_000 + "}" * 100_000 + "}\n) {\n}\n"
+    with pytest.raises(SceneFormatError, match="usd-core ended with status"):
+        load_scene(text_file(tmp_path, text))
+
+
+@pytest.mark.parametrize("content", [b"", b"PXR-USDC", b"PXR-USDC" + bytes(100), b"\0" * 1000])
+@pytest.mark.parametrize("suffix", [".usd", ".usdc", ".usdz"])
+def test_broken_binaries_are_refused(tmp_path: Path, content: bytes, suffix: str) -> None:
+    path = tmp_path / f"scene{suffix}"
+    path.write_bytes(content)
+    with pytest.raises(SceneFormatError, match=f"'scene{suffix}'"):
+        load_scene(path)
+
+
+def test_a_missing_file_is_told(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match="there is no file"):
+        load_scene(tmp_path / "scene.usdc")
+
+
+def doubling(*, arc: str) -> str:
+    """Thirty prims, each of which draws the next one twice."""
+    rows = [
+        f'def Xform "a{i}" {{\n def "x" ({arc} = </a{i + 1}>) {{\n }}\n def "y" ({arc} = </a{i + 1}>) {{\n }}\n}}\n'
+        for i in range(30)
+    ]
+    return "".join(rows) + 'def Cube "a30" {\n}\n'
+
+
+@pytest.mark.parametrize("arc", ["references", "payload", "inherits", "specializes"])
+def test_what_composes_to_too_much_is_refused_before(tmp_path: Path, arc: str) -> None:
+    with pytest.raises(SceneError, match="brings the opinions to compose to"):
+        load_scene(text_file(tmp_path, doubling(arc=arc)))
+
+
+@pytest.mark.usefixtures("child")
+def test_limits_are_those_of_the_caller(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    stage = new_stage(tmp_path / "a.usda")
+    instancer(stage, n=100)
+    stage.Save()
+    monkeypatch.setattr(limits, "MAX_NODES", 50)
+    with pytest.raises(SceneError, match=r"the number of nodes is \d+; scene2hap reads at most 50"):
+        load_scene(tmp_path / "a.usda")
+
+
+@pytest.mark.usefixtures("child")
+def test_a_reader_that_takes_too_long_is_ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "sitecustomize.py").write_text(
+        "import scene2hap.scene.usd.process as p\np.TIME_S = 0.01\n", encoding="utf-8"
+    )
+    monkeypatch.syspath_prepend(str(tmp_path))
+    with pytest.raises(SceneFormatError, match="it takes longer than"):
+        load_scene(text_file(tmp_path, 'def Cube "a" {\n}\n'))
+
+
+# -- the child process -----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.usefixtures("child")
+def test_nothing_is_printed(tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    path = text_file(tmp_path, 'def Cube "a" (references = </gone>)\n{\n}\n')
+    for can_start in (True, False):
+        monkeypatch.setattr(process, "can_start_python", lambda can_start=can_start: can_start)
+        load_scene(path, unit_m=1.0)
+        with pytest.raises(SceneFormatError):
+            load_scene(text_file(tmp_path, "no usd", "b.usda"))
+    assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.usefixtures("child")
+def test_a_program_that_is_no_python_reads_in_process(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = archive(tmp_path)
+    expected = load_scene(path)
+    monkeypatch.setattr(sys, "executable", str(tmp_path / "game.exe"))
+    assert not process.can_start_python()
+    found = load_scene(path)
+    assert found == expected
+    assert shown(found.objects[0]) == UPRIGHT
+    monkeypatch.setattr(sys, "frozen", True, raising=False)
+    assert not process.can_start_python()
+
+
+@pytest.mark.usefixtures("child")
+def test_a_program_that_cannot_be_started_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "executable", str(tmp_path / "python-that-is-gone"))
+    with pytest.raises(SceneError, match="'scene.usda' is not read, since no process can be started"):
+        load_scene(text_file(tmp_path, 'def Cube "a" {\n}\n'))
+
+
+@pytest.mark.usefixtures("child")
+def test_every_load_is_the_same(tmp_path: Path) -> None:
+    def fill(stage: Any) -> None:
+        instancer(stage)
+        bind(mesh(stage, "/box", CUBE_POINTS, CUBE_QUADS), preview(stage, "/Looks/wood", diffuseColor=(1.0, 0.0, 0.0)))
+
+    first = scene_of(fill, tmp_path)
+    assert all(load_scene(tmp_path / "scene.usda", unit_m=1.0) == first for _ in range(2))
+
+
+def test_without_usd_core_the_cure_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pxr", None)
+    with pytest.raises(MissingExtra, match=r"'scene.usdz' is USD.*pip install 'scene2hap\[usd\]'"):
+        load_scene(tmp_path / "scene.usdz")

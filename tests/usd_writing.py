@@ -1,0 +1,103 @@
+"""USD files written by usd-core's own classes: a stage to fill, and scenes of ours as USD."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import ArrayLike
+
+from scene2hap.scene.snapshot import SceneSnapshot
+
+CUBE_POINTS = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+CUBE_QUADS = [0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7]
+"""A cube of edge 1 with a corner in the origin, as six quadrilaterals that face outwards."""
+
+
+def usd(name: str) -> Any:
+    """A module of usd-core, such as "UsdGeom"; the test is skipped where that is not installed."""
+    return pytest.importorskip(f"pxr.{name}", reason="usd-core is not installed; run: pip install usd-core")
+
+
+def new_stage(path: Path, *, unit_m: float | None = 1.0, up: str | None = "Y") -> Any:
+    """A stage that is saved by `stage.Save()`; None leaves metersPerUnit or upAxis out."""
+    stage = usd("Usd").Stage.CreateNew(str(path))
+    if unit_m is not None:
+        usd("UsdGeom").SetStageMetersPerUnit(stage, unit_m)
+    if up is not None:
+        usd("UsdGeom").SetStageUpAxis(stage, up)
+    return stage
+
+
+def mesh(
+    stage: Any,
+    path: str,
+    points: ArrayLike = CUBE_POINTS,
+    indices: Sequence[int] = CUBE_QUADS,
+    counts: Sequence[int] = (4,) * 6,
+) -> Any:
+    """A `UsdGeom.Mesh`; a cube unless told otherwise."""
+    vt, made = usd("Vt"), usd("UsdGeom").Mesh.Define(stage, path)
+    made.CreatePointsAttr(vt.Vec3fArray.FromNumpy(np.asarray(points, np.float32)))
+    made.CreateFaceVertexCountsAttr(vt.IntArray.FromNumpy(np.asarray(counts, np.int32)))
+    made.CreateFaceVertexIndicesAttr(vt.IntArray.FromNumpy(np.asarray(indices, np.int32)))
+    return made
+
+
+def preview(stage: Any, path: str, **inputs: Any) -> Any:
+    """A material with a UsdPreviewSurface of these inputs; a tuple is a colour."""
+    shade, types = usd("UsdShade"), usd("Sdf").ValueTypeNames
+    material, surface = shade.Material.Define(stage, path), shade.Shader.Define(stage, f"{path}/surface")
+    surface.CreateIdAttr("UsdPreviewSurface")
+    for name, held in inputs.items():
+        surface.CreateInput(name, types.Color3f if isinstance(held, tuple) else types.Float).Set(held)
+    material.CreateSurfaceOutput().ConnectToSource(surface.ConnectableAPI(), "surface")
+    return material
+
+
+def textured(stage: Any, path: str, file: str, *, primvar: str = "st") -> Any:
+    """A material whose diffuse colour is a texture laid by a primvar."""
+    shade, types = usd("UsdShade"), usd("Sdf").ValueTypeNames
+    material = preview(stage, path)
+    texture, reader = shade.Shader.Define(stage, f"{path}/texture"), shade.Shader.Define(stage, f"{path}/reader")
+    texture.CreateIdAttr("UsdUVTexture")
+    texture.CreateInput("file", types.Asset).Set(file)
+    reader.CreateIdAttr("UsdPrimvarReader_float2")
+    reader.CreateInput("varname", types.String).Set(primvar)
+    texture.CreateInput("st", types.Float2).ConnectToSource(reader.ConnectableAPI(), "result")
+    surface = shade.Shader(stage.GetPrimAtPath(f"{path}/surface"))
+    surface.CreateInput("diffuseColor", types.Color3f).ConnectToSource(texture.ConnectableAPI(), "rgb")
+    return material
+
+
+def bind(prim: Any, material: Any, purpose: str = "") -> None:
+    """Bind a material to a prim."""
+    shade = usd("UsdShade")
+    api = shade.MaterialBindingAPI.Apply(prim.GetPrim())
+    api.Bind(material, shade.Tokens.fallbackStrength, purpose)
+
+
+def as_usd(scene: SceneSnapshot, path: Path) -> Path:
+    """A scene of ours as USD: one Xform and one Mesh for each object."""
+    gf, geom = usd("Gf"), usd("UsdGeom")
+    stage = new_stage(path, up=scene.up_axis.upper())
+    geom.Xform.Define(stage, "/World")
+    for number, item in enumerate(scene.objects):
+        frame = geom.Xform.Define(stage, f"/World/object_{number}")
+        frame.GetPrim().SetDisplayName(item.name)
+        rows = np.eye(4)
+        rows[:3, :3], rows[3, :3] = item.pose.rotation.T, item.pose.position_m
+        frame.AddTransformOp().Set(gf.Matrix4d(rows.tolist()))
+        triangles = item.geometry.mesh
+        mesh(
+            stage,
+            f"/World/object_{number}/shape",
+            triangles.vertices_m,
+            triangles.faces.reshape(-1).tolist(),
+            [3] * len(triangles.faces),
+        )
+    stage.Save()
+    return path
