@@ -23,6 +23,7 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).parent))
 
 from bake_many import write_variations
+
 from scene2hap import capture_images, load_scene
 from scene2hap.llm.chain import infer_scene
 from scene2hap.llm.dry_run import estimated_cost_usd

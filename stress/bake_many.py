@@ -23,9 +23,11 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).parents[1]
-sys.path[:0] = [str(ROOT / "benchmarks"), str(ROOT / "tests")]
+sys.path.insert(0, str(ROOT / "benchmarks"))
+sys.path.insert(0, str(ROOT / "tests"))
 
 from bake_many import digest, write_variations
+
 from scene2hap import bake_many
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.protocol import LLMReply, LLMRequest
