@@ -30,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "verb",
         choices=("submit", "status", "collect", "cancel"),
         metavar="VERB",
-        help="submit: send what can be asked now; status: how far batches are; collect: fetch answers; cancel: end batches",
+        help="submit: send what can be asked now; status: how far it is; collect: fetch answers; cancel: end it",
     )
     add_many_arguments(parser, "*")
 
