@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,9 @@ from numpy.typing import NDArray
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import AudioError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure, SubFigure
 
 Samples = NDArray[np.float32]
 
@@ -70,6 +74,18 @@ class AudioClip:
     def duration_s(self) -> float:
         """Length [s]."""
         return len(self.samples) / self.sample_rate_hz
+
+    def plot(self, *, title: str | None = None, figure: Figure | SubFigure | None = None) -> Figure | SubFigure:
+        """Draw the waveform [full scale] over the spectrogram, and the spectrum with the threshold of touch [dB].
+
+        Parameters: title : the title of the sound if None; figure : an empty matplotlib figure to draw into, such as
+        one of `Figure.subfigures`; None for a new one.
+        Returns: the figure, made without pyplot. Raises: MissingExtra: matplotlib is not installed.
+        """
+        from scene2hap.audio.plots import plot_clip  # by need: the extra `plots`
+
+        title = self.credit.title if title is None else title
+        return plot_clip(self.samples, self.sample_rate_hz, title, is_felt=self.is_vibration, figure=figure)
 
 
 def _is_frozen(samples: object) -> bool:

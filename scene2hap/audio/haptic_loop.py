@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.calls import clear_construction
 from scene2hap.errors import AudioError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure, SubFigure
 
 
 @dataclass(frozen=True)
@@ -77,3 +81,21 @@ class HapticLoop:
             )
         for name in ("frequency_raw_hz", "frequency_tactile_hz"):
             object.__setattr__(self, name, checks.number(name, getattr(self, name), "Hz", above=0.0, error=AudioError))
+
+    def plot(self, *, title: str | None = None, figure: Figure | SubFigure | None = None) -> Figure | SubFigure:
+        """Draw the sound over the vibration [full scale], and both spectra with the threshold of touch [dB].
+
+        Parameters: title : the title of the sound if None; figure : an empty matplotlib figure to draw into; None for
+        a new one.
+        Returns: the figure, made without pyplot. Raises: MissingExtra: matplotlib is not installed.
+        """
+        from scene2hap.audio.plots import plot_loop  # by need: the extra `plots`
+
+        return plot_loop(
+            self.audible.samples,
+            self.tactile.samples,
+            self.tactile.sample_rate_hz,
+            self.audible.credit.title if title is None else title,
+            (self.frequency_raw_hz, self.frequency_tactile_hz),
+            figure=figure,
+        )

@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.audio.actuators import response_db
 from scene2hap.audio.clip import Samples
+from scene2hap.audio.threshold import threshold_db as threshold_db
 from scene2hap.errors import AudioError
 from scene2hap.haptics import ActuatorProfile
 
@@ -40,14 +41,6 @@ FAINTEST_PEAK_DB = -60.0
 
 _NOTHING_DB = -120.0
 """Below this there are only errors of rounding."""
-
-_A, _B, _E = 50.0, 6.0 / 11.0, 45.0
-
-
-def threshold_db(frequencies_hz: ArrayLike) -> NDArray[np.float64]:
-    """T(f): the least drive that is felt, of the shape of `frequencies_hz` [dB re full scale]; least at 250 Hz."""
-    f = np.asarray(frequencies_hz, dtype=np.float64)
-    return np.minimum(0.0, _A / math.log10(_B) ** 2 * np.log10(f / 550.0 + _B) ** 2 - _E)
 
 
 def sensation_level_db(intensity: float) -> float:

@@ -6,19 +6,24 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.bundle.checking import require_plausible
 from scene2hap.bundle.contents import BundleContents
+from scene2hap.bundle.corrections import read_corrections
 from scene2hap.bundle.folder import read_bundle, write_bundle
+from scene2hap.bundle.notebook import bundle_table
 from scene2hap.bundle.override import ANY_STATE, MAKES_LOOPS, Override
 from scene2hap.calls import clear_calls
 from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.errors import BundleError
 from scene2hap.materials import Material
 from scene2hap.scene.scene_warning import warn_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure, SubFigure
 
 
 @clear_calls
@@ -89,6 +94,17 @@ class HapticBundle(BundleContents):
             )
         return replace(self, overrides={**self.overrides, object_id: wish}).with_overrides()
 
+    def corrected(self, file: str | os.PathLike[str]) -> Self:
+        """The bundle with the corrections in a file that a report page saved, on top of earlier ones.
+
+        Those of vibration, intensity and pitch count after `rebake`. Raises: BundleError: the file is none; and as
+        `override`.
+        """
+        bundle = self
+        for object_id, fields in read_corrections(checks.path("file", file, error=BundleError)).items():
+            bundle = bundle.override(object_id, **fields)
+        return bundle
+
     def with_overrides(self) -> Self:
         """With every correction in force, as far as no new loops are needed for it."""
         objects = {
@@ -132,6 +148,30 @@ class HapticBundle(BundleContents):
                     f"pitch_hz of {object_id!r} is {pitch_hz:g} Hz; the actuator {actuator.name!r} of this bundle "
                     f"plays {low_hz:g} to {high_hz:g} Hz. Choose a pitch in that band."
                 )
+
+    def plot(
+        self,
+        *,
+        sources: Sequence[str] | None = None,
+        up_to_m: float | None = None,
+        figure: Figure | SubFigure | None = None,
+    ) -> Figure | SubFigure:
+        """Draw the scene from above with its sources, and for sources their sound, vibration and spectra.
+
+        Parameters: sources : ids of the sources to draw, the first eight if None; up_to_m : leave out surfaces higher
+        than this above the lowest point of the scene [m], such as a ceiling; figure : an empty matplotlib figure to
+        draw into, None for a new one.
+        Returns: the figure, made without pyplot; lengths in m, times in s, levels in dB re full scale.
+        Raises: MissingExtra: matplotlib is not installed; BundleError: no such source, or `up_to_m` is no height.
+        """
+        from scene2hap.bundle.plots import plot_bundle  # by need: the extra `plots`
+
+        if up_to_m is not None:
+            up_to_m = checks.number("up_to_m", up_to_m, "m", error=BundleError)
+        return plot_bundle(self, sources, up_to_m, figure)
+
+    def _repr_html_(self) -> str:
+        return bundle_table(self)
 
     def save(self, folder: str | os.PathLike[str]) -> Path:
         """Write the folder whole or not at all; a bundle that is there already is replaced, and what is not ours stays.

@@ -13,6 +13,7 @@ from importlib.resources import files
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import MaterialError, UnknownMaterial
+from scene2hap.html_tables import html_table, number
 from scene2hap.scene.scene_warning import warn_of
 
 __all__ = ["Material", "MaterialRow", "lookup", "lookup_row", "table"]
@@ -59,6 +60,15 @@ class Material:
                     f"{field} of {self.name!r} is {getattr(self, field):g} {unit}, less than solids have, {usual:g} "
                     f"{unit}; is it in {other}? Give it in {unit}."
                 )
+
+    def _repr_html_(self) -> str:
+        rows = (
+            ("density [kg/m3]", number(self.density_kg_m3, 4)),
+            ("Young's modulus [GPa]", number(self.youngs_modulus_pa / 1e9)),
+            ("Poisson's ratio [-]", number(self.poisson_ratio)),
+            ("loss factor [-]", number(self.loss_factor)),
+        )
+        return html_table(f"Material {self.name}", ("constant", "value"), rows, len(rows))
 
 
 @dataclass(frozen=True)

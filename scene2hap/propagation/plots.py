@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
-from scene2hap.errors import MissingExtra, ModelDomainError
+from scene2hap.errors import ModelDomainError
+from scene2hap.plots import add_legend, new_figure, plain, set_title
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.protocol import ContactNetwork, PropagationField
@@ -64,14 +65,15 @@ def plot_field(
         level_db.T, origin="lower", extent=(0, plate.length_m, 0, plate.width_m), cmap="viridis",
         vmin=loudest - RANGE_DB, vmax=loudest, interpolation="bilinear",
     )  # fmt: skip
-    figure.colorbar(image, ax=axes, label="attenuation, dB", shrink=0.8)
+    figure.colorbar(image, ax=axes, label="attenuation [dB]", shrink=0.8)
     feet = _feet(network, object_id, source)
-    axes.plot(*feet.T, "o", color="white", markeredgecolor="black", label=f"{source} rests here")
+    marks = axes.plot(*feet.T, "o", color="white", markeredgecolor="black")
     if touch_m is not None:
         touched = network.on_body(object_id, as_points(touch_m, 3))
-        axes.plot(*touched.T, "X", color="tab:red", markeredgecolor="white", markersize=10, label="touch")
-    axes.set(xlabel="length, m", ylabel="width, m", title=title or f"{source} on {object_id}")
-    axes.legend(loc="upper right", fontsize=8)
+        marks += axes.plot(*touched.T, "X", color="tab:red", markeredgecolor="white", markersize=10)
+    axes.set(xlabel="length [m]", ylabel="width [m]")
+    set_title(axes, plain(title, 120) if title else f"{plain(source)} on {plain(object_id)}")
+    add_legend(axes, marks, [f"{plain(source)} rests here", "touch"][: len(marks)], loc="upper right")
     if path is not None:
         _write(figure, Path(path))
     return figure
@@ -97,12 +99,8 @@ def _feet(network: ContactNetwork, object_id: str, source_id: str) -> NDArray[np
 
 
 def _new_figure(plate: Plate) -> Figure:
-    try:
-        from matplotlib.figure import Figure
-    except ImportError as cause:
-        raise MissingExtra("pictures of plates need matplotlib. Run: pip install 'scene2hap[plots]'") from cause
     height = 1.4 + 5.5 * min(1.2, max(0.25, plate.width_m / plate.length_m))
-    return Figure(figsize=(7.5, height), dpi=110, layout="constrained")
+    return new_figure(7.5, height)
 
 
 def _write(figure: Figure, path: Path) -> None:

@@ -16,6 +16,7 @@ from pydantic import InstanceOf
 from scene2hap import checks
 from scene2hap.calls import clear_calls
 from scene2hap.errors import CallError, SceneError, UnknownObject
+from scene2hap.html_tables import html_table, number
 from scene2hap.scene.check import Finding
 from scene2hap.scene.images import ImageSet
 from scene2hap.scene.objects import (
@@ -142,6 +143,16 @@ class SceneSnapshot(SceneData):
         from scene2hap.scene.check import findings
 
         return tuple(findings(self))
+
+    def _repr_html_(self) -> str:
+        def row(item: SceneObject) -> tuple[str, ...]:
+            size = " × ".join(number(edge) for edge in item.size_m)
+            return item.id, item.name, size, number(item.relative_height_m), number(item.mass_kg)
+
+        count = len(self.objects)
+        title = f"Scene {self.name}: {count} object{'s' * (count != 1)}, {self.up_axis} up"
+        columns = ("object", "name", "dominant surface [m]", "height above the lowest point [m]", "mass [kg]")
+        return html_table(title, columns, map(row, self.objects), count)
 
     def to_json(self) -> str:
         """The whole scene as JSON; `from_json` gives it back exactly."""

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.html_tables import html_table
 from scene2hap.propagation.protocol import Carrier, CarryingField
 from scene2hap.session.frame import HapticFrame, Touch
 from scene2hap.session.impacts import Impact
@@ -74,9 +75,15 @@ class FeltSource:
         volume = f", volume {self.level_db:+.1f} dB" if abs(self.level_db) >= 0.05 else ""
         total = f"{self.source_id} ({self.state}) {self.gain_db:+.1f} dB"
         if self.carriers:
-            return f"{total}{volume}: {_in_words(self.carriers)}"
-        way = " -> ".join(map(str, self.steps)) or "by no way that the paper's law knows"
-        return f"{total} over {self.length_m:.2f} m{volume}: {way}"
+            return f"{total}{volume}: {self.way}"
+        return f"{total} over {self.length_m:.2f} m{volume}: {self.way}"
+
+    @property
+    def way(self) -> str:
+        """The path object by object, or the share of the power that each neighbour brings, in words."""
+        if self.carriers:
+            return _in_words(self.carriers)
+        return " -> ".join(map(str, self.steps)) or "by no way that the paper's law knows"
 
 
 @dataclass(frozen=True)
@@ -105,6 +112,19 @@ class Explanation:
 
     def __str__(self) -> str:
         return self.text
+
+    def _repr_html_(self) -> str:
+        impacts = [
+            (f"impact on {item.object_id}", "-", "-", f"{decibels(item.felt[self.hand]):+.1f} re full scale", "-", "-")
+            for item in self.impacts
+        ]
+        rows = [
+            (one.source_id, one.state, one.on, f"{one.gain_db:+.1f}", f"{one.level_db:+.1f}", one.way)
+            for one in self.felt
+        ]
+        columns = ("source", "state", "felt on", "gain [dB]", "volume [dB]", "path or share of power")
+        first, *_ = self.text.splitlines()
+        return html_table(first, columns, [*rows, *impacts], len(rows) + len(impacts))
 
 
 class Explainer:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import time
 import warnings
 import weakref
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from threading import Thread
 
 from scene2hap.errors import Scene2HapError
@@ -100,15 +100,25 @@ class FieldKeeper:
         """The field in use, for these sources and what hangs together now; it goes along when another one is."""
         if self._heard is not None and self._heard[1:] == (source_ids, reach):
             return self._heard[0]
+        gained = self._in_use(source_ids, reach, self._note_touched)
+        self._heard = (gained, source_ids, reach)
+        return gained
+
+    def unnoted(self, source_ids: tuple[str, ...], reach: Reach) -> FieldInUse:
+        """As `method`, for points that no hand touches: the worker does not prepare their objects for more queries."""
+        return self._in_use(source_ids, reach, lambda touched: None)
+
+    def _in_use(
+        self, source_ids: tuple[str, ...], reach: Reach, note: Callable[[Sequence[TouchedPoint]], None]
+    ) -> FieldInUse:
         now, n_bands = self._state.graph.pose, self._desk.bands.n_bands
 
         def as_now(one: Prepared) -> LastField:
             then = one.situation.poses
             return LastField(one.field, then, now, source_ids, n_bands, reach, lambda: one.situation is self._asked)
 
-        gained = FieldInUse(source_ids, as_now, self._note_touched)
+        gained = FieldInUse(source_ids, as_now, note)
         gained.use(self.in_use, self._whole)
-        self._heard = (gained, source_ids, reach)
         return gained
 
     def take(self) -> bool:

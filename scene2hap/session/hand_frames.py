@@ -11,13 +11,13 @@ from scene2hap.contact.graph import ContactChange
 from scene2hap.propagation.live import LiveField, LiveModel, PricedField
 from scene2hap.propagation.protocol import Excitation
 from scene2hap.propagation.reference import FeltNear
-from scene2hap.session.audibility import Audibility
+from scene2hap.session.audibility import SILENT, Audibility
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.counts import Counts
 from scene2hap.session.cutoff import CutoffCost
 from scene2hap.session.explain import Explainer, Explanation
 from scene2hap.session.field_keeper import FieldKeeper
-from scene2hap.session.frame import HapticFrame, SessionStats
+from scene2hap.session.frame import HapticFrame, SessionStats, Touch
 from scene2hap.session.hand_gains import AllGains, Felt, GainMethod, HandGains, Loudness, PrunedGains
 from scene2hap.session.live_keeper import LiveKeeper
 from scene2hap.session.network import excitations_of
@@ -164,6 +164,21 @@ class HandFrames:
         gains = self._touch_gains(self.keeper.method(self._sources.ids, self._reach), Counts())
         explainer = Explainer(self._state, self._sources, self._config.propagation, self.keeper.field, gains, levels)
         return explainer.explain(hand, touches, self._frame, self.keeper.is_current)
+
+    def would_feel(self, hands: tuple[str, ...], touches: Sequence[Touch]) -> NDArray[np.float64]:
+        """Gains (n_touches, n_sources, n_bands) [-] of each touch alone, 0 below -140 dB; no touch is counted."""
+        self._catch_up()
+        if hands is not self._hands:
+            self._hands = hands
+            self.levels_changed()
+        if not touches or not self._sources.ids:
+            return np.zeros((len(touches), len(self._sources.ids), self._config.bands.n_bands))
+        gains = self._touch_gains(self.keeper.unnoted(self._sources.ids, self._reach), Counts())
+        given = gains.of([[touch] for touch in touches])
+        levels = {hand: np.stack([*self._levels_at(hand).values()]) for hand in {touch.hand for touch in touches}}
+        for one, touch in zip(given, touches, strict=True):
+            one *= levels[touch.hand]
+        return np.where(given < SILENT, 0.0, given)
 
     def stats(self, updates: int, rows_not_mixed: int) -> SessionStats:
         """Counters so far."""

@@ -13,7 +13,10 @@ import time
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import TracebackType
-from typing import Any, NoReturn, Self
+from typing import TYPE_CHECKING, Any, NoReturn, Self
+
+import numpy as np
+from numpy.typing import NDArray
 
 from scene2hap import checks
 from scene2hap.attributes import read_only
@@ -60,6 +63,10 @@ from scene2hap.session.sources import Sources
 from scene2hap.session.switching import Switching
 from scene2hap.session.user_profile import UserProfile
 from scene2hap.session.w_first import warn_if_w_first
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure, SubFigure
 
 MAX_RENDERED_FRAMES = 1 << 24
 """At once; assumed: minutes, where a sink asks for milliseconds."""
@@ -386,6 +393,59 @@ class HapticSession:
         if not isinstance(hand, str) or hand not in self.hands:
             raise SessionError(unknown_hand(hand, self.hands))
         return replace(self._hand_frames.explain(hand), impacts=self._impacts.felt_by(hand))
+
+    def would_feel(self, touches: Sequence[Touch] | None) -> NDArray[np.float64]:
+        """Gains that `update` would report of each of these touches alone; playing is not changed.
+
+        They are those of the field in use, with the volume of source, user and hand, also in a pause, and no touch is
+        counted: for maps, and for a game that asks ahead. Call it where `update` is called.
+        Returns: (n_touches, n_sources, n_bands) float64 [-], in the order of `source_ids`, 0 below -140 dB.
+        Raises: UnknownObject: an object is not in the scene; SessionError: an unknown hand, or no touches.
+        """
+        given = given_touches(touches)
+        self._by_hand(given)
+        return self._hand_frames.would_feel(self.hands, given)
+
+    def plot_felt(
+        self,
+        source_id: str,
+        *,
+        hand: str | None = None,
+        cells: int = 96,
+        up_to_m: float | None = None,
+        axes: Axes | None = None,
+    ) -> Figure | SubFigure:
+        """Draw the scene from above, its surfaces coloured by the level of a source at a hand on them.
+
+        A level is the gain that `update` would report of a touch there [dB], by the field in use, with the volume of
+        source, user and hand. Playing is not changed: nothing counts as a touch. Call it where `update` is called;
+        for a model that is prepared by a worker call `wait_prepared` before.
+        Parameters: hand : the first if None; cells : along the longer side of the scene, each with one touch; up_to_m :
+        leave out surfaces higher than this above the lowest point of the scene [m], such as a ceiling; axes : of
+        matplotlib, to draw into, None for a new figure.
+        Returns: the figure, made without pyplot; lengths in m, levels in dB.
+        Raises: MissingExtra: matplotlib is not installed; UnknownObject: no such source; SessionError: no such hand,
+        fewer than 4 cells or more than 2000, or `up_to_m` is no height.
+        """
+        from scene2hap.session.plots import plot_felt  # by need: the extra `plots`
+
+        column = self._sources.ids.index(self._sources[source_id].row.source_id)
+        hand = self.hands[0] if hand is None else hand
+        if not isinstance(hand, str) or hand not in self.hands:
+            raise SessionError(unknown_hand(hand, self.hands))
+        cells = checks.whole("cells", cells, "-", at_least=4, at_most=2000, error=SessionError)
+        if up_to_m is not None:
+            up_to_m = checks.number("up_to_m", up_to_m, "m", error=SessionError)
+        frames = self._hand_frames
+
+        def gains_of(touches: Sequence[Touch]) -> NDArray[np.float64]:
+            gains: NDArray[np.float64] = frames.would_feel(self.hands, touches)[:, column].max(axis=1)
+            return gains
+
+        is_current = frames.keeper.is_current
+        return plot_felt(
+            self.snapshot, source_id, hand, gains_of, is_current=is_current, cells=cells, up_to_m=up_to_m, axes=axes
+        )
 
     def wait_prepared(self, timeout_s: float | None = None) -> bool:
         """Wait until the workers have prepared the scene as it is, and all loops; false after the timeout [s]. For

@@ -48,6 +48,8 @@ class LiveKeeper:
         """The field of these sources."""
         return self.in_use
 
+    unnoted = method
+
     def take(self) -> bool:
         """False: there is never another field."""
         return False

@@ -14,7 +14,7 @@ LAYERS = [
     {"checks", "compiled", "echoes"},
     {"attributes"},
     {"calls"},
-    {"file_stamp", "plugins", "secret", "text_files", "web"},
+    {"file_stamp", "html_tables", "plots", "plugins", "secret", "text_files", "web"},
     {"settings"},
     {"scene"},
     {"contact", "materials", "needs"},

@@ -1,0 +1,50 @@
+"""The file of corrections that a report page saves.
+
+    {"format": "scene2hap/overrides", "version": 1, "overrides": {"fridge": {"material": "oak", "gain_db": -3.0}}}
+
+Fields are those of `HapticBundle.override`, but for clips; what is absent stays as it was.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from scene2hap import checks
+from scene2hap.errors import BundleError
+from scene2hap.printable import read_json
+from scene2hap.text_files import read_small_text
+
+FORMAT, VERSION = "scene2hap/overrides", 1
+FIELDS = frozenset(
+    {"vibrates", "gain_db", "material", "mass_kg", "feet", "intensity", "pitch_hz", "state", "muted", "locked", "keep"}
+)
+
+
+def read_corrections(path: Path) -> dict[str, dict[str, Any]]:
+    """The fields that a person has set, by object id.
+
+    Raises: BundleError: the file cannot be read, is none of this kind, or names a field that nobody can set.
+    """
+    try:
+        document = read_json(read_small_text(path))
+    except (OSError, ValueError, RecursionError) as cause:
+        raise BundleError(f"{path} cannot be read: {cause}. Save it again from the report page.") from cause
+    return parsed_corrections(document, str(path))
+
+
+def parsed_corrections(document: object, place: str) -> dict[str, dict[str, Any]]:
+    """As `read_corrections`, of plain data; `place` is named in messages."""
+    if not isinstance(document, dict) or document.get("format") != FORMAT:
+        raise BundleError(f'{place} is no file of corrections: it must be an object with "format": "{FORMAT}".')
+    if document.get("version") != VERSION:
+        raise BundleError(f"{place} is of version {document.get('version')!r}; this scene2hap reads version {VERSION}.")
+    rows = document.get("overrides")
+    if not isinstance(rows, dict) or not all(isinstance(row, dict) for row in rows.values()):
+        raise BundleError(f"{place}: overrides must map ids to objects with fields.")
+    for object_id, row in rows.items():
+        for name in row:
+            if name not in FIELDS:
+                near = checks.did_you_mean(name, FIELDS, f"They are {', '.join(sorted(FIELDS))}.")
+                raise BundleError(f"{place}: {object_id!r} has no field {checks.shown(name)}. {near}")
+    return rows

@@ -1,0 +1,94 @@
+"""Shared parts of all figures: a new figure, names as plain text, legends, colours. Needs the extra `plots`.
+
+Names of objects are data: they are drawn as they are spelt, never read as formulas or commands. Figures are made
+without pyplot, so that drawing neither opens windows nor changes what a notebook has drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+from scene2hap.errors import MissingExtra
+from scene2hap.printable import printable
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+SOUND, TOUCH, THRESHOLD, MARK = "#0072B2", "#D55E00", "#009E73", "#CC79A7"
+"""Colours that stay apart in every usual colour blindness (Okabe and Ito 2008)."""
+MOST_LETTERS = 40
+"""Of a name in a figure; a longer one would push the axes off the page."""
+
+
+def new_figure(width_in: float, height_in: float) -> Figure:
+    """An empty figure of that size [inch], which a notebook shows as a picture.
+
+    Raises: MissingExtra: matplotlib is not installed.
+    """
+    try:
+        from matplotlib.figure import Figure  # noqa: F401  # asked for here, so that its absence is told by name
+    except ImportError as cause:
+        raise MissingExtra("figures need matplotlib. Run: pip install 'scene2hap[plots]'") from cause
+    from scene2hap.plots.shown_figure import ShownFigure
+
+    return ShownFigure(figsize=(width_in, height_in), dpi=110, layout="constrained")
+
+
+def plain(name: str, most: int = MOST_LETTERS) -> str:
+    """A name for a figure: shortened to `most` letters; what turns text or has no glyph becomes an escape ("\\u202e").
+
+    Which glyphs there are depends on the fonts of `matplotlib.rcParams["font.family"]`.
+    """
+    escaped = printable(name)
+    shown = "".join(one if _has_glyph(ord(one)) else one.encode("unicode_escape").decode("ascii") for one in escaped)
+    return shown if len(shown) <= most else f"{shown[: most - 1]}…"
+
+
+def set_plain(text: Any, words: str) -> None:
+    """Give words to a matplotlib Text, in which "$" is a dollar sign and a backslash is one."""
+    text.set_usetex(False)
+    text.set_parse_math(False)
+    text.set_text(words)
+
+
+def set_title(axes: Axes, words: str) -> None:
+    """Give axes a title of plain words."""
+    set_plain(axes.set_title(""), words)
+
+
+def set_note(axes: Axes, words: str) -> None:
+    """Write plain words into the middle of axes."""
+    set_plain(axes.text(0.5, 0.5, "", transform=axes.transAxes, ha="center", va="center", fontsize=9), words)
+
+
+def add_legend(axes: Axes, handles: Sequence[object], labels: Sequence[str], **options: Any) -> None:
+    """A legend of these artists, by plain labels."""
+    # matplotlib leaves out labels that begin with "_", so that they are given afterwards.
+    legend = axes.legend(handles=list(handles), labels=["-"] * len(handles), fontsize=8, **options)
+    for text, label in zip(legend.get_texts(), labels, strict=True):
+        set_plain(text, label)
+
+
+def _has_glyph(code: int) -> bool:
+    from matplotlib import rcParams
+
+    fonts = _fonts(tuple(rcParams["font.family"]), tuple(rcParams["font.sans-serif"]))
+    return any(font.get_char_index(code) for font in fonts)
+
+
+@lru_cache(maxsize=8)
+def _fonts(families: tuple[str, ...], generic: tuple[str, ...]) -> tuple[Any, ...]:
+    """The fonts in use. `generic` is part of the key: "sans-serif" stands for the first of these."""
+    from matplotlib.font_manager import FontProperties, findfont, get_font
+
+    found = []
+    for family in families:
+        try:
+            path = findfont(FontProperties(family=[family]), fallback_to_default=len(families) == 1)
+        except ValueError:  # not installed: matplotlib goes on with the next
+            continue
+        found.append(get_font(path))
+    return tuple(found)
