@@ -1,9 +1,11 @@
-"""Small files that a person wrote: settings, touches, tables. Read whole, if they are files and not too large."""
+"""Files of text: read if they are files and not too large, written whole or not at all."""
 
 from __future__ import annotations
 
 import os
 import stat
+import uuid
+from contextlib import suppress
 from pathlib import Path
 
 MAX_BYTES = 1 << 24
@@ -30,3 +32,21 @@ def read_small(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) -> byte
 def read_small_text(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) -> str:
     """The same as text in UTF-8, with or without a byte-order mark. Raises: OSError, ValueError."""
     return read_small(path, max_bytes).decode("utf-8-sig")
+
+
+def write_whole(path: Path, content: str | bytes) -> None:
+    """Write a file that takes its place once it is on the disk; an earlier one stays where that fails.
+
+    Raises: OSError.
+    """
+    beside = path.with_name(f".{path.name}.{uuid.uuid4().hex}.part")
+    try:
+        with beside.open("wb") as file:
+            file.write(content.encode() if isinstance(content, str) else content)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(beside, path)
+    except BaseException:
+        with suppress(OSError):
+            beside.unlink(missing_ok=True)
+        raise

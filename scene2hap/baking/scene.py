@@ -128,6 +128,7 @@ def rebake(
     config: BakeConfig | Mapping[str, Any] | str | os.PathLike[str] | None = None,
     *,
     objects: Collection[str] = (),
+    corrections: str | os.PathLike[str] | None = None,
     user_prompt: str = "",
     progress: Progress | None = None,
     on_report: OnReport | None = None,
@@ -143,6 +144,7 @@ def rebake(
     Parameters:
     bundle : a HapticBundle, or the path of its folder.
     objects : ids to infer again, with `user_prompt`; a cache answers repeated requests.
+    corrections : a file of corrections that a report page saved, as `HapticBundle.corrected` applies them before.
     on_remade : is handed the loops that were made, by id and state, each with what differed: "sound", "converter",
         "actuator", "intensity", "plan" (where the source lies among the others), "new", or "no fingerprint". `progress`
         receives the same.
@@ -154,6 +156,7 @@ def rebake(
             bundle,
             config,
             objects=objects,
+            corrections=corrections,
             user_prompt=user_prompt,
             progress=progress,
             on_report=on_report,
@@ -169,6 +172,7 @@ async def arebake(
     config: BakeConfig | Mapping[str, Any] | str | os.PathLike[str] | None = None,
     *,
     objects: Collection[str] = (),
+    corrections: str | os.PathLike[str] | None = None,
     user_prompt: str = "",
     progress: Progress | None = None,
     on_report: OnReport | None = None,
@@ -176,6 +180,7 @@ async def arebake(
 ) -> HapticBundle:
     """Bake some objects of a bundle again, awaitable; see `rebake`."""
     bundle = given_bundle(bundle)
+    bundle = bundle if corrections is None else bundle.corrected(corrections)
     _require_callable(progress=progress, on_report=on_report, on_remade=on_remade)
     config = BakeConfig.parse(config)
     given, config = config.model_fields_set, _settings_of(bundle, config)

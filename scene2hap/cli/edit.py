@@ -13,6 +13,7 @@ scene2hap edit kitchen.bundle state fan high
 scene2hap edit kitchen.bundle mute fan
 scene2hap edit kitchen.bundle silence hood
 scene2hap edit kitchen.bundle lock fan
+scene2hap edit kitchen.bundle apply corrections.json
 scene2hap edit kitchen.bundle rebake --actuator lra
 scene2hap edit kitchen.bundle undo
 scene2hap edit kitchen.bundle diff other.bundle
@@ -89,6 +90,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     verb("undo", "take back the last edit; once more brings it again", _undone, of_object=False)
     diff = verb("diff", "show how another bundle differs; nothing is changed", None, of_object=False)
     diff.add_argument("other", metavar="OTHER", help="folder of a bundle")
+    apply = verb("apply", "take over the corrections that a report page saved", _corrected, of_object=False)
+    apply.add_argument("file", metavar="FILE", help="the file that the page saved")
     again = verb("rebake", "make the loops again that depend on what changed", _rebaked, of_object=False)
     again.add_argument("--actuator", metavar="NAME", help="name of an actuator, or a CSV file of Hz and dB")
     again.add_argument("--tactile", metavar="KIND", help="converter from sound to touch")
@@ -173,6 +176,10 @@ def _remade(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade)
 
 def _with_sound(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade) -> HapticBundle:
     return rebake(bundle.override(arguments.id, clip=arguments.file), on_remade=note)
+
+
+def _corrected(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade) -> HapticBundle:
+    return rebake(bundle, corrections=arguments.file, on_remade=note)
 
 
 def _rebaked(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade) -> HapticBundle:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import uuid
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import asdict
@@ -20,6 +19,7 @@ from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.wrappers import identity
 from scene2hap.scene.files import is_habitat
 from scene2hap.scene.habitat import referenced_files
+from scene2hap.text_files import write_whole
 
 _SELF_CONTAINED = frozenset({".glb", ".stl", ".ply", ".json"})
 _MOST_BESIDE = 10_000
@@ -92,12 +92,8 @@ def read_record(path: Path) -> Record:
 
 def write_record(path: Path, record: Record) -> None:
     """Write a record whole. Raises: ConfigError: it cannot be written."""
-    beside = path.with_name(f".{path.name}.{uuid.uuid4().hex}.part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        beside.write_text(json.dumps(record, indent=1), encoding="utf-8")
-        os.replace(beside, path)
+        write_whole(path, json.dumps(record, indent=1))
     except OSError as cause:
         raise ConfigError(f"{path} cannot be written: {cause.strerror}. Choose a folder that is yours.") from cause
-    finally:
-        beside.unlink(missing_ok=True)

@@ -13,15 +13,14 @@ from __future__ import annotations
 
 import json
 import os
-import uuid
 from collections.abc import Iterable, Iterator
-from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, BinaryIO, Literal
 
 from scene2hap.errors import ConfigError
 from scene2hap.llm.batch.service import COMPLETIONS, MOST_BYTES, MOST_REQUESTS
+from scene2hap.text_files import write_whole
 
 Stage = Literal["written", "uploaded", "begun", "collected"]
 
@@ -128,16 +127,9 @@ class BatchFolder:
                 path.unlink(missing_ok=True)
 
     def _write(self, name: str, content: bytes) -> None:
-        beside = self.path / f".{name}.{uuid.uuid4().hex}.part"
         try:
-            with beside.open("wb") as file:
-                file.write(content)
-                file.flush()
-                os.fsync(file.fileno())
-            os.replace(beside, self.path / name)
+            write_whole(self.path / name, content)
         except OSError as cause:
-            with suppress(OSError):
-                beside.unlink(missing_ok=True)
             raise self._unwritable(cause) from cause
 
     def _unwritable(self, cause: OSError) -> ConfigError:

@@ -9,7 +9,6 @@ import asyncio
 import hashlib
 import json
 import os
-import tempfile
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from dataclasses import replace
@@ -25,6 +24,7 @@ from scene2hap.llm.protocol import Component, LLMReply, LLMRequest
 from scene2hap.llm.request_key import request_key
 from scene2hap.llm.validation import find_fault
 from scene2hap.llm.wrappers.stack import Spec, Wrapper
+from scene2hap.text_files import write_whole
 
 
 class _Entry(BaseModel):
@@ -143,7 +143,7 @@ class CacheBackend(Wrapper):
             usage=dict(reply.usage),
         )
         try:
-            await asyncio.to_thread(_write_whole, self._path(key), entry.model_dump_json(indent=1))
+            await asyncio.to_thread(write_whole, self._path(key), entry.model_dump_json(indent=1))
         except OSError as cause:
             raise _cannot_write(self._folder, cause) from cause
         self._stored += 1
@@ -170,16 +170,3 @@ def _key(request: LLMRequest, identity: dict[str, Any]) -> str:
 
 def _cannot_write(folder: Path, cause: OSError) -> ConfigError:
     return ConfigError(f"cannot write the cache {folder}: {cause}. Give a folder that can be written.")
-
-
-def _write_whole(path: Path, text: str) -> None:
-    descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=path.stem, suffix=".tmp")
-    try:
-        with os.fdopen(descriptor, "w", encoding="utf-8") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(name, path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
