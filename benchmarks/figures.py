@@ -76,7 +76,6 @@ FIGURES = {
     "distinctness": Figure("conversion", "benchmarks/distinctness.py", 1),
     "kinds": Figure("conversion", "benchmarks/kinds.py --seeds 4", 1),
     "many-scenes": Figure("many-scenes", "benchmarks/bake_many.py", 6, has_times=True, needs="scenes"),
-    "many-scenes-killed": Figure("many-scenes", "stress/bake_many.py", 10, needs="scenes"),
     "scene-calls": Figure("many-scenes", "benchmarks/scene_calls.py", 8, needs="scenes"),
     "exports": Figure("exports", "benchmarks/export.py", 0.5, has_times=True, needs="scenes"),
     "voices": Figure("conversion", "benchmarks/voices.py", 0.2, needs="recordings"),

@@ -144,7 +144,7 @@ def rebake(
     Parameters:
     bundle : a HapticBundle, or the path of its folder.
     objects : ids to infer again, with `user_prompt`; a cache answers repeated requests.
-    corrections : a file of corrections that a report page saved, as `HapticBundle.corrected` applies them before.
+    corrections : a file of corrections that a viewer of a report saved; applied first, as by `HapticBundle.corrected`.
     on_remade : is handed the loops that were made, by id and state, each with what differed: "sound", "converter",
         "actuator", "intensity", "plan" (where the source lies among the others), "new", or "no fingerprint". `progress`
         receives the same.

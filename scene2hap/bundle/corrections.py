@@ -1,4 +1,4 @@
-"""The file of corrections that a report page saves.
+"""The file of corrections that a viewer of a report saves.
 
     {"format": "scene2hap/overrides", "version": 1, "overrides": {"fridge": {"material": "oak", "gain_db": -3.0}}}
 
@@ -29,7 +29,7 @@ def read_corrections(path: Path) -> dict[str, dict[str, Any]]:
     try:
         document = read_json(read_small_text(path))
     except (OSError, ValueError, RecursionError) as cause:
-        raise BundleError(f"{path} cannot be read: {cause}. Save it again from the report page.") from cause
+        raise BundleError(f"{path} cannot be read: {cause}. Save it again from the viewer.") from cause
     return parsed_corrections(document, str(path))
 
 

@@ -95,7 +95,7 @@ class HapticBundle(BundleContents):
         return replace(self, overrides={**self.overrides, object_id: wish}).with_overrides()
 
     def corrected(self, file: str | os.PathLike[str]) -> Self:
-        """The bundle with the corrections in a file that a report page saved, on top of earlier ones.
+        """The bundle with the corrections in a file that a viewer of a report saved, on top of earlier ones.
 
         Those of vibration, intensity and pitch count after `rebake`. Raises: BundleError: the file is none; and as
         `override`.

@@ -169,15 +169,11 @@ def test_a_saved_sound_reaches_a_running_session(folder: Path) -> None:
     """An audio editor saves a file, `edit --watch` makes the loop, and a session that watches the bundle plays it."""
     sound = tone(folder.parent / "mine.wav", 110.0)
     words = [sys.executable, "-m", "scene2hap", "edit", str(folder), "sound", "smartphone", str(sound), "--watch"]
-    edit = subprocess.Popen(
-        words,
-        env={**os.environ, "PYTHONUNBUFFERED": "1"},
-        stdout=subprocess.PIPE,
-        text=True,
-    )
     session = HapticSession(folder)
-    try:
-        with BundleWatch(session, folder) as watch:
+    # The watch comes first: what is saved before it begins is no change.
+    with BundleWatch(session, folder) as watch:
+        edit = subprocess.Popen(words, env={**os.environ, "PYTHONUNBUFFERED": "1"}, stdout=subprocess.PIPE, text=True)
+        try:
             for frequency_hz in (110.0, 170.0):
                 if frequency_hz != 110.0:
                     assert edit.stdout is not None
@@ -190,7 +186,7 @@ def test_a_saved_sound_reaches_a_running_session(folder: Path) -> None:
                     time.sleep(0.02)
                 (loop,) = session._bundle.loops["smartphone"].values()
                 assert loop.frequency_raw_hz == pytest.approx(frequency_hz, rel=0.02)
-    finally:
-        edit.send_signal(signal.SIGINT)
+        finally:
+            edit.send_signal(signal.SIGINT)
     edit.communicate(timeout=30)
     assert edit.returncode == 0

@@ -1,4 +1,4 @@
-"""Corrections that a report page saved."""
+"""Corrections that a viewer of a report saved."""
 
 from __future__ import annotations
 

@@ -1,0 +1,69 @@
+"""A scene's haptics as data for viewers: meshes, what was inferred, sounds, contacts, and the felt map.
+
+write_report(HapticBundle.load("kitchen.bundle"), "kitchen.json")
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from scene2hap import checks
+from scene2hap.bundle import HapticBundle
+from scene2hap.bundle.given import given_bundle
+from scene2hap.calls import clear_call
+from scene2hap.errors import ConfigError
+from scene2hap.report.document import document
+from scene2hap.report.felt_map import MODELS
+from scene2hap.report.patches import MOST_POINTS
+from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.text_files import write_whole
+
+__all__ = ["report_document", "write_report"]
+
+
+@clear_call
+def report_document(
+    bundle: HapticBundle | str | os.PathLike[str],
+    *,
+    models: Sequence[Any] = MODELS,
+    pictures: SceneSnapshot | None = None,
+    most_points: int = MOST_POINTS,
+) -> dict[str, Any]:
+    """Everything to be seen and heard of a bundle, as JSON values; docs/report.md has the fields.
+
+    Parameters:
+    bundle : a HapticBundle, or the path of its folder.
+    models : kinds or settings of the propagation models of the felt map. Models that resonate take milliseconds for
+        each point.
+    pictures : the scene that was baked, with `capture_images`, for pictures and colours: a bundle keeps neither.
+    most_points : surface points of the felt map.
+    Raises: ConfigError: no such model; ModelDomainError: one does not hold in this scene.
+    """
+    most_points = checks.whole("most_points", most_points, "-", at_least=1, at_most=200_000, error=ConfigError)
+    return document(given_bundle(bundle), models=models, pictures=pictures, most_points=most_points)
+
+
+@clear_call
+def write_report(
+    bundle: HapticBundle | str | os.PathLike[str],
+    path: str | os.PathLike[str],
+    *,
+    models: Sequence[Any] = MODELS,
+    pictures: SceneSnapshot | None = None,
+    most_points: int = MOST_POINTS,
+) -> Path:
+    """Write the document of a bundle as JSON, whole or not at all; its path. Parameters and errors: `report_document`.
+
+    Raises: ConfigError: the file cannot be written.
+    """
+    target = checks.path("path", path, error=ConfigError)
+    found = report_document(bundle, models=models, pictures=pictures, most_points=most_points)
+    try:
+        write_whole(target, json.dumps(found, allow_nan=False))
+    except OSError as cause:
+        raise ConfigError(f"{target} cannot be written: {cause.strerror}. Choose a folder that exists.") from cause
+    return target

@@ -1,0 +1,355 @@
+"""What a report shows, as plain data: the scene, what was inferred, sounds, contacts, and the felt map.
+
+Large arrays stand as base64 of little-endian numbers. Every text in it comes from scenes, models and people, and is
+shown as text alone.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap import __version__
+from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.bundle import HapticBundle, Override
+from scene2hap.contact.graph import ContactGraph
+from scene2hap.errors import UnknownMaterial
+from scene2hap.haptics import ObjectHaptics, SourceState
+from scene2hap.materials import Material, lookup
+from scene2hap.report.felt_map import MODELS, FeltMap, felt_map
+from scene2hap.report.patches import MOST_POINTS
+from scene2hap.report.sounds import pair
+from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.session import HapticSession, Touch
+
+FORMAT, VERSION = "scene2hap/report", 1
+
+_LOW_DB, _HIGH_DB = -20.0, 50.0
+"""Range of levels on the page: below the lowest nothing is felt by far, above the highest is no actuator."""
+_SHELL_SHARE = 0.7
+"""Part of the scene's width and depth from which an object hides what is inside it."""
+_CONSTANTS = (
+    ("density", "kg/m³", "density_kg_m3", 1.0),
+    ("Young's modulus", "GPa", "youngs_modulus_pa", 1e-9),
+    ("Poisson's ratio", "-", "poisson_ratio", 1.0),
+    ("loss factor", "-", "loss_factor", 1.0),
+)
+
+
+def document(
+    bundle: HapticBundle,
+    *,
+    models: Sequence[Any] = MODELS,
+    pictures: SceneSnapshot | None = None,
+    most_points: int = MOST_POINTS,
+) -> dict[str, Any]:
+    """All that is to be seen and heard of a bundle.
+
+    Parameters: models : kinds or settings of the propagation models of the felt map; pictures : the scene with its
+    looks, as `capture_images` returns it, whose images and colours are shown; most_points : of the felt map. Raises: as
+    `felt_map`.
+    """
+    scene = bundle.snapshot
+    meshes: dict[str, int] = {}
+    shells = _shells(scene)
+    felt = felt_map(bundle, models, shells=shells, most_points=most_points)
+    looks = {} if pictures is None else {item.id: item for item in pictures.objects}
+    objects = [_object(bundle, item, looks.get(item.id), meshes, item.id in shells) for item in scene.objects]
+    made = bundle.made_with
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "scene": scene.name,
+        "category": bundle.scene_category,
+        "up_axis": scene.up_axis,
+        "made": {
+            "scene2hap": __version__,
+            "actuator": "" if made is None else made.actuator.name,
+            "seed": None if made is None else made.seed,
+        },
+        "counters": _counters(bundle),
+        "meshes": _meshes(scene, meshes),
+        "objects": objects,
+        "contacts": _contacts(bundle),
+        "felt": _felt(felt),
+        "credits": _credits(bundle),
+    }
+
+
+def _object(
+    bundle: HapticBundle, item: SceneObject, looks: SceneObject | None, meshes: dict[str, int], is_shell: bool
+) -> dict[str, Any]:
+    haptics = bundle.objects.get(item.id)
+    wish = bundle.overrides.get(item.id)
+    return {
+        "id": item.id,
+        "name": item.name,
+        "mesh": meshes.setdefault(item.geometry.mesh.digest, len(meshes)),
+        "position_m": list(item.pose.position_m),
+        "rotation_xyzw": list(item.pose.rotation_xyzw),
+        "color": _color(item if looks is None else looks),
+        "is_shell": is_shell,
+        "is_source": bool(bundle.loops.get(item.id)),
+        "override": None if wish is None else _said(wish),
+        "pictures": [] if looks is None or looks.images is None else _pictures(looks),
+        **(_NOTHING_INFERRED if haptics is None else _inferred(bundle, item, haptics)),
+    }
+
+
+_NOTHING_INFERRED: Mapping[str, Any] = {
+    "vibrates": False,
+    "category": "unknown",
+    "material": "unknown",
+    "confidence": 0.0,
+    "facts": [],
+    "reasons": [],
+    "constants": [],
+    "editable": None,
+    "states": [],
+}
+
+
+def _inferred(bundle: HapticBundle, item: SceneObject, haptics: ObjectHaptics) -> dict[str, Any]:
+    loops = bundle.loops.get(item.id, {})
+    return {
+        "vibrates": haptics.vibrates,
+        "category": haptics.object_category,
+        "material": haptics.material_category,
+        "confidence": haptics.confidence,
+        "facts": _facts(item, haptics, bundle),
+        "reasons": [list(reason) for reason in haptics.reasons.items()],
+        "constants": [] if haptics.material is None else _constants(haptics.material),
+        "editable": _editable(bundle, item.id, haptics),
+        "states": [_state(bundle, item.id, state, loops) for state in haptics.states],
+    }
+
+
+def _facts(item: SceneObject, haptics: ObjectHaptics, bundle: HapticBundle) -> list[list[str]]:
+    by = haptics.provenance
+    whole = " × ".join(f"{edge:.2f}" for edge in item.whole_size_m(bundle.snapshot.up_axis))
+    surface = " × ".join(f"{1e3 * edge:.0f}" for edge in haptics.estimated_size_m)
+    mass = "unknown" if haptics.mass_kg is None else f"{haptics.mass_kg:.3g} kg"
+    feet = "" if haptics.feet is None else haptics.feet.name
+    rows = [
+        ("category", haptics.object_category, by.get("object_category", "")),
+        ("material", haptics.material_category, by.get("material", by.get("material_category", ""))),
+        ("whole size", f"{whole} m", "geometry"),
+        ("main surface", f"{surface} mm", by.get("estimated_size_m", "geometry")),
+        ("mass", mass, by.get("mass_kg", "")),
+        ("feet", feet, by.get("feet", "")),
+        ("usage", haptics.usage, by.get("usage", "")),
+    ]
+    return [list(row) for row in rows if row[1]]
+
+
+def _constants(material: Material) -> list[list[Any]]:
+    try:
+        row: Material | None = lookup(material.name)
+    except UnknownMaterial:
+        row = None
+    return [
+        [
+            label,
+            unit,
+            float(f"{getattr(material, name) * factor:.4g}"),
+            None if row is None else float(f"{getattr(row, name) * factor:.4g}"),
+        ]
+        for label, unit, name, factor in _CONSTANTS
+    ]
+
+
+def _said(wish: Override) -> dict[str, Any]:
+    """What a person has set, as texts and numbers."""
+    rest = Override()
+    fields = {name: getattr(wish, name) for name in wish.__dataclass_fields__}
+    changed = {name: value for name, value in fields.items() if value != getattr(rest, name)}
+    names = {"material", "feet"}
+    said: dict[str, Any] = {name: value.name if name in names else value for name, value in changed.items()}
+    if "clip" in said:
+        said["clip"] = wish.clip.credit.title if wish.clip is not None else ""
+    return {name: dict(value) if isinstance(value, Mapping) else value for name, value in said.items()}
+
+
+def _editable(bundle: HapticBundle, object_id: str, haptics: ObjectHaptics) -> dict[str, Any]:
+    wish = bundle.overrides.get(object_id, Override())
+    pitch = dict(wish.pitch_hz)
+    return {
+        "material": "" if haptics.material is None else haptics.material.name,
+        "mass_kg": haptics.mass_kg,
+        "gain_db": bundle.gain_db(object_id),
+        "vibrates": haptics.vibrates,
+        "muted": bundle.is_muted(object_id),
+        "locked": wish.locked,
+        "states": [
+            {"name": state.name, "intensity": state.intensity, "pitch_hz": pitch.get(state.name, pitch.get("*"))}
+            for state in haptics.states
+        ],
+    }
+
+
+def _state(bundle: HapticBundle, object_id: str, state: SourceState, loops: Mapping[str, HapticLoop]) -> dict[str, Any]:
+    loop = loops.get(state.name)
+    felt = None if loop is None or loop.felt is None else loop.felt
+    shown: dict[str, Any] = {
+        "name": state.name,
+        "intensity": state.intensity,
+        "sentence": state.sentence,
+        "keywords": state.keywords,
+        "needs_contact": state.needs_contact,
+        "felt": None
+        if felt is None
+        else {name: getattr(felt, name) for name in ("level_db", "asked_level_db", "own_hz", "target_hz")},
+        "credit": "" if loop is None else _credit(loop),
+        "choices": bundle.choices.get(object_id, {}).get(state.name, ""),
+        "sound": None,
+        "touch": None,
+        "spectrum": None,
+    }
+    return shown if loop is None else {**shown, **pair(loop)}
+
+
+def _contacts(bundle: HapticBundle) -> list[dict[str, Any]]:
+    """Contacts, and the gain of the source that is strongest at each [dB], by the model of a session's default."""
+    contacts = ContactGraph(bundle.snapshot).contacts
+    if not contacts:
+        return []
+    gains = np.zeros(len(contacts))
+    if bundle.loops:
+        session = HapticSession(bundle, hands=("hand",))
+        session.update()
+        touches = [Touch("hand", contact.b, contact.point_m) for contact in contacts]
+        gains = session.would_feel(touches).max(axis=(1, 2), initial=0.0)
+    return [
+        {
+            "a": contact.a,
+            "b": contact.b,
+            "point_m": list(contact.point_m),
+            "passes_db": round(20.0 * float(np.log10(gain)), 1) if gain > 0.0 else None,
+        }
+        for contact, gain in zip(contacts, gains, strict=True)
+    ]
+
+
+def _felt(felt: FeltMap) -> dict[str, Any]:
+    return {
+        "models": list(felt.models),
+        "bands": list(felt.bands),
+        "sources": list(felt.sources),
+        "patches": [
+            {
+                "object": patch.object_id,
+                "points_m": _base64(patch.points_m, "<f4"),
+                "faces": _base64(patch.faces, "<u4"),
+                "n_points": len(patch.points_m),
+                "n_faces": len(patch.faces),
+            }
+            for patch in felt.patches
+        ],
+        "levels": {
+            model: {
+                source: {band: base64.b64encode(level_bytes(levels)).decode() for band, levels in bands.items()}
+                for source, bands in sources.items()
+            }
+            for model, sources in felt.levels_db.items()
+        },
+        "low_db": _LOW_DB,
+        "high_db": _HIGH_DB,
+    }
+
+
+def level_bytes(levels_db: NDArray[np.float32]) -> bytes:
+    """Levels [dB] as two bytes each: 0 where nothing arrives, else 1 to 65,535 over the page's range, in steps of
+    1 mdB."""
+    share = (np.clip(levels_db, _LOW_DB, _HIGH_DB) - _LOW_DB) / (_HIGH_DB - _LOW_DB)
+    arrives = np.isfinite(levels_db)
+    steps = np.where(arrives, np.round(np.where(arrives, share, 0.0) * 65_534.0) + 1.0, 0.0)
+    return steps.astype("<u2").tobytes()
+
+
+def _counters(bundle: HapticBundle) -> list[list[str]]:
+    objects = bundle.objects.values()
+    n_states = sum(map(len, bundle.loops.values()))
+    unknown = sum(haptics.object_category in ("", "unknown") for haptics in objects)
+    answered = {who for haptics in objects if (who := haptics.provenance.get("object_category", ""))}
+    models = sorted({who.split(",")[0] for who in answered if not who.startswith("error")})
+    rows = [
+        ("objects", str(len(bundle.snapshot.objects))),
+        ("unknown", str(unknown)),
+        ("sources", str(len(bundle.loops))),
+        ("states with a loop", str(n_states)),
+        ("corrected by a person", str(len(bundle.overrides))),
+        ("answered by", ", ".join(models[:3]) + (", ..." if len(models) > 3 else "")),
+    ]
+    return [list(row) for row in rows if row[1]]
+
+
+def _credits(bundle: HapticBundle) -> list[list[str]]:
+    """What was used, once, and whose it is."""
+    rows = {
+        (f"{object_id}, {state}", _credit(loop))
+        for object_id, loops in bundle.loops.items()
+        for state, loop in loops.items()
+    }
+    return [list(row) for row in sorted(rows)]
+
+
+def _credit(loop: HapticLoop) -> str:
+    credit = loop.audible.credit
+    return ", ".join(part for part in (credit.title, credit.author, credit.licence, credit.address) if part)
+
+
+def _meshes(scene: SceneSnapshot, numbers: Mapping[str, int]) -> list[dict[str, Any]]:
+    by_digest = {item.geometry.mesh.digest: item.geometry.mesh for item in scene.objects}
+    return [
+        {
+            "vertices": _base64(by_digest[digest].vertices_m, "<f4"),
+            "faces": _base64(by_digest[digest].faces, "<u4"),
+            "n_vertices": len(by_digest[digest].vertices_m),
+            "n_faces": len(by_digest[digest].faces),
+        }
+        for digest in numbers
+    ]
+
+
+def _shells(scene: SceneSnapshot) -> frozenset[str]:
+    """Objects that are as wide and deep as the scene: rooms in one piece, floors, ceilings, and long walls."""
+    if len(scene.objects) < 2:
+        return frozenset()
+    boxes = np.array([item.bounds_m for item in scene.objects])
+    up = {"y": 1, "z": 2}[scene.up_axis]
+    sizes = np.ptp(boxes, axis=1)
+    whole = boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)
+    level = [axis for axis in range(3) if axis != up]
+    is_wide = (sizes[:, level] >= _SHELL_SHARE * whole[level]).all(axis=1)
+    # A floor is as wide, and hides nothing.
+    is_high = sizes[:, up] >= 0.3 * whole[up]
+    is_above = boxes[:, 0, up] > boxes[:, 0, up].min() + 0.7 * whole[up]
+    return frozenset(
+        item.id for item, hides in zip(scene.objects, is_wide & (is_high | is_above), strict=True) if hides
+    )
+
+
+def _pictures(item: SceneObject) -> list[str]:
+    assert item.images is not None
+    shown = [*item.images.isolated[:1], *item.images.context[:1]]
+    return [f"data:image/png;base64,{base64.b64encode(png).decode()}" for png in shown]
+
+
+def _color(item: SceneObject) -> list[float]:
+    """The mean colour of an object's materials; without looks, a pale one chosen by its name."""
+    if item.appearance is not None and len(item.appearance.face_material):
+        counts = np.bincount(item.appearance.face_material, minlength=len(item.appearance.materials))
+        rgb = np.array([material.color_rgba[:3] for material in item.appearance.materials])
+        return [round(float(value), 3) for value in counts @ rgb / counts.sum()]
+    digest = hashlib.sha256(item.name.encode("utf-8", "replace")).digest()
+    return [round(0.55 + 0.3 * byte / 255, 3) for byte in digest[:3]]
+
+
+def _base64(values: NDArray[Any], dtype: str) -> str:
+    return base64.b64encode(np.ascontiguousarray(values, dtype=dtype).tobytes()).decode()

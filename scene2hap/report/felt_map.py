@@ -1,0 +1,134 @@
+"""Level of every source at surface points, for several models."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.audio.threshold import threshold_db
+from scene2hap.bundle import HapticBundle
+from scene2hap.report.patches import MOST_POINTS, Patch, patches_of
+from scene2hap.session import HapticSession, Touch
+
+MODELS: tuple[str, ...] = ("exponential_plate",)
+"""The model of a session's default. Models that resonate take milliseconds a point, so they are drawn by request."""
+BAND_EDGES_HZ = (10.0, 40.0, 125.0, 400.0, 1000.0)
+"""Parts of the band of touch that a page offers beside the whole: pressure, flutter, low and high vibration."""
+ALL = "all"
+"""All bands, or all sources."""
+
+
+@dataclass(frozen=True, eq=False)
+class FeltMap:
+    """Levels over the threshold of touch [dB] at the points of all patches in order, -inf where nothing arrives.
+
+    `levels_db` has (n_points,) float32 by model, source and band; sources and bands have `ALL` as well.
+    """
+
+    patches: Sequence[Patch]
+    models: tuple[str, ...]
+    sources: tuple[str, ...]
+    bands: tuple[str, ...]
+    levels_db: dict[str, dict[str, dict[str, NDArray[np.float32]]]]
+
+
+def felt_map(
+    bundle: HapticBundle,
+    models: Sequence[Any] = MODELS,
+    *,
+    shells: frozenset[str] = frozenset(),
+    most_points: int = MOST_POINTS,
+) -> FeltMap:
+    """The levels that a hand would feel on each surface of a bundle's scene.
+
+    Parameters: models : kinds or settings of propagation models; shells : objects of which no points are taken;
+    most_points : surface points in all.
+    Raises: ConfigError: no such model. ModelDomainError: a model does not hold in this scene.
+    """
+    patches = patches_of([item for item in bundle.snapshot.objects if item.id not in shells], most_points)
+    touches = [
+        Touch("hand", patch.object_id, (float(x), float(y), float(z)))
+        for patch in patches
+        for x, y, z in patch.points_m
+    ]
+    sources = tuple(bundle.loops)
+    levels: dict[str, dict[str, dict[str, NDArray[np.float32]]]] = {}
+    for model in models:
+        name = model if isinstance(model, str) else str(model.get("kind", "model"))
+        whole = _amplitudes(bundle, model, touches, None)
+        parts = _amplitudes(bundle, model, touches, list(BAND_EDGES_HZ))
+        levels[name] = {
+            source: {
+                ALL: _level_db(whole[:, column].max(axis=1, initial=0.0), _felt_db(bundle, source)),
+                **{
+                    band: _level_db(parts[:, column, k] * share, _felt_db(bundle, source))
+                    for k, (band, share) in enumerate(zip(_band_names(), _shares(bundle, source), strict=True))
+                },
+            }
+            for column, source in enumerate(sources)
+        }
+        levels[name][ALL] = {
+            band: _sum_db([levels[name][source][band] for source in sources], len(touches))
+            for band in (ALL, *_band_names())
+        }
+    return FeltMap(patches, tuple(levels), (ALL, *sources), (ALL, *_band_names()), levels)
+
+
+def _amplitudes(
+    bundle: HapticBundle, model: Any, touches: Sequence[Touch], edges_hz: list[float] | None
+) -> NDArray[np.float64]:
+    """Gains (n_touches, n_sources, n_bands) [-] of a session that plays the bundle with a model."""
+    config: dict[str, Any] = {"propagation": model, "prepare": "blocking"}
+    if edges_hz is not None:
+        config["bands"] = edges_hz
+    session = HapticSession(bundle, config=config, hands=("hand",))
+    session.update()
+    session.wait_prepared()
+    return session.would_feel(touches)
+
+
+def _felt_db(bundle: HapticBundle, source: str) -> float:
+    """Level of a source's first state at the source itself, over the threshold of touch [dB]."""
+    loop = next(iter(bundle.loops[source].values()))
+    return 0.0 if loop.felt is None else loop.felt.level_db
+
+
+def _shares(bundle: HapticBundle, source: str) -> NDArray[np.float64]:
+    """Part of a source's felt amplitude in each band (n_bands,) [-], by its loop and the threshold of touch."""
+    clip = next(iter(bundle.loops[source].values())).tactile
+    power = np.abs(np.fft.rfft(clip.samples)) ** 2
+    hz = np.fft.rfftfreq(len(clip.samples), 1.0 / clip.sample_rate_hz)
+    felt = np.where(hz > 0.0, power * 10.0 ** (-threshold_db(np.maximum(hz, 1.0)) / 10.0), 0.0)
+    in_band = np.array([felt[(hz >= low) & (hz < high)].sum() for low, high in _pairs()])
+    total = in_band.sum()
+    return np.sqrt(in_band / total) if total > 0.0 else in_band
+
+
+def _level_db(gains: NDArray[np.float64], at_source_db: float) -> NDArray[np.float32]:
+    with np.errstate(divide="ignore"):
+        levels: NDArray[np.float32] = (20.0 * np.log10(gains) + at_source_db).astype(np.float32)
+    return levels
+
+
+def _sum_db(levels: Sequence[NDArray[np.float32]], n_points: int) -> NDArray[np.float32]:
+    """Levels of independent vibrations add by power."""
+    if not levels:
+        return np.full(n_points, -np.inf, np.float32)
+    with np.errstate(divide="ignore"):
+        summed: NDArray[np.float32] = (
+            10.0 * np.log10(np.sum([10.0 ** (level.astype(np.float64) / 10.0) for level in levels], axis=0))
+        ).astype(np.float32)
+    return summed
+
+
+def _band_names() -> tuple[str, ...]:
+    return tuple(f"{low:g}-{high:g} Hz" for low, high in _pairs())
+
+
+def _pairs() -> list[tuple[float, float]]:
+    return list(pairwise(BAND_EDGES_HZ))

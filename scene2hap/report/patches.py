@@ -1,0 +1,73 @@
+"""Surface points of a scene, so many as a picture needs, joined to triangles."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+
+from scene2hap.scene.objects import SceneObject
+
+MOST_POINTS = 12_000
+"""Of all patches together; assumed: a point every 5 cm in a furnished kitchen."""
+FINEST_M, COARSEST_M = 0.03, 1.5
+"""Bounds on the distance of points [m]; assumed: half a fingertip's step, and half a wall."""
+_GROWTH = 1.3
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """Points (n, 3) [m] in the world on the surface of an object, and triangles (m, 3) over them."""
+
+    object_id: str
+    points_m: NDArray[np.float32]
+    faces: NDArray[np.uint32]
+
+
+def patches_of(objects: Sequence[SceneObject], most_points: int = MOST_POINTS) -> list[Patch]:
+    """A patch for each object, with points as close as `most_points` allows in all.
+
+    Every point is a corner of the object's mesh, or lies within a few steps of it between corners.
+    """
+    area_m2 = sum(_area_m2(item) for item in objects)
+    # Points of equilateral triangles on that area, were all of it flat.
+    distance_m = max(FINEST_M, float(np.sqrt(area_m2 / max(1, most_points))))
+    while True:
+        found = [_patch(item, distance_m) for item in objects]
+        if sum(len(patch.points_m) for patch in found) <= most_points or distance_m >= COARSEST_M:
+            return found
+        distance_m *= _GROWTH
+
+
+def _area_m2(item: SceneObject) -> float:
+    mesh = item.geometry.mesh
+    a, b, c = np.moveaxis(mesh.vertices_m[mesh.faces], 1, 0)
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2.0
+
+
+def _patch(item: SceneObject, distance_m: float) -> Patch:
+    mesh = item.geometry.mesh
+    # Joined before: a mesh of a million triangles is not to be cut any finer.
+    points, faces = _clustered(np.asarray(mesh.vertices_m), np.asarray(mesh.faces), distance_m)
+    if len(faces) and np.ptp(points, axis=0).max() > distance_m:
+        finer, finer_faces = trimesh.remesh.subdivide_to_size(points, faces, 1.5 * distance_m, max_iter=12)
+        points, faces = _clustered(np.asarray(finer), np.asarray(finer_faces), distance_m)
+    return Patch(item.id, item.pose.to_world(points).astype(np.float32), faces.astype(np.uint32))
+
+
+def _clustered(
+    vertices: NDArray[np.float64], faces: NDArray[np.integer], distance_m: float
+) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
+    """One vertex for each cell of a grid; triangles within a cell go."""
+    cells = np.floor((vertices - vertices.min(axis=0)) / distance_m).astype(np.int64)
+    _, first, of_cell = np.unique(cells, axis=0, return_index=True, return_inverse=True)
+    joined = of_cell.reshape(-1)[faces]
+    a, b, c = joined.T
+    kept = np.unique(joined[(a != b) & (b != c) & (a != c)], axis=0)
+    used, renumbered = np.unique(kept, return_inverse=True)
+    if not len(used):  # smaller than a cell: a single point
+        return vertices[first[:1]], np.zeros((0, 3), np.int64)
+    return vertices[first[used]], renumbered.reshape(-1, 3)

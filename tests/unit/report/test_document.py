@@ -1,0 +1,125 @@
+"""What a report is made of: levels as a session has them, points on surfaces, sounds that play."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import soundfile
+
+from scene2hap import Box, HapticBundle, HapticSession, Pose, SceneObject, SceneSnapshot, Touch, bake, load_scene
+from scene2hap.demo import kitchen_path
+from scene2hap.errors import ConfigError
+from scene2hap.report import write_report
+from scene2hap.report.document import document, level_bytes
+from scene2hap.report.felt_map import ALL, felt_map
+from scene2hap.report.patches import patches_of
+
+
+@pytest.fixture(scope="module")
+def kitchen() -> HapticBundle:
+    return bake(load_scene(kitchen_path()))
+
+
+def test_the_felt_map_has_the_gains_of_a_session(kitchen: HapticBundle) -> None:
+    """At 200 points, of every source; 0.1 dB on the page, which stores levels in steps of 1 mdB."""
+    felt = felt_map(kitchen)
+    session = HapticSession(kitchen)
+    places = [(patch.object_id, point) for patch in felt.patches for point in patch.points_m.tolist()]
+    chosen = np.random.default_rng(5).choice(len(places), 200, replace=False)
+    n_felt = 0
+    for place in chosen.tolist():
+        object_id, (x, y, z) = places[place]
+        frame = session.update(touches=[Touch("left", object_id, (x, y, z))])
+        for source, loops in kitchen.loops.items():
+            gain, loop = frame.gain("left", source), next(iter(loops.values()))
+            level = felt.levels_db["exponential_plate"][source][ALL][place]
+            if gain == 0.0:
+                assert level == -np.inf
+                continue
+            assert loop.felt is not None
+            expected = 20.0 * np.log10(gain) + loop.felt.level_db
+            assert level == pytest.approx(expected, abs=1e-3)
+            if expected > -20.0:
+                n_felt += 1
+                (stored,) = np.frombuffer(level_bytes(np.array([level], np.float32)), "<u2")
+                assert (int(stored) - 1) / 65_534 * 70.0 - 20.0 == pytest.approx(expected, abs=0.1)
+    assert n_felt > 50
+
+
+def test_bands_share_what_is_felt_in_all(kitchen: HapticBundle) -> None:
+    """On the source itself every gain is 1, so that the bands add up to the whole."""
+    felt = felt_map(kitchen, most_points=300)
+    start = 0
+    for patch in felt.patches:
+        if patch.object_id == "refrigerator":
+            break
+        start += len(patch.points_m)
+    of = felt.levels_db["exponential_plate"]["refrigerator"]
+    parts = [float(of[band][start]) for band in felt.bands if band != ALL]
+    assert 10.0 * np.log10(sum(10.0 ** (part / 10.0) for part in parts)) == pytest.approx(
+        float(of[ALL][start]), abs=0.01
+    )
+
+
+def test_points_lie_on_surfaces_and_are_as_many_as_asked(kitchen: HapticBundle) -> None:
+    table = SceneObject("table", pose=Pose((1.0, 2.0, 3.0)), geometry=Box((1.2, 0.04, 0.8)))
+    speck = SceneObject("speck", pose=Pose((0.0, 0.0, 0.0)), geometry=Box((0.001, 0.001, 0.001)))
+    board, dot = patches_of([table, speck], 2000)
+    own = np.abs(board.points_m - (1.0, 2.0, 3.0)) / (0.6, 0.02, 0.4)
+    assert np.allclose(own.max(axis=1), 1.0, atol=1e-3)
+    assert 500 < len(board.points_m) <= 2000
+    assert board.faces.max() < len(board.points_m)
+    assert len(dot.points_m) == 1
+    for most in (200, 3000):
+        assert sum(len(patch.points_m) for patch in patches_of(kitchen.snapshot.objects, most)) <= most
+
+
+def test_the_document_is_plain_data_with_sounds_that_play(kitchen: HapticBundle) -> None:
+    kitchen = kitchen.override("refrigerator", gain_db=-3.0)
+    found = json.loads(json.dumps(document(kitchen, most_points=500), allow_nan=False))
+    assert [item["id"] for item in found["objects"]] == [item.id for item in kitchen.snapshot.objects]
+    fridge = next(item for item in found["objects"] if item["id"] == "refrigerator")
+    assert fridge["override"] == {"gain_db": -3.0}
+    assert fridge["editable"]["gain_db"] == -3.0
+    assert [name for name, *_ in fridge["constants"]] == [
+        "density",
+        "Young's modulus",
+        "Poisson's ratio",
+        "loss factor",
+    ]
+    (state,) = fridge["states"]
+    for name, seconds in (("sound", state["sound"]["seconds"]), ("touch", state["touch"]["seconds"])):
+        data = base64.b64decode(state[name]["audio"].partition(",")[2])
+        samples, rate = soundfile.read(io.BytesIO(data))
+        assert rate == state[name]["rate_hz"]
+        assert len(samples) / rate == pytest.approx(seconds, abs=2 / rate)
+        assert 0.0 < np.abs(samples).max() <= 1.0
+        assert len(base64.b64decode(state[name]["wave"])) == 2 * state[name]["columns"]
+    assert len(state["spectrum"]["hz"]) == len(state["spectrum"]["touch_db"]) == len(state["spectrum"]["threshold_db"])
+    mesh = found["meshes"][fridge["mesh"]]
+    assert len(base64.b64decode(mesh["vertices"])) == 12 * mesh["n_vertices"]
+    n_points = sum(patch["n_points"] for patch in found["felt"]["patches"])
+    for bands in found["felt"]["levels"]["exponential_plate"].values():
+        assert {len(base64.b64decode(levels)) for levels in bands.values()} == {2 * n_points}
+
+
+def test_silent_and_single_scenes_have_a_page_too() -> None:
+    alone = SceneSnapshot.build([SceneObject("mug", geometry=Box((0.1, 0.1, 0.1)))], name="room")
+    found = document(bake(alone))
+    assert found["felt"]["sources"] == [ALL]
+    assert found["contacts"] == []
+    assert found["objects"][0]["states"] == []
+
+
+def test_a_report_is_a_file_of_json(kitchen: HapticBundle, tmp_path: Path) -> None:
+    path = write_report(kitchen, tmp_path / "kitchen.json", most_points=200)
+    assert json.loads(path.read_text())["format"] == "scene2hap/report"
+    with pytest.raises(ConfigError, match="cannot be written"):
+        write_report(kitchen, tmp_path / "absent" / "kitchen.json", most_points=200)
+    with pytest.raises(ConfigError, match="most_points is 0"):
+        write_report(kitchen, path, most_points=0)
