@@ -1,0 +1,75 @@
+"""Make the pictures of docs/gallery.md from the built-in kitchen and the examples: python docs/pictures/make.py
+
+Needs: pip install 'scene2hap[panda3d,plots]'. Pictures are small, since they are kept in the repository.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+import soundfile
+from matplotlib.figure import Figure
+from PIL import Image
+
+from scene2hap import HapticSession, bake, load_scene
+from scene2hap.demo import kitchen_path
+
+HERE = Path(__file__).parent
+EXAMPLES = HERE.parents[1] / "examples"
+WIDTH_PX = 900
+COLOURS = 64
+
+
+def shrink(path: Path, name: str) -> None:
+    """Save a picture again, narrower and with few colours."""
+    picture = Image.open(path).convert("RGB")
+    if picture.width > WIDTH_PX:
+        picture = picture.resize((WIDTH_PX, round(picture.height * WIDTH_PX / picture.width)), Image.Resampling.LANCZOS)
+    picture.quantize(COLOURS, dither=Image.Dither.NONE).save(HERE / name, optimize=True)
+
+
+def run(script: str, *arguments: str) -> None:
+    """Run an example."""
+    subprocess.run([sys.executable, str(EXAMPLES / script), *arguments], check=True, stdout=subprocess.DEVNULL)
+
+
+def draw_levels(wav: Path, title: str, png: Path) -> None:
+    """Draw the level of each hand over time, in windows of 50 ms."""
+    felt, rate = soundfile.read(wav, always_2d=True)
+    size = rate // 20
+    windows = felt[: len(felt) // size * size].reshape(-1, size, felt.shape[1])
+    levels = 20 * np.log10(np.maximum(np.sqrt((windows**2).mean(axis=1)), 1e-4))
+    figure = Figure(figsize=(8, 2.6), layout="constrained")
+    axes = figure.add_subplot(title=title, xlabel="time [s]", ylabel="level [dB re full scale]")
+    for hand, level in zip(("left hand", "right hand"), levels.T, strict=True):
+        axes.plot(np.arange(len(level)) * size / rate, level, label=hand)
+    axes.legend(loc="lower right")
+    figure.savefig(png, dpi=110)
+
+
+def main() -> None:
+    """Make all of them."""
+    with TemporaryDirectory() as name:
+        folder = Path(name)
+        bundle = bake(load_scene(kitchen_path()))
+        HapticSession(bundle).plot_felt("smartphone", up_to_m=2.0).savefig(folder / "felt.png", dpi=110)
+        shrink(folder / "felt.png", "kitchen_felt.png")
+        demo = [sys.executable, "-m", "scene2hap", "demo", "-o", str(folder / "demo")]
+        subprocess.run(demo, check=True, stdout=subprocess.DEVNULL)
+        shrink(folder / "demo" / "tour.png", "tour.png")
+        run("paper_study2.py", "-o", str(folder / "study2"))
+        shrink(folder / "study2" / "levels.png", "study2.png")
+        run("game_in_python.py", str(folder / "game.wav"), "13")
+        draw_levels(folder / "game.wav", "The phone is lifted and put down", folder / "game.png")
+        shrink(folder / "game.png", "game_in_python.png")
+        run("panda3d_scene.py", "-o", str(folder / "panda3d.wav"))
+        draw_levels(folder / "panda3d.wav", "The phone is carried from the table to the shelf", folder / "panda3d.png")
+        shrink(folder / "panda3d.png", "panda3d_scene.png")
+
+
+if __name__ == "__main__":
+    main()
