@@ -1,8 +1,20 @@
-"""Tell of each object of a bundle what was inferred, by whom and why, and which sounds were considered."""
+"""Tell of each object of a bundle what was inferred, by whom and why, and which sounds were considered.
+
+scene2hap report kitchen.bundle
+scene2hap report kitchen.bundle -o report.html
+scene2hap report kitchen.bundle -o report.html --scene kitchen.glb --model exponential_plate --model modal_plate
+scene2hap report kitchen.bundle --serve
+
+With -o it writes a page instead: the scene in three dimensions, what a hand would feel on every surface, all sounds,
+and fields to correct. `--serve` shows the page on this machine and writes corrections to BUNDLE.corrections.json, which
+`scene2hap edit BUNDLE apply` takes over.
+"""
 
 from __future__ import annotations
 
 import argparse
+import contextlib
+from pathlib import Path
 from typing import Any
 
 from scene2hap.bundle import HapticBundle
@@ -10,18 +22,29 @@ from scene2hap.cli.console import Console
 from scene2hap.errors import BundleError
 from scene2hap.haptics import SourceState
 
-HELP = "bundle -> who said what of each object, and why"
+HELP = "bundle -> who said what of each object, and why; or a page to look at"
+
+_PICTURE_PX = 256
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``scene2hap report``."""
     parser.add_argument("bundle", metavar="BUNDLE", help="folder that bake wrote")
     parser.add_argument("objects", metavar="OBJECT", nargs="*", help="ids to tell of; all that vibrate without any")
+    parser.add_argument("-o", "--output", metavar="FILE", help="write a page of the scene (.html), or its data (.json)")
+    parser.add_argument("--serve", action="store_true", help="show the page on this machine until Ctrl-C")
+    parser.add_argument("--port", type=int, default=0, help="of --serve; a free one without it")
+    parser.add_argument("--scene", metavar="SCENE", help="the scene file, for pictures and colours on the page")
+    parser.add_argument(
+        "--model", action="append", metavar="KIND", help="a propagation model of the felt map; several may be given"
+    )
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Show the account."""
     bundle = HapticBundle.load(arguments.bundle)
+    if arguments.output or arguments.serve:
+        return _page(arguments, bundle, console)
     ids = [bundle.snapshot.object(key).id for key in arguments.objects] or list(bundle.loops)
     accounts = {key: _account(bundle, key) for key in ids}
     for key, account in accounts.items():
@@ -32,6 +55,36 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             console.say(f"\nsounds considered for {state}:\n{table}")
         console.say("")
     return {"bundle": arguments.bundle, "objects": accounts}
+
+
+def _page(arguments: argparse.Namespace, bundle: HapticBundle, console: Console) -> dict[str, Any]:
+    """Write the page, and serve it if wished."""
+    # By need: no other command draws.
+    from scene2hap.report import report_document, write_report
+    from scene2hap.report.felt_map import MODELS
+    from scene2hap.report.page import assemble
+    from scene2hap.report.serve import ReportServer
+    from scene2hap.scene.capture import capture_images
+    from scene2hap.scene.load import load_scene
+
+    pictures = None
+    if arguments.scene:
+        pictures = capture_images(load_scene(arguments.scene), config={"size_px": _PICTURE_PX})
+    models = tuple(arguments.model or MODELS)
+    outcome: dict[str, Any] = {"bundle": arguments.bundle}
+    if arguments.output:
+        outcome["page"] = str(write_report(bundle, arguments.output, models=models, pictures=pictures))
+        console.say(f"wrote {arguments.output}, {Path(arguments.output).stat().st_size / 1e6:.1f} MB")
+    if arguments.serve:
+        page = assemble(report_document(bundle, models=models, pictures=pictures))
+        folder = Path(arguments.bundle)
+        corrections = folder.with_name(f"{folder.name}.corrections.json")
+        server = ReportServer(page, corrections, arguments.port, lambda path: console.say(f"wrote {path}"))
+        console.say(f"{server.address} (Ctrl-C ends)")
+        with contextlib.suppress(KeyboardInterrupt):
+            server.serve()
+        outcome["corrections"] = str(corrections)
+    return outcome
 
 
 def _account_of_state(state: SourceState) -> str:

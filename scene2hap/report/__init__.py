@@ -1,6 +1,6 @@
-"""A scene's haptics as data for viewers: meshes, what was inferred, sounds, contacts, and the felt map.
+"""A scene's haptics as one page to look at, listen to and correct, or as data for viewers of your own.
 
-write_report(HapticBundle.load("kitchen.bundle"), "kitchen.json")
+The page holds everything that it shows and requests nothing from any network.
 """
 
 from __future__ import annotations
@@ -18,11 +18,14 @@ from scene2hap.calls import clear_call
 from scene2hap.errors import ConfigError
 from scene2hap.report.document import document
 from scene2hap.report.felt_map import MODELS
+from scene2hap.report.page import assemble
 from scene2hap.report.patches import MOST_POINTS
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.text_files import write_whole
 
 __all__ = ["report_document", "write_report"]
+
+_SUFFIXES = (".html", ".htm", ".json")
 
 
 @clear_call
@@ -56,14 +59,17 @@ def write_report(
     pictures: SceneSnapshot | None = None,
     most_points: int = MOST_POINTS,
 ) -> Path:
-    """Write the document of a bundle as JSON, whole or not at all; its path. Parameters and errors: `report_document`.
+    """Write a bundle as a page (`.html`) or its document (`.json`), whole or not at all; its path.
 
-    Raises: ConfigError: the file cannot be written.
+    Parameters and errors: `report_document`. Raises: ConfigError: another suffix, or the file cannot be written.
     """
     target = checks.path("path", path, error=ConfigError)
+    if target.suffix.lower() not in _SUFFIXES:
+        raise ConfigError(f"{target.name!r} must end in .html, for a page, or in .json, for its data.")
     found = report_document(bundle, models=models, pictures=pictures, most_points=most_points)
+    is_page = target.suffix.lower() != ".json"
     try:
-        write_whole(target, json.dumps(found, allow_nan=False))
+        write_whole(target, assemble(found) if is_page else json.dumps(found, allow_nan=False))
     except OSError as cause:
         raise ConfigError(f"{target} cannot be written: {cause.strerror}. Choose a folder that exists.") from cause
     return target

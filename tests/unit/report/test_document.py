@@ -12,6 +12,7 @@ import pytest
 import soundfile
 
 from scene2hap import Box, HapticBundle, HapticSession, Pose, SceneObject, SceneSnapshot, Touch, bake, load_scene
+from scene2hap.cli import main
 from scene2hap.demo import kitchen_path
 from scene2hap.errors import ConfigError
 from scene2hap.report import write_report
@@ -121,5 +122,16 @@ def test_a_report_is_a_file_of_json(kitchen: HapticBundle, tmp_path: Path) -> No
     assert json.loads(path.read_text())["format"] == "scene2hap/report"
     with pytest.raises(ConfigError, match="cannot be written"):
         write_report(kitchen, tmp_path / "absent" / "kitchen.json", most_points=200)
+    with pytest.raises(ConfigError, match=r"must end in \.html"):
+        write_report(kitchen, tmp_path / "kitchen.pdf")
     with pytest.raises(ConfigError, match="most_points is 0"):
         write_report(kitchen, path, most_points=0)
+
+
+def test_the_command_writes_a_page(kitchen: HapticBundle, tmp_path: Path) -> None:
+    bundle = kitchen.save(tmp_path / "kitchen.bundle")
+    assert main(["report", str(bundle), "-o", str(tmp_path / "report.html"), "-q"]) == 0
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert page.startswith("<!")
+    assert '"format":"scene2hap/report"' in page
+    assert len(page) < 5_000_000

@@ -1,0 +1,43 @@
+"""One HTML page of a report's document and the committed assets; it requests nothing from any network."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from scene2hap.errors import ConfigError
+
+_PARTS = {"/*STYLE*/": "style.css", "/*SCRIPT*/": "report.js"}
+_DATA = "<!--DATA-->"
+
+
+def assemble(document: Mapping[str, Any]) -> str:
+    """The page of a document. Texts in it are data: the browser reads them as JSON, and shows them as text alone.
+
+    Raises: ConfigError: a number that JSON does not have.
+    """
+    try:
+        text = json.dumps(document, allow_nan=False, separators=(",", ":"))
+    except ValueError as cause:
+        raise ConfigError(f"the report has a number that JSON has not: {cause}.") from cause
+    # Nothing in the data can end the element that holds it, or begin a comment.
+    data = text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+    before, marker, behind = _template().partition(_DATA)
+    if not marker:
+        raise ConfigError("the page's template has no place for data; install scene2hap again.")
+    return f'{before}<script type="application/json" id="report">{data}</script>{behind}'
+
+
+@cache
+def _template() -> str:
+    page = _asset("page.html")
+    for marker, name in _PARTS.items():
+        page = page.replace(marker, _asset(name))
+    return page
+
+
+def _asset(name: str) -> str:
+    return files(__package__).joinpath("assets", name).read_text(encoding="utf-8")

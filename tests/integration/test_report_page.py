@@ -1,0 +1,307 @@
+"""The report page in headless Chromium: no request, no error, and an answer to every click and key."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import re
+import shutil
+import threading
+from collections.abc import Iterator
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from scene2hap import Box, Pose, SceneObject, SceneSnapshot, bake
+from scene2hap.report import report_document
+from scene2hap.report.page import assemble
+
+_NEEDS = "needs chromium: apt-get install chromium, and pip install playwright"
+_FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+_STRANGE = "<script>alert(1)</script>\x1b[31m \u202e\"'"
+_TIMEOUT_MS = 20_000
+
+
+def _scene() -> SceneSnapshot:
+    things = {
+        "floor": ("floor", (0.0, -0.05, 0.0), (4.0, 0.1, 4.0)),
+        "refrigerator": ("refrigerator", (-1.2, 0.9, -1.0), (0.6, 1.8, 0.6)),
+        "table": ("oak table", (0.6, 0.4, 0.2), (1.2, 0.8, 0.7)),
+        "__proto__": ("smartphone", (0.5, 0.81, 0.2), (0.3, 0.02, 0.2)),
+        "cup": (_STRANGE, (0.95, 0.85, 0.3), (0.1, 0.1, 0.1)),
+    }
+    objects = [SceneObject(key, name, Pose(at), Box(size)) for key, (name, at, size) in things.items()]
+    return SceneSnapshot.build(objects, name="room")
+
+
+@pytest.fixture(scope="module")
+def html() -> str:
+    return assemble(report_document(bake(_scene()), models=("exponential_plate", "full_propagation")))
+
+
+@pytest.fixture(scope="module")
+def browser(html: str) -> Iterator[Any]:
+    # The page is made first: playwright keeps an event loop running, and `bake` refuses to stop one.
+    api = pytest.importorskip("playwright.sync_api", reason=_NEEDS)
+    path = shutil.which("chromium") or shutil.which("chromium-browser")
+    if path is None:
+        pytest.skip(_NEEDS)
+    with api.sync_playwright() as playwright:
+        found = playwright.chromium.launch(executable_path=path, headless=True, args=_FLAGS)
+        yield found
+        found.close()
+
+
+class Opened:
+    """A page in the browser, with what it requested and what it complained about."""
+
+    def __init__(self, browser: Any, address: str, **options: Any) -> None:
+        self.context = browser.new_context(viewport={"width": 1280, "height": 800}, **options)
+        self.page = self.context.new_page()
+        self.requests: list[str] = []
+        self.errors: list[str] = []
+        self.page.on("request", lambda request: self.requests.append(request.url))
+        self.page.on("pageerror", lambda error: self.errors.append(str(error)))
+        self.page.on("console", lambda said: self.errors.append(said.text) if said.type == "error" else None)
+        self.page.on("dialog", lambda dialog: (self.errors.append(dialog.message), dialog.dismiss()))
+        self.page.set_default_timeout(_TIMEOUT_MS)
+        self.page.goto(address)
+        self.page.wait_for_selector("html[data-ready='1']")
+
+    def report(self, call: str) -> Any:
+        return self.page.evaluate(f"window.scene2hapReport.{call}")
+
+    @property
+    def requested(self) -> list[str]:
+        """Requests that left the page itself."""
+        return [url for url in self.requests[1:] if not url.startswith(("data:", "blob:"))]
+
+
+@pytest.fixture(scope="module")
+def shared(browser: Any, html: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Opened]:
+    path = tmp_path_factory.mktemp("report") / "report.html"
+    path.write_text(html, encoding="utf-8")
+    found = Opened(browser, path.as_uri(), accept_downloads=True)
+    yield found
+    found.context.close()
+
+
+@pytest.fixture
+def opened(shared: Opened) -> Iterator[Opened]:
+    """A page as when it was opened: to open one takes longer than a test."""
+    shared.page.get_by_role("searchbox").fill("")
+    shared.page.keyboard.press("Escape")  # leaves the field, in which other keys are text
+    shared.report("setFelt({source: 'all', model: 'exponential_plate', band: 'all'})")
+    shared.report("focus(null)")
+    yield shared
+    assert shared.errors == []
+    assert shared.requested == []
+
+
+def test_a_click_in_the_picture_selects_an_object(opened: Opened) -> None:
+    x, y = opened.report("project('refrigerator')")
+    assert opened.report(f"pick({x}, {y})") == "refrigerator"
+    opened.page.mouse.click(x, y)
+    assert opened.report("selected()") == "refrigerator"
+    assert opened.page.locator("#panel h2").inner_text() == "refrigerator"
+    assert opened.page.locator("tr[aria-selected=true]").count() == 1
+
+
+def test_the_felt_map_follows_source_model_and_band(opened: Opened) -> None:
+    opened.report("select('table')")
+    felt = opened.page.locator(".felt-here strong")
+    levels = {}
+    for source in ("all", "refrigerator", "__proto__"):
+        opened.page.get_by_label("source").select_option(source)
+        assert opened.report("felt()")["source"] == source
+        levels[source] = felt.inner_text()
+    assert levels["__proto__"] != levels["refrigerator"]
+    before = opened.page.locator("#canvas").screenshot()
+    opened.report("setFelt({model: 'full_propagation', source: 'all', band: 'all'})")
+    assert opened.page.get_by_label("model").input_value() == "full_propagation"
+    opened.page.wait_for_timeout(100)
+    assert opened.page.locator("#canvas").screenshot() != before
+
+
+def test_a_point_under_the_cursor_tells_its_level(opened: Opened) -> None:
+    x, y = opened.report("project('refrigerator')")
+    opened.page.mouse.move(x, y)
+    tip = opened.page.locator("#tip")
+    tip.wait_for(state="visible")
+    assert "refrigerator" in tip.inner_text()
+    assert re.search(r"-?\d+(\.\d)? dB", tip.inner_text())
+
+
+def test_both_players_play_in_step(opened: Opened) -> None:
+    opened.report("select('refrigerator')")
+    opened.page.locator("body").press("Space")
+    # Not `wait_for_function`: it evaluates text in the page, which the page's policy forbids.
+    for _ in range(100):
+        if opened.page.evaluate(
+            "[...document.querySelectorAll('audio')].every((a) => !a.paused && a.currentTime > 0.2)"
+        ):
+            break
+        opened.page.wait_for_timeout(50)
+    else:
+        pytest.fail("the players did not start")
+    sound, touch = opened.page.evaluate("[...document.querySelectorAll('audio')].map((a) => a.currentTime)")
+    assert abs(sound - touch) < 0.2
+    muted = "[...document.querySelectorAll('audio')].map((a) => a.muted)"
+    assert opened.page.evaluate(muted) == [False, False]
+    opened.page.get_by_role("button", name="A/B").click()
+    assert opened.page.evaluate(muted) == [False, True]
+    opened.page.get_by_role("button", name="A/B").click()
+    assert opened.page.evaluate(muted) == [True, False]
+    opened.page.get_by_role("button", name="Pause").click()
+    assert opened.page.evaluate("[...document.querySelectorAll('audio')].every((a) => a.paused)")
+
+
+def test_changed_fields_are_downloaded_and_no_others(opened: Opened) -> None:
+    opened.report("select('__proto__')")
+    opened.page.locator("[data-field=gain_db]").fill("-3")
+    opened.page.locator("[data-field=intensity]").first.fill("0.25")
+    opened.page.locator("[data-field=mass_kg]").fill("-1")
+    assert opened.page.locator("[data-field=mass_kg]").get_attribute("aria-invalid") == "true"
+    with opened.page.expect_download() as download:
+        opened.page.get_by_role("button", name="Download changes").click()
+    saved = json.loads(Path(download.value.path()).read_text(encoding="utf-8"))
+    state = opened.page.locator("[data-field=intensity]").first.get_attribute("data-state")
+    assert saved == {
+        "format": "scene2hap/overrides",
+        "version": 1,
+        "overrides": {"__proto__": {"gain_db": -3, "intensity": {state: 0.25}}},
+    }
+    opened.page.get_by_role("button", name="Undo changes").click()
+    assert opened.report("overrides()")["overrides"] == {}
+
+
+def test_the_table_is_searched_sorted_and_used_by_keys(opened: Opened) -> None:
+    body = opened.page.locator("table.list tbody")
+    opened.page.get_by_role("button", name="name", exact=True).click()
+    names = body.locator("tr td:first-child").all_inner_texts()
+    assert len(names) == 5
+    opened.page.locator("body").press("/")
+    opened.page.keyboard.type("oak")
+    assert body.locator("tr").count() == 1
+    opened.page.keyboard.press("ArrowDown")
+    opened.page.keyboard.press("Enter")
+    assert opened.report("selected()") == "table"
+    before = opened.report("project('cup')")
+    opened.page.keyboard.press("f")
+    assert opened.report("project('cup')") != before
+    opened.page.keyboard.press("Escape")
+    assert opened.report("selected()") is None
+
+
+def test_names_are_text_alone(opened: Opened) -> None:
+    opened.report("select('cup')")
+    shown = opened.page.locator("#panel h2").inner_text()
+    assert shown == _STRANGE.replace("\x1b", "\\x1b")
+    assert opened.page.locator("script").count() == 2  # the data and the page's own
+    assert opened.page.locator("#panel h2 *").evaluate_all("found => found.map((one) => one.localName)") == ["bdi"]
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_a_phone_has_all_of_it_without_scrolling_sideways(theme: str, browser: Any, html: str, tmp_path: Path) -> None:
+    path = tmp_path / "report.html"
+    path.write_text(html, encoding="utf-8")
+    opened = Opened(browser, path.as_uri(), color_scheme=theme)
+    opened.page.set_viewport_size({"width": 390, "height": 844})
+    opened.report("select('refrigerator')")
+    assert opened.page.evaluate("document.documentElement.dataset.theme") == theme
+    assert opened.page.evaluate("document.documentElement.scrollWidth") <= 390
+    smallest = """Math.min(...[...document.querySelectorAll("body *")]
+        .filter((one) => one.checkVisibility() && [...one.childNodes].some((node) => node.nodeType === 3))
+        .map((one) => parseFloat(getComputedStyle(one).fontSize)))"""
+    assert opened.page.evaluate(smallest) >= 12.0
+    opened.context.close()
+    assert opened.errors == []
+
+
+def test_without_webgl_the_rest_works(browser: Any, html: str, tmp_path: Path) -> None:
+    path = tmp_path / "report.html"
+    # A browser without WebGL has no such context.
+    path.write_text(html, encoding="utf-8")
+    context = browser.new_context()
+    context.add_init_script(
+        "const own = HTMLCanvasElement.prototype.getContext; HTMLCanvasElement.prototype.getContext = "
+        "function (kind, ...rest) { return kind.startsWith('webgl') ? null : own.call(this, kind, ...rest); };"
+    )
+    page = context.new_page()
+    page.goto(path.as_uri())
+    page.wait_for_selector("html[data-ready='1']", timeout=_TIMEOUT_MS)
+    assert page.locator("#no-webgl").is_visible()
+    page.locator("table.list tbody tr").first.click()
+    assert page.evaluate("window.scene2hapReport.selected()") == "floor"
+    context.close()
+
+
+def test_a_served_page_saves_to_its_server(browser: Any, html: str) -> None:
+    posted: list[Any] = []
+
+    class Handler(BaseHTTPRequestHandler):
+        def do_GET(self) -> None:
+            self._answer(html.encode(), "text/html; charset=utf-8")
+
+        def do_POST(self) -> None:
+            posted.append((self.path, json.loads(self.rfile.read(int(self.headers["content-length"])))))
+            self._answer(b'{"file": "kept.json"}', "application/json")
+
+        def _answer(self, body: bytes, kind: str) -> None:
+            self.send_response(200)
+            self.send_header("content-type", kind)
+            self.send_header("content-length", str(len(body)))
+            self.end_headers()
+            self.wfile.write(body)
+
+        def log_message(self, format: str, *args: object) -> None:
+            pass
+
+    server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+    thread = threading.Thread(target=server.serve_forever)
+    thread.start()
+    try:
+        opened = Opened(browser, f"http://127.0.0.1:{server.server_port}/")
+        opened.report("select('table')")
+        opened.page.locator("[data-field=material]").fill("steel")
+        opened.page.get_by_role("button", name="Save changes").click()
+        opened.page.get_by_text("Saved as kept.json.").wait_for()
+        opened.context.close()
+    finally:
+        server.shutdown()
+        thread.join()
+        server.server_close()
+    assert opened.errors == []
+    assert posted == [
+        ("/overrides", {"format": "scene2hap/overrides", "version": 1, "overrides": {"table": {"material": "steel"}}})
+    ]
+    assert [url.rpartition("/")[2] for url in opened.requested] == ["overrides"]
+
+
+def test_the_policy_names_the_script_and_the_style_of_the_page(html: str) -> None:
+    """Built files that do not belong together are refused by browsers."""
+    for kind, element in (("script", r"<script>(.*?)</script>"), ("style", r"<style>(.*?)</style>")):
+        (text,) = re.findall(element, html, re.S)
+        digest = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+        assert f"{kind}-src 'sha256-{digest}'" in html
+
+
+def test_strange_data_cannot_leave_its_element() -> None:
+    page = assemble({"scene": "</script><!--<script>\u2028"})
+    (data,) = re.findall(r'<script type="application/json" id="report">(.*?)</script>', page, re.S)
+    assert json.loads(data) == {"scene": "</script><!--<script>\u2028"}
+    assert "<" not in data

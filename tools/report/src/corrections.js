@@ -1,0 +1,53 @@
+// What a person changes in the page: fields that differ from the document's, and the file that keeps them.
+
+const FORMAT = "scene2hap/overrides";
+const VERSION = 1;
+
+/** Corrections of a document. A field that is set back to the document's value is no correction any more. */
+export function makeCorrections(report, onChange) {
+  const changed = new Map(); // id -> Map of "field" or "field/state" -> {field, state, value}
+
+  const given = (id, field, state) => {
+    const editable = report.byId.get(id)?.editable;
+    if (!editable) return undefined;
+    return state === null ? editable[field] : editable.states.find((one) => one.name === state)?.[field];
+  };
+
+  return {
+    /** The value of a field now: corrected, or the document's. */
+    value(id, field, state = null) {
+      const entry = changed.get(id)?.get(JSON.stringify([field, state]));
+      return entry ? entry.value : given(id, field, state);
+    },
+    isChanged: (id, field, state = null) => changed.get(id)?.has(JSON.stringify([field, state])) ?? false,
+    set(id, field, value, state = null) {
+      const fields = changed.get(id) ?? new Map();
+      const key = JSON.stringify([field, state]);
+      if (value === null || value === given(id, field, state)) fields.delete(key);
+      else fields.set(key, { field, state, value });
+      if (fields.size > 0) changed.set(id, fields);
+      else changed.delete(id);
+      onChange();
+    },
+    reset(id) {
+      changed.delete(id);
+      onChange();
+    },
+    has: (id) => changed.has(id),
+    get count() {
+      return [...changed.values()].reduce((all, fields) => all + fields.size, 0);
+    },
+    /** The file. Ids are any text: `fromEntries` makes own properties of all of them, of "__proto__" too. */
+    file() {
+      const rows = [...changed].map(([id, fields]) => {
+        const row = {};
+        for (const { field, state, value } of fields.values()) {
+          if (state === null) row[field] = value;
+          else row[field] = Object.fromEntries([...Object.entries(row[field] ?? {}), [state, value]]);
+        }
+        return [id, row];
+      });
+      return { format: FORMAT, version: VERSION, overrides: Object.fromEntries(rows) };
+    },
+  };
+}

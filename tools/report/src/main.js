@@ -1,0 +1,151 @@
+// The report page: reads the document that stands in the page, and joins the parts.
+
+import { makeCorrections } from "./corrections.js";
+import { h, isolated, nameOf, replaceChildren } from "./dom.js";
+import { feltLevels, shownLevel } from "./felt_levels.js";
+import { makeLegend } from "./legend.js";
+import { makePanel } from "./panel.js";
+import { readDocument } from "./report_document.js";
+import { download, isServed, send } from "./saving.js";
+import { makeSceneView } from "./scene_view.js";
+import { makeStore } from "./store.js";
+import { makeTableViews } from "./table_views.js";
+import { makeTheme } from "./theme.js";
+import { makeToolbar } from "./toolbar.js";
+
+const one = (selector) => document.querySelector(selector);
+
+try {
+  start(readDocument(one("#report").textContent));
+} catch (cause) {
+  // The data is cut short, or of another version: say so on the page and in the console.
+  one("#problem").textContent = `This report cannot be shown: ${cause.message}`;
+  one("#problem").hidden = false;
+  throw cause;
+}
+
+function start(report) {
+  const felt = feltLevels(report.felt);
+  const [source, model, band] = [report.felt.sources[0], report.felt.models[0], report.felt.bands[0]];
+  const store = makeStore({
+    selected: null,
+    choice: { source, model, band },
+    show: report.felt.sources.length > 1 ? "felt" : "colours",
+    scale: "viridis",
+    walls: "cut",
+    contacts: false,
+    names: true,
+  });
+  document.title = `${isolated(report.scene)} – scene2hap`;
+  replaceChildren(one("#scene-name"), nameOf(report.scene));
+  const corrections = makeCorrections(report, showCorrections);
+  const onFocus = (id) => {
+    store.set("selected", id);
+    view?.focus(id);
+  };
+  // Before the other parts: they read colours of the theme.
+  let isMade = false;
+  let savedCount = -1;
+  makeTheme(one("#theme"), () => isMade && repaint());
+  const panel = makePanel({ element: one("#panel"), report, felt, store, corrections, onFocus });
+  const tables = makeTableViews({ element: one("#tables"), report, felt, store, onFocus });
+  makeToolbar(one("#toolbar"), report, store);
+  makeLegend(one("#legend"), report.felt, store);
+  const view = makeSceneView({ canvas: one("#canvas"), layer: one("#labels"), report, felt, store, onHover: showTip, onFirstFrame: ready });
+  isMade = true;
+  showSaving();
+  showCorrections();
+  if (view) view.showTheme();
+  else {
+    document.documentElement.dataset.webgl = "0";
+    one("#no-webgl").hidden = false;
+    requestAnimationFrame(ready);
+  }
+
+  function ready() {
+    document.documentElement.dataset.ready = "1";
+  }
+
+  function repaint() {
+    view?.showTheme();
+    panel.repaint();
+  }
+
+  function showTip(found, x, y) {
+    const tip = one("#tip");
+    tip.hidden = found === null;
+    if (found === null) return;
+    const index = felt.nearest(found.id, found.point.toArray());
+    const level = index < 0 ? "no point of the felt map" : shownLevel(felt.level(felt.codes(store.get("choice"))[index]), report.felt);
+    replaceChildren(tip, h("strong", {}, nameOf(report.name(found.id))), h("span", {}, level));
+    const box = one("#view").getBoundingClientRect();
+    const left = Math.min(x - box.left + 14, box.width - tip.offsetWidth - 4);
+    const below = y - box.top + 18;
+    const top = below + tip.offsetHeight > box.height ? y - box.top - tip.offsetHeight - 10 : below;
+    tip.style.transform = `translate(${Math.round(Math.max(left, 4))}px, ${Math.round(Math.max(top, 4))}px)`;
+  }
+
+  function showCorrections() {
+    const { count } = corrections;
+    one("#save").disabled = count === 0;
+    one("#send").disabled = count === 0;
+    one("#changes").textContent = count === 0 ? "no changes" : count === 1 ? "1 change" : `${count} changes`;
+    savedCount = -1;
+  }
+
+  function showSaving() {
+    const tell = (text, isBad = false) => {
+      one("#saved").textContent = text;
+      one("#saved").classList.toggle("problem", isBad);
+    };
+    one("#save").addEventListener("click", () => {
+      download(corrections.file());
+      savedCount = corrections.count;
+      tell("Downloaded overrides.json.");
+    });
+    one("#send").hidden = !isServed();
+    one("#send").addEventListener("click", async () => {
+      try {
+        tell(await send(corrections.file()));
+        savedCount = corrections.count;
+      } catch (cause) {
+        tell(`Not saved: ${cause.message}. Download the file instead.`, true);
+      }
+    });
+    addEventListener("beforeunload", (event) => {
+      if (corrections.count > 0 && savedCount !== corrections.count) event.preventDefault();
+    });
+  }
+
+  addEventListener("resize", () => panel.resize());
+  addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const target = event.target instanceof Element ? event.target : document.body;
+    const isField = target.closest("input:not([type=checkbox]), select, textarea") !== null;
+    if (isField) {
+      // Back to where the other keys count.
+      if (event.key === "Escape") target.blur();
+      return;
+    }
+    if (event.key === "Escape") store.set("selected", null);
+    if (event.key === "f" || event.key === "F") view?.focus(store.get("selected"));
+    else if (event.key === "/") {
+      event.preventDefault();
+      tables.search.focus();
+    } else if (event.key === " " && target.closest("button, input, summary, a") === null) {
+      event.preventDefault();
+      panel.togglePlayers();
+    }
+  });
+
+  window.scene2hapReport = {
+    select: (id) => store.set("selected", report.byId.has(id) ? id : null),
+    selected: () => store.get("selected"),
+    pick: (x, y) => view?.pick(x, y) ?? null,
+    setFelt: (choice) => store.set("choice", { ...store.get("choice"), ...choice }),
+    felt: () => ({ ...store.get("choice") }),
+    focus: onFocus,
+    project: (id) => view?.project(id) ?? null,
+    overrides: () => corrections.file(),
+  };
+}

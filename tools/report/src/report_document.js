@@ -1,0 +1,52 @@
+// The document of a report: base64 arrays are decoded when they are first needed, and objects are found by id.
+
+export function bytesOf(base64) {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(base64);
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; i += 1) bytes[i] = text.charCodeAt(i);
+  return bytes;
+}
+
+const IS_LITTLE_ENDIAN = new Uint8Array(new Uint32Array([1]).buffer)[0] === 1;
+
+function wordsOf(base64, ArrayType, read) {
+  const bytes = bytesOf(base64);
+  if (IS_LITTLE_ENDIAN) return new ArrayType(bytes.buffer, bytes.byteOffset, bytes.byteLength / 4);
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  return ArrayType.from({ length: bytes.byteLength / 4 }, (_, i) => view[read](4 * i, true));
+}
+
+export const float32Of = (base64) => wordsOf(base64, Float32Array, "getFloat32");
+/** Two bytes each; alignment is kept, since decoded bytes begin their own buffer. */
+export function uint16Of(base64) {
+  const bytes = bytesOf(base64);
+  if (IS_LITTLE_ENDIAN) return new Uint16Array(bytes.buffer, bytes.byteOffset, bytes.byteLength / 2);
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  return Uint16Array.from({ length: bytes.byteLength / 2 }, (_, i) => view.getUint16(2 * i, true));
+}
+export const uint32Of = (base64) => wordsOf(base64, Uint32Array, "getUint32");
+
+/** Read the document of the page. Throws an Error with a message for people where it is not one. */
+export function readDocument(text) {
+  const data = JSON.parse(text);
+  if (data.format !== "scene2hap/report") {
+    throw new Error("The data of this page is not a scene2hap report. Write it again with `scene2hap report`.");
+  }
+  if (data.version !== 1) {
+    throw new Error(`The data of this page has version ${data.version}; this page reads version 1.`);
+  }
+  const byId = new Map(data.objects.map((object) => [object.id, object]));
+  const contactsOf = new Map(data.objects.map((object) => [object.id, []]));
+  for (const contact of data.contacts) {
+    contactsOf.get(contact.a)?.push({ other: contact.b, passes_db: contact.passes_db });
+    contactsOf.get(contact.b)?.push({ other: contact.a, passes_db: contact.passes_db });
+  }
+  return {
+    ...data,
+    byId,
+    contactsOf,
+    /** The name of an object: what its author wrote. */
+    name: (id) => byId.get(id)?.name || id,
+  };
+}

@@ -1,0 +1,23 @@
+// Dark and light: the system's choice until a person makes another.
+
+const system = matchMedia("(prefers-color-scheme: dark)");
+
+export function makeTheme(button, onChange) {
+  const root = document.documentElement;
+  let chosen = null;
+  const isDark = () => (chosen ?? (system.matches ? "dark" : "light")) === "dark";
+  const apply = () => {
+    root.dataset.theme = isDark() ? "dark" : "light";
+    button.textContent = isDark() ? "Light theme" : "Dark theme";
+    onChange();
+  };
+  button.addEventListener("click", () => {
+    chosen = isDark() ? "light" : "dark";
+    apply();
+  });
+  system.addEventListener("change", apply);
+  apply();
+}
+
+/** The value of a CSS variable of the current theme. */
+export const themeColour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
