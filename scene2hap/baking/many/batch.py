@@ -26,7 +26,7 @@ from scene2hap.baking.many.pool import Pool, Submits
 from scene2hap.baking.many.run import WORK, Progress, Run, scene_paths
 from scene2hap.calls import clear_call
 from scene2hap.errors import BudgetExceeded, ConfigError, Scene2HapError
-from scene2hap.llm.batch import AnswerPending, BatchBackend, BatchFolder, BatchRow, BatchService
+from scene2hap.llm.batch import AnswerPending, BatchBackend, BatchFolder, BatchRow, BatchService, BatchStatus
 from scene2hap.llm.openai import OpenAIBackend
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.waiting import run_waiting
@@ -45,17 +45,21 @@ class BatchReport:
     """How far the batches of a folder are.
 
     Parameters: batches : all so far; n_scenes : asked about; n_ready : scenes that are answered throughout, for
-    `bake_many`; n_to_send : questions that the next `submit_batch` sends; n_answers, cost_usd : answers so far and
-    what they cost, None if unknown; errors : scenes that cannot be asked about, by path.
+    `bake_many`; n_answers, cost_usd : answers so far and what they cost, None if unknown; errors : scenes that cannot
+    be asked about, by path.
     """
 
     batches: tuple[BatchRow, ...]
     n_scenes: int = 0
     n_ready: int = 0
-    n_to_send: int = 0
     n_answers: int = 0
     cost_usd: float | None = 0.0
     errors: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def n_to_send(self) -> int:
+        """Questions that the next `submit_batch` sends."""
+        return sum(len(row.requests) for row in self.batches if row.stage == "written")
 
     @property
     def n_under_way(self) -> int:
@@ -191,9 +195,7 @@ class _Work:
         for row in self.batches.rows():
             if row.stage == "begun":
                 now = await self.service.status(row.batch)
-                row = self.batches.save(
-                    replace(row, status=now.status, completed=now.completed, failed=now.failed, faults=now.faults)
-                )
+                row = self._note(row, now)
                 if now.has_ended:
                     files = [await self._content(file) for file in (now.output_file, now.error_file)]
                     self.batches.keep(row, *files)
@@ -203,9 +205,12 @@ class _Work:
         for row in self.batches.rows():
             if row.stage == "begun":
                 now = await (self.service.cancel if cancel else self.service.status)(row.batch)
-                self.batches.save(
-                    replace(row, status=now.status, completed=now.completed, failed=now.failed, faults=now.faults)
-                )
+                self._note(row, now)
+
+    def _note(self, row: BatchRow, now: BatchStatus) -> BatchRow:
+        return self.batches.save(
+            replace(row, status=now.status, completed=now.completed, failed=now.failed, faults=now.faults)
+        )
 
     async def survey(self, given: _Given) -> BatchReport:
         """Infer every scene as far as answers reach, and write what is to be asked next."""
@@ -242,8 +247,7 @@ class _Work:
                 # What is noted is on disk, whatever ends this run.
                 backend.close()
         rows = tuple(self.batches.rows())
-        n_to_send = sum(len(row.requests) for row in rows if row.stage == "written")
-        return BatchReport(rows, len(paths), n_ready, n_to_send, backend.n_answers, backend.cost_usd, errors)
+        return BatchReport(rows, len(paths), n_ready, backend.n_answers, backend.cost_usd, errors)
 
     def require_affordable(self, report: BatchReport) -> None:
         """Raises: BudgetExceeded: what is to be sent would cost more than is left, by estimate, or nobody knows."""
@@ -291,7 +295,7 @@ async def _submitted(given: _Given) -> BatchReport:
         report = await work.survey(given)
         work.require_affordable(report)
         await work.send()
-        return replace(report, batches=tuple(work.batches.rows()), n_to_send=0)
+        return replace(report, batches=tuple(work.batches.rows()))
 
 
 async def _collected(given: _Given) -> BatchReport:
@@ -306,9 +310,7 @@ async def _status(given: _Given, cancel: bool) -> BatchReport:
         await work.recover()
         await work.note_status(cancel)
         backend = BatchBackend(work.model, work.batches, price_list(work.config.prices))
-        rows = tuple(work.batches.rows())
-        n_to_send = sum(len(row.requests) for row in rows if row.stage == "written")
-        return BatchReport(rows, n_to_send=n_to_send, n_answers=backend.n_answers, cost_usd=backend.cost_usd)
+        return BatchReport(tuple(work.batches.rows()), n_answers=backend.n_answers, cost_usd=backend.cost_usd)
 
 
 @asynccontextmanager

@@ -41,14 +41,13 @@ class BatchBackend:
     """
 
     def __init__(self, model: OpenAIBackend, folder: BatchFolder, prices: PriceList) -> None:
-        self._model, self._folder, self._prices = model, folder, prices
+        self._model, self._prices = model, prices
         self._answers: dict[str, HttpReply] = {}
         self._failures: Counter[str] = Counter()
         self._why: dict[str, str] = {}
         rows = folder.rows()
         self._asked = set(keys_in(rows, "written", "uploaded", "begun"))
         self._writer: RequestWriter = folder.writer()
-        self.n_noted = 0
         own = keys_in(rows, *get_args(Stage))
         for key, outcome in folder.outcomes():
             if key in own:
@@ -81,14 +80,13 @@ class BatchBackend:
         about = chat.about(request)
         if key in self._answers:
             said = chat.read_chat(self._answers[key], self._model.model)
-            return replace(self._model.judged(request, replace(said, service_tier=TIER)), service_tier=TIER)
+            return self._model.judged(request, replace(said, service_tier=TIER))
         if self._failures[key] >= _TRIES:
             raise BadAnswer(f"{about}: batches brought no answer: {self._why.get(key, 'no reason given')}.")
         if key not in self._asked:
             self._asked.add(key)
             cost_usd = estimated_cost_usd(request, self._model.model, self._detail, self._prices, TIER)
             self._writer.add(key, body, cost_usd)
-            self.n_noted += 1
         raise AnswerPending(f"{about}: no batch has answered yet.")
 
     def close(self) -> None:
