@@ -107,8 +107,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         rows = [tuple(row) for row in differences(before, other)]
         console.table("differences", ("object", "what", str(arguments.bundle), str(arguments.other)), rows)
         return {"differences": rows}
-    outcome = _edit(arguments, console)
-    return _watch(arguments, console, outcome) if getattr(arguments, "watch", False) else outcome
+    return _watch(arguments, console) if getattr(arguments, "watch", False) else _edit(arguments, console)
 
 
 def _edit(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
@@ -128,12 +127,13 @@ def _edit(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     return {"bundle": str(folder), "remade": remade}
 
 
-def _watch(arguments: argparse.Namespace, console: Console, outcome: dict[str, Any]) -> dict[str, Any]:
-    """Edit again whenever the sound is saved; a file that is half written or broken is told and waited for."""
+def _watch(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
+    """Edit, and again whenever the sound is saved; a file that is half written or broken is told and waited for."""
     path = Path(arguments.file)
-    console.say(f"watching {path}; Ctrl-C ends")
-    seen = file_stamp(path)
+    seen = file_stamp(path)  # before the first edit: what is saved during it is read again
+    outcome = _edit(arguments, console)
     with interrupted() as is_interrupted:
+        console.say(f"watching {path}; Ctrl-C ends")
         while not is_interrupted.wait(POLL_S):
             stamp = file_stamp(path)
             if stamp is None or stamp == seen:
