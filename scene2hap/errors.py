@@ -23,6 +23,8 @@ that ``except ValueError`` keeps working for people who do not know the tree::
     │   └── BundleVersionError              written by a newer scene2hap
     ├── ExportError (ValueError)            an export that cannot be made
     ├── SessionError (ValueError)           play-time input that cannot be honoured
+    ├── BridgeError (ValueError)            a message of a client that cannot be honoured
+    │   └── UnknownSession (LookupError)    a session that the bridge does not have, or no longer
     ├── BackendError                        a language-model or sound service
     │   ├── BackendUnavailable (ConnectionError)  away, or refuses; tells whether trying again can help
     │   ├── BadAnswer (ValueError)          the answer fails its schema; carries the raw text
@@ -122,6 +124,14 @@ class ExportError(Scene2HapError, ValueError):
 
 class SessionError(Scene2HapError, ValueError):
     """Play-time input that cannot be honoured."""
+
+
+class BridgeError(Scene2HapError, ValueError):
+    """A message of a client that a bridge cannot honour."""
+
+
+class UnknownSession(BridgeError, LookupError):
+    """A session that the bridge does not have: it ended, or the server was restarted."""
 
 
 class BackendError(Scene2HapError):

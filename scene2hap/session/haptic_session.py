@@ -59,7 +59,7 @@ from scene2hap.session.personal import PersonalLimit
 from scene2hap.session.playback import Playback
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.silent_object import SilentObjects
-from scene2hap.session.sources import Sources
+from scene2hap.session.sources import SourceInfo, Sources
 from scene2hap.session.switching import Switching
 from scene2hap.session.user_profile import UserProfile
 from scene2hap.session.w_first import warn_if_w_first
@@ -147,6 +147,10 @@ class HapticSession:
     def source_ids(self) -> tuple[str, ...]:
         """The vibrating objects, in the order of `HapticFrame.gains`."""
         return self._sources.ids
+
+    def source(self, source_id: str) -> SourceInfo:
+        """A source as it is now. Raises: UnknownObject."""
+        return self._sources.info(source_id)
 
     @property
     def object_ids(self) -> frozenset[str]:
@@ -394,6 +398,16 @@ class HapticSession:
             raise SessionError(unknown_hand(hand, self.hands))
         return replace(self._hand_frames.explain(hand), impacts=self._impacts.felt_by(hand))
 
+    @property
+    def is_current(self) -> bool:
+        """Whether gains are of the scene as it is; false while a worker prepares a newer field."""
+        return self._hand_frames.keeper.is_current
+
+    @property
+    def impacts(self) -> tuple[Impact, ...]:
+        """The impacts of the last second that any hand felt, the latest first."""
+        return self._impacts.recent()
+
     def would_feel(self, touches: Sequence[Touch] | None) -> NDArray[np.float64]:
         """Gains that `update` would report of each of these touches alone; playing is not changed.
 
@@ -442,9 +456,8 @@ class HapticSession:
             gains: NDArray[np.float64] = frames.would_feel(self.hands, touches)[:, column].max(axis=1)
             return gains
 
-        is_current = frames.keeper.is_current
         return plot_felt(
-            self.snapshot, source_id, hand, gains_of, is_current=is_current, cells=cells, up_to_m=up_to_m, axes=axes
+            self.snapshot, source_id, hand, gains_of, is_current=self.is_current, cells=cells, up_to_m=up_to_m, axes=axes
         )
 
     def wait_prepared(self, timeout_s: float | None = None) -> bool:

@@ -154,8 +154,12 @@ class Impacts:
 
     def felt_by(self, hand: str) -> tuple[Impact, ...]:
         """The impacts of the last second that a hand felt, the latest first."""
+        return tuple(one for one in self.recent() if hand in one.felt)
+
+    def recent(self) -> tuple[Impact, ...]:
+        """The impacts of the last second that any hand felt, the latest first."""
         since = self._playback.position - self._config.sample_rate_hz
-        return tuple(one for one in reversed(self._recent) if hand in one.felt and one.at_sample >= since)
+        return tuple(one for one in reversed(self._recent) if one.at_sample >= since)
 
     def wait(self, timeout_s: float | None) -> bool:
         """Wait for impacts that a worker computes; false after the timeout [s]."""

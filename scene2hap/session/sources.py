@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
+from scene2hap.attributes import clear_attributes
 from scene2hap.audio.gain_warning import warn_if_percent
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.errors import SessionError, UnknownObject
@@ -48,6 +49,19 @@ class LoopRow:
     source_id: str
     state: str
     loop: HapticLoop
+
+
+@clear_attributes
+@dataclass(frozen=True)
+class SourceInfo:
+    """A source as it is now: its state, all of its states, whether it is switched on, and the strongest frequency of
+    its vibration in this state [Hz]."""
+
+    id: str
+    state: str
+    states: tuple[str, ...]
+    is_on: bool
+    frequency_hz: float
 
 
 @dataclass
@@ -131,6 +145,12 @@ class Sources:
         if not isinstance(source_id, str) or source_id not in self._sources:
             raise UnknownObject(unknown_source(source_id, self.ids))
         return self._sources[source_id]
+
+    def info(self, source_id: str) -> SourceInfo:
+        """A source as it is now. Raises: UnknownObject."""
+        source = self[source_id]
+        loop = source.rows[source.state].loop
+        return SourceInfo(source_id, source.state, tuple(source.rows), source.is_on, loop.frequency_tactile_hz)
 
     def rows(self) -> list[LoopRow]:
         """The row of every state of every source."""

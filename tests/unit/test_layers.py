@@ -27,7 +27,7 @@ LAYERS = [
     {"engines"},
     {"bundle_watch", "touch_track"},
     {"track_player"},
-    {"export", "report"},
+    {"bridge", "export", "report"},
     {"testing"},
     {"demo"},
     {"cli"},

@@ -1,0 +1,262 @@
+"""What each request does, and its answer."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from scene2hap import checks
+from scene2hap.bridge import messages
+from scene2hap.bridge.hosted import HostedSession
+from scene2hap.bridge.played import PlayedSession
+from scene2hap.bundle import HapticBundle
+from scene2hap.devices import SINKS
+from scene2hap.devices.protocol import ActuatorSink
+from scene2hap.errors import BridgeError
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.session import HapticSession
+
+if TYPE_CHECKING:
+    from scene2hap.bridge.connection import Connection
+    from scene2hap.bridge.server import BridgeServer
+
+Document = dict[str, Any]
+
+BAKE_SETTINGS = ("actuator", "enough_candidates", "seed", "spread", "tactile")
+"""Settings of a bake that are a client's. The others name models, keys, prices and folders, which are the server's."""
+
+LONGEST_PREPARATION_S = 60.0
+"""For which `play` waits before it answers; a client shows its loading screen."""
+
+
+async def answer(request: messages.Request, client: Connection, server: BridgeServer) -> Document:
+    """Do what a client asks for. Raises: Scene2HapError: it cannot be done; the connection goes on."""
+    match request:
+        case messages.Hello():
+            raise BridgeError("hello was said already; it comes once, as the first message.")
+        case messages.Bake():
+            return _bake(request, client, server)
+        case messages.Cancel():
+            await server.jobs.cancel(request.job)
+            return {"type": "cancelled", "job": request.job}
+        case messages.Play():
+            return await _play(request, client, server)
+        case messages.Resume():
+            _require_free(client)
+            hosted = server.hosted(request.session)
+            order = await hosted.resume(client, request.key)
+            client.hosted = hosted
+            client.repeat(hosted.last_gains)
+            return _playing(hosted, order, server)
+        case messages.Watch():
+            return await _watch(request, client, server)
+        case messages.Explain():
+            shared = _shared(client)
+            explanation = await shared.run(shared.played.session.explain, request.hand)
+            return {"type": "explanation", **explanation.to_data(), "text": explanation.text}
+        case messages.Stats():
+            shared = _shared(client)
+            return {"type": "stats", **await shared.run(shared.played.stats)}
+        case messages.Leave():
+            return await _leave(client)
+        case _:
+            return await _changed(request, _own(client), server)
+
+
+async def _changed(request: messages.Request, hosted: HostedSession, server: BridgeServer) -> Document:
+    """Change the session of a client."""
+    played, session = hosted.played, hosted.played.session
+    match request:
+        case messages.SetSource():
+            await hosted.run(
+                session.set_source,
+                request.source,
+                on=request.on,
+                state=request.state,
+                gain_db=request.gain_db,
+                mute=request.mute,
+            )
+        case messages.SetUser():
+            await hosted.run(session.set_user, gain_db=request.gain_db, mute=request.mute, profile=request.profile)
+        case messages.StrikeObject():
+            await hosted.run(
+                session.strike,
+                request.object,
+                request.point_m,
+                speed_m_s=request.speed_m_s,
+                impulse_n_s=request.impulse_n_s,
+                with_object=request.with_object,
+            )
+        case messages.Pause():
+            await hosted.run(played.pause)
+        case messages.Unpause():
+            await hosted.run(played.unpause)
+        case messages.Moving():
+            return _order(await hosted.change_layout(lambda: played.use_layout(request.moving)))
+        case messages.Remove():
+            return _order(await hosted.change_layout(lambda: session.remove(request.object)))
+        case messages.Add():
+            return _order(await hosted.change_layout(lambda: session.add(_one_object(request.object, session))))
+        case messages.Spawn():
+            folder = _bundle_folder(request.prefab, request.job, "spawn", server)
+            pose = Pose(request.position_m, request.rotation_xyzw)
+            return _order(
+                await hosted.change_layout(lambda: session.spawn(HapticBundle.load(folder), request.object, pose))
+            )
+    return {"type": "done"}
+
+
+def _bake(request: messages.Bake, client: Connection, server: BridgeServer) -> Document:
+    if (request.scene is None) == (request.path is None):
+        raise BridgeError("bake needs one of scene and path; give one of them.")
+    foreign = [name for name in request.config if name not in BAKE_SETTINGS]
+    if foreign:
+        raise BridgeError(
+            f"{checks.represented(foreign[0])} is no setting of a client's bake; those are {', '.join(BAKE_SETTINGS)}. "
+            "The server's settings have the others."
+        )
+    _require_no_file(request.config)
+    if request.scene is not None:
+        scene = server.jobs.write(json.dumps(request.scene))
+    else:
+        scene = server.below_root(request.path or "")
+    pictures = client.pictures.hand_over() if request.pictures else None
+    wanted = {
+        "scene": str(scene),
+        "config": {**server.config.bake, **request.config},
+        "user_prompt": request.user_prompt,
+        "pictures": None if pictures is None else str(pictures),
+    }
+    target = None if request.save is None else server.below_root(request.save)
+    return {"type": "baking", "job": server.jobs.start(wanted, target, client.send)}
+
+
+async def _play(request: messages.Play, client: Connection, server: BridgeServer) -> Document:
+    _require_free(client)
+    folder = _bundle_folder(request.bundle, request.job, "play", server)
+    _require_no_file(request.session)
+    sink = await server.take_sink() if request.use_sink else None
+    make = partial(_made, request, folder, server.config.session, sink)
+    hosted = HostedSession(make, request.frames, request.keep_s, server.forget)
+    try:
+        await hosted.open(client)
+    except BaseException:
+        server.give_sink_back()
+        raise
+    server.host(hosted, plays_sink=sink is not None)
+    client.hosted = hosted
+    return _playing(hosted, await hosted.run(hosted.played.order), server)
+
+
+def _made(
+    request: messages.Play,
+    folder: Path,
+    settings: Mapping[str, Any],
+    sink_spec: object,
+    tell: Callable[[Document], None],
+) -> PlayedSession:
+    """The session that a client asked for; on the session's thread."""
+    bundle = HapticBundle.load(folder)
+    scene = bundle.snapshot if request.scene is None else SceneSnapshot.from_json(json.dumps(request.scene))
+    sink: ActuatorSink | None = SINKS.build(sink_spec) if sink_spec is not None else None  # type: ignore[assignment]
+    session = HapticSession(
+        scene,
+        bundle,
+        {"actuator": bundle.actuator or "flat", **settings, **request.session},
+        hands=request.hands,
+        sink=sink,
+        user=request.user,
+    )
+    # Else the first frames would have gains of nothing.
+    session.wait_prepared(LONGEST_PREPARATION_S)
+    return PlayedSession(session, request.moving, sink, tell)
+
+
+async def _watch(request: messages.Watch, client: Connection, server: BridgeServer) -> Document:
+    _require_free(client)
+    hosted = server.hosted(request.session)
+    order = await hosted.run(hosted.played.order)
+    hosted.watchers.add(client)
+    client.watched = hosted
+    return {"type": "watching", "session": hosted.id, **order}
+
+
+async def _leave(client: Connection) -> Document:
+    hosted, watched = client.hosted, client.watched
+    client.hosted = client.watched = None
+    if watched is not None:
+        watched.watchers.discard(client)
+    if hosted is not None:
+        hosted.player = None
+        await hosted.close()
+    return {"type": "left"}
+
+
+def _playing(hosted: HostedSession, order: Document, server: BridgeServer) -> Document:
+    return {
+        "type": "playing",
+        "session": hosted.id,
+        "key": hosted.key.hex(),
+        **order,
+        "sink": server.sink_kind if server.plays_sink(hosted) else None,
+        "udp_port": server.udp_port,
+    }
+
+
+def _order(order: Document) -> Document:
+    return {"type": "order", **order}
+
+
+def _require_free(client: Connection) -> None:
+    if client.hosted is not None or client.watched is not None:
+        raise BridgeError("this connection has a session already; send `leave` first, or open another connection.")
+
+
+def _own(client: Connection) -> HostedSession:
+    """The session that a client plays. Raises: BridgeError: it plays none."""
+    if client.hosted is None:
+        whose = "only its player may change a session" if client.watched else "there is no session; send `play` first"
+        raise BridgeError(f"{whose}.")
+    return client.hosted
+
+
+def _shared(client: Connection) -> HostedSession:
+    """The session that a client plays or watches. Raises: BridgeError: neither."""
+    hosted = client.hosted or client.watched
+    if hosted is None:
+        raise BridgeError("there is no session; send `play` or `watch` first.")
+    return hosted
+
+
+def _bundle_folder(path: str | None, job: int | None, kind: str, server: BridgeServer) -> Path:
+    if (path is None) == (job is None):
+        name = "prefab" if kind == "spawn" else "bundle"
+        raise BridgeError(f"{kind} needs one of {name} and job; give one of them.")
+    return server.jobs.bundle(job) if job is not None else server.below_root(path or "")
+
+
+def _one_object(row: Document, session: HapticSession) -> Any:
+    """The object of a row of scene JSON. Raises: SceneError."""
+    document = {
+        "format": "scene2hap/scene",
+        "version": 1,
+        "name": "added",
+        "up_axis": session.snapshot.up_axis,
+        "objects": [row],
+    }
+    (item,) = SceneSnapshot.from_json(json.dumps(document)).objects
+    return item
+
+
+def _require_no_file(settings: Mapping[str, Any]) -> None:
+    """Raise a BridgeError where a setting names a file: clients read files below the root alone, and by `path`."""
+    actuator = settings.get("actuator")
+    if isinstance(actuator, str) and Path(actuator).suffix:
+        raise BridgeError(
+            f"actuator is {checks.represented(actuator)}, a file; a client gives the name of an actuator, or its "
+            "fields. The server's settings may name files."
+        )

@@ -1,0 +1,61 @@
+"""A bake in a process of its own, so that it can be cancelled and takes no time from sessions that play.
+
+Reads one JSON object from standard input (`scene`, `target`, `config`, `user_prompt`, `pictures`) and writes one JSON
+object per line: `progress` with stage, item, done and of; at the end `objects`, or `error` with kind and message.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from typing import Any
+
+from scene2hap.baking import BakeConfig, bake
+from scene2hap.bundle import HapticBundle
+from scene2hap.errors import Scene2HapError
+from scene2hap.scene.load import load_scene
+
+
+def main() -> None:
+    """Bake what standard input asks for."""
+    answers = sys.stdout
+    sys.stdout = sys.stderr  # whatever a plug-in prints is no answer
+
+    def tell(document: dict[str, Any]) -> None:
+        print(json.dumps(document), file=answers, flush=True)
+
+    wanted = json.load(sys.stdin)
+    try:
+        bundle = baked(wanted, lambda *what: tell({"progress": what}))
+        bundle.save(wanted["target"])
+    except Scene2HapError as error:
+        tell({"error": [type(error).__name__, str(error)]})
+    except OSError as error:
+        tell({"error": ["BundleError", f"the bundle cannot be written: {error.strerror or error}."]})
+    else:
+        tell({"objects": summary(bundle)})
+
+
+def baked(wanted: dict[str, Any], progress: Any) -> HapticBundle:
+    """The bundle of a request. Raises: as `load_scene` and `bake`."""
+    scene = load_scene(wanted["scene"])
+    config = BakeConfig.parse(wanted["config"])
+    return bake(scene, config, user_prompt=wanted["user_prompt"], progress=progress)
+
+
+def summary(bundle: HapticBundle) -> list[dict[str, Any]]:
+    """What was inferred, for a client to show."""
+    return [
+        {
+            "id": key,
+            "category": haptics.object_category,
+            "material": haptics.material_category,
+            "vibrates": haptics.vibrates,
+            "states": [state.name for state in haptics.states],
+        }
+        for key, haptics in bundle.objects.items()
+    ]
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,79 @@
+"""Settings of a bridge."""
+
+from __future__ import annotations
+
+import ipaddress
+from pathlib import Path
+from typing import Any, Self
+
+from pydantic import Field, field_validator, model_validator
+
+from scene2hap.errors import ConfigError
+from scene2hap.secret import Secret
+from scene2hap.settings import Settings
+
+PORT = 7862
+
+
+class BridgeConfig(Settings):
+    """Settings of a bridge.
+
+    host : the interface to listen on; another than loopback needs a token. port : 0 for a free one.
+    token : what `hello` must carry, None for nothing.
+    root : the folder whose scenes and bundles clients may read and write, None for none.
+    origins : web pages that may connect beside those of loopback, such as "https://game.example".
+    sink : a kind of sink, or a mapping with `kind`, that plays one session; None leaves playing to the clients.
+    udp : whether frames are taken as datagrams too.
+    bake, session : settings of bakes and sessions on which those of clients come on top.
+    heartbeat_s : time between two pings. max_message_bytes : of one message. max_clients : at once.
+    """
+
+    of_what = "bridge"
+
+    host: str = "127.0.0.1"
+    port: int = Field(default=PORT, ge=0, le=65535)
+    token: Secret | None = None
+    root: Path | None = None
+    origins: tuple[str, ...] = ()
+    sink: Any = None
+    udp: bool = False
+    bake: dict[str, Any] = Field(default_factory=dict)
+    session: dict[str, Any] = Field(default_factory=dict)
+    heartbeat_s: float = Field(default=2.0, ge=0.05, le=60.0)
+    max_message_bytes: int = Field(default=32 << 20, ge=1 << 16, le=1 << 30)
+    max_clients: int = Field(default=16, ge=1, le=1000)
+
+    @field_validator("token", mode="before")
+    @classmethod
+    def _kept_secret(cls, token: object) -> object:
+        if token is None or isinstance(token, Secret):
+            return token
+        return Secret(token)  # type: ignore[arg-type]  # it refuses what is no text
+
+    @field_validator("root")
+    @classmethod
+    def _is_folder(cls, root: Path | None) -> Path | None:
+        if root is not None and not root.is_dir():
+            raise ConfigError(f"root is {str(root)!r}; it must be a folder. Create it first.")
+        return None if root is None else root.resolve()
+
+    @model_validator(mode="after")
+    def _has_a_token_where_others_reach_it(self) -> Self:
+        if self.token is not None and not self.token.reveal():
+            raise ValueError("token is empty; leave it out, or give a text of your own")
+        if not is_loopback(self.host) and self.token is None:
+            raise ValueError(
+                f"host is {self.host!r}, which others reach; such a bridge needs a token. Give one with --token, or "
+                "listen on 127.0.0.1"
+            )
+        return self
+
+
+def is_loopback(host: str) -> bool:
+    """Whether only this machine reaches an interface, by name or address."""
+    if host == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return False

@@ -1,0 +1,139 @@
+"""Binary messages: frames of a game, and the gains that answer them; docs/bridge-protocol.md has every offset."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.errors import BridgeError
+
+MAGIC = b"S2HB"
+VERSION = 1
+FRAME, GAINS, PICTURE = 1, 2, 3
+PAUSED, IS_PREPARING = 1, 2
+"""Flags of gains."""
+
+_HEADER = struct.Struct("<4sBBH8sIId")
+_FRAME_COUNTS = struct.Struct("<II")
+_GAINS_COUNTS = struct.Struct("<HHHH")
+_PICTURE = struct.Struct("<4sBBH")
+_BEGIN = _HEADER.size + _FRAME_COUNTS.size
+_POSE_BYTES, _TOUCH_BYTES = 28, 20
+_TOUCH = np.dtype([("hand", "<u4"), ("object", "<u4"), ("point_m", "<f4", 3)])
+NO_KEY = bytes(8)
+
+Floats = NDArray[np.float32]
+
+
+class Frame(NamedTuple):
+    """A frame of a game.
+
+    Parameters: poses : (n_moving or 0, 7) float32, position [m] and quaternion (x, y, z, w); touches : structured
+    array with hand, object and point_m [m].
+    """
+
+    layout: int
+    key: bytes
+    sequence: int
+    time_s: float
+    poses: Floats
+    touches: NDArray[np.void]
+
+
+class Gains(NamedTuple):
+    """Gains that answer a frame.
+
+    Parameters: intensities : (n_hands,) float32; gains : (n_hands, n_sources, n_bands) float32.
+    """
+
+    layout: int
+    sequence: int
+    skipped: int
+    time_s: float
+    flags: int
+    intensities: Floats
+    gains: Floats
+
+
+def kind_of(message: bytes) -> int:
+    """The kind of a binary message. Raises: BridgeError: it is none of this version."""
+    if len(message) < _PICTURE.size or message[:4] != MAGIC:
+        begin = message[:8].hex(" ") or "empty"
+        raise BridgeError(f"a binary message begins with {begin}; it must begin with {MAGIC.hex(' ')} (S2HB).")
+    if message[5] != VERSION:
+        raise BridgeError(f"a binary message is of version {message[5]}; this bridge reads version {VERSION}.")
+    return message[4]
+
+
+def decode_frame(message: bytes) -> Frame:
+    """A frame of a client. Raises: BridgeError: its length does not fit its counts, or a number is not finite."""
+    if kind_of(message) != FRAME:
+        raise BridgeError(f"a binary message is of kind {message[4]}; clients send kind {FRAME} (frame).")
+    if len(message) < _BEGIN:
+        raise BridgeError(f"a frame has {len(message)} bytes; it must have at least {_BEGIN}.")
+    _, _, _, layout, key, sequence, _, time_s = _HEADER.unpack_from(message)
+    n_poses, n_touches = _FRAME_COUNTS.unpack_from(message, _HEADER.size)
+    expected = _BEGIN + _POSE_BYTES * n_poses + _TOUCH_BYTES * n_touches
+    if len(message) != expected:
+        raise BridgeError(
+            f"a frame of {n_poses} poses and {n_touches} touches has {len(message)} bytes; it must have {expected}."
+        )
+    poses = np.frombuffer(message, "<f4", 7 * n_poses, _BEGIN).reshape(n_poses, 7)
+    touches = np.frombuffer(message, _TOUCH, n_touches, _BEGIN + _POSE_BYTES * n_poses)
+    if not (np.isfinite(time_s) and np.isfinite(poses).all() and np.isfinite(touches["point_m"]).all()):
+        raise BridgeError("a frame has a number that is not finite; send finite positions, rotations, points and time.")
+    return Frame(layout, key, sequence, time_s, poses, touches)
+
+
+def encode_frame(
+    layout: int,
+    key: bytes,
+    sequence: int,
+    time_s: float,
+    poses: Floats,
+    touches: Sequence[tuple[int, int, tuple[float, float, float]]],
+) -> bytes:
+    """The message of a frame, as a client writes it."""
+    header = _HEADER.pack(MAGIC, FRAME, VERSION, layout, key, sequence, 0, time_s)
+    counts = _FRAME_COUNTS.pack(len(poses), len(touches))
+    return b"".join((header, counts, poses.astype("<f4").tobytes(), np.array(list(touches), dtype=_TOUCH).tobytes()))
+
+
+def encode_gains(found: Gains) -> bytes:
+    """The message of gains."""
+    n_hands, n_sources, n_bands = found.gains.shape
+    header = _HEADER.pack(MAGIC, GAINS, VERSION, found.layout, NO_KEY, found.sequence, found.skipped, found.time_s)
+    counts = _GAINS_COUNTS.pack(n_hands, n_sources, n_bands, found.flags)
+    return b"".join((header, counts, found.intensities.astype("<f4").tobytes(), found.gains.astype("<f4").tobytes()))
+
+
+def decode_gains(message: bytes) -> Gains:
+    """Gains as a client reads them. Raises: BridgeError: the message is none of gains."""
+    if kind_of(message) != GAINS or len(message) < _BEGIN:
+        raise BridgeError(f"a binary message of {len(message)} bytes and kind {message[4]} has no gains.")
+    _, _, _, layout, _, sequence, skipped, time_s = _HEADER.unpack_from(message)
+    n_hands, n_sources, n_bands, flags = _GAINS_COUNTS.unpack_from(message, _HEADER.size)
+    n = n_hands * n_sources * n_bands
+    if len(message) != _BEGIN + 4 * (n_hands + n):
+        raise BridgeError(f"gains of {n_hands} hands, {n_sources} sources and {n_bands} bands have another length.")
+    intensities = np.frombuffer(message, "<f4", n_hands, _BEGIN)
+    gains = np.frombuffer(message, "<f4", n, _BEGIN + 4 * n_hands).reshape(n_hands, n_sources, n_bands)
+    return Gains(layout, sequence, skipped, time_s, flags, intensities, gains)
+
+
+def decode_picture(message: bytes) -> tuple[bytes, bytes]:
+    """The JSON text of a picture, and its file. Raises: BridgeError: the message is too short for its text."""
+    _, _, _, n_text = _PICTURE.unpack_from(message)
+    begin = _PICTURE.size + n_text
+    if begin > len(message):
+        raise BridgeError(f"a picture has {len(message)} bytes; its text alone needs {begin}.")
+    return message[_PICTURE.size : begin], message[begin:]
+
+
+def encode_picture(text: bytes, file: bytes) -> bytes:
+    """The message of a picture, as a client writes it."""
+    return _PICTURE.pack(MAGIC, PICTURE, VERSION, len(text)) + text + file

@@ -1,0 +1,208 @@
+"""A session that clients play and watch, on a thread of its own."""
+
+from __future__ import annotations
+
+import asyncio
+import hmac
+import secrets
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, Literal, ParamSpec, Protocol, TypeVar
+
+from scene2hap.bridge.frames import Frame, decode_frame, encode_gains
+from scene2hap.bridge.played import PlayedSession
+from scene2hap.bridge.told_warnings import tell_warnings_of_this_thread
+from scene2hap.errors import BridgeError, Scene2HapError, UnknownSession
+
+P = ParamSpec("P")
+Result = TypeVar("Result")
+
+Frames = Literal["newest", "every"]
+
+
+class Receiver(Protocol):
+    """A client as a hosted session sees it. Neither method waits."""
+
+    def send(self, document: dict[str, Any]) -> None:
+        """Send a JSON message."""
+        ...
+
+    def send_gains(self, message: bytes, *, must_arrive: bool) -> None:
+        """Send gains; without `must_arrive`, newer ones may replace them."""
+        ...
+
+
+class HostedSession:
+    """A session, its player, and those who watch.
+
+    All methods belong to the event loop. The session itself is touched on its thread alone, in the order of the calls.
+
+    Parameters: make : makes the played session, on that thread; frames : whether a frame may be replaced by a newer
+    one while it waits; keep_s : for how long the session outlives its connection [s]; ended : is called once the
+    session is closed.
+    """
+
+    def __init__(
+        self,
+        make: Callable[[Callable[[dict[str, Any]], None]], PlayedSession],
+        frames: Frames,
+        keep_s: float,
+        ended: Callable[[HostedSession], None],
+    ) -> None:
+        self.id, self.key = secrets.token_hex(8), secrets.token_bytes(8)
+        self.frames, self._keep_s, self._ended = frames, keep_s, ended
+        self.player: Receiver | None = None
+        self.watchers: set[Receiver] = set()
+        self._make = make
+        self._loop = asyncio.get_running_loop()
+        self._thread = ThreadPoolExecutor(1, thread_name_prefix="scene2hap session")
+        self._waits: Frame | None = None
+        self._reply: Callable[[bytes], None] | None = None
+        self._taking: asyncio.Task[None] | None = None
+        self._forgetting: asyncio.TimerHandle | None = None
+        self._is_closed = False
+        self.last_gains: bytes | None = None
+
+    async def open(self, player: Receiver) -> None:
+        """Make the session. Raises: as HapticSession; DeviceError: its sink cannot be opened."""
+        try:
+            await self._loop.run_in_executor(self._thread, tell_warnings_of_this_thread, self._tell)
+            self.played = await self._loop.run_in_executor(self._thread, self._make, self._tell)
+        except BaseException:
+            self._thread.shutdown(wait=False)
+            raise
+        self.player = player
+
+    async def run(self, work: Callable[P, Result], *args: P.args, **kwargs: P.kwargs) -> Result:
+        """Do something to the session on its thread, after all frames that came before."""
+        await self.settle()
+        return await self._loop.run_in_executor(self._thread, lambda: work(*args, **kwargs))
+
+    async def settle(self) -> None:
+        """Wait until no frame is left to take in."""
+        while self._taking is not None:
+            await self._taking
+
+    async def take(self, message: bytes, reply: Callable[[bytes], None] | None = None) -> None:
+        """Take in a frame. With "every" this waits until it was taken; with "newest" it does not.
+
+        Parameters: reply : takes the gains, None to send them to the player. Raises: BridgeError: no frame of this
+        session.
+        """
+        frame = decode_frame(message)
+        if not hmac.compare_digest(frame.key, self.key):
+            raise BridgeError("a frame carries another key than that of the session; copy it from `playing`.")
+        if self._waits is not None:
+            self.played.n_skipped += 1
+        self._waits, self._reply = frame, reply
+        if self._taking is None:
+            self._taking = self._loop.create_task(self._take_all())
+        if self.frames == "every" and reply is None:
+            await self.settle()
+
+    async def _take_all(self) -> None:
+        try:
+            while self._waits is not None and not self._is_closed:
+                frame, self._waits, reply = self._waits, None, self._reply
+                try:
+                    message = await self._loop.run_in_executor(self._thread, self._taken, frame)
+                except Scene2HapError as error:
+                    self._tell_player(error_message(error))
+                    continue
+                if message is not None:
+                    self.last_gains = message
+                    self._send_gains(message, reply)
+        finally:
+            self._taking = None
+
+    def _taken(self, frame: Frame) -> bytes | None:
+        gains = self.played.take(frame)
+        return None if gains is None else encode_gains(gains)
+
+    def _send_gains(self, message: bytes, reply: Callable[[bytes], None] | None = None) -> None:
+        if reply is not None:
+            reply(message)
+        elif self.player is not None:
+            self.player.send_gains(message, must_arrive=self.frames == "every")
+        for one in self.watchers:
+            one.send_gains(message, must_arrive=False)
+
+    async def change_layout(self, work: Callable[[], object]) -> dict[str, Any]:
+        """Let objects or sources come or go, and tell all clients the new layout; that of the player is returned."""
+
+        def changed() -> dict[str, Any]:
+            work()
+            self.played.use_layout()
+            return self.played.order()
+
+        order = await self.run(changed)
+        for one in self.watchers:
+            one.send({"type": "order", "session": self.id, **order})
+        return order
+
+    async def lose(self, player: Receiver) -> None:
+        """Pause, since the player's connection is lost, and keep the session for a while."""
+        if self.player is not player or self._is_closed:
+            return
+        self.player = None
+        # Before anything that waits, so that a client which resumes at once is not forgotten.
+        self._forgetting = self._loop.call_later(self._keep_s, lambda: self._loop.create_task(self.close()))
+        await self.run(self.played.session.pause)
+        if self.player is None:
+            self._tell_watchers({"type": "state", "session": self.id, "is": "waiting"})
+            self._send_gains(encode_gains(self.played.silence()))
+
+    async def resume(self, player: Receiver, key: str) -> dict[str, Any]:
+        """Go on with another connection. Raises: UnknownSession: wrong key; BridgeError: somebody plays it."""
+        if not hmac.compare_digest(key.lower(), self.key.hex()):
+            raise UnknownSession(f"session {self.id} has another key; send the one that `playing` gave.")
+        if self._forgetting is not None:
+            self._forgetting.cancel()
+            self._forgetting = None
+        # The old connection may be half dead: its player has proved to be the same by the key.
+        self.player = player
+        if not self.played.is_paused:
+            await self.run(self.played.session.resume)
+        self._tell_watchers({"type": "state", "session": self.id, "is": "playing"})
+        return await self.run(self.played.order)
+
+    async def close(self) -> None:
+        """End the session."""
+        if self._is_closed:
+            return
+        await self.settle()
+        self._is_closed = True
+        if self._forgetting is not None:
+            self._forgetting.cancel()
+        await self._loop.run_in_executor(self._thread, self.played.close)
+        self._thread.shutdown(wait=False)
+        self._tell_watchers({"type": "state", "session": self.id, "is": "ended"})
+        self._send_gains(encode_gains(self.played.silence()))
+        self.watchers.clear()
+        self._ended(self)
+
+    def _tell(self, document: dict[str, Any]) -> None:
+        """Send a message to all clients, from the session's thread."""
+        self._loop.call_soon_threadsafe(self._tell_all, document)
+
+    def _tell_all(self, document: dict[str, Any]) -> None:
+        self._tell_player(document)
+        self._tell_watchers(document)
+
+    def _tell_player(self, document: dict[str, Any]) -> None:
+        if self.player is not None:
+            self.player.send(document)
+
+    def _tell_watchers(self, document: dict[str, Any]) -> None:
+        for one in self.watchers:
+            one.send(document)
+
+
+def error_message(error: Scene2HapError, re: int | None = None, job: int | None = None) -> dict[str, Any]:
+    """The message that tells a client of an error."""
+    answer: dict[str, Any] = {"type": "error", "error": type(error).__name__, "message": str(error)}
+    if re is not None:
+        answer["re"] = re
+    if job is not None:
+        answer["job"] = job
+    return answer

@@ -1,0 +1,129 @@
+"""Bakes that clients asked for, each in a process of its own."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import itertools
+import json
+import shutil
+import sys
+import tempfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from scene2hap.bridge.hosted import error_message
+from scene2hap.errors import BridgeError
+
+MAX_RUNNING = 4
+"""Bakes at once, over all clients; assumed: more only take the processors from each other."""
+N_KEPT = 32
+"""Bundles of ended jobs that are kept for `play`, unless they were saved."""
+LONGEST_LINE = 1 << 24
+"""Bytes of one answer of the process; assumed: some hundred thousand objects."""
+
+Tell = Callable[[dict[str, Any]], None]
+
+
+class Jobs:
+    """All bakes of a server. Bundles that nobody saves lie in a temporary folder until the server ends."""
+
+    def __init__(self) -> None:
+        self._folder = tempfile.TemporaryDirectory(prefix="scene2hap-bridge-", ignore_cleanup_errors=True)
+        self._job_numbers, self._numbers = itertools.count(1), itertools.count(1)
+        self._tasks: dict[int, asyncio.Task[None]] = {}
+        self._bundles: dict[int, Path] = {}
+
+    @property
+    def folder(self) -> Path:
+        """For what jobs read and write."""
+        return Path(self._folder.name)
+
+    def write(self, text: str) -> Path:
+        """Write a scene for a job, which removes it at its end."""
+        path = self.folder / f"scene-{next(self._numbers)}.json"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def start(self, wanted: Mapping[str, Any], target: Path | None, tell: Tell) -> int:
+        """Begin a bake, and return its number; `tell` takes its messages.
+
+        Parameters: wanted : as `bake_process` reads it, without the target; target : of the bundle, None to keep it
+        for this server. Raises: BridgeError: too many bakes run.
+        """
+        if len(self._tasks) >= MAX_RUNNING:
+            raise BridgeError(f"{MAX_RUNNING} bakes are running already; wait for one to end, or cancel one.")
+        job = next(self._job_numbers)
+        folder = target or self.folder / f"job-{job}.bundle"
+        self._tasks[job] = asyncio.create_task(self._bake(job, {**wanted, "target": str(folder)}, folder, tell))
+        return job
+
+    def bundle(self, job: int) -> Path:
+        """The folder of a bundle. Raises: BridgeError: no such job, or it has no bundle."""
+        if job in self._tasks:
+            raise BridgeError(f"job {job} is still baking; wait for its `baked`.")
+        if job not in self._bundles:
+            raise BridgeError(f"there is no job {job} with a bundle; bake again.")
+        return self._bundles[job]
+
+    async def cancel(self, job: int) -> None:
+        """End a bake. Raises: BridgeError: it is not running."""
+        if job not in self._tasks:
+            raise BridgeError(f"job {job} is not running.")
+        task = self._tasks[job]
+        task.cancel()
+        with contextlib.suppress(asyncio.CancelledError):
+            await task
+
+    async def close(self) -> None:
+        """End all bakes, and remove what was not saved."""
+        for job in [*self._tasks]:
+            await self.cancel(job)
+        await asyncio.to_thread(self._folder.cleanup)
+
+    async def _bake(self, job: int, wanted: Mapping[str, Any], folder: Path, tell: Tell) -> None:
+        process: asyncio.subprocess.Process | None = None
+        try:
+            process = await asyncio.create_subprocess_exec(
+                *(sys.executable, "-m", "scene2hap.bridge.bake_process"),
+                stdin=asyncio.subprocess.PIPE,
+                stdout=asyncio.subprocess.PIPE,
+                limit=LONGEST_LINE,
+            )
+            assert process.stdin is not None
+            assert process.stdout is not None
+            process.stdin.write(json.dumps(wanted).encode())
+            process.stdin.close()
+            last: dict[str, Any] = {}
+            async for line in process.stdout:
+                last = json.loads(line)
+                if "progress" in last:
+                    stage, item, done, of = last["progress"]
+                    tell({"type": "progress", "job": job, "stage": stage, "item": item, "done": done, "of": of})
+            await process.wait()
+            if "objects" in last:
+                self._keep(job, folder)
+                tell({"type": "baked", "job": job, "objects": last["objects"]})
+            else:
+                status = f"it ended with status {process.returncode}, and the server's log tells more"
+                kind, message = last.get("error", ("BridgeError", f"the bake failed: {status}."))
+                tell({"type": "error", "error": kind, "message": message, "job": job})
+        except (OSError, ValueError) as cause:
+            tell(error_message(BridgeError(f"the bake failed: {cause}."), job=job))
+        finally:
+            if process is not None and process.returncode is None:
+                process.kill()
+                # Shielded: the process must be waited for even while the server ends.
+                await asyncio.shield(process.wait())
+            scene = Path(wanted["scene"])
+            if scene.is_relative_to(self.folder):
+                scene.unlink(missing_ok=True)
+            del self._tasks[job]
+
+    def _keep(self, job: int, folder: Path) -> None:
+        self._bundles[job] = folder
+        while len(self._bundles) > N_KEPT:
+            forgotten = self._bundles.pop(next(iter(self._bundles)))
+            if forgotten.is_relative_to(self.folder):
+                shutil.rmtree(forgotten, ignore_errors=True)

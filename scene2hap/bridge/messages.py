@@ -1,0 +1,237 @@
+"""The JSON messages of clients; docs/bridge-protocol.md tells what each does."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
+
+from scene2hap import checks
+from scene2hap.errors import BridgeError
+
+VERSION = 1
+
+Name = Annotated[str, Field(min_length=1, max_length=1000)]
+RelativePath = Annotated[str, Field(min_length=1, max_length=4096)]
+Number = Annotated[float, Field(allow_inf_nan=False)]
+Point = tuple[Number, Number, Number]
+Document = dict[str, Any]
+
+
+class Request(BaseModel):
+    """A message of a client; its answer carries `id` as `re`."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, hide_input_in_errors=True)
+
+    type: str
+    id: int | None = Field(default=None, ge=0, lt=2**53)
+
+
+class Hello(Request):
+    """The first message."""
+
+    type: Literal["hello"]
+    version: int
+    client: Name
+    token: str | None = Field(default=None, max_length=1000)
+
+
+class Bake(Request):
+    """Tell what the objects of a scene are and how they vibrate."""
+
+    type: Literal["bake"]
+    scene: Document | None = None
+    path: RelativePath | None = None
+    config: Document = {}
+    user_prompt: str = Field(default="", max_length=100_000)
+    pictures: bool = False
+    save: RelativePath | None = None
+
+
+class Cancel(Request):
+    """End a bake."""
+
+    type: Literal["cancel"]
+    job: int
+
+
+class Play(Request):
+    """Begin a session."""
+
+    type: Literal["play"]
+    bundle: RelativePath | None = None
+    job: int | None = None
+    scene: Document | None = None
+    session: Document = {}
+    user: Document | None = None
+    hands: list[Name] = Field(default=["left", "right"], min_length=1, max_length=64)
+    moving: list[Name] | None = None
+    frames: Literal["newest", "every"] = "newest"
+    keep_s: float = Field(default=30.0, ge=0.0, le=600.0)
+    use_sink: bool = True
+
+
+class Resume(Request):
+    """Go on with a session whose connection was lost."""
+
+    type: Literal["resume"]
+    session: Name
+    key: str = Field(min_length=16, max_length=16)
+
+
+class Watch(Request):
+    """Receive the gains of a session that another client plays."""
+
+    type: Literal["watch"]
+    session: Name
+
+
+class Moving(Request):
+    """Choose the objects whose poses frames have."""
+
+    type: Literal["moving"]
+    moving: list[Name]
+
+
+class SetSource(Request):
+    """Switch a source, or set its level."""
+
+    type: Literal["set_source"]
+    source: Name
+    on: bool | None = None
+    state: str | None = None
+    gain_db: Number | None = None
+    mute: bool | None = None
+
+
+class SetUser(Request):
+    """Set the level of everything, or the profile of the person who plays."""
+
+    type: Literal["set_user"]
+    gain_db: Number | None = None
+    mute: bool | None = None
+    profile: Document | None = None
+
+
+class StrikeObject(Request):
+    """Strike an object."""
+
+    type: Literal["strike"]
+    object: Name
+    point_m: Point
+    speed_m_s: Number | None = None
+    impulse_n_s: Number | None = None
+    with_object: Name | None = None
+
+
+class Add(Request):
+    """Put an object into the scene."""
+
+    type: Literal["add"]
+    object: Document
+
+
+class Spawn(Request):
+    """Put a copy of a prefab into the scene."""
+
+    type: Literal["spawn"]
+    object: Name
+    position_m: Point
+    rotation_xyzw: tuple[Number, Number, Number, Number] = (0.0, 0.0, 0.0, 1.0)
+    prefab: RelativePath | None = None
+    job: int | None = None
+
+
+class Remove(Request):
+    """Take an object out of the scene."""
+
+    type: Literal["remove"]
+    object: Name
+
+
+class Pause(Request):
+    """Fade everything out."""
+
+    type: Literal["pause"]
+
+
+class Unpause(Request):
+    """Go on after a pause."""
+
+    type: Literal["unpause"]
+
+
+class Explain(Request):
+    """Report what a hand feels, and over which path."""
+
+    type: Literal["explain"]
+    hand: Name
+
+
+class Stats(Request):
+    """Report counters."""
+
+    type: Literal["stats"]
+
+
+class Leave(Request):
+    """End the session, or stop watching."""
+
+    type: Literal["leave"]
+
+
+MODELS: dict[str, type[Request]] = {
+    "hello": Hello,
+    "bake": Bake,
+    "cancel": Cancel,
+    "play": Play,
+    "resume": Resume,
+    "watch": Watch,
+    "moving": Moving,
+    "set_source": SetSource,
+    "set_user": SetUser,
+    "strike": StrikeObject,
+    "add": Add,
+    "spawn": Spawn,
+    "remove": Remove,
+    "pause": Pause,
+    "unpause": Unpause,
+    "explain": Explain,
+    "stats": Stats,
+    "leave": Leave,
+}
+_document: TypeAdapter[Document] = TypeAdapter(Document)
+
+
+def read_document(text: str) -> Document:
+    """The object in a text message. Raises: BridgeError: it is no JSON object."""
+    try:
+        return _document.validate_json(text)
+    except ValidationError as cause:
+        reason = checks.first_problem(cause).reason
+        raise BridgeError(f"the message is no JSON object: {reason}. Send an object with a type.") from cause
+
+
+def request_id(document: Document) -> int | None:
+    """The number that an answer carries as `re`, None where the message has none."""
+    found = document.get("id")
+    return found if type(found) is int else None
+
+
+def parse_request(document: Document) -> Request:
+    """The request in a message. Raises: BridgeError: a type or field that does not exist, or a value that is wrong."""
+    kind = document.get("type")
+    model = MODELS.get(kind) if isinstance(kind, str) else None
+    if model is None:
+        near = checks.did_you_mean(kind, MODELS, f"The types are {', '.join(MODELS)}.")
+        raise BridgeError(f"the type of the message is {checks.represented(kind)}, which does not exist. {near}")
+    try:
+        return model.model_validate(document)
+    except ValidationError as cause:
+        problem = checks.first_problem(cause)
+        if problem.kind == "extra_forbidden":
+            near = checks.did_you_mean(problem.place, model.model_fields, f"It has {', '.join(model.model_fields)}.")
+            raise BridgeError(f"{kind} has no field {checks.represented(problem.place)}. {near}") from cause
+        raise BridgeError(
+            f"{problem.place} of {kind}: {problem.reason}. The page of the protocol has its fields."
+        ) from cause

@@ -1,0 +1,204 @@
+"""A session as its frames drive it. All of this runs on the session's own thread."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.bridge.frames import IS_PREPARING, PAUSED, Frame, Gains
+from scene2hap.bridge.layout import Layout, Layouts
+from scene2hap.devices.clock import has_clock
+from scene2hap.devices.protocol import ActuatorSink
+from scene2hap.devices.whole_frames import WholeFrames
+from scene2hap.engines.changes import Changes
+from scene2hap.errors import BridgeError
+from scene2hap.scene.pose_table import PoseTable
+from scene2hap.session import HapticFrame, HapticSession, Touch
+from scene2hap.session.impacts import Impact
+
+LONGEST_FRAME_S = 1.0
+"""For which the session's clock goes on between two frames, as when a game was stopped in a debugger."""
+
+Tell = Callable[[dict[str, Any]], None]
+
+
+class PlayedSession:
+    """A session, the layout of its frames, and its clock.
+
+    Without a sink, or with one that has no clock of its own, the session's clock follows the times of the frames, so
+    that equal frames give equal gains.
+
+    Parameters: sink : what the session was given as sink, not yet started; tell : takes JSON messages for clients.
+    """
+
+    def __init__(
+        self, session: HapticSession, moving: Sequence[str] | None, sink: ActuatorSink | None, tell: Tell
+    ) -> None:
+        self.session, self._sink, self._tell = session, sink, tell
+        self._layouts, self._changes = Layouts(), Changes(session)
+        self._moving: tuple[str, ...] = ()
+        self.use_layout([*session.poses] if moving is None else moving)
+        self._frames = WholeFrames(session.config.sample_rate_hz)
+        self._time_s: float | None = None
+        self.sequence = 0
+        self.n_received = self.n_skipped = self.n_outdated = 0
+        self._is_paused = False
+        self._last_impact: Impact | None = None
+        if sink is not None:
+            session.start()
+
+    @property
+    def layout(self) -> Layout:
+        """The layout in use."""
+        return self._layouts.now
+
+    def use_layout(self, moving: Sequence[str] | None = None) -> None:
+        """Take another layout into use, since others are to move, or since objects came or went.
+
+        Raises: UnknownObject, BridgeError: as `Layouts.change`.
+        """
+        objects = [*self.session.poses]
+        if moving is None:  # those that are still there
+            moving = [one for one in self._moving if one in self.session.object_ids]
+        self._moving = self._layouts.change(moving, objects, self.session.hands, self.session.source_ids).moving
+
+    def order(self) -> dict[str, Any]:
+        """The fields of the messages that tell the layout."""
+        layout, session = self.layout, self.session
+        return {
+            "layout": layout.number,
+            "objects": [*layout.objects],
+            "n_moving": layout.n_moving,
+            "hands": [*layout.hands],
+            "sources": [asdict(session.source(one)) for one in layout.sources],
+            "n_bands": session.config.bands.n_bands,
+            "sequence": self.sequence,
+            "watchdog_s": session.config.watchdog_s,
+        }
+
+    def stats(self) -> dict[str, Any]:
+        """Counters of the session and of its frames."""
+        frames = {"received": self.n_received, "skipped": self.n_skipped, "outdated": self.n_outdated}
+        return {**asdict(self.session.stats), "frames": frames}
+
+    def take(self, frame: Frame) -> Gains | None:
+        """Take in a frame; None if it is outdated.
+
+        Raises: BridgeError: its counts or indices do not fit its layout; and as `HapticSession.update`.
+        """
+        layout = self._layouts.of(frame.layout)
+        self.n_received += 1
+        if layout is None or frame.sequence <= self.sequence or frame.time_s < (self._time_s or -math.inf):
+            self.n_outdated += 1
+            return None
+        touches = self._touches(frame, layout)
+        try:
+            moved = self._changes.of(self._poses(frame, layout)) if len(frame.poses) else {}
+            found = self.session.update(moved, touches)
+        except Exception:
+            self._changes.forget()
+            raise
+        self.sequence = frame.sequence
+        intensities = self._go_on(frame.time_s)
+        self._tell_impacts()
+        return self._gains(found, frame.time_s, intensities)
+
+    def silence(self) -> Gains:
+        """Gains of nothing, for when nobody plays."""
+        shape = len(self.layout.hands), len(self.layout.sources), self.session.config.bands.n_bands
+        return Gains(
+            self.layout.number,
+            self.sequence,
+            self.n_skipped,
+            self._time_s or 0.0,
+            PAUSED,
+            np.zeros(shape[0], np.float32),
+            np.zeros(shape, np.float32),
+        )
+
+    def pause(self) -> None:
+        """Fade everything out."""
+        self._is_paused = True
+        self.session.pause()
+
+    def unpause(self) -> None:
+        """Go on."""
+        self._is_paused = False
+        self.session.resume()
+
+    @property
+    def is_paused(self) -> bool:
+        """Whether `pause` was the last of both."""
+        return self._is_paused
+
+    def close(self) -> None:
+        """End the session."""
+        self.session.close()
+
+    def _poses(self, frame: Frame, layout: Layout) -> PoseTable:
+        if len(frame.poses) != layout.n_moving:
+            raise BridgeError(
+                f"a frame has {len(frame.poses)} poses; layout {layout.number} has {layout.n_moving} moving objects. "
+                "Send a pose for each of them, or none at all."
+            )
+        return PoseTable(layout.moving, frame.poses[:, :3], frame.poses[:, 3:])
+
+    def _touches(self, frame: Frame, layout: Layout) -> list[Touch]:
+        touches = []
+        for hand, thing, (x, y, z) in frame.touches.tolist():
+            if hand >= len(layout.hands) or thing >= len(layout.objects):
+                raise BridgeError(
+                    f"a touch is of hand {hand} and object {thing}; layout {layout.number} has {len(layout.hands)} "
+                    f"hands and {len(layout.objects)} objects, counted from 0."
+                )
+            if layout.objects[thing] in self.session.object_ids:  # else it was removed while the frame was on its way
+                touches.append(Touch(layout.hands[hand], layout.objects[thing], (x, y, z)))
+        return touches
+
+    def _go_on(self, time_s: float) -> NDArray[np.float32]:
+        """Let the session's clock go on; the intensity that each hand feels until the next frame."""
+        session, silent = self.session, np.zeros(len(self.session.hands), np.float32)
+        is_first, before_s = self._time_s is None, self._time_s or 0.0
+        self._time_s = time_s
+        if self._sink is not None and has_clock(self._sink):
+            return silent
+        lasts_s = session.config.control_period_s if is_first else min(time_s - before_s, LONGEST_FRAME_S)
+        n = self._frames.of(lasts_s)
+        if self._sink is not None:
+            self._sink.pull(n)  # type: ignore[attr-defined]  # no clock
+            return silent
+        if not n:
+            return silent
+        block = session.render(n)
+        power = (block * block).mean(axis=0)
+        return np.minimum(np.sqrt(2.0 * power), np.float32(1.0))
+
+    def _gains(self, found: HapticFrame, time_s: float, intensities: NDArray[np.float32]) -> Gains:
+        gains = found.gains
+        if found.hands != self.layout.hands or found.sources != self.layout.sources:
+            raise BridgeError("the session's hands or sources changed without a new layout.")
+        flags = (PAUSED if self._is_paused else 0) | (0 if self.session.is_current else IS_PREPARING)
+        return Gains(self.layout.number, self.sequence, self.n_skipped, time_s, flags, intensities, gains)
+
+    def _tell_impacts(self) -> None:
+        recent = self.session.impacts
+        for impact in recent:
+            if impact is self._last_impact:
+                break
+            self._tell(
+                {
+                    "type": "impact",
+                    "object": impact.object_id,
+                    "with_object": impact.with_object,
+                    "point_m": [*impact.point_m],
+                    "frequency_hz": impact.frequency_hz,
+                    "felt": dict(impact.felt),
+                }
+            )
+        if recent:
+            self._last_impact = recent[0]

@@ -1,0 +1,91 @@
+"""Serve engines in other languages: they send poses and touches over a WebSocket, and get gains.
+
+scene2hap bridge --root scenes
+scene2hap bridge --sink soundcard
+scene2hap bridge --check "./my_client"
+
+docs/bridge.md tells how to play from C, C#, Godot and the browser, docs/bridge-protocol.md how to write a client.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import os
+import shlex
+import signal
+from pathlib import Path
+from typing import Any
+
+from scene2hap.cli.console import Console
+from scene2hap.cli.specs import given_spec
+from scene2hap.errors import ConfigError
+from scene2hap.settings import read_settings
+
+HELP = "serve engines in other languages over a WebSocket"
+
+TOKEN_VARIABLE = "SCENE2HAP_BRIDGE_TOKEN"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``scene2hap bridge``."""
+    parser.add_argument("--host", help="interface to listen on (127.0.0.1); another than loopback needs a token")
+    parser.add_argument("--port", type=int, help="port to listen on (7862); 0 for a free one")
+    parser.add_argument("--token", help=f"what clients must say; better in {TOKEN_VARIABLE}, which nobody else sees")
+    parser.add_argument("--root", metavar="FOLDER", help="folder whose scenes and bundles clients may read and write")
+    parser.add_argument("--origin", action="append", metavar="URL", help="a web page that may connect, beside loopback")
+    parser.add_argument("--sink", metavar="KIND", help="what plays, such as soundcard: a kind, or JSON with one")
+    parser.add_argument("--udp", action="store_true", help="take frames as datagrams too, on the same port")
+    parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with tables [bridge], [bake] and [session]")
+    parser.add_argument("--check", metavar="COMMAND", help="check a client that this command starts, and end")
+
+
+def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
+    """Serve until Ctrl-C, or check a client."""
+    if arguments.check is not None:
+        return _check(arguments.check, console)
+    # By need: no other command listens.
+    from scene2hap.bridge import BridgeConfig, BridgeServer
+    from scene2hap.bridge.told_warnings import warnings_to_clients
+
+    given = {
+        "host": arguments.host,
+        "port": arguments.port,
+        "token": arguments.token or os.environ.get(TOKEN_VARIABLE) or None,
+        "root": arguments.root,
+        "origins": arguments.origin,
+        "sink": given_spec("--sink", arguments.sink) if arguments.sink else None,
+        "udp": arguments.udp or None,
+    }
+    read = read_settings(arguments.settings, "bridge")
+    tables = {name: read_settings(arguments.settings, name) for name in ("bake", "session")}
+    server = BridgeServer(BridgeConfig.parse({**tables, **read}, **given))
+    with warnings_to_clients():
+        asyncio.run(_serve(server, console))
+    return {"url": server.url}
+
+
+async def _serve(server: Any, console: Console) -> None:
+    ended = asyncio.Event()
+    loop = asyncio.get_running_loop()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        try:
+            loop.add_signal_handler(number, ended.set)
+        except NotImplementedError:  # Windows: Ctrl-C ends by an exception
+            break
+    async with server.listening():
+        console.say(f"{server.url} (Ctrl-C ends)")
+        await ended.wait()
+
+
+def _check(command: str, console: Console) -> dict[str, Any]:
+    from scene2hap.testing.bridge_client import check_bridge_client
+
+    words = shlex.split(command, posix=os.name != "nt")
+    if not words:
+        raise ConfigError("--check has no command; give the one that starts your client.")
+    if Path(words[0]).suffix == ".py":
+        raise ConfigError(f"--check is {command!r}; write 'python {command}'.")
+    found = check_bridge_client(words)
+    console.say(f"{found.n_frames} frames, {found.n_resumed} resumed; gains differ by at most {found.worst:.1e}")
+    return {"frames": found.n_frames, "resumed": found.n_resumed, "worst": found.worst}
