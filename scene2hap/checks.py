@@ -145,6 +145,9 @@ def number(
     return result
 
 
+_ONLY_FLOATS = {float}
+
+
 def vector(
     name: str,
     value: object,
@@ -157,6 +160,11 @@ def vector(
     hint: str = "",
 ) -> tuple[float, ...]:
     """Return `value` as `size` finite floats, or raise `error` naming the component that is wrong."""
+    is_bounded = above is not None or at_least is not None
+    # Games make hundreds of poses in a frame, of floats; the rest looks at each number for a sentence about it.
+    is_plain = type(value) is tuple and len(value) == size and {*map(type, value)} == _ONLY_FLOATS
+    if is_plain and not is_bounded and math.isfinite(sum(value)):  # type: ignore[call-overload]  # floats
+        return value  # type: ignore[return-value]
     items: Sequence[object]
     try:
         items = tuple(islice(value, size + 1))  # type: ignore[call-overload]  # any iterable; if none, see below

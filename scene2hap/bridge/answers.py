@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from scene2hap import checks
 from scene2hap.bridge import messages
+from scene2hap.bridge.garbage import settle_garbage
 from scene2hap.bridge.hosted import HostedSession
 from scene2hap.bridge.played import PlayedSession
 from scene2hap.bundle import HapticBundle
@@ -149,6 +151,7 @@ async def _play(request: messages.Play, client: Connection, server: BridgeServer
         raise
     server.host(hosted, plays_sink=sink is not None)
     client.hosted = hosted
+    await asyncio.to_thread(settle_garbage)
     return _playing(hosted, await hosted.run(hosted.played.order), server)
 
 

@@ -1,4 +1,4 @@
-"""A session that clients play and watch, on a thread of its own."""
+"""A session that clients play and watch."""
 
 from __future__ import annotations
 
@@ -6,18 +6,19 @@ import asyncio
 import hmac
 import secrets
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Literal, ParamSpec, Protocol, TypeVar
 
 from scene2hap.bridge.frames import Frame, decode_frame, encode_gains
 from scene2hap.bridge.played import PlayedSession
-from scene2hap.bridge.told_warnings import tell_warnings_of_this_thread
+from scene2hap.bridge.told_warnings import told
 from scene2hap.errors import BridgeError, Scene2HapError, UnknownSession
 
 P = ParamSpec("P")
 Result = TypeVar("Result")
 
 Frames = Literal["newest", "every"]
+Reply = Callable[[bytes], None]
+Tell = Callable[[dict[str, Any]], None]
 
 
 class Receiver(Protocol):
@@ -35,16 +36,18 @@ class Receiver(Protocol):
 class HostedSession:
     """A session, its player, and those who watch.
 
-    All methods belong to the event loop. The session itself is touched on its thread alone, in the order of the calls.
+    All methods belong to the event loop; the session does one thing at a time, in the order of the calls. Frames are
+    taken in on the loop itself, since an update takes less time than the changes of threads around it would. All else
+    runs on a thread, and so do frames of sessions that may wait for their model.
 
-    Parameters: make : makes the played session, on that thread; frames : whether a frame may be replaced by a newer
+    Parameters: make : makes the played session, on a thread; frames : whether a frame may be replaced by a newer
     one while it waits; keep_s : for how long the session outlives its connection [s]; ended : is called once the
     session is closed.
     """
 
     def __init__(
         self,
-        make: Callable[[Callable[[dict[str, Any]], None]], PlayedSession],
+        make: Callable[[Tell], PlayedSession],
         frames: Frames,
         keep_s: float,
         ended: Callable[[HostedSession], None],
@@ -55,9 +58,9 @@ class HostedSession:
         self.watchers: set[Receiver] = set()
         self._make = make
         self._loop = asyncio.get_running_loop()
-        self._thread = ThreadPoolExecutor(1, thread_name_prefix="scene2hap session")
+        self._is_free = asyncio.Lock()
         self._waits: Frame | None = None
-        self._reply: Callable[[bytes], None] | None = None
+        self._reply: Reply | None = None
         self._taking: asyncio.Task[None] | None = None
         self._forgetting: asyncio.TimerHandle | None = None
         self._is_closed = False
@@ -65,25 +68,24 @@ class HostedSession:
 
     async def open(self, player: Receiver) -> None:
         """Make the session. Raises: as HapticSession; DeviceError: its sink cannot be opened."""
-        try:
-            await self._loop.run_in_executor(self._thread, tell_warnings_of_this_thread, self._tell)
-            self.played = await self._loop.run_in_executor(self._thread, self._make, self._tell)
-        except BaseException:
-            self._thread.shutdown(wait=False)
-            raise
+        self.played = await self._on_a_thread(lambda: self._make(self._tell))
         self.player = player
 
     async def run(self, work: Callable[P, Result], *args: P.args, **kwargs: P.kwargs) -> Result:
-        """Do something to the session on its thread, after all frames that came before."""
+        """Do something to the session, after all frames that came before."""
         await self.settle()
-        return await self._loop.run_in_executor(self._thread, lambda: work(*args, **kwargs))
+        return await self._on_a_thread(lambda: work(*args, **kwargs))
+
+    async def _on_a_thread(self, work: Callable[[], Result]) -> Result:
+        async with self._is_free:
+            return await asyncio.to_thread(told, self._tell, work)
 
     async def settle(self) -> None:
         """Wait until no frame is left to take in."""
         while self._taking is not None:
             await self._taking
 
-    async def take(self, message: bytes, reply: Callable[[bytes], None] | None = None) -> None:
+    async def take(self, message: bytes, reply: Reply | None = None) -> None:
         """Take in a frame. With "every" this waits until it was taken; with "newest" it does not.
 
         Parameters: reply : takes the gains, None to send them to the player. Raises: BridgeError: no frame of this
@@ -103,23 +105,31 @@ class HostedSession:
     async def _take_all(self) -> None:
         try:
             while self._waits is not None and not self._is_closed:
-                frame, self._waits, reply = self._waits, None, self._reply
                 try:
-                    message = await self._loop.run_in_executor(self._thread, self._taken, frame)
+                    message, reply = await self._take_newest()
                 except Scene2HapError as error:
                     self._tell_player(error_message(error))
-                    continue
-                if message is not None:
-                    self.last_gains = message
-                    self._send_gains(message, reply)
+                else:
+                    if message is not None:
+                        self.last_gains = message
+                        self._send_gains(message, reply)
+                await asyncio.sleep(0)  # so that what has come meanwhile is read before the next is taken
         finally:
             self._taking = None
+
+    async def _take_newest(self) -> tuple[bytes | None, Reply | None]:
+        async with self._is_free:
+            frame, self._waits, reply = self._waits, None, self._reply
+            assert frame is not None
+            if self.played.may_wait:
+                return await asyncio.to_thread(told, self._tell, lambda: self._taken(frame)), reply
+            return told(self._tell, lambda: self._taken(frame)), reply
 
     def _taken(self, frame: Frame) -> bytes | None:
         gains = self.played.take(frame)
         return None if gains is None else encode_gains(gains)
 
-    def _send_gains(self, message: bytes, reply: Callable[[bytes], None] | None = None) -> None:
+    def _send_gains(self, message: bytes, reply: Reply | None = None) -> None:
         if reply is not None:
             reply(message)
         elif self.player is not None:
@@ -174,15 +184,14 @@ class HostedSession:
         self._is_closed = True
         if self._forgetting is not None:
             self._forgetting.cancel()
-        await self._loop.run_in_executor(self._thread, self.played.close)
-        self._thread.shutdown(wait=False)
+        await self._on_a_thread(self.played.close)
         self._tell_watchers({"type": "state", "session": self.id, "is": "ended"})
         self._send_gains(encode_gains(self.played.silence()))
         self.watchers.clear()
         self._ended(self)
 
     def _tell(self, document: dict[str, Any]) -> None:
-        """Send a message to all clients, from the session's thread."""
+        """Send a message to all clients, from any thread."""
         self._loop.call_soon_threadsafe(self._tell_all, document)
 
     def _tell_all(self, document: dict[str, Any]) -> None:

@@ -1,4 +1,4 @@
-"""A session as its frames drive it. All of this runs on the session's own thread."""
+"""A session as its frames drive it."""
 
 from __future__ import annotations
 
@@ -51,6 +51,11 @@ class PlayedSession:
         self._last_impact: Impact | None = None
         if sink is not None:
             session.start()
+
+    @property
+    def may_wait(self) -> bool:
+        """Whether taking in a frame may wait for the preparation of a model."""
+        return self.session.config.prepare == "blocking"
 
     @property
     def layout(self) -> Layout:

@@ -2,30 +2,37 @@
 
 from __future__ import annotations
 
-import threading
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from contextvars import ContextVar
+from typing import Any, TypeVar
 
-_here = threading.local()
+Tell = Callable[[dict[str, Any]], None]
+Result = TypeVar("Result")
+
+_tell: ContextVar[Tell | None] = ContextVar("tell", default=None)
 
 
-def tell_warnings_of_this_thread(tell: Callable[[dict[str, Any]], None]) -> None:
-    """Send what this thread warns of by `tell`, while `warnings_to_clients` is on."""
-    _here.tell = tell
+def told(tell: Tell, work: Callable[[], Result]) -> Result:
+    """Do something, and send what it warns of by `tell` while `warnings_to_clients` is on."""
+    before = _tell.set(tell)
+    try:
+        return work()
+    finally:
+        _tell.reset(before)
 
 
 @contextmanager
 def warnings_to_clients() -> Iterator[None]:
-    """Hand warnings to the clients of the session on whose thread they arise. For a whole program, on its main thread:
-    Python has one place where warnings go."""
+    """Hand warnings to the clients of the session that gives them. For a whole program: Python has one place where
+    warnings go."""
     with warnings.catch_warnings():
         warnings.filterwarnings("always", category=UserWarning)
         shown = warnings.showwarning
 
         def show(message: Warning | str, category: type[Warning], *rest: Any, **more: Any) -> None:
-            tell = getattr(_here, "tell", None)
+            tell = _tell.get()
             if tell is None:
                 shown(message, category, *rest, **more)
             else:

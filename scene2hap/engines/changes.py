@@ -71,7 +71,5 @@ class Changes:
         # |q . p| = cos(angle / 2); either sign of a quaternion is the same rotation.
         turn = np.abs((table.rotations_xyzw * self._rotations).sum(axis=1))
         rows = np.flatnonzero(self._is_followed & ((way > AT_REST_M**2) | (turn < _COS_AT_REST)))
-        positions, rotations = table.positions_m[rows], table.rotations_xyzw[rows]
-        self._positions[rows], self._rotations[rows] = positions, rotations
-        moves = zip(rows.tolist(), positions.tolist(), rotations.tolist(), strict=True)
-        return {self._ids[row]: Pose((x, y, z), (a, b, c, d)) for row, (x, y, z), (a, b, c, d) in moves}
+        self._positions[rows], self._rotations[rows] = table.positions_m[rows], table.rotations_xyzw[rows]
+        return table.poses(rows)

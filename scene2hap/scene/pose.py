@@ -53,6 +53,14 @@ class Pose:
         object.__setattr__(self, "position_m", position)
         object.__setattr__(self, "rotation_xyzw", rotation)
 
+    @classmethod
+    def of_checked(cls, position_m: tuple[float, float, float], rotation_xyzw: tuple[float, ...]) -> Pose:
+        """A pose of numbers that were checked already, as those of a `PoseTable`: finite floats, a unit quaternion."""
+        pose = object.__new__(cls)
+        fields = pose.__dict__
+        fields["position_m"], fields["rotation_xyzw"] = position_m, rotation_xyzw
+        return pose
+
     @cached_property
     def rotation(self) -> NDArray[np.float64]:
         """Rotation matrix (3, 3) [-], own axes in its columns."""

@@ -54,8 +54,14 @@ class PoseTable(Mapping[str, Pose]):
 
     def __getitem__(self, object_id: str) -> Pose:
         row = self.row[object_id]
-        (x, y, z), (a, b, c, d) = self.positions_m[row].tolist(), self.rotations_xyzw[row].tolist()
-        return Pose((x, y, z), (a, b, c, d))
+        x, y, z = self.positions_m[row].tolist()
+        return Pose.of_checked((x, y, z), tuple(self.rotations_xyzw[row].tolist()))
+
+    def poses(self, rows: NDArray[np.intp]) -> dict[str, Pose]:
+        """The poses in some rows, by id; faster than one by one."""
+        positions, rotations = map(tuple, self.positions_m[rows].tolist()), map(tuple, self.rotations_xyzw[rows].tolist())
+        ids, of_checked = self.ids, Pose.of_checked
+        return {ids[row]: of_checked(*pose) for row, pose in zip(rows.tolist(), zip(positions, rotations), strict=True)}
 
     def __contains__(self, object_id: object) -> bool:
         return object_id in self.row
