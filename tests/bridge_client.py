@@ -12,12 +12,28 @@ from types import TracebackType
 from typing import Any, Self
 
 import numpy as np
+from jsonschema import Draft202012Validator
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from scene2hap.bridge.frames import Gains, decode_gains, encode_frame
 from scene2hap.session import Touch
 from scene2hap.testing.bridge_game import IDS, game_scene, positions_m, time_s, touches
+
+SCHEMA = Path(__file__).parents[1] / "docs" / "bridge.schema.json"
+
+
+ANSWER = Draft202012Validator(
+    {**json.loads(SCHEMA.read_text(encoding="utf-8")), "anyOf": [{"$ref": "#/$defs/AnyAnswer"}]}
+)
+
+
+def answered(message: str) -> dict[str, Any]:
+    """A message of the server, held against the published schema."""
+    found: dict[str, Any] = json.loads(message)
+    if found["type"] != "of a later server":
+        ANSWER.validate(found)
+    return found
 
 
 class Refused(Exception):
@@ -36,7 +52,7 @@ class Client:
         self.socket = self._open.enter_context(connect(url, compression=None, max_size=None, **options))
         self.heard: list[dict[str, Any]] = []
         self.gains: list[Gains] = []
-        self._id = 0
+        self._id = 1_000_000  # not to be met by numbers that tests make up
         self.welcome = self.ask("hello", version=version, client="tests", **({} if token is None else {"token": token}))
 
     def say(self, kind: str, **fields: Any) -> int:
@@ -56,7 +72,7 @@ class Client:
             if isinstance(message, bytes):
                 self.gains.append(decode_gains(message))
                 continue
-            found = json.loads(message)
+            found = answered(message)
             if is_wanted(found):
                 if found["type"] == "error":
                     raise Refused(found)
@@ -86,7 +102,7 @@ class Client:
             if isinstance(message, bytes):
                 self.gains.append(decode_gains(message))
             else:
-                self.heard.append(json.loads(message))
+                self.heard.append(answered(message))
         return self.gains.pop(0)
 
     def __enter__(self) -> Self:

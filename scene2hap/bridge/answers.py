@@ -7,11 +7,13 @@ import json
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from scene2hap import checks
 from scene2hap.bridge import messages
+from scene2hap.bridge.client import Client
 from scene2hap.bridge.garbage import settle_garbage
+from scene2hap.bridge.host import Host
 from scene2hap.bridge.hosted import HostedSession
 from scene2hap.bridge.played import PlayedSession
 from scene2hap.bundle import HapticBundle
@@ -22,10 +24,6 @@ from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session import HapticSession
 
-if TYPE_CHECKING:
-    from scene2hap.bridge.connection import Connection
-    from scene2hap.bridge.server import BridgeServer
-
 Document = dict[str, Any]
 
 BAKE_SETTINGS = ("actuator", "enough_candidates", "seed", "spread", "tactile")
@@ -35,27 +33,27 @@ LONGEST_PREPARATION_S = 60.0
 """For which `play` waits before it answers; a client shows its loading screen."""
 
 
-async def answer(request: messages.Request, client: Connection, server: BridgeServer) -> Document:
+async def answer(request: messages.Request, client: Client, host: Host) -> Document:
     """Do what a client asks for. Raises: Scene2HapError: it cannot be done; the connection goes on."""
     match request:
         case messages.Hello():
             raise BridgeError("hello was said already; it comes once, as the first message.")
         case messages.Bake():
-            return _bake(request, client, server)
+            return _bake(request, client, host)
         case messages.Cancel():
-            await server.jobs.cancel(request.job)
+            await host.jobs.cancel(request.job)
             return {"type": "cancelled", "job": request.job}
         case messages.Play():
-            return await _play(request, client, server)
+            return await _play(request, client, host)
         case messages.Resume():
             _require_free(client)
-            hosted = server.hosted(request.session)
+            hosted = host.hosted(request.session)
             order = await hosted.resume(client, request.key)
             client.hosted = hosted
             client.repeat(hosted.last_gains)
-            return _playing(hosted, order, server)
+            return _playing(hosted, order, host)
         case messages.Watch():
-            return await _watch(request, client, server)
+            return await _watch(request, client, host)
         case messages.Explain():
             shared = _shared(client)
             explanation = await shared.run(shared.played.session.explain, request.hand)
@@ -66,10 +64,10 @@ async def answer(request: messages.Request, client: Connection, server: BridgeSe
         case messages.Leave():
             return await _leave(client)
         case _:
-            return await _changed(request, _own(client), server)
+            return await _changed(request, _own(client), host)
 
 
-async def _changed(request: messages.Request, hosted: HostedSession, server: BridgeServer) -> Document:
+async def _changed(request: messages.Request, hosted: HostedSession, host: Host) -> Document:
     """Change the session of a client."""
     played, session = hosted.played, hosted.played.session
     match request:
@@ -104,7 +102,7 @@ async def _changed(request: messages.Request, hosted: HostedSession, server: Bri
         case messages.Add():
             return _order(await hosted.change_layout(lambda: session.add(_one_object(request.object, session))))
         case messages.Spawn():
-            folder = _bundle_folder(request.prefab, request.job, "spawn", server)
+            folder = _bundle_folder(request.prefab, request.job, "spawn", host)
             pose = Pose(request.position_m, request.rotation_xyzw)
             return _order(
                 await hosted.change_layout(lambda: session.spawn(HapticBundle.load(folder), request.object, pose))
@@ -112,7 +110,7 @@ async def _changed(request: messages.Request, hosted: HostedSession, server: Bri
     return {"type": "done"}
 
 
-def _bake(request: messages.Bake, client: Connection, server: BridgeServer) -> Document:
+def _bake(request: messages.Bake, client: Client, host: Host) -> Document:
     if (request.scene is None) == (request.path is None):
         raise BridgeError("bake needs one of scene and path; give one of them.")
     foreign = [name for name in request.config if name not in BAKE_SETTINGS]
@@ -123,36 +121,36 @@ def _bake(request: messages.Bake, client: Connection, server: BridgeServer) -> D
         )
     _require_no_file(request.config)
     if request.scene is not None:
-        scene = server.jobs.write(json.dumps(request.scene))
+        scene = host.jobs.write(json.dumps(request.scene))
     else:
-        scene = server.below_root(request.path or "")
+        scene = host.below_root(request.path or "")
     pictures = client.pictures.hand_over() if request.pictures else None
     wanted = {
         "scene": str(scene),
-        "config": {**server.config.bake, **request.config},
+        "config": {**host.config.bake, **request.config},
         "user_prompt": request.user_prompt,
         "pictures": None if pictures is None else str(pictures),
     }
-    target = None if request.save is None else server.below_root(request.save)
-    return {"type": "baking", "job": server.jobs.start(wanted, target, client.send)}
+    target = None if request.save is None else host.below_root(request.save)
+    return {"type": "baking", "job": host.jobs.start(wanted, target, client.send)}
 
 
-async def _play(request: messages.Play, client: Connection, server: BridgeServer) -> Document:
+async def _play(request: messages.Play, client: Client, host: Host) -> Document:
     _require_free(client)
-    folder = _bundle_folder(request.bundle, request.job, "play", server)
+    folder = _bundle_folder(request.bundle, request.job, "play", host)
     _require_no_file(request.session)
-    sink = await server.take_sink() if request.use_sink else None
-    make = partial(_made, request, folder, server.config.session, sink)
-    hosted = HostedSession(make, request.frames, request.keep_s, server.forget)
+    sink = await host.take_sink() if request.use_sink else None
+    make = partial(_made, request, folder, host.config.session, sink)
+    hosted = HostedSession(make, request.frames, request.keep_s, host.forget)
     try:
         await hosted.open(client)
     except BaseException:
-        server.give_sink_back()
+        host.give_sink_back()
         raise
-    server.host(hosted, plays_sink=sink is not None)
+    host.host(hosted, plays_sink=sink is not None)
     client.hosted = hosted
     await asyncio.to_thread(settle_garbage)
-    return _playing(hosted, await hosted.run(hosted.played.order), server)
+    return _playing(hosted, await hosted.run(hosted.played.order), host)
 
 
 def _made(
@@ -179,16 +177,16 @@ def _made(
     return PlayedSession(session, request.moving, sink, tell)
 
 
-async def _watch(request: messages.Watch, client: Connection, server: BridgeServer) -> Document:
+async def _watch(request: messages.Watch, client: Client, host: Host) -> Document:
     _require_free(client)
-    hosted = server.hosted(request.session)
+    hosted = host.hosted(request.session)
     order = await hosted.run(hosted.played.order)
     hosted.watchers.add(client)
     client.watched = hosted
     return {"type": "watching", "session": hosted.id, **order}
 
 
-async def _leave(client: Connection) -> Document:
+async def _leave(client: Client) -> Document:
     hosted, watched = client.hosted, client.watched
     client.hosted = client.watched = None
     if watched is not None:
@@ -199,14 +197,14 @@ async def _leave(client: Connection) -> Document:
     return {"type": "left"}
 
 
-def _playing(hosted: HostedSession, order: Document, server: BridgeServer) -> Document:
+def _playing(hosted: HostedSession, order: Document, host: Host) -> Document:
     return {
         "type": "playing",
         "session": hosted.id,
         "key": hosted.key.hex(),
         **order,
-        "sink": server.sink_kind if server.plays_sink(hosted) else None,
-        "udp_port": server.udp_port,
+        "sink": host.sink_kind if host.plays_sink(hosted) else None,
+        "udp_port": host.udp_port,
     }
 
 
@@ -214,12 +212,12 @@ def _order(order: Document) -> Document:
     return {"type": "order", **order}
 
 
-def _require_free(client: Connection) -> None:
+def _require_free(client: Client) -> None:
     if client.hosted is not None or client.watched is not None:
         raise BridgeError("this connection has a session already; send `leave` first, or open another connection.")
 
 
-def _own(client: Connection) -> HostedSession:
+def _own(client: Client) -> HostedSession:
     """The session that a client plays. Raises: BridgeError: it plays none."""
     if client.hosted is None:
         whose = "only its player may change a session" if client.watched else "there is no session; send `play` first"
@@ -227,7 +225,7 @@ def _own(client: Connection) -> HostedSession:
     return client.hosted
 
 
-def _shared(client: Connection) -> HostedSession:
+def _shared(client: Client) -> HostedSession:
     """The session that a client plays or watches. Raises: BridgeError: neither."""
     hosted = client.hosted or client.watched
     if hosted is None:
@@ -235,11 +233,11 @@ def _shared(client: Connection) -> HostedSession:
     return hosted
 
 
-def _bundle_folder(path: str | None, job: int | None, kind: str, server: BridgeServer) -> Path:
+def _bundle_folder(path: str | None, job: int | None, kind: str, host: Host) -> Path:
     if (path is None) == (job is None):
         name = "prefab" if kind == "spawn" else "bundle"
         raise BridgeError(f"{kind} needs one of {name} and job; give one of them.")
-    return server.jobs.bundle(job) if job is not None else server.below_root(path or "")
+    return host.jobs.bundle(job) if job is not None else host.below_root(path or "")
 
 
 def _one_object(row: Document, session: HapticSession) -> Any:

@@ -180,8 +180,8 @@ class PlayedSession:
         if not n:
             return silent
         block = session.render(n)
-        power = (block * block).mean(axis=0)
-        return np.minimum(np.sqrt(2.0 * power), np.float32(1.0))
+        amplitudes: NDArray[np.float32] = np.sqrt(2.0 * (block * block).mean(axis=0))
+        return np.minimum(amplitudes, np.float32(1.0), out=amplitudes)
 
     def _gains(self, found: HapticFrame, time_s: float, intensities: NDArray[np.float32]) -> Gains:
         gains = found.gains

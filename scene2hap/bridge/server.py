@@ -1,4 +1,4 @@
-"""The server: who may connect, and which sessions there are."""
+"""The server: who may connect."""
 
 from __future__ import annotations
 
@@ -9,18 +9,17 @@ import json
 import logging
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
-from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
 from scene2hap import __version__, checks
 from scene2hap.bridge.config import BridgeConfig, is_loopback
 from scene2hap.bridge.connection import Connection
-from scene2hap.bridge.hosted import HostedSession, error_message
-from scene2hap.bridge.jobs import Jobs
+from scene2hap.bridge.host import Host
+from scene2hap.bridge.hosted import error_message
 from scene2hap.bridge.messages import VERSION, Hello, parse_request, read_document
 from scene2hap.bridge.udp import FrameDatagrams
-from scene2hap.errors import BridgeError, ConfigError, MissingExtra, Scene2HapError, UnknownSession
+from scene2hap.errors import BridgeError, ConfigError, MissingExtra, Scene2HapError
 from scene2hap.propagation import MODELS
 
 try:
@@ -47,18 +46,14 @@ class BridgeServer:
     def __init__(self, config: BridgeConfig | dict[str, Any] | str | None = None) -> None:
         self.config = BridgeConfig.parse(config)
         self.port = self.config.port
-        self.udp_port: int | None = None
         self.connections: set[Connection] = set()
         self._n_clients = 0
-        self._sessions: dict[str, HostedSession] = {}
-        self._plays_sink: HostedSession | None = None
-        self._takes_sink = False
 
     @asynccontextmanager
     async def listening(self) -> AsyncIterator[BridgeServer]:
         """Listen, and end everything afterwards. Raises: ConfigError: host or port cannot be used."""
         config = self.config
-        self.jobs = Jobs()
+        self.host = Host(config)
         datagrams: asyncio.DatagramTransport | None = None
         try:
             listening = await serve(
@@ -89,9 +84,7 @@ class BridgeServer:
                 datagrams.close()
             listening.close()
             await listening.wait_closed()
-            for hosted in [*self._sessions.values()]:
-                await hosted.close()
-            await self.jobs.close()
+            await self.host.close()
 
     @property
     def url(self) -> str:
@@ -99,84 +92,12 @@ class BridgeServer:
         host = f"[{self.config.host}]" if ":" in self.config.host else self.config.host
         return f"ws://{host}:{self.port}/"
 
-    @property
-    def sink_kind(self) -> str | None:
-        """The kind of the server's sink, None if it has none."""
-        spec = self.config.sink
-        if isinstance(spec, dict):
-            return str(spec.get("kind"))
-        return spec if spec is None or isinstance(spec, str) else type(spec).__name__
-
-    def below_root(self, path: str) -> Path:
-        """A path of a client. Raises: BridgeError: there is no root, or the path leaves it."""
-        root = self.config.root
-        if root is None:
-            raise BridgeError("this bridge reads and writes no files; start it with --root FOLDER.")
-        try:
-            found = (root / path).resolve()
-        except (OSError, ValueError, RuntimeError) as cause:  # a null byte, or links that go round
-            raise BridgeError(f"the path {checks.represented(path)} cannot be used.") from cause
-        if found == root or not found.is_relative_to(root):
-            raise BridgeError(
-                f"the path {checks.represented(path)} is not below the bridge's root; give a path below it."
-            )
-        return found
-
-    def hosted(self, session_id: str) -> HostedSession:
-        """A session. Raises: UnknownSession."""
-        if session_id not in self._sessions:
-            raise UnknownSession(
-                f"there is no session {checks.represented(session_id)}: it ended, or the bridge was restarted. Send "
-                "`play` again."
-            )
-        return self._sessions[session_id]
-
-    def host(self, hosted: HostedSession, *, plays_sink: bool) -> None:
-        """Take in a session that was opened."""
-        self._sessions[hosted.id] = hosted
-        if plays_sink:
-            self._plays_sink, self._takes_sink = hosted, False
-
-    def forget(self, hosted: HostedSession) -> None:
-        """Let a closed session go."""
-        self._sessions.pop(hosted.id, None)
-        if self._plays_sink is hosted:
-            self._plays_sink = None
-
-    async def take_sink(self) -> object:
-        """What a session is to play on, None if the server has no sink; a session that waits for its player gives way.
-
-        Raises: BridgeError: another session plays on it.
-        """
-        if self.config.sink is None:
-            return None
-        if self._plays_sink is not None and self._plays_sink.player is None:
-            await self._plays_sink.close()
-        if self._plays_sink is not None or self._takes_sink:
-            raise BridgeError(
-                'another session plays on the sink of this bridge; play with "use_sink": false, or watch that one.'
-            )
-        self._takes_sink = True
-        return self.config.sink
-
-    def give_sink_back(self) -> None:
-        """Let others take the sink, since a session could not be opened."""
-        self._takes_sink = False
-
-    def plays_sink(self, hosted: HostedSession) -> bool:
-        """Whether a session plays on the server's sink."""
-        return self._plays_sink is hosted
-
     async def _open_udp(self) -> asyncio.DatagramTransport:
         loop = asyncio.get_running_loop()
-
-        def find(key: bytes) -> HostedSession | None:
-            return next((one for one in self._sessions.values() if hmac.compare_digest(one.key, key)), None)
-
         transport, _ = await loop.create_datagram_endpoint(
-            lambda: FrameDatagrams(find), local_addr=(self.config.host, self.port)
+            lambda: FrameDatagrams(self.host.with_key), local_addr=(self.config.host, self.port)
         )
-        self.udp_port = transport.get_extra_info("sockname")[1]
+        self.host.udp_port = transport.get_extra_info("sockname")[1]
         return transport
 
     def _refusal(self, connection: ServerConnection, request: Request) -> Response | None:
@@ -194,7 +115,7 @@ class BridgeServer:
         self._n_clients += 1
         try:
             if await self._greeted(socket):
-                connection = Connection(socket, self)
+                connection = Connection(socket, self.host)
                 self.connections.add(connection)
                 try:
                     await connection.run()
@@ -250,8 +171,8 @@ class BridgeServer:
             "server": f"scene2hap {__version__}",
             "max_message_bytes": self.config.max_message_bytes,
             "heartbeat_s": self.config.heartbeat_s,
-            "sink": self.sink_kind,
-            "udp_port": self.udp_port,
+            "sink": self.host.sink_kind,
+            "udp_port": self.host.udp_port,
             "models": [*MODELS.kinds()],
         }
         return json.dumps(document if re is None else {**document, "re": re})

@@ -59,9 +59,10 @@ class PoseTable(Mapping[str, Pose]):
 
     def poses(self, rows: NDArray[np.intp]) -> dict[str, Pose]:
         """The poses in some rows, by id; faster than one by one."""
-        positions, rotations = map(tuple, self.positions_m[rows].tolist()), map(tuple, self.rotations_xyzw[rows].tolist())
+        positions, rotations = self.positions_m[rows].tolist(), self.rotations_xyzw[rows].tolist()
         ids, of_checked = self.ids, Pose.of_checked
-        return {ids[row]: of_checked(*pose) for row, pose in zip(rows.tolist(), zip(positions, rotations), strict=True)}
+        found = zip(rows.tolist(), map(tuple, positions), map(tuple, rotations), strict=True)
+        return {ids[row]: of_checked(position, rotation) for row, position, rotation in found}
 
     def __contains__(self, object_id: object) -> bool:
         return object_id in self.row

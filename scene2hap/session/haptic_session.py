@@ -457,7 +457,14 @@ class HapticSession:
             return gains
 
         return plot_felt(
-            self.snapshot, source_id, hand, gains_of, is_current=self.is_current, cells=cells, up_to_m=up_to_m, axes=axes
+            self.snapshot,
+            source_id,
+            hand,
+            gains_of,
+            is_current=self.is_current,
+            cells=cells,
+            up_to_m=up_to_m,
+            axes=axes,
         )
 
     def wait_prepared(self, timeout_s: float | None = None) -> bool:

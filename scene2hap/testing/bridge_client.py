@@ -11,17 +11,20 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.baking import bake
-from scene2hap.bridge import BridgeServer
 from scene2hap.engines import EngineLink
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.session import HapticSession, Touch
 from scene2hap.testing.bridge_game import IDS, game_scene, positions_m, time_s, touches
+
+if TYPE_CHECKING:
+    from scene2hap.bridge import BridgeServer
 
 TOLERANCE = 1e-6
 _TOKEN = "a token of the check"
@@ -119,7 +122,9 @@ class _Game:
 
 @contextmanager
 def serving(**settings: object) -> Iterator[BridgeServer]:
-    """A bridge on a free port, in a thread of its own."""
+    """A bridge on a free port, in a thread of its own. Raises: MissingExtra: `websockets` is not installed."""
+    from scene2hap.bridge import BridgeServer  # by need: the extra `bridge`
+
     server = BridgeServer({"port": 0, **settings})
     is_up, ends = threading.Event(), asyncio.Event()
     loop = asyncio.new_event_loop()
@@ -163,8 +168,12 @@ class _Disturbance:
             loop = one.loop
             if one not in self._greeted:
                 self._greeted.add(one)
-                loop.call_soon_threadsafe(one.send, {"type": "of a later server", "with": ["a", {"list": None}]})
-            if self._cuts_at is not None and one.hosted is not None and one.hosted.played.sequence >= self._cuts_at:
+                loop.call_soon_threadsafe(one.client.send, {"type": "of a later server", "with": ["a", {"list": None}]})
+            if (
+                self._cuts_at is not None
+                and one.client.hosted is not None
+                and one.client.hosted.played.sequence >= self._cuts_at
+            ):
                 self._cuts_at, self.n_cuts = None, self.n_cuts + 1
                 loop.call_soon_threadsafe(one.abort)
 

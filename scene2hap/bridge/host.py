@@ -1,0 +1,101 @@
+"""What clients of a bridge share: sessions, bakes, the sink, and the folder of files."""
+
+from __future__ import annotations
+
+import hmac
+from pathlib import Path
+
+from scene2hap import checks
+from scene2hap.bridge.config import BridgeConfig
+from scene2hap.bridge.hosted import HostedSession
+from scene2hap.bridge.jobs import Jobs
+from scene2hap.errors import BridgeError, UnknownSession
+
+
+class Host:
+    """The sessions and bakes of a bridge that listens; one for as long as it does."""
+
+    def __init__(self, config: BridgeConfig) -> None:
+        self.config, self.jobs = config, Jobs()
+        self.udp_port: int | None = None
+        self._sessions: dict[str, HostedSession] = {}
+        self._plays_sink: HostedSession | None = None
+        self._takes_sink = False
+
+    async def close(self) -> None:
+        """End all sessions and bakes."""
+        for hosted in [*self._sessions.values()]:
+            await hosted.close()
+        await self.jobs.close()
+
+    @property
+    def sink_kind(self) -> str | None:
+        """The kind of the server's sink, None if it has none."""
+        spec = self.config.sink
+        if isinstance(spec, dict):
+            return str(spec.get("kind"))
+        return spec if spec is None or isinstance(spec, str) else type(spec).__name__
+
+    def below_root(self, path: str) -> Path:
+        """A path of a client. Raises: BridgeError: there is no root, or the path leaves it."""
+        root = self.config.root
+        if root is None:
+            raise BridgeError("this bridge reads and writes no files; start it with --root FOLDER.")
+        try:
+            found = (root / path).resolve()
+        except (OSError, ValueError, RuntimeError) as cause:  # a null byte, or links that go round
+            raise BridgeError(f"the path {checks.represented(path)} cannot be used.") from cause
+        if found == root or not found.is_relative_to(root):
+            raise BridgeError(
+                f"the path {checks.represented(path)} is not below the bridge's root; give a path below it."
+            )
+        return found
+
+    def hosted(self, session_id: str) -> HostedSession:
+        """A session. Raises: UnknownSession."""
+        if session_id not in self._sessions:
+            raise UnknownSession(
+                f"there is no session {checks.represented(session_id)}: it ended, or the bridge was restarted. Send "
+                "`play` again."
+            )
+        return self._sessions[session_id]
+
+    def host(self, hosted: HostedSession, *, plays_sink: bool) -> None:
+        """Take in a session that was opened."""
+        self._sessions[hosted.id] = hosted
+        if plays_sink:
+            self._plays_sink, self._takes_sink = hosted, False
+
+    def forget(self, hosted: HostedSession) -> None:
+        """Let a closed session go."""
+        self._sessions.pop(hosted.id, None)
+        if self._plays_sink is hosted:
+            self._plays_sink = None
+
+    async def take_sink(self) -> object:
+        """What a session is to play on, None if the server has no sink; a session that waits for its player gives way.
+
+        Raises: BridgeError: another session plays on it.
+        """
+        if self.config.sink is None:
+            return None
+        if self._plays_sink is not None and self._plays_sink.player is None:
+            await self._plays_sink.close()
+        if self._plays_sink is not None or self._takes_sink:
+            raise BridgeError(
+                'another session plays on the sink of this bridge; play with "use_sink": false, or watch that one.'
+            )
+        self._takes_sink = True
+        return self.config.sink
+
+    def give_sink_back(self) -> None:
+        """Let others take the sink, since a session could not be opened."""
+        self._takes_sink = False
+
+    def plays_sink(self, hosted: HostedSession) -> bool:
+        """Whether a session plays on the server's sink."""
+        return self._plays_sink is hosted
+
+    def with_key(self, key: bytes) -> HostedSession | None:
+        """The session that has a key, None if none has."""
+        return next((one for one in self._sessions.values() if hmac.compare_digest(one.key, key)), None)

@@ -1,0 +1,320 @@
+"""What goes wrong between a client and a bridge: a clear error, and everybody else plays on."""
+
+import json
+import os
+import random
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import connect
+
+from bridge_client import Client, Refused
+from scene2hap import Touch
+from scene2hap.bridge import BridgeServer
+
+Bridge = Callable[..., BridgeServer]
+
+TOKEN = "correct horse battery staple"
+ON_TABLE = Touch("left", "table", (0.0, 0.72, 0.0))
+NO_POSES = np.empty((0, 7), np.float32)
+
+
+def closing_of(url: str, first: str | bytes | None, **options: Any) -> tuple[int, str, str]:
+    """How the server closes a connection whose first message this is: code, reason, and what it said before."""
+    with connect(url, **options) as raw:
+        if first is not None:
+            raw.send(first)
+        said = ""
+        with pytest.raises(ConnectionClosed) as closed:
+            while True:
+                said += str(raw.recv(timeout=10))
+    assert closed.value.rcvd is not None
+    return closed.value.rcvd.code, closed.value.rcvd.reason, said
+
+
+def hello(**fields: Any) -> str:
+    return json.dumps({"type": "hello", "version": 1, "client": "tests", **fields})
+
+
+def assert_plays(client: Client, sequence: int = 1) -> None:
+    client.socket.send(client.frame(sequence, float(sequence), NO_POSES, [ON_TABLE]))
+    found = client.next_gains()
+    while found.sequence != sequence:
+        found = client.next_gains()
+    assert found.gains.max() > 0.0
+
+
+def test_the_first_message_is_a_hello(bridge: Bridge) -> None:
+    url = bridge().url
+    assert closing_of(url, '{"type": "stats"}')[:2] == (4000, "the first message must be a hello")
+    assert closing_of(url, b"S2HB")[0] == 4000
+    assert closing_of(url, "no json")[0] == 4000
+    assert closing_of(url, hello(client="x" * 10_000))[0] == 4000
+    code, _, said = closing_of(url, hello(colour="red"))
+    assert code == 4000
+    assert "no field 'colour'" in said
+
+
+def test_another_version_is_refused(bridge: Bridge) -> None:
+    code, _, said = closing_of(bridge().url, json.dumps({"type": "hello", "version": 2, "novelty": []}))
+    assert code == 4001
+    assert "speaks version 1" in said
+
+
+def test_a_wrong_token_is_refused_and_never_shown(bridge: Bridge, caplog: pytest.LogCaptureFixture) -> None:
+    url = bridge(token=TOKEN).url
+    for first in (hello(), hello(token=""), hello(token=TOKEN[:-1]), hello(token="ä" * 10)):
+        code, reason, said = closing_of(url, first)
+        assert (code, reason) == (4003, "wrong token")
+        assert TOKEN not in said
+    with Client(url, TOKEN) as client:
+        assert client.welcome["type"] == "welcome"
+        with pytest.raises(Refused) as refused:
+            client.ask("hello", version=1, client="again", token=TOKEN)
+        assert TOKEN not in str(refused.value)
+    assert TOKEN not in caplog.text
+
+
+def test_pages_of_others_may_not_connect(bridge: Bridge) -> None:
+    url = bridge(origins=["https://game.example"]).url
+    foreign = ("https://evil.example", "null", "http://127.0.0.1.evil.example", "http://localhost.evil.example:80", "")
+    for origin in foreign:
+        with pytest.raises(InvalidStatus) as refused, connect(url, additional_headers={"Origin": origin}):
+            pass
+        assert refused.value.response.status_code == 403
+    for origin in ("http://localhost:8000", "http://127.0.0.1", "http://[::1]:3000", "https://game.example"):
+        with Client(url, additional_headers={"Origin": origin}) as client:
+            assert client.welcome["type"] == "welcome"
+
+
+@pytest.mark.parametrize("path", ["../outside.bundle", "/etc", "a/../../outside.bundle", "link/x", ".", "", "a\0b"])
+def test_paths_leave_the_root_by_no_way(bridge: Bridge, root: Path, path: str) -> None:
+    (root.parent / "outside.bundle").mkdir()
+    (root / "link").symlink_to(root.parent, target_is_directory=True)
+    with Client(bridge().url) as client:
+        for kind, field in (("play", "bundle"), ("bake", "path")):
+            with pytest.raises(Refused, match="below|cannot be used|should have at least"):
+                client.ask(kind, **{field: path})
+        with pytest.raises(Refused, match="below|cannot be used|should have at least"):
+            client.ask("bake", path="desk.glb", save=path)
+
+
+def test_without_a_root_there_are_no_files(bridge: Bridge) -> None:
+    with Client(bridge(root=None).url) as client, pytest.raises(Refused, match="--root"):
+        client.ask("play", bundle="desk.bundle")
+
+
+def test_what_cannot_be_done_is_said_and_the_session_goes_on(bridge: Bridge) -> None:
+    with Client(bridge().url) as client:
+        with pytest.raises(Refused, match="no session"):
+            client.ask("pause")
+        with pytest.raises(Refused, match="one of bundle and job"):
+            client.ask("play")
+        with pytest.raises(Refused, match="no bundle|cannot|missing|not"):
+            client.ask("play", bundle="nothing.bundle")
+        with pytest.raises(Refused, match="must be a model|propagation|kind"):
+            client.ask("play", bundle="desk.bundle", session={"propagation": "telepathy"})
+        client.play(bundle="desk.bundle", moving=["phone"])
+        with pytest.raises(Refused, match="already"):
+            client.ask("play", bundle="desk.bundle")
+        for message in (
+            client.frame(1, 1.0, np.zeros((2, 7)), []),
+            client.frame(1, 1.0, np.zeros((1, 7)), []),
+            client.frame(1, 1.0, np.full((1, 7), np.nan), []),
+            client.frame(1, 1.0, NO_POSES, [])[:-3],
+            client.frame(1, 1.0, NO_POSES, [ON_TABLE])[:-20] + b"\xff" * 20,
+            client.frame(1, 1.0, NO_POSES, [])[:8] + bytes(8) + client.frame(1, 1.0, NO_POSES, [])[16:],
+            b"S2HB\x07\x01",
+            b"",
+        ):
+            client.socket.send(message)
+            with pytest.raises(Refused):
+                client.hear(lambda one: one["type"] == "error")
+        assert_plays(client, 9)
+
+
+def test_large_messages(bridge: Bridge) -> None:
+    server = bridge(max_message_bytes=12_000_000)
+    with Client(server.url) as client, Client(server.url) as other:
+        client.play(bundle="desk.bundle", moving=[])
+        client.socket.send("[" * 10_000_000)
+        with pytest.raises(Refused, match="no JSON object"):
+            client.hear(lambda one: one["type"] == "error")
+        client.socket.send(b"S2HB\x01\x01" + bytes(10_000_000))
+        with pytest.raises(Refused, match="must have"):
+            client.hear(lambda one: one["type"] == "error")
+        assert_plays(client)
+        other.socket.send("x" * 13_000_000)
+        with pytest.raises(ConnectionClosed) as closed:
+            other.socket.recv(timeout=10)
+        assert closed.value.rcvd is not None
+        assert closed.value.rcvd.code == 1009
+        assert_plays(client, 2)
+
+
+def test_a_client_that_does_not_read(bridge: Bridge) -> None:
+    server = bridge(heartbeat_s=60)
+    with Client(server.url) as player:
+        session = player.play(bundle="desk.bundle", moving=[], frames="every")["session"]
+        raw = socket.create_connection(("127.0.0.1", server.port))
+        raw.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        with connect(server.url, sock=raw, max_queue=1) as deaf:
+            deaf.send(hello())
+            deaf.send(json.dumps({"type": "watch", "session": session}))
+            time.sleep(0.3)
+            for sequence in range(1, 1500):
+                player.socket.send(player.frame(sequence, sequence / 60, NO_POSES, [ON_TABLE]))
+                if sequence % 2:
+                    player.say("set_source", source="phone", gain_db=-float(sequence % 7))
+                player.next_gains()
+            # The player is not held up; what waits for the other is one message of gains.
+            (other,) = [one for one in server.connections if one.client.watched is not None]
+            assert other.client.n_waiting <= 1
+            raw.close()
+
+
+def test_too_many_clients(bridge: Bridge) -> None:
+    url = bridge(max_clients=2).url
+    with Client(url), Client(url):
+        assert closing_of(url, None)[0] == 4009
+    time.sleep(0.2)
+    with Client(url) as client:
+        assert client.welcome["version"] == 1
+
+
+def test_a_dead_connection_is_noticed_by_its_heartbeat(bridge: Bridge) -> None:
+    server = bridge(heartbeat_s=0.1)
+    raw = socket.create_connection(("127.0.0.1", server.port))
+    raw.sendall(
+        b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        b"Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n"
+    )
+    assert b"s3pPLMBiTxaQ9kYGzzhZRbK+xOo=" in raw.recv(4096)  # the answer of RFC 6455, section 1.3
+    text = hello().encode()
+    mask = b"\x01\x02\x03\x04"
+    assert len(text) < 126
+    raw.sendall(bytes([0x81, 0x80 | len(text)]) + mask + bytes(b ^ mask[k % 4] for k, b in enumerate(text)))
+    until = time.monotonic() + 5
+    while not server.connections and time.monotonic() < until:
+        time.sleep(0.01)
+    assert len(server.connections) == 1
+    until = time.monotonic() + 5
+    while server.connections and time.monotonic() < until:
+        time.sleep(0.01)  # pings are never answered
+    assert not server.connections
+    raw.close()
+
+
+def test_random_and_mutated_messages(bridge: Bridge) -> None:
+    """The same as `stress/bridge.py`, which sends a hundred thousand."""
+    rng = random.Random(0)
+    server = bridge()
+    with Client(server.url) as honest:
+        honest.play(bundle="desk.bundle", moving=[])
+        client = Client(server.url)
+        client.play(bundle="desk.bundle", moving=["phone"])
+        for turn in range(800):
+            try:
+                client.socket.send(mutated(client, rng))
+            except ConnectionClosed:
+                client = Client(server.url)
+                client.play(bundle="desk.bundle", moving=["phone"])
+            if turn % 100 == 0:
+                assert_plays(honest, turn + 1)
+        client.socket.close()
+
+
+def mutated(client: Client, rng: random.Random) -> str | bytes:
+    """A message that is nearly right, or not at all."""
+    texts = [
+        {"type": "set_source", "source": "phone", "gain_db": -3.0, "id": 4},
+        {"type": "strike", "object": "table", "point_m": [0.0, 0.72, 0.0], "speed_m_s": 1.0},
+        {"type": "set_user", "gain_db": 1.0, "profile": {"hands": {}}},
+        {"type": "moving", "moving": ["phone", "mug"]},
+        {"type": "explain", "hand": "left"},
+        {"type": "remove", "object": "spoon"},
+        {"type": "stats"},
+    ]
+    if rng.random() < 0.5:
+        text = bytearray(json.dumps(rng.choice(texts)).encode())
+        for _ in range(rng.randrange(4)):
+            text[rng.randrange(len(text))] = rng.randrange(32, 127)
+        return text.decode("ascii")
+    if rng.random() < 0.2:
+        return rng.randbytes(rng.randrange(200))
+    frame = bytearray(client.frame(rng.randrange(2**32), rng.random() * 100, np.zeros((1, 7)) + 0.5, [ON_TABLE]))
+    for _ in range(rng.randrange(4)):
+        frame[rng.randrange(len(frame))] = rng.randrange(256)
+    return bytes(frame[: rng.randrange(len(frame))]) if rng.random() < 0.2 else bytes(frame)
+
+
+@contextmanager
+def program(*words: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """`scene2hap bridge` as a program of its own, and its address."""
+    command = [sys.executable, "-m", "scene2hap", "bridge", *words]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env={**os.environ, "PYTHONUNBUFFERED": "1"})
+    try:
+        assert process.stdout is not None
+        yield process, process.stdout.readline().split()[0]
+    finally:
+        if process.poll() is None:
+            process.kill()
+        process.communicate()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+def test_a_server_that_is_killed_and_started_again(root: Path) -> None:
+    with program("--port", "0", "--root", str(root)) as (process, url):
+        client = Client(url)
+        client.play(bundle="desk.bundle", moving=[])
+        assert_plays(client)
+        process.kill()
+        with pytest.raises(ConnectionClosed):
+            client.next_gains()
+        port = url.rstrip("/").rpartition(":")[2]
+    with program("--port", port, "--root", str(root)) as (process, url), Client(url) as again:
+        with pytest.raises(Refused, match="play` again") as refused:
+            again.ask("resume", session=client.order["session"], key=client.order["key"])
+        assert refused.value.kind == "UnknownSession"
+        again.play(bundle="desk.bundle", moving=[])
+        assert_plays(again)
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(10) == 0
+        with pytest.raises(ConnectionClosed) as closed:
+            again.next_gains()
+        assert closed.value.rcvd is not None
+        assert closed.value.rcvd.code == 1001
+
+
+def test_warnings_reach_the_client(root: Path) -> None:
+    with program("--port", "0", "--root", str(root)) as (_, url), Client(url) as client:
+        client.play(bundle="desk.bundle", moving=[])
+        client.socket.send(client.frame(1, 0.0, NO_POSES, [Touch("left", "table", (0.0, 2.0, 0.0))]))
+        client.next_gains()
+        client.ask("stats")
+        (warning,) = [one for one in client.heard if one["type"] == "warning"]
+        assert "table" in warning["message"]
+
+
+def test_a_port_that_is_taken(root: Path) -> None:
+    with program("--port", "0") as (_, url):
+        port = url.rstrip("/").rpartition(":")[2]
+        words = [sys.executable, "-m", "scene2hap", "bridge", "--port", port]
+        found = subprocess.run(words, capture_output=True, text=True, timeout=30, check=False)
+        assert found.returncode == 1
+        assert f"port {port} cannot be used" in found.stderr
+        assert "Traceback" not in found.stderr
+    words = [sys.executable, "-m", "scene2hap", "bridge", "--host", "0.0.0.0"]
+    found = subprocess.run(words, capture_output=True, text=True, timeout=30, check=False)
+    assert found.returncode == 1
+    assert "needs a token" in found.stderr

@@ -1,0 +1,356 @@
+"""Sessions over a bridge: what clients send is what a session in this process would be given."""
+
+import socket
+import sys
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from bridge_client import Client, Refused
+from bridge_client import __file__ as game
+from scene2hap import HapticBundle, HapticSession, Pose, Touch, bake_object
+from scene2hap.bridge import BridgeServer
+from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
+from scene2hap.testing import check_bridge_client
+
+Bridge = Callable[..., BridgeServer]
+
+REST = {"table": (0.0, 0.7, 0.0), "phone": (0.2, 0.724, 0.0), "mug": (-0.3, 0.765, 0.0)}
+ON_TABLE = Touch("left", "table", (0.0, 0.72, 0.0))
+
+
+def poses(*ids: str, **moved: tuple[float, float, float]) -> np.ndarray:
+    return np.array([[*{**REST, **moved}[key], 0, 0, 0, 1] for key in ids], np.float32)
+
+
+def test_the_game_of_the_protocol_page() -> None:
+    found = check_bridge_client([sys.executable, "-W", "error", game], n_frames=240)
+    assert (found.n_frames, found.n_resumed) == (240, 1)
+    assert found.worst < 1e-6
+
+
+def test_gains_are_those_of_a_session_here(bridge: Bridge, desk: HapticBundle) -> None:
+    session = HapticSession(desk)
+    with Client(bridge().url) as client:
+        order = client.play(bundle="desk.bundle", moving=["phone", "mug"])
+        assert order["objects"] == ["phone", "mug", "table"]
+        assert order["n_moving"] == 2
+        assert [source["id"] for source in order["sources"]] == ["phone"]
+        for i in range(20):
+            x = 0.2 - 0.02 * i
+            client.socket.send(client.frame(i + 1, i / 60, poses("phone", "mug", phone=(x, 0.724, 0.1)), [ON_TABLE]))
+            sent = np.array([x, 0.724, 0.1], np.float32).tolist()  # in single precision
+            here = session.update({"phone": Pose(tuple(sent))}, [ON_TABLE])
+            found = client.next_gains()
+            assert (found.sequence, found.time_s, found.layout) == (i + 1, i / 60, 1)
+            np.testing.assert_allclose(found.gains, here.gains, atol=1e-6)
+        assert found.gains[0, 0, 0] > 0.0
+        assert found.gains[1, 0, 0] == 0.0
+
+
+def test_intensity_is_what_the_hand_would_feel(bridge: Bridge, desk: HapticBundle) -> None:
+    session = HapticSession(desk)
+    session.wait_prepared(30)
+    blocks = []
+    for i in range(60):
+        session.update(touches=[ON_TABLE])
+        blocks.append(session.render_s(1 / 60 if i else session.config.control_period_s))
+    with Client(bridge().url) as client:
+        client.play(bundle="desk.bundle", moving=[])
+        heard = []
+        for i in range(60):
+            client.socket.send(client.frame(i + 1, i / 60, poses(), [ON_TABLE]))
+            heard.append(client.next_gains().intensities)
+    expected = [np.sqrt(2 * np.mean(np.square(block, dtype=float), axis=0)) for block in blocks]
+    np.testing.assert_allclose(heard, expected, atol=1e-4)
+    assert max(one[0] for one in heard) > 0.01
+
+
+def test_touches_without_poses_and_lifted_hands(bridge: Bridge) -> None:
+    with Client(bridge().url) as client:
+        client.play(bundle="desk.bundle")
+        client.socket.send(client.frame(1, 0.0, np.empty((0, 7)), [ON_TABLE]))
+        assert client.next_gains().gains[0].max() > 0.0
+        client.socket.send(client.frame(2, 0.1, np.empty((0, 7)), []))
+        assert client.next_gains().gains.max() == 0.0
+
+
+def test_several_watch_and_one_plays(bridge: Bridge) -> None:
+    server = bridge()
+    with Client(server.url) as player, Client(server.url) as first, Client(server.url) as second:
+        session = player.play(bundle="desk.bundle", moving=[])["session"]
+        for one in (first, second):
+            assert one.ask("watch", session=session)["objects"] == player.order["objects"]
+        player.socket.send(player.frame(1, 0.0, poses(), [ON_TABLE]))
+        heard = [one.next_gains() for one in (player, first, second)]
+        assert [one.gains.tolist() for one in heard] == [heard[0].gains.tolist()] * 3
+        with pytest.raises(Refused, match="only its player"):
+            first.ask("pause")
+        assert first.ask("explain", hand="left")["felt"][0]["source_id"] == "phone"
+        assert second.ask("leave")["type"] == "left"
+        player.ask("remove", object="mug")
+        assert first.hear(lambda one: one["type"] == "order")["objects"] == ["table", "phone"]
+        player.ask("leave")
+        assert first.hear(lambda one: one["type"] == "state")["is"] == "ended"
+
+
+def test_states_levels_and_pauses(bridge: Bridge) -> None:
+    with Client(bridge().url) as client:
+        client.play(bundle="desk.bundle", moving=[])
+
+        def gain(sequence: int) -> float:
+            client.socket.send(client.frame(sequence, sequence / 60, poses(), [ON_TABLE]))
+            return float(client.next_gains().gains[0, 0, 0])
+
+        full = gain(1)
+        client.ask("set_source", source="phone", gain_db=-6.0)
+        assert gain(2) == pytest.approx(full * 10 ** (-6 / 20), rel=1e-5)
+        client.ask("set_source", source="phone", gain_db=0.0, mute=True)
+        assert gain(3) == 0.0
+        client.ask("set_source", source="phone", mute=False)
+        client.ask("set_user", gain_db=-20.0)
+        assert gain(4) == pytest.approx(0.1 * full, rel=1e-5)
+        client.ask("set_user", gain_db=0.0)
+        client.ask("pause")
+        assert gain(5) == 0.0
+        client.ask("unpause")
+        assert gain(6) == pytest.approx(full)
+        with pytest.raises(Refused, match="no state 'singing'") as refused:
+            client.ask("set_source", source="phone", state="singing")
+        assert refused.value.kind == "SessionError"
+        with pytest.raises(Refused, match="no source 'fone'") as refused:
+            client.ask("set_source", source="fone")
+        assert refused.value.kind == "UnknownObject"
+
+
+def test_objects_come_and_go_and_frames_on_the_way_are_read(bridge: Bridge, desk: HapticBundle) -> None:
+    with Client(bridge().url) as client:
+        client.play(bundle="desk.bundle", moving=["phone", "mug"])
+        # Written before the mug goes, read after: its pose and the touch of it are left out.
+        late = client.frame(2, 0.02, poses("phone", "mug"), [ON_TABLE, Touch("right", "mug", (-0.3, 0.81, 0.0))])
+        order = client.ask("remove", object="mug")
+        assert (order["layout"], order["objects"]) == (2, ["phone", "table"])
+        client.socket.send(late)
+        found = client.next_gains()
+        assert found.layout == 2
+        assert found.gains[0, 0, 0] > 0.0
+        assert found.gains[1].max() == 0.0
+        row = {
+            "id": "tray",
+            "name": "Steel tray",
+            "pose": {"position_m": [0.0, 0.725, -0.2]},
+            "geometry": {"kind": "box", "size_m": [0.3, 0.01, 0.2]},
+        }
+        client.order = client.ask("add", object=row)
+        assert "tray" in client.order["objects"]
+        client.socket.send(client.frame(3, 0.04, poses("phone"), [Touch("left", "tray", (0.0, 0.73, -0.2))]))
+        client.next_gains()
+        client.order = client.ask("moving", moving=["tray", "phone"])
+        assert client.order["objects"][:2] == ["tray", "phone"]
+        with pytest.raises(Refused, match="no object 'tra'"):
+            client.ask("moving", moving=["tra"])
+
+
+def test_prefabs_are_spawned(bridge: Bridge, root: Path, desk: HapticBundle) -> None:
+    bake_object(desk.snapshot.object("phone")).save(root / "phone.bundle")
+    with Client(bridge().url) as client:
+        client.play(bundle="desk.bundle", moving=[])
+        client.order = client.ask("spawn", prefab="phone.bundle", object="phone_2", position_m=[-0.1, 0.724, 0.0])
+        assert [source["id"] for source in client.order["sources"]] == ["phone", "phone_2"]
+        client.socket.send(client.frame(1, 0.0, poses(), [ON_TABLE]))
+        assert (client.next_gains().gains[0, :, 0] > 0.0).all()
+
+
+def test_impacts_are_told(bridge: Bridge) -> None:
+    with Client(bridge().url) as client:
+        client.play(bundle="desk.bundle", moving=[])
+        client.socket.send(client.frame(1, 0.0, poses(), [ON_TABLE]))
+        client.next_gains()
+        client.ask("strike", object="table", point_m=[0.1, 0.72, 0.0], speed_m_s=1.0)
+        client.socket.send(client.frame(2, 0.02, poses(), [ON_TABLE]))
+        impact = client.hear(lambda one: one["type"] == "impact")
+        assert impact["object"] == "table"
+        assert 0.0 < impact["felt"]["left"] <= 1.0
+        client.socket.send(client.frame(3, 0.04, poses(), [ON_TABLE]))
+        client.ask("stats")
+        assert not [one for one in client.heard if one["type"] == "impact"], "an impact is told once"
+
+
+def test_the_newest_frame_wins(bridge: Bridge, monkeypatch: pytest.MonkeyPatch) -> None:
+    entered, may_go_on = threading.Event(), threading.Event()
+    update = HapticSession.update
+
+    def slow(self: HapticSession, *args: Any, **options: Any) -> Any:
+        entered.set()
+        assert may_go_on.wait(10)
+        return update(self, *args, **options)
+
+    with Client(bridge().url) as client:
+        client.play(bundle="desk.bundle", moving=[])
+        monkeypatch.setattr(HapticSession, "update", slow)
+        for sequence in range(1, 11):
+            client.socket.send(client.frame(sequence, sequence / 60, poses(), [ON_TABLE]))
+        assert entered.wait(10)
+        time.sleep(0.2)
+        may_go_on.set()
+        found = client.next_gains()
+        while found.sequence < 10:
+            found = client.next_gains()
+        frames = client.ask("stats")["frames"]
+        assert frames["skipped"] > 0
+        assert frames["received"] + frames["skipped"] == 10
+        assert found.skipped == frames["skipped"]
+
+
+def test_every_frame_is_answered_if_wished(bridge: Bridge) -> None:
+    with Client(bridge().url) as client:
+        client.play(bundle="desk.bundle", moving=[], frames="every")
+        for sequence in range(1, 201):
+            client.socket.send(client.frame(sequence, sequence / 60, poses(), [ON_TABLE]))
+        assert [client.next_gains().sequence for _ in range(200)] == [*range(1, 201)]
+
+
+def test_old_frames_are_dropped_and_counted(bridge: Bridge) -> None:
+    with Client(bridge().url) as client:
+        client.play(bundle="desk.bundle", moving=[], frames="every")
+        for sequence, at_s in ((5, 1.0), (5, 1.1), (4, 1.2), (6, 0.5), (7, 1.3)):
+            client.socket.send(client.frame(sequence, at_s, poses(), [ON_TABLE]))
+        assert [client.next_gains().sequence for _ in range(2)] == [5, 7]
+        assert client.ask("stats")["frames"] == {"received": 5, "skipped": 0, "outdated": 3}
+
+
+def test_a_session_outlives_its_connection(bridge: Bridge) -> None:
+    server = bridge()
+    with Client(server.url) as watcher, Client(server.url) as client:
+        client.play(bundle="desk.bundle", moving=["phone"])
+        session, key = client.order["session"], client.order["key"]
+        watcher.ask("watch", session=session)
+        client.ask("set_source", source="phone", gain_db=-6.0)
+        client.ask("remove", object="mug")
+        client.socket.send(client.frame(7, 1.0, poses("phone", phone=(0.3, 0.724, 0.0)), [ON_TABLE]))
+        before = client.next_gains()
+        watcher.next_gains()
+        client.socket.socket.close()
+        assert watcher.hear(lambda one: one["type"] == "state")["is"] == "waiting"
+        assert watcher.next_gains().gains.max() == 0.0
+        with Client(server.url) as again:
+            with pytest.raises(Refused, match="another key") as refused:
+                again.ask("resume", session=session, key="0" * 16)
+            assert refused.value.kind == "UnknownSession"
+            again.order = again.ask("resume", session=session, key=key)
+            again.key = bytes.fromhex(key)
+            assert again.order["sequence"] == 7
+            assert again.order["objects"] == ["phone", "table"]
+            repeated = again.next_gains()
+            assert repeated.sequence == 7
+            np.testing.assert_array_equal(repeated.gains, before.gains)
+            again.socket.send(again.frame(8, 1.1, np.empty((0, 7)), [ON_TABLE]))
+            np.testing.assert_allclose(again.next_gains().gains, before.gains, rtol=1e-6)
+            assert watcher.hear(lambda one: one["type"] == "state")["is"] == "playing"
+
+
+def test_a_pause_outlives_the_connection_too(bridge: Bridge) -> None:
+    server = bridge()
+    with Client(server.url) as client:
+        client.play(bundle="desk.bundle", moving=[])
+        session, key = client.order["session"], client.order["key"]
+        client.ask("pause")
+    with Client(server.url) as again:
+        again.order, again.key = again.ask("resume", session=session, key=key), bytes.fromhex(key)
+        again.socket.send(again.frame(1, 0.0, poses(), [ON_TABLE]))
+        assert again.next_gains().gains.max() == 0.0
+        again.ask("unpause")
+        again.socket.send(again.frame(2, 0.1, poses(), [ON_TABLE]))
+        assert again.next_gains().gains.max() > 0.0
+
+
+def test_a_session_is_not_kept_for_ever(bridge: Bridge) -> None:
+    server = bridge()
+    with Client(server.url) as client:
+        client.play(bundle="desk.bundle", keep_s=0.1)
+        session, key = client.order["session"], client.order["key"]
+    with Client(server.url) as again:
+        time.sleep(0.5)
+        with pytest.raises(Refused, match="play` again") as refused:
+            again.ask("resume", session=session, key=key)
+        assert refused.value.kind == "UnknownSession"
+        assert again.play(bundle="desk.bundle")["layout"] == 1
+
+
+def test_frames_by_udp(bridge: Bridge) -> None:
+    server = bridge(udp=True)
+    with Client(server.url) as client, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as datagrams:
+        port = client.play(bundle="desk.bundle", moving=["phone"])["udp_port"]
+        assert port == client.welcome["udp_port"]
+        datagrams.settimeout(5)
+        datagrams.sendto(b"S2HB not of any session", ("127.0.0.1", port))
+        datagrams.sendto(client.frame(1, 0.0, poses("phone"), [ON_TABLE]), ("127.0.0.1", port))
+        from scene2hap.bridge.frames import decode_gains
+
+        found = decode_gains(datagrams.recv(1 << 16))
+        assert found.sequence == 1
+        assert found.gains[0, 0, 0] > 0.0
+        datagrams.sendto(client.frame(2, 0.1, poses("phone"), [ON_TABLE])[:-1], ("127.0.0.1", port))
+        with pytest.raises(Refused, match="must have 88"):
+            client.hear(lambda one: one["type"] == "error", 5)
+
+
+class ClockedSink:
+    """Takes blocks of 10 ms in its own time, as a sound card does, and keeps them with their time."""
+
+    def __init__(self) -> None:
+        self.blocks: list[tuple[float, Block]] = []
+        self._ends = threading.Event()
+        self.format: SinkFormat | None = None
+
+    def open(self, format: SinkFormat) -> None:
+        self.format = format
+        self._ends.clear()
+
+    def start(self, fill: Fill) -> None:
+        def run() -> None:
+            while not self._ends.wait(0.01):
+                self.blocks.append((time.monotonic(), fill(480)))
+
+        self._worker = threading.Thread(target=run)
+        self._worker.start()
+
+    def stop(self) -> None:
+        self._ends.set()
+        self._worker.join()
+
+    def close(self) -> None:
+        pass
+
+    @property
+    def stats(self) -> SinkStats:
+        return SinkStats(480 * len(self.blocks))
+
+
+def test_the_server_s_sink_falls_silent_when_its_player_is_killed(bridge: Bridge) -> None:
+    sink = ClockedSink()
+    server = bridge(sink=sink)
+    with Client(server.url) as client, Client(server.url) as other:
+        assert client.play(bundle="desk.bundle", moving=[])["sink"] == "ClockedSink"
+        with pytest.raises(Refused, match="another session plays on the sink"):
+            other.play(bundle="desk.bundle")
+        other.play(bundle="desk.bundle", use_sink=False)
+        for sequence in range(1, 60):
+            client.socket.send(client.frame(sequence, sequence / 60, poses(), [ON_TABLE]))
+            time.sleep(1 / 60)
+        assert max(np.abs(block).max() for _, block in sink.blocks[-40:]) > 0.01
+        killed_s = time.monotonic()
+        client.socket.socket.close()
+        time.sleep(0.6)
+        # The watchdog of a session shuts after 0.1 s, and fades.
+        late = [np.abs(block).max() for at_s, block in sink.blocks if at_s > killed_s + 0.25]
+        assert late
+        assert max(late) == 0.0
+        # A session that waits for its player gives the sink to another.
+        other.ask("leave")
+        assert other.play(bundle="desk.bundle")["sink"] == "ClockedSink"

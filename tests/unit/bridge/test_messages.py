@@ -1,0 +1,68 @@
+"""Text messages: what is taken, and what is said of what is not."""
+
+import json
+from pathlib import Path
+
+import pytest
+from jsonschema import Draft202012Validator
+
+from scene2hap.bridge.messages import MODELS, parse_request, read_document, request_id
+from scene2hap.bridge.schema import schema
+from scene2hap.errors import BridgeError
+
+DOCS = Path(__file__).parents[3] / "docs"
+PAGE = (DOCS / "bridge-protocol.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("", "no JSON object"),
+        ("[]", "no JSON object"),
+        ('{"type": "hello"', "no JSON object"),
+        ("{}", "the type of the message is None"),
+        ('{"type": 3}', "the type of the message is 3"),
+        ('{"type": "plai"}', "Did you mean 'play'"),
+        ('{"type": "leave", "now": true}', "leave has no field 'now'"),
+        ('{"type": "set_source", "surce": "a"}', "source"),
+        ('{"type": "set_source", "source": "a", "gain_db": "loud"}', "gain_db of set_source"),
+        ('{"type": "set_user", "gain_db": NaN}', "gain_db of set_user"),
+        ('{"type": "play", "hands": []}', "hands of play"),
+        ('{"type": "play", "keep_s": 1e9}', "keep_s of play"),
+        ('{"type": "resume", "session": "a", "key": "short"}', "key of resume"),
+        ('{"type": "leave", "id": -1}', "id of leave"),
+    ],
+)
+def test_a_wrong_message_is_told_what_is_wrong(text: str, says: str) -> None:
+    with pytest.raises(BridgeError, match=says):
+        parse_request(read_document(text))
+
+
+def test_a_request_keeps_its_id() -> None:
+    assert request_id({"id": 7}) == 7
+    assert [request_id(one) for one in ({}, {"id": "7"}, {"id": True}, {"id": 1.0})] == [None] * 4
+    assert parse_request({"type": "leave", "id": 7}).id == 7
+
+
+def test_every_request_stands_on_the_page() -> None:
+    table = PAGE.split("## Requests")[1].split("## ")[0]
+    for kind, model in MODELS.items():
+        assert f"`{kind}`" in table, f"docs/bridge-protocol.md lacks {kind}"
+        row = next(line for line in table.splitlines() if line.startswith("|") and f"`{kind}`" in line.split("|")[1])
+        for field in set(model.model_fields) - {"type", "id"}:
+            assert f"`{field}`" in row, f"the row of {kind} lacks {field}"
+
+
+def test_the_published_schema_is_up_to_date_and_sound() -> None:
+    published = json.loads((DOCS / "bridge.schema.json").read_text(encoding="utf-8"))
+    assert published == schema(), "run: python -m scene2hap.bridge.schema > docs/bridge.schema.json"
+    Draft202012Validator.check_schema(published)
+    checked = Draft202012Validator(published)
+    checked.validate({"type": "hello", "version": 1, "client": "x"})
+    assert not checked.is_valid({"type": "hello", "version": 1})
+    assert not checked.is_valid({"type": "no such"})
+
+
+def test_the_page_s_example_fits_the_schema() -> None:
+    example = json.loads(PAGE.split("```json\n")[1].split("```")[0])
+    Draft202012Validator(schema()).validate(example)
