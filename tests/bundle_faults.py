@@ -3,7 +3,9 @@
 A step is an operation of Python on files, seen by an audit hook before it happens: the process is ended there, or the
 operation is refused. Each try is a child of its own, which takes its hook with it.
 
-Run by tests/integration/test_bundle_faults.py: python bundle_faults.py FOLDER kill|refuse exchange|renames
+Run by tests/integration/test_bundle_faults.py: python bundle_faults.py FOLDER kill|refuse exchange|renames [STRIDE]
+Most steps write one file after the other into a draft; with a stride only each so-maniest of these is tried, and all of
+those at the end, which put the draft in the bundle's place.
 """
 
 import json
@@ -21,6 +23,7 @@ from scenes import table_with_two_phones
 
 OPERATIONS = ("open", "os.", "shutil.", "tempfile.")
 NEVER = 7
+N_AT_THE_END = 40
 WORK = Path(sys.argv[1])
 ROOM = WORK / "room"
 BEFORE = WORK.with_name("before")
@@ -58,7 +61,7 @@ def save_with_fault(step: int, kind: str) -> int:
 
         def hook(event: str, arguments: tuple[object, ...]) -> None:
             nonlocal seen
-            if not event.startswith(OPERATIONS) or str(WORK) not in "".join(map(str, arguments)):
+            if not is_step(event, arguments):
                 return
             seen += 1
             if seen == step:
@@ -76,6 +79,26 @@ def save_with_fault(step: int, kind: str) -> int:
         status = 3 if type(error).__module__ == "scene2hap.errors" else 1
     finally:
         os._exit(status)
+
+
+def count_steps() -> int:
+    """The steps of a save."""
+    seen, is_counting = 0, True
+
+    def hook(event: str, arguments: tuple[object, ...]) -> None:
+        nonlocal seen
+        seen += is_counting and is_step(event, arguments)
+
+    begin()
+    new = old_and_new()[1]
+    sys.addaudithook(hook)
+    new.save(ROOM)
+    is_counting = False
+    return seen
+
+
+def is_step(event: str, arguments: tuple[object, ...]) -> bool:
+    return event.startswith(OPERATIONS) and str(WORK) in "".join(map(str, arguments))
 
 
 def which() -> str:
@@ -102,8 +125,9 @@ def main() -> None:
     kind = sys.argv[2]
     if sys.argv[3] == "renames":
         replacing.exchange = lambda one, other: False  # type: ignore[assignment]  # as where no system exchanges
+    stride, n_steps = int(sys.argv[4]) if len(sys.argv) > 4 else 1, count_steps()
     rows = []
-    for step in range(1, 2000):
+    for step in sorted({*range(1, n_steps, stride), *range(max(1, n_steps - N_AT_THE_END), n_steps + 2)}):
         begin()
         status = save_with_fault(step, kind)
         is_missing = not ROOM.exists()
@@ -116,8 +140,6 @@ def main() -> None:
         row["left_again"] = sorted(path.name for path in WORK.iterdir() if path != ROOM)
         row["odd"] = sorted(path.name for path in ROOM.rglob("*") if "kept" in path.name or path.suffix == ".part")
         rows.append(row)
-        if status == NEVER:
-            break
     print(json.dumps(rows))
 
 

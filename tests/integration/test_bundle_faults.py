@@ -13,6 +13,7 @@ import pytest
 
 TESTS = Path(__file__).parents[1]
 NEVER = 7
+STRIDE = "5"  # of the steps that only write the draft; without it four minutes are spent on equal ones
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="each step is tried in a fork")
 
@@ -27,14 +28,14 @@ def faults(kind: str, how: str) -> list[dict[str, Any]]:
 
 def _tried(work: Path, kind: str, how: str) -> list[dict[str, Any]]:
     run = subprocess.run(
-        [sys.executable, str(TESTS / "bundle_faults.py"), str(work), kind, how],
+        [sys.executable, str(TESTS / "bundle_faults.py"), str(work), kind, how, STRIDE],
         env={**os.environ, "PYTHONPATH": str(TESTS)},
         capture_output=True,
         text=True,
         check=True,
     )
     rows: list[dict[str, Any]] = json.loads(run.stdout)
-    assert len(rows) > 50
+    assert len(rows) > 40
     assert rows[-1]["status"] == NEVER
     return rows
 
