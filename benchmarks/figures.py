@@ -78,7 +78,8 @@ FIGURES = {
     "many-scenes": Figure("many-scenes", "benchmarks/bake_many.py", 6, has_times=True, needs="scenes"),
     "many-scenes-200": Figure(
         "many-scenes",
-        'benchmarks/bake_many.py --scenes 200 --runs "this process" "a pool of one" "a pool of two" "Dask, two workers"',
+        "benchmarks/bake_many.py --scenes 200 "
+        '--runs "this process" "a pool of one" "a pool of two" "Dask, two workers"',
         12,
         has_times=True,
         needs="scenes",
@@ -138,8 +139,10 @@ FIGURES = {
         needs="scenes",
     ),
     "engine-links": Figure("engines", "benchmarks/engine_links.py", 0.5, has_times=True),
+    "bridge": Figure("bridge", "benchmarks/bridge.py", 1.5, has_times=True),
     "mixer": Figure("mixing", "benchmarks/mixer.py", 3, has_times=True),
     "inference": Figure("inference", "benchmarks/inference_eval.py", 3, has_times=False, needs="scenes"),
+    "report-pages": Figure("report", "benchmarks/report_pages.py", 1, has_times=True, needs="scenes"),
     "import-time": Figure("starting", "benchmarks/import_time.py", 0.5, has_times=True, is_text=True),
 }
 

@@ -3,6 +3,7 @@
 Without settings it works offline: a lexicon of everyday objects reads the authored names, and a synthesizer makes the
 sounds. `--llm openai:gpt-4o` or `--llm local:qwen2.5vl` asks a model that sees pictures. A settings file (TOML or JSON)
 with a table [bake] chooses all other parts. What a bundle's user has overridden stays when it is baked again.
+BUNDLE.account.json has calls, tokens, cost and skips, for `scene2hap report`.
 """
 
 from __future__ import annotations
@@ -14,12 +15,14 @@ from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
 from scene2hap.bundle import read_overrides, require_replaceable
+from scene2hap.bundle.account import write_account
 from scene2hap.cli.console import Console
 from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
 from scene2hap.errors import ConfigError
 from scene2hap.llm.dry_run import dry_run
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.wrappers import identity, innermost
+from scene2hap.llm.wrappers.prices import price_list
 from scene2hap.scene.capture import capture_images
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -117,6 +120,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             overrides=overrides,
         )
     folder = bundle.save(arguments.output)
+    write_account(folder, {**accounts[0].as_json(), "cost_usd": accounts[0].cost_usd(price_list(config.prices))})
     show_bundle(console, bundle)
     show_report(console, accounts[0], config.prices)
     console.say(f"wrote {folder}")

@@ -7,7 +7,8 @@ scene2hap report kitchen.bundle --serve
 
 With -o it writes a page instead: the scene in three dimensions, what a hand would feel on every surface, all sounds,
 and fields to correct. `--serve` shows the page on this machine and writes corrections to BUNDLE.corrections.json, which
-`scene2hap edit BUNDLE apply` takes over.
+`scene2hap edit BUNDLE apply` takes over. Calls, tokens and cost of the bake are on the page if BUNDLE.account.json is
+there, which `scene2hap bake` writes.
 """
 
 from __future__ import annotations
@@ -60,6 +61,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 def _page(arguments: argparse.Namespace, bundle: HapticBundle, console: Console) -> dict[str, Any]:
     """Write the page, and serve it if wished."""
     # By need: no other command draws.
+    from scene2hap.bundle.account import read_account
     from scene2hap.report import report_document, write_report
     from scene2hap.report.felt_map import MODELS
     from scene2hap.report.page import assemble
@@ -70,14 +72,15 @@ def _page(arguments: argparse.Namespace, bundle: HapticBundle, console: Console)
     pictures = None
     if arguments.scene:
         pictures = capture_images(load_scene(arguments.scene), config={"size_px": _PICTURE_PX})
-    models = tuple(arguments.model or MODELS)
+    models, account = tuple(arguments.model or MODELS), read_account(arguments.bundle)
     outcome: dict[str, Any] = {"bundle": arguments.bundle}
     if arguments.output:
-        outcome["page"] = str(write_report(bundle, arguments.output, models=models, pictures=pictures))
+        written = write_report(bundle, arguments.output, models=models, pictures=pictures, account=account)
+        outcome["page"] = str(written)
         console.say(f"wrote {arguments.output}, {Path(arguments.output).stat().st_size / 1e6:.1f} MB")
     if arguments.serve:
-        page = assemble(report_document(bundle, models=models, pictures=pictures))
-        folder = Path(arguments.bundle)
+        page = assemble(report_document(bundle, models=models, pictures=pictures, account=account))
+        folder = Path(arguments.bundle).absolute()  # "." has no name
         corrections = folder.with_name(f"{folder.name}.corrections.json")
         server = ReportServer(page, corrections, arguments.port, lambda path: console.say(f"wrote {path}"))
         console.say(f"{server.address} (Ctrl-C ends)")

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from scene2hap import checks
 from scene2hap.bundle import HapticBundle
+from scene2hap.bundle.account import read_account
 from scene2hap.bundle.given import given_bundle
 from scene2hap.calls import clear_call
 from scene2hap.errors import ConfigError
@@ -35,6 +36,7 @@ def report_document(
     models: Sequence[Any] = MODELS,
     pictures: SceneSnapshot | None = None,
     most_points: int = MOST_POINTS,
+    account: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
     """Everything to be seen and heard of a bundle, as JSON values; docs/report.md has the fields.
 
@@ -44,10 +46,15 @@ def report_document(
         each point.
     pictures : the scene that was baked, with `capture_images`, for pictures and colours: a bundle keeps neither.
     most_points : surface points of the felt map.
-    Raises: ConfigError: no such model; ModelDomainError: one does not hold in this scene.
+    account : calls, tokens, cost and skips of the bake, as `InferenceReport.as_json` returns them; by default those in
+        the file that `scene2hap bake` wrote beside the bundle, if the path of its folder is given.
+    Raises: ConfigError: no such model, or no account; ModelDomainError: a model does not hold in this scene.
+    BundleError: the bundle or its account cannot be read.
     """
     most_points = checks.whole("most_points", most_points, "-", at_least=1, at_most=200_000, error=ConfigError)
-    return document(given_bundle(bundle), models=models, pictures=pictures, most_points=most_points)
+    if account is None and isinstance(bundle, str | os.PathLike):
+        account = read_account(bundle)
+    return document(given_bundle(bundle), models=models, pictures=pictures, most_points=most_points, account=account)
 
 
 @clear_call
@@ -58,6 +65,7 @@ def write_report(
     models: Sequence[Any] = MODELS,
     pictures: SceneSnapshot | None = None,
     most_points: int = MOST_POINTS,
+    account: Mapping[str, Any] | None = None,
 ) -> Path:
     """Write a bundle as a page (`.html`) or its document (`.json`), whole or not at all; its path.
 
@@ -66,7 +74,7 @@ def write_report(
     target = checks.path("path", path, error=ConfigError)
     if target.suffix.lower() not in _SUFFIXES:
         raise ConfigError(f"{target.name!r} must end in .html, for a page, or in .json, for its data.")
-    found = report_document(bundle, models=models, pictures=pictures, most_points=most_points)
+    found = report_document(bundle, models=models, pictures=pictures, most_points=most_points, account=account)
     is_page = target.suffix.lower() != ".json"
     try:
         write_whole(target, assemble(found) if is_page else json.dumps(found, allow_nan=False))

@@ -21,9 +21,12 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import UnknownMaterial
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.materials import Material, lookup
+from scene2hap.report.account import told_account
 from scene2hap.report.felt_map import MODELS, FeltMap, felt_map
+from scene2hap.report.left_out import left_out
 from scene2hap.report.patches import MOST_POINTS
 from scene2hap.report.sounds import pair
+from scene2hap.report.walls import Direction, shells, walls
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session import HapticSession, Touch
@@ -32,8 +35,7 @@ FORMAT, VERSION = "scene2hap/report", 1
 
 _LOW_DB, _HIGH_DB = -20.0, 50.0
 """Range of levels on the page: below the lowest nothing is felt by far, above the highest is no actuator."""
-_SHELL_SHARE = 0.7
-"""Part of the scene's width and depth from which an object hides what is inside it."""
+_MOST_PATHS = 65_535
 _CONSTANTS = (
     ("density", "kg/m³", "density_kg_m3", 1.0),
     ("Young's modulus", "GPa", "youngs_modulus_pa", 1e-9),
@@ -48,19 +50,21 @@ def document(
     models: Sequence[Any] = MODELS,
     pictures: SceneSnapshot | None = None,
     most_points: int = MOST_POINTS,
+    account: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
     """All that is to be seen and heard of a bundle.
 
     Parameters: models : kinds or settings of the propagation models of the felt map; pictures : the scene with its
-    looks, as `capture_images` returns it, whose images and colours are shown; most_points : of the felt map. Raises: as
-    `felt_map`.
+    looks, as `capture_images` returns it, whose images and colours are shown; most_points : of the felt map; account :
+    what the bake took, as `InferenceReport.as_json` returns it. Raises: as `felt_map` and `told_account`.
     """
     scene = bundle.snapshot
     meshes: dict[str, int] = {}
-    shells = _shells(scene)
-    felt = felt_map(bundle, models, shells=shells, most_points=most_points)
+    whole = shells(scene)
+    hides: dict[str, Direction | None] = {**walls(scene, bundle.loops), **dict.fromkeys(whole)}
+    felt = felt_map(bundle, models, shells=whole, most_points=most_points)
     looks = {} if pictures is None else {item.id: item for item in pictures.objects}
-    objects = [_object(bundle, item, looks.get(item.id), meshes, item.id in shells) for item in scene.objects]
+    objects = [_object(bundle, item, looks.get(item.id), meshes, hides) for item in scene.objects]
     made = bundle.made_with
     return {
         "format": FORMAT,
@@ -74,6 +78,9 @@ def document(
             "seed": None if made is None else made.seed,
         },
         "counters": _counters(bundle),
+        "left_out": left_out(bundle, felt, whole),
+        "warnings": [str(found) for found in scene.check()],
+        "account": None if account is None else told_account(account),
         "meshes": _meshes(scene, meshes),
         "objects": objects,
         "contacts": _contacts(bundle),
@@ -83,7 +90,11 @@ def document(
 
 
 def _object(
-    bundle: HapticBundle, item: SceneObject, looks: SceneObject | None, meshes: dict[str, int], is_shell: bool
+    bundle: HapticBundle,
+    item: SceneObject,
+    looks: SceneObject | None,
+    meshes: dict[str, int],
+    hides: Mapping[str, Direction | None],
 ) -> dict[str, Any]:
     haptics = bundle.objects.get(item.id)
     wish = bundle.overrides.get(item.id)
@@ -94,7 +105,8 @@ def _object(
         "position_m": list(item.pose.position_m),
         "rotation_xyzw": list(item.pose.rotation_xyzw),
         "color": _color(item if looks is None else looks),
-        "is_shell": is_shell,
+        "is_shell": item.id in hides,
+        "outward": hides.get(item.id),
         "is_source": bool(bundle.loops.get(item.id)),
         "override": None if wish is None else _said(wish),
         "pictures": [] if looks is None or looks.images is None else _pictures(looks),
@@ -258,6 +270,13 @@ def _felt(felt: FeltMap) -> dict[str, Any]:
             }
             for model, sources in felt.levels_db.items()
         },
+        "paths": {
+            model: {
+                source: {"objects": [list(way) for way in ways.objects], "of_points": path_bytes(ways.of_points)}
+                for source, ways in sources.items()
+            }
+            for model, sources in felt.paths.items()
+        },
         "low_db": _LOW_DB,
         "high_db": _HIGH_DB,
     }
@@ -270,6 +289,11 @@ def level_bytes(levels_db: NDArray[np.float32]) -> bytes:
     arrives = np.isfinite(levels_db)
     steps = np.where(arrives, np.round(np.where(arrives, share, 0.0) * 65_534.0) + 1.0, 0.0)
     return steps.astype("<u2").tobytes()
+
+
+def path_bytes(of_points: NDArray[np.uint32]) -> str:
+    """Numbers of paths as two bytes each; a path of a higher number is not told."""
+    return _base64(np.where(of_points <= _MOST_PATHS, of_points, 0), "<u2")
 
 
 def _counters(bundle: HapticBundle) -> list[list[str]]:
@@ -315,24 +339,6 @@ def _meshes(scene: SceneSnapshot, numbers: Mapping[str, int]) -> list[dict[str, 
         }
         for digest in numbers
     ]
-
-
-def _shells(scene: SceneSnapshot) -> frozenset[str]:
-    """Objects that are as wide and deep as the scene: rooms in one piece, floors, ceilings, and long walls."""
-    if len(scene.objects) < 2:
-        return frozenset()
-    boxes = np.array([item.bounds_m for item in scene.objects])
-    up = {"y": 1, "z": 2}[scene.up_axis]
-    sizes = np.ptp(boxes, axis=1)
-    whole = boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)
-    level = [axis for axis in range(3) if axis != up]
-    is_wide = (sizes[:, level] >= _SHELL_SHARE * whole[level]).all(axis=1)
-    # A floor is as wide, and hides nothing.
-    is_high = sizes[:, up] >= 0.3 * whole[up]
-    is_above = boxes[:, 0, up] > boxes[:, 0, up].min() + 0.7 * whole[up]
-    return frozenset(
-        item.id for item, hides in zip(scene.objects, is_wide & (is_high | is_above), strict=True) if hides
-    )
 
 
 def _pictures(item: SceneObject) -> list[str]:

@@ -12,22 +12,26 @@ from numpy.typing import NDArray
 
 from scene2hap.audio.threshold import threshold_db
 from scene2hap.bundle import HapticBundle
+from scene2hap.contact.graph import ContactGraph
 from scene2hap.report.patches import MOST_POINTS, Patch, patches_of
+from scene2hap.report.paths import SourcePaths, paths_of
 from scene2hap.session import HapticSession, Touch
 
 MODELS: tuple[str, ...] = ("exponential_plate",)
 """The model of a session's default. Models that resonate take milliseconds a point, so they are drawn by request."""
 BAND_EDGES_HZ = (10.0, 40.0, 125.0, 400.0, 1000.0)
 """Parts of the band of touch that a page offers beside the whole: pressure, flutter, low and high vibration."""
-ALL = "all"
-"""All bands, or all sources."""
+ALL_BANDS = "all"
+ALL_SOURCES = ""
+"""No object has an empty id."""
 
 
 @dataclass(frozen=True, eq=False)
 class FeltMap:
     """Levels over the threshold of touch [dB] at the points of all patches in order, -inf where nothing arrives.
 
-    `levels_db` has (n_points,) float32 by model, source and band; sources and bands have `ALL` as well.
+    `levels_db` has (n_points,) float32 by model, source and band; sources have `ALL_SOURCES` and bands `ALL_BANDS` as
+    well. `paths` has the way of each source to each point, by model and source, for models that have one.
     """
 
     patches: Sequence[Patch]
@@ -35,6 +39,7 @@ class FeltMap:
     sources: tuple[str, ...]
     bands: tuple[str, ...]
     levels_db: dict[str, dict[str, dict[str, NDArray[np.float32]]]]
+    paths: dict[str, dict[str, SourcePaths]]
 
 
 def felt_map(
@@ -57,14 +62,20 @@ def felt_map(
         for x, y, z in patch.points_m
     ]
     sources = tuple(bundle.loops)
+    contacts = ContactGraph(bundle.snapshot).contacts
     levels: dict[str, dict[str, dict[str, NDArray[np.float32]]]] = {}
+    paths: dict[str, dict[str, SourcePaths]] = {}
     for model in models:
         name = model if isinstance(model, str) else str(model.get("kind", "model"))
-        whole = _amplitudes(bundle, model, touches, None)
-        parts = _amplitudes(bundle, model, touches, list(BAND_EDGES_HZ))
+        session = _session(bundle, model, None)
+        whole = session.would_feel(touches)
+        parts = _session(bundle, model, list(BAND_EDGES_HZ)).would_feel(touches)
+        ways = paths_of(bundle, session.config.propagation, contacts, patches)
+        if ways is not None:
+            paths[name] = ways
         levels[name] = {
             source: {
-                ALL: _level_db(whole[:, column].max(axis=1, initial=0.0), _felt_db(bundle, source)),
+                ALL_BANDS: _level_db(whole[:, column].max(axis=1, initial=0.0), _felt_db(bundle, source)),
                 **{
                     band: _level_db(parts[:, column, k] * share, _felt_db(bundle, source))
                     for k, (band, share) in enumerate(zip(_band_names(), _shares(bundle, source), strict=True))
@@ -72,24 +83,22 @@ def felt_map(
             }
             for column, source in enumerate(sources)
         }
-        levels[name][ALL] = {
+        levels[name][ALL_SOURCES] = {
             band: _sum_db([levels[name][source][band] for source in sources], len(touches))
-            for band in (ALL, *_band_names())
+            for band in (ALL_BANDS, *_band_names())
         }
-    return FeltMap(patches, tuple(levels), (ALL, *sources), (ALL, *_band_names()), levels)
+    return FeltMap(patches, tuple(levels), (ALL_SOURCES, *sources), (ALL_BANDS, *_band_names()), levels, paths)
 
 
-def _amplitudes(
-    bundle: HapticBundle, model: Any, touches: Sequence[Touch], edges_hz: list[float] | None
-) -> NDArray[np.float64]:
-    """Gains (n_touches, n_sources, n_bands) [-] of a session that plays the bundle with a model."""
+def _session(bundle: HapticBundle, model: Any, edges_hz: list[float] | None) -> HapticSession:
+    """A session that plays the bundle with a model, ready to tell gains."""
     config: dict[str, Any] = {"propagation": model, "prepare": "blocking"}
     if edges_hz is not None:
         config["bands"] = edges_hz
     session = HapticSession(bundle, config=config, hands=("hand",))
     session.update()
     session.wait_prepared()
-    return session.would_feel(touches)
+    return session
 
 
 def _felt_db(bundle: HapticBundle, source: str) -> float:

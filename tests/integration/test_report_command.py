@@ -59,3 +59,17 @@ def test_a_model_without_a_price_costs_unknown(tmp_path: Path, capsys: pytest.Ca
 def test_bake_needs_a_folder(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["bake", str(kitchen_path())]) == 1
     assert "-o BUNDLE" in capsys.readouterr().err
+
+
+def test_a_page_tells_what_the_bake_took(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A run of `bake` leaves its account beside the bundle; `report` finds it there."""
+    scene = tmp_path / "room.json"
+    scene.write_text(SCENE.to_json())
+    folder, page = tmp_path / "room.bundle", tmp_path / "room.json.json"
+    assert main(["bake", str(scene), "-o", str(folder), "--json", "-q"]) == 0
+    told = json.loads(capsys.readouterr().out)["inference"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["room.bundle", "room.bundle.account.json", "room.json"]
+    assert main(["report", str(folder), "-o", str(page), "-q"]) == 0
+    rows = dict(json.loads(page.read_text())["account"]["rows"])
+    assert rows["calls"].startswith(f"{sum(told['calls'].values())}: ")
+    assert rows["answered from a cache"] == str(told["kept"])

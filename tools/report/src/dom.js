@@ -38,7 +38,12 @@ export function nameOf(text) {
   return h("bdi", { class: "name" }, text);
 }
 
-/** The same where only text is possible, such as a label of an element or the page's title. */
+/** Objects from a source to a touched one, as names with arrows between them. */
+export function pathOf(names) {
+  return h("span", { class: "path" }, names.map((name, i) => [i > 0 && " \u2192 ", nameOf(name)]));
+}
+
+/** A name where only text is possible, such as a label of an element or the page's title. */
 export function isolated(text) {
   return `\u2068${visible(text).replace(/[\u202a-\u202e\u2066-\u2069]/g, "")}\u2069`;
 }

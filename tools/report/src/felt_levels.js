@@ -2,6 +2,8 @@
 
 import { float32Of, uint16Of, uint32Of } from "./report_document.js";
 
+/** Of levels at the lower end of the scale and below it. */
+export const LOWEST_CODE = 1;
 const LAST_CODE = 65535;
 const own = (object, key) => (object && Object.hasOwn(object, key) ? object[key] : undefined);
 
@@ -22,6 +24,7 @@ export function feltLevels(felt) {
   const byObject = new Map();
   for (const patch of patches) byObject.set(patch.object, [...(byObject.get(patch.object) ?? []), patch]);
   const decoded = new Map();
+  const decodedPaths = new Map();
   const silence = new Uint16Array(first);
 
   return {
@@ -58,12 +61,35 @@ export function feltLevels(felt) {
     },
     /** Highest level [dB] on an object; null where nothing arrives. */
     highest(id, choice) {
+      return this.level(this.codes(choice)[this.loudest(id, choice)] ?? 0);
+    },
+    /** Index of the point of an object with the highest level; -1 if it has no points. */
+    loudest(id, choice) {
       const codes = this.codes(choice);
-      let most = 0;
+      let best = -1;
       for (const patch of byObject.get(id) ?? []) {
-        for (let i = patch.first; i < patch.first + patch.count; i += 1) most = Math.max(most, codes[i]);
+        for (let i = patch.first; i < patch.first + patch.count; i += 1) if (best < 0 || codes[i] > codes[best]) best = i;
       }
-      return this.level(most);
+      return best;
+    },
+    /** Sources that arrive at a point by a choice, the strongest first: [{source, code, path}]. */
+    arriving(index, choice) {
+      const [all, ...sources] = felt.sources;
+      return (choice.source === all ? sources : [choice.source])
+        .map((source) => ({ source, code: this.codes({ ...choice, source })[index] ?? 0 }))
+        .filter(({ code }) => code > 0)
+        .sort((a, b) => b.code - a.code)
+        .map((one) => ({ ...one, path: this.path(choice.model, one.source, index) }));
+    },
+    /** Objects from a source to a point; null where the model has no single path. */
+    path(model, source, index) {
+      const key = JSON.stringify([model, source]);
+      if (!decodedPaths.has(key)) {
+        const found = own(own(felt.paths, model), source);
+        decodedPaths.set(key, found ? { objects: found.objects, ofPoints: uint16Of(found.of_points) } : null);
+      }
+      const paths = decodedPaths.get(key);
+      return paths?.objects[paths.ofPoints[index] - 1] ?? null;
     },
   };
 }

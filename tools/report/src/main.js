@@ -1,8 +1,8 @@
 // The report page: reads the document that stands in the page, and joins the parts.
 
 import { makeCorrections } from "./corrections.js";
-import { h, isolated, nameOf, replaceChildren } from "./dom.js";
-import { feltLevels, shownLevel } from "./felt_levels.js";
+import { h, isolated, nameOf, pathOf, replaceChildren } from "./dom.js";
+import { LOWEST_CODE, feltLevels, shownLevel } from "./felt_levels.js";
 import { makeLegend } from "./legend.js";
 import { makePanel } from "./panel.js";
 import { readDocument } from "./report_document.js";
@@ -12,6 +12,9 @@ import { makeStore } from "./store.js";
 import { makeTableViews } from "./table_views.js";
 import { makeTheme } from "./theme.js";
 import { makeToolbar } from "./toolbar.js";
+
+/** Sources whose paths the tip shows, the strongest first. */
+const MOST_PATHS = 3;
 
 const one = (selector) => document.querySelector(selector);
 
@@ -77,12 +80,26 @@ function start(report) {
     if (found === null) return;
     const index = felt.nearest(found.id, found.point.toArray());
     const level = index < 0 ? "no point of the felt map" : shownLevel(felt.level(felt.codes(store.get("choice"))[index]), report.felt);
-    replaceChildren(tip, h("strong", {}, nameOf(report.name(found.id))), h("span", {}, level));
+    replaceChildren(tip, h("strong", {}, nameOf(report.name(found.id))), h("span", { class: "tip-level" }, level), pathsAt(index));
     const box = one("#view").getBoundingClientRect();
     const left = Math.min(x - box.left + 14, box.width - tip.offsetWidth - 4);
     const below = y - box.top + 18;
     const top = below + tip.offsetHeight > box.height ? y - box.top - tip.offsetHeight - 10 : below;
     tip.style.transform = `translate(${Math.round(Math.max(left, 4))}px, ${Math.round(Math.max(top, 4))}px)`;
+  }
+
+  /** The ways of the sources that arrive at a point, each with its level where there are several. */
+  function pathsAt(index) {
+    const choice = store.get("choice");
+    const arriving = index < 0 ? [] : felt.arriving(index, choice);
+    if (arriving.length > 0 && arriving[0].path === null) return h("span", { class: "quiet" }, "over all paths at once");
+    // Beside the strongest those that are not below all levels of the page.
+    const told = arriving.filter(({ code }, i) => i === 0 || code > LOWEST_CODE).slice(0, MOST_PATHS);
+    const shown = told.map(({ code, path }) =>
+      h("span", { class: "tip-path" }, pathOf(path.map(report.name)), arriving.length > 1 && ` (${shownLevel(felt.level(code), report.felt)})`),
+    );
+    const rest = arriving.length - shown.length;
+    return [shown, rest > 0 && h("span", { class: "quiet" }, `and ${rest} weaker`)];
   }
 
   function showCorrections() {

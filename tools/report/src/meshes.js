@@ -26,6 +26,9 @@ const EDGE_ANGLE = 30;
 const MOST_EDGE_FACES = 30_000;
 const SOURCE_GLOW = new Color(0xff7a1a);
 
+/** A room in one piece is cut face by face; a wall that is an object of its own is there or not. */
+const isCutByFace = (object) => object.is_shell && object.outward === null;
+
 export function makeMeshes(report, felt, shellUniforms, table) {
   const group = new Group();
   const geometries = report.meshes.map((mesh) => {
@@ -49,14 +52,16 @@ export function makeMeshes(report, felt, shellUniforms, table) {
       side: DoubleSide,
     });
     if (object.is_source) material.emissive.copy(SOURCE_GLOW).multiplyScalar(0.25);
-    if (object.is_shell) cutMaterial(material, shellUniforms);
+    if (isCutByFace(object)) cutMaterial(material, shellUniforms);
     const mesh = new Mesh(geometries[object.mesh], material);
     mesh.position.set(...object.position_m);
     mesh.quaternion.copy(new Quaternion(...object.rotation_xyzw));
     mesh.userData.id = object.id;
     mesh.updateMatrixWorld(true);
     const centre = mesh.geometry.boundingBox.getCenter(new Vector3()).applyMatrix4(mesh.matrixWorld);
-    group.add(mesh);
+    const surfaces = new Group();
+    surfaces.add(mesh);
+    group.add(surfaces);
     let outline = null;
     if (mesh.geometry.getIndex().count / 3 <= MOST_EDGE_FACES) {
       if (!edges.has(object.mesh)) edges.set(object.mesh, new EdgesGeometry(mesh.geometry, EDGE_ANGLE));
@@ -65,12 +70,13 @@ export function makeMeshes(report, felt, shellUniforms, table) {
       outline.quaternion.copy(mesh.quaternion);
       group.add(outline);
     }
-    items.set(object.id, { object, mesh, centre, radius: mesh.geometry.boundingSphere.radius, felt: null, outline });
+    const outward = object.outward && new Vector3(...object.outward);
+    items.set(object.id, { object, mesh, surfaces, centre, outward, radius: mesh.geometry.boundingSphere.radius, felt: null, outline });
   }
 
   /** Meshes of the felt map of an object: its own mesh with a level at every vertex, and its patches in front of it. */
   function feltMeshes(item) {
-    const { object, mesh } = item;
+    const { object, mesh, surfaces } = item;
     const patches = felt.byObject.get(object.id) ?? [];
     const points = patches.reduce((all, patch) => all + patch.count, 0);
     const made = { whole: null, nearest: null, patches: [] };
@@ -80,10 +86,10 @@ export function makeMeshes(report, felt, shellUniforms, table) {
     own.setIndex(mesh.geometry.getIndex());
     own.setAttribute("level", new BufferAttribute(new Float32Array(positions.count), 1));
     own.boundingSphere = mesh.geometry.boundingSphere;
-    made.whole = new Mesh(own, feltMaterial(table, shellUniforms, { isShell: object.is_shell, isPatch: false }));
+    made.whole = new Mesh(own, feltMaterial(table, shellUniforms, { isShell: isCutByFace(object), isPatch: false }));
     made.whole.position.copy(mesh.position);
     made.whole.quaternion.copy(mesh.quaternion);
-    group.add(made.whole);
+    surfaces.add(made.whole);
     if (points > 0) {
       const all = new Float32Array(points * 3);
       const places = new Uint32Array(points);
@@ -108,10 +114,10 @@ export function makeMeshes(report, felt, shellUniforms, table) {
       geometry.setAttribute("level", new BufferAttribute(new Float32Array(patch.count), 1));
       const part = new Mesh(
         geometry,
-        feltMaterial(table, shellUniforms, { isShell: object.is_shell, isPatch: true }),
+        feltMaterial(table, shellUniforms, { isShell: isCutByFace(object), isPatch: true }),
       );
       made.patches.push({ patch, part });
-      group.add(part);
+      surfaces.add(part);
     }
     return made;
   }
@@ -139,6 +145,10 @@ export function makeMeshes(report, felt, shellUniforms, table) {
         }
       }
       for (const { mesh } of items.values()) mesh.visible = codes === null;
+    },
+    /** Hide the walls for which a function of an item is true; their edges stay. */
+    cutWalls(isHidden) {
+      for (const item of items.values()) if (item.outward) item.surfaces.visible = !isHidden(item);
     },
     /** Show or hide all shells. */
     showShells(isShown, isFelt) {

@@ -1,6 +1,6 @@
 // The panel of the selected object, or of the scene where nothing is selected.
 
-import { h, nameOf, replaceChildren, shownNumber, visible } from "./dom.js";
+import { h, nameOf, pathOf, replaceChildren, shownNumber, visible } from "./dom.js";
 import { makeForm } from "./editing.js";
 import { shownLevel } from "./felt_levels.js";
 import { makePlayers } from "./players.js";
@@ -32,6 +32,9 @@ export function makePanel({ element, report, felt, store, corrections, onFocus }
       report.felt.sources.length > 1
         ? h("ul", { class: "plain" }, report.objects.filter((object) => object.is_source).map((object) => h("li", {}, link(object.id))))
         : h("p", { class: "quiet" }, "Nothing in this scene vibrates."),
+      report.warnings.length > 0 && section("Warnings", [h("ul", {}, report.warnings.map((text) => h("li", {}, nameOf(text))))]),
+      report.left_out.length > 0 && section("Left out, and why", [report.left_out.map(leftOut)]),
+      section("What the bake took", [account()]),
       h("h3", {}, "Keys"),
       table(
         ["", ""],
@@ -46,6 +49,19 @@ export function makePanel({ element, report, felt, store, corrections, onFocus }
         ],
         "Keys",
       ),
+    ].filter(Boolean);
+  }
+
+  function leftOut({ why, objects }) {
+    return h("details", {}, h("summary", {}, `${objects.length} `, nameOf(why)), h("p", { class: "plain" }, objects.map((id) => [link(id), " "])));
+  }
+
+  function account() {
+    if (!report.account) return h("p", { class: "quiet" }, "Unknown: no account of the bake was beside the bundle.");
+    const { rows, problems } = report.account;
+    return [
+      table(["", ""], rows, "What the bake took"),
+      problems.length > 0 && h("details", {}, h("summary", {}, `${problems.length} problems and doubts`), table(["", ""], problems, "Problems and doubts")),
     ];
   }
 
@@ -134,10 +150,11 @@ export function makePanel({ element, report, felt, store, corrections, onFocus }
     const id = store.get("selected");
     if (!box || id === null) return;
     const choice = store.get("choice");
-    const what = choice.source === "all" ? "all sources" : nameOf(report.name(choice.source));
-    const where = choice.band === "all" ? "" : `, ${choice.band}`;
+    const what = choice.source === report.felt.sources[0] ? "all sources" : nameOf(report.name(choice.source));
+    const where = choice.band === report.felt.bands[0] ? "" : `, ${choice.band}`;
+    const path = felt.arriving(felt.loudest(id, choice), choice)[0]?.path;
     replaceChildren(box, felt.byObject.has(id)
-      ? ["Highest level on it, of ", what, where, ": ", h("strong", {}, shownLevel(felt.highest(id, choice), report.felt))]
+      ? ["Highest level on it, of ", what, where, ": ", h("strong", {}, shownLevel(felt.highest(id, choice), report.felt)), path?.length > 1 && [choice.source === report.felt.sources[0] ? ", the strongest over " : ", over ", pathOf(path.map(report.name))]]
       : "No point of the felt map lies on it.");
   }
 

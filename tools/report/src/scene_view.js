@@ -72,6 +72,7 @@ export function makeSceneView({ canvas, layer, report, felt, store, onHover, onF
     resize();
     light.position.copy(camera.position);
     light.target.position.copy(controls.target);
+    meshes.cutWalls(isHiddenWall);
     renderer.render(scene, camera);
     placeLabels();
     if (isFirst) {
@@ -111,6 +112,11 @@ export function makeSceneView({ canvas, layer, report, felt, store, onHover, onF
     labels.place(wanted, canvas.clientWidth);
   }
 
+  /** Whether a wall of its own lies between the camera and the room. */
+  function isHiddenWall({ centre, outward }) {
+    return store.get("walls") === "cut" && isCut(centre, outward, shellUniforms.shellCentre.value, camera.position);
+  }
+
   /** What is seen at a place of the viewport [px]: {id, point}, or null. */
   function hit(x, y) {
     const box = canvas.getBoundingClientRect();
@@ -119,9 +125,14 @@ export function makeSceneView({ canvas, layer, report, felt, store, onHover, onF
     camera.updateMatrixWorld();
     raycaster.setFromCamera(place, camera);
     for (const found of raycaster.intersectObjects(targets, false)) {
-      const { object } = items.get(found.object.userData.id);
+      const item = items.get(found.object.userData.id);
+      const { object } = item;
       if (object.is_shell) {
         if (store.get("walls") === "none") continue;
+        if (item.outward) {
+          if (isHiddenWall(item)) continue;
+          return { id: object.id, point: found.point };
+        }
         const normal = found.face.normal.clone().applyQuaternion(found.object.quaternion);
         const isOpen = store.get("walls") === "cut";
         if (isOpen && isCut(found.point, normal, shellUniforms.shellCentre.value, camera.position)) continue;
@@ -243,19 +254,23 @@ export function makeSceneView({ canvas, layer, report, felt, store, onHover, onF
       requestDraw();
     });
     let down = null;
+    let last = null;
     canvas.addEventListener("pointerdown", (event) => {
       down = [event.clientX, event.clientY];
+      if (event.pointerType === "touch") onHover(null, 0, 0);
     });
     canvas.addEventListener("pointerup", (event) => {
       if (down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) <= CLICK_PX) {
         const found = hit(event.clientX, event.clientY);
         store.set("selected", found?.id ?? null);
-        if (event.pointerType !== "mouse") onHover(found, event.clientX, event.clientY);
+        if (event.pointerType !== "mouse") {
+          last = null; // a move that was seen before would take the tip away
+          onHover(found, event.clientX, event.clientY);
+        }
       }
       down = null;
     });
     canvas.addEventListener("dblclick", () => focus(store.get("selected")));
-    let last = null;
     canvas.addEventListener("pointermove", (event) => {
       const isNew = last === null;
       last = event;
@@ -266,7 +281,8 @@ export function makeSceneView({ canvas, layer, report, felt, store, onHover, onF
         });
       }
     });
-    canvas.addEventListener("pointerleave", () => {
+    canvas.addEventListener("pointerleave", (event) => {
+      if (event.pointerType === "touch") return; // a finger leaves when it is lifted, and the tip is for that moment
       last = null;
       onHover(null, 0, 0);
     });

@@ -2,7 +2,8 @@
 //
 // A face of a shell is cut where its plane lies on the camera's side of the scene's centre and the camera is outside it.
 // With `s` the distance of the plane and `c` that of the camera from the centre, both along the face's normal:
-// cut if s * c > 0 and |c| > |s|. The picture and picking use the same rule.
+// cut if s * c > 0 and |c| > |s|. The picture and picking use the same rule. A wall that is an object of its own follows
+// it as a whole, by its middle and the direction out of the room: cut by faces one would see that it is hollow.
 
 export const VERTEX_DECLARATION = "varying vec3 vShellPosition;";
 export const VERTEX_ASSIGNMENT = "vShellPosition = (modelMatrix * vec4(position, 1.0)).xyz;";

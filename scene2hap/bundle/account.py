@@ -1,0 +1,58 @@
+"""The account of a bake, in a file beside the bundle: calls, tokens, cost, and what was skipped.
+
+    kitchen.bundle/                what a bake made
+    kitchen.bundle.account.json    what it took
+
+Not within the bundle: equal inputs make bundles that are equal byte for byte, and what a bake costs depends on the
+answers that a cache had. It is of the last `scene2hap bake` into that place; `rebake` does not change it.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from scene2hap.errors import BundleError
+from scene2hap.printable import read_json
+from scene2hap.text_files import read_small_text, write_whole
+
+FORMAT, VERSION = "scene2hap/account", 1
+
+
+def account_path(folder: str | os.PathLike[str]) -> Path:
+    """Where the account of the bundle in a folder is."""
+    place = Path(folder).absolute()
+    return place.with_name(f"{place.name}.account.json")
+
+
+def write_account(folder: str | os.PathLike[str], account: Mapping[str, Any]) -> Path:
+    """Write the account of the bundle in a folder, with the present time; its path.
+
+    Parameters: account : as of `InferenceReport.as_json`, with `cost_usd`. Raises: BundleError: it cannot be written.
+    """
+    path = account_path(folder)
+    ended = datetime.now(UTC).isoformat(timespec="seconds")
+    document = {"format": FORMAT, "version": VERSION, "ended": ended, **account}
+    try:
+        write_whole(path, json.dumps(document, indent=1))
+    except OSError as cause:
+        raise BundleError(f"{path} cannot be written: {cause.strerror}. Choose a folder that is yours.") from cause
+    return path
+
+
+def read_account(folder: str | os.PathLike[str]) -> dict[str, Any] | None:
+    """The account of the bundle in a folder; None where there is none. Raises: BundleError: it cannot be read."""
+    path = account_path(folder)
+    if not os.path.lexists(path):
+        return None
+    try:
+        document = read_json(read_small_text(path))
+    except (OSError, ValueError, RecursionError) as cause:
+        raise BundleError(f"{path} cannot be read: {cause}. Remove it, or bake again.") from cause
+    if not isinstance(document, dict) or document.get("format") != FORMAT or document.get("version") != VERSION:
+        raise BundleError(f'{path} is no account: it must have "format": "{FORMAT}" and version {VERSION}. Remove it.')
+    return document

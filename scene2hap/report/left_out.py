@@ -1,0 +1,65 @@
+"""Objects that stay silent or unfelt, and objects that a bake leaves as they are, each with the reason."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.bundle import HapticBundle
+from scene2hap.haptics import ObjectHaptics, unmet_needs
+from scene2hap.report.felt_map import ALL_BANDS, ALL_SOURCES, FeltMap
+
+_UNKNOWN = ("", "unknown", "undefined")
+
+
+def left_out(bundle: HapticBundle, felt: FeltMap, shells: Collection[str]) -> list[dict[str, Any]]:
+    """Reasons, each with the ids that it is true of; those that are true of none are left out."""
+    categories = {item.id: "" for item in bundle.snapshot.objects}
+    categories |= {key: haptics.object_category for key, haptics in bundle.objects.items()}
+    wishes = bundle.overrides
+    reached = _reached(felt)
+    reasons: Mapping[str, Callable[[str, ObjectHaptics], bool]] = {
+        "not answered: the model's answer failed": lambda _, told: _is_error(told, "object_category"),
+        "unknown: nobody could tell what it is, so it is silent": lambda _, told: (
+            told.object_category in _UNKNOWN and not told.vibrates and not _is_error(told, "object_category")
+        ),
+        "material unknown: nothing spreads through it": lambda _, told: told.material is None,
+        "vibrates, but has no sound": lambda key, told: told.vibrates and not bundle.loops.get(key),
+        "waits for a contact that nothing here can give": lambda key, told: bool(
+            unmet_needs(key, told.states, categories)
+        ),
+        "muted until a game unmutes it": lambda key, _: bundle.is_muted(key),
+        "locked: rebake leaves its loops as they are": lambda key, _: key in wishes and wishes[key].locked,
+        "out of reach: nothing arrives of any source": lambda key, _: key in reached and not reached[key],
+        "hides the room: its surface is not on the felt map": lambda key, _: key in shells,
+        "silent: it does not vibrate by itself": lambda key, told: (
+            not told.vibrates and told.object_category not in _UNKNOWN
+        ),
+    }
+    rows = [
+        {"why": why, "objects": [key for key, haptics in bundle.objects.items() if holds(key, haptics)]}
+        for why, holds in reasons.items()
+    ]
+    absent = [item.id for item in bundle.snapshot.objects if item.id not in bundle.objects]
+    return [row for row in [{"why": "nothing was inferred of it", "objects": absent}, *rows] if row["objects"]]
+
+
+def _is_error(haptics: ObjectHaptics, field: str) -> bool:
+    return haptics.provenance.get(field, "").startswith("error")
+
+
+def _reached(felt: FeltMap) -> dict[str, bool]:
+    """Whether anything arrives at an object, by the first model, of objects with points."""
+    found: dict[str, bool] = {}
+    if not felt.models or len(felt.sources) < 2:
+        return found
+    levels: NDArray[np.float32] = felt.levels_db[felt.models[0]][ALL_SOURCES][ALL_BANDS]
+    start = 0
+    for patch in felt.patches:
+        end = start + len(patch.points_m)
+        found[patch.object_id] = bool(np.isfinite(levels[start:end]).any())
+        start = end
+    return found

@@ -1,0 +1,171 @@
+"""The felt map against sessions: levels and paths, on the demo kitchen and on scenes by others."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from others import SCENES, needed
+from scene2hap import (
+    Box,
+    HapticBundle,
+    HapticSession,
+    Pose,
+    SceneObject,
+    SceneSnapshot,
+    Touch,
+    bake,
+    load_scene,
+    rebake,
+)
+from scene2hap.demo import kitchen_path
+from scene2hap.report.document import level_bytes
+from scene2hap.report.felt_map import ALL_BANDS, ALL_SOURCES, FeltMap, felt_map
+
+N_POINTS = 200
+MODEL = "exponential_plate"
+LEAST_FELT_DB = -20.0
+"""Of the page, which does not tell lower levels apart."""
+
+
+def _of_oak(bundle: HapticBundle) -> HapticBundle:
+    """Nobody can tell what `Object_12` is: here the table hums, and all is of oak."""
+    for object_id in bundle.objects:
+        bundle = bundle.override(object_id, material="oak")
+    return rebake(bundle.override("Object_12", vibrates=True))
+
+
+CASES: dict[str, tuple[Path, float | None, Callable[[HapticBundle], HapticBundle], int]] = {
+    "demo_kitchen": (kitchen_path(), None, lambda bundle: bundle, 50),
+    "aws_house_living": (SCENES / "aws_house_living" / "aws_house_living.glb", None, lambda bundle: bundle, 5),
+    "composed_kitchen_kaykit": (
+        SCENES / "composed_kitchen_kaykit" / "composed_kitchen_kaykit.glb",
+        None,
+        lambda bundle: bundle,
+        50,
+    ),
+    "messy_japanese_room": (SCENES / "messy_japanese_room" / "room.glb", 0.1, _of_oak, 20),
+}
+"""By scene: its file, metres per unit, what is done to the bundle, and how many levels must be above -20 dB."""
+
+
+@pytest.mark.filterwarnings("ignore")  # of scenes by others, and of points a step off coarse meshes
+@pytest.mark.parametrize("name", CASES)
+def test_the_felt_map_has_the_gains_and_paths_of_a_session(name: str) -> None:
+    """At 200 points, of every source; 0.1 dB on the page, which stores levels in steps of 1 mdB."""
+    path, unit_m, done, least = CASES[name]
+    bundle = done(bake(load_scene(needed(path) if name != "demo_kitchen" else path, unit_m=unit_m)))
+    felt = felt_map(bundle)
+    session = HapticSession(bundle)
+    places = [(patch.object_id, point) for patch in felt.patches for point in patch.points_m.tolist()]
+    chosen = np.random.default_rng(5).choice(len(places), N_POINTS, replace=False)
+    n_felt = 0
+    for place in chosen.tolist():
+        object_id, (x, y, z) = places[place]
+        frame = session.update(touches=[Touch("left", object_id, (x, y, z))])
+        for source, loops in bundle.loops.items():
+            gain, loop = frame.gain("left", source), next(iter(loops.values()))
+            level = felt.levels_db[MODEL][source][ALL_BANDS][place]
+            if gain == 0.0:
+                assert level == -np.inf
+                continue
+            assert loop.felt is not None
+            expected = 20.0 * np.log10(gain) + loop.felt.level_db
+            assert level == pytest.approx(expected, abs=1e-3)
+            _assert_path(felt, source, place, object_id, bundle)
+            if expected > LEAST_FELT_DB:
+                n_felt += 1
+                (stored,) = np.frombuffer(level_bytes(np.array([level], np.float32)), "<u2")
+                assert (int(stored) - 1) / 65_534 * 70.0 - 20.0 == pytest.approx(expected, abs=0.1)
+    assert n_felt >= least
+
+
+def _assert_path(felt: FeltMap, source: str, place: int, object_id: str, bundle: HapticBundle) -> None:
+    """A path leads from the source to the object, over each object once, and over known materials alone."""
+    path = _path(felt, source, place)
+    assert (path[0], path[-1]) == (source, object_id)
+    assert len(set(path)) == len(path)
+    assert all(bundle.objects[passed].material is not None for passed in path[1:])
+
+
+def _path(felt: FeltMap, source: str, place: int) -> tuple[str, ...]:
+    ways = felt.paths[MODEL][source]
+    number = int(ways.of_points[place])
+    return ways.objects[number - 1] if number else ()
+
+
+def test_paths_are_those_that_a_session_explains() -> None:
+    """The kitchen has no two paths of equal loss at these points."""
+    bundle = bake(load_scene(kitchen_path()))
+    for model in (
+        {"kind": MODEL},
+        {"kind": MODEL, "max_hops": 2, "interface_loss_db": 3.0},
+        {"kind": "full_propagation"},
+    ):
+        felt = felt_map(bundle, [model], most_points=1500)
+        session = HapticSession(bundle, config={"propagation": model})
+        places = [(patch.object_id, point) for patch in felt.patches for point in patch.points_m.tolist()]
+        n_compared = 0
+        for place in np.random.default_rng(6).choice(len(places), 25, replace=False).tolist():
+            object_id, (x, y, z) = places[place]
+            session.update(touches=[Touch("left", object_id, (x, y, z))])
+            for one in session.explain("left").felt:
+                ways = felt.paths[model["kind"]][one.source_id]
+                number = int(ways.of_points[place])
+                assert ways.objects[number - 1] == tuple(step.object_id for step in one.steps)
+                n_compared += 1
+        assert n_compared > 40
+
+
+def _table(**names: str) -> SceneSnapshot:
+    """A phone on a table, a plate on it too, and a cup that stands apart."""
+    things = {
+        "table": ((0.0, 0.4, 0.0), (1.2, 0.8, 0.7)),
+        "phone": ((-0.4, 0.81, 0.0), (0.15, 0.02, 0.08)),
+        "plate": ((0.3, 0.81, 0.0), (0.2, 0.02, 0.2)),
+        "cup": ((3.0, 0.05, 0.0), (0.1, 0.1, 0.1)),
+    }
+    said = {"table": "oak table", "phone": "smartphone"}
+    return SceneSnapshot.build(
+        [
+            SceneObject(names.get(key, key), said.get(key, key), Pose(at), Box(size))
+            for key, (at, size) in things.items()
+        ],
+        name="room",
+    )
+
+
+def test_a_path_runs_over_what_touches() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        felt = felt_map(bake(_table()), most_points=400)
+    start, paths = 0, {}
+    for patch in felt.patches:
+        paths[patch.object_id] = {_path(felt, "phone", start + i) for i in range(len(patch.points_m))}
+        start += len(patch.points_m)
+    assert paths == {
+        "table": {("phone", "table")},
+        "phone": {("phone",)},
+        "plate": {("phone", "table", "plate")},
+        "cup": {()},
+    }
+
+
+def test_models_that_resonate_have_no_single_path() -> None:
+    felt = felt_map(bake(_table()), ["modal_plate"], most_points=40)
+    assert felt.models == ("modal_plate",)
+    assert felt.paths == {}
+
+
+def test_a_source_may_be_called_all() -> None:
+    """Its levels are its own, and those of all sources stand beside them."""
+    felt = felt_map(bake(_table(phone="all")), most_points=200)
+    assert felt.sources == (ALL_SOURCES, "all")
+    own = felt.levels_db[MODEL]["all"][ALL_BANDS]
+    assert np.isfinite(own).any()
+    assert felt.levels_db[MODEL][ALL_SOURCES][ALL_BANDS] == pytest.approx(own, abs=1e-4)
+    assert set(felt.levels_db[MODEL]) == {"all", ALL_SOURCES}
