@@ -80,10 +80,12 @@ def baked(scenes: list[Path], folder: Path, run: str) -> ManyReport:
         with ProcessPoolExecutor(1 if run.endswith("one") else 2, mp_context=get_context("spawn")) as pool:
             return bake_many(scenes, folder, executor=pool)
     if run.startswith("Dask"):
+        import dask
         from distributed import Client, LocalCluster
 
         n_workers = 1 if "one" in run else 2
         with (
+            dask.config.set({"distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_": 1 << 27}),
             LocalCluster(n_workers=n_workers, threads_per_worker=1, dashboard_address=None) as cluster,
             Client(cluster) as client,
         ):

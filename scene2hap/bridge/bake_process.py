@@ -13,6 +13,9 @@ from typing import Any
 from scene2hap.baking import BakeConfig, bake
 from scene2hap.bundle import HapticBundle
 from scene2hap.errors import Scene2HapError
+from scene2hap.llm.wrappers import is_remote
+from scene2hap.scene.capture import capture_images
+from scene2hap.scene.given_pictures import GivenPictures
 from scene2hap.scene.load import load_scene
 
 
@@ -38,8 +41,11 @@ def main() -> None:
 
 def baked(wanted: dict[str, Any], progress: Any) -> HapticBundle:
     """The bundle of a request. Raises: as `load_scene` and `bake`."""
-    scene = load_scene(wanted["scene"])
-    config = BakeConfig.parse(wanted["config"])
+    scene, config = load_scene(wanted["scene"]), BakeConfig.parse(wanted["config"])
+    if wanted["pictures"] is not None:
+        scene = GivenPictures.load(wanted["pictures"]).attach_to(scene)
+    elif is_remote(config.llm):
+        scene = capture_images(scene)
     return bake(scene, config, user_prompt=wanted["user_prompt"], progress=progress)
 
 

@@ -116,10 +116,15 @@ class Jobs:
                 process.kill()
                 # Shielded: the process must be waited for even while the server ends.
                 await asyncio.shield(process.wait())
-            scene = Path(wanted["scene"])
-            if scene.is_relative_to(self.folder):
-                scene.unlink(missing_ok=True)
+            self._remove_inputs(wanted)
             del self._tasks[job]
+
+    def _remove_inputs(self, wanted: Mapping[str, Any]) -> None:
+        scene = Path(wanted["scene"])
+        if scene.is_relative_to(self.folder):
+            scene.unlink(missing_ok=True)
+        if wanted["pictures"] is not None:
+            shutil.rmtree(wanted["pictures"], ignore_errors=True)
 
     def _keep(self, job: int, folder: Path) -> None:
         self._bundles[job] = folder

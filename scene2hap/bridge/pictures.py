@@ -11,10 +11,10 @@ from typing import Any
 from scene2hap import checks
 from scene2hap.bridge.frames import decode_picture
 from scene2hap.errors import BridgeError
+from scene2hap.scene.given_pictures import INDEX, GivenPictures
 
 MAX_BYTES = 1 << 29
 """Of all pictures of a client that wait for its bake."""
-INDEX = "pictures.json"
 
 
 class SentPictures:
@@ -26,11 +26,14 @@ class SentPictures:
     def __init__(self, folder: Path) -> None:
         self._parent = folder
         self._folder: Path | None = None
-        self._rows: list[dict[str, Any]] = []
+        self._rows: dict[tuple[Any, Any, Any], str] = {}
         self._n_bytes = 0
 
     def take(self, message: bytes) -> None:
-        """Keep a picture. Raises: BridgeError: it cannot be used, or there are too many."""
+        """Keep a picture; one that was sent before under the same name is replaced.
+
+        Raises: BridgeError: its text is no JSON object, or there are too many; SceneError: it cannot be used.
+        """
         text, file = decode_picture(message)
         try:
             row = json.loads(text)
@@ -38,26 +41,29 @@ class SentPictures:
             raise BridgeError(f"the text of a picture is no JSON: {cause}.") from cause
         if not isinstance(row, dict):
             raise BridgeError(f"the text of a picture is {checks.described(row)}; it must be an object.")
+        key: tuple[Any, Any, Any] = (row.get("object"), row.get("kind"), row.get("view"))
+        GivenPictures({key: file})  # refuses what is no picture, or of nothing
         self._n_bytes += len(file)
         if self._n_bytes > MAX_BYTES:
             raise BridgeError(
-                f"the pictures have more than {MAX_BYTES >> 20} MiB; send fewer or smaller ones, or bake."
+                f"the pictures have more than {MAX_BYTES >> 20} MiB; bake, or send fewer or smaller ones."
             )
         if self._folder is None:
             self._folder = Path(tempfile.mkdtemp(prefix="pictures-", dir=self._parent))
-        name = f"{len(self._rows):06d}"
+        name = self._rows.setdefault(key, f"{len(self._rows):06d}")
         (self._folder / name).write_bytes(file)
-        self._rows.append({**row, "file": name})
 
     def hand_over(self) -> Path:
         """The folder of all pictures, for a bake; later ones go into another. Raises: BridgeError: there are none."""
         if self._folder is None:
-            raise BridgeError(
-                'the bake is to use pictures, but none was sent; send them first, or leave "pictures" out.'
-            )
-        folder, rows = self._folder, self._rows
+            raise BridgeError('there are no pictures; send them before the bake, or leave "pictures" out.')
+        folder = self._folder
+        rows = [
+            {"object": thing, "kind": kind, "view": view, "file": file}
+            for (thing, kind, view), file in self._rows.items()
+        ]
         (folder / INDEX).write_text(json.dumps(rows), encoding="utf-8")
-        self._folder, self._rows, self._n_bytes = None, [], 0
+        self._folder, self._rows, self._n_bytes = None, {}, 0
         return folder
 
     def clear(self) -> None:

@@ -21,9 +21,10 @@ from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
 from scene2hap.errors import ConfigError
 from scene2hap.llm.dry_run import dry_run
 from scene2hap.llm.report import InferenceReport
-from scene2hap.llm.wrappers import identity, innermost
+from scene2hap.llm.wrappers import identity, innermost, is_remote
 from scene2hap.llm.wrappers.prices import price_list
 from scene2hap.scene.capture import capture_images
+from scene2hap.scene.given_pictures import GivenPictures
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.settings import read_settings
@@ -37,6 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", metavar="SCENE", help=kinds)
     parser.add_argument("-o", "--output", metavar="BUNDLE", help="folder to write (not needed with --dry-run)")
     parser.add_argument("--dry-run", action="store_true", help="show calls, tokens and cost only; no model is called")
+    parser.add_argument("--pictures-from", metavar="FOLDER", help="pictures that an engine or Blender rendered")
     add_model_arguments(parser)
     add_scene_arguments(parser)
 
@@ -109,7 +111,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         tell("reading", arguments.scene, 0, 1)
         scene = read_scene(arguments)
         tell("reading", arguments.scene, 1, 1)
-        if pictures:
+        if arguments.pictures_from:
+            scene = GivenPictures.load(arguments.pictures_from).attach_to(scene)
+        elif pictures:
             scene = capture_images(scene)
         bundle = bake(
             scene,
@@ -171,8 +175,3 @@ def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console
     )
     console.table(f"{scene.name}: what a bake would ask", ("what", ">how much"), told.rows())
     return told.as_json()
-
-
-def is_remote(backend: object) -> bool:
-    """Whether a backend is behind an address, so that pictures are worth taking."""
-    return "base_url" in identity(backend)

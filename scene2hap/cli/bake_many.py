@@ -18,9 +18,10 @@ from typing import Any
 
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.many import ManyReport, bake_many
-from scene2hap.cli.bake import add_model_arguments, add_scene_arguments, bake_settings, is_remote, scene_options
+from scene2hap.cli.bake import add_model_arguments, add_scene_arguments, bake_settings, scene_options
 from scene2hap.cli.console import Console
 from scene2hap.errors import ConfigError, SceneError
+from scene2hap.llm.wrappers import is_remote
 
 HELP = "many scene files -> haptic bundles"
 

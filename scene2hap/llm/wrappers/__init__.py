@@ -10,7 +10,7 @@ from scene2hap.llm.wrappers.cache import CacheBackend
 from scene2hap.llm.wrappers.prices import Price, PriceList, price_list
 from scene2hap.llm.wrappers.repair import RepairBackend
 from scene2hap.llm.wrappers.retry import RetryBackend
-from scene2hap.llm.wrappers.stack import identity, innermost, reports
+from scene2hap.llm.wrappers.stack import identity, innermost, is_remote, reports
 from scene2hap.llm.wrappers.standard import build_backend, standard_stack
 
 __all__ = [
@@ -23,6 +23,7 @@ __all__ = [
     "build_backend",
     "identity",
     "innermost",
+    "is_remote",
     "price_list",
     "reports",
     "standard_stack",

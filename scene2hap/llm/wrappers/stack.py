@@ -22,6 +22,11 @@ def identity(backend: object) -> Mapping[str, Any]:
     return told if isinstance(told, Mapping) else {}
 
 
+def is_remote(backend: object) -> bool:
+    """Whether a backend is behind an address, so that pictures are worth taking."""
+    return "base_url" in identity(backend)
+
+
 def reports(backend: object) -> dict[str, Mapping[str, Any]]:
     """What each layer of a stack has to report, by its class, outermost first."""
     found: dict[str, Mapping[str, Any]] = {}

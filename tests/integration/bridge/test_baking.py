@@ -1,15 +1,22 @@
 """Bakes that a client asks for."""
 
+import base64
+import io
 import json
+import re
 import time
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 from bridge_client import Client, Refused
+from llm_server import GOOD, Asked, Scripted, said
+from llm_server import serving as serving_model
 from scene2hap import HapticBundle
 from scene2hap.bridge import BridgeServer
+from scene2hap.bridge.frames import encode_picture
 from scene2hap.bridge.jobs import MAX_RUNNING
 
 Bridge = Callable[..., BridgeServer]
@@ -98,3 +105,44 @@ def test_a_bake_goes_on_without_its_client(bridge: Bridge, root: Path, desk: Hap
     while not (root / "alone.bundle" / "bundle.json").exists() and time.monotonic() < until:
         time.sleep(0.1)
     assert HapticBundle.load(root / "alone.bundle").loops.keys() == desk.loops.keys()
+
+
+def png(shade: int) -> bytes:
+    """A picture of one colour."""
+    file = io.BytesIO()
+    Image.new("RGB", (64, 48), (shade, 10, 20)).save(file, "PNG")
+    return file.getvalue()
+
+
+def test_pictures_of_the_engine_reach_the_model(bridge: Bridge, desk: HapticBundle, tmp_path: Path) -> None:
+    def reply(asked: Asked) -> Scripted:
+        name = asked.body["response_format"]["json_schema"]["name"]
+        return said(GOOD[name])
+
+    with serving_model(by=reply) as model:
+        llm = {"kind": "openai", "model": "gpt-4o", "base_url": model.base_url, "api_key": "sk-of-nobody-0123456789"}
+        server = bridge(bake={"llm": llm, "cache_dir": str(tmp_path / "cache")})
+        with Client(server.url) as client:
+            with pytest.raises(Refused, match="there are no pictures"):
+                client.ask("bake", scene=json.loads(desk.snapshot.to_json()), pictures=True)
+            for row, file in (
+                ({"object": "phone", "kind": "isolated", "view": "front"}, png(200)),
+                ({"object": "phone", "kind": "context", "view": "front"}, png(150)),
+                ({"kind": "scene", "view": "from the door"}, png(100)),
+            ):
+                client.socket.send(encode_picture(json.dumps(row).encode(), file))
+            for row, file in (
+                ({"object": "phone", "kind": "isolated", "view": "back"}, png(1)[:-9]),
+                ({"object": "phone", "kind": "portrait", "view": "back"}, png(1)),
+                ({"kind": "isolated", "view": "back"}, png(1)),
+                ([], png(1)),
+            ):
+                client.socket.send(encode_picture(json.dumps(row).encode(), file))
+                with pytest.raises(Refused):
+                    client.hear(lambda one: one["type"] == "error")
+            client.bake(scene=json.loads(desk.snapshot.to_json()), pictures=True)
+        bodies = [json.dumps(asked.body) for asked in model.asked]
+        sent = [base64.b64decode(text) for body in bodies for text in re.findall(r"base64,([^\"]+)", body)]
+        shades = {Image.open(io.BytesIO(file)).getpixel((5, 5))[0] for file in sent}
+        assert shades == {100, 150, 200}
+    assert not [*server.host.jobs.folder.glob("pictures-*")]

@@ -1,0 +1,281 @@
+"""Pictures of a scene that others rendered, such as a game engine or Blender, in the place of `capture_images`.
+
+    pictures = GivenPictures({("phone", "isolated", "front"): png, (None, "scene", "above"): jpeg})
+    pictures = GivenPictures.load("kitchen")  # a folder with pictures.json
+    bundle = bake(pictures.attach_to(scene), config)
+
+Files are checked when they are given, and decoded when a model looks at them.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+import os
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, get_args
+
+import numpy as np
+
+from scene2hap import checks
+from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene.capture.cache import MEMORY
+from scene2hap.scene.capture.paint import BACKGROUND_RGB
+from scene2hap.scene.capture.png import png
+from scene2hap.scene.files import inside
+from scene2hap.scene.given import given_scene
+from scene2hap.scene.images import ImageSet, ObjectImages, Shot
+from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.text_files import read_small, read_small_text
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+INDEX = "pictures.json"
+"""The file of a folder of pictures that says what each shows."""
+
+MAX_BYTES = 1 << 24
+"""Size of one picture; assumed: ten times a PNG file of 1024 pixels a side."""
+LEAST_PX, MAX_PX = 16, 4096
+"""Width and height of one picture, as of `CaptureConfig.size_px`."""
+SHOWN_PX = 1024
+"""Larger pictures are reduced to this edge, which bounds what a model bills for them (assumed)."""
+MAX_PICTURES = 100_000
+"""Pictures of one scene; assumed: 16 of each of some thousands of objects."""
+_LONGEST_VIEW = 200
+
+_PNG_SIGNATURE, _PNG_END = b"\x89PNG\r\n\x1a\n", b"IEND\xaeB\x60\x82"
+_JPEG_SIGNATURE, _JPEG_END = b"\xff\xd8\xff", b"\xff\xd9"
+# Part of every key in the memory cache; raised when the same file is shown otherwise.
+_FORM = "given 1"
+
+Kind = Literal["scene", "isolated", "context"]
+PictureKey = tuple[str | None, Kind, str]
+"""What a picture shows: object id (None for the whole scene), kind, name of the view."""
+
+
+@dataclass(frozen=True)
+class GivenShot(Shot):
+    """A picture that somebody took from an angle with a name."""
+
+    view: str = ""
+
+    @property
+    def label(self) -> str:
+        """The name of the view: "front"."""
+        return self.view
+
+
+class GivenPictures:
+    """The `ImageSource` of pictures that exist already, as PNG or JPEG files.
+
+    A model sees them in the order in which they are given, those of an object alone before those in its surroundings.
+    The prompts tell it that the object has a pink outline (255, 0, 190) in the latter.
+
+    Parameters: pictures : files by `PictureKey`; kind "scene" has no object id, "isolated" and "context" have one.
+    Raises: SceneError: a key that names nothing, or a picture too large; SceneFormatError: neither PNG nor JPEG.
+    """
+
+    def __init__(self, pictures: Mapping[PictureKey, bytes]) -> None:
+        if not isinstance(pictures, Mapping):
+            told = checks.described(pictures)
+            raise SceneError(f"pictures is {told}; it must be a dict of files by (object id, kind, view).")
+        self._files: dict[Shot, bytes | Path] = {}
+        for key, file in pictures.items():
+            self._add(_shot(key), file)
+
+    @classmethod
+    def load(cls, folder: str | os.PathLike[str]) -> GivenPictures:
+        """The pictures of a folder, read when a model looks at them.
+
+        `pictures.json` in it is a list of objects with `object` (an id; left out for the whole scene), `kind`, `view`,
+        and `file`, a relative reference to a file in the folder.
+        Raises: as the constructor; SceneError: a file is missing or outside the folder; SceneFormatError: no such list.
+        """
+        root = checks.path("folder", folder, error=SceneError)
+        found = cls({})
+        for number, row in enumerate(_rows(root / INDEX)):
+            place = f"picture {number} of {str(root / INDEX)!r}"
+            if not isinstance(row, dict) or not isinstance(row.get("file"), str):
+                raise SceneFormatError(
+                    f"{place} is {checks.represented(row)}; it must be an object with object, kind, view and file."
+                )
+            shot = _shot((row.get("object"), row.get("kind"), row.get("view")))
+            if shot in found._files:
+                raise SceneError(f"{place} is the second {_told(shot)}; give each view of a thing its own name.")
+            found._add(shot, inside(root, root, row["file"], place))
+        return found
+
+    @property
+    def shots(self) -> tuple[Shot, ...]:
+        """All that is shown, in the order in which it was given."""
+        return tuple(self._files)
+
+    def image(self, shot: Shot) -> bytes:
+        """The picture as a PNG file of at most `SHOWN_PX` a side, opaque.
+
+        Raises: SceneError: it was not given; its file is gone or cannot be decoded.
+        """
+        if shot not in self._files:
+            raise SceneError(f"there is no {_told(shot)} among the {len(self._files)} pictures that were given.")
+        file = _content(self._files[shot], _told(shot))
+        key = f"{_FORM} {hashlib.sha256(file).hexdigest()}"
+        shown = MEMORY.get(key)
+        if shown is None:
+            check_picture(file, _told(shot))  # a file on the disk may have changed
+            shown = _as_shown(file, _told(shot))
+            MEMORY.put(key, shown)
+        return shown
+
+    def attach_to(self, scene: SceneSnapshot | str | os.PathLike[str]) -> SceneSnapshot:
+        """The same scene with these pictures, for `bake`. An object that is in none of them keeps what it has.
+
+        An object without any pictures is shown by the isolated ones of an object of the same `instance_key`.
+        Raises: UnknownObject: a picture of an object that the scene does not have.
+        """
+        scene = given_scene(scene)
+        of_kind: dict[tuple[str | None, str], list[Shot]] = {}
+        for shot in self._files:
+            if shot.subject is not None:
+                scene.object(shot.subject)
+            of_kind.setdefault((shot.subject, shot.kind), []).append(shot)
+        of_key: dict[str, list[Shot]] = {}
+        for item in scene.objects:
+            if item.instance_key and (item.id, "isolated") in of_kind:
+                of_key.setdefault(item.instance_key, of_kind[item.id, "isolated"])
+        objects = []
+        for item in scene.objects:
+            isolated, context = of_kind.get((item.id, "isolated"), []), of_kind.get((item.id, "context"), [])
+            if not isolated and item.images is None:
+                isolated = of_key.get(item.instance_key, [])
+            if isolated or context:
+                item = replace(item, images=ObjectImages(ImageSet(self, isolated), ImageSet(self, context)))
+            objects.append(item)
+        whole = of_kind.get((None, "scene"))
+        return replace(scene, objects=tuple(objects), images=scene.images if whole is None else ImageSet(self, whole))
+
+    def _add(self, shot: Shot, file: bytes | Path) -> None:
+        if len(self._files) >= MAX_PICTURES:
+            raise SceneError(f"there are more than {MAX_PICTURES:,} pictures; give fewer views of each object.")
+        check_picture(_content(file, _told(shot)), _told(shot))
+        self._files[shot] = file
+
+    def __len__(self) -> int:
+        return len(self._files)
+
+    def __repr__(self) -> str:
+        return f"GivenPictures({len(self._files)} of {len({shot.subject for shot in self._files})} subjects)"
+
+
+def check_picture(file: object, name: str = "the picture") -> tuple[int, int]:
+    """Width and height [px] of a PNG or JPEG file whose begin and end are whole; its pixels are not decoded.
+
+    Raises: SceneFormatError: it is something else, or cut short; SceneError: it is too large or too small.
+    """
+    if not isinstance(file, bytes):
+        raise SceneFormatError(f"{name} is {checks.described(file)}; it must be the bytes of a PNG or JPEG file.")
+    if len(file) > MAX_BYTES:
+        raise SceneError(f"{name} has {len(file):,} bytes; at most {MAX_BYTES:,} are read. Give a smaller one.")
+    if not file.startswith((_PNG_SIGNATURE, _JPEG_SIGNATURE)):
+        raise SceneFormatError(f"{name} is neither PNG nor JPEG; it begins with {checks.represented(file[:8])}.")
+    # Encoders of cameras write after the end of a JPEG; nothing may follow the end of a PNG.
+    is_whole = file.endswith(_PNG_END) if file.startswith(_PNG_SIGNATURE) else _JPEG_END in file[-4096:]
+    if not is_whole:
+        raise SceneFormatError(f"{name} is cut short after {len(file):,} bytes. Write or send it again.")
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # Pillow warns of sizes that are refused below
+            with _opened(file) as image:
+                width, height = image.size
+    except Exception as cause:  # Pillow raises whatever the broken bytes lead to
+        raise SceneFormatError(f"{name} is no picture that can be read: {cause}.") from cause
+    if not LEAST_PX <= min(width, height) <= max(width, height) <= MAX_PX:
+        raise SceneError(f"{name} has {width:,} x {height:,} pixels; each must be {LEAST_PX} to {MAX_PX:,}. Resize it.")
+    return width, height
+
+
+def _shot(key: Any) -> GivenShot:
+    """The shot of a key as somebody wrote it. Raises: SceneError: it names nothing."""
+    if not isinstance(key, tuple) or len(key) != 3:
+        raise SceneError(f"a picture's key is {checks.represented(key)}; it must be (object id, kind, view).")
+    subject, kind, view = key
+    if kind not in get_args(Kind):
+        raise SceneError(
+            f"a picture's kind is {checks.represented(kind)}; it must be 'isolated' (an object alone), 'context' (an "
+            "object in its surroundings) or 'scene'."
+        )
+    if kind == "scene" and subject is not None:
+        raise SceneError(
+            f"a picture of kind 'scene' is of object {checks.represented(subject)}; it must have none. "
+            "An object among others is of kind 'context'."
+        )
+    if kind != "scene" and (not isinstance(subject, str) or not subject):
+        raise SceneError(f"a picture of kind {kind!r} is of object {checks.represented(subject)}; give an id.")
+    if not isinstance(view, str) or not 0 < len(view) <= _LONGEST_VIEW:
+        raise SceneError(
+            f"a picture's view is {checks.represented(view)}; it must be a name of 1 to {_LONGEST_VIEW} characters, "
+            "such as 'front'."
+        )
+    return GivenShot(kind, subject, 0.0, 0.0, view)
+
+
+def _told(shot: Shot) -> str:
+    """A picture, for messages."""
+    whose = "" if shot.subject is None else f" of object {checks.represented(shot.subject)}"
+    return f"{shot.kind} picture {checks.represented(shot.label)}{whose}"
+
+
+def _rows(index: Path) -> list[Any]:
+    try:
+        rows = json.loads(read_small_text(index))
+    except OSError as cause:
+        raise SceneError(f"{str(index)!r} cannot be read: {cause.strerror}. Give the folder that holds it.") from cause
+    except (ValueError, RecursionError) as cause:
+        raise SceneFormatError(f"{str(index)!r} is no JSON that can be read: {cause}.") from cause
+    if not isinstance(rows, list):
+        raise SceneFormatError(f"{str(index)!r} holds {checks.described(rows)}; it must be a list of pictures.")
+    return rows
+
+
+def _content(file: bytes | Path, name: str) -> bytes:
+    if not isinstance(file, Path):
+        return file
+    try:
+        return read_small(file, MAX_BYTES)
+    except (OSError, ValueError) as cause:
+        raise SceneError(f"{name} cannot be read from {str(file)!r}: {cause}.") from cause
+
+
+def _as_shown(file: bytes, name: str) -> bytes:
+    """A checked file as a model gets it. Raises: SceneFormatError: its pixels cannot be decoded."""
+    from PIL import Image
+
+    try:
+        with _opened(file) as image:
+            image.load()
+            if image.format == "PNG" and image.mode == "RGB" and max(image.size) <= SHOWN_PX:
+                return file
+            if image.mode.startswith("I"):  # grey of 16 bits, which Pillow would clip rather than scale
+                deep = np.asarray(image)
+                image = Image.fromarray((deep >> 8).clip(0, 255).astype(np.uint8))
+            if image.has_transparency_data:
+                image = image.convert("RGBA")
+                image = Image.alpha_composite(Image.new("RGBA", image.size, (*BACKGROUND_RGB, 255)), image)
+            image = image.convert("RGB")
+            image.thumbnail((SHOWN_PX, SHOWN_PX), Image.Resampling.BOX)
+            return png(np.asarray(image))
+    except Exception as cause:  # as above
+        raise SceneFormatError(f"{name} cannot be decoded: {cause}. Write or send it again.") from cause
+
+
+def _opened(file: bytes) -> Image.Image:
+    kind, plugin = ("PNG", "PngImagePlugin") if file.startswith(_PNG_SIGNATURE) else ("JPEG", "JpegImagePlugin")
+    import_module(f"PIL.{plugin}")  # else Pillow imports all of its plug-ins
+    from PIL import Image
+
+    return Image.open(io.BytesIO(file), formats=(kind,))
