@@ -22,7 +22,10 @@ author = "The scene2hap authors"
 html_title = "scene2hap"
 
 extensions = ["myst_parser", "autodoc2"]
-include_patterns = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "docs/*.md", "docs/**/*.md"]
+include_patterns = [
+    *("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md"),
+    *("docs/*.md", "docs/**/*.md", "clients/*/README.md"),
+]
 # Folders without pages are named, since Sphinx walks through whatever is not excluded.
 exclude_patterns = [
     ".*",

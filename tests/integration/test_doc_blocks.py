@@ -127,6 +127,8 @@ def check_names(block: Block) -> None:
             bound.add(node.id)
         elif isinstance(node, ast.arg):
             bound.add(node.arg)
+        elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+            bound.add(node.name)
     used = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
     assert not used - bound, f"{block.page}:{block.line} uses {sorted(used - bound)}, which nothing defines"
 
