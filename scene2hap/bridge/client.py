@@ -58,6 +58,10 @@ class Client:
             self._gains = message
         self._has_work.set()
 
+    def give_up(self) -> None:
+        """Play no longer, since the session goes on over another connection."""
+        self.hosted = None
+
     def repeat(self, gains: bytes | None) -> None:
         """Send gains again behind the answer that is under way: those that a lost connection may have swallowed."""
         self._repeated = gains

@@ -15,7 +15,7 @@ from scene2hap.bridge.host import Host
 from scene2hap.bridge.hosted import error_message
 from scene2hap.bridge.messages import parse_request, read_document, request_id
 from scene2hap.bridge.pictures import SentPictures
-from scene2hap.errors import BridgeError, Scene2HapError
+from scene2hap.errors import BridgeError
 
 TOO_SLOW = 4008
 
@@ -63,7 +63,7 @@ class Connection:
             document = read_document(message)
             re = request_id(document)
             found = await answer(parse_request(document), self.client, self._host)
-        except Scene2HapError as error:
+        except Exception as error:
             found = error_message(error)
         self.client.answer(found if re is None else {**found, "re": re})
 

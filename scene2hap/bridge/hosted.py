@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import hmac
+import logging
 import secrets
 from collections.abc import Callable
 from typing import Any, Literal, ParamSpec, Protocol, TypeVar
@@ -15,6 +16,8 @@ from scene2hap.errors import BridgeError, Scene2HapError, UnknownSession
 
 P = ParamSpec("P")
 Result = TypeVar("Result")
+
+_log = logging.getLogger("scene2hap.bridge")
 
 Frames = Literal["newest", "every"]
 Reply = Callable[[bytes], None]
@@ -30,6 +33,10 @@ class Receiver(Protocol):
 
     def send_gains(self, message: bytes, *, must_arrive: bool) -> None:
         """Send gains; without `must_arrive`, newer ones may replace them."""
+        ...
+
+    def give_up(self) -> None:
+        """Play no longer, since the session goes on over another connection."""
         ...
 
 
@@ -107,7 +114,7 @@ class HostedSession:
             while self._waits is not None and not self._is_closed:
                 try:
                     message, reply = await self._take_newest()
-                except Scene2HapError as error:
+                except Exception as error:
                     self._tell_player(error_message(error))
                 else:
                     if message is not None:
@@ -169,7 +176,8 @@ class HostedSession:
         if self._forgetting is not None:
             self._forgetting.cancel()
             self._forgetting = None
-        # The old connection may be half dead: its player has proved to be the same by the key.
+        if self.player is not None:  # over a connection whose loss was not noticed yet
+            self.player.give_up()
         self.player = player
         if not self.played.is_paused:
             await self.run(self.played.session.resume)
@@ -207,11 +215,9 @@ class HostedSession:
             one.send(document)
 
 
-def error_message(error: Scene2HapError, re: int | None = None, job: int | None = None) -> dict[str, Any]:
-    """The message that tells a client of an error."""
-    answer: dict[str, Any] = {"type": "error", "error": type(error).__name__, "message": str(error)}
-    if re is not None:
-        answer["re"] = re
-    if job is not None:
-        answer["job"] = job
-    return answer
+def error_message(error: Exception) -> dict[str, Any]:
+    """The message that tells a client of an error; one that is not ours goes to the log, since it may tell too much."""
+    if isinstance(error, Scene2HapError):
+        return {"type": "error", "error": type(error).__name__, "message": str(error)}
+    _log.error("a fault of the bridge", exc_info=error)
+    return {"type": "error", "error": "InternalError", "message": "the bridge failed at this; its log tells more."}

@@ -110,7 +110,7 @@ class Jobs:
                 kind, message = last.get("error", ("BridgeError", f"the bake failed: {status}."))
                 tell({"type": "error", "error": kind, "message": message, "job": job})
         except (OSError, ValueError) as cause:
-            tell(error_message(BridgeError(f"the bake failed: {cause}."), job=job))
+            tell({**error_message(BridgeError(f"the bake failed: {cause}.")), "job": job})
         finally:
             if process is not None and process.returncode is None:
                 process.kill()

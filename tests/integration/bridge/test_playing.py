@@ -254,6 +254,36 @@ def test_a_session_outlives_its_connection(bridge: Bridge) -> None:
             assert watcher.hear(lambda one: one["type"] == "state")["is"] == "playing"
 
 
+def test_whoever_has_the_key_takes_over(bridge: Bridge) -> None:
+    server = bridge()
+    with Client(server.url) as old, Client(server.url) as new:
+        old.play(bundle="desk.bundle", moving=[])
+        new.order = new.ask("resume", session=old.order["session"], key=old.order["key"])
+        new.key = old.key
+        with pytest.raises(Refused, match="no session"):
+            old.ask("pause")
+        new.socket.send(new.frame(1, 0.0, poses(), [ON_TABLE]))
+        assert new.next_gains().gains.max() > 0.0
+
+
+def test_a_fault_of_the_bridge_is_told_and_logged(
+    bridge: Bridge, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    with Client(bridge().url) as client:
+        client.play(bundle="desk.bundle", moving=[])
+        with monkeypatch.context() as patched:
+            patched.setattr(HapticSession, "update", lambda *_, **__: 1 / 0)
+            client.socket.send(client.frame(1, 0.0, poses(), [ON_TABLE]))
+            with pytest.raises(Refused, match="its log tells more"):
+                client.hear(lambda one: one["type"] == "error")
+            patched.setattr(HapticSession, "set_source", lambda *_, **__: 1 / 0)
+            with pytest.raises(Refused, match="its log tells more"):
+                client.ask("set_source", source="phone")
+        assert "ZeroDivisionError" in caplog.text
+        client.socket.send(client.frame(2, 0.1, poses(), [ON_TABLE]))
+        assert client.next_gains().gains.max() > 0.0
+
+
 def test_a_pause_outlives_the_connection_too(bridge: Bridge) -> None:
     server = bridge()
     with Client(server.url) as client:
