@@ -11,7 +11,7 @@ import shutil
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -63,8 +63,8 @@ def find_modules(folder: Path) -> Path | None:
 
 
 @contextmanager
-def served(modules: Path) -> Iterator[int]:
-    """Serve clients/browser on loopback, as if these modules were in it. Gives the port."""
+def served(modules: Path, pages: Mapping[str, str] | None = None) -> Iterator[int]:
+    """Serve clients/browser on loopback, as if these modules and pages were in it. Gives the port."""
 
     class Handler(SimpleHTTPRequestHandler):
         # Not those of the system, which may call modules plain text.
@@ -77,6 +77,16 @@ def served(modules: Path) -> Iterator[int]:
 
         def __init__(self, *given: Any) -> None:
             super().__init__(*given, directory=str(CLIENT))
+
+        def do_GET(self) -> None:
+            html = (pages or {}).get(self.path)
+            if html is None:
+                super().do_GET()
+                return
+            self.send_response(200)
+            self.send_header("content-type", "text/html; charset=utf-8")
+            self.end_headers()
+            self.wfile.write(html.encode())
 
         def translate_path(self, path: str) -> str:
             found = Path(super().translate_path(path))

@@ -1,0 +1,373 @@
+// The client against a scripted server: order of requests, frames, lost connections, silence.
+
+import assert from "node:assert/strict";
+import { afterEach, beforeEach, mock, test } from "node:test";
+import { Scene2HapClient } from "../scene2hap_client.js";
+import { FakeSocket, PLAYING, WELCOME, gainsOf, settled } from "./fake_socket.js";
+
+const SCENE = {
+  format: "scene2hap/scene",
+  version: 1,
+  name: "study",
+  up_axis: "y",
+  objects: [
+    { id: "table", name: "Table", pose: { position_m: [0, 0.7, 0] }, geometry: { kind: "box", size_m: [1, 0.04, 1] } },
+    {
+      id: "phone",
+      name: "Phone",
+      pose: { position_m: [0.25, 0.724, 0] },
+      geometry: { kind: "box", size_m: [0.1, 0.01, 0.1] },
+    },
+  ],
+};
+
+let clock_s;
+let heard;
+
+beforeEach(() => {
+  mock.timers.enable({ apis: ["setTimeout"] });
+  FakeSocket.opened.length = 0;
+  clock_s = 100;
+  heard = [];
+});
+afterEach(() => mock.timers.reset());
+
+function makeClient(options = {}) {
+  const client = new Scene2HapClient({ url: "ws://test/", WebSocket: FakeSocket, now_s: () => clock_s, ...options });
+  for (const type of ["online", "offline", "playing", "order", "error", "gains", "impact"]) {
+    client.on(type, (detail) => heard.push({ of: type, ...detail }));
+  }
+  return client;
+}
+
+const heardOf = (type) => heard.filter((one) => one.of === type);
+
+async function online() {
+  FakeSocket.last.open();
+  FakeSocket.last.answer("hello", WELCOME);
+  await settled();
+}
+
+async function playing(client, fields = {}, request = {}) {
+  client.connect();
+  await online();
+  const baked = client.bake({ scene: SCENE });
+  await settled();
+  FakeSocket.last.answer("bake", { type: "baking", job: 1 });
+  FakeSocket.last.say({ type: "baked", job: 1, objects: [] });
+  const { job } = await baked;
+  const order = client.play({ job, moving: ["phone"], ...request });
+  await settled();
+  FakeSocket.last.answer("play", { ...PLAYING, ...fields });
+  await order;
+}
+
+test("hello, bake and play come in this order, each once", async () => {
+  const client = makeClient({ token: "secret", name: "test 1" });
+  await playing(client);
+  const messages = FakeSocket.last.messages;
+  assert.deepEqual(
+    messages.map(({ type }) => type),
+    ["hello", "bake", "play"],
+  );
+  assert.deepEqual(messages[0], { type: "hello", version: 1, client: "test 1", token: "secret", id: 1 });
+  assert.deepEqual(messages[1].scene, SCENE);
+  assert.deepEqual(messages[2], { type: "play", job: 1, moving: ["phone"], id: 3 });
+  assert.equal(heardOf("playing")[0].isResumed, false);
+  assert.equal(client.isPlaying, true);
+  assert.doesNotMatch(JSON.stringify([heard, client, messages.slice(1)]), /secret/);
+});
+
+test("a frame has what was set, and poses only while the server may lack them", async () => {
+  const client = makeClient();
+  await playing(client);
+  client.touch("right", "table", [0.5, 0.72, 0]);
+  assert.equal(client.sendFrame(1), 1);
+  const [first] = FakeSocket.last.frames;
+  assert.equal(first.byteLength, 40 + 28 + 20);
+  assert.equal(first.getFloat32(40, true), 0.25); // from the scene that was baked
+  assert.deepEqual([first.getUint32(68, true), first.getUint32(72, true)], [1, 1]); // right, table
+  assert.equal(first.getFloat64(24, true), 1);
+
+  client.sendFrame(2); // not answered yet: the server may drop the first for this one
+  assert.equal(FakeSocket.last.frames[1].getUint32(32, true), 1);
+  FakeSocket.last.bytes(gainsOf({ sequence: 2 }));
+  client.sendFrame(3);
+  assert.equal(FakeSocket.last.frames[2].getUint32(32, true), 0);
+
+  client.setPose("phone", [0.5, 0.724, 0, 0, 0, 0, 1]);
+  client.lift("right");
+  client.sendFrame(4);
+  const last = FakeSocket.last.frames[3];
+  assert.deepEqual([last.getUint32(32, true), last.getUint32(36, true)], [1, 0]);
+  assert.equal(last.getFloat32(40, true), 0.5);
+  assert.equal(last.getUint32(16, true), 4);
+});
+
+test("a pose that is the same in single precision is no movement", async () => {
+  const client = makeClient();
+  await playing(client);
+  client.setPose("phone", [0.1, 0.724, 0, 0, 0, 0, 1]);
+  client.sendFrame(1);
+  FakeSocket.last.bytes(gainsOf({ sequence: 1 }));
+  client.setPose("phone", [0.1, 0.724, 0, 0, 0, 0, 1]);
+  client.sendFrame(2);
+  assert.equal(FakeSocket.last.frames[1].getUint32(32, true), 0);
+});
+
+test("a socket that is full gets no frame, and later the newest", async () => {
+  const client = makeClient();
+  await playing(client);
+  FakeSocket.last.bufferedAmount = 1_000_000;
+  for (let i = 0; i < 100; i += 1) {
+    client.setPose("phone", [i, 0, 0, 0, 0, 0, 1]);
+    assert.equal(client.sendFrame(i), 0);
+  }
+  FakeSocket.last.bufferedAmount = 0;
+  assert.equal(client.sendFrame(100), 1);
+  assert.equal(FakeSocket.last.frames.length, 1);
+  assert.equal(FakeSocket.last.frames[0].getFloat32(40, true), 99);
+});
+
+test("gains and intensities are those of the last message, and 0 after watchdog_s", async () => {
+  const client = makeClient();
+  await playing(client);
+  assert.equal(client.intensity("left"), 0);
+  FakeSocket.last.bytes(gainsOf({ sequence: 1, intensities: [0.125, 0.25], gains: [0.5, 0.75] }));
+  assert.deepEqual([client.gain("left", "phone"), client.gain("right", "phone")], [0.5, 0.75]);
+  assert.deepEqual([client.intensity("left"), client.intensity("right")], [0.125, 0.25]);
+  assert.deepEqual([client.gain("left", "table"), client.gain("nose", "phone"), client.intensity("nose")], [0, 0, 0]);
+  clock_s += 0.099;
+  assert.equal(client.gain("left", "phone"), 0.5);
+  clock_s += 0.002;
+  assert.deepEqual([client.isFelt, client.gain("left", "phone"), client.intensity("right")], [false, 0, 0]);
+});
+
+test("of several bands the loudest counts, and each can be asked for", async () => {
+  const client = makeClient();
+  await playing(client, { n_bands: 2 });
+  FakeSocket.last.bytes(gainsOf({ sequence: 1, gains: [0.25, 0.5, 0.125, 0], n_bands: 2 }));
+  assert.deepEqual([client.gain("left", "phone"), client.gain("left", "phone", 0)], [0.5, 0.25]);
+  assert.equal(client.gain("right", "phone"), 0.125);
+});
+
+test("gains of an older layout are read by that layout's order", async () => {
+  const client = makeClient();
+  await playing(client);
+  const sources = [{ ...PLAYING.sources[0], id: "fan" }, PLAYING.sources[0]];
+  const { key, session, ...order } = PLAYING;
+  FakeSocket.last.say({ ...order, type: "order", layout: 2, objects: ["phone", "table", "fan"], sources });
+  FakeSocket.last.bytes(gainsOf({ layout: 1, sequence: 1, gains: [0.5, 0] }));
+  assert.equal(client.gain("left", "phone"), 0.5);
+  FakeSocket.last.bytes(gainsOf({ layout: 2, sequence: 2, gains: [0.125, 0.25, 0, 0] }));
+  assert.deepEqual([client.gain("left", "fan"), client.gain("left", "phone")], [0.125, 0.25]);
+  client.touch("left", "fan", [0, 0, 0]);
+  client.sendFrame(1);
+  const frame = FakeSocket.last.frames[0];
+  assert.equal(frame.getUint16(6, true), 2);
+  assert.equal(frame.getUint32(40 + 28 + 4, true), 2);
+  assert.equal(client.order.key, PLAYING.key); // an order has none
+  assert.deepEqual(heardOf("error"), []);
+});
+
+test("a lost connection is resumed with growing waits of at most 5 s", async () => {
+  const client = makeClient();
+  await playing(client);
+  client.sendFrame(1);
+  FakeSocket.last.bytes(gainsOf({ sequence: 1 }));
+  assert.equal(client.sendFrame(1.5), 2); // does not reach the server
+  FakeSocket.last.fail();
+  assert.deepEqual([client.isPlaying, client.sendFrame(2), client.gain("left", "phone")], [false, 0, 0]);
+
+  for (const [i, wait_s] of [0.25, 0.5, 1, 2, 4, 5, 5].entries()) {
+    if (i > 0) FakeSocket.last.fail();
+    const n = FakeSocket.opened.length;
+    mock.timers.tick(wait_s * 1000 - 1);
+    assert.equal(FakeSocket.opened.length, n);
+    mock.timers.tick(1);
+    assert.equal(FakeSocket.opened.length, n + 1);
+  }
+  await online();
+  assert.deepEqual(
+    FakeSocket.last.messages.map(({ type }) => type),
+    ["hello", "resume"],
+  );
+  const { session, key } = FakeSocket.last.messages[1];
+  assert.deepEqual([session, key], [PLAYING.session, PLAYING.key]);
+  FakeSocket.last.answer("resume", { ...PLAYING, sequence: 1 });
+  assert.equal(heardOf("playing").at(-1).isResumed, true);
+  assert.equal(client.sendFrame(3), 2); // as the server counts
+  assert.equal(FakeSocket.last.frames[0].getUint32(32, true), 1); // poses again
+  assert.deepEqual(heardOf("error"), []);
+  FakeSocket.last.fail(); // waits begin anew after a welcome
+  assert.equal(heardOf("offline").at(-1).wait_s, 0.25);
+});
+
+test("a server that was restarted bakes and plays again", async () => {
+  const client = makeClient();
+  await playing(client);
+  FakeSocket.last.fail();
+  mock.timers.tick(250);
+  await online();
+  const unknown = { type: "error", error: "UnknownSession", message: "there is no session" };
+  FakeSocket.last.answer("resume", unknown);
+  await settled();
+  FakeSocket.last.answer("bake", { type: "baking", job: 7 });
+  FakeSocket.last.say({ type: "baked", job: 7, objects: [] });
+  await settled();
+  assert.deepEqual(
+    FakeSocket.last.messages.map(({ type }) => type),
+    ["hello", "resume", "bake", "play"],
+  );
+  const [, , bake, play] = FakeSocket.last.messages;
+  assert.deepEqual(bake.scene, SCENE);
+  assert.deepEqual([play.job, play.moving], [7, ["phone"]]);
+  FakeSocket.last.answer("play", { ...PLAYING, session: "new", key: "ffeeddccbbaa9988" });
+  assert.equal(heardOf("playing").at(-1).isResumed, false);
+  assert.equal(client.sendFrame(1), 1);
+  assert.equal(FakeSocket.last.frames[0].getUint8(8), 0xff);
+  assert.deepEqual(heardOf("error"), []); // the game has nothing to do
+});
+
+test("a bake whose connection is lost is asked for again", async () => {
+  const client = makeClient();
+  client.connect();
+  await online();
+  const baked = client.bake({ scene: SCENE });
+  await settled();
+  FakeSocket.last.answer("bake", { type: "baking", job: 1 });
+  FakeSocket.last.fail();
+  mock.timers.tick(250);
+  await online();
+  FakeSocket.last.answer("bake", { type: "baking", job: 2 });
+  FakeSocket.last.say({ type: "baked", job: 2, objects: [] });
+  assert.equal((await baked).job, 2);
+});
+
+test("requests that wait when the connection is lost fail, and those without a connection too", async () => {
+  const client = makeClient();
+  await playing(client);
+  const explained = client.explain("left");
+  FakeSocket.last.fail();
+  await assert.rejects(explained, { kind: "ConnectionLost" });
+  await assert.rejects(client.pause(), { kind: "ConnectionLost" });
+  assert.match(heardOf("error")[0].message, /pause was not sent/);
+});
+
+test("errors are text, and throw only where somebody awaits", async () => {
+  const unhandled = [];
+  const note = (reason) => unhandled.push(reason);
+  process.on("unhandledRejection", note);
+  const client = makeClient();
+  await playing(client);
+  client.setSource("fan", { on: true }); // nobody awaits
+  FakeSocket.last.answer("set_source", { type: "error", error: "UnknownSource", message: "there is no source fan" });
+  FakeSocket.last.say({ type: "error", error: "BridgeError", message: "a frame is too short" });
+  FakeSocket.last.say("{ not JSON");
+  FakeSocket.last.bytes(new ArrayBuffer(3));
+  FakeSocket.last.bytes(gainsOf({ sequence: 1, layout: 77 }));
+  FakeSocket.last.say({ type: "of a later server", with: [1] });
+  const struck = client.strike("table", [0, 0, 0], { speed_m_s: 1 });
+  FakeSocket.last.answer("strike", { type: "error", error: "SessionError", message: "no speed" });
+  await assert.rejects(struck, { name: "Scene2HapError", kind: "SessionError", message: "no speed" });
+  await settled();
+  process.off("unhandledRejection", note);
+  assert.deepEqual(unhandled, []);
+  assert.deepEqual(
+    heardOf("error").map(({ error }) => error),
+    ["UnknownSource", "BridgeError", "WrongMessage", "WrongMessage", "FrameError", "SessionError"],
+  );
+});
+
+test("a mistake that is in every frame is reported once", async () => {
+  const client = makeClient();
+  await playing(client, { objects: ["lamp", "table"] });
+  client.touch("nose", "table", [0, 0, 0]);
+  client.touch("left", "cup", [0, 0, 0]);
+  for (let i = 0; i < 5; i += 1) client.sendFrame(i);
+  const texts = heardOf("error").map(({ message }) => message);
+  assert.equal(texts.length, 3);
+  assert.match(texts[0], /No pose of "lamp"/);
+  assert.match(texts[1], /No hand is called "nose"; hands are left, right/);
+  assert.match(texts[2], /No object has the id "cup"/);
+  assert.equal(FakeSocket.last.frames[4].byteLength, 40); // frames go on, without both
+});
+
+test("codes that no other attempt would change end the attempts", async () => {
+  for (const code of [4000, 4001, 4003]) {
+    const client = makeClient();
+    const welcome = client.connect();
+    const n = FakeSocket.opened.length;
+    FakeSocket.last.open();
+    FakeSocket.last.fail(code, "wrong token");
+    await assert.rejects(welcome, { kind: "Refused" });
+    mock.timers.tick(60_000);
+    assert.equal(FakeSocket.opened.length, n);
+    assert.equal(heardOf("offline").at(-1).wait_s, null);
+    assert.match(heardOf("error").at(-1).message, /wrong token/);
+  }
+});
+
+test("a server that does not answer is left, without waiting for its socket", async () => {
+  const client = makeClient();
+  client.connect();
+  FakeSocket.last.open();
+  const mute = FakeSocket.last;
+  mock.timers.tick(10_000); // no welcome
+  assert.equal(mute.isClosed, true);
+  mock.timers.tick(250);
+  assert.equal(FakeSocket.opened.length, 2);
+
+  FakeSocket.opened.length = 0;
+  const other = makeClient();
+  await playing(other);
+  other.sendFrame(1);
+  clock_s += 10.1; // more than five heartbeats
+  assert.equal(other.sendFrame(2), 0);
+  assert.equal(other.isPlaying, false);
+  assert.equal(FakeSocket.last.isClosed, true);
+});
+
+test("a message that is too long is not sent", async () => {
+  const client = makeClient();
+  client.connect();
+  await online();
+  const scene = { ...SCENE, name: "ü".repeat(40_000) }; // 80,000 bytes
+  await assert.rejects(client.bake({ scene }), { kind: "MessageTooLarge" });
+  assert.deepEqual(
+    FakeSocket.last.messages.map(({ type }) => type),
+    ["hello"],
+  );
+});
+
+test("leave ends the session and the connection for good", async () => {
+  const client = makeClient();
+  await playing(client);
+  const left = client.leave();
+  assert.equal(client.sendFrame(1), 0);
+  FakeSocket.last.answer("leave", { type: "left" });
+  await left;
+  assert.equal(FakeSocket.last.isClosed, true);
+  mock.timers.tick(60_000);
+  assert.equal(FakeSocket.opened.length, 1);
+});
+
+test("who watches gets gains, sends none, and watches again", async () => {
+  const client = makeClient();
+  client.connect();
+  await online();
+  const watching = client.watch({ session: "c2f1a09b" });
+  await settled();
+  const { key, sequence, ...order } = PLAYING;
+  FakeSocket.last.answer("watch", { ...order, type: "watching" });
+  await watching;
+  FakeSocket.last.bytes(gainsOf({ sequence: 5 }));
+  assert.deepEqual([client.gain("left", "phone"), client.isPlaying, client.sendFrame(1)], [0.5, false, 0]);
+  FakeSocket.last.fail();
+  mock.timers.tick(250);
+  await online();
+  assert.deepEqual(
+    FakeSocket.last.messages.map(({ type }) => type),
+    ["hello", "watch"],
+  );
+});
