@@ -1,6 +1,7 @@
 """Make the pictures of docs/gallery.md from the built-in kitchen and the examples: python docs/pictures/make.py
 
-Needs: pip install 'scene2hap[panda3d,plots]'. Pictures are small, since they are kept in the repository.
+Needs: pip install 'scene2hap[mujoco,panda3d,plots]', and OpenGL for MuJoCo; without a display, set MUJOCO_GL=egl.
+Pictures are small, since they are kept in the repository.
 """
 
 from __future__ import annotations
@@ -51,6 +52,16 @@ def draw_levels(wav: Path, title: str, png: Path) -> None:
     figure.savefig(png, dpi=110)
 
 
+def draw_game(folder: Path, name: str, title: str, view_s: float) -> None:
+    """Draw what both hands feel in a game, and its view after that many seconds."""
+    run(f"{name}.py", "--headless", "-o", str(folder / "game.wav"))
+    draw_levels(folder / "game.wav", title, folder / "felt.png")
+    shrink(folder / "felt.png", f"{name}_felt.png")
+    view = folder / "view.png"
+    run(f"{name}.py", "--headless", "--seconds", str(view_s), "-o", str(folder / "game.wav"), "--picture", str(view))
+    shrink(view, f"{name}.png")
+
+
 def main() -> None:
     """Make all of them."""
     with TemporaryDirectory() as name:
@@ -66,9 +77,8 @@ def main() -> None:
         run("game_in_python.py", str(folder / "game.wav"), "13")
         draw_levels(folder / "game.wav", "The phone is lifted and put down", folder / "game.png")
         shrink(folder / "game.png", "game_in_python.png")
-        run("panda3d_scene.py", "-o", str(folder / "panda3d.wav"))
-        draw_levels(folder / "panda3d.wav", "The phone is carried from the table to the shelf", folder / "panda3d.png")
-        shrink(folder / "panda3d.png", "panda3d_scene.png")
+        draw_game(folder, "panda3d_walk", "A walk: both ends of the table, the washing machine, the shelf", view_s=2.0)
+        draw_game(folder, "mujoco_kitchen", "The phone slides away from the left hand at 2 s", view_s=4.0)
 
 
 if __name__ == "__main__":

@@ -43,6 +43,8 @@ async def answer(request: messages.Request, client: Client, host: Host) -> Docum
         case messages.Cancel():
             await host.jobs.cancel(request.job)
             return {"type": "cancelled", "job": request.job}
+        case messages.Follow():
+            return host.jobs.follow(request.job, client.send)
         case messages.Play():
             return await _play(request, client, host)
         case messages.Resume():

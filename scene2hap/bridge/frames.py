@@ -43,6 +43,11 @@ class Frame(NamedTuple):
     poses: Floats
     touches: NDArray[np.void]
 
+    def after(self, skipped: Frame) -> Frame:
+        """This frame in the place of one before it, whose poses hold where this one has none."""
+        moved = not len(self.poses) and skipped.layout == self.layout
+        return self._replace(poses=skipped.poses) if moved else self
+
 
 class Gains(NamedTuple):
     """Gains that answer a frame.

@@ -103,6 +103,7 @@ class HostedSession:
             raise BridgeError("a frame carries another key than that of the session; copy it from `playing`.")
         if self._waits is not None:
             self.played.n_skipped += 1
+            frame = frame.after(self._waits)
         self._waits, self._reply = frame, reply
         if self._taking is None:
             self._taking = self._loop.create_task(self._take_all())

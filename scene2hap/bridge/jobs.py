@@ -6,6 +6,7 @@ import asyncio
 import contextlib
 import itertools
 import json
+import secrets
 import shutil
 import sys
 import tempfile
@@ -31,9 +32,11 @@ class Jobs:
 
     def __init__(self) -> None:
         self._folder = tempfile.TemporaryDirectory(prefix="scene2hap-bridge-", ignore_cleanup_errors=True)
-        self._job_numbers, self._numbers = itertools.count(1), itertools.count(1)
+        # Not from 1: a number that a client remembers from before a restart must not be another's bake.
+        self._job_numbers, self._numbers = itertools.count(1 + secrets.randbelow(1 << 30)), itertools.count(1)
         self._tasks: dict[int, asyncio.Task[None]] = {}
-        self._bundles: dict[int, Path] = {}
+        self._tells: dict[int, Tell] = {}
+        self._baked: dict[int, tuple[Path, dict[str, Any]]] = {}
 
     @property
     def folder(self) -> Path:
@@ -56,16 +59,28 @@ class Jobs:
             raise BridgeError(f"{MAX_RUNNING} bakes are running already; wait for one to end, or cancel one.")
         job = next(self._job_numbers)
         folder = target or self.folder / f"job-{job}.bundle"
-        self._tasks[job] = asyncio.create_task(self._bake(job, {**wanted, "target": str(folder)}, folder, tell))
+        self._tells[job] = tell
+        self._tasks[job] = asyncio.create_task(self._bake(job, {**wanted, "target": str(folder)}, folder))
         return job
+
+    def follow(self, job: int, tell: Tell) -> dict[str, Any]:
+        """Hand the further messages of a bake to another client, and return how far it is.
+
+        Raises: BridgeError: no such job, or it failed.
+        """
+        if job in self._tasks:
+            self._tells[job] = tell
+            return {"type": "baking", "job": job}
+        self.bundle(job)
+        return self._baked[job][1]
 
     def bundle(self, job: int) -> Path:
         """The folder of a bundle. Raises: BridgeError: no such job, or it has no bundle."""
         if job in self._tasks:
             raise BridgeError(f"job {job} is still baking; wait for its `baked`.")
-        if job not in self._bundles:
+        if job not in self._baked:
             raise BridgeError(f"there is no job {job} with a bundle; bake again.")
-        return self._bundles[job]
+        return self._baked[job][0]
 
     async def cancel(self, job: int) -> None:
         """End a bake. Raises: BridgeError: it is not running."""
@@ -82,7 +97,7 @@ class Jobs:
             await self.cancel(job)
         await asyncio.to_thread(self._folder.cleanup)
 
-    async def _bake(self, job: int, wanted: Mapping[str, Any], folder: Path, tell: Tell) -> None:
+    async def _bake(self, job: int, wanted: Mapping[str, Any], folder: Path) -> None:
         process: asyncio.subprocess.Process | None = None
         try:
             process = await asyncio.create_subprocess_exec(
@@ -100,24 +115,27 @@ class Jobs:
                 last = json.loads(line)
                 if "progress" in last:
                     stage, item, done, of = last["progress"]
-                    tell({"type": "progress", "job": job, "stage": stage, "item": item, "done": done, "of": of})
+                    self._tells[job](
+                        {"type": "progress", "job": job, "stage": stage, "item": item, "done": done, "of": of}
+                    )
             await process.wait()
             if "objects" in last:
-                self._keep(job, folder)
-                tell({"type": "baked", "job": job, "objects": last["objects"]})
+                answer = {"type": "baked", "job": job, "objects": last["objects"]}
+                self._keep(job, folder, answer)
+                self._tells[job](answer)
             else:
                 status = f"it ended with status {process.returncode}, and the server's log tells more"
                 kind, message = last.get("error", ("BridgeError", f"the bake failed: {status}."))
-                tell({"type": "error", "error": kind, "message": message, "job": job})
+                self._tells[job]({"type": "error", "error": kind, "message": message, "job": job})
         except (OSError, ValueError) as cause:
-            tell({**error_message(BridgeError(f"the bake failed: {cause}.")), "job": job})
+            self._tells[job]({**error_message(BridgeError(f"the bake failed: {cause}.")), "job": job})
         finally:
             if process is not None and process.returncode is None:
                 process.kill()
                 # Shielded: the process must be waited for even while the server ends.
                 await asyncio.shield(process.wait())
             self._remove_inputs(wanted)
-            del self._tasks[job]
+            del self._tasks[job], self._tells[job]
 
     def _remove_inputs(self, wanted: Mapping[str, Any]) -> None:
         scene = Path(wanted["scene"])
@@ -126,9 +144,9 @@ class Jobs:
         if wanted["pictures"] is not None:
             shutil.rmtree(wanted["pictures"], ignore_errors=True)
 
-    def _keep(self, job: int, folder: Path) -> None:
-        self._bundles[job] = folder
-        while len(self._bundles) > N_KEPT:
-            forgotten = self._bundles.pop(next(iter(self._bundles)))
+    def _keep(self, job: int, folder: Path, answer: dict[str, Any]) -> None:
+        self._baked[job] = folder, answer
+        while len(self._baked) > N_KEPT:
+            forgotten, _ = self._baked.pop(next(iter(self._baked)))
             if forgotten.is_relative_to(self.folder):
                 shutil.rmtree(forgotten, ignore_errors=True)

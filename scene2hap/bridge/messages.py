@@ -55,6 +55,13 @@ class Cancel(Request):
     job: int
 
 
+class Follow(Request):
+    """Receive the messages of a bake that another connection began."""
+
+    type: Literal["follow"]
+    job: int
+
+
 class Play(Request):
     """Begin a session."""
 
@@ -184,6 +191,7 @@ MODELS: dict[str, type[Request]] = {
     "hello": Hello,
     "bake": Bake,
     "cancel": Cancel,
+    "follow": Follow,
     "play": Play,
     "resume": Resume,
     "watch": Watch,

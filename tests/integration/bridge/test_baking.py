@@ -107,6 +107,19 @@ def test_a_bake_goes_on_without_its_client(bridge: Bridge, root: Path, desk: Hap
     assert HapticBundle.load(root / "alone.bundle").loops.keys() == desk.loops.keys()
 
 
+def test_a_bake_is_followed_over_another_connection(bridge: Bridge, desk: HapticBundle) -> None:
+    server = bridge()
+    scene = json.loads(desk.snapshot.to_json())
+    with Client(server.url) as first:
+        job = first.ask("bake", scene=scene)["job"]
+    with Client(server.url) as second:
+        assert second.ask("follow", job=job) == {"type": "baking", "job": job, "re": second._id}
+        baked = second.hear(lambda one: one.get("job") == job and one["type"] == "baked")
+        assert {**second.ask("follow", job=job), "re": None} == {**baked, "re": None}
+        with pytest.raises(Refused, match="bake again"):
+            second.ask("follow", job=job + 1)
+
+
 def png(shade: int) -> bytes:
     """A picture of one colour."""
     file = io.BytesIO()

@@ -207,6 +207,34 @@ def test_the_newest_frame_wins(bridge: Bridge, monkeypatch: pytest.MonkeyPatch) 
         assert found.skipped == frames["skipped"]
 
 
+def test_poses_of_a_skipped_frame_hold(bridge: Bridge, monkeypatch: pytest.MonkeyPatch) -> None:
+    entered, may_go_on = threading.Event(), threading.Event()
+    update = HapticSession.update
+
+    def slow(self: HapticSession, *args: Any, **options: Any) -> Any:
+        entered.set()
+        assert may_go_on.wait(10)
+        return update(self, *args, **options)
+
+    with Client(bridge().url) as client:
+        client.play(bundle="desk.bundle", moving=["phone"])
+        client.socket.send(client.frame(1, 0.0, poses("phone"), [ON_TABLE]))
+        on_table = client.next_gains().gains[0, 0, 0]
+        monkeypatch.setattr(HapticSession, "update", slow)
+        client.socket.send(client.frame(2, 0.1, np.empty((0, 7)), [ON_TABLE]))
+        assert entered.wait(10)
+        client.socket.send(client.frame(3, 0.2, poses("phone", phone=(0.2, 5.0, 0.0)), [ON_TABLE]))
+        client.socket.send(client.frame(4, 0.3, np.empty((0, 7)), [ON_TABLE]))
+        time.sleep(0.2)
+        may_go_on.set()
+        found = client.next_gains()
+        while found.sequence < 4:
+            found = client.next_gains()
+        assert client.ask("stats")["frames"]["skipped"] >= 1
+        assert on_table > 0.0
+        assert found.gains[0, 0, 0] == 0.0
+
+
 def test_every_frame_is_answered_if_wished(bridge: Bridge) -> None:
     with Client(bridge().url) as client:
         client.play(bundle="desk.bundle", moving=[], frames="every")
