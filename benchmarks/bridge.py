@@ -3,9 +3,9 @@
     python benchmarks/bridge.py [--seconds 20] [--seed 0]
 
 A bridge in a process of its own gets frames at a steady rate. The latency is the time from before a client sends a
-frame until it has its gains, less the time that the session itself took (`update`, and `render` for the clock). The
-processor time is that of the whole bridge less the time of the session. A client in Python takes some of the latency
-for itself.
+frame until it has its gains, less the time that the same frame takes in a game's own process: `update`, `render` for
+the clock, and before both the search for poses that changed, as in an `EngineLink`. The processor time is that of the
+whole bridge less that time. A client in Python takes some of the latency for itself.
 """
 
 from __future__ import annotations
@@ -31,6 +31,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 from bridge_client import Client
 from scene2hap import Box, HapticSession, Pose, SceneObject, SceneSnapshot, Touch, bake
 from scene2hap.bridge import BridgeServer
+from scene2hap.engines.changes import Changes
 
 CASES = ((30, 60.0), (30, 90.0), (500, 90.0))
 
@@ -56,7 +57,7 @@ async def serve(port_file: Path, costs_file: Path, root: str) -> None:
     of_frames: list[float] = []
 
     def noted(method: Any) -> Any:
-        def call(self: HapticSession, *args: Any, **kwargs: Any) -> Any:
+        def call(self: object, *args: Any, **kwargs: Any) -> Any:
             # Not the thread's processor time, which takes a tenth of a millisecond to read on some machines.
             begun = time.perf_counter()
             try:
@@ -66,8 +67,8 @@ async def serve(port_file: Path, costs_file: Path, root: str) -> None:
 
         return call
 
-    for name in ("update", "render"):
-        setattr(HapticSession, name, noted(getattr(HapticSession, name)))
+    for owner, name in ((Changes, "of"), (HapticSession, "update"), (HapticSession, "render")):
+        setattr(owner, name, noted(getattr(owner, name)))
     server, ended = BridgeServer({"port": 0, "root": root}), asyncio.Event()
     for number in (signal.SIGTERM, signal.SIGUSR1):
         asyncio.get_running_loop().add_signal_handler(
@@ -130,16 +131,16 @@ def measured(n_objects: int, rate_hz: float, seconds: float, seed: int) -> dict[
             process.send_signal(signal.SIGTERM)
             process.wait()
             noted = json.loads(costs_file.read_text())
-    # `update` and `render` alternate.
-    inside = np.array(noted["of_frames"][: 2 * n]).reshape(-1, 2).sum(axis=1)
+    calls = np.array(noted["of_frames"][: 3 * n]).reshape(-1, 3)
+    inside = calls.sum(axis=1)
     wire = np.array(took[n_warm:])[: len(inside)] - inside
-    session_s = sum(noted["of_frames"])
     return {
         "p50": float(np.percentile(wire, 50)),
         "p99": float(np.percentile(wire, 99)),
         "worst": float(wire.max()),
-        "bridge": (noted["cpu_s"] - session_s) / lasted,
-        "session": session_s / lasted,
+        "bridge": (noted["cpu_s"] - sum(noted["of_frames"])) / lasted,
+        "changes": float(calls[:, 0].sum()) / lasted,
+        "session": float(calls[:, 1:].sum()) / lasted,
         "skipped": stats["frames"]["skipped"],
         "frames": stats["frames"]["received"],
     }
@@ -156,16 +157,15 @@ def main() -> None:
         asyncio.run(serve(Path(port_file), Path(costs_file), root))
         return
     print(f"Each case for {arguments.seconds:g} s; load {os.getloadavg()[0]:.1f} when it began.\n")
-    print(
-        "| objects | frames/s | wire p50 [ms] | p99 [ms] | worst [ms] | bridge [% of a core] | session [%] | skipped |"
-    )
-    print("|---|---|---|---|---|---|---|---|")
+    columns = "objects", "frames/s", "wire p50 [ms]", "p99 [ms]", "worst [ms]", "bridge [% of a core]"
+    print(f"| {' | '.join(columns)} | changed poses [%] | session [%] | skipped |")
+    print("|---|---|---|---|---|---|---|---|---|")
     for n_objects, rate_hz in CASES:
         one = measured(n_objects, rate_hz, arguments.seconds, arguments.seed)
-        print(
-            f"| {n_objects} | {rate_hz:g} | {1e3 * one['p50']:.2f} | {1e3 * one['p99']:.2f} | {1e3 * one['worst']:.1f} "
-            f"| {100 * one['bridge']:.1f} | {100 * one['session']:.1f} | {one['skipped']:.0f} of {one['frames']:.0f} |"
-        )
+        times = " | ".join(f"{1e3 * one[name]:.2f}" for name in ("p50", "p99", "worst"))
+        shares = " | ".join(f"{100 * one[name]:.1f}" for name in ("bridge", "changes", "session"))
+        skipped = f"{one['skipped']:.0f} of {one['frames']:.0f}"
+        print(f"| {n_objects} | {rate_hz:g} | {times} | {shares} | {skipped} |")
 
 
 if __name__ == "__main__":

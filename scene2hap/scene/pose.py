@@ -57,8 +57,8 @@ class Pose:
     def of_checked(cls, position_m: tuple[float, float, float], rotation_xyzw: tuple[float, ...]) -> Pose:
         """A pose of numbers that were checked already, as those of a `PoseTable`: finite floats, a unit quaternion."""
         pose = object.__new__(cls)
-        fields = pose.__dict__
-        fields["position_m"], fields["rotation_xyzw"] = position_m, rotation_xyzw
+        object.__setattr__(pose, "position_m", position_m)
+        object.__setattr__(pose, "rotation_xyzw", rotation_xyzw)
         return pose
 
     @cached_property

@@ -59,9 +59,10 @@ class PoseTable(Mapping[str, Pose]):
 
     def poses(self, rows: NDArray[np.intp]) -> dict[str, Pose]:
         """The poses in some rows, by id; faster than one by one."""
-        positions, rotations = self.positions_m[rows].tolist(), self.rotations_xyzw[rows].tolist()
+        x, y, z = self.positions_m[rows].T.tolist()
+        qx, qy, qz, qw = self.rotations_xyzw[rows].T.tolist()
         ids, of_checked = self.ids, Pose.of_checked
-        found = zip(rows.tolist(), map(tuple, positions), map(tuple, rotations), strict=True)
+        found = zip(rows.tolist(), zip(x, y, z, strict=True), zip(qx, qy, qz, qw, strict=True), strict=True)
         return {ids[row]: of_checked(position, rotation) for row, position, rotation in found}
 
     def __contains__(self, object_id: object) -> bool:

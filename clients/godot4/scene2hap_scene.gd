@@ -1,0 +1,86 @@
+# Writes nodes as scene JSON, for `bake` and `add` of scene2hap_client.gd.
+#
+# Godot has the axes and the unit of scene JSON: right-handed, Y up, metres. Its triangles turn clockwise seen from
+# outside, those of scene JSON counter-clockwise, so that corners are listed the other way round.
+extends RefCounted
+
+
+# A scene of objects that `object_of` made.
+static func scene_of(name, objects):
+	return {"format": "scene2hap/scene", "version": 1, "name": name, "up_axis": "y", "objects": objects}
+
+
+# A node with the meshes below it, as one object. `name` is what inference reads, such as "Washing machine". `pieces`
+# are the MeshInstance3Ds that belong to it; all below the node if none are given. With `as_box` their bounding box
+# stands for them: smaller, and enough for furniture and things that are nearly boxes.
+static func object_of(node, id, name, as_box = false, pieces = null):
+	var world = node.global_transform
+	var turned = world.basis.get_rotation_quaternion()
+	# Without scale, which a pose of scene JSON does not have: it goes into the vertices.
+	var to_own = Transform3D(Basis(turned), world.origin).affine_inverse()
+	var geometry = {}
+	if pieces == null:
+		pieces = mesh_instances(node)
+	if as_box:
+		geometry = _box(pieces, to_own)
+	else:
+		geometry = _mesh(pieces, to_own)
+	return {
+		"id": id,
+		"name": name,
+		# As exactly as frames have it, while sizes are written with few decimals: hence no Vector3.
+		"pose": {"position_m": [world.origin.x, world.origin.y, world.origin.z], "rotation_xyzw": turned},
+		"geometry": geometry,
+	}
+
+
+# All visible MeshInstance3Ds at and below a node.
+static func mesh_instances(node):
+	var found = []
+	if node is MeshInstance3D and node.mesh != null and node.is_visible_in_tree():
+		found.append(node)
+	for child in node.get_children():
+		found += mesh_instances(child)
+	return found
+
+
+static func _mesh(pieces, to_own):
+	var vertices = PackedVector3Array()
+	var faces = []
+	for piece in pieces:
+		var place = to_own * piece.global_transform
+		var corners = piece.mesh.get_faces()  # three for each triangle, indexed or not
+		var is_mirrored = place.basis.determinant() < 0
+		var number = {}  # of each different corner
+		for i in range(0, corners.size(), 3):
+			var face = []
+			for k in ([0, 1, 2] if is_mirrored else [0, 2, 1]):
+				var corner = corners[i + k]
+				if not number.has(corner):
+					number[corner] = vertices.size()
+					vertices.append(place * corner)
+				face.append(number[corner])
+			if face[0] != face[1] and face[1] != face[2] and face[2] != face[0]:
+				faces.append(face)
+	return {"kind": "mesh", "vertices_m": vertices, "faces": faces}
+
+
+static func _box(pieces, to_own):
+	var box = null
+	for piece in pieces:
+		var one = (to_own * piece.global_transform) * piece.mesh.get_aabb()
+		box = one if box == null else box.merge(one)
+	if box == null:
+		box = AABB()
+	var middle = box.position + box.size / 2
+	if middle.length() < 1e-6 * box.size.length():
+		return {"kind": "box", "size_m": box.size}
+	# A box of scene JSON is centred on its pose. This one is not, and the pose is that of the node.
+	var vertices = PackedVector3Array()
+	for i in range(8):
+		vertices.append(box.position + box.size * Vector3(i & 1, (i >> 1) & 1, (i >> 2) & 1))
+	var faces = [
+		[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4],
+		[2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5],
+	]
+	return {"kind": "mesh", "vertices_m": vertices, "faces": faces}

@@ -1,0 +1,511 @@
+"""The client for Godot 3, in a real Godot without a window."""
+
+import json
+import os
+import re
+import shutil
+import socket
+import struct
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.server import ServerConnection, serve
+
+from scene2hap import SceneSnapshot
+from scene2hap.bridge import BridgeServer
+from scene2hap.bridge.frames import Frame, Gains, decode_frame, encode_gains
+from scene2hap.testing.bridge_client import check_bridge_client
+
+MAIN = Path(__file__).parents[3]
+CLIENT = MAIN / "clients" / "godot3"
+DRIVER = Path(__file__).parent / "godot3"
+GODOT = shutil.which("godot3-server")
+# Godot knows no locale "C", and keeps files of the user below the home folder.
+ENVIRONMENT = {**os.environ, "LC_ALL": "C.UTF-8", "CLIENT": str(CLIENT)}
+
+pytestmark = pytest.mark.skipif(
+    GODOT is None, reason="no godot3-server; on Debian: apt-get install --no-install-recommends godot3-server"
+)
+
+
+def godot(*arguments: str, **environment: str) -> str:
+    """What a run of Godot printed; its own warnings go elsewhere."""
+    run = subprocess.run(
+        [str(GODOT), *arguments],
+        env={**ENVIRONMENT, **environment},
+        capture_output=True,
+        timeout=60,
+        check=False,
+    )
+    assert run.returncode == 0, run.stderr.decode()
+    assert b"SCRIPT ERROR" not in run.stderr, run.stderr.decode()
+    return run.stdout.decode()
+
+
+def drive(scenario: str, **environment: str) -> list[dict[str, Any]]:
+    """The events of a scenario of godot3/driver.gd."""
+    return events_of(godot("--path", str(DRIVER), "--script", "res://driver.gd", SCENARIO=scenario, **environment))
+
+
+def events_of(said: str) -> list[dict[str, Any]]:
+    return [json.loads(line) for line in said.splitlines() if line.startswith('{"event"')]
+
+
+def values(events: list[dict[str, Any]], name: str) -> list[list[Any]]:
+    return [one["values"] for one in events if one["event"] == name]
+
+
+def hex_of_page(before: str) -> str:
+    """The hexadecimal block of the protocol's page behind a sentence."""
+    page = (MAIN / "docs" / "bridge-protocol.md").read_text(encoding="utf-8")
+    found = re.search(re.escape(before) + r".*?```\n(.*?)```", page, re.DOTALL)
+    assert found
+    return re.sub(r"\s", "", found[1])
+
+
+def test_frames_and_gains_are_those_of_the_page() -> None:
+    lines = godot("--path", str(CLIENT / "example"), SCENE2HAP_SELF_TEST="1").splitlines()
+    assert f"frame {hex_of_page('A frame in hexadecimal')}" in lines
+    assert f"of {hex_of_page('Gains that answer it')}" in lines
+    assert lines[-5:] == ["read True", "intensities 0.125 0", "gains 0.5 0", "cut False", "stale 0 0"]
+
+
+def test_it_plays_the_game_of_the_check() -> None:
+    found = check_bridge_client([str(GODOT), "--path", str(CLIENT / "example")], environment={"LC_ALL": "C.UTF-8"})
+    assert found.n_frames == 600
+    assert found.n_resumed == 1
+    assert found.worst < 1e-9  # what nine digits leave of a single below 1
+
+
+def test_it_plays_on_when_the_server_is_killed_and_started_again(tmp_path: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+    out, server = tmp_path / "gains.csv", start_server(port)
+    settings = {"SCENE2HAP_URL": f"ws://127.0.0.1:{port}/", "SCENE2HAP_FRAMES": "60", "SCENE2HAP_RATE_HZ": "60"}
+    game = subprocess.Popen(
+        [str(GODOT), "--path", str(CLIENT / "example")],
+        env={**ENVIRONMENT, **settings, "SCENE2HAP_OUT": str(out), "SCENE2HAP_TELL_AT": "20"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    )
+    try:
+        assert game.stdout is not None
+        line = ""
+        while not line.startswith("frame 20"):
+            line = next(game.stdout)
+        server.kill()
+        server.wait()
+        server = start_server(port)
+        said, _ = game.communicate(timeout=90)
+        assert game.returncode == 0, said
+        assert said.count("lost: ") == 1
+    finally:
+        for process in (game, server):
+            process.kill()
+            process.wait()
+    sequences = [int(line.split(",")[0]) for line in out.read_text().split()]
+    assert sequences == [*range(1, 61)]
+
+
+def start_server(port: int) -> "subprocess.Popen[str]":
+    """A bridge that listens."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "scene2hap", "bridge", "--port", str(port)],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    )
+    for _ in range(800):
+        with socket.socket() as trial:
+            if not trial.connect_ex(("127.0.0.1", port)):
+                return process
+        time.sleep(0.05)
+    process.kill()
+    raise AssertionError("the bridge does not listen")
+
+
+def test_a_wrong_token_is_an_error_that_does_not_show_it(bridge: Callable[..., BridgeServer]) -> None:
+    server = bridge(token="the right one")
+    said = drive("refused", SCENE2HAP_URL=server.url, SCENE2HAP_TOKEN="another")
+    ((kind, message, request),) = values(said, "error")
+    assert (kind, request) == ("BridgeError", 0)
+    assert "token" in message
+    ((reason,),) = values(said, "lost")  # once: another attempt would be refused as well
+    assert "4003" in reason
+    assert "another" not in json.dumps(said)
+
+
+def test_without_a_server_it_says_so_and_connects_once_there_is_one() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+
+    ended = threading.Event()
+
+    def late() -> None:
+        time.sleep(1.0)
+        with scripted(lambda ws: answer_all(ws, []), port):
+            ended.wait(10.0)
+
+    thread = threading.Thread(target=late)
+    thread.start()
+    said = drive("waits", SCENE2HAP_URL=f"ws://127.0.0.1:{port}/")
+    ended.set()
+    thread.join()
+    ((reason,),) = values(said, "lost")
+    assert "is the bridge running?" in reason
+    ((request, answer),) = values(said, "answered")
+    assert answer["re"] == request
+
+
+def test_all_that_a_game_does_with_a_session(bridge: Callable[..., BridgeServer]) -> None:
+    said = drive("tour", SCENE2HAP_URL=bridge().url)
+    answers = dict(values(said, "answered"))
+    after = {work: rest for work, *rest in values(said, "after")}
+
+    def kind_of(work: str) -> object:
+        return answers[after[work][0]]["type"]
+
+    done = ("set_source", "pause", "unpause", "strike", "set_user")
+    assert {kind_of(work) for work in done} == {"done"}
+    assert {kind_of("add"), kind_of("remove"), kind_of("set_moving")} == {"order"}
+    assert answers[after["explain"][0]]["text"]
+    assert answers[after["stats"][0]]["frames"]["received"] == 3 * 9
+    gain, intensity, is_paused, objects = after[""][1:]
+    assert gain == pytest.approx(1.0)  # the hand is on the phone itself
+    assert 0.0 < intensity <= 1.0
+    assert not is_paused
+    assert after["set_source"][1] == pytest.approx(10 ** (-6 / 20), rel=1e-3)
+    assert [after[work][3] for work in ("pause", "unpause")] == [True, False]
+    assert {*after["add"][4]} == {*objects, "lamp"}
+    assert {*after["remove"][4]} == {*objects}
+    assert len(values(said, "order_changed")) == 3
+    assert any(impact["object"] == "table" for (impact,) in values(said, "impact"))
+    ((kind, message, request),) = values(said, "error")
+    assert (kind, request) == ("BridgeError", after["misspelt"][0])
+    assert "strike" in message  # did you mean
+    assert values(said, "playing") == [[False, 0]]
+
+
+def test_another_client_watches(bridge: Callable[..., BridgeServer]) -> None:
+    said = drive("watches", SCENE2HAP_URL=bridge().url)
+    assert values(said, "watched") == [[pytest.approx(1.0), True, 0], [0.0, True, 0]]
+    assert values(said, "state_changed") == [["waiting"]]
+    assert not values(said, "error")
+
+
+def test_the_example_of_the_page_runs(bridge: Callable[..., BridgeServer], tmp_path: Path) -> None:
+    page = (CLIENT / "README.md").read_text(encoding="utf-8")
+    script = page.split("```gdscript\n")[1].split("```")[0]
+    assert "ws://127.0.0.1:7862/" in script
+    for file in (*CLIENT.glob("*.gd"), *DRIVER.iterdir()):
+        shutil.copy(file, tmp_path)
+    (tmp_path / "level.gd").write_text(script.replace("ws://127.0.0.1:7862/", bridge().url), encoding="utf-8")
+    said = godot("--path", str(tmp_path), "--script", "res://driver.gd", SCENARIO="readme")
+    ((intensity, right, left),) = values(events_of(said), "felt")
+    assert 0.0 < intensity < 1.0
+    assert 0.0 < right < 1.0  # through the table
+    assert left == 0.0
+
+
+# ---- Against a scripted server ----
+
+
+ORDER = {
+    "session": "s",
+    "key": "00112233445566ff",
+    "layout": 1,
+    "objects": ["phone", "table"],
+    "n_moving": 1,
+    "hands": ["left", "right"],
+    "sources": [{"id": "phone", "state": "on", "states": ["on"], "frequency_hz": 100.0}],
+    "n_bands": 1,
+    "sequence": 0,
+    "watchdog_s": 0.1,
+}
+
+
+@contextmanager
+def scripted(handle: Callable[[ServerConnection], None], port: int = 0) -> Iterator[str]:
+    """A server that greets each client and then does as `handle` does; its URL."""
+    failures: list[BaseException] = []
+
+    def handler(ws: ServerConnection) -> None:
+        try:
+            hello = json.loads(ws.recv(10))
+            assert (hello["type"], hello["version"]) == ("hello", 1)
+            ws.send(json.dumps({"type": "welcome", "version": 1, "server": "scripted"}))
+            handle(ws)
+        except ConnectionClosed:
+            pass
+        except BaseException as error:
+            failures.append(error)
+            raise
+
+    with serve(handler, "127.0.0.1", port, compression=None) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        try:
+            yield f"ws://127.0.0.1:{server.socket.getsockname()[1]}/"
+        finally:
+            server.shutdown()
+            thread.join()
+    assert not failures, failures
+
+
+def answer_all(ws: ServerConnection, heard: list[dict[str, Any]]) -> None:
+    """Answer all requests with `done`."""
+    while True:
+        message = json.loads(ws.recv(10))
+        heard.append(message)
+        ws.send(json.dumps({"type": "done", "re": message["id"]}))
+
+
+def begin(ws: ServerConnection, **order: object) -> dict[str, Any]:
+    """Answer `play`, and return it."""
+    message: dict[str, Any] = json.loads(ws.recv(10))
+    assert message["type"] == "play"
+    ws.send(json.dumps({"type": "playing", "re": message["id"], **ORDER, **order}))
+    return message
+
+
+def next_frame(ws: ServerConnection) -> Frame:
+    message = ws.recv(10)
+    assert isinstance(message, bytes)
+    return decode_frame(message)
+
+
+def gains_of(sequence: int, *, layout: int = 1, intensity: float = 0.25, flags: int = 0, skipped: int = 0) -> bytes:
+    gains = np.array([[[0.0]], [[0.75]]], np.float32)
+    return encode_gains(Gains(layout, sequence, skipped, 0.0, flags, np.float32([intensity, 0.0]), gains))
+
+
+def test_a_server_that_answers_no_frame_gets_few_and_the_newest() -> None:
+    frames: list[Frame] = []
+
+    def handle(ws: ServerConnection) -> None:
+        assert begin(ws)["moving"] == ["phone"]
+        while True:
+            frames.append(next_frame(ws))
+
+    with scripted(handle) as url:
+        said = drive("flood", SCENE2HAP_URL=url)
+    ((n, n_sent, n_replaced),) = values(said, "counted")
+    assert n > 200
+    # 16 at once, then one each quarter of a second.
+    assert 18 <= len(frames) <= 21
+    assert n_sent == len(frames)
+    assert n_replaced >= n - n_sent - 1
+    sequences = [frame.sequence for frame in frames]
+    assert sequences[:16] == [*range(1, 17)]
+    steps = np.diff(sequences[15:])
+    assert (steps > 20).all()  # of those between, none was sent
+    for frame in frames:  # with the pose of its own time
+        assert frame.poses[0, 0] == frame.sequence - 1
+
+
+def test_poses_are_left_out_once_the_server_has_taken_them() -> None:
+    n_poses = []
+
+    def handle(ws: ServerConnection) -> None:
+        begin(ws)
+        n_poses.append(len(next_frame(ws).poses))
+        # An older frame's gains tell nothing of this one's poses.
+        ws.send(struct.pack("<4sBBH", b"S2HB", 9, 1, 0))  # of a later version
+        ws.send("no JSON")
+        ws.send(gains_of(1))
+        for _ in range(4):
+            frame = next_frame(ws)
+            n_poses.append(len(frame.poses))
+            ws.send(gains_of(frame.sequence))
+        next_frame(ws)
+        ws.send(gains_of(6))
+
+    with scripted(handle) as url:
+        said = drive("rest", SCENE2HAP_URL=url)
+    assert n_poses == [1, 0, 0, 0, 0]
+    assert [one for (one,) in values(said, "gains_received")] == [1, 2, 3, 4, 5, 6]
+    assert len(values(said, "warned")) == 1
+
+
+def test_poses_are_repeated_while_the_server_skips_their_frame() -> None:
+    frames: list[Frame] = []
+
+    def handle(ws: ServerConnection) -> None:
+        begin(ws)
+        frames.extend((next_frame(ws), next_frame(ws)))
+        ws.send(gains_of(1))  # they tell nothing of the poses in frame 2, which this server skips
+        for _ in range(2):
+            frames.append(next_frame(ws))
+            ws.send(gains_of(frames[-1].sequence, skipped=1))
+
+    with scripted(handle) as url:
+        drive("skips", SCENE2HAP_URL=url)
+    assert [frame.poses[:, 0].tolist() for frame in frames] == [[0], [1], [1], []]
+
+
+def test_gains_are_zero_once_they_are_old_and_those_of_another_layout_are_left_out() -> None:
+    def handle(ws: ServerConnection) -> None:
+        begin(ws)
+        ws.send(gains_of(next_frame(ws).sequence, flags=3, skipped=5))
+        ws.send(gains_of(next_frame(ws).sequence, layout=2, intensity=1.0))
+        ws.recv(10)
+
+    with scripted(handle) as url:
+        said = drive("gains", SCENE2HAP_URL=url)
+    first, second = values(said, "now")
+    assert first == [0.25, 0.75, 0.75, 0.0, True, True, 5]
+    assert second == [0.25, 0.75]
+    assert values(said, "later") == [[0.0, 0.0]]
+
+
+def test_requests_carry_all_of_their_values_exactly() -> None:
+    heard: list[dict[str, Any]] = []
+    with scripted(lambda ws: answer_all(ws, heard)) as url:
+        said = drive("requests", SCENE2HAP_URL=url)
+    (sent,) = values(said, "sent")
+    assert [one["id"] for one in heard[: len(sent)]] == sent
+    assert len({*sent}) == len(sent)
+    assert {request for request, _ in values(said, "answered")} >= {*sent}
+    got = {}
+    for one in heard[: len(sent) - 1]:
+        number, kind = one.pop("id"), one.pop("type")
+        assert number
+        got.setdefault(kind, one)
+    single = [float(np.float32(x)) for x in (0.1, 0.724, -1e-5)]
+    assert got.pop("strike") == {
+        "object": "table",
+        "point_m": pytest.approx(single, rel=1e-7),
+        "impulse_n_s": pytest.approx(1.23456789e-7, rel=1e-9),
+    }
+    assert got == {
+        "bake": {"scene": {"name": 'a "b"\n\t\\ é \U0001f600\x01\x0b'}, "user_prompt": ""},
+        "cancel": {"job": 1},
+        "watch": {"session": "x"},
+        "moving": {"moving": ["a", "b"]},
+        "set_source": {"source": "phone", "on": False, "gain_db": -6.1},
+        "set_user": {"mute": True},
+        "add": {"object": {"id": "mug"}},
+        "spawn": {"prefab": "p", "object": "o", "position_m": [1, 2, 3], "rotation_xyzw": [0, 0, 0, 1]},
+        "remove": {"object": "mug"},
+        "pause": {},
+        "unpause": {},
+        "explain": {"hand": "left"},
+        "stats": {},
+        "leave": {},
+    }
+    odd = heard[len(sent) - 1]
+    assert (odd["none"], odd["nan"], odd["list"]) == (None, None, [0.25])
+    assert odd["huge"] == pytest.approx(1.5e300, rel=1e-6)
+    assert odd["tiny"] == pytest.approx(1.5e-300, rel=1e-6)
+    refused = [one for one in values(said, "error") if one[0] == "TooManyRequests"]
+    assert len(refused) == 6  # 64 of 70 wait
+
+
+def test_a_freed_node_keeps_its_pose_and_any_name_is_found() -> None:
+    frames: list[Frame] = []
+    names = ["\U0001f600", "phone"]
+
+    def handle(ws: ServerConnection) -> None:
+        begin(ws, objects=[*names, "table"], n_moving=2)
+        frames.extend((next_frame(ws), next_frame(ws)))
+        ws.send(json.dumps({"type": "order", **ORDER, "layout": 2, "objects": ["phone", names[0]], "n_moving": 2}))
+        frames.append(next_frame(ws))
+        ws.send(json.dumps({"type": "order", **ORDER, "layout": 3, "objects": ["phone", "lamp"], "n_moving": 2}))
+        frames.append(next_frame(ws))
+        ws.recv(10)
+
+    with scripted(handle) as url:
+        said = drive("freed", SCENE2HAP_URL=url)
+    assert values(said, "knows") == [[True, False]]
+    assert [frame.layout for frame in frames] == [1, 1, 2, 3]
+    first, second, third, fourth = frames
+    assert first.poses[:, :3].tolist() == [[1, 2, 3], [0, 0, 0]]
+    assert second.poses[:, :3].tolist() == [[1, 2, 3], [7, 8, 9]]
+    assert third.poses[:, :3].tolist() == [[7, 8, 9], [1, 2, 3]]
+    ((hand, thing, point),) = third.touches.tolist()
+    assert (hand, thing, [*point]) == (0, 1, [4, 5, 6])
+    # For the lamp there is no node, so that no poses are sent rather than wrong ones.
+    assert len(fourth.poses) == 0
+    ((kind, message, _),) = values(said, "error")
+    assert kind == "NotTracked"
+    assert "lamp" in message
+
+
+def test_the_client_for_godot_4_has_the_same_interface() -> None:
+    """All that can be said of it here: there is no Godot 4 to run it."""
+
+    def interface(client: str) -> list[str]:
+        text = (MAIN / "clients" / client / "scene2hap_client.gd").read_text(encoding="utf-8")
+        return re.findall(r"^(?:signal|static func|func|var|const) (?!_)\w+", text, re.MULTILINE)
+
+    def outside_the_socket(names: list[str]) -> list[str]:
+        return [name for name in names if not name.endswith(("_KB", "_BYTES"))]
+
+    three, four = interface("godot3"), interface("godot4")
+    assert len(three) > 60
+    assert outside_the_socket(three) == outside_the_socket(four)
+
+
+# ---- Scenes ----
+
+
+def test_nodes_become_closed_meshes_and_boxes() -> None:
+    said = godot("--path", str(DRIVER), "--script", "res://driver.gd", SCENARIO="scenes")
+    scene = SceneSnapshot.from_json(said[said.index('{"format"') :])
+    rotation = turned(0.3, 0.5, -0.2)
+    assert len(scene.objects) == 9
+    for name, scale in (("plain", (1, 1, 1)), ("scaled", (2, 1, 0.5)), ("mirrored", (-1, 1, 1))):
+        size = np.abs(np.array(scale)) * (0.2, 0.4, 0.6)
+        for suffix in ("", " box"):
+            item = scene.object(name + suffix)
+            np.testing.assert_allclose(item.pose.position_m, (1, 2, 3), atol=1e-6)
+            np.testing.assert_allclose(matrix(item.pose.rotation_xyzw), rotation, atol=1e-6)
+        mesh = scene.object(name).geometry
+        # A cuboid, and a prism of half the volume of its box; a mesh inside out has a volume below 0.
+        expected = size.prod() + np.abs(scale).prod() * 0.3 * 0.2 * 0.1 / 2
+        assert volume(mesh) == pytest.approx(expected, rel=1e-5)
+        box = scene.object(name + " box").geometry
+        low = np.array([-0.5 - 0.15 * abs(scale[0]), -size[1] / 2, -size[2] / 2])
+        high = np.array([0.5 + size[0] / 2, size[1] / 2, size[2] / 2])
+        np.testing.assert_allclose(box.vertices_m.min(axis=0), low, atol=1e-6)
+        np.testing.assert_allclose(box.vertices_m.max(axis=0), high, atol=1e-6)
+        assert volume(box) == pytest.approx((high - low).prod(), rel=1e-5)
+        centred = scene.object(name + " centred")
+        np.testing.assert_allclose(centred.geometry.size_m, size, rtol=1e-6)
+        np.testing.assert_allclose(
+            centred.pose.position_m, np.array((1, 2, 3)) + rotation @ np.array((0.5, 0, 0)), atol=1e-6
+        )
+
+
+def volume(mesh: Any) -> float:
+    a, b, c = (np.asarray(mesh.vertices_m, float)[np.asarray(mesh.faces)[:, k]] for k in range(3))
+    return float((a * np.cross(b, c)).sum() / 6)
+
+
+def turned(x: float, y: float, z: float) -> Any:
+    """Godot's rotation by three angles: about Z, then X, then Y."""
+
+    def about(axis: int, angle: float) -> Any:
+        found = np.eye(3)
+        i, j = (axis + 1) % 3, (axis + 2) % 3
+        found[[i, j], [i, j]] = np.cos(angle)
+        found[j, i], found[i, j] = np.sin(angle), -np.sin(angle)
+        return found
+
+    return about(1, y) @ about(0, x) @ about(2, z)
+
+
+def matrix(quaternion: Any) -> Any:
+    x, y, z, w = quaternion
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + 2 * w * cross + 2 * cross @ cross
