@@ -111,12 +111,14 @@ def test_overrides_stay_when_a_scene_is_baked_again(tmp_path: Path) -> None:
 def test_scenes_that_fail_do_not_stop_the_others(scenes: list[Path], tmp_path: Path) -> None:
     broken = tmp_path / "broken.glb"
     broken.write_bytes(b"glTF" + bytes(40))
-    report = bake_many([broken, tmp_path / "absent.glb", scenes[0]], tmp_path / "out")
-    assert [one.outcome for one in report.scenes] == ["failed", "failed", "baked"]
+    (tmp_path / "room").mkdir()
+    report = bake_many([broken, tmp_path / "absent.glb", tmp_path / "room", scenes[0]], tmp_path / "out")
+    assert [one.outcome for one in report.scenes] == ["failed", "failed", "failed", "baked"]
     assert "SceneFormatError" in report.scenes[0].error
     assert "absent.glb" in report.scenes[1].error
+    assert "not its folder" in report.scenes[2].error
     data = json.loads((tmp_path / "out" / "report.json").read_text())
-    assert (data["baked"], data["failed"]) == (1, 2)
+    assert (data["baked"], data["failed"]) == (1, 3)
 
 
 def test_a_model_is_asked_from_here_and_each_question_once(scenes: list[Path], plain: None, tmp_path: Path) -> None:

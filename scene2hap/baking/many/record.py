@@ -17,7 +17,7 @@ from scene2hap.baking.fingerprint import converter_settings, told
 from scene2hap.errors import ConfigError, SceneError
 from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.wrappers import identity
-from scene2hap.scene.files import is_habitat
+from scene2hap.scene.files import is_habitat, read_bytes
 from scene2hap.scene.habitat import referenced_files
 from scene2hap.text_files import write_whole
 
@@ -34,8 +34,9 @@ def scene_digest(path: Path, options: Mapping[str, Any] | None = None) -> str:
 
     Of a Habitat scene, which says what it refers to, these files count, with the options of `load_scene`. Of other
     files larger than a megabyte, size and time of the last change stand for the bytes.
+    Raises: SceneError: the scene file is missing, a folder, or cannot be read.
     """
-    found = hashlib.sha256(path.read_bytes())
+    found = hashlib.sha256(read_bytes(path))
     if is_habitat(path):
         others = _of_habitat(path, options or {})
     elif path.suffix.lower() not in _SELF_CONTAINED:
