@@ -108,6 +108,7 @@ def test_paths_are_those_that_a_session_explains() -> None:
     ):
         felt = felt_map(bundle, [model], most_points=1500)
         session = HapticSession(bundle, config={"propagation": model})
+        assert session.wait_prepared(60)
         places = [(patch.object_id, point) for patch in felt.patches for point in patch.points_m.tolist()]
         n_compared = 0
         for place in np.random.default_rng(6).choice(len(places), 25, replace=False).tolist():
