@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 from collections import deque
+from collections.abc import Iterable
 from typing import Any
 
 from scene2hap.bridge.hosted import HostedSession
@@ -29,7 +30,7 @@ class Client:
         self.is_too_slow = asyncio.Event()
         self._waiting: deque[str | bytes] = deque()
         self._gains: bytes | None = None
-        self._repeated: bytes | None = None
+        self._repeated: tuple[bytes, ...] = ()
         self._n_gains_waiting = 0
         self._has_room, self._has_work = asyncio.Event(), asyncio.Event()
         self._has_room.set()
@@ -62,16 +63,16 @@ class Client:
         """Play no longer, since the session goes on over another connection."""
         self.hosted = None
 
-    def repeat(self, gains: bytes | None) -> None:
+    def repeat(self, gains: Iterable[bytes]) -> None:
         """Send gains again behind the answer that is under way: those that a lost connection may have swallowed."""
-        self._repeated = gains
+        self._repeated = tuple(gains)
 
     def answer(self, document: dict[str, Any]) -> None:
         """Send the answer to a request, and what is to follow it."""
         self.send(document)
-        if self._repeated is not None:
-            self.send_gains(self._repeated, must_arrive=True)
-            self._repeated = None
+        for gains in self._repeated:
+            self.send_gains(gains, must_arrive=True)
+        self._repeated = ()
 
     async def room(self) -> None:
         """Wait until another frame may be answered."""

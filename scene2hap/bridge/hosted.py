@@ -6,6 +6,7 @@ import asyncio
 import hmac
 import logging
 import secrets
+from collections import deque
 from collections.abc import Callable
 from typing import Any, Literal, ParamSpec, Protocol, TypeVar
 
@@ -18,6 +19,9 @@ P = ParamSpec("P")
 Result = TypeVar("Result")
 
 _log = logging.getLogger("scene2hap.bridge")
+
+N_REPEATED = 64
+"""Gains that are sent again after a lost connection, where every frame is answered."""
 
 Frames = Literal["newest", "every"]
 Reply = Callable[[bytes], None]
@@ -71,7 +75,8 @@ class HostedSession:
         self._taking: asyncio.Task[None] | None = None
         self._forgetting: asyncio.TimerHandle | None = None
         self._is_closed = False
-        self.last_gains: bytes | None = None
+        # All that a lost connection may have swallowed.
+        self.last_gains: deque[bytes] = deque(maxlen=N_REPEATED if frames == "every" else 1)
 
     async def open(self, player: Receiver) -> None:
         """Make the session. Raises: as HapticSession; DeviceError: its sink cannot be opened."""
@@ -119,7 +124,7 @@ class HostedSession:
                     self._tell_player(error_message(error))
                 else:
                     if message is not None:
-                        self.last_gains = message
+                        self.last_gains.append(message)
                         self._send_gains(message, reply)
                 await asyncio.sleep(0)  # so that what has come meanwhile is read before the next is taken
         finally:

@@ -1,0 +1,723 @@
+"""The C# client: game and examples of the protocol page, faults of the server, garbage, Unity's coordinates."""
+
+import base64
+import hashlib
+import json
+import math
+import os
+import random
+import re
+import shutil
+import socket
+import struct
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.testing import check_bridge_client
+from scene2hap.testing.bridge_client import serving
+
+pytest.importorskip("websockets", reason="no WebSocket server; pip install websockets")
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.server import ServerConnection, serve
+
+ROOT = Path(__file__).parents[3]
+CLIENT = ROOT / "clients" / "csharp"
+PAGE = ROOT / "docs" / "bridge-protocol.md"
+COMPILER, RUNTIME = shutil.which("mcs"), shutil.which("mono")
+
+pytestmark = pytest.mark.skipif(
+    COMPILER is None or RUNTIME is None, reason="no C#; apt-get install --no-install-recommends mono-mcs (7 MB)"
+)
+
+TOKEN = "a token that nobody else may read"
+
+
+@pytest.fixture(scope="session")
+def programs(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The example as a game would build it, and the trials with the Unity component on stand-ins."""
+    folder = tmp_path_factory.mktemp("csharp")
+    client = [str(CLIENT / f"Scene2Hap{name}.cs") for name in ("Client", "Connection", "Frames", "Json", "WebSocket")]
+    own = [str(Path(__file__).with_name(name)) for name in ("unity_stubs.cs", "csharp_trials.cs")]
+    # Version 6 of the language: Unity and all other compilers take it.
+    compiler = [str(COMPILER), "-langversion:6", "-warnaserror", "-warn:4"]
+    subprocess.run([*compiler, f"-out:{folder / 'game.exe'}", str(CLIENT / "ExampleGame.cs"), *client], check=True)
+    unity = ["-define:UNITY_5_3_OR_NEWER", str(CLIENT / "Scene2HapBehaviour.cs"), str(CLIENT / "ExampleGame.cs")]
+    subprocess.run([*compiler, f"-out:{folder / 'trials.exe'}", *unity, *client, *own], check=True)
+    return folder
+
+
+@pytest.fixture
+def trial(programs: Path) -> Callable[..., list[str]]:
+    """Runs a trial to its end and returns what it printed."""
+
+    def run(*arguments: object, given: str = "", token: str = "", timeout_s: float = 60.0) -> list[str]:
+        command = [str(RUNTIME), str(programs / "trials.exe"), *map(str, arguments)]
+        # A small nursery, so that little garbage makes a collection.
+        environment = {**os.environ, "SCENE2HAP_TOKEN": token, "MONO_GC_PARAMS": "nursery-size=512k"}
+        done = subprocess.run(
+            command, input=given, capture_output=True, text=True, timeout=timeout_s, env=environment, check=False
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
+        return done.stdout.splitlines()
+
+    return run
+
+
+@contextmanager
+def mock(take: Callable[[ServerConnection, str | bytes], None]) -> Iterator[str]:
+    """A WebSocket server that gives every message to `take`."""
+
+    def serve_one(connection: ServerConnection) -> None:
+        try:
+            for message in connection:
+                take(connection, message)
+        except ConnectionClosed:
+            pass
+
+    with serve(serve_one, "127.0.0.1", 0, compression=None, max_size=None) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        try:
+            yield f"ws://127.0.0.1:{server.socket.getsockname()[1]}/"
+        finally:
+            server.shutdown()
+            thread.join()
+
+
+def order(kind: str, n_moving: int, **more: object) -> str:
+    document = {
+        "type": kind,
+        "session": "c2f1a09b",
+        "key": "00112233445566ff",
+        "layout": 1,
+        "objects": [f"o{k}" for k in range(n_moving)],
+        "n_moving": n_moving,
+        "hands": ["left", "right"],
+        "sources": [{"id": "o1", "state": "on", "states": ["on"], "frequency_hz": 100.0}],
+        "n_bands": 1,
+        "sequence": 0,
+        "watchdog_s": 0.1,
+    }
+    return json.dumps({**document, **more})
+
+
+def gains(sequence: int, intensity: float) -> bytes:
+    """Gains for two hands and one source in one band, written from the table of the page."""
+    begin = struct.pack("<4sBBH8sIId", b"S2HB", 2, 1, 1, bytes(8), sequence, 0, 0.5)
+    return begin + struct.pack("<HHHH4f", 2, 1, 1, 0, intensity, intensity, 0.5, 0.25)
+
+
+def answer_as_desk(connection: ServerConnection, document: dict[str, Any], n_moving: int = 2) -> None:
+    """Answer a request as a bridge that plays the desk of the trials."""
+    kind, number = document["type"], document.get("id")
+    names = ["table", "phone", *(f"o{k}" for k in range(2, n_moving))]
+    if kind == "hello":
+        connection.send(json.dumps({"type": "welcome", "max_message_bytes": 1 << 25}))
+    elif kind == "bake":
+        connection.send(json.dumps({"type": "baking", "re": number, "job": 1}))
+        connection.send(json.dumps({"type": "baked", "job": 1, "objects": []}))
+    elif kind in ("play", "resume"):
+        connection.send(order("playing", n_moving, re=number, objects=names))
+
+
+def sequence_of(frame: bytes) -> int:
+    return int.from_bytes(frame[16:20], "little")
+
+
+def test_both_examples_of_the_protocol_page(programs: Path) -> None:
+    blocks = re.findall(r"```\n(53324842[0-9a-f\s]+)```", PAGE.read_text(encoding="utf-8"))
+    frame, answer = ["".join(block.split()) for block in blocks]
+    command = [str(RUNTIME), str(programs / "game.exe")]
+    environment = {**os.environ, "SCENE2HAP_SELF_TEST": "1"}
+    done = subprocess.run(command, input=blocks[1], capture_output=True, text=True, env=environment, check=True)
+    assert len(answer) == 2 * 56
+    assert done.stdout.splitlines() == [
+        f"frame {frame}",
+        "gains layout 1 sequence 7 skipped 0 time 0.5 hands 2 sources 1 bands 1",
+        "hand 0 intensity 0.125 0.5",
+        "hand 1 intensity 0 0",
+    ]
+
+
+def test_the_example_of_the_readme(tmp_path: Path) -> None:
+    block = re.findall(r"```csharp\n(.*?)```", (CLIENT / "README.md").read_text(encoding="utf-8"), re.DOTALL)[0]
+    head = "using System; using System.Threading; using Scene2Hap; class Readme { static void Main() {"
+    with serving() as server:
+        source = tmp_path / "readme.cs"
+        source.write_text(head + block.replace("ws://127.0.0.1:7862/", server.url).replace("600", "1200") + "} }")
+        parts = [str(one) for one in sorted(CLIENT.glob("Scene2Hap*.cs"))]
+        program = tmp_path / "readme.exe"
+        subprocess.run(
+            [str(COMPILER), "-langversion:6", "-warnaserror", f"-out:{program}", str(source), *parts], check=True
+        )
+        with subprocess.Popen([str(RUNTIME), str(program)], stdout=subprocess.PIPE, text=True) as game:
+            try:
+                assert game.stdout is not None
+                assert any(0 < float(line) <= 1 for line in game.stdout)
+            finally:
+                game.kill()
+
+
+def test_the_game_of_the_protocol_page(programs: Path) -> None:
+    found = check_bridge_client([str(RUNTIME), str(programs / "game.exe")], n_frames=600)
+    assert (found.n_frames, found.n_resumed) == (600, 1)
+
+
+def test_frames_that_do_not_wait_for_the_gains_of_the_last(programs: Path) -> None:
+    found = check_bridge_client([str(RUNTIME), str(programs / "game.exe")], n_frames=120, rate_hz=400, cuts=False)
+    assert found.n_frames == 120
+
+
+def test_every_request(trial: Callable[..., list[str]]) -> None:
+    with serving() as server:
+        lines = trial("requests", server.url)
+    sent = [line.split()[1] for line in lines if line.startswith("sent") and line.endswith("True")]
+    changes = ["set_source", "set_source", "set_user", "strike", "add", "moving", "remove", "pause", "unpause"]
+    assert sent == [*changes, "explain", "stats", "wrong", "leave"]
+    for expected in ("started", "gain True", "frequency True", "muted True", "impact table", "mug 2"):
+        assert expected in lines
+    assert {"order 2 of 3", "order 3 of 3", "order 2 of 2"} <= {*lines}
+    assert any(line.startswith("explanation left touches table") for line in lines)
+    received = next(int(line.split()[1]) for line in lines if line.startswith("received"))
+    assert 4 + 6 * 10 <= received <= 4 + 6 * 11
+    errors = [line for line in lines if line.startswith("error")]
+    assert len(errors) == 3, errors  # the object that no pose was set for, and both mistakes
+    assert "no pose was set for mug" in errors[0]
+    assert "set_source: UnknownObject" in errors[1]
+    assert errors[2] == "error point_m is not finite; give finite numbers."
+    assert "not finite False" in lines
+    assert lines[-2:] == ["left", "state Ready"]
+
+
+def test_a_killed_server_is_played_anew_once_it_is_back(programs: Path) -> None:
+    port = free_port()
+    server = bridge_process(port)
+    command = [str(RUNTIME), str(programs / "trials.exe"), "play", f"ws://127.0.0.1:{port}/", "90"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as game:
+        try:
+            until(game.stdout, "feels")
+            server.kill()
+            server.wait()
+            assert "feels nothing" in until(game.stdout, "state Connecting") + until(game.stdout, "feels nothing")
+            with serving(port=port):
+                after = until(game.stdout, "feels")
+            # The connection's own errors apart, the game sees a new session, and no mistake.
+            after = [line for line in after if not line.startswith("error the connection")]
+            assert after == ["state Ready", "started", "state Playing", "feels"]
+        finally:
+            for process in (game, server):
+                process.kill()
+                process.wait()
+
+
+def test_a_wrong_token_is_reported_and_not_tried_again(trial: Callable[..., list[str]]) -> None:
+    with serving(token=TOKEN) as server:
+        begun = time.monotonic()
+        lines = trial("play", server.url, 20, token="another token")
+        assert time.monotonic() - begun < 10
+        assert any("4003" in line for line in lines)
+        assert "state Failed" in lines
+        assert not any(line in ("started", "state Ready") for line in lines)
+        assert not any("another token" in line for line in lines)
+        assert "feels" in trial("play-until-felt", server.url, token=TOKEN)
+
+
+def test_no_server_blocks_no_frame(trial: Callable[..., list[str]]) -> None:
+    lines = trial("play", f"ws://127.0.0.1:{free_port()}/", 2)
+    # With waits of 0.1, 0.2, 0.4 and 0.8 s between them, 4 or 5 attempts fit into 2 s.
+    assert 3 <= sum(line.startswith("error the connection") for line in lines) <= 5, lines
+    assert float(lines[-2].split()[1]) < 0.5
+    assert lines[-1] == "disposed"
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_200_damaged_messages_end_no_game(trial: Callable[..., list[str]], seed: int) -> None:
+    messages = iter([*damaged(random.Random(seed), 198), gains(1, math.nan), gains(1, math.inf)])
+    n_sent = 0
+    is_through = threading.Event()
+
+    def take(connection: ServerConnection, message: str | bytes) -> None:
+        nonlocal n_sent
+        if isinstance(message, bytes):
+            for one in messages:
+                connection.send(one, text=isinstance(one, str) or None)
+                n_sent += 1
+                if n_sent % 20 == 0:
+                    break
+            else:
+                is_through.set()
+                connection.send(order("order", 2, objects=["table", "phone"]))
+                connection.send(gains(sequence_of(message), 0.5))
+            return
+        answer_as_desk(connection, json.loads(message))
+
+    with mock(take) as url:
+        lines = trial("play-until-felt", url)
+    assert is_through.is_set()
+    assert n_sent == 200
+    assert sum(line.startswith("error") for line in lines) > 20  # they were reported
+    assert any(line.endswith("a number that is not finite.") for line in lines)
+    assert "feels" in lines  # and the game goes on
+    assert lines[-1] == "disposed"
+
+
+def test_gains_that_are_old_are_zero(trial: Callable[..., list[str]]) -> None:
+    """The connection stays, but only the first frame is answered."""
+    n_answered = 0
+
+    def take(connection: ServerConnection, message: str | bytes) -> None:
+        nonlocal n_answered
+        if isinstance(message, str):
+            answer_as_desk(connection, json.loads(message))
+        elif n_answered == 0:
+            n_answered += 1
+            connection.send(gains(sequence_of(message), 0.5))
+
+    with mock(take) as url:
+        lines = trial("play", url, 1.5)
+    assert lines[-5:-2] == ["feels", "feels nothing", "state Playing"]
+
+
+@pytest.mark.parametrize("knows_job", [True, False])
+def test_a_bake_whose_connection_is_lost(trial: Callable[..., list[str]], knows_job: bool) -> None:
+    """The first connection is lost while the server bakes, the second before `playing`. Meanwhile the server may have
+    been restarted, and know no job."""
+    types: list[str] = []
+    unknown = {"type": "error", "error": "BridgeError", "message": "there is no such job."}
+
+    def take(connection: ServerConnection, message: str | bytes) -> None:
+        if isinstance(message, bytes):
+            connection.send(gains(sequence_of(message), 0.5))
+            return
+        document = json.loads(message)
+        types.append(document["type"])
+        if document["type"] == "bake" and types.count("bake") == 1:
+            connection.send(json.dumps({"type": "baking", "re": document["id"], "job": 1}))
+            connection.close()
+        elif document["type"] == "follow":
+            assert document["job"] == 1
+            answer = {"type": "baked", "job": 1, "objects": []} if knows_job else unknown
+            connection.send(json.dumps({**answer, "re": document["id"]}))
+        elif document["type"] == "play" and types.count("play") == 1:
+            connection.close()
+        elif document["type"] == "play" and types.count("play") == 2 and not knows_job:
+            connection.send(json.dumps({**unknown, "re": document["id"]}))
+        else:
+            answer_as_desk(connection, document)
+
+    with mock(take) as url:
+        lines = trial("play-until-felt", url)
+    assert "feels" in lines
+    assert not [line for line in lines if line.startswith("error") and "connection" not in line]
+    if knows_job:
+        assert types == ["hello", "bake", "hello", "follow", "play", "hello", "play", "leave"]
+    else:
+        second = ["hello", "follow", "bake", "play"]
+        assert types == ["hello", "bake", *second, "hello", "play", "bake", "play", "leave"]
+
+
+def test_frames_without_gains_are_sent_again_after_a_resume(programs: Path, tmp_path: Path) -> None:
+    """The server takes in 3 frames of 6 and answers 2; it repeats the last gains behind `playing`. Later it answers
+    three at once."""
+    frames: list[bytes] = []
+    cut: ServerConnection | None = None
+
+    def take(connection: ServerConnection, message: str | bytes) -> None:
+        nonlocal cut
+        if connection is cut:  # what was on its way
+            return
+        if isinstance(message, bytes):
+            frames.append(message)
+            if len(frames) <= 2:
+                connection.send(gains(len(frames), 0.5))
+            elif len(frames) == 6:
+                cut = connection
+                connection.close()
+            elif cut and sequence_of(message) % 3 == 0:
+                for back in (2, 1, 0):
+                    connection.send(gains(sequence_of(message) - back, 0.5))
+        elif json.loads(message)["type"] == "resume":
+            connection.send(order("playing", 30, re=json.loads(message)["id"], sequence=3))
+            connection.send(gains(3, 0.5))
+        elif json.loads(message)["type"] == "leave":
+            connection.send(json.dumps({"type": "left", "re": json.loads(message)["id"]}))
+        else:
+            answer_as_desk(connection, json.loads(message), 30)
+
+    out = tmp_path / "gains.csv"
+    with mock(take) as url:
+        game = {"SCENE2HAP_URL": url, "SCENE2HAP_FRAMES": "12", "SCENE2HAP_RATE_HZ": "200", "SCENE2HAP_OUT": str(out)}
+        command = [str(RUNTIME), str(programs / "game.exe")]
+        subprocess.run(command, env={**os.environ, **game}, check=True, timeout=30)
+    assert [sequence_of(frame) for frame in frames] == [*range(1, 7), *range(4, 13)]
+    assert frames[3:6] == frames[6:9]
+    assert out.read_text().split() == [f"{n},0.5,0.25" for n in range(1, 13)]
+
+
+def damaged(dice: random.Random, n: int) -> Iterator[str | bytes]:
+    """Messages of a server with something wrong: other types and values, cut texts, other bytes."""
+    whole: list[dict[str, Any]] = [
+        json.loads(order("order", 2)),
+        json.loads(order("playing", 2, re=3)),
+        {"type": "welcome", "max_message_bytes": 5},
+        {"type": "error", "error": "BridgeError", "message": "some text", "re": 2, "job": 1},
+        {"type": "progress", "job": 1, "stage": "objects", "item": None, "done": 1, "of": 2},
+        {"type": "impact", "object": "phone", "point_m": [0, 0, 0], "felt": {"left": 0.5}},
+        {"type": "baking", "job": 1, "re": 1},
+        {"type": "baked", "job": 1, "objects": []},
+        {"type": "warning", "message": "some text"},
+        {"type": "done", "re": 5},
+    ]
+    values: list[object] = [
+        None,
+        True,
+        -1,
+        0,
+        1e308,
+        2**64,
+        0.5,
+        "",
+        "x" * 9999,
+        "\ud800",
+        [],
+        [[]],
+        [None],
+        {},
+        {"a": {}},
+        ["left", 1],
+    ]
+    for _ in range(n):
+        way = dice.randrange(7)
+        if way < 3:
+            document = dict(dice.choice(whole))
+            document[dice.choice([*document])] = dice.choice(values)
+            yield json.dumps(document)
+        elif way == 3:
+            text = json.dumps(dice.choice(whole))
+            yield text[: dice.randrange(len(text))]
+        elif way == 4:
+            yield dice.choice(
+                ["[" * 100_000, '{"a":' * 100_000, "null", '{"type":"\\ud8', '{"n":1e999}', '{"n":-}', "\x00", ""]
+            )
+        elif way == 5:
+            message = bytearray(gains(dice.randrange(2**32), 0.5))
+            for _ in range(dice.randrange(1, 6)):
+                message[dice.randrange(len(message))] = dice.randrange(256)
+            yield bytes(message[: dice.choice([len(message), dice.randrange(len(message))])])
+        else:
+            yield dice.randbytes(dice.randrange(100))
+
+
+def test_the_frame_of_a_game_allocates_nothing(trial: Callable[..., list[str]]) -> None:
+    types = []
+
+    def take(connection: ServerConnection, message: str | bytes) -> None:
+        if isinstance(message, bytes):
+            connection.send(gains(sequence_of(message), 0.5))
+            return
+        document = json.loads(message)
+        types.append(document["type"])
+        if document["type"] == "hello":
+            connection.send(json.dumps({"type": "welcome"}))
+        elif document["type"] == "play":
+            connection.send(order("playing", 30, re=document["id"]))
+
+    def allocated(*arguments: object) -> tuple[int, int]:
+        line = next(one for one in trial("garbage", url, *arguments) if one.startswith("allocated")).split()
+        assert int(line[5]) >= 1000
+        return int(line[1]), int(line[3])
+
+    with mock(take) as url:
+        of_game, collections = allocated(10_000)
+        # What prints the figure allocates less than that itself, once.
+        assert of_game < 1000
+        # On no thread: 60 bytes per frame would fill the nursery of 512 KB.
+        assert collections == 0
+        of_game, _ = allocated(1000, "control")
+        assert of_game >= 1000 * 16
+    assert types == 2 * ["hello", "play", "leave"]  # the last one by Dispose
+
+
+def test_pings_are_answered_and_parts_of_messages_joined(trial: Callable[..., list[str]]) -> None:
+    is_answered = False
+
+    def take(connection: ServerConnection, message: str | bytes) -> None:
+        nonlocal is_answered
+        if isinstance(message, bytes):
+            answer = gains(sequence_of(message), 0.5)
+            connection.send([answer[:1], b"", answer[1:41], answer[41:]])
+        elif json.loads(message)["type"] == "hello":
+            # While the client waits and has nothing to send.
+            is_answered = connection.ping(b"x" * 125).wait(5)
+            answer_as_desk(connection, json.loads(message))
+        elif json.loads(message)["type"] == "play":
+            # Longer than 65535 bytes, with characters of several bytes that the parts cut.
+            text = order("playing", 2, re=json.loads(message)["id"], objects=["table", "phone"], more="é" * 70_000)
+            connection.send([text[:5], text[5:-9], text[-9:]])
+        else:
+            answer_as_desk(connection, json.loads(message))
+
+    with mock(take) as url:
+        lines = trial("play-until-felt", url)
+    assert is_answered
+    assert "feels" in lines
+    assert not [line for line in lines if line.startswith("error")]
+
+
+def test_what_is_no_websocket_is_reported(trial: Callable[..., list[str]]) -> None:
+    cases = [
+        (b"", b"\xc1\x00", "a frame that WebSockets do not have"),  # a reserved bit
+        (b"", b"\x81\x81\x00\x00\x00\x00a", "a frame that WebSockets do not have"),  # masked
+        (b"", b"\x89\x7e\x00\x7e" + bytes(126), "a control frame that is too long"),
+        (b"", b"\x09\x00", "a control frame that is too long"),  # in parts
+        (b"", b"\x80\x01a", "parts of messages out of order"),  # the rest of nothing
+        (b"", b"\x01\x01a\x81\x01b", "parts of messages out of order"),  # another begin
+        (b"", b"\x83\x00", "parts of messages out of order"),  # an unknown kind
+        (b"", b"\x82\x7f" + b"\xff" * 8, "a message of the server is too large"),
+        (b"", b"\x82\x7f" + b"\x00\x00\x00\x00\x20\x00\x00\x00", "a message of the server is too large"),
+        (b"", b"\x82\x05abc", "it was lost"),
+        (b"", b"\x88\x02\x0f\xa3", "the server closed the connection (4003)"),
+        (b"", b"\x88\x00", "the server closed the connection (0)"),
+        (b"HTTP/1.1 404 Not Found\r\n\r\n", b"", "the server answered HTTP/1.1 404 Not Found"),
+        (b"HTTP/1.1 101 Well\r\nSec-WebSocket-Accept: no\r\n\r\n", b"", "the server is no WebSocket server"),
+        (b"x" * 20_000, b"", "the server's answer is too long"),
+        (b"SSH-2.0\r\n", b"", "it was lost"),
+    ]
+
+    def serve_raw() -> None:
+        for head, frame, _ in cases:
+            connection, _ = listener.accept()
+            with connection:
+                asked = b""
+                while b"\r\n\r\n" not in asked:
+                    asked += connection.recv(4096)
+                key = re.search(rb"Sec-WebSocket-Key: (\S+)", asked)
+                assert key is not None
+                digest = hashlib.sha1(key[1] + b"258EAFA5-E914-47DA-95CA-C5AB0DC85B11").digest()
+                accept = b"HTTP/1.1 101 Yes\r\nsec-websocket-accept: " + base64.b64encode(digest) + b"\r\n\r\n"
+                connection.sendall((head or accept) + frame)
+                connection.shutdown(socket.SHUT_WR)
+                while connection.recv(4096):  # until the client has given up
+                    pass
+
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        thread = threading.Thread(target=serve_raw)
+        thread.start()
+        lines = trial("first-errors", f"ws://127.0.0.1:{listener.getsockname()[1]}/", len(cases))
+        thread.join(10)
+    for line, (_, _, expected) in zip(lines, cases, strict=True):
+        assert expected in line
+
+
+def test_another_scheme_is_reported(trial: Callable[..., list[str]]) -> None:
+    (line,) = trial("first-errors", "wss://127.0.0.1:1/", 1)
+    assert line == "the connection to wss://127.0.0.1:1/ failed: its address must begin with ws://"
+
+
+@contextmanager
+def stalled(programs: Path, trial: str) -> Iterator[tuple[list[str], list[int | str], threading.Event]]:
+    """What a client printed that has sent large frames to a server which does not read; what the server reads once the
+    event is set: sequences of frames, and types of requests."""
+    reads = threading.Event()
+    seen: list[int | str] = []
+
+    def take(connection: ServerConnection, message: str | bytes) -> None:
+        if isinstance(message, bytes):
+            reads.wait(30)
+            seen.append(sequence_of(message))
+            return
+        document = json.loads(message)
+        if document["type"] == "hello":
+            connection.send(json.dumps({"type": "welcome"}))
+        elif document["type"] == "play":
+            connection.send(order("playing", 40_000, re=document["id"]))
+        else:
+            seen.append(document["type"])
+
+    with mock(take) as url:
+        command = [str(RUNTIME), str(programs / "trials.exe"), trial, url]
+        with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as game:
+            try:
+                yield until(game.stdout, "sent")[-1].split(), seen, reads
+            finally:
+                reads.set()
+                game.kill()
+
+
+def wait_for(last: int, seen: list[int | str]) -> None:
+    for _ in range(500):
+        if seen[-1:] == [last]:
+            return
+        time.sleep(0.02)
+    raise AssertionError(f"frame {last} did not come: {seen}")
+
+
+def test_the_newest_frame_wins_while_the_server_does_not_read(programs: Path) -> None:
+    with stalled(programs, "stalled") as (sent, seen, reads):
+        assert int(sent[1]) == 100
+        assert float(sent[3]) < 0.2
+        reads.set()
+        wait_for(100, seen)
+        assert seen == sorted({*seen})
+        assert len(seen) < 60, "frames waited that a newer one should have replaced"
+
+
+def test_64_frames_wait_if_every_one_is_to_be_answered(programs: Path) -> None:
+    with stalled(programs, "stalled-every") as (sent, seen, reads):
+        assert int(sent[1]) == 64  # of 70
+        reads.set()
+        wait_for(64, seen)
+        assert seen == [*range(1, 21), "pause", *range(21, 65)]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *(
+            '{"a":[1,2.5,-3e-2,true,false,null,"x"],"b":{}}',
+            '"\\u00e9\\n\\"\\\\\\/ é € 𝄞 \\ud834\\udd1e"',
+            "[]",
+            "-0.0",
+        ),
+        *("[[[[[[[[1]]]]]]]]", ' { "a" : 1 } ', "1e-400", "9007199254740992"),
+    ],
+)
+def test_json_is_read_and_written_as_python_does(trial: Callable[..., list[str]], text: str) -> None:
+    (line,) = trial("json", given=text + "\n")
+    assert line.startswith("read "), line
+    assert json.loads(line.removeprefix("read ")) == {"v": json.loads(text)}
+
+
+def test_what_is_no_json_is_refused_with_its_place(trial: Callable[..., list[str]]) -> None:
+    wrong = ['{"a" "b"', "[1,2", '{"a":}', '"abc', "tru", "1 2", "{1:2}", "[1 2]", '"\\x"', "nul", '"\\u12g4"', "--1"]
+    wrong += ["1e999", "\t\x01"]
+    lines = trial("json", given="\n".join(wrong) + "\n")
+    assert len(lines) == len(wrong)
+    for line in lines:
+        assert re.fullmatch(r"refused .+ at character \d+", line), line
+
+
+def test_unity_scene_as_matrix_algebra_has_it(trial: Callable[..., list[str]]) -> None:
+    """A point p of Unity's world is M p in a right-handed one, with M = diag(-1, 1, 1), whatever frames lie between."""
+    text = trial("unity-scene", "meshes")
+    assert text[1] == "none True"
+    scene = json.loads(text[0])
+    assert [item["id"] for item in scene["objects"]] == ["Room/Wedge (1)", "Room#0/Mug#1", "Room#0/Mug#2"]
+    assert [item["name"] for item in scene["objects"]] == ["Wedge", "Mug", "Mug"]
+    room = affine((0.5, 0, -1), (0, 0.6, 0, 0.8), (1, 1, 1))
+    wedge = room @ affine((1, 2, 3), (0.48, 0.36, 0, 0.8), (2, 0.5, 1))
+    part = wedge @ affine((0, 1, 0), (0, 0, 0.6, 0.8), (-1, 1, 1))
+    corners = np.array([(0, 0, 0), (2, 0, 0), (0, 1, 0), (0, 0, 0.5)], float)
+    mirror = np.diag([-1.0, 1.0, 1.0])
+    in_unity = np.concatenate([moved(wedge, corners), moved(part, corners)])
+    item = scene["objects"][0]
+    frame = affine(item["pose"]["position_m"], item["pose"]["rotation_xyzw"], (1, 1, 1))
+    written = np.array(item["geometry"]["vertices_m"])
+    np.testing.assert_allclose(moved(frame, written), in_unity @ mirror, atol=1e-5)
+    # The frame itself: its rotation is M R M, its origin M p.
+    rotation = room[:3, :3] @ turn((0.48, 0.36, 0, 0.8))
+    np.testing.assert_allclose(frame[:3, :3], mirror @ rotation @ mirror, atol=1e-6)
+    np.testing.assert_allclose(frame[:3, 3], mirror @ wedge[:3, 3], atol=1e-5)
+    # Unity's faces are clockwise seen from outside; (b - a) x (c - a) by components points outwards there, as in the
+    # quad of its manual: corners 0, (0, h, 0), (w, 0, 0) have the normal (0, 0, -1).
+    # Both pieces, the mirrored one too, have their faces outwards: 2 * 1 * 0.5 / 6, scaled by 2 * 0.5 * 1.
+    faces = np.array(item["geometry"]["faces"])
+    for piece in (faces[:4], faces[4:]):
+        a, b, c = written[piece].transpose(1, 0, 2)
+        assert (a * np.cross(b, c)).sum() / 6 == pytest.approx(1 / 6, rel=1e-5)
+    SceneSnapshot.from_json(text[0])
+
+
+def test_unity_boxes_enclose_their_meshes(trial: Callable[..., list[str]]) -> None:
+    scene = json.loads(trial("unity-scene", "boxes")[0])
+    room = affine((0.5, 0, -1), (0, 0.6, 0, 0.8), (1, 1, 1))
+    mug = scene["objects"][2]
+    assert mug["geometry"]["kind"] == "box"
+    np.testing.assert_allclose(mug["geometry"]["size_m"], (2, 1, 0.5), atol=1e-5)
+    # Centred on the middle of its mesh (1, 0.5, 0.25), one above the room's floor.
+    centre = moved(room @ affine((0, 1, 0), (0, 0, 0, 1), (1, 1, 1)), np.array([[1, 0.5, 0.25]]))[0]
+    np.testing.assert_allclose(mug["pose"]["position_m"], centre * (-1, 1, 1), atol=1e-5)
+    wedge = scene["objects"][0]
+    turned = turn((0.48, 0.36, 0, 0.8))
+    corners = np.array([(x, y, z) for x in (0, 2) for y in (0, 1) for z in (0, 0.5)], float)
+    pieces = affine((0, 0, 0), (0, 0, 0, 1), (2, 0.5, 1))
+    part = pieces @ affine((0, 1, 0), (0, 0, 0.6, 0.8), (-1, 1, 1))
+    own = np.concatenate([moved(pieces, corners), moved(part, corners)])
+    np.testing.assert_allclose(wedge["geometry"]["size_m"], np.ptp(own, axis=0), atol=1e-5)
+    middle = (own.max(axis=0) + own.min(axis=0)) / 2
+    position = moved(room, np.array([turned @ middle + (1, 2, 3)]))[0]
+    np.testing.assert_allclose(wedge["pose"]["position_m"], position * (-1, 1, 1), atol=1e-5)
+
+
+def test_the_unity_component_drives_both_controllers(trial: Callable[..., list[str]]) -> None:
+    with serving(token=TOKEN) as server:
+        lines = trial("unity-play", server.url, token=TOKEN)
+    assert lines[:2] == ["tracked True", "untracked False"]
+    left, right = [float(word) for word in lines[2].split()[1:]]
+    assert 0 < left < right <= 1  # the right hand holds the phone, the left one touches the table 10 cm beside it
+    assert lines[3:7] == ["removed", "added", "lifted True", "held True"]
+    assert not [line for line in lines if line.startswith("logged error")]
+
+
+def turn(q: tuple[float, ...]) -> np.ndarray:
+    """The matrix of a quaternion (x, y, z, w)."""
+    x, y, z, w = q
+    return np.array(
+        [
+            (1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)),
+            (2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)),
+            (2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)),
+        ]
+    )
+
+
+def affine(position: tuple[float, ...], q: tuple[float, ...], scale: tuple[float, ...]) -> np.ndarray:
+    found = np.eye(4)
+    found[:3, :3] = turn(q) * np.array(scale)
+    found[:3, 3] = position
+    return found
+
+
+def moved(by: np.ndarray, points: np.ndarray) -> np.ndarray:
+    return np.asarray(points @ by[:3, :3].T + by[:3, 3])
+
+
+def free_port() -> int:
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return int(one.getsockname()[1])
+
+
+def bridge_process(port: int) -> subprocess.Popen[bytes]:
+    """A bridge in a process of its own, that listens."""
+    command = [sys.executable, "-m", "scene2hap", "bridge", "--port", str(port)]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    for _ in range(300):
+        try:
+            socket.create_connection(("127.0.0.1", port), 1).close()
+        except OSError:
+            time.sleep(0.1)
+        else:
+            return process
+    process.kill()
+    raise AssertionError("the bridge does not listen")
+
+
+def until(lines: Any, begin: str) -> list[str]:
+    """The lines up to one, or one that begins so and goes on with a space and a number."""
+    found = []
+    for line in lines:
+        found.append(line.strip())
+        if found[-1] == begin or re.fullmatch(re.escape(begin) + r" \d.*", found[-1]):
+            return found
+    raise AssertionError(f"{begin!r} did not come: {found}")
