@@ -34,6 +34,11 @@ def test_the_game_of_the_protocol_page() -> None:
     assert found.worst < 1e-6
 
 
+def test_no_answer_is_lost_with_frames_in_flight() -> None:
+    found = check_bridge_client([sys.executable, "-W", "error", game], n_frames=120, rate_hz=400.0)
+    assert (found.n_frames, found.n_resumed) == (120, 1)
+
+
 def test_gains_are_those_of_a_session_here(bridge: Bridge, desk: HapticBundle) -> None:
     session = HapticSession(desk)
     with Client(bridge().url) as client:
