@@ -69,7 +69,7 @@ async def serve(port_file: Path, costs_file: Path, root: str) -> None:
 
     for owner, name in ((Changes, "of"), (HapticSession, "update"), (HapticSession, "render")):
         setattr(owner, name, noted(getattr(owner, name)))
-    server, ended = BridgeServer({"port": 0, "root": root}), asyncio.Event()
+    server, ended = BridgeServer({"port": 0, "root": root}, owns_process=True), asyncio.Event()
     for number in (signal.SIGTERM, signal.SIGUSR1):
         asyncio.get_running_loop().add_signal_handler(
             number, ended.set if number == signal.SIGTERM else lambda: begin(costs, of_frames)

@@ -151,7 +151,8 @@ async def _play(request: messages.Play, client: Client, host: Host) -> Document:
         raise
     host.host(hosted, plays_sink=sink is not None)
     client.hosted = hosted
-    await asyncio.to_thread(settle_garbage)
+    if host.owns_process:
+        await asyncio.to_thread(settle_garbage)
     return _playing(hosted, await hosted.run(hosted.played.order), host)
 
 

@@ -15,8 +15,8 @@ from scene2hap.errors import BridgeError, UnknownSession
 class Host:
     """The sessions and bakes of a bridge that listens; one for as long as it does."""
 
-    def __init__(self, config: BridgeConfig) -> None:
-        self.config, self.jobs = config, Jobs()
+    def __init__(self, config: BridgeConfig, *, owns_process: bool) -> None:
+        self.config, self.owns_process, self.jobs = config, owns_process, Jobs()
         self.udp_port: int | None = None
         self._sessions: dict[str, HostedSession] = {}
         self._plays_sink: HostedSession | None = None

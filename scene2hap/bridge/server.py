@@ -39,12 +39,15 @@ NO_HELLO, OTHER_VERSION, WRONG_TOKEN, TOO_MANY = 4000, 4001, 4003, 4009
 class BridgeServer:
     """Serves clients until it is closed; use `async with server.listening():`.
 
-    Parameters: config : a BridgeConfig, its settings, or the path of a file with a table `bridge`.
+    Parameters: config : a BridgeConfig, its settings, or the path of a file with a table `bridge`; owns_process :
+    whether nothing else runs in this process, so that the bridge may spare frames the garbage collector.
     Raises: ConfigError; MissingExtra: `websockets` is not installed.
     """
 
-    def __init__(self, config: BridgeConfig | dict[str, Any] | str | None = None) -> None:
-        self.config = BridgeConfig.parse(config)
+    def __init__(
+        self, config: BridgeConfig | dict[str, Any] | str | None = None, *, owns_process: bool = False
+    ) -> None:
+        self.config, self._owns_process = BridgeConfig.parse(config), owns_process
         self.port = self.config.port
         self.connections: set[Connection] = set()
         self._n_clients = 0
@@ -53,7 +56,7 @@ class BridgeServer:
     async def listening(self) -> AsyncIterator[BridgeServer]:
         """Listen, and end everything afterwards. Raises: ConfigError: host or port cannot be used."""
         config = self.config
-        self.host = Host(config)
+        self.host = Host(config, owns_process=self._owns_process)
         datagrams: asyncio.DatagramTransport | None = None
         try:
             listening = await serve(

@@ -59,7 +59,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     }
     read = read_settings(arguments.settings, "bridge")
     tables = {name: read_settings(arguments.settings, name) for name in ("bake", "session")}
-    server = BridgeServer(BridgeConfig.parse({**tables, **read}, **given))
+    server = BridgeServer(BridgeConfig.parse({**tables, **read}, **given), owns_process=True)
     with warnings_to_clients():
         asyncio.run(_serve(server, console))
     return {"url": server.url}
