@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import time
+from collections import Counter
 from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
@@ -28,10 +29,16 @@ ANSWER = Draft202012Validator(
 )
 
 
+MOST_HELD = 100
+n_held: Counter[str] = Counter()
+
+
 def answered(message: str) -> dict[str, Any]:
     """A message of the server, held against the published schema."""
     found: dict[str, Any] = json.loads(message)
-    if found["type"] != "of a later server":
+    kind = found["type"]
+    if kind != "of a later server" and n_held[kind] < MOST_HELD:  # one takes some milliseconds
+        n_held[kind] += 1
         ANSWER.validate(found)
     return found
 

@@ -138,7 +138,7 @@ typedef struct s2h_bake_settings {
   const char *more; /* such as {"user_prompt": "a kitchen", "save": "kitchen.bundle"} */
 } s2h_bake_settings;
 
-/* Bake a scene. It is kept, and baked again if the connection is lost before the bake ends. */
+/* Bake a scene. It is kept: the next connection follows the bake, or repeats it if the server has forgotten it. */
 uint32_t s2h_bake(s2h_client *client, const s2h_bake_settings *bake);
 
 /* One of `job` (of a bake) and `bundle` (path below the server's root); without both, the last bake once it ends. */
@@ -1249,8 +1249,10 @@ bool s2h_decode_gains(const uint8_t *data, size_t n, s2h_gains *gains, float *va
 
 enum { S2H__STOPPED, S2H__WAITING, S2H__CONNECTING, S2H__HANDSHAKE, S2H__GREETING, S2H__ONLINE };
 
-/* Of a bake or a session: wanted, sent, and then either baking and baked, or active and resumed. */
-enum { S2H__NONE, S2H__WANTED, S2H__SENT, S2H__BAKING, S2H__BAKED, S2H__ACTIVE, S2H__TO_RESUME, S2H__RESUMING };
+/* Of a bake or a session that is kept for every connection. */
+enum { S2H__NONE, S2H__WANTED, S2H__SENT };
+enum { S2H__BAKING = S2H__SENT + 1, S2H__TO_FOLLOW, S2H__FOLLOWING, S2H__BAKED };
+enum { S2H__ACTIVE = S2H__SENT + 1, S2H__TO_RESUME, S2H__RESUMING };
 
 enum { S2H__TEXT = 1, S2H__BINARY = 2, S2H__CLOSE = 8, S2H__PING = 9, S2H__PONG = 10 };
 
@@ -1674,7 +1676,8 @@ static void s2h__forget_connection(s2h_client *c) {
   c->n_header = c->n_message = c->n_control = 0;
   c->is_in_payload = c->is_in_message = c->has_pong = c->cannot_send = false;
   c->gains_s = S2H__LONG_AGO_S;
-  if (c->bake_phase == S2H__SENT || c->bake_phase == S2H__BAKING) c->bake_phase = S2H__WANTED;
+  if (c->bake_phase == S2H__SENT) c->bake_phase = S2H__WANTED;
+  if (c->bake_phase == S2H__BAKING || c->bake_phase == S2H__FOLLOWING) c->bake_phase = S2H__TO_FOLLOW;
   if (c->play_phase == S2H__SENT) c->play_phase = S2H__WANTED;
   if (c->play_phase == S2H__ACTIVE || c->play_phase == S2H__RESUMING) c->play_phase = S2H__TO_RESUME;
 }
@@ -2320,22 +2323,22 @@ static void s2h__send_wanted(s2h_client *c) {
     s2h_writer_free(&writer);
   }
   if (c->play_phase == S2H__WANTED && !c->needs_bake) {
-    if (c->play_job != 0 && c->play_job == c->bake_job && c->bake_phase == S2H__BAKED && c->bake_epoch != c->epoch) {
-      /* The server may have been restarted. It then counts jobs from 1 again, so that this job may be another's. */
-      c->needs_bake = c->bakes_again = true;
-      c->bake_phase = S2H__WANTED;
-    } else {
-      s2h_writer writer = S2H_WRITER;
-      s2h_write_begin(&writer, NULL, '{');
-      if (c->play_job != 0) s2h_write_number(&writer, "job", (double)c->play_job);
-      s2h__write_fields(&writer, c->play_fields);
-      s2h_write_end(&writer, '}');
-      c->play_phase = S2H__SENT;
-      if (!s2h__send_request(c, c->is_watching ? "watch" : "play", c->play_id, s2h_writer_text(&writer))) {
-        c->play_phase = S2H__NONE;
-      }
-      s2h_writer_free(&writer);
+    s2h_writer writer = S2H_WRITER;
+    s2h_write_begin(&writer, NULL, '{');
+    if (c->play_job != 0) s2h_write_number(&writer, "job", (double)c->play_job);
+    s2h__write_fields(&writer, c->play_fields);
+    s2h_write_end(&writer, '}');
+    c->play_phase = S2H__SENT;
+    if (!s2h__send_request(c, c->is_watching ? "watch" : "play", c->play_id, s2h_writer_text(&writer))) {
+      c->play_phase = S2H__NONE;
     }
+    s2h_writer_free(&writer);
+  }
+  if (c->bake_phase == S2H__TO_FOLLOW) {
+    char fields[32];
+    (void)snprintf(fields, sizeof fields, "{\"job\":%lu}", (unsigned long)c->bake_job);
+    c->bake_phase = S2H__FOLLOWING;
+    if (!s2h__send_request(c, "follow", s2h__next_id(c), fields)) c->bake_phase = S2H__WANTED;
   }
   if (c->bake_phase == S2H__WANTED) {
     c->bake_phase = S2H__SENT;
@@ -2845,6 +2848,15 @@ static bool s2h__take_error(s2h_client *c, s2h_event *event, const char *request
     }
   } else if (c->play_phase == S2H__SENT && event->request != 0 && event->request == c->play_id) {
     c->play_phase = S2H__NONE;
+    if (c->play_job != 0 && c->play_job == c->bake_job && c->bake_phase == S2H__BAKED && c->bake_epoch != c->epoch) {
+      /* The job was of an earlier connection: the server was restarted, or keeps too many since. */
+      c->bake_phase = c->play_phase = S2H__WANTED;
+      c->needs_bake = c->bakes_again = true;
+      return false;
+    }
+  } else if (c->bake_phase == S2H__FOLLOWING && strcmp(request, "follow") == 0) {
+    c->bake_phase = S2H__WANTED;
+    return false;
   } else if ((c->bake_phase == S2H__SENT && event->request != 0 && event->request == c->bake_id) ||
              (c->bake_phase == S2H__BAKING && event->job != 0 && event->job == c->bake_job)) {
     event->request = c->bake_id;
@@ -2878,9 +2890,12 @@ static bool s2h__take_text(s2h_client *c, s2h_event *event, const char *text, si
     if (!(c->heartbeat_s >= 0.4)) c->heartbeat_s = 0.4;
     if (c->heartbeat_s > 60.0) c->heartbeat_s = 60.0;
     event->type = S2H_ONLINE;
-  } else if (strcmp(type, "baking") == 0 && c->bake_phase == S2H__SENT && event->request == c->bake_id) {
+  } else if (strcmp(type, "baking") == 0 &&
+             (c->bake_phase == S2H__FOLLOWING ? strcmp(request, "follow") == 0
+                                              : c->bake_phase == S2H__SENT && event->request == c->bake_id)) {
     c->bake_phase = S2H__BAKING;
     c->bake_job = event->job;
+    event->request = c->bake_id;
     event->type = S2H_BAKING;
   } else if (strcmp(type, "progress") == 0) {
     event->type = S2H_PROGRESS;
@@ -2888,7 +2903,7 @@ static bool s2h__take_text(s2h_client *c, s2h_event *event, const char *text, si
     if (event->text[0] == '\0') event->text = s2h__event_text(c, s2h_json_get(message, "stage"));
   } else if (strcmp(type, "baked") == 0) {
     event->type = S2H_BAKED;
-    if (c->bake_phase == S2H__BAKING && event->job == c->bake_job) {
+    if ((c->bake_phase == S2H__BAKING || c->bake_phase == S2H__FOLLOWING) && event->job == c->bake_job) {
       event->request = c->bake_id;
       c->bake_phase = S2H__BAKED;
       c->bake_epoch = c->epoch;
@@ -2965,7 +2980,7 @@ static bool s2h__take_note(s2h_client *c, s2h_event *event) {
 
 /* Hand over that a request was lost with its connection, if one was. */
 static bool s2h__take_lost(s2h_client *c, s2h_event *event) {
-  static const char *const kept[] = {"hello", "bake", "play", "watch", "resume"};
+  static const char *const kept[] = {"hello", "bake", "follow", "play", "watch", "resume"};
   while (c->n_pending > 0) {
     char type[16];
     uint32_t id = c->pending[0].id;

@@ -630,6 +630,9 @@ def test_a_session_that_was_forgotten_is_baked_and_played_again(driver: Driver) 
             message = next_request(ws, "resume")
             assert (message["session"], message["key"]) == ("s", ORDER["key"])
             say(ws, "error", error="UnknownSession", message="gone", re=message["id"])
+            message = next_request(ws, "play")
+            assert message["job"] == 1
+            say(ws, "error", error="BridgeError", message="there is no job 1", re=message["id"])
         message = next_request(ws, "bake")
         assert message["scene"] == scene
         say(ws, "baking", re=message["id"], job=number)
@@ -660,6 +663,65 @@ def test_a_session_that_was_forgotten_is_baked_and_played_again(driver: Driver) 
         assert (lost["error"], lost["request"]) == ("ConnectionLost", pause)
         assert not playing["is_resumed"]
         assert driver.one("frame 1")["sent"] == 1  # its clock may begin anew
+
+
+def test_a_session_that_ended_is_played_again_without_a_bake(driver: Driver) -> None:
+    def handle(ws: ServerConnection, number: int) -> None:
+        if number == 0:
+            message = next_request(ws, "bake")
+            say(ws, "baking", re=message["id"], job=8)
+            say(ws, "baked", job=8, objects=[])
+        else:
+            message = next_request(ws, "resume")
+            say(ws, "error", error="UnknownSession", message="gone", re=message["id"])
+        assert begin(ws)["job"] == 8
+        if number == 0:
+            ws.socket.close()
+            return
+        until_closed(ws)
+
+    with scripted(handle) as url:
+        driver.do(f"create {url} - 0 0")
+        driver.one("bake {}")
+        driver.one("play 0 - phone newest")  # of the bake, once it ends
+        assert not driver.until("playing")["is_resumed"]
+        assert kinds(driver.before) == ["online", "baking", "baked"]
+        assert not driver.until("playing")["is_resumed"]
+        assert kinds(driver.before) == ["offline", "online"]
+
+
+@pytest.mark.parametrize("is_forgotten", [False, True])
+def test_a_bake_is_followed_over_the_next_connection(driver: Driver, is_forgotten: bool) -> None:
+    def handle(ws: ServerConnection, number: int) -> None:
+        if number == 0:
+            message = next_request(ws, "bake")
+            say(ws, "baking", re=message["id"], job=7)
+            ws.socket.close()
+            return
+        message = next_request(ws, "follow")
+        assert message["job"] == 7
+        if number == 1:
+            say(ws, "baking", re=message["id"], job=7)
+            say(ws, "progress", job=7, stage="infer", item="phone", done=1, of=2)
+            ws.socket.close()
+            return
+        if is_forgotten:
+            say(ws, "error", error="BridgeError", message="there is no job 7", re=message["id"])
+            message = next_request(ws, "bake")
+            assert message["scene"] == {"name": "x"}
+            say(ws, "baking", re=message["id"], job=9)
+            say(ws, "baked", job=9, objects=[])
+        else:
+            say(ws, "baked", re=message["id"], job=7, objects=[])
+        until_closed(ws)
+
+    with scripted(handle) as url:
+        driver.do(f"create {url} - 0 0")
+        bake = driver.one('bake {"name": "x"}')["request"]
+        baked = driver.until("baked")
+        assert (baked["request"], baked["job"]) == (bake, 9 if is_forgotten else 7)
+        expected = ["online", "baking", "offline", "online", "baking", "progress", "offline", "online"]
+        assert kinds(driver.before) == expected + is_forgotten * ["baking"]
 
 
 def test_a_session_is_resumed_with_its_frames(driver: Driver) -> None:
@@ -1097,6 +1159,7 @@ UPGRADE, CONNECTION, ACCEPT = "Upgrade: websocket\r\n", "Connection: Upgrade\r\n
         f"HTTP/1.1 101 X\r\nUpgrade: h2c\r\n{CONNECTION}{ACCEPT}\r\n",
         f"HTTP/1.1 101 X\r\n{UPGRADE}Connection: close\r\n{ACCEPT}\r\n",
         f"HTTP/1.1 101 X\r\n{UPGRADE}{CONNECTION}Sec-WebSocket-Accept: accept\r\n\r\n",
+        f"HTTP/1.1 101 X\r\n{UPGRADE}{CONNECTION}Sec-WebSocket-Accept: {28 * 'A'}\r\n\r\n",
         f"HTTP/1.1 101 X\r\n{UPGRADE}{CONNECTION}Sec-WebSocket-Accept: ACCEPTx\r\n\r\n",
         f"HTTP/1.1 101 X\r\n{UPGRADE}{CONNECTION}{ACCEPT}{ACCEPT}\r\n",
         f"HTTP/1.1 101 X\r\n{UPGRADE}{CONNECTION}{ACCEPT}Sec-WebSocket-Extensions: permessage-deflate\r\n\r\n",

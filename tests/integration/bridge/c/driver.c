@@ -288,9 +288,10 @@ static void act(const char *command) {
     memcpy(numbers, &bits, 4);
     print_number("is_set", s2h_set_pose(client, s2h_handle_of(client, words[0]), numbers, NULL));
   } else if (strcmp(command, "touch") == 0) {
+    s2h_handle hand = s2h_handle_of(client, words[0]), object = s2h_handle_of(client, words[1]);
     float point_m[3] = {0.0f, 0.72f, 0.0f};
     point_m[0] = numbers[2];
-    print_number("is_set", s2h_touch(client, s2h_handle_of(client, words[0]), s2h_handle_of(client, words[1]), point_m));
+    print_number("is_set", s2h_touch(client, hand, object, point_m));
   } else if (strcmp(command, "lift") == 0) {
     s2h_lift(client, s2h_handle_of(client, words[0]));
   } else if (strcmp(command, "frame") == 0) {
