@@ -292,7 +292,7 @@ def kinds(events: list[dict[str, Any]]) -> list[str]:
 
 def test_all_that_a_game_does_with_a_session(driver: Driver, bridge: Callable[..., BridgeServer]) -> None:
     driver.do(f"create {bridge().url} - 0 0")
-    play = driver.one('play 0 desk.bundle phone,mug newest {"keep_s": 5}')["request"]
+    play = driver.one('play 0 desk.bundle phone,mug newest {"session": {"watchdog_s": 1}}')["request"]
     found = driver.until("playing")
     assert (found["request"], found["is_resumed"], found["sequence"]) == (play, False, 0)
     ids = driver.one("ids")
@@ -380,7 +380,7 @@ def test_another_client_watches(driver: Driver, bridge: Callable[..., BridgeServ
     server, watcher = bridge(), Driver(build(HERE / "driver.c", HERE / "client.c"))
     try:
         driver.do(f"create {server.url} - 0 0")
-        driver.one("play 0 desk.bundle phone newest")
+        driver.one('play 0 desk.bundle phone newest {"session": {"watchdog_s": 1}}')
         session = driver.until("playing")["message"]["session"]
         watcher.do(f"create {server.url} - 0 0")
         assert watcher.one(f"request watch {session}")["request"]
@@ -465,7 +465,7 @@ ORDER = {
     "sources": [{"id": "phone", "state": "on", "states": ["on"], "is_on": True, "frequency_hz": 100.0}],
     "n_bands": 1,
     "sequence": 0,
-    "watchdog_s": 0.2,
+    "watchdog_s": 0.5,
 }
 
 
@@ -526,8 +526,8 @@ def begin(ws: ServerConnection, **order: object) -> dict[str, Any]:
     return message
 
 
-def next_frame(ws: ServerConnection, timeout_s: float | None = 10) -> Frame:
-    message = ws.recv(timeout_s)
+def next_frame(ws: ServerConnection) -> Frame:
+    message = ws.recv(10)
     assert isinstance(message, bytes), message
     return decode_frame(message)
 
@@ -555,6 +555,7 @@ def test_poses_are_left_out_once_the_server_has_taken_them(driver: Driver) -> No
             n_poses.append(len(frame.poses))
             if answers:
                 ws.send(gains_of(frame.sequence))
+        say(ws, "warning", message="all")
         until_closed(ws)
 
     with scripted(handle) as url:
@@ -568,7 +569,7 @@ def test_poses_are_left_out_once_the_server_has_taken_them(driver: Driver) -> No
         driver.until("gains")
         driver.one("pose phone 1 2 3.5")
         driver.do("frame 0.5")
-        driver.do("run 0.1")
+        driver.until("warning")
     assert n_poses == [1, 1, 0, 0, 1]
 
 
@@ -604,7 +605,7 @@ def test_gains_are_zero_once_they_are_old_and_wrong_ones_are_left_out(driver: Dr
         driver.until("gains")
         assert driver.one("felt left phone")["intensity"] == 0.0
         assert driver.one("felt right other") == {"is_felt": True, "intensity": 0, "gain": 0}
-        driver.do("run 0.4")
+        driver.do("run 0.7")
         assert driver.one("felt right phone") == {"is_felt": False, "intensity": 0, "gain": 0}
         driver.one("request pause")
         found = driver.until("gains")
@@ -740,6 +741,7 @@ def test_a_session_is_resumed_with_its_frames(driver: Driver) -> None:
         frame = next_frame(ws)
         frames.append(frame.sequence)
         assert len(frame.poses) == 1
+        say(ws, "warning", message="all")
         until_closed(ws)
 
     with scripted(handle) as url:
@@ -751,6 +753,7 @@ def test_a_session_is_resumed_with_its_frames(driver: Driver) -> None:
         assert driver.one("frame 0.3")["sent"] == 3
         assert driver.until("gains")["of"] == 2
         assert driver.one("felt right phone")["gain"] == 0.75
+        driver.until("warning")
     assert frames == [1, 2, 3, 3]
 
 
@@ -780,8 +783,10 @@ def test_requests_carry_all_of_their_values_exactly(driver: Driver) -> None:
     heard: list[dict[str, Any]] = []
 
     def handle(ws: ServerConnection, _: int) -> None:
-        while True:
+        while len(heard) < 64:
             heard.append(json.loads(ws.recv()))
+        say(ws, "warning", message="all")
+        until_closed(ws)
 
     commands = {
         "on phone - 0": {"type": "set_source", "source": "phone", "on": False},
@@ -821,7 +826,7 @@ def test_requests_carry_all_of_their_values_exactly(driver: Driver) -> None:
         assert all(driver.one("request pause")["request"] for _ in range(n_left))
         assert driver.one("request pause")["request"] == 0
         assert driver.until("error")["error"] == "TooManyRequests"
-        driver.do("run 0.2")
+        driver.until("warning")
     assert [one.pop("id") for one in heard[: len(sent)]] == sent
     assert heard[: len(sent)] == [*commands.values()]
     assert len(heard) == 64
@@ -852,8 +857,9 @@ def test_what_a_game_gets_wrong_in_frames_is_reported_once(driver: Driver) -> No
 
     def handle(ws: ServerConnection, _: int) -> None:
         begin(ws)
-        while True:
-            frames.append(next_frame(ws, None))
+        frames.extend(next_frame(ws) for _ in range(3))
+        say(ws, "warning", message="all")
+        until_closed(ws)
 
     with scripted(handle) as url:
         driver.do(f"create {url} - 0 0")
@@ -866,7 +872,8 @@ def test_what_a_game_gets_wrong_in_frames_is_reported_once(driver: Driver) -> No
             driver.one("touch right table 0.5")
             assert driver.one("frame 1")["sent"]
         assert driver.one("frame 0.5")["sent"] == 0  # back in time
-        texts = [one["text"] for one in driver.do("run 0.2")]
+        driver.until("warning")
+        texts = [one["text"] for one in driver.before]
     assert len(texts) == 4
     for name, text in zip(("phone", "phone", "third", "lamp"), texts, strict=True):
         assert text.startswith(f"{name}: ")
@@ -1202,7 +1209,7 @@ def test_a_server_that_says_nothing_counts_as_lost(driver: Driver) -> None:
         driver.until("online")
         begun_s = time.monotonic()
         assert "silent" in driver.until("offline")["text"]
-        assert 1.8 < time.monotonic() - begun_s < 4.0
+        assert 1.8 < time.monotonic() - begun_s < 8.0
         driver.do("destroy")
 
 
@@ -1218,7 +1225,7 @@ def test_a_flood_of_messages_does_not_hold_up_a_frame(driver: Driver) -> None:
         driver.until("online")
         begun_s = time.monotonic()
         events = driver.do("run 0.5")
-        assert time.monotonic() - begun_s < 3.0
+        assert time.monotonic() - begun_s < 6.0
         assert len(events) > 100
         driver.do("destroy")
 
