@@ -205,19 +205,21 @@ def _require_pulses(pulses: Sequence[tuple[float, float]]) -> None:
     assert not any(a == b == 0 for (a, _), (b, _) in itertools.pairwise(pulses))
 
 
+@pytest.fixture(scope="class")
+def desk_server() -> Iterator[Any]:
+    with serving() as found:
+        yield found
+
+
+@pytest.fixture(scope="class")
+def shared(browser: Any, port: int, desk_server: Any) -> Iterator[Opened]:
+    with _opened(browser, address(port, url=desk_server.url), PADS) as found:
+        found.wait(PLAYING)
+        yield found
+
+
 class TestDesk:
     """One page for all of these: to bake its scene takes longer than a test."""
-
-    @pytest.fixture(scope="class")
-    def server(self) -> Iterator[Any]:
-        with serving() as found:
-            yield found
-
-    @pytest.fixture(scope="class")
-    def shared(self, browser: Any, port: int, server: Any) -> Iterator[Opened]:
-        with _opened(browser, address(port, url=server.url), PADS) as found:
-            found.wait(PLAYING)
-            yield found
 
     @pytest.fixture
     def opened(self, shared: Opened) -> Iterator[Opened]:
@@ -248,8 +250,8 @@ class TestDesk:
         assert found["book"][1, 1] == found["mug"][0, 1] == 0.775
         assert scene.objects[0].name == "Wooden table"
 
-    def test_bars_show_the_gains_that_the_server_sends(self, opened: Opened, server: Any) -> None:
-        heard = _watched(server.url, opened.value("scene2hapExample.client.order.session"))
+    def test_bars_show_the_gains_that_the_server_sends(self, opened: Opened, desk_server: Any) -> None:
+        heard = _watched(desk_server.url, opened.value("scene2hapExample.client.order.session"))
         rows = """[...document.querySelectorAll(".hand")].flatMap((hand) =>
           [...hand.querySelectorAll(".level[data-source]")].map((row) => ({
             hand: hand.dataset.hand, source: row.dataset.source, number: row.querySelector(".number").textContent,
