@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import islice
 from numbers import Real
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 from scene2hap.errors import ConfigError, Scene2HapError
 
@@ -163,8 +163,8 @@ def vector(
     is_bounded = above is not None or at_least is not None
     # Games make hundreds of poses in a frame, of floats; the rest looks at each number for a sentence about it.
     is_plain = type(value) is tuple and len(value) == size and {*map(type, value)} == _ONLY_FLOATS
-    if is_plain and not is_bounded and math.isfinite(sum(value)):  # type: ignore[call-overload]  # floats
-        return value  # type: ignore[return-value]
+    if is_plain and not is_bounded and math.isfinite(sum(cast("tuple[float, ...]", value))):
+        return cast("tuple[float, ...]", value)
     items: Sequence[object]
     try:
         items = tuple(islice(value, size + 1))  # type: ignore[call-overload]  # any iterable; if none, see below

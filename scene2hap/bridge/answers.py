@@ -7,7 +7,7 @@ import json
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from scene2hap import checks
 from scene2hap.bridge import messages
@@ -163,10 +163,10 @@ def _made(
     sink_spec: object,
     tell: Callable[[Document], None],
 ) -> PlayedSession:
-    """The session that a client asked for; on the session's thread."""
+    """The session that a client asked for; this takes seconds, and runs on a thread."""
     bundle = HapticBundle.load(folder)
     scene = bundle.snapshot if request.scene is None else SceneSnapshot.from_json(json.dumps(request.scene))
-    sink: ActuatorSink | None = SINKS.build(sink_spec) if sink_spec is not None else None  # type: ignore[assignment]
+    sink = None if sink_spec is None else cast("ActuatorSink", SINKS.build(sink_spec))
     session = HapticSession(
         scene,
         bundle,
