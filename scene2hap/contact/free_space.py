@@ -15,7 +15,6 @@ import math
 import numpy as np
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.broad import Boxes
 from scene2hap.contact.free_region import FreeRegion
 from scene2hap.contact.ledge import Flat, Upright
 from scene2hap.contact.mesh_distance import INSET, INSET_M
@@ -23,12 +22,14 @@ from scene2hap.contact.planes import Plane, floor_at, roof_at, wall_at
 from scene2hap.contact.relative import box_in_frame
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m, is_over, play_reach_m
 from scene2hap.contact.stance import TopFace
-from scene2hap.contact.vectors import AABB, Marks
+from scene2hap.contact.triangle_tree import meeting
+from scene2hap.contact.vectors import AABB, Indices, Marks
 
 _MOST_TILT_M = 1e-4  # A host may lean by so much over its whole size, which is the error of a ledge's height then.
 _AROUND_M = 0.8  # So far beyond a guest its host is searched: others who come find that region.
 _MANY_CORNERS = 8  # An outline of more is taken for a circle.
 _ROUNDING_M = 2e-6
+_ALL = 1 << 60
 _NO_LEDGE: Flat = (math.inf, math.inf, -math.inf, -math.inf)
 
 
@@ -67,10 +68,9 @@ def has_nothing_near(guest: Body, host: Body) -> bool:
         return known.own == own and known.top_m is None and known.holds(taken)
 
     if host.free_regions.find(guest.id, serves) is None:
-        near = _Near(host, own, taken)
-        if near.meets(taken).any():
+        if len(_meeting(host, own, taken, most=1)):
             return False
-        host.free_regions.keep(guest.id, FreeRegion(own, near.cut(taken), None, _NO_LEDGE))
+        host.free_regions.keep(guest.id, FreeRegion(own, _Near(host, own, taken).cut(taken), None, _NO_LEDGE))
     return True
 
 
@@ -161,47 +161,52 @@ def _foot(guest: Body, host: Body, own: Upright) -> Flat:
 
 
 def _drawn(host: Body, own: Upright, taken: AABB, foot: Flat) -> FreeRegion | None:
-    near = _Near(host, own, taken)
-    meets = np.flatnonzero(near.meets(taken))
-    if not len(meets):
-        return FreeRegion(own, near.cut(taken), None, _NO_LEDGE)
+    columns = _meeting(host, own, taken)
+    if not len(columns):
+        return FreeRegion(own, _Near(host, own, taken).cut(taken), None, _NO_LEDGE)
     ledges = host.shape.ledges(own)
-    numbers, tops = ledges.number[near.rows], near.high[2]
+    numbers, tops = ledges.number[columns], ledges.tops[columns]
     # Sides reach as high as the ledge that they bound.
-    number = int(numbers[meets[tops[meets] >= tops[meets].max() - _ROUNDING_M]].max())
-    if number < 0:
+    number = int(numbers[tops >= tops.max() - _ROUNDING_M].max())
+    if number < 0 or not ledges.covers(number, foot):
         return None
     top_m = ledges.heights[number]
-    higher = (numbers != number) & (tops > top_m + _ROUNDING_M)
-    if higher[meets].any():
+    if ((numbers != number) & (tops > top_m + _ROUNDING_M)).any():
         return None
+    near = _Near(host, own, taken)
+    higher = (ledges.number[near.columns] != number) & (near.high[2] > top_m + _ROUNDING_M)
     room = (u0, v0, _), (u1, v1, _) = near.cut(taken, higher)
-    ledge = ledges.stretch(number, foot, (min(u0, foot[0]), min(v0, foot[1]), max(u1, foot[2]), max(v1, foot[3])))
-    return None if ledge is None else FreeRegion(own, room, top_m, ledge)
+    most = (min(u0, foot[0]), min(v0, foot[1]), max(u1, foot[2]), max(v1, foot[3]))
+    return FreeRegion(own, room, top_m, ledges.stretch(number, foot, most))
+
+
+def _meeting(host: Body, own: Upright, box: AABB, most: int = _ALL) -> Indices:
+    """Columns of up to `most` of the host's triangles whose boxes meet a box (u, v, h)."""
+    (u0, v0, h0), (u1, v1, h1) = box
+    if own.sign < 0:
+        h0, h1 = -h1, -h0
+    if own.axis == 0:
+        low, high = (h0, u0, v0), (h1, u1, v1)
+    elif own.axis == 1:
+        low, high = (u0, h0, v0), (u1, h1, v1)
+    else:
+        low, high = (u0, v0, h0), (u1, v1, h1)
+    return meeting(host.shape.tree, low, high, most)
 
 
 class _Near:
-    """The host's triangles around a guest: their `rows`, and the corners (3, n) of their boxes, as (u, v, h)."""
+    """The host's triangles around a guest: their `columns`, and the corners (3, n) of their boxes, as (u, v, h)."""
 
     def __init__(self, host: Body, own: Upright, taken: AABB) -> None:
-        self._low, self._high = np.array(taken[0]) - _AROUND_M, np.array(taken[1]) + _AROUND_M
-        boxes, order = host.shape.boxes, [own.u, own.v, own.axis]
-        one = np.empty((2, 3, 1))
-        one[:, order, 0] = self._low, self._high
-        if own.sign < 0:
-            one[:, own.axis, 0] = -self._high[2], -self._low[2]
-        self.rows = boxes.meeting(Boxes(one[0], one[1]))
-        near = boxes.some(self.rows)
+        (u0, v0, h0), (u1, v1, h1) = taken
+        d = _AROUND_M
+        around = (u0 - d, v0 - d, h0 - d), (u1 + d, v1 + d, h1 + d)
+        self._low, self._high = np.array(around)
+        self.columns = _meeting(host, own, around)
+        near, order = host.shape.boxes.some(self.columns), [own.u, own.v, own.axis]
         self.low, self.high = near.low[order], near.high[order]
         if own.sign < 0:
             self.low[2], self.high[2] = -self.high[2], -self.low[2]
-
-    def meets(self, taken: AABB) -> Marks:
-        """Which of them (n,) meet a box, touching included."""
-        low, high = np.array(taken)[..., None]
-        x, y, z = (self.low <= high) & (self.high >= low)
-        meets: Marks = x & y & z
-        return meets
 
     def cut(self, taken: AABB, others: Marks | slice = slice(None)) -> AABB:
         """A box around another, not beyond the surroundings, that meets none of the others, all of which are beside."""

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.compiled import compiled
 from scene2hap.contact.broad import Boxes
 from scene2hap.contact.vectors import Floats
 
@@ -38,13 +39,14 @@ class Ledges:
     """The level faces of triangles (3, 3, m) in their boxes, where up is along an own axis.
 
     Parameters: uneven_m : how much heights may differ within a face, and how far faces are apart that are two [m].
-    `number` (m,) tells which ledge each triangle is part of, -1 for none; `heights` are those of the ledges, rising.
+    `number` (m,) tells which ledge each triangle is part of, -1 for none, `tops` (m,) how high each reaches; `heights`
+    are those of the ledges, rising.
     """
 
     def __init__(self, triangles: Floats, boxes: Boxes, upright: Upright, uneven_m: float) -> None:
         axis, sign, *plane = upright
         low, high = boxes.low[axis], boxes.high[axis]
-        top = high if sign > 0 else -low
+        top = self.tops = high if sign > 0 else -low
         self.number: NDArray[np.intp] = np.full(triangles.shape[2], -1)
         level = np.flatnonzero(high - low <= uneven_m)
         level = level[np.argsort(top[level], kind="stable")]
@@ -55,12 +57,13 @@ class Ledges:
         self._corners = triangles[plane].transpose(2, 1, 0)
         self._outlines: dict[int, tuple[Floats, Floats]] = {}
 
-    def stretch(self, number: int, foot: Flat, most: Flat) -> Flat | None:
-        """A rectangle around `foot`, no larger than `most`, that a ledge wholly covers; None if not even the foot."""
-        triangles, rims = self._outline(number)
-        middle = np.array([(foot[0] + foot[2]) / 2, (foot[1] + foot[3]) / 2])
-        if not _is_covered(middle, triangles) or len(_clipped(rims, foot)):
-            return None
+    def covers(self, number: int, foot: Flat) -> bool:
+        """Whether a ledge wholly covers a rectangle."""
+        return covers(*self._outline(number), foot)
+
+    def stretch(self, number: int, foot: Flat, most: Flat) -> Flat:
+        """A rectangle around `foot`, which a ledge covers, no larger than `most`, that it wholly covers."""
+        _, rims = self._outline(number)
         for _ in range(_HALVINGS):
             ends = _clipped(rims, most)
             low, high = ends.min(axis=1), ends.max(axis=1)
@@ -84,7 +87,8 @@ class Ledges:
         """The triangles (n, 3, 2) of a ledge and the edges (k, 2, 2) on its rim."""
         found = self._outlines.get(number)
         if found is None:
-            found = self._outlines[number] = _outlined(self._corners[self.number == number])
+            triangles, rims = _outlined(self._corners[self.number == number])
+            found = self._outlines[number] = np.ascontiguousarray(triangles), np.ascontiguousarray(rims)
         return found
 
 
@@ -104,6 +108,13 @@ def _outlined(triangles: Floats) -> tuple[Floats, Floats]:
     has_left[number[is_left]] = has_right[number[~is_left]] = True
     rim = which[has_left != has_right]
     return triangles, np.stack([corners[rim // len(corners)], corners[rim % len(corners)]], axis=1)
+
+
+@compiled
+def covers(triangles: Floats, rims: Floats, foot: Flat) -> bool:
+    """Whether triangles (n, 3, 2) with rims (k, 2, 2) wholly cover a rectangle: its middle, and no rim enters it."""
+    middle = np.array([(foot[0] + foot[2]) / 2, (foot[1] + foot[3]) / 2])
+    return _is_covered(middle, triangles) and not len(_clipped(rims, foot))
 
 
 def _is_covered(point: Floats, triangles: Floats) -> bool:

@@ -1,11 +1,10 @@
 """A bounding volume hierarchy of axis-aligned boxes over the triangles of a mesh, built once per shape.
 
 The tree is complete and binary, in heap order: the children of node k are 2 k + 1 and 2 k + 2. Its leaves, the last
-`n_leaves` nodes, hold `LEAF_SIZE` triangles each, sorted along a Morton curve through their middles. Padding leaves
-have empty boxes (low = inf, high = -inf), which overlap nothing.
+`n_leaves` nodes, hold one triangle each. A node's triangles are split at the median of their middles, along the axis in
+which these spread most. Empty leaves have empty boxes (low = inf, high = -inf), which overlap nothing.
 
-Source: C. Ericson, Real-Time Collision Detection (2005), section 6.6 (heap order); G. M. Morton, IBM technical report
-(1966).
+Source: C. Ericson, Real-Time Collision Detection (2005), sections 6.2 (median cut) and 6.6 (heap order).
 """
 
 from __future__ import annotations
@@ -14,54 +13,65 @@ from typing import NamedTuple
 
 import numpy as np
 
+from scene2hap.compiled import compiled
 from scene2hap.contact.broad import Boxes
-from scene2hap.contact.vectors import Floats, Indices
-
-LEAF_SIZE = 4
-_MORTON_BITS = 16
+from scene2hap.contact.vectors import Floats, Indices, Triple
 
 
 class TriangleTree(NamedTuple):
-    """nodes : (2 n_leaves - 1, 6) lowest and highest corners [m]; corners : (m, 9) the triangles in leaf order, three
-    corners of three coordinates [m]; order : (m,) the column of each in its shape."""
+    """nodes : (2 n_leaves - 1, 6) lowest and highest corners [m]; corners : (n_leaves, 9) the triangle of each leaf,
+    three corners of three coordinates [m]; columns : (n_leaves,) its column in the shape, -1 for an empty leaf."""
 
     nodes: Floats
     corners: Floats
-    order: Indices
+    columns: Indices
 
     @classmethod
     def over(cls, triangles: Floats, boxes: Boxes) -> TriangleTree:
         """Build the tree over triangles (3, 3, m) in their boxes."""
-        order = _along_morton_curve(boxes)
-        n_leaves = 1
-        while n_leaves * LEAF_SIZE < len(order):
-            n_leaves *= 2
+        columns = _leaves(boxes)
+        n_leaves, is_full = len(columns), columns >= 0
+        corners = np.zeros((n_leaves, 9))
+        corners[is_full] = triangles.transpose(2, 1, 0)[columns[is_full]].reshape(-1, 9)
         nodes = np.empty((2 * n_leaves - 1, 6))
         nodes[:, :3], nodes[:, 3:] = np.inf, -np.inf
-        low, high = boxes.low.T[order], boxes.high.T[order]
-        starts = np.arange(0, len(order), LEAF_SIZE)
-        if len(starts):
-            leaves = nodes[n_leaves - 1 : n_leaves - 1 + len(starts)]
-            leaves[:, :3] = np.minimum.reduceat(low, starts)
-            leaves[:, 3:] = np.maximum.reduceat(high, starts)
+        leaves = nodes[n_leaves - 1 :]
+        leaves[is_full, :3] = boxes.low.T[columns[is_full]]
+        leaves[is_full, 3:] = boxes.high.T[columns[is_full]]
         first, n = n_leaves - 1, n_leaves
         while n > 1:
             children = nodes[first : first + n].reshape(n // 2, 2, 6)
             first, n = first - n // 2, n // 2
             nodes[first : first + n, :3] = children[..., :3].min(axis=1)
             nodes[first : first + n, 3:] = children[..., 3:].max(axis=1)
-        corners = np.ascontiguousarray(triangles.transpose(2, 1, 0)[order]).reshape(-1, 9)
-        return cls(nodes, corners, order)
+        return cls(nodes, corners, columns)
 
 
-def _along_morton_curve(boxes: Boxes) -> Indices:
+@compiled
+def meeting(tree: TriangleTree, low: Triple, high: Triple, most: int) -> Indices:
+    """Columns of up to `most` of the triangles whose boxes meet a box [m], touching included, in rising order."""
+    leaves = tree.nodes[len(tree.columns) - 1 :]
+    meets = ((leaves[:, :3] <= high) & (leaves[:, 3:] >= low)).all(axis=1)
+    return np.sort(tree.columns[meets])[:most]
+
+
+def _leaves(boxes: Boxes) -> Indices:
+    """The column of each leaf's triangle, -1 for an empty leaf; level by level, all nodes of one at once."""
     middles = boxes.low + boxes.high
-    low = middles.min(axis=1, keepdims=True)
-    # One scale for all axes, so that thin slabs are split along their long sides.
-    extent = float((middles - low).max(initial=0.0))
-    cells = ((middles - low) * ((2**_MORTON_BITS - 1) / extent if extent > 0 else 0.0)).astype(np.uint64)
-    code = np.zeros(middles.shape[1], dtype=np.uint64)
-    for bit in range(_MORTON_BITS):
-        for axis in range(3):
-            code |= ((cells[axis] >> np.uint64(bit)) & np.uint64(1)) << np.uint64(3 * bit + axis)
-    return np.argsort(code, kind="stable")
+    m = middles.shape[1]
+    node, order, n_nodes = np.zeros(m, dtype=np.intp), np.arange(m), 1
+    while n_nodes < m:
+        starts = np.flatnonzero(np.diff(node[order], prepend=-1))
+        counts = np.diff(starts, append=m)
+        sorted_middles = middles[:, order]
+        spread = np.maximum.reduceat(sorted_middles, starts, axis=1) - np.minimum.reduceat(
+            sorted_middles, starts, axis=1
+        )
+        axis = np.repeat(spread.argmax(axis=0), counts)
+        order = order[np.lexsort((sorted_middles[axis, np.arange(m)], node[order]))]
+        rank = np.arange(m) - np.repeat(starts, counts)
+        node[order] = 2 * node[order] + (rank >= np.repeat((counts + 1) // 2, counts))
+        n_nodes *= 2
+    columns = np.full(n_nodes, -1, dtype=np.intp)
+    columns[node] = np.arange(m)
+    return columns
