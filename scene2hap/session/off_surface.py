@@ -31,12 +31,11 @@ _POINT = Shape(np.zeros((3, 3, 1)), np.zeros((1, 3)))  # a triangle without exte
 _NOT_TURNED: Rows = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
-class _Seen(NamedTuple):
-    """What was found of a touch: it holds while the object stays and the point moves by less than `slack_m`."""
+class _Judged(NamedTuple):
+    """Whether a touch is off: true while its point, in the object's frame, moves by at most `slack_m`."""
 
     item: SceneObject
-    pose: Pose
-    point_m: Triple
+    own_m: Triple
     slack_m: float
     is_off: bool
 
@@ -46,7 +45,7 @@ class OffSurface:
 
     def __init__(self, state: SceneState) -> None:
         self._state = state
-        self._seen: dict[tuple[str, str], _Seen] = {}
+        self._judged: dict[tuple[str, str], _Judged] = {}
         self._warned: set[str] = set()
         self.n_touches = 0
 
@@ -60,21 +59,21 @@ class OffSurface:
                         self._warn(touch)
 
     def _is_off(self, touch: Touch) -> bool:
-        key, item, point = (touch.hand, touch.object_id), self._state.objects[touch.object_id], touch.point_m
-        pose = self._state.graph.pose(touch.object_id)
-        seen = self._seen.get(key)
-        if seen is None or not (
-            seen.item is item and seen.pose is pose and math.dist(seen.point_m, point) <= seen.slack_m
-        ):
-            distance = _distance_m(item, pose, point, FAR_M)
-            slack = 0.0 if distance is None else FAR_M - distance
-            seen = self._seen[key] = _Seen(item, pose, point, slack, distance is None)
-        return seen.is_off
+        key, item = (touch.hand, touch.object_id), self._state.objects[touch.object_id]
+        own_m = _to_own(self._state.graph.pose(touch.object_id), touch.point_m)
+        judged = self._judged.get(key)
+        if judged is None or judged.item is not item or math.dist(judged.own_m, own_m) > judged.slack_m:
+            # Twice as far as it takes, so that a point that is off has some slack too.
+            distance_m = _distance_m(item, own_m, 2 * FAR_M)
+            slack_m = FAR_M if distance_m is None else abs(FAR_M - distance_m)
+            judged = _Judged(item, own_m, slack_m, distance_m is None or distance_m > FAR_M)
+            self._judged[key] = judged
+        return judged.is_off
 
     def _warn(self, touch: Touch) -> None:
         self._warned.add(touch.hand)
         item, pose = self._state.objects[touch.object_id], self._state.graph.pose(touch.object_id)
-        distance = _distance_m(item, pose, touch.point_m, _ANYWHERE_M)
+        distance = _distance_m(item, _to_own(pose, touch.point_m), _ANYWHERE_M)
         point = ", ".join(f"{x:g}" for x in touch.point_m)
         warn_of(
             f"hand {touch.hand!r} touches {touch.object_id!r} at ({point}), {distance or 0.0:.3g} m from its surface, "
@@ -83,10 +82,18 @@ class OffSurface:
         )
 
 
-def _distance_m(item: SceneObject, pose: Pose, point_m: Triple, within_m: float) -> float | None:
-    """The distance of a point from the surface of an object [m], None if it is more than `within_m`."""
+def _distance_m(item: SceneObject, own_m: Triple, within_m: float) -> float | None:
+    """The distance of a point of its own frame from the surface of an object [m], None if it is more than `within_m`."""
     if len(item.geometry.mesh.faces) > MOST_TRIANGLES:
         return 0.0
-    x, y, z = pose.to_own([point_m])[0].tolist()
-    found = closest_points(shape_of(item.geometry.mesh), _POINT, _NOT_TURNED, (x, y, z), within_m)
+    found = closest_points(shape_of(item.geometry.mesh), _POINT, _NOT_TURNED, own_m, within_m)
     return None if found is None else found[0]
+
+
+def _to_own(pose: Pose, point_m: Triple) -> Triple:
+    """`Pose.to_own` of one point, without numpy's cost per call."""
+    (u, v, w), (a, b, c), (x, y, z, s) = point_m, pose.position_m, pose.rotation_xyzw
+    u, v, w = u - a, v - b, w - c
+    # v + 2 s (v x q) + 2 (v x q) x q, the turn by the conjugate.
+    p, q, r = 2 * (v * z - w * y), 2 * (w * x - u * z), 2 * (u * y - v * x)
+    return u + s * p + q * z - r * y, v + s * q + r * x - p * z, w + s * r + p * y - q * x
