@@ -22,6 +22,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -108,10 +109,10 @@ def _material(body: Body | None) -> Material | None:
 
 def _modes(plate: Plate, at_m: tuple[float, float] | None, per_area_kg_m2: float, lasts_s: float) -> Floats:
     """Frequency [Hz], decay [s] and acceleration per momentum [m/s2 / (N s)] of the strongest modes (3, n)."""
-    waves, f = _supported(plate)
-    point = np.array([plate.length_m / 2, plate.width_m / 2] if at_m is None else at_m)
-    shape = np.prod(np.sin(waves * point), axis=1)
-    velocities = 4 / (per_area_kg_m2 * plate.area_m2) * shape**2 * _share(f * lasts_s)
+    (along, across), (i, j), f = _supported(plate)
+    x, y = (plate.length_m / 2, plate.width_m / 2) if at_m is None else at_m
+    squares = (np.sin(along * x) ** 2)[i] * (np.sin(across * y) ** 2)[j]
+    velocities = 4 / (per_area_kg_m2 * plate.area_m2) * squares * _share(f * lasts_s)
     # By velocity, since the threshold of touch rises about as frequency does.
     strongest = np.argsort(-velocities)[:MOST_MODES]
     strongest = strongest[velocities[strongest] > LEAST_SHARE * velocities.max(initial=0.0)]
@@ -120,19 +121,28 @@ def _modes(plate: Plate, at_m: tuple[float, float] | None, per_area_kg_m2: float
     return np.stack([f, decays, 2 * np.pi * f * velocities])
 
 
+class _Supported(NamedTuple):
+    """Modes of a plate that is supported along its edges: wavenumbers along its length (m,) and width (n,) [rad/m], and
+    of each mode the rows of both (2, n_modes) and the frequency (n_modes,) [Hz]."""
+
+    waves: tuple[Floats, Floats]
+    rows: NDArray[np.intp]
+    frequencies_hz: Floats
+
+
 @lru_cache(maxsize=1024)
-def _supported(plate: Plate) -> tuple[Floats, Floats]:
-    """Wavenumbers along length and width (n_modes, 2) [rad/m] and frequencies (n_modes,) [Hz] of a plate supported
-    along its edges; none of what is too thick to bend."""
+def _supported(plate: Plate) -> _Supported:
+    """The modes up to `HIGHEST_MODE_HZ`; none of what is too thick to bend."""
     length, width = plate.extent_m
     if plate.thickness_m > COMPACT_THICKNESS * min(length, width):
-        return np.empty((0, 2)), np.empty(0)
+        return _Supported((np.empty(0), np.empty(0)), np.empty((2, 0), dtype=np.intp), np.empty(0))
     lowest = math.pi / 2 / plate.wavenumber_per_root_omega**2
     # No more than a floor needs to have its strongest.
     m, n = (min(40, int(side * math.sqrt(HIGHEST_MODE_HZ / lowest)) + 1) for side in (length, width))
-    waves = np.pi * np.stack(np.meshgrid(np.arange(1, m + 1) / length, np.arange(1, n + 1) / width), -1).reshape(-1, 2)
-    f = lowest / np.pi**2 * (waves**2).sum(axis=1)
-    return waves[f <= HIGHEST_MODE_HZ], f[f <= HIGHEST_MODE_HZ]
+    along, across = np.pi * np.arange(1, m + 1) / length, np.pi * np.arange(1, n + 1) / width
+    f = lowest / np.pi**2 * (along[:, None] ** 2 + across**2)
+    rows = np.nonzero(f <= HIGHEST_MODE_HZ)
+    return _Supported((along, across), np.array(rows), f[rows])
 
 
 def _share(cycles: Floats) -> Floats:

@@ -203,7 +203,8 @@ class HapticSession:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
         if self._follows_landings:
             for landing in self._landings.look(moved or {}, stamp / self.config.sample_rate_hz):
-                self._strike(Strike(landing.onto, landing.point_m, landing.object_id, landing.speed_m_s), stamp)
+                strike = Strike(landing.onto, landing.point_m, landing.object_id, landing.speed_m_s)
+                self._impacts.land(strike, self._hand_frames.felt, self.hands, self._user, stamp)
         self._updates += 1
         self._output.feed(frame)
         if felt:
@@ -231,10 +232,8 @@ class HapticSession:
         self._state.require(object_id)
         if with_object is not None:
             self._state.require(with_object)
-        return self._strike(given_strike(object_id, point_m, with_object, speed_m_s, impulse_n_s), self._now)
-
-    def _strike(self, strike: Strike, stamp: int) -> Impact:
-        return self._impacts.strike(strike, self._hand_frames.felt, self.hands, self._user, stamp)
+        strike = given_strike(object_id, point_m, with_object, speed_m_s, impulse_n_s)
+        return self._impacts.strike(strike, self._hand_frames.felt, self.hands, self._user, self._now)
 
     def add(
         self,

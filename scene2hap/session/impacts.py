@@ -24,7 +24,7 @@ from scene2hap.audio.levels import TACTILE_HEADROOM_DB
 from scene2hap.errors import Scene2HapError
 from scene2hap.propagation.impact import Burst, burst_of
 from scene2hap.propagation.live import PointField, TouchedPoint
-from scene2hap.render.bursts import MOST_PLAYING, Samples, summed, wave_of
+from scene2hap.render.bursts import MOST_PLAYING, Samples, peak_of, summed, wave_of
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.playback import Playback
@@ -114,6 +114,18 @@ class Impacts:
     def strike(self, strike: Strike, felt: Felt, hands: tuple[str, ...], profile: UserProfile, at_frame: int) -> Impact:
         """Let an impact be felt by the hands that touch something."""
         self.n_told += 1
+        impact, burst = self._impact(strike, at_frame)
+        if self._is_admitted(strike, felt, at_frame):
+            self._play(impact, burst, felt, hands, profile)
+        return impact
+
+    def land(self, strike: Strike, felt: Felt, hands: tuple[str, ...], profile: UserProfile, at_frame: int) -> None:
+        """The same, where nobody waits for the impact: nothing is computed for one that is left out."""
+        self.n_told += 1
+        if self._is_admitted(strike, felt, at_frame):
+            self._play(*self._impact(strike, at_frame), felt, hands, profile)
+
+    def _impact(self, strike: Strike, at_frame: int) -> tuple[Impact, Burst]:
         struck = self._state.bodies.get(strike.object_id)
         striker = None if strike.with_object is None else self._state.bodies.get(strike.with_object)
         burst = burst_of(
@@ -125,12 +137,13 @@ class Impacts:
             is_finger=strike.with_object is None,
         )
         strongest = float(burst.frequencies_hz[int(np.argmax(burst.accelerations_m_s2))])
-        impact = Impact(strike.object_id, strike.point_m, strike.with_object, strike.speed_m_s, strongest, at_frame)
-        if not felt or self._playback.is_paused or not self._user_factor():
-            return impact
-        if not self._is_admitted(strike, at_frame):
-            self.n_left_out += 1
-            return impact
+        return (
+            Impact(strike.object_id, strike.point_m, strike.with_object, strike.speed_m_s, strongest, at_frame),
+            burst,
+        )
+
+    def _play(self, impact: Impact, burst: Burst, felt: Felt, hands: tuple[str, ...], profile: UserProfile) -> None:
+        at_frame = impact.at_sample
         touched: list[list[TouchedPoint]] = [[(x.object_id, x.point_m) for x in felt[i]] for i in felt]
         channels, f = dict(zip(felt, (hands[i] for i in felt), strict=True)), burst.frequencies_hz
 
@@ -142,15 +155,14 @@ class Impacts:
 
         live = self._field()
         if isinstance(live, PointField):
-            sound(struck_live(live, strike.object_id, strike.point_m, touched, f), at_frame)
-            return impact
+            sound(struck_live(live, impact.object_id, impact.point_m, touched, f), at_frame)
+            return
         model = self._config.propagation
-        prepared = struck_later(model, self._state, strike.object_id, strike.point_m, touched, f)
+        prepared = struck_later(model, self._state, impact.object_id, impact.point_m, touched, f)
         if self._config.prepare == "blocking":
             sound(prepared(), at_frame)
         else:
             self._order(prepared, sound, at_frame)
-        return impact
 
     def felt_by(self, hand: str) -> tuple[Impact, ...]:
         """The impacts of the last second that a hand felt, the latest first."""
@@ -169,7 +181,7 @@ class Impacts:
         """Amplitude of each sine at each of these hands, were it at the struck point (n_hands, n) [-]."""
         actuator, f = self._config.actuator, burst.frequencies_hz
         accelerations = burst.accelerations_m_s2
-        peak = float(np.abs(summed(self._waves(burst), accelerations.tolist())).max())
+        peak = peak_of(self._waves(burst), accelerations, burst.decays_s, self._config.sample_rate_hz)
         strength = min(1.0, math.sqrt(accelerations.sum() / LOUDEST_M_S2)) * self._user_factor()
         drives = accelerations / peak * PEAK * strength
         drives[(f < actuator.min_frequency_hz) | (f > actuator.max_frequency_hz)] = 0.0
@@ -185,11 +197,15 @@ class Impacts:
         components = zip(burst.frequencies_hz.tolist(), burst.decays_s.tolist(), strict=True)
         return [wave_of(f, decay, rate_hz) for f, decay in components]
 
-    def _is_admitted(self, strike: Strike, at_frame: int) -> bool:
+    def _is_admitted(self, strike: Strike, felt: Felt, at_frame: int) -> bool:
+        """Whether an impact may be felt, which then counts as the pair's last."""
+        if not felt or self._playback.is_paused or not self._user_factor():
+            return False
         pair = (strike.object_id, strike.with_object)
         is_new = at_frame - self._last.get(pair, -math.inf) >= LEAST_INTERVAL_S * self._config.sample_rate_hz
         self._waiting = [one for one in self._waiting if not one.done()]
         if not is_new or self._playback.n_bursts >= MOST_PLAYING or len(self._waiting) >= MOST_WAITING:
+            self.n_left_out += 1
             return False
         self._last.pop(pair, None)
         self._last[pair] = at_frame
