@@ -139,7 +139,8 @@ def _supported(plate: Plate) -> _Supported:
     lowest = math.pi / 2 / plate.wavenumber_per_root_omega**2
     # No more than a floor needs to have its strongest.
     m, n = (min(40, int(side * math.sqrt(HIGHEST_MODE_HZ / lowest)) + 1) for side in (length, width))
-    along, across = np.pi * np.arange(1, m + 1) / length, np.pi * np.arange(1, n + 1) / width
+    along: Floats = np.arange(1, m + 1, dtype=np.float64) * (math.pi / length)
+    across: Floats = np.arange(1, n + 1, dtype=np.float64) * (math.pi / width)
     f = lowest / np.pi**2 * (along[:, None] ** 2 + across**2)
     rows = np.nonzero(f <= HIGHEST_MODE_HZ)
     return _Supported((along, across), np.array(rows), f[rows])

@@ -83,7 +83,7 @@ class OffSurface:
 
 
 def _distance_m(item: SceneObject, own_m: Triple, within_m: float) -> float | None:
-    """The distance of a point of its own frame from the surface of an object [m], None if it is more than `within_m`."""
+    """How far a point of an object's own frame is from its surface [m], None if it is more than `within_m`."""
     if len(item.geometry.mesh.faces) > MOST_TRIANGLES:
         return 0.0
     found = closest_points(shape_of(item.geometry.mesh), _POINT, _NOT_TURNED, own_m, within_m)

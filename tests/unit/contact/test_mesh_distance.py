@@ -10,7 +10,7 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.shape import boxes_of, shape_of
 from scene2hap.contact.spread import MAX_POINTS
-from scene2hap.contact.triangle_tree import LEAF_SIZE, TriangleTree
+from scene2hap.contact.triangle_tree import TriangleTree
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 
@@ -182,18 +182,19 @@ def test_what_falls_comes_to_rest_on_the_other(up_axis: int, seed: int) -> None:
 def test_a_tree_holds_every_triangle_once_and_boxes_hold_their_children(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
     triangles = rng.normal(size=(3, 3, n)) * rng.choice([0.0, 1e-3, 1.0], (3, 1, 1))
-    nodes, corners, order = TriangleTree.over(triangles, boxes_of(triangles))
-    assert sorted(order.tolist()) == list(range(n))
-    np.testing.assert_array_equal(corners.reshape(-1, 3, 3), triangles.transpose(2, 1, 0)[order])
-    n_leaves = (len(nodes) + 1) // 2
+    nodes, corners, columns = TriangleTree.over(triangles, boxes_of(triangles))
+    is_full = columns >= 0
+    assert sorted(columns[is_full].tolist()) == list(range(n))
+    np.testing.assert_array_equal(corners[is_full].reshape(-1, 3, 3), triangles.transpose(2, 1, 0)[columns[is_full]])
+    n_leaves = len(columns)
     for k in range(n_leaves - 1):
         assert (nodes[k, :3] == nodes[2 * k + 1 : 2 * k + 3, :3].min(axis=0)).all()
         assert (nodes[k, 3:] == nodes[2 * k + 1 : 2 * k + 3, 3:].max(axis=0)).all()
-    for k in range(n_leaves):
-        own = corners[LEAF_SIZE * k : LEAF_SIZE * (k + 1)].reshape(-1, 3)
-        low, high = nodes[n_leaves - 1 + k, :3], nodes[n_leaves - 1 + k, 3:]
-        if not len(own):
-            assert (low == np.inf).all()
-        else:
+    for own, ends, full in zip(corners.reshape(-1, 3, 3), nodes[n_leaves - 1 :], is_full, strict=True):
+        low, high = ends[:3], ends[3:]
+        if full:
             assert (own.min(axis=0) == low).all()
             assert (own.max(axis=0) == high).all()
+        else:
+            assert (low == np.inf).all()
+            assert (high == -np.inf).all()

@@ -123,6 +123,37 @@ def test_distances_of_meshes_to_the_last_bit(seed: int) -> None:
 
 @steady
 @given(seed=seeds)
+def test_triangles_in_a_box(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    tree = shape_of(mesh(rng)).tree
+    plain, twin = both("contact.triangle_tree.meeting")
+    for _ in range(8):
+        low = np.round(rng.uniform(-0.4, 0.4, 3), int(rng.choice([1, 9])))
+        high = low + rng.choice([0.0, 0.1, 0.5])
+        every = plain(tree, tuple(low.tolist()), tuple(high.tolist()), 1000)
+        np.testing.assert_array_equal(twin(tree, tuple(low.tolist()), tuple(high.tolist()), 1000), every)
+        # Which are left out where there are more is open.
+        some = twin(tree, tuple(low.tolist()), tuple(high.tolist()), 2)
+        assert len(some) == min(2, len(every))
+        assert set(some) <= set(every)
+
+
+@steady
+@given(seed=seeds)
+def test_what_a_ledge_covers(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    plain, twin = both("contact.ledge.covers")
+    k, n = int(rng.integers(0, 6)), int(rng.integers(0, 9))
+    triangles = np.round(rng.uniform(-0.5, 0.5, (k, 3, 2)), 1) if k else np.empty((0, 3, 2))
+    rims = np.round(rng.uniform(-0.5, 0.5, (n, 2, 2)), 1)
+    for _ in range(20):
+        u, v = np.round(rng.uniform(-0.5, 0.5, 2), 1).tolist()
+        a, b = rng.choice([0.0, 0.05, 0.1], 2).tolist()
+        assert twin(triangles, rims, (u, v, u + a, v + b)) == plain(triangles, rims, (u, v, u + a, v + b))
+
+
+@steady
+@given(seed=seeds)
 def test_outlines_over_each_other_to_the_last_bit(seed: int) -> None:
     rng = np.random.default_rng(seed)
     outlines = []

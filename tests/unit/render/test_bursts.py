@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from scene2hap.render.bursts import MOST_PLAYING, Bursts, PlannedBurst, Samples, summed, wave_of
+from scene2hap.render.bursts import MOST_PLAYING, Bursts, PlannedBurst, Samples, peak_of, summed, wave_of
 
 RATE = 48_000
 
@@ -39,6 +39,23 @@ def test_a_wave_is_the_sine_that_it_says_and_dies_as_it_says() -> None:
 def test_waves_of_other_lengths_add_up() -> None:
     total = summed([np.ones(3, np.float32), np.ones(5, np.float32)], [0.5, 0.25])
     np.testing.assert_array_equal(total, np.float32([0.75, 0.75, 0.75, 0.25, 0.25]))
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_the_peak_is_that_of_all_samples(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(1, 7))
+    f, decays, weights = rng.uniform(30, 400, n), rng.uniform(0.008, 0.1, n), rng.uniform(0.001, 1, n)
+    waves = [wave_of(a, b, RATE) for a, b in zip(f.tolist(), decays.tolist(), strict=True)]
+    every = float(np.abs(summed(waves, weights.tolist())).max())
+    assert peak_of(waves, weights, decays, RATE) == every
+
+
+def test_a_beat_may_peak_late() -> None:
+    """Two sines that cancel at first are loudest long after the first cycles."""
+    waves = [wave_of(100.0, 0.1, RATE), -wave_of(104.0, 0.1, RATE)]
+    every = float(np.abs(summed(waves, [1.0, 1.0])).max())
+    assert peak_of(waves, np.ones(2), np.full(2, 0.1), RATE) == every
 
 
 @pytest.mark.parametrize("block", [1, 7, 64, 480, 5000])
