@@ -1,1 +1,1 @@
-"""Who touches whom, and where; kept up to date as things move."""
+"""The contact graph: which objects touch, and where, updated as they move."""

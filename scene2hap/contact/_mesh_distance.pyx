@@ -19,7 +19,7 @@ cdef double INSET = 1e-4
 cdef double INSET_M = 1e-4
 cdef double SPREAD_M = 0.005
 cdef double TIE_M = 1e-6
-# So far outside an edge, in barycentric units, rounding does not matter.
+# A point this far outside an edge, in barycentric units, is outside whatever the rounding.
 cdef double OUTSIDE = 1e-3
 cdef enum:
     MAX_POINTS = 4
@@ -426,7 +426,7 @@ cdef void measure_crossings(double* least, double* most, const Face* p, const Fa
             less(r, q.corners[j], p.corners[i])
             area = turn(d, g)
             s, t = turn(r, g), turn(r, d)
-            # Most do not cross, as the signs tell.
+            # Most do not cross, which the signs show without a division.
             if not (s * area > 0 and t * area > 0) or not area * area > PARALLEL * (dot(d, d) * dot(g, g)):
                 continue
             s, t = s / area, t / area
@@ -726,8 +726,8 @@ def drops(host, guest, turn, shift, frame, limits, bint guest_falls):
         search.bottom, search.reach, search.touch = limits
         search.bottom += search.reach
         search.guest_falls, search.first = guest_falls, INFINITY
-        told = np.full(search.guest.m if guest_falls else search.host.m, np.inf)
-        each = told
+        falls = np.full(search.guest.m if guest_falls else search.host.m, np.inf)
+        each = falls
         search.each = &each[0]
         if fall(&search, box_of(&search.guest, 0), box_of(&search.host, 0)) < INFINITY:
             drop_down(&search, 0, 0)
@@ -738,7 +738,7 @@ def drops(host, guest, turn, shift, frame, limits, bint guest_falls):
     for k in range(each.shape[0]):
         if each[k] > search.first + search.touch:
             each[k] = INFINITY
-    return told
+    return falls
 
 
 cdef void multiply(Placement* found, const Placement* frame, const Placement* at) noexcept:

@@ -44,12 +44,12 @@ def meeting(tree, low, high, Py_ssize_t most):
         raise MemoryError
     try:
         look(&query, 0)
-        told = np.empty(query.n, dtype=np.intp)
-        found = told
+        columns_found = np.empty(query.n, dtype=np.intp)
+        found = columns_found
         for k in range(query.n):
             found[k] = query.found[k]
     finally:
         free(query.found)
     if query.n > 1:
-        told.sort()
-    return told
+        columns_found.sort()
+    return columns_found

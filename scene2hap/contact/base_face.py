@@ -1,7 +1,7 @@
 """What a shape has lowest and highest for a way that is up: the base face that it stands on and the top that bears
 others.
 
-Most things stand on level faces, and what touches there is a matter of flat convex outlines; only the rest needs
+Most things stand on level faces, and their contacts follow from flat convex outlines; only the rest needs
 triangles. A base face is the lowest of a shape, level or a few corners like the feet of a stool, and a top its highest,
 so that wherever they are over each other, nothing of the two shapes is nearer.
 """
@@ -85,7 +85,7 @@ def top_of(triangles: Floats, uneven: float, up: Triple) -> tuple[Triple, ...] |
 
 
 def across(up: Triple) -> Triple:
-    """A level direction by which an upright turn can be told, when the own direction `up` points up."""
+    """A level direction that shows an upright turn, when the own direction `up` points up."""
     return triples(_frame(up)[1].T[:1])[0]
 
 

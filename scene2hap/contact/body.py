@@ -68,7 +68,7 @@ class Body:
 
     @property
     def stance(self) -> Stance:
-        """Its shape as it is turned; what slides in every frame is asked for it now and then."""
+        """Its shape as it is turned; recomputed only after a turn."""
         stance, rotation_xyzw = self._stance, self.pose.rotation_xyzw
         if stance.rotation_xyzw is not rotation_xyzw and stance.rotation_xyzw != rotation_xyzw:
             stance = self._stance = stance.turned(rotation_xyzw)

@@ -19,7 +19,7 @@ from scene2hap.contact.broad import Boxes, box_pairs
 from scene2hap.contact.vectors import AABB, Triple
 
 SKIN_M = 0.06
-"""How far a thing may move before its neighbours are looked for anew (assumed: a hand's way in four or five frames)."""
+"""How far a thing may move before its neighbours are searched again (assumed: a hand's way in four or five frames)."""
 
 # As far beyond that where it was before: as much again level, and as far as one lifts a thing to look at it (assumed).
 _MEMORY_M = (SKIN_M, 0.3)

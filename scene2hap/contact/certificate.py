@@ -29,7 +29,7 @@ from scene2hap.scene.pose import Pose
 
 _SURE_M = -TOUCH_M + 0.001
 """Above this a fall is surely none of a thing that stands in another: tops and base faces may be 0.2 mm uneven each."""
-_SPARE = 1.001  # so that rounding does not matter
+_SPARE = 1.001  # covers rounding
 _ONES = (1.0,) * 4
 
 
@@ -60,7 +60,7 @@ class Extent(NamedTuple):
 class Certificate:
     """The contacts of a body within bounds; `body` is moved in place.
 
-    Parameters: planes : behind which the body stays, by the ids of those from whom they divide it; pins : the ids of
+    Parameters: planes : behind which the body stays, by the id of the body from which they divide it; pins : the ids of
     those that must stay where they are; resting, normal : how it stands, if it does. `has_held` says whether a step was
     within the bounds so far.
     """
@@ -87,7 +87,7 @@ class Certificate:
         self._bind()
 
     def keep_behind(self, planes: Mapping[str, tuple[Plane, ...]]) -> None:
-        """Stay on the near side of planes, by the id of whom they divide the body from, instead of those that did."""
+        """Replace planes, by the id of the body from which they divide this one."""
         self._planes.update(planes)
         self._bind()
 
@@ -194,7 +194,7 @@ def _standing(body: Body, resting: Resting) -> Standing:
     support, face, up = resting.support, resting.face, body.up_axis
     u, v = support.position_m[0], support.position_m[body.v_axis]
     least_m = resting.rest.top_m + _SURE_M
-    # With a higher bottom it is over all of the support; all in it, see `_all_in`. Else the middles tell.
+    # With a higher bottom it is over all of the support; all in it, see `_all_in`. Else the middles decide.
     is_sure = resting.is_ledge and (least_m > support.low[up] + TOUCH_M or least_m < support.high[up] - TOUCH_M)
     return Standing(
         [(nu, nv, offset + nu * u + nv * v) for nu, nv, offset in face.edges],
@@ -216,7 +216,7 @@ _APART = Separated((), ())
 
 
 def separated(one: Extent, other: Extent, reach_m: float) -> Separated | None:
-    """Planes by which two bodies surely do not matter to each other; None if they are too near for any.
+    """Planes that prove two bodies too far apart to touch or hang; None if they are too near for any.
 
     Parameters: reach_m : how near the two may touch or hang from each other.
     """
@@ -228,7 +228,7 @@ def separated(one: Extent, other: Extent, reach_m: float) -> Separated | None:
     if g - d > far_m or a - j > far_m or h - e > far_m or b - k > far_m or i - f > far_m or c - m > far_m:
         return _APART
     up, flat = x.up_axis, x.v_axis
-    # What is all below that on which another stands does not matter to it, such as cupboards under a worktop.
+    # A body wholly below another's support cannot touch it, such as a cupboard under a worktop.
     if y.high[up] < (most_m := one.top_m - max(3 * _SPARE * TOUCH_M, reach_m)):
         return Separated((), (roof_at(most_m),))
     if x.high[up] < (most_m := other.top_m - max(3 * _SPARE * TOUCH_M, reach_m)):

@@ -167,7 +167,7 @@ class Certificates:
         return standing_planes(body, resting)
 
     def _reach_m(self, x: Body, y: Body, is_in_air: bool) -> float:
-        """How near two may matter to each other: the smaller hangs from the larger if nothing supports it."""
+        """Distance within which two bodies interact: the smaller hangs from the larger if nothing supports it."""
         small, hangs = (x, is_in_air) if x.size_m < y.size_m else (y, y.id in self._unsupported)
         return max(TOUCH_M, hang_reach_m(small.size_m)) if hangs else TOUCH_M
 

@@ -58,62 +58,62 @@ class ContactFinder:
                 certificates.end(x)
                 placed.append(bodies[x].at(pose))
         if placed or added or gone:
-            self._look_anew(placed, [Body.of(item, self._up_axis) for item in added], gone, found)
+            self._search(placed, [Body.of(item, self._up_axis) for item in added], gone, found)
         return found
 
-    def _look_anew(
+    def _search(
         self, placed: list[Body], added: Sequence[Body], gone: Collection[str], found: dict[Pair, Junction | None]
     ) -> None:
-        """Find the contacts of bodies without a certificate, and of all to whom these matter."""
+        """Find the contacts of bodies without a certificate, and of all bodies that these affect."""
         bodies, certificates = self._bodies, self._certificates
         dirty: set[Pair] = set()
-        unsure: set[str] = set()
+        recheck: set[str] = set()
         for x in gone:
-            self._remove(x, found, unsure)
+            self._remove(x, found, recheck)
         for body in (*placed, *added):
             bodies[body.id] = body
         for x, others in self._broad_phase.update([*placed, *added]).items():
             for y in others:
-                self._part(x, y, found, unsure)
+                self._part(x, y, found, recheck)
         proven = {}
-        uncertain = [*added]
+        pending = [*added]
         for body in placed:
-            junction = self._certify(body, dirty, unsure) if certificates.may_be_issued(body.id) else None
+            junction = self._certify(body, dirty, recheck) if certificates.may_be_issued(body.id) else None
             if junction is None:
-                uncertain.append(body)
+                pending.append(body)
             else:
                 proven[body.id] = junction
-        while uncertain or unsure:
-            for body in uncertain:
+        while pending or recheck:
+            for body in pending:
                 certificates.end(body.id)
-                uncertain += certificates.crowd_out(body)
+                pending += certificates.crowd_out(body)
             seen: set[str] = set()
-            for body in uncertain:
-                self._look_around(body, seen, dirty, unsure)
+            for body in pending:
+                self._look_around(body, seen, dirty, recheck)
                 seen.add(body.id)
-            uncertain = []
-            unsure.update(seen)
-            for x in unsure:
-                if x in bodies and x not in certificates.of and self._hold_anew(x, dirty):
-                    uncertain += certificates.crowd_out(bodies[x])
-            unsure = set()
+            pending = []
+            recheck.update(seen)
+            for x in recheck:
+                if x in bodies and x not in certificates.of and self._update_holders(x, dirty):
+                    pending += certificates.crowd_out(bodies[x])
+            recheck = set()
         found.update(self._holding.junctions(dirty))
         for x, junctions in proven.items():
             if x in certificates.of:
                 found.update(junctions)
 
-    def _remove(self, x: str, found: dict[Pair, Junction | None], unsure: set[str]) -> None:
+    def _remove(self, x: str, found: dict[Pair, Junction | None], recheck: set[str]) -> None:
         del self._bodies[x]
         self._certificates.forget(x)
         for y in self._broad_phase.remove(x):
-            self._part(x, y, found, unsure)
+            self._part(x, y, found, recheck)
         self._body_pairs.pop(x, None)
         held = self._held.pop(x, None)
         for y in held or ():
             found[pair_of(x, y)] = None
         self._unsupported.discard(x)
 
-    def _certify(self, body: Body, dirty: set[Pair], unsure: set[str]) -> dict[Pair, Junction | None] | None:
+    def _certify(self, body: Body, dirty: set[Pair], recheck: set[str]) -> dict[Pair, Junction | None] | None:
         """Prove that a body stands wholly on one other and touches nothing else, or touches nothing.
 
         Returns where it touches, None if there is no proof.
@@ -128,7 +128,7 @@ class ContactFinder:
         for y, body_pair in body_pairs.items():
             del self._body_pairs[y][x]
             if body_pair.rest(y) is not None or (y in self._unsupported and body.size_m > self._bodies[y].size_m):
-                unsure.add(y)
+                recheck.add(y)
             dirty.add(pair_of(x, y))
         self._body_pairs[x] = {}
         dirty.update(pair_of(x, y) for y in self._held.pop(x, ()))
@@ -139,7 +139,7 @@ class ContactFinder:
         self._held[x] = {resting.support.id: bond}
         return {pair_of(x, resting.support.id): junction_of(body, resting, bond.normal)}
 
-    def _part(self, x: str, y: str, found: dict[Pair, Junction | None], unsure: set[str]) -> None:
+    def _part(self, x: str, y: str, found: dict[Pair, Junction | None], recheck: set[str]) -> None:
         """Note that two are neighbours no more."""
         mine = self._body_pairs.get(x)
         body_pair = mine.pop(y, None) if mine else None
@@ -147,10 +147,10 @@ class ContactFinder:
             self._body_pairs[y].pop(x, None)
             found[body_pair.a.id, body_pair.b.id] = None
             if body_pair.rest(y) is not None or y in self._unsupported:
-                unsure.add(y)
+                recheck.add(y)
 
-    def _look_around(self, body: Body, seen: set[str], dirty: set[Pair], unsure: set[str]) -> None:
-        """Pair a body that moved to what is now near enough to matter."""
+    def _look_around(self, body: Body, seen: set[str], dirty: set[Pair], recheck: set[str]) -> None:
+        """Pair a body that moved with the bodies now near enough to touch it."""
         x, bodies, unsupported, certificates, within_m = (
             body.id,
             self._bodies,
@@ -175,9 +175,9 @@ class ContactFinder:
                 or x2 - high[flat] > within_m
                 or low[flat] - x5 > within_m
             ):
-                # Beside each other: neither can fall onto the other, and hanging is asked for by what is unsupported.
+                # Beside each other: neither can fall onto the other, and only unsupported bodies hang.
                 if y in unsupported and body.size_m > other.size_m:
-                    unsure.add(y)
+                    recheck.add(y)
                 continue
             if y in seen:
                 continue
@@ -196,11 +196,13 @@ class ContactFinder:
                 dirty.add(pair_of(x, y))
             may_hang = y in unsupported and body.size_m > other.size_m
             if may_hang or body_pair.rest(y) is not None or (old is not None and old.rest(y) is not None):
-                unsure.add(y)
+                recheck.add(y)
 
-    def _hold_anew(self, x: str, dirty: set[Pair]) -> bool:
-        """Find out what holds a body; the pairs in which another than before does are dirty. Returns whether nothing
-        wholly supports it any more."""
+    def _update_holders(self, x: str, dirty: set[Pair]) -> bool:
+        """Update which bodies hold a body; pairs whose bond may have changed become dirty.
+
+        Returns whether the body has lost its full support.
+        """
         was_unsupported = x in self._unsupported
         before, now = self._held.get(x), self._holding.holders(x)
         if now:

@@ -34,7 +34,7 @@ class FreeRegion(NamedTuple):
 
 
 class FreeRegions:
-    """The latest free regions of a host. They tell of the host alone, so that one drawn for a guest serves others."""
+    """The latest free regions of a host. They depend on the host alone, so that one drawn for a guest serves others."""
 
     __slots__ = ("_latest", "_of_guests")
 

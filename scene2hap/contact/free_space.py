@@ -1,7 +1,7 @@
 """Free space of concave hosts: a box around a guest in which the host has nothing, or one ledge to stand on.
 
 Rooms are one mesh of walls and floor, floors have nooks, shelves have boards below their top. The AABB of such a host
-holds everything around it, so only triangles tell where its surface is. They are searched once around a guest; the box
+holds everything around it, so only triangles show where its surface is. They are searched once around a guest; the box
 found is kept with the host, in the host's frame, until the guest leaves it, wherever the host goes. It holds for any
 pose within it, so that poses alone decide the contacts.
 
@@ -214,7 +214,7 @@ class _Near:
         sides = np.concatenate([self.low[:, others] - high, low - self.high[:, others]])
         widest = sides.argmax(axis=0)
         room = sides[widest, np.arange(len(widest))]
-        # A little less, so that rounding does not matter.
+        # A little less, to cover rounding.
         least = np.array([0.999 * room[widest == side].min(initial=np.inf) for side in range(6)])
         lowest, highest = np.maximum(self._low, low[:, 0] - least[3:]), np.minimum(self._high, high[:, 0] + least[:3])
         (a, b, c), (d, e, f) = lowest.tolist(), highest.tolist()

@@ -1,6 +1,6 @@
-"""Who touches whom, and where, as things move.
+"""Which objects touch, and where, as they move.
 
-Contacts come from the scene's source where it tells them (an engine), else from geometry: surfaces within a tolerance,
+Contacts come from the scene's source where it has them (an engine), else from geometry: surfaces within a tolerance,
 which follows the objects unless one is stated (`contact.rule`).
 """
 
@@ -69,7 +69,7 @@ class ContactGraph:
     wholly inside a closed other, away from its surface, does not touch it.
 
     For loops that run often, `junctions` and `beside` are what the graph itself keeps, changed in place by `update` and
-    read without a copy; `contacts`, `arrays` and `graph` are made from them when asked for.
+    read without a copy; `contacts`, `arrays` and `graph` are made from them on first access.
     """
 
     def __init__(self, scene: SceneSnapshot, *, tolerance_m: float | None = None) -> None:
@@ -119,7 +119,7 @@ class ContactGraph:
 
     @property
     def graph(self) -> networkx.Graph[str]:
-        """Object ids as nodes; edges carry their `contacts` as a list. Drawn anew after a change."""
+        """Object ids as nodes; edges carry their `contacts` as a list. Built again after a change."""
         import networkx
 
         found = self._views.get("graph")
@@ -212,8 +212,8 @@ class ContactGraph:
         is no Pose. The graph is then as it was.
         """
         if type(moved) is not dict and not isinstance(moved, Mapping):
-            told = checks.described(moved)
-            raise SceneError(f"moved is {told}; it must be a mapping of ids to poses, as {{'mug': Pose(...)}}.")
+            given = checks.described(moved)
+            raise SceneError(f"moved is {given}; it must be a mapping of ids to poses, as {{'mug': Pose(...)}}.")
         if added or removed or contacts is not None:
             if isinstance(added, SceneObject) or isinstance(removed, str):
                 raise SceneError("added and removed must be lists, as added=[SceneObject(...)] and removed=['mug'].")
@@ -300,7 +300,7 @@ class ContactGraph:
     def _replace(
         self, moved: Mapping[str, Pose], added: Sequence[SceneObject] = (), gone: Collection[str] = ()
     ) -> ContactChange:
-        """Let the finder look anew, and tell what that changes."""
+        """Have the finder search again. Returns what changed."""
         finder = self._finder
         if isinstance(finder, ContactFinder):
             return self._take_over(finder.replace(moved, added, gone))
@@ -323,7 +323,7 @@ class ContactGraph:
         return [pair_of(object_id, other) for other in self._beside.get(object_id, ())]
 
     def _take_over(self, found: Mapping[Pair, Junction | None]) -> ContactChange:
-        """Take over where these pairs touch, None for nowhere, and tell what that changes."""
+        """Store where these pairs touch, None for nowhere. Returns what changed."""
         return self._record(*self._apply(found))
 
     def _apply(self, found: Mapping[Pair, Junction | None]) -> tuple[list[Pair], list[Pair], list[Pair]]:

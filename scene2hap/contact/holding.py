@@ -41,7 +41,7 @@ class Bond(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """How a pair touches: by which bond; its points lie as `rest` or `side` tells, or are to be asked for."""
+    """How a pair touches: by which bond. Its points follow from `rest` or `side`, else from triangles."""
 
     body_pair: BodyPair
     bond: Bond

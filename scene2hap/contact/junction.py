@@ -22,7 +22,7 @@ def pair_of(x: str, y: str) -> Pair:
 
 class Junction(NamedTuple):
     """The contacts of a pair (a, b), a < b, point by point: where in the world [m], how much of a contact, the normal
-    from a to b, and the area [m2]; the last two are one for all, or one for each point where an engine tells them."""
+    from a to b, and the area [m2]; the last two are one for all, or one for each point where an engine gives them."""
 
     points_m: tuple[Triple, ...]
     weights: tuple[float, ...]

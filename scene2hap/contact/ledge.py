@@ -39,7 +39,7 @@ class Ledges:
     """The level faces of triangles (3, 3, m) in their boxes, where up is along an own axis.
 
     Parameters: uneven_m : how much heights may differ within a face, and how far faces are apart that are two [m].
-    `number` (m,) tells which ledge each triangle is part of, -1 for none, `tops` (m,) how high each reaches; `heights`
+    `number` (m,) is the ledge that each triangle is part of, -1 for none, `tops` (m,) how high each reaches; `heights`
     are those of the ledges, rising.
     """
 

@@ -35,7 +35,7 @@ class Rest(NamedTuple):
 
 
 def rest_on(x: Body, y: Body) -> Rest | None:
-    """How x lies on y, one the base face and one the top of its object; None where that cannot be told from outlines, a
+    """How x lies on y, one the base face and one the top of its object; None where outlines do not decide that, a
     fall of inf where they are beside each other."""
     base_face, top_face = x.stance.posed_base_face, y.stance.top_face
     if top_face is None:
@@ -139,7 +139,7 @@ def _chosen(ring: Sequence[Point], stance: Stance) -> list[Point]:
 
 
 def _own(ring: Sequence[Point], stance: Stance) -> list[Point]:
-    """Coordinates that turn along with the stance, so that it does not matter how a whole scene is turned."""
+    """Coordinates that turn along with the stance, so that the result is the same however a whole scene is turned."""
     c, s = stance.heading
     return [(c * u + s * v, c * v - s * u) for u, v in ring]
 

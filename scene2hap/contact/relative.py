@@ -1,6 +1,6 @@
 """Two bodies: which is the guest of which, and its own box as the other sees it.
 
-In plain numbers, since it is asked for often, for one pair at a time.
+In plain numbers: it is computed often, for one pair at a time, where numpy's cost per call would dominate.
 """
 
 from __future__ import annotations

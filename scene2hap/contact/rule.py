@@ -1,8 +1,8 @@
 """The rule of contact, with all of its tuned numbers: what holds a thing up, where the scene's author left a gap.
 
-In real scenes things that rest hover 0-60 mm above what they rest on, and things that do not touch are a few
-millimetres apart, so that no single tolerance tells contact. Surfaces nearer than `TOUCH_M` touch, whatever they are.
-Beyond that a thing must be held:
+In real scenes objects hover 0-60 mm above their supports, and objects that do not touch are a few millimetres apart, so
+that no single tolerance decides what touches. Surfaces nearer than `TOUCH_M` always touch. Beyond that an object must
+be held:
 
 1. *Support.* Let it fall. What its bottom meets first within `fall_reach_m` supports it, and what other parts of its
    bottom would meet less than `TOUCH_M` later: a chair stands on the carpet's edge and on the floor, a cup on the
@@ -180,5 +180,5 @@ def is_over(x: Body, y: Body) -> bool:
 
 
 def is_under(x: Body, top_m: float) -> bool:
-    """Whether x is surely too far below what lies on something of that height to matter to it."""
+    """Whether x is surely too far below an object that lies on something of that height to touch it."""
     return x.high[x.up_axis] < top_m - 3 * TOUCH_M

@@ -17,7 +17,7 @@ from scene2hap.contact.triangle_tree import TriangleTree
 from scene2hap.contact.vectors import Floats, Triple, cross, dot, highest, lowest
 from scene2hap.scene.shapes import TriMesh
 
-# Directions that one shape is asked for; past this, things tumble and old ones are forgotten.
+# Directions of up that one shape keeps answers for; a tumbling object has more, and drops the old ones.
 _MOST_WAYS_UP = 64
 # Rays by which a side of the own box is seen, along each of its edges.
 _N_RAYS = 8

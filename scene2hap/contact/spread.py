@@ -76,7 +76,7 @@ def _first_of_few(points: Sequence[tuple[float, ...]], apart: Sequence[float]) -
 def _least(names: Sequence[int], axes: Sequence[Sequence[float]]) -> int:
     """The name with the least of the first coordinates, up to rounding, then of the second, and so on.
 
-    What is left is decided to the last bit, so that the order of the names does not matter.
+    Exact ties are decided to the last bit, so that the result does not depend on the order of the names.
     """
     left = list(range(len(names)))
     for values in axes:

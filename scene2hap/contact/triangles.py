@@ -1,7 +1,7 @@
 """How near two triangles come, for many pairs at once.
 
 The nearest points of two triangles lie on a vertex of one and the inside of the other, on two edges, or where an edge
-of one runs through the other. All 21 such meetings are told, since the corners of a patch where faces lie on each
+of one runs through the other. All 21 such meetings are returned, since the corners of a patch where faces lie on each
 other are among them, and a single nearest point would hide them.
 
 Source: C. Ericson, Real-Time Collision Detection (2005), section 5.1.9 (segments), 5.1.10 (triangles), 3.4 (barycentric
@@ -88,7 +88,7 @@ class _Faces(NamedTuple):
 
     @classmethod
     def of(cls, faces: Floats, corners: Floats) -> _Faces:
-        """What is told of faces (3, 3, n), each for the corners of another."""
+        """Planes of faces (3, 3, n), and heights of the corners of others over them."""
         origin = faces[:, 0]
         u, v = faces[:, 1] - origin, faces[:, 2] - origin
         normal = cross(u, v)
@@ -116,7 +116,7 @@ class _Faces(NamedTuple):
     def meet_edges(self) -> Meetings:
         """Where the others' edges run through the faces."""
         start, end = self.height, _next(self.height, 0)
-        # An edge within rounding of the plane crosses it anywhere or nowhere; its vertices tell the same surely.
+        # An edge within rounding of the plane crosses it anywhere or nowhere; its vertices give that reliably.
         in_plane = _IN_PLANE_M / np.sqrt(self.area2)
         crosses = (start * end < 0) & (np.abs(start) > in_plane) & (np.abs(end) > in_plane)
         s = start / np.where(crosses, start - end, 1.0)

@@ -1,7 +1,7 @@
 """Vectors with their axes first, (3, ...), so that numpy runs along many of them and not along three coordinates.
 
 Sums are spelled out, since numpy's own take another order when there is but one vector: an answer, to the last bit,
-must not depend on what else is asked for with it.
+must not depend on what else is computed with it.
 """
 
 from __future__ import annotations

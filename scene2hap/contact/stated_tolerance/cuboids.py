@@ -1,8 +1,8 @@
 """Cuboids, many pairs at once: how far their surfaces are apart.
 
-Everything is told in the frame of the first of a pair, the host, and the pairs are the last axis of all arrays. Sums
+Everything is in the frame of the first of a pair, the host, and the pairs are the last axis of all arrays. Sums
 are spelled out, since numpy's own take another order when there is but one pair: a pair's answer, to the last bit, must
-not depend on which others are asked for with it.
+not depend on which others are computed with it.
 
 Sources: S. Gottschalk, M. C. Lin, D. Manocha, OBBTree, SIGGRAPH (1996) 171 (15 axes); C. Ericson, Real-Time Collision
 Detection (2005), sections 4.4.1 and 5.1.9.
@@ -29,7 +29,7 @@ MIDDLES = np.zeros((3, 12))
 for _edge in range(12):
     _axis = _edge // 4
     MIDDLES[NEXT[_axis], _edge], MIDDLES[LAST[_axis], _edge] = 1.0 - (_edge & 1) * 2.0, 1.0 - (_edge & 2)
-# Squared sine below which two edges are parallel: corners then tell the same.
+# Squared sine below which two edges are parallel: corners then give the same.
 _PARALLEL = 1e-12
 # Cosine below which a normal of two edges may be one of a face as well, of which any edge could be meant.
 _ASKEW = 1e-6
@@ -120,8 +120,8 @@ class Gaps:
 
     `distance_m` (n,) of the surfaces, 0 where they cut each other, and `way_m` (3, n) there, from host to guest;
     `least_m` (n,), how far planes between the two are apart at most, negative by how deep they are sunk in; `edges`
-    (n,), as told by `edge_clearance`; `on_host`, `on_guest` and `inner` (3, n), as told by `clearance`. Of some pairs
-    the `ends` are known already: `kept` (n,) is their column there, -1 for none.
+    (n,), as `edge_clearance` gives it; `on_host`, `on_guest` and `inner` (3, n), as `clearance` gives them. Of some
+    pairs the `ends` are known already: `kept` (n,) is their column there, -1 for none.
     """
 
     __slots__ = ("distance_m", "ends", "inner", "kept", "least_m", "on_guest", "on_host", "table", "way_m")
@@ -211,20 +211,23 @@ def gaps(pairs: Pairs, within_m: float) -> tuple[Indices, Gaps]:
     if len(inside):
         distance[inside] = np.maximum(inner[inside], 0.0)
         way[:, inside] = _way_inside(pairs.shift[:, inside], found.inner[:, inside])
-    # Of those that cut each other with edges first, where these are will be asked for as well.
-    asked = np.flatnonzero((least <= within_m) & ((least > 0) | (of_edges > flat + _SURELY_M)))
-    if len(asked):
-        apart = least[asked] > 0
-        lengths, ways, kept, found.ends = _apart(pairs.rows(asked), flat[asked], edges[asked])
-        distance[asked], way[:, asked] = np.where(apart, lengths, distance[asked]), np.where(apart, ways, way[:, asked])
-        found.kept[asked[kept]] = np.arange(len(kept))
+    # Of those that cut each other with edges first, the ends are needed as well.
+    needed = np.flatnonzero((least <= within_m) & ((least > 0) | (of_edges > flat + _SURELY_M)))
+    if len(needed):
+        apart = least[needed] > 0
+        lengths, ways, kept, found.ends = _apart(pairs.rows(needed), flat[needed], edges[needed])
+        distance[needed], way[:, needed] = (
+            np.where(apart, lengths, distance[needed]),
+            np.where(apart, ways, way[:, needed]),
+        )
+        found.kept[needed[kept]] = np.arange(len(kept))
     near = np.flatnonzero((distance <= within_m) & (least <= within_m))
     return rows[near], found.rows(near)
 
 
 def ends_of(pairs: Pairs, edges: Indices) -> tuple[Ends, Marks]:
     """Where each corner of either, and of the edges those two that could be, are nearest; and for which pairs (n,) only
-    `all_ends` can tell which edges that are."""
+    `all_ends` finds which edges these are."""
     of_edges, unsure = _edge_ends(pairs, edges)
     return _corner_ends(pairs).joined(of_edges), unsure
 

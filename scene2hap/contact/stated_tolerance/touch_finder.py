@@ -108,11 +108,11 @@ class TouchFinder:
         self._turn_boxes(columns)
         changed = self._look(columns, left)
         names = self._names.of
-        told = (names(changed.appeared), names(changed.vanished), names(changed.shifted))
+        changes = (names(changed.appeared), names(changed.vanished), names(changed.shifted))
         if left:
             self._free += left
             self._names.forget()
-        return told
+        return changes
 
     def _enter(self, item: SceneObject) -> int:
         """A column for a new thing."""
