@@ -29,6 +29,7 @@ LEFT = 0.3
 """Share of its speed that something still has, at most, after it landed."""
 HEAD_ON = 0.5
 """Share of its travel along the normal of a contact, at least: what slides along does not land."""
+_SUDDEN = ((1 - LEFT) * HEAD_ON) ** 2
 MOST_MOVING = 100
 """Objects followed at once; what moves beside so many others is no event of its own."""
 
@@ -72,17 +73,24 @@ class _Track:
         """Whether it went on one way, far enough; a single step is something that the game put elsewhere."""
         return self.n_steps > 1 and math.dist(self.origin_m, self.position_m) >= LEAST_TRAVEL_M
 
-    def follow(self, step: _Step) -> None:
+    def is_sudden(self, onward: Vector) -> bool:
+        """Whether an object goes on otherwise than it did; computed for all that moves."""
+        (x, y, z), (u, v, w) = onward, self.step_m
+        x, y, z = x - u, y - v, z - w
+        return x * x + y * y + z * z >= _SUDDEN * (u * u + v * v + w * w) and self.is_falling
+
+    def follow(self, step: _Step, onward: Vector) -> None:
         """Take in a step."""
-        here, now, last = self.position_m, step.pose.position_m, self.steps[-1]
-        onward = (now[0] - here[0], now[1] - here[1], now[2] - here[2])
-        if _dot(onward, self.step_m) <= 0:
-            self.since, self.n_steps, self.origin_m = last.update, 0, here
-        self.position_m, self.step_m, self.stride = now, onward, max(1, step.update - last.update)
+        steps = self.steps
+        last = steps[-1].update
+        (x, y, z), (u, v, w) = onward, self.step_m
+        if x * u + y * v + z * w <= 0:
+            self.since, self.n_steps, self.origin_m = last, 0, self.position_m
+        self.position_m, self.step_m, self.stride = step.pose.position_m, onward, max(1, step.update - last)
         self.n_steps += 1
-        self.steps.append(step)
-        if len(self.steps) > 4 * MOST_STEPS:
-            del self.steps[:-MOST_STEPS]
+        steps.append(step)
+        if len(steps) > 4 * MOST_STEPS:
+            del steps[:-MOST_STEPS]
 
     def run(self) -> list[_Step]:
         """The steps one way, of the latest time."""
@@ -118,15 +126,17 @@ class Landings:
     def look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
         """What landed by this update; after the graph moved."""
         self._n_updates = now = self._n_updates + 1
-        onward: list[tuple[_Track, _Step]] = []
+        moving: list[tuple[_Track, _Step, Vector]] = []
         stopped: list[str] = []
         found: list[Landing] = []
         rests: list[str] = []
         for object_id, track in self._tracks.items():
             pose = moved.get(object_id)
             if pose is not None and pose.position_m != track.position_m:
-                onward.append((track, _Step(now, time_s, pose)))
-                if _is_sudden(track, pose.position_m):
+                (x, y, z), (a, b, c) = pose.position_m, track.position_m
+                onward = (x - a, y - b, z - c)
+                moving.append((track, _Step(now, time_s, pose), onward))
+                if track.is_sudden(onward):
                     stopped.append(object_id)
                 continue
             late = now - track.steps[-1].update
@@ -137,8 +147,8 @@ class Landings:
         for object_id in stopped:
             if self._graph.beside.get(object_id):
                 found += self._landing(object_id, self._tracks[object_id])
-        for track, step in onward:
-            track.follow(step)
+        for track, step, onward in moving:
+            track.follow(step, onward)
         for landing in found:
             track = self._tracks[landing.object_id]
             track.turn(now, track.position_m)
@@ -195,13 +205,6 @@ class Landings:
         x, y, z = (np.array(point_m) - middle).tolist()
         length = math.hypot(x, y, z)
         return (x / length, y / length, z / length) if length > 0 else (0.0, 0.0, 0.0)
-
-
-def _is_sudden(track: _Track, position_m: Vector) -> bool:
-    """Whether an object goes on otherwise than it did; asked of all that moves."""
-    (x, y, z), (a, b, c), (u, v, w) = position_m, track.position_m, track.step_m
-    off = (x - a - u) ** 2 + (y - b - v) ** 2 + (z - c - w) ** 2
-    return off >= ((1 - LEFT) * HEAD_ON) ** 2 * (u * u + v * v + w * w) and track.is_falling
 
 
 def _middle(junction: Junction) -> Vector:
