@@ -13,13 +13,14 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.free_space import has_nothing_near
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.level import Aside, Rest, rest_points
-from scene2hap.contact.pair import NEEDS_TRIANGLES, BodyPair, apart_by
+from scene2hap.contact.pair import NEEDS_TRIANGLES, BodyPair, apart_by, box_distance_m
 from scene2hap.contact.rule import (
     CLEAR_M,
     SLACK_M,
     TOUCH_M,
     Support,
     fall_reach_m,
+    hang_later_m,
     hang_reach_m,
     hangs,
     level_supports,
@@ -164,11 +165,14 @@ class Holding:
         ]
         if not larger:
             return {}
-        for y in sorted(larger):
-            way = self._apart(self._body_pair(x, y), reach_m)
+        within_m, later_m = reach_m, hang_later_m(reach_m)
+        # The nearest first: the others hold the body only if they are hardly farther off.
+        for y in sorted(larger, key=lambda y: (box_distance_m(body, bodies[y]), y)):
+            way = self._apart(self._body_pair(x, y), within_m)
             if way is not None:
                 ways[y] = way
-        shares = hangs({y: distance for y, (distance, _) in ways.items()}, reach_m)
+                within_m = min(within_m, way[0] + later_m)
+        shares = hangs({y: ways[y][0] for y in sorted(ways)}, reach_m)
         return {
             y: Bond((1 - supported) * share, ways[y][1], direction(*ways[y]), False, x) for y, share in shares.items()
         }

@@ -26,7 +26,7 @@ NEEDS_TRIANGLES = Rest(math.nan, False, math.nan)
 class BodyPair:
     """Narrow-phase answers for two posed bodies, computed once and kept until either moves; `a` has the lower id."""
 
-    __slots__ = ("_facts", "_meeting_made", "a", "b", "rest_a", "rest_b")
+    __slots__ = ("_facts", "_gap", "_gap_within_m", "_meeting_made", "a", "b", "rest_a", "rest_b")
 
     def __init__(self, a: Body, b: Body) -> None:
         self.a, self.b = a, b
@@ -35,6 +35,9 @@ class BodyPair:
         self.rest_b = _rest(b, a) if self.rest_a is None else None
         self._meeting_made: MeshPair | None = None
         self._facts: dict[object, Any] | None = None
+        # The distance was searched so far; nearer than that it is known.
+        self._gap_within_m = -1.0
+        self._gap: Gap | None = None
 
     @classmethod
     def of(cls, x: Body, y: Body) -> BodyPair:
@@ -81,8 +84,10 @@ class BodyPair:
 
     def gap(self, within_m: float) -> Gap | None:
         """How far their surfaces are apart; see `MeshPair.gap`."""
-        found: Gap | None = self._once(within_m, lambda: self._meeting.gap(within_m))
-        return found
+        if within_m > self._gap_within_m:
+            self._gap_within_m, self._gap = within_m, self._meeting.gap(within_m)
+        gap = self._gap
+        return gap if gap is not None and gap.distance_m <= within_m else None
 
     def enclosed(self) -> tuple[float, float]:
         """How much of a contact it is that one is built into the other, and with how much play; see `enclosure`."""
@@ -114,10 +119,15 @@ class BodyPair:
         return made
 
 
+def box_distance_m(x: Body, y: Body) -> float:
+    """How far the boxes around two bodies are apart along some axis [m], at least; negative if they overlap."""
+    (a, b, c), (d, e, f), (g, h, i), (j, k, m) = x.low, x.high, y.low, y.high
+    return max(a - j, g - d, b - k, h - e, c - m, i - f)
+
+
 def apart_by(x: Body, y: Body, margin_m: float) -> bool:
     """Whether the boxes around two bodies are farther apart than that along some axis."""
-    (a, b, c), (d, e, f), (g, h, i), (j, k, m) = x.low, x.high, y.low, y.high
-    return max(a - j, g - d, b - k, h - e, c - m, i - f) > margin_m
+    return box_distance_m(x, y) > margin_m
 
 
 def _rest(x: Body, y: Body) -> Rest | None:

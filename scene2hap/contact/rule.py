@@ -146,10 +146,15 @@ def level_supports(rests: Mapping[str, Rest], reach_m: float) -> dict[str, Suppo
     return found
 
 
+def hang_later_m(reach_m: float) -> float:
+    """How much farther off than the nearest a second object may be to hold a hanging one as well [m]."""
+    return max(TOUCH_M, _HANG_SHARE * reach_m)
+
+
 def hangs(gaps_m: Mapping[str, float], reach_m: float) -> dict[str, float]:
     """Which of the larger things around hold what nothing supports, and how much of a contact each is (0..1)."""
     least = min(gaps_m.values(), default=math.inf)
-    later_m = max(TOUCH_M, _HANG_SHARE * reach_m)
+    later_m = hang_later_m(reach_m)
     shares = {name: weight(gap, reach_m) * weight(gap - least, later_m) for name, gap in gaps_m.items()}
     return {name: share for name, share in shares.items() if share > 0}
 
