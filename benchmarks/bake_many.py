@@ -24,6 +24,7 @@ from dataclasses import replace
 from importlib.util import find_spec
 from multiprocessing import get_context
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 
@@ -44,6 +45,13 @@ RUNS = (
     "two programs",
 )
 """The pools, and Dask, are executors of somebody else's, whose workers use one thread each."""
+
+KEEP_MEMORY = {"MALLOC_TRIM_THRESHOLD_": str(1 << 27), "MALLOC_MMAP_THRESHOLD_": str(1 << 25)}
+"""Environment of Dask's workers, as docs/many-scenes.md recommends: freed memory is used again.
+
+Dask sets the first to 64 KiB. Any value of it makes the C library stop to adapt the second, which stays at 128 KiB:
+each larger array is then fetched from the system, page by page, and returned.
+"""
 
 
 def write_variations(folder: Path, n: int, seed: int) -> list[Path]:
@@ -80,12 +88,12 @@ def baked(scenes: list[Path], folder: Path, run: str) -> ManyReport:
         with ProcessPoolExecutor(1 if run.endswith("one") else 2, mp_context=get_context("spawn")) as pool:
             return bake_many(scenes, folder, executor=pool)
     if run.startswith("Dask"):
-        import dask
         from distributed import Client, LocalCluster
 
         n_workers = 1 if "one" in run else 2
         with (
-            dask.config.set({"distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_": 1 << 27}),
+            # Dask's nannies also set variables in this process, which workers of later runs would inherit.
+            patch.dict(os.environ, KEEP_MEMORY),
             LocalCluster(n_workers=n_workers, threads_per_worker=1, dashboard_address=None) as cluster,
             Client(cluster) as client,
         ):
