@@ -79,8 +79,8 @@ FIGURES = {
     "many-scenes-200": Figure(
         "many-scenes",
         "benchmarks/bake_many.py --scenes 200 "
-        '--runs "this process" "a pool of one" "a pool of two" "Dask, one worker" "Dask, two workers"',
-        9,
+        '--runs "this process" "a pool of one" "a pool of two" "Dask, two workers"',
+        7,
         has_times=True,
         needs="scenes",
     ),
