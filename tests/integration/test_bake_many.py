@@ -64,11 +64,12 @@ def test_executors_of_others_make_the_same(scenes: list[Path], alone: Path, tmp_
 
 
 DASK = """
-import sys
+import os, sys
 from distributed import LocalCluster
 from scene2hap import bake_many
 if __name__ == "__main__":
-    with LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster:
+    os.environ.update(MALLOC_TRIM_THRESHOLD_=str(128 << 20), MALLOC_MMAP_THRESHOLD_=str(32 << 20))
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
         print(bake_many(sys.argv[2:], sys.argv[1], executor=f"dask:{cluster.scheduler_address}"), flush=True)
 """
 
