@@ -26,9 +26,9 @@ def sifted(const float[:, :, ::1] gains, peaks, double least_felt, least):
     cdef bint is_sifting = least is not None, is_heard
     cdef const float[:, :] peak = peaks
     cdef const float[:, :] floor = least
-    # Each column goes where the next one that is heard will be; those that are not are written over.
+    # Each column is written to the next free place. The following column overwrites one that is not felt.
     kept = np.empty((n, m, n_bands), dtype=np.float32)
-    cdef float[:, :, ::1] told = kept
+    cdef float[:, :, ::1] out = kept
     columns = []
     for j in range(m):
         is_heard = not is_sifting
@@ -37,14 +37,14 @@ def sifted(const float[:, :, ::1] gains, peaks, double least_felt, least):
             if peaks is not None and is_below(&gains[i, j, 0], peak, j, n_bands, least_felt, &n_new):
                 n_below += n_new
                 for k in range(n_bands):
-                    told[i, at, k] = 0
+                    out[i, at, k] = 0
                 continue
             for k in range(n_bands):
-                told[i, at, k] = gains[i, j, k]
+                out[i, at, k] = gains[i, j, k]
                 if is_sifting:
                     if not gains[i, j, k] >= floor[j, k]:
                         n_silent += gains[i, j, k] != 0
-                        told[i, at, k] = 0
+                        out[i, at, k] = 0
                     elif gains[i, j, k] != 0:
                         is_heard = True
         if is_heard:
@@ -56,7 +56,7 @@ def sifted(const float[:, :, ::1] gains, peaks, double least_felt, least):
 cdef bint is_below(
     const float* gains, const float[:, :] peak, Py_ssize_t j, Py_ssize_t n_bands, double least, Py_ssize_t* n_new
 ) noexcept:
-    """Whether what is felt of a source is less than a least; then whether it is anything."""
+    """Whether a source is felt by less than `least`. Sets `n_new` to 1 if that is more than 0."""
     cdef Py_ssize_t k
     cdef double felt = 0
     for k in range(n_bands):

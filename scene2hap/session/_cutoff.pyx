@@ -1,15 +1,15 @@
-"""The compiled twin of the kernel in `horizon`."""
+"""The compiled twin of the kernel in `cutoff`."""
 
 from libc.math cimport INFINITY
 
 
-def within(list prices, list horizon, list sought):
-    cdef Py_ssize_t n = len(horizon), n_beyond = 0, i, x
+def within(list prices, list cutoff, list sought):
+    cdef Py_ssize_t n = len(cutoff), n_beyond = 0, i, x
     cdef double price, limit
     cdef list row
     columns, each = [], [[] for _ in prices]
     for x in range(n):
-        limit = horizon[x]
+        limit = cutoff[x]
         is_near = False
         for i in range(len(prices)):
             row = prices[i]

@@ -10,7 +10,7 @@ def put_together(answers, rows, columns, among, shape):
     n_sources, n_bands = shape
     ours, theirs = columns
     gains = np.zeros((n_rows, n_sources, n_bands))
-    cdef double[:, :, ::1] told = gains
+    cdef double[:, :, ::1] put = gains
     for answer, own in zip(answers, rows):
         found = answer
         for i in range(found.shape[0]):
@@ -19,5 +19,5 @@ def put_together(answers, rows, columns, among, shape):
             for k in range(ours.shape[0]):
                 if sources is None or ours[k] in <frozenset>sources:
                     for band in range(n_bands):
-                        told[row, ours[k], band] = found[i, theirs[k], band]
+                        put[row, ours[k], band] = found[i, theirs[k], band]
     return gains

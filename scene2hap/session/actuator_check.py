@@ -31,7 +31,7 @@ def warn_if_other(bundle: HapticBundle, actuator: ActuatorProfile) -> None:
 
 
 def _shape(actuator: ActuatorProfile) -> ActuatorProfile:
-    """What loops are made by: band and response."""
+    """The parts of an actuator that decide how loops are made: band and response."""
     plain = ActuatorProfile()
     return replace(
         actuator,

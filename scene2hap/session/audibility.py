@@ -1,4 +1,4 @@
-"""Which sources and bands are strong enough to be mixed at a hand, by the threshold of touch.
+"""Choose the sources and bands that are strong enough to be mixed at a hand, by the threshold of touch.
 
 The loop is weighted by the threshold T(f), so that a vibration at the threshold has a peak of 1 whatever its frequency,
 and split into bands; p_b is the peak of band b over the whole loop. At band gains g_b no moment of it exceeds
@@ -51,8 +51,10 @@ class Audibility:
         return felt
 
     def worth_mixing(self, gains: NDArray[np.float32]) -> tuple[NDArray[np.float32], Sequence[int]]:
-        """What of gains (n_hands, n_sources, n_bands) is worth mixing, 0 where nothing is lost by it, of the sources
-        of which anything is (n_hands, n_columns, n_bands); and the columns of these."""
+        """Drop sources and bands that nobody would feel from gains (n_hands, n_sources, n_bands).
+
+        Returns the gains of the sources that remain (n_hands, n_columns, n_bands), and their columns.
+        """
         felt = self._felt[:, :, 0] if self._skip.below_threshold else None
         least = self._least_gain if self._skip.silent_bands else None
         mixed, columns, n_below, n_silent = sifted(gains, felt, float(self.least_felt), least)

@@ -21,6 +21,6 @@ class Counts:
     gains_capped: int = 0
 
     def skipped(self, rows_not_mixed: int) -> SkipCounts:
-        """As they stand now."""
-        told = {name: count for name, count in vars(self).items() if name != "gains_capped"}
-        return SkipCounts(rows_not_mixed=rows_not_mixed, **told)
+        """Copy the present counts into a `SkipCounts`."""
+        counted = {name: count for name, count in vars(self).items() if name != "gains_capped"}
+        return SkipCounts(rows_not_mixed=rows_not_mixed, **counted)

@@ -28,7 +28,7 @@ class CutoffCost:
     """The vibration that arrives and that is felt of each source of a field, by path cost.
 
     Sources of equal excitation and equal peaks, as copies of an object are, share one column of the table.
-    Raises: ModelDomainError: the field answers in another shape.
+    Raises: ModelDomainError: the field returns another shape.
     """
 
     def __init__(self, field: PricedField, audibility: Audibility, excitations: Sequence[Excitation]) -> None:
@@ -50,7 +50,7 @@ class CutoffCost:
         return _last_of(self._felt.take(self._column, axis=1) * levels >= self._least_felt)
 
     def arrives(self, levels: NDArray[np.float64]) -> list[float]:
-        """Beyond which no band of each source comes to more than `SILENT`."""
+        """The cost of each source beyond which none of its bands exceeds `SILENT`."""
         return _last_of(self._arrives.take(self._column, axis=1) * levels >= SILENT)
 
 
@@ -70,12 +70,12 @@ def within(
 
 
 def _falling(table: NDArray[np.float32]) -> NDArray[np.float32]:
-    """A table by rising price; rounding must not let it rise again."""
+    """A table by rising cost, made to fall: rounding must not let a gain rise with the cost."""
     falling: NDArray[np.float32] = np.maximum.accumulate(table[::-1], axis=0)[::-1]
     return falling
 
 
 def _last_of(is_enough: NDArray[np.bool_]) -> list[float]:
-    """The first price (n_prices, n_sources) at which it is not enough."""
+    """The first cost of each source at which `is_enough` (n_costs, n_sources) is false."""
     beyond = [NOWHERE, *_PRICES[1:].tolist(), math.inf]
     return [beyond[n] for n in np.count_nonzero(is_enough, axis=0).tolist()]

@@ -130,7 +130,7 @@ class Explanation:
 class Explainer:
     """Explains one moment.
 
-    Parameters: field : in use, which `gains` asks; levels : of each source at the hand, by band (n_bands,) [-].
+    Parameters: field : in use, which `gains` evaluates; levels : of each source at the hand, by band (n_bands,) [-].
     """
 
     def __init__(
@@ -146,7 +146,7 @@ class Explainer:
         self._field = field if isinstance(field, CarryingField) else None
 
     def explain(self, hand: str, touches: Sequence[Touch], frame: HapticFrame, is_current: bool) -> Explanation:
-        """What a hand feels that was given a frame for these touches."""
+        """Explain what a hand feels at a frame with these touches."""
         felt = []
         if touches and hand in frame.hands:
             for source_id, given in zip(frame.sources, frame.gains[frame.hands.index(hand)], strict=True):
@@ -203,14 +203,14 @@ def _as_one(steps: Sequence[PathStep]) -> PathStep:
 
 
 def _in_words(carriers: Sequence[Carrier]) -> str:
-    """How much comes from each object that brings any to speak of, over how many contacts."""
+    """Describe the share of each object that carries a notable part, and over how many contacts."""
     by: dict[str, list[float]] = {}
     for carrier in carriers:
         by.setdefault(carrier.by, []).append(carrier.share)
     parts = sorted(by.items(), key=lambda item: -sum(item[1]))
-    told = [
+    described = [
         f"{100 * sum(shares):.0f} % from {object_id} over {len(shares)} contact{'s' * (len(shares) > 1)}"
         for object_id, shares in parts
         if sum(shares) >= LEAST_SHARE
     ]
-    return ", ".join(told)
+    return ", ".join(described)

@@ -34,7 +34,7 @@ class FieldKeeper:
 
     Parameters: is_background : whether a worker prepares, beginning now; until the first field is ready, each source is
     felt on itself alone; skips_unreachable : leave objects that no source reaches out of the model's input.
-    Raises: what the model raises, if it is prepared in place.
+    Raises: the errors of the model, if it is prepared in place.
     """
 
     def __init__(
@@ -57,8 +57,8 @@ class FieldKeeper:
         self.last_failure, self.latency_s = "", 0.0
         before = self._situation(0, excitations)
         self.in_use = self._whole = Prepared(NoPropagation().prepare(ContactNetwork({}), excitations, bands), before)
-        self._asked = before
-        self.ask(excitations)
+        self._requested = before
+        self.request(excitations)
         self.order()
 
     @property
@@ -69,7 +69,7 @@ class FieldKeeper:
     @property
     def is_current(self) -> bool:
         """Whether the field in use was prepared for the newest scene state."""
-        return self.in_use.situation is self._asked
+        return self.in_use.situation is self._requested
 
     @property
     def age_s(self) -> float:
@@ -77,27 +77,27 @@ class FieldKeeper:
         outdated = self.in_use.situation.outdated_at_s
         return 0.0 if outdated is None else time.monotonic() - outdated
 
-    def ask(self, excitations: Sequence[Excitation]) -> None:
-        """Want a field for things as they are now: prepared here, or by the worker from the next `order` on."""
-        before, self._asked = self._asked, self._situation(self._asked.number + 1, excitations)
-        before.outdated_at_s = self._asked.asked_at_s
+    def request(self, excitations: Sequence[Excitation]) -> None:
+        """Request a field for the present scene. It is prepared here, or by the worker from the next `order` on."""
+        before, self._requested = self._requested, self._situation(self._requested.number + 1, excitations)
+        before.outdated_at_s = self._requested.requested_at_s
         if not self._is_background:
-            self._use(self._desk.prepare(self._asked))
+            self._use(self._desk.prepare(self._requested))
 
     def order(self) -> None:
-        """Let the worker begin with the newest request: at the end of an update, which it would slow down."""
+        """Pass the newest request to the worker. Call it at the end of an update, which the worker would slow down."""
         if not self._is_background:
             return
-        if self._n_ordered != self._asked.number:
-            self._n_ordered = self._asked.number
-            self._put(self._asked)
+        if self._n_ordered != self._requested.number:
+            self._n_ordered = self._requested.number
+            self._put(self._requested)
         elif self._is_stranger_touched:
             self.in_use.expected.update(object_id for object_id, _ in self._desk.touched)
             self._put(Sign.TOUCHED)
         self._is_stranger_touched = False
 
     def method(self, source_ids: tuple[str, ...], reach: Reach) -> FieldInUse:
-        """The field in use, for these sources and what hangs together now; it goes along when another one is."""
+        """The field in use, for these sources and connected objects. It switches to each newer field by itself."""
         if self._heard is not None and self._heard[1:] == (source_ids, reach):
             return self._heard[0]
         gained = self._in_use(source_ids, reach, self._note_touched)
@@ -115,7 +115,7 @@ class FieldKeeper:
 
         def as_now(one: Prepared) -> LastField:
             then = one.situation.poses
-            return LastField(one.field, then, now, source_ids, n_bands, reach, lambda: one.situation is self._asked)
+            return LastField(one.field, then, now, source_ids, n_bands, reach, lambda: one.situation is self._requested)
 
         gained = FieldInUse(source_ids, as_now, note)
         gained.use(self.in_use, self._whole)
@@ -143,7 +143,7 @@ class FieldKeeper:
         while True:
             self._desk.has_answered.clear()
             self.take()
-            if self._n_answered == self._asked.number and self._desk.n_followed == self._n_put:
+            if self._n_answered == self._requested.number and self._desk.n_followed == self._n_put:
                 return True
             rest_s = None if end_s is None else end_s - time.monotonic()
             if rest_s is not None and rest_s <= 0:
@@ -166,7 +166,7 @@ class FieldKeeper:
             self._heard[0].use(found, self._whole)
         self.n_prepared += 1
         if situation is not before:
-            self.latency_s = time.monotonic() - situation.asked_at_s
+            self.latency_s = time.monotonic() - situation.requested_at_s
 
     def _note_touched(self, touched: Sequence[TouchedPoint]) -> None:
         self._desk.touched = touched
@@ -178,8 +178,8 @@ class FieldKeeper:
         self.n_failed += 1
         self.last_failure = str(problem) if isinstance(problem, Scene2HapError) else repr(problem)
         instead = "the last one plays on" if self.n_prepared else "each source is felt on itself alone"
-        told = f"a field could not be prepared, so that {instead}: {self.last_failure}"
-        warnings.warn(told, RuntimeWarning, stacklevel=6)
+        warning = f"a field could not be prepared, so that {instead}: {self.last_failure}"
+        warnings.warn(warning, RuntimeWarning, stacklevel=6)
 
     def _put(self, order: Situation | Sign) -> None:
         if self._worker is None or not self._worker.is_alive():

@@ -1,6 +1,6 @@
-"""What a game hands to a session in another form than asked for: taken where its meaning is plain, else answered.
+"""Read arguments of a session that have an unexpected type: use them where their meaning is plain, else raise.
 
-Only looked at when the plain form does not fit, so that a frame in the plain form pays nothing for it.
+This runs only after the expected type did not fit, so that a frame with the expected types costs nothing more.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ def require_settings(config: object) -> None:
         raise ConfigError(f"config is {checks.described(config)}; write HapticSession(..., sink=sink).")
     for name in ("hands", "sink"):
         if isinstance(config, Mapping) and name in config:
-            told = checks.represented(config[name])
-            raise ConfigError(f"{name} is an argument, no setting; write HapticSession(..., {name}={told}).")
+            value = checks.represented(config[name])
+            raise ConfigError(f"{name} is an argument, no setting; write HapticSession(..., {name}={value}).")
 
 
 def given_frame(moved: object, touches: object) -> tuple[Mapping[str, Pose] | None, Sequence[Touch]]:
@@ -86,13 +86,13 @@ def _refuse_touches(touches: object) -> NoReturn:
 
 
 def swapped_hint(touch: Touch, hands: Collection[str]) -> str:
-    """What to say of a touch whose object is a hand, since its arguments are swapped."""
+    """A hint for a touch whose object is a hand, since its arguments are swapped."""
     is_hand = isinstance(touch.object_id, str) and touch.object_id in hands
     return f" {touch.object_id!r} is a hand; a touch is {_TOUCH}." if is_hand else ""
 
 
 def require_pose(object_id: str, pose: object) -> None:
-    """Raise a SceneError that tells how to write what is no Pose as one."""
+    """Require a Pose. Raises: SceneError: it is something else; the message says how to write it as a Pose."""
     if isinstance(pose, Pose):
         return
     how = "write Pose(position_m), or Pose(position_m, rotation_xyzw) with w last"
@@ -108,7 +108,7 @@ def given_contacts(contacts: object) -> Sequence[Contact]:
     found: tuple[Any, ...] = (contacts,)
     if not isinstance(contacts, str | Mapping | Contact):
         with contextlib.suppress(Exception):  # a type of somebody else's, whose `__iter__` raises what it likes
-            found = tuple(contacts)  # type: ignore[arg-type]  # if it cannot, it is told of below
+            found = tuple(contacts)  # type: ignore[arg-type]  # if it cannot, an error is raised below
     if isinstance(contacts, Contact) or not all(isinstance(one, Contact) for one in found):
         wrong = next((one for one in found if not isinstance(one, Contact)), contacts)
         raise SessionError(
@@ -151,9 +151,9 @@ def require_addable(item: object, haptics: object, loops: object) -> None:
         )
     for state, loop in (loops or {}).items():
         if not isinstance(loop, HapticLoop):
-            told, hint = checks.described(loop), ""
+            what, hint = checks.described(loop), ""
             if isinstance(loop, Mapping):
                 hint = f" Give the loops of one source, as bundle.loops[{state!r}]."
-            raise SessionError(f"loops[{state!r}] of {item.id!r} is {told}; it must be a HapticLoop.{hint}")
+            raise SessionError(f"loops[{state!r}] of {item.id!r} is {what}; it must be a HapticLoop.{hint}")
         if not isinstance(state, str):
             raise SessionError(f"loops of {item.id!r} has the state {checks.represented(state)}; it must be a text.")

@@ -34,7 +34,7 @@ PeaksOf = Callable[[Sequence[LoopRow]], NDArray[np.float32]]
 class HandFrames:
     """Turns touches into gains, and skips updates that change nothing.
 
-    What gains depend on besides the touches is remembered, and forgotten when it changes.
+    All inputs of the gains other than the touches are cached, and dropped when they change.
     """
 
     def __init__(
@@ -44,7 +44,7 @@ class HandFrames:
         self._counts = Counts()
         self._excitations: Sequence[Excitation] | None = None
         self._method: GainMethod | None = None
-        self._hearing_of: LiveField | None = None
+        self._method_field: LiveField | None = None
         self._n_unreachable: int | None = None
         self._levels, self._are_levels_known = np.empty(0), False
         self._profile, self._hands = UserProfile(), hands
@@ -56,28 +56,28 @@ class HandFrames:
         self._frame = self.silence(())
         self._is_fresh = False
         self._pending: list[ContactChange] = []
-        self._must_ask, self._is_cast_known = False, True
+        self._must_request, self._are_sources_known = False, True
         self._look_around()
         self.keeper = keeper_of(config, state, self._known_excitations())
         self._count_unreachable()
 
     def apply(self, change: ContactChange, *, sources_changed: bool = False) -> None:
-        """Take in a change of contacts, after objects came or went; `sources_changed` if sources did.
+        """Apply a change of contacts, after objects came or went; `sources_changed` if sources did.
 
-        Objects and sources that come and go are worked out together by the next `frame`, since a game may add and
-        remove many between two.
+        The next `frame` handles all objects and sources that came and went together, since a game may add and remove
+        many between two frames.
         """
         if sources_changed:
-            self._forget_cast()
+            self._forget_sources()
         if sources_changed or self._bodies is not self._state.bodies:
-            self._is_cast_known = False
-        if not self._is_cast_known:
+            self._are_sources_known = False
+        if not self._are_sources_known:
             if change or sources_changed:
                 self._is_fresh = False
                 self._pending.append(change)
-                self._must_ask = self._must_ask or sources_changed or self._matters(change)
+                self._must_request = self._must_request or sources_changed or self._concerns_sources(change)
             return
-        matters = self._matters(change)
+        concerns_sources = self._concerns_sources(change)
         if change.appeared or change.vanished:
             self._reach.follow(change)
             self._n_unreachable = None
@@ -86,28 +86,28 @@ class HandFrames:
         if not change:
             return
         self._is_fresh = False
-        if matters or self._reach.concerns(change):
-            self._ask()
+        if concerns_sources or self._reach.concerns(change):
+            self._request_field()
         else:
             self._counts.changes_out_of_reach += 1
 
     def loops_came(self) -> None:
-        """Loops can be mixed that could not before."""
+        """Drop caches that depend on the loops, after more of them became ready to be mixed."""
         self._audibility = self._loudness = self._method = None
         self._is_fresh = False
 
     def levels_changed(self, is_other_state: bool = False) -> None:
-        """Forget levels; another state vibrates at another frequency, so that the field is another too."""
+        """Drop cached levels. Another state vibrates at another frequency, so that the field is another too."""
         self._are_levels_known = self._is_fresh = False
         if is_other_state:
-            self._forget_cast()
-            if self._is_cast_known:
-                self._ask()
+            self._forget_sources()
+            if self._are_sources_known:
+                self._request_field()
             else:
-                self._must_ask = True
+                self._must_request = True
 
     def use_profile(self, profile: UserProfile) -> None:
-        """Go on with the levels of another person."""
+        """Use the levels of another person."""
         self._profile = profile
         self.levels_changed()
 
@@ -127,8 +127,8 @@ class HandFrames:
             return self._frame, None
         self._felt, self._is_fresh = felt, True
         gained = None if is_paused else self._gains_of_hands(len(hands), felt)
-        told = self._nothing(len(hands)) if gained is None else gained.full
-        self._frame = HapticFrame(told, hands, self._sources.ids)
+        full = self._nothing(len(hands)) if gained is None else gained.full
+        self._frame = HapticFrame(full, hands, self._sources.ids)
         self.keeper.order()
         return self._frame, gained
 
@@ -140,12 +140,12 @@ class HandFrames:
 
     @property
     def field(self) -> object:
-        """The field in use, of the objects that there are."""
+        """The field in use, for the present objects."""
         self._catch_up()
         return self.keeper.field
 
     def silence(self, hands: tuple[str, ...]) -> HapticFrame:
-        """A frame in which no hand is given anything."""
+        """A frame in which all gains are 0."""
         return HapticFrame(self._nothing(len(hands)), hands, self._sources.ids)
 
     def wait(self, timeout_s: float | None) -> bool:
@@ -156,7 +156,7 @@ class HandFrames:
         return self.keeper.wait(timeout_s)
 
     def explain(self, hand: str) -> Explanation:
-        """Each source that a hand felt at the last frame, and its way there."""
+        """Explain each source that a hand felt at the last frame: its gain and its path."""
         self._catch_up()
         felt = (touch for touches in self._felt.values() for touch in touches)
         touches = [touch for touch in felt if touch.hand == hand and touch.object_id in self._state.objects]
@@ -195,18 +195,18 @@ class HandFrames:
             self._counts.skipped(rows_not_mixed),
         )
 
-    def _matters(self, change: ContactChange) -> bool:
+    def _concerns_sources(self, change: ContactChange) -> bool:
         return not self._config.skip.unreachable or self._reach.concerns(change)
 
     def _catch_up(self) -> None:
-        """Take in objects and sources that came and went."""
-        if self._is_cast_known:
+        """Apply the changes of objects and sources that came and went since the last frame."""
+        if self._are_sources_known:
             return
-        pending, must_ask = self._pending, self._must_ask
-        self._pending, self._must_ask, self._is_cast_known = [], False, True
+        pending, must_request = self._pending, self._must_request
+        self._pending, self._must_request, self._are_sources_known = [], False, True
         self._look_around()
-        if must_ask or any(map(self._reach.concerns, pending)):
-            self._ask()
+        if must_request or any(map(self._reach.concerns, pending)):
+            self._request_field()
         else:
             self._counts.changes_out_of_reach += len(pending)
 
@@ -217,12 +217,12 @@ class HandFrames:
         self._method = self._n_unreachable = None
         self._are_levels_known = False
 
-    def _forget_cast(self) -> None:
-        """Other sources, or other states of them, vibrate."""
+    def _forget_sources(self) -> None:
+        """Drop caches that depend on the sources and their states."""
         self._audibility = self._excitations = self._loudness = self._method = None
 
-    def _ask(self) -> None:
-        self.keeper.ask(self._known_excitations())
+    def _request_field(self) -> None:
+        self.keeper.request(self._known_excitations())
         self._count_unreachable()
 
     def _count_unreachable(self) -> None:
@@ -251,12 +251,12 @@ class HandFrames:
         self._known_levels()
         personal = self._personal
         field = self.keeper.method(self._sources.ids, self._reach)
-        if self._method is None or self._hearing_of is not field:
-            self._method, self._hearing_of = self._new_hearing(field), field
+        if self._method is None or self._method_field is not field:
+            self._method, self._method_field = self._new_method(field), field
         gained = self._method.of_hands(n_hands, felt)
         return gained if personal is None else personal.applied(gained)
 
-    def _new_hearing(self, field: LiveField) -> GainMethod:
+    def _new_method(self, field: LiveField) -> GainMethod:
         skip, counts = self._config.skip, self._counts
         if self._audibility is None:
             self._audibility = Audibility(self._peaks(self._sources.active_rows()), skip, counts)
@@ -265,7 +265,7 @@ class HandFrames:
             self._loudness = Loudness(self._levels, self._audibility)
         gains, loudness = self._touch_gains(field, counts), self._loudness
         wants_near = skip.below_threshold and skip.idle_hands and not gains.may_be_capped
-        # Only live fields are: asking a prepared one takes longer than hearing it.
+        # Live fields only: a cost query of a prepared field would take longer than computing its gains.
         if not (wants_near and isinstance(self.keeper, LiveKeeper) and isinstance(field, PricedField)):
             return AllGains(gains, loudness, skip, counts)
         if self._cutoff is None or self._cutoff[0] is not field:
@@ -279,7 +279,7 @@ class HandFrames:
         return np.zeros((n_hands, len(self._sources.ids), self._config.bands.n_bands), dtype=np.float32)
 
     def _known_levels(self) -> NDArray[np.float64]:
-        """What each source's signal is multiplied with (n_sources,) [-]."""
+        """The factor of each source's signal (n_sources,) [-]."""
         if not self._are_levels_known:
             levels = self._sources.factors(self._state.graph.neighbours, self._state.category)
             self._personal = None
@@ -312,7 +312,7 @@ class HandFrames:
 
 
 def keeper_of(config: SessionConfig, state: SceneState, excitations: Sequence[Excitation]) -> FieldKeeper | LiveKeeper:
-    """What keeps a field of the configured model at hand: a live one where the model offers it."""
+    """The keeper for the configured model: of a live field where the model offers one."""
     model, bands = config.propagation, config.bands
     if isinstance(model, LiveModel):
         return LiveKeeper(model, bands, state, excitations)

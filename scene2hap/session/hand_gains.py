@@ -81,7 +81,8 @@ class AllGains:
             mixed = _among(mixed, n_hands, felt)
         else:
             mixed, columns = worth(_among(given, n_hands, felt))
-        return HandGains(lambda: _told(given, n_hands, felt), mixed, columns if self._skip.silent_bands else None)
+        columns_or_all = columns if self._skip.silent_bands else None
+        return HandGains(lambda: _reported(given, n_hands, felt), mixed, columns_or_all)
 
 
 class PrunedGains:
@@ -108,9 +109,9 @@ class PrunedGains:
         """See `GainMethod`."""
         gains, cutoff, on = self._gains, self._cutoff, self._on
         touches = list(felt.values())
-        asked = [gains.asked(touched) for touched in touches]
-        prices = gains.prices(self._field, touches, asked, cutoff)
-        columns, each, n_beyond = within(prices, cutoff, [among & on for _, among in asked])
+        queries = [gains.query(touched) for touched in touches]
+        prices = gains.prices(self._field, touches, queries, cutoff)
+        columns, each, n_beyond = within(prices, cutoff, [among & on for _, among in queries])
         self._counts.below_threshold += n_beyond
         self._counts.idle_hands += n_hands - len(felt)
         mixed = self._loudness.applied(gains.at(self._field, each, columns), columns)
@@ -119,28 +120,29 @@ class PrunedGains:
 
         version = self._graph.version
 
-        def told() -> Gains:
+        def full() -> Gains:
             if self._graph.version == version:
-                everything = gains.prices(self._field, touches, asked, self._arrives)
+                everything = gains.prices(self._field, touches, queries, self._arrives)
             else:
+                # The contacts of that frame are gone, so that only the costs found then are true of it.
                 everything = _without(prices, cutoff)
-            return _told(self._loudness.applied(gains.at(self._field, everything)), n_hands, felt)
+            return _reported(self._loudness.applied(gains.at(self._field, everything)), n_hands, felt)
 
-        return HandGains(told, _among(mixed, n_hands, felt), columns)
+        return HandGains(full, _among(mixed, n_hands, felt), columns)
 
 
 def _without(prices: Prices, limits: Sequence[float]) -> Prices:
-    """Costs beyond their limits become infinite."""
+    """Copy path costs; those beyond their limits become infinite."""
     return [[x if x <= limit else math.inf for x, limit in zip(row, limits, strict=True)] for row in prices]
 
 
-def _told(given: Gains, n_hands: int, felt: Felt) -> Gains:
+def _reported(given: Gains, n_hands: int, felt: Felt) -> Gains:
     """Gains as `HapticFrame` reports them: 0 below -140 dB, whatever the model. A copy."""
     return _among(np.where(given < SILENT, np.float32(0.0), given), n_hands, felt)
 
 
 def _among(given: Gains, n_hands: int, felt: Felt) -> Gains:
-    """Gains of the hands that touch something, among those of all."""
+    """Gains of all hands, from those of the hands that touch something; 0 for the others."""
     if len(felt) == n_hands:
         return given
     every = np.zeros((n_hands, *given.shape[1:]), dtype=np.float32)

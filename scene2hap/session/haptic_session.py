@@ -323,7 +323,7 @@ class HapticSession:
         self._hand_frames.apply(change, sources_changed=is_source)
 
     def add_hand(self, name: str) -> None:
-        """Add an output. A sink that is running is faded out and opened anew with one channel more.
+        """Add an output. A sink that is running is faded out and reopened with one channel more.
 
         Raises: ConfigError: the name is taken; SessionError: the sink is running and keeps its channels for ever;
         DeviceError: it cannot be opened again.
@@ -411,7 +411,7 @@ class HapticSession:
         """Gains that `update` would report of each of these touches alone; playing is not changed.
 
         They are those of the field in use, with the volume of source, user and hand, also in a pause, and no touch is
-        counted: for maps, and for a game that asks ahead. Call it where `update` is called.
+        counted: for maps, and for a game that plans ahead. Call it where `update` is called.
         Returns: (n_touches, n_sources, n_bands) float64 [-], in the order of `source_ids`, 0 below -140 dB.
         Raises: UnknownObject: an object is not in the scene; SessionError: an unknown hand, or no touches.
         """
@@ -551,19 +551,19 @@ class HapticSession:
 
     @property
     def stats(self) -> SessionStats:
-        """What was done so far."""
+        """Counters so far."""
         stats = self._hand_frames.stats(self._updates, self._playback.rows_not_mixed)
         return replace(
             stats,
             touches_off_surface=self._off_surface.n_touches,
-            impacts=self._impacts.n_told,
+            impacts=self._impacts.n_reported,
             impacts_felt=self._impacts.n_felt,
             impacts_left_out=self._impacts.n_left_out,
         )
 
     @property
     def safety_stats(self) -> SafetyStats:
-        """What the safety layer of a started session had to change."""
+        """Counters of the changes by the safety layer of a started session."""
         return self._output.safety_stats
 
     @property
@@ -588,7 +588,7 @@ class HapticSession:
         self._silent_objects.look(item.id, haptics, loops)
 
     def _exchange(self, object_id: str) -> None:
-        """Put in an object anew, as the bundle has it now and the game has it."""
+        """Replace an object: with the bundle's present data, at its present pose."""
         item = replace(self._state.objects[object_id], pose=self._state.poses[object_id])
         before, bundle = self._sources.get(object_id), self._bundle
         self._take_out(object_id)

@@ -43,7 +43,7 @@ falls by 1 dB for 2 (2:1, usual from sound to touch after Merchel and Altinsoy):
 LEAST_INTERVAL_S = 0.03
 """Impacts of one thing on another closer together are one; assumed: most bursts last as long."""
 LEAST_GAIN = 10 ** (-60 / 20)
-"""What is below it at a hand is not mixed: full scale lies 45 dB over the threshold."""
+"""A weaker impact at a hand is not mixed: full scale lies 45 dB over the threshold."""
 MOST_WAITING = 4
 """Impacts that a worker has yet to compute."""
 LATEST_S = 0.3
@@ -80,7 +80,7 @@ class Impact:
 
 @dataclass(frozen=True)
 class Strike:
-    """What is struck where, by what and how hard; see `Impact`."""
+    """One strike: the struck object, the point, the striking object, and the speed; see `Impact`."""
 
     object_id: str
     point_m: Point
@@ -109,19 +109,19 @@ class Impacts:
         self._worker: ThreadPoolExecutor | None = None
         self._waiting: list[Future[None]] = []
         self._recent: deque[Impact] = deque(maxlen=KEPT)
-        self.n_told = self.n_felt = self.n_left_out = 0
+        self.n_reported = self.n_felt = self.n_left_out = 0
 
     def strike(self, strike: Strike, felt: Felt, hands: tuple[str, ...], profile: UserProfile, at_frame: int) -> Impact:
         """Let an impact be felt by the hands that touch something."""
-        self.n_told += 1
+        self.n_reported += 1
         impact, burst = self._impact(strike, at_frame)
         if self._is_admitted(strike, felt, at_frame):
             self._play(impact, burst, felt, hands, profile)
         return impact
 
     def land(self, strike: Strike, felt: Felt, hands: tuple[str, ...], profile: UserProfile, at_frame: int) -> None:
-        """The same, where nobody waits for the impact: nothing is computed for one that is left out."""
-        self.n_told += 1
+        """As `strike`, without a returned impact: nothing is computed for one that is left out."""
+        self.n_reported += 1
         if self._is_admitted(strike, felt, at_frame):
             self._play(*self._impact(strike, at_frame), felt, hands, profile)
 

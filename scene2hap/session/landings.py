@@ -74,7 +74,7 @@ class _Track:
         return self.n_steps > 1 and math.dist(self.origin_m, self.position_m) >= LEAST_TRAVEL_M
 
     def is_sudden(self, onward: Vector) -> bool:
-        """Whether an object goes on otherwise than it did; computed for all that moves."""
+        """Whether an object's motion changed abruptly since the last frame. Runs for every moved object."""
         (x, y, z), (u, v, w) = onward, self.step_m
         x, y, z = x - u, y - v, z - w
         return x * x + y * y + z * z >= _SUDDEN * (u * u + v * v + w * w) and self.is_falling
@@ -124,7 +124,7 @@ class Landings:
                 tracks[object_id] = _Track(_Step(self._n_updates, time_s - self._period_s, pose))
 
     def look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
-        """What landed by this update; after the graph moved."""
+        """Find the objects that landed in this update. Call it after the graph moved."""
         self._n_updates = now = self._n_updates + 1
         moving: list[tuple[_Track, _Step, Vector]] = []
         stopped: list[str] = []
@@ -157,7 +157,7 @@ class Landings:
         return found
 
     def _landing(self, object_id: str, track: _Track) -> list[Landing]:
-        """What it landed on, if on anything: of all that it touches, what it was nearing the fastest."""
+        """The object that it landed on, or None: of all that it touches, the one that it approached the fastest."""
         run = track.run()
         first, before, last = run[0], run[-2], run[-1]
         best, most_m, now = None, LEAST_TRAVEL_M, self._n_updates

@@ -12,9 +12,9 @@ from scene2hap.session.scene_state import SceneState
 
 
 class LiveKeeper:
-    """A live field, and another one when sources or objects come and go; nothing is ever out of date.
+    """Provides a live field, and makes another one when sources or objects come and go. It is never out of date.
 
-    Raises: what the model raises.
+    Raises: the errors of the model.
     """
 
     is_current = True
@@ -25,20 +25,20 @@ class LiveKeeper:
     def __init__(self, model: LiveModel, bands: Bands, state: SceneState, excitations: Sequence[Excitation]) -> None:
         self._model, self._bands, self._state = model, bands, state
         self.n_prepared = 0
-        self._cast: tuple[Mapping[str, Body], Sequence[Excitation]] | None = None
-        self.ask(excitations)
+        self._made_for: tuple[Mapping[str, Body], Sequence[Excitation]] | None = None
+        self.request(excitations)
 
     @property
     def field(self) -> LiveField:
         """The field to evaluate."""
         return self.in_use
 
-    def ask(self, excitations: Sequence[Excitation]) -> None:
-        """Go on with what there is now."""
+    def request(self, excitations: Sequence[Excitation]) -> None:
+        """Make a field of the present objects and sources, unless the one in use is of the same."""
         self.n_prepared += 1
         bodies = self._state.bodies
-        if self._cast is None or self._cast[0] is not bodies or self._cast[1] is not excitations:
-            self._cast = (bodies, excitations)
+        if self._made_for is None or self._made_for[0] is not bodies or self._made_for[1] is not excitations:
+            self._made_for = (bodies, excitations)
             self.in_use: LiveField = self._model.live(self._state.graph, bodies, excitations, self._bands)
 
     def order(self) -> None:

@@ -34,20 +34,20 @@ class MixerInstance:
             skip_silent=config.skip.silent_bands,
         )
         self._nothing = np.zeros((len(hands), 0, config.bands.n_bands), dtype=np.float32)
-        # Where it goes, and in which slots; what that follows from, to tell whether anything is new.
+        # The target gains and their slots, and the request that they came from: an equal request is skipped.
         self._gains, self._slots = self._nothing, list[int]()
-        self._told: tuple[bytes, list[int], list[int]] | None = None
+        self._last_request: tuple[bytes, list[int], list[int]] | None = None
 
     def move_to(self, gains: NDArray[np.float32], slots: list[int], hands: list[int], at_frame: int) -> None:
         """Move to gains (n_hands, n_slots, n_bands) of some slots for some of its hands, and to 0 for the rest."""
-        told = (gains.tobytes(), slots, hands)
-        if told == self._told:
+        request = (gains.tobytes(), slots, hands)
+        if request == self._last_request:
             return
         if len(hands) < len(self.hands):
             some, gains = gains, np.zeros((len(self.hands), *gains.shape[1:]), dtype=np.float32)
             gains[hands] = some
         self._send(gains, slots, at_frame)
-        self._told = told
+        self._last_request = request
 
     def fade(self, slots: list[int], at_frame: int) -> None:
         """Move to 0 for some slots alone."""
@@ -72,4 +72,4 @@ class MixerInstance:
 
     def _send(self, gains: NDArray[np.float32], slots: list[int], at_frame: int) -> None:
         self.mixer.set_loops(gains, slots, at_frame - self._begin)
-        self._gains, self._slots, self._told = gains, slots, None
+        self._gains, self._slots, self._last_request = gains, slots, None

@@ -40,7 +40,7 @@ _Route = tuple[MixerInstance, list[int] | None, list[int], list[int], Indices | 
 
 @dataclass(frozen=True, eq=False)
 class _Plan:
-    """What is played: a token of each output; each mixer, those of its outputs that are heard, and their channels."""
+    """The present outputs and mixers: a token of each output; each mixer, its outputs in use, and their channels."""
 
     hands: tuple[int, ...]
     mixers: tuple[tuple[MixerInstance, Indices, Indices], ...]
@@ -140,8 +140,8 @@ class Playback:
         if self._paused_from is not None:
             return
         for mixer, own, slots, outputs, channels in self._routes_of(active, columns):
-            told = gains if own is None else gains[:, own]
-            mixer.move_to(told if channels is None else told[channels], slots, outputs, at_frame)
+            ours = gains if own is None else gains[:, own]
+            mixer.move_to(ours if channels is None else ours[channels], slots, outputs, at_frame)
 
     @property
     def n_bursts(self) -> int:
@@ -155,7 +155,7 @@ class Playback:
             self._bursts.start(PlannedBurst(at_frame, by_token))
 
     def _routes_of(self, active: Sequence[LoopRow], columns: Sequence[int] | None) -> list[_Route]:
-        """How some of the active rows go; the same few come again and again as a source is lifted and put down."""
+        """The routes of some active rows. They are cached, since lifting and putting down a source repeats a few."""
         if self._active is not active or len(self._routes) >= _MOST_ROUTES:
             self._active = active
             self._routes.clear()

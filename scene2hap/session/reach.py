@@ -195,7 +195,7 @@ class Reach:
         self._forget_if_alone(group.members)
 
     def _leave(self, group: _Group, x: str) -> None:
-        """What touches nothing any more is in no group."""
+        """Remove an object that touches nothing any more from its group."""
         del self._group[x]
         self._n_reached -= group.n_reached
         group.members.discard(x)

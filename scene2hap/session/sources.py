@@ -38,7 +38,7 @@ class Level:
 
     @property
     def factor(self) -> float:
-        """What signals are multiplied with [-]."""
+        """Factor of the signals [-]."""
         return 0.0 if self.is_muted else self.factor_unmuted
 
 
@@ -68,7 +68,7 @@ class SourceInfo:
 class Source:
     """A vibrating object; `needs` is the contact that each state needs, by id or in words.
 
-    told : its states as inferred, by name; is_resting : whether it rests by itself, as by a thermostat; passing : the
+    inferred : its inferred states, by name; is_resting : whether it rests by itself, as by a thermostat; passing : the
     row that is played while it starts or stops.
     """
 
@@ -77,7 +77,7 @@ class Source:
     state: str
     is_on: bool = True
     level: Level = field(default_factory=Level)
-    told: Mapping[str, SourceState] = field(default_factory=dict)
+    inferred: Mapping[str, SourceState] = field(default_factory=dict)
     is_resting: bool = False
     passing: LoopRow | None = None
 
@@ -97,7 +97,7 @@ class Sources:
 
     def __init__(self) -> None:
         self._sources: dict[str, Source] = {}
-        # Derived from these when asked for, since many may come and go between two frames.
+        # Derived from the sources on demand, since many may come and go between two frames.
         self._ids: tuple[str, ...] | None = None
         self._active_rows: tuple[LoopRow, ...] | None = None
         self._need_contacts: bool | None = None
@@ -117,10 +117,10 @@ class Sources:
     ) -> None:
         """Take in a source with a loop for each of its states, at least one."""
         rows = {state: LoopRow(object_id, state, loop) for state, loop in loops.items()}
-        told = {state.name: state for state in haptics.states} if haptics is not None else {}
-        needs = {name: state.needs_contact for name, state in told.items()}
+        inferred = {state.name: state for state in haptics.states} if haptics is not None else {}
+        needs = {name: state.needs_contact for name, state in inferred.items()}
         level = Level(10 ** (gain_db / 20), is_muted)
-        self._sources[object_id] = Source(rows, needs, next(iter(rows)), level=level, told=told)
+        self._sources[object_id] = Source(rows, needs, next(iter(rows)), level=level, inferred=inferred)
         self._list()
 
     def remove(self, object_id: str) -> None:
@@ -176,8 +176,8 @@ class Sources:
         """
         source = self[source_id]
         if state is not None and not (isinstance(state, str) and state in source.rows):
-            told = checks.represented(state)
-            raise SessionError(f"{source_id!r} has no state {told}; it has {', '.join(map(repr, source.rows))}.")
+            wanted = checks.represented(state)
+            raise SessionError(f"{source_id!r} has no state {wanted}; it has {', '.join(map(repr, source.rows))}.")
         is_on = source.is_on if on is None else checks.flag("on", on, error=SessionError)
         source.level.set(gain_db, mute)
         source.is_on = is_on
@@ -208,7 +208,7 @@ class Sources:
     def factors(
         self, neighbours: Callable[[str], Iterable[str]], category: Callable[[str], str]
     ) -> NDArray[np.float64]:
-        """What each source's signal is multiplied with now: 0 when off, muted, or without the contact that it needs.
+        """Present factor of each source's signal: 0 when off, muted, or without the contact that it needs.
 
         A contact with a source that is switched off is none: no pan sizzles on a cold stove.
         """

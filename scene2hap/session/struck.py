@@ -27,7 +27,7 @@ _STRIKER, _STRIKER_KG = "\0striker", 1e-3
 def struck_live(
     field: PointField, object_id: str, point_m: Point, hands: Sequence[Sequence[TouchedPoint]], frequencies_hz: Floats
 ) -> Floats:
-    """What arrives (n_hands, n_frequencies) [-], >= 0, by a live field."""
+    """Gains (n_hands, n_frequencies) [-], >= 0, from a live field."""
     gains = np.array(field.from_point(object_id, point_m, hands, frequencies_hz))
     return _at_least_itself(gains, object_id, hands)
 
@@ -40,8 +40,8 @@ def struck_later(
     hands: Sequence[Sequence[TouchedPoint]],
     frequencies_hz: Floats,
 ) -> Callable[[], Floats]:
-    """A function that prepares the model and tells the same; it may be called in any thread, and later."""
-    # What touches nothing is in no network of what a source reaches.
+    """A function that prepares the model and returns these gains; it may be called in any thread, and later."""
+    # An object without contacts is in no network of connected objects, so that the whole scene is prepared for it.
     put_together = state.network([object_id] if state.graph.beside.get(object_id) else None)
     touched = {touched_id for hand in hands for touched_id, _ in hand}
 

@@ -27,12 +27,12 @@ class Switching:
     def __init__(self, sources: Sources, playback: Playback, sample_rate_hz: int) -> None:
         self._sources, self._playback, self._rate_hz = sources, playback, sample_rate_hz
         self._passing: dict[str, _Passing] = {}
-        # When the turn of a source ends, and of which states that was told.
+        # The frame at which the turn of a source ends, and the source, since another one may take its id.
         self._turns: dict[str, tuple[int, Source]] = {}
         self._known: tuple[str, ...] | None = None
 
     def switched(self, source_id: str, was_running: bool, now: int, *, by_hand: bool = True) -> None:
-        """A source may have been switched; one that a person switches on begins a turn."""
+        """Follow a source that may have been switched; one that a person switches on begins a turn."""
         source = self._sources[source_id]
         if by_hand and source.is_on and source.is_resting:
             source.is_resting = False
@@ -42,7 +42,7 @@ class Switching:
             self._pass(source_id, source, now)
 
     def advance(self, now: int) -> bool:
-        """Let what is over be over, and turns begin; true if anything changed."""
+        """End the starts and stops that are over, and begin turns that are due; true if anything changed."""
         if self._known is not self._sources.ids:
             self._look_around(now)
         over = [source_id for source_id, one in self._passing.items() if now >= one.end_frame]
@@ -62,7 +62,7 @@ class Switching:
         return bool(over or due)
 
     def _look_around(self, now: int) -> None:
-        """Sources came or went."""
+        """Follow sources that came or went."""
         self._known = self._sources.ids
         self._passing = {x: one for x, one in self._passing.items() if x in self._sources and self._sources[x].passing}
         before, self._turns = self._turns, {}
@@ -75,8 +75,8 @@ class Switching:
 
     def _begin_turn(self, source_id: str, source: Source, now: int, share: float) -> None:
         """Begin to run or to rest, with a share of that time already over."""
-        told = source.told.get(source.state)
-        lasts_s = None if told is None else told.off_s if source.is_resting else told.on_s
+        inferred = source.inferred.get(source.state)
+        lasts_s = None if inferred is None else inferred.off_s if source.is_resting else inferred.on_s
         if lasts_s is None:
             self._turns.pop(source_id, None)
         else:
@@ -84,17 +84,17 @@ class Switching:
 
     def _pass(self, source_id: str, source: Source, now: int) -> None:
         """Start to come up, or to die away."""
-        told, goes_up = source.told.get(source.state), source.is_running
+        inferred, goes_up = source.inferred.get(source.state), source.is_running
         before = self._passing.pop(source_id, None)
         speed = float(not goes_up) if before is None else self._playback.speed(before.passage, now)
         self._sources.let_pass(source_id, None)
-        lasts_s = 0.0 if told is None else told.start_up_s if goes_up else told.wind_down_s
+        lasts_s = 0.0 if inferred is None else inferred.start_up_s if goes_up else inferred.wind_down_s
         is_there = speed >= 1.0 if goes_up else speed <= 0.0
-        if told is not None and lasts_s > 0.0 and not is_there:
+        if inferred is not None and lasts_s > 0.0 and not is_there:
             steady = source.row
             row = LoopRow(source_id, source.state, steady.loop)
             passage = self._playback.pass_over(
-                row, steady, now, lasts_s, goes_up=goes_up, spins=told.spins, from_speed=speed
+                row, steady, now, lasts_s, goes_up=goes_up, spins=inferred.spins, from_speed=speed
             )
             if passage is not None:
                 self._passing[source_id] = _Passing(passage, self._playback.end_frame(passage))

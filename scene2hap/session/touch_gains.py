@@ -15,7 +15,8 @@ from scene2hap.session.counts import Counts
 from scene2hap.session.frame import Touch
 from scene2hap.session.reach import Reach
 
-Asked = tuple[list[TouchedPoint], frozenset[int]]
+HandQuery = tuple[list[TouchedPoint], frozenset[int]]
+"""The touched points of one hand at which a field is evaluated, and the columns of the sources that reach them."""
 
 GREATEST = 10 ** (MAX_GAIN_DB / 20)
 
@@ -50,20 +51,20 @@ class TouchGains:
         self,
         field: PricedField,
         hands: Sequence[Sequence[Touch]],
-        asked: Sequence[Asked],
+        queries: Sequence[HandQuery],
         limits: Sequence[float],
     ) -> Prices:
         """The path cost of each source at each hand up to its limit; 0 on a source.
 
-        Parameters: asked : the result of `asked` for the touches of each hand.
-        Raises: ModelDomainError: the field answers of too many or too few.
+        Parameters: queries : the result of `query` for the touches of each hand.
+        Raises: ModelDomainError: the field returns too many or too few costs.
         """
-        prices = field.prices([points for points, _ in asked], limits, [among for _, among in asked])
-        told, n_sources = [len(row) for row in prices], self._shape[0]
-        if told != [n_sources] * len(hands):
+        prices = field.prices([points for points, _ in queries], limits, [among for _, among in queries])
+        n_costs, n_sources = [len(row) for row in prices], self._shape[0]
+        if n_costs != [n_sources] * len(hands):
             raise ModelDomainError(
-                f"the model's field told {told} prices of {len(hands)} hands; it must tell one of each source at each, "
-                f"[{n_sources}] * {len(hands)}."
+                f"the model's field returned {n_costs} prices for {len(hands)} hands; it must return one for each "
+                f"source at each hand, [{n_sources}] * {len(hands)}."
             )
         for row, touches in zip(prices, hands, strict=True):
             for touch in touches:
@@ -74,9 +75,9 @@ class TouchGains:
     def of(self, hands: Sequence[Sequence[Touch]]) -> NDArray[np.float64]:
         """Gains (n_hands, n_sources, n_bands) [-], the largest over each hand's touches, capped; 1 on a source.
 
-        Raises: ModelDomainError: the field answers in another shape.
+        Raises: ModelDomainError: the field returns another shape.
         """
-        found = self._field.strongest([self.asked(touches)[0] for touches in hands])
+        found = self._field.strongest([self.query(touches)[0] for touches in hands])
         gains = checked(found, (len(hands), *self._shape))
         for i, touches in enumerate(hands):
             for touch in touches:
@@ -89,13 +90,13 @@ class TouchGains:
         return gains
 
     def at(self, field: PricedField, prices: Prices, columns: Sequence[int] | None = None) -> NDArray[np.float64]:
-        """Gains (n_hands, n_columns, n_bands) at such prices, see `PricedField`. Raises as `of`."""
+        """Gains (n_hands, n_columns, n_bands) at given path costs, see `PricedField`. Raises as `of`."""
         n_sources, n_bands = self._shape
         n_columns = n_sources if columns is None else len(columns)
         return checked(field.at(prices, columns), (len(prices), n_columns, n_bands))
 
-    def asked(self, touches: Sequence[Touch]) -> Asked:
-        """The touches of a hand that some source reaches, and the columns of these sources. Others are counted."""
+    def query(self, touches: Sequence[Touch]) -> HandQuery:
+        """The touches of a hand that some source reaches, and the columns of these sources. Counts the others."""
         points: list[TouchedPoint] = []
         among: frozenset[int] = frozenset()
         for touch in touches:
@@ -110,7 +111,10 @@ class TouchGains:
 
 @compiled
 def cap(gains: NDArray[np.float64], limit: float) -> int:
-    """Bring gains (n, m, k) between 0 and a limit; how many were above. A guest model's NaN must not reach a hand."""
+    """Clip gains (n, m, k) to 0 and a limit, in place. Returns how many were above the limit.
+
+    NaN becomes 0, since the NaN of a guest model must not reach a hand.
+    """
     n_above = int(np.count_nonzero(gains > limit))
     np.minimum(np.fmax(gains, 0.0, out=gains), limit, out=gains)
     return n_above

@@ -65,13 +65,13 @@ class UserProfile(Comfort):
         return points
 
     def level_db(self, hand: str, device: str, frequencies_hz: ArrayLike) -> NDArray[np.float64]:
-        """What is added to the level at a hand, on a device, at some frequencies [dB]; of their shape."""
-        asked = np.asarray(frequencies_hz, dtype=np.float64)
+        """The level added at a hand, on a device, at some frequencies [dB], in their shape."""
+        at_hz = np.asarray(frequencies_hz, dtype=np.float64)
         level = self.gain_db + sum(one.gain_db for one in self._special(hand, device))
         if not self.curve_db:
-            return np.full(asked.shape, level)
+            return np.full(at_hz.shape, level)
         frequency, curve = np.array(self.curve_db).T
-        return np.asarray(level + np.interp(np.log(np.maximum(asked, 1e-9)), np.log(frequency), curve))
+        return np.asarray(level + np.interp(np.log(np.maximum(at_hz, 1e-9)), np.log(frequency), curve))
 
     def limits(self, hands: Sequence[str], device: str) -> NDArray[np.float64]:
         """The largest sample at each hand on a device (n_hands,), in shares of full scale [-]."""

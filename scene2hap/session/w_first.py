@@ -32,8 +32,8 @@ def warn_if_w_first(moved: Mapping[str, Pose], pose: Callable[[str], Pose], know
     with_w_first = np.abs((before * np.roll(after, -1, axis=1)).sum(axis=1))
     if (as_given < _FLIPS).all() and (with_w_first > _STAYS).all():
         x, new = some[0]
-        told = ", ".join(f"{part:g}" for part in new.rotation_xyzw)
+        parts = ", ".join(f"{part:g}" for part in new.rotation_xyzw)
         warn_of(
             f"the first poses turn all {len(some)} moved objects over, as quaternions do that begin with w: "
-            f"rotation_xyzw of {x!r} is ({told}). Make poses by Pose.from_wxyz(position_m, rotation_wxyz)."
+            f"rotation_xyzw of {x!r} is ({parts}). Make poses by Pose.from_wxyz(position_m, rotation_wxyz)."
         )

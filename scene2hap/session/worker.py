@@ -41,15 +41,15 @@ class Situation:
     """A scene state for which a field is prepared.
 
     Parameters: network : makes the model's input, for the objects connected to some objects or for all objects if
-    none are given, in any thread; poses : of all objects then; asked_at_s, outdated_at_s : when this state began and
-    ended, by `time.monotonic` [s].
+    none are given, in any thread; poses : of all objects then; requested_at_s, outdated_at_s : when this state began
+    and ended, by `time.monotonic` [s].
     """
 
     number: int
     network: Callable[[Collection[str]], ModelInput]
     excitations: Sequence[Excitation]
     poses: Mapping[str, Pose]
-    asked_at_s: float
+    requested_at_s: float
     outdated_at_s: float | None = None
 
 
@@ -87,7 +87,10 @@ class Prepared:
 
 @dataclass(eq=False)
 class Desk:
-    """What keeper and worker share; the worker knows nothing else, so that a keeper can be forgotten."""
+    """The data that a keeper shares with its worker.
+
+    The worker has no reference to the keeper, so that a keeper that nobody uses is freed.
+    """
 
     model: PropagationModel
     bands: Bands
@@ -96,8 +99,8 @@ class Desk:
     has_answered: Event = dataclasses.field(default_factory=Event)
     touched: Sequence[TouchedPoint] = ()
     n_followed: int = 0
-    """Orders that were followed or overtaken."""
-    # Fields that are in use no more: giving back their memory is left to the worker, too.
+    """Orders that were carried out, or dropped for a newer one."""
+    # Fields that are no longer in use. The worker frees their memory, since that takes time.
     spent: deque[Prepared] = dataclasses.field(default_factory=lambda: deque(maxlen=4))
 
     def prepare(self, situation: Situation, near: Collection[str] = ()) -> Prepared:
@@ -107,7 +110,7 @@ class Desk:
         return Prepared(checked_field(self.model, field, situation.excitations), situation, covers)
 
     def work(self, newest: Prepared) -> None:
-        """Follow orders until the last; `newest` is the field that is in use."""
+        """Carry out orders until `Sign.END`; `newest` is the field that is in use."""
         is_whole, (order, n_orders) = True, self._newest(self.orders.get())
         while order is not Sign.END:
             if isinstance(order, Situation):
@@ -126,7 +129,7 @@ class Desk:
                 order, n_orders = self._newest(self.orders.get())
 
     def _answer(self, order: Situation, near: Collection[str]) -> Prepared | None:
-        """Prepare what is near some objects, or everything for none; None if it cannot be."""
+        """Publish a field of the objects near some objects, of all if none are given; None if the model fails."""
         try:
             prepared = self.prepare(order, near)
         except Exception as problem:
@@ -138,7 +141,7 @@ class Desk:
             return prepared
 
     def _newest(self, order: Order) -> tuple[Order, int]:
-        """What of all that waits is to be done, the end or the last situation, and how many orders these are."""
+        """The one of all waiting orders to carry out, and their number: the end, else the last scene state."""
         waiting = [order]
         with contextlib.suppress(Empty):
             while True:
@@ -152,7 +155,7 @@ _WORKERS: WeakKeyDictionary[Thread, Desk] = WeakKeyDictionary()
 
 
 def put_to_work(desk: Desk, newest: Prepared) -> Thread:
-    """A new worker at a desk; `newest` is the field that is in use."""
+    """Start a worker thread for a desk; `newest` is the field that is in use."""
     worker = Thread(target=desk.work, args=[newest], name="scene2hap propagation", daemon=True)
     _WORKERS[worker] = desk
     worker.start()

@@ -155,7 +155,7 @@ def test_answers_of_another_shape_are_errors_of_ours() -> None:
 
     for model, told in (
         (Wide(0.5), r"shape \(1, 4, 1\); it must be \(1, 2, 1\)"),
-        (Priced(-1, 0), r"told \[1\] prices of 1 hands"),
+        (Priced(-1, 0), r"returned \[1\] prices for 1 hands"),
         (Priced(0, 3), r"shape \(241, 2, 4\); it must be \(241, 2, 1\)"),
     ):
         s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": model})
