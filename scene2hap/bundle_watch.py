@@ -21,11 +21,11 @@ have stayed the same for as long."""
 
 @clear_calls
 class BundleWatch:
-    """Hands a bundle to a session whenever its folder was written anew.
+    """Hands a bundle to a session whenever its folder was written again.
 
     A worker looks at the folder and reads it; `update` gives a new bundle to the session and is called in the game
-    loop. Files that are edited by hand are followed too. `problem` tells why the folder as it is now cannot be played,
-    "" if it can; what was read last plays on.
+    loop. Files that are edited by hand are followed too. `problem` is the reason why the folder cannot be played as it
+    is now, "" if it can; the bundle that was read last plays on.
 
     Parameters: session : plays the bundle; folder : where it was saved.
     Raises: BundleError: no folder is there.

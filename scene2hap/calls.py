@@ -22,7 +22,7 @@ Class = TypeVar("Class", bound=type)
 
 
 def clear_call(function: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
-    """A function that answers a misspelled, missing or surplus argument by a CallError, which names the nearest.
+    """Wrap a function so that a misspelled, missing or surplus argument raises a CallError, which names the nearest.
 
     A call that fits costs one frame more; its arguments are looked at only after a TypeError.
     """
@@ -32,9 +32,9 @@ def clear_call(function: Callable[Arguments, Result]) -> Callable[Arguments, Res
         try:
             return function(*args, **kwargs)
         except TypeError:
-            told = misfit(function, args, kwargs)
-            if told:
-                raise CallError(told) from None
+            message = misfit(function, args, kwargs)
+            if message:
+                raise CallError(message) from None
             raise
 
     return call

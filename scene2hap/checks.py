@@ -1,6 +1,6 @@
 """Bounds on numbers that people, files and language models hand in.
 
-One door for every "value, unit, bound, what to do" message, so that they read alike everywhere.
+Every "value, unit, bound, what to do" message is made here, so that all read alike.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _SECRET_NAME = re.compile(r"(key|token|secret|password)s?$", re.IGNORECASE)
 
 
 def shown(value: object, name: object = "") -> str:
-    """A value as an error may show it: settings whose name speaks of a key, token, secret or password are masked."""
+    """Format a value for an error message; mask settings whose name says key, token, secret or password."""
     if isinstance(name, str) and _SECRET_NAME.search(name):
         return "'***'"
     if isinstance(value, Mapping):
@@ -40,16 +40,16 @@ _LONGEST_SHOWN = 200
 
 
 def represented(value: object) -> str:
-    """`repr` as an error may show it: not of a megabyte, and of a value that cannot be shown its type."""
+    """Format `repr(value)` for an error message: shortened, and the type alone where `repr` fails."""
     try:
-        told = repr(value)
+        text = repr(value)
     except Exception:  # a whole number of more than 4300 digits, or whatever a `__repr__` of somebody raises
         return f"a {type(value).__name__}"
-    if "\n" in told:  # an array
-        told = " ".join(told.split())
-    if told.startswith("<") and " at 0x" in told:  # the address says nothing, and differs from run to run
+    if "\n" in text:  # an array
+        text = " ".join(text.split())
+    if text.startswith("<") and " at 0x" in text:  # the address says nothing, and differs from run to run
         return described(value)
-    return told if len(told) <= _LONGEST_SHOWN else f"{told[:_LONGEST_SHOWN]}..."
+    return text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}..."
 
 
 def described(value: object) -> str:
@@ -78,13 +78,11 @@ def did_you_mean(wanted: object, known: Iterable[str], otherwise: str = "") -> s
     from difflib import get_close_matches
 
     spelled: dict[str, str] = {}
-    for name in islice(known, _MOST_COMPARED):
-        spelled.setdefault(_folded(name), name)
-    asked = _folded(wanted) if isinstance(wanted, str) else ""
-    begun = [
-        key for key in spelled if min(len(asked), len(key)) >= 3 and (key.startswith(asked) or asked.startswith(key))
-    ]
-    near = [asked] if asked in spelled else list(dict.fromkeys([*get_close_matches(asked, spelled, n=3), *begun]))[:3]
+    for one in islice(known, _MOST_COMPARED):
+        spelled.setdefault(_folded(one), one)
+    name = _folded(wanted) if isinstance(wanted, str) else ""
+    begun = [key for key in spelled if min(len(name), len(key)) >= 3 and (key.startswith(name) or name.startswith(key))]
+    near = [name] if name in spelled else list(dict.fromkeys([*get_close_matches(name, spelled, n=3), *begun]))[:3]
     return f"Did you mean {' or '.join(repr(spelled[key]) for key in near)}?" if near else otherwise
 
 
@@ -103,7 +101,7 @@ class Problem(NamedTuple):
 
 
 def first_problem(error: ValidationError) -> Problem:
-    """What to tell a person of a failed validation: one thing at a time, in our words where we raised it."""
+    """The first problem of a failed validation, in our own words where our code raised it."""
     first = error.errors()[0]
     reason = first["msg"].removeprefix("Value error, ").removesuffix(".")
     return Problem(first["loc"], reason, first["input"], first["type"])
@@ -196,8 +194,8 @@ def floats(name: str, value: object, unit: str, *, error: type[Scene2HapError]) 
         with np.errstate(over="ignore"):
             return np.asarray(found, dtype=np.float64)
     except Exception as cause:  # ragged, too many digits, or a type of somebody else's that raises what it likes
-        told = str(cause)[:_LONGEST_SHOWN] or type(cause).__name__
-        raise error(f"{name} is not a table of numbers{_in(unit)}: {told}.") from cause
+        reason = str(cause)[:_LONGEST_SHOWN] or type(cause).__name__
+        raise error(f"{name} is not a table of numbers{_in(unit)}: {reason}.") from cause
 
 
 def whole(

@@ -189,7 +189,7 @@ def _past(read: str, place: int, step: int, punctuation: str) -> int:
 
 
 def _punctuation(key: str) -> tuple[str, str]:
-    """What stands before a key's first and after its last letter or digit."""
+    """The characters before a key's first and after its last letter or digit."""
     found = list(_LETTERS.finditer(key))
     return (key[: found[0].start()], key[found[-1].end() :]) if found else ("", "")
 

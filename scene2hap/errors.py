@@ -15,7 +15,7 @@ that ``except ValueError`` keeps working for people who do not know the tree::
     │   └── UnknownObject (KeyError)        an object id that the scene does not have
     ├── MaterialError (ValueError)          a material constant outside its bound
     │   └── UnknownMaterial (LookupError)   no row in the table under that name
-    ├── ModelDomainError (ValueError)       a physical model asked outside the range where it holds
+    ├── ModelDomainError (ValueError)       a physical model used outside the range where it holds
     ├── AudioError (ValueError)             a sound that cannot be used
     │   └── ClipError                       a haptic clip, or its file, that cannot be used
     ├── BundleError (ValueError)            a bundle folder that cannot be read or written

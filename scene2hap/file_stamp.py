@@ -1,4 +1,4 @@
-"""Whether a file or a bundle was written anew, without reading it."""
+"""Detect that a file or a bundle was written again, without reading it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ Stamp = tuple[int, int, int]
 
 
 def file_stamp(path: Path) -> Stamp | None:
-    """What changes whenever a file is written or replaced; None where no file is."""
+    """A stamp that changes whenever a file is written or replaced; None where no file is."""
     try:
         found = path.stat()
     except (OSError, ValueError):

@@ -1,4 +1,4 @@
-"""What a state must touch to vibrate, matched by meaning: a pan that needs a "stove" cooks on a "gas hob".
+"""The object that a state must touch to vibrate, matched by meaning: a pan that needs a "stove" cooks on a "gas hob".
 
 Language models and people write such a need in everyday words, and the object that answers it has a category of its
 own, in words of its own. Compared as text, the two seldom meet.

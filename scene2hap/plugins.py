@@ -21,7 +21,7 @@ from scene2hap.checks import described, did_you_mean, represented, shown
 from scene2hap.errors import ConfigError, MissingExtra, UnknownPlugin
 
 Members = Mapping[str, tuple[str, ...] | None]
-"""What an implementation must have: methods with the names of their arguments, and attributes (None)."""
+"""Required members of an implementation: methods with the names of their arguments, and attributes (None)."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class PluginGroup:
     """The implementations of one protocol.
 
     `name` is the entry-point group (``"scene2hap.llm"``); `builtins` maps a kind to ``"module:attribute"``; `extras`
-    maps a kind to the extra that brings its optional dependency; `members` are those that its protocol asks for;
+    maps a kind to the extra that brings its optional dependency; `members` are those that its protocol requires;
     `wraps_functions` names the class that makes an implementation of a plain function, if there is one.
     """
 
@@ -72,7 +72,7 @@ class PluginGroup:
         )
 
     def guests(self) -> tuple[Guest, ...]:
-        """What other packages registered, each loaded to see whether it does."""
+        """The plug-ins that other packages registered. Each is loaded, to find those that fail."""
         found = []
         for entry in self._guests():
             try:
@@ -115,8 +115,8 @@ class PluginGroup:
         try:
             return factory(**settings)
         except TypeError as cause:
-            told = (misfit(factory, (), settings) or str(cause)).removesuffix(".")
-            raise ConfigError(f"{self.name} kind {kind!r} does not take {shown(settings)}: {told}.") from cause
+            reason = (misfit(factory, (), settings) or str(cause)).removesuffix(".")
+            raise ConfigError(f"{self.name} kind {kind!r} does not take {shown(settings)}: {reason}.") from cause
 
     def _ready_made(self, given: object) -> object:
         if isinstance(given, type):

@@ -38,6 +38,6 @@ def scrubbed(scrub: Callable[[str], str]) -> Iterator[None]:
 
 
 def _loggers() -> set[str]:
-    """What may log a header: the names known here, and whatever else has come into being below them."""
+    """Loggers that may log a header: the names known here, and all loggers below them."""
     known = {*_FAMILIES, *(f"{family}.{module}" for family in _FAMILIES for module in _MODULES)}
     return known | {name for name in list(logging.root.manager.loggerDict) if name.partition(".")[0] in _FAMILIES}

@@ -62,7 +62,7 @@ def play_track(
     update_rate_hz = checks.number(
         "update_rate_hz", update_rate_hz, "Hz", at_least=1.0, at_most=MAX_UPDATE_RATE_HZ, error=SessionError
     )
-    stage = _Stage(session.snapshot)
+    state = _TrackState(session.snapshot)
     rate = session.config.sample_rate_hz
     origin = session.position
     n_frames = max(1, round(track.duration_s * update_rate_hz))
@@ -70,19 +70,19 @@ def play_track(
     for i in range(n_frames):
         time_s = i / update_rate_hz
         while waiting and waiting[0].time_s <= time_s + 1e-9:
-            stage.take(waiting.popleft(), session)
+            state.take(waiting.popleft(), session)
         begin = origin + round(time_s * rate)
         end = origin + round(min((i + 1) / update_rate_hz, track.duration_s) * rate)
-        touches = stage.touches(time_s)
-        frame = session.update(stage.moved(time_s), touches, at_sample=begin)
+        touches = state.touches(time_s)
+        frame = session.update(state.moved(time_s), touches, at_sample=begin)
         samples = sink.pull(end - begin)
         if on_frame is not None:
             on_frame(PlayedFrame(time_s, touches, frame, samples))
 
 
 @dataclass
-class _Glide:
-    """A straight way from one point to another."""
+class _Motion:
+    """A straight motion from one point to another."""
 
     start_s: float
     duration_s: float
@@ -100,13 +100,13 @@ class _Glide:
 
 
 @dataclass
-class _Stage:
-    """Where objects and hands are, as the steps go by."""
+class _TrackState:
+    """Poses of the objects and positions of the hands at the present step."""
 
     scene: SceneSnapshot
     poses: dict[str, Pose] = field(default_factory=dict)
-    moves: dict[str, _Glide] = field(default_factory=dict)
-    hands: dict[str, tuple[str, _Glide]] = field(default_factory=dict)
+    moves: dict[str, _Motion] = field(default_factory=dict)
+    hands: dict[str, tuple[str, _Motion]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.poses = {item.id: item.pose for item in self.scene.objects}
@@ -122,18 +122,18 @@ class _Stage:
             session.set_source(step.source, on=step.on, state=step.state, gain_db=step.gain_db)
 
     def moved(self, time_s: float) -> dict[str, Pose]:
-        """Poses of the objects that are under way; called once per frame, before what is over is forgotten."""
-        for object_id, glide in list(self.moves.items()):
-            position = glide.at(time_s)
+        """Poses of the moving objects. Called once per frame; then drops the motions that are over."""
+        for object_id, motion in list(self.moves.items()):
+            position = motion.at(time_s)
             self.poses[object_id] = Pose(_triple(position), self.poses[object_id].rotation_xyzw)
         under_way = {object_id: self.poses[object_id] for object_id in self.moves}
-        self.moves = {object_id: glide for object_id, glide in self.moves.items() if not glide.is_over(time_s)}
+        self.moves = {object_id: motion for object_id, motion in self.moves.items() if not motion.is_over(time_s)}
         return under_way
 
     def touches(self, time_s: float) -> tuple[Touch, ...]:
         return tuple(
-            Touch(hand, object_id, _triple(self._pose_at(object_id, time_s).to_world(glide.at(time_s))))
-            for hand, (object_id, glide) in self.hands.items()
+            Touch(hand, object_id, _triple(self._pose_at(object_id, time_s).to_world(motion.at(time_s))))
+            for hand, (object_id, motion) in self.hands.items()
         )
 
     def _touch(self, step: TouchStep) -> None:
@@ -147,7 +147,7 @@ class _Stage:
         begin = target
         if step.hand in self.hands and self.hands[step.hand][0] == item.id:
             begin = self.hands[step.hand][1].at(step.time_s)
-        self.hands[step.hand] = (item.id, _Glide(step.time_s, step.glide_s, begin, target))
+        self.hands[step.hand] = (item.id, _Motion(step.time_s, step.glide_s, begin, target))
 
     def _move(self, step: MoveStep) -> None:
         item = self.scene.object(step.move)
@@ -155,12 +155,12 @@ class _Stage:
         begin = np.asarray(pose.position_m)
         end = np.asarray(step.to_m) if step.to_m is not None else begin + np.asarray(step.by_m)
         self.poses[item.id] = Pose(pose.position_m, step.rotation_xyzw or pose.rotation_xyzw)
-        self.moves[item.id] = _Glide(step.time_s, step.glide_s, begin, end)
+        self.moves[item.id] = _Motion(step.time_s, step.glide_s, begin, end)
 
     def _pose_at(self, object_id: str, time_s: float) -> Pose:
         pose = self.poses[object_id]
-        glide = self.moves.get(object_id)
-        return pose if glide is None else Pose(_triple(glide.at(time_s)), pose.rotation_xyzw)
+        motion = self.moves.get(object_id)
+        return pose if motion is None else Pose(_triple(motion.at(time_s)), pose.rotation_xyzw)
 
 
 def _triple(values: NDArray[np.float64] | Sequence[float]) -> tuple[float, float, float]:

@@ -101,7 +101,7 @@ def get(
     scrub: Callable[[str], str] = str,
     transport: Transport | None = None,
 ) -> WebReply:
-    """What lies at a safe address; every status is a reply.
+    """Get a safe address; every status is a reply.
 
     With an `authorization` no redirect is followed: what it says is for this host alone. Without one, up to three.
     Raises: BackendUnavailable: no whole reply came; tells whether trying again can help.
@@ -230,7 +230,7 @@ async def _body(response: httpx.Response, url: str, max_bytes: int) -> bytes:
         return response.content
     packing = response.headers.get("content-encoding", "identity").strip().lower()
     if packing not in ("identity", "", "gzip", "x-gzip", "deflate"):
-        raise BackendUnavailable(f"{url} packs its answer as {packing[:40]!r}, which was not asked for.")
+        raise BackendUnavailable(f"{url} packs its answer as {packing[:40]!r}, which was not requested.")
     unpack = None if packing in ("identity", "") else zlib.decompressobj(_ANY_ZLIB_HEADER)
     content, n_raw = bytearray(), 0
     async for chunk in response.aiter_raw():
@@ -250,7 +250,7 @@ async def _body(response: httpx.Response, url: str, max_bytes: int) -> bytes:
 def _require_at_most(n_bytes: int, url: str, max_bytes: int) -> None:
     if n_bytes > max_bytes:
         raise BackendUnavailable(
-            f"{url} sends more than {max_bytes} bytes, which is no answer to what was asked.", retryable=False
+            f"{url} sends more than {max_bytes} bytes, which is no answer to this request.", retryable=False
         )
 
 
