@@ -73,8 +73,8 @@ async def infer_scene(
 ) -> Inference:
     """Run the chain on every object of a scene, or on those whose ids are in `only`.
 
-    A scene with images (`capture_images`) shows them to the backend. `scene_category`, if it is known, is not asked
-    for. `wishes` are user prompts for single objects, by id.
+    If the scene has images (`capture_images`), the backend sees them. A known `scene_category` saves the question for
+    it. `wishes` are user prompts for single objects, by id.
 
     An object that could not be answered becomes "unknown" and silent, with its error in the report and in its
     provenance. What would meet every further call is raised, once the calls under way are over.
@@ -125,7 +125,7 @@ def infer_haptics(
 
 @dataclass(frozen=True)
 class _Analysis:
-    """What is known of one object before its material is."""
+    """The answers about one object before its material is known."""
 
     answer: ObjectAnswer
     analyst: str
@@ -374,7 +374,7 @@ async def _scene_category(scene: SceneSnapshot, questions: Questions) -> str:
 
 
 def _times(words: VibrationAnswer) -> dict[str, Any]:
-    """What a description says of how a state starts and stops."""
+    """The fields of a description about how a state starts and stops."""
     named = ("start_up_s", "wind_down_s", "spins", "on_s", "off_s")
     return {name: value for name in named if (value := getattr(words, name)) is not None}
 

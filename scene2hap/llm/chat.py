@@ -14,7 +14,7 @@ from scene2hap.llm.protocol import LLMRequest
 from scene2hap.llm.quoting import shown
 from scene2hap.llm.refusals import FILTERED_REQUEST, is_filtered, refusal_in
 
-_AFTER_REFUSAL = "It is not asked again; rename or hide what it objects to, send no pictures, or choose another model."
+_AFTER_REFUSAL = "It gets no second try; rename or hide what it objects to, send no pictures, or choose another model."
 
 
 class BackendWarning(UserWarning):
@@ -46,7 +46,7 @@ class RefusedAnswer(UnusableAnswer, AnswerRefused):
 
 @dataclass(frozen=True)
 class Said:
-    """What a model said, before anyone judged it. `thoughts` is where some servers put the answer by mistake."""
+    """A model's message before any check. `thoughts` is where some servers put the answer by mistake."""
 
     content: str
     model: str
@@ -80,12 +80,12 @@ def json_schema_format(request: LLMRequest, schema: Mapping[str, Any]) -> dict[s
 
 
 def about(request: LLMRequest) -> str:
-    """What a request asks, for messages."""
+    """Describe the question of a request for a message."""
     return f"{request.component} about {shown(request.subject or 'the scene')}"
 
 
 def read_chat(reply: HttpReply, model: str) -> Said:
-    """What a chat completion says; `model` stands in where the server does not name one.
+    """Read a chat completion; `model` stands in where the server does not name one.
 
     Raises: BackendUnavailable: no success, or an error sent under status 200; BadAnswer: not a chat completion.
     """
@@ -106,32 +106,32 @@ def read_chat(reply: HttpReply, model: str) -> Said:
     )
 
 
-def require_whole(said: Said, asked: str) -> None:
-    """Reject what must not be parsed, whatever the content looks like.
+def require_whole(said: Said, about: str) -> None:
+    """Reject an answer that must not be parsed, whatever its content looks like.
 
     Raises: UnusableAnswer: cut short, with what there is of the answer; RefusedAnswer: filtered or refused.
     """
     if said.finish_reason == "length":
         raise unusable(
             said,
-            f"{asked}: {said.model} was cut off at its token limit. Raise max_tokens (or num_ctx), or switch off "
+            f"{about}: {said.model} was cut off at its token limit. Raise max_tokens (or num_ctx), or switch off "
             "its reasoning.",
             said.content,
         )
-    require_willing(said, asked)
+    require_willing(said, about)
 
 
-def require_willing(said: Said, asked: str) -> None:
+def require_willing(said: Said, about: str) -> None:
     """Reject a refusal: in its own field, as the reason to end, or as the text itself.
 
     Raises: RefusedAnswer.
     """
     if is_filtered(said.finish_reason):
-        message = f"{asked}: the answer of {said.model} was withheld by a content filter ({said.finish_reason})."
+        message = f"{about}: the answer of {said.model} was withheld by a content filter ({said.finish_reason})."
         raise RefusedAnswer(f"{message} {_AFTER_REFUSAL}", said.content, **_paid(said))
     refusal = said.refusal or refusal_in(said.content)
     if refusal:
-        message = f"{asked}: {said.model} refused to answer: {shown(refusal)}. {_AFTER_REFUSAL}"
+        message = f"{about}: {said.model} refused to answer: {shown(refusal)}. {_AFTER_REFUSAL}"
         raise RefusedAnswer(message, refusal, **_paid(said))
 
 

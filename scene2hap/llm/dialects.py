@@ -1,7 +1,7 @@
 """The two languages of local servers: chat completions as OpenAI has them, and Ollama's own chat.
 
-Ollama is spoken to in its own: its /v1 makes a message of each picture, drops the first of them where they do not fit,
-and cannot be told how large the context is.
+Ollama gets its own: its /v1 makes a message of each picture, drops the first of them where they do not fit,
+and has no option for the size of the context.
 """
 
 from __future__ import annotations
@@ -45,11 +45,11 @@ class Dialect(Protocol):
     path: str
 
     def body(self, request: LLMRequest, model: str, text: str, rung: Rung) -> dict[str, Any]:
-        """What is posted: `text` is the prompt with the fields of the answer."""
+        """The body of a request: `text` is the prompt with the fields of the answer."""
         ...
 
     def read(self, reply: HttpReply, model: str) -> chat.Said:
-        """What came back. Raises: BackendUnavailable, BadAnswer."""
+        """Read a reply. Raises: BackendUnavailable, BadAnswer."""
         ...
 
 
@@ -120,7 +120,7 @@ class OllamaChat:
         return body
 
     def read(self, reply: HttpReply, model: str) -> chat.Said:
-        """What Ollama says, in the words of a chat completion."""
+        """Translate a reply of Ollama into a chat completion."""
         body = chat.json_object(reply)
         message = body.get("message")
         if not isinstance(message, dict):

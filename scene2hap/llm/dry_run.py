@@ -1,6 +1,6 @@
-"""What an inference would ask and cost, without asking anybody.
+"""Count the questions of an inference and estimate its cost, without a model.
 
-The chain itself runs against a stand-in that counts; the lexicon tells from the authored names what may vibrate and of
+The chain itself runs against a stand-in that counts; the lexicon finds from the authored names what may vibrate and of
 how many materials things are. No picture is taken. Answers that a cache already keeps are counted as if they were not.
 """
 
@@ -82,7 +82,7 @@ def image_tokens(model: str, size_px: int, detail: str) -> int | None:
 
 @dataclass(frozen=True)
 class DryRun:
-    """What a run would ask.
+    """The questions that a run would send.
 
     calls : by component; images : pictures sent; text_tokens, image_tokens, answer_tokens : estimated, None where not
     known of the model; cost_usd : at the prices of `price_date`, None where any part of it is unknown.
@@ -163,7 +163,7 @@ async def dry_run(
 def estimated_cost_usd(
     request: LLMRequest, model: str, detail: str, prices: PriceList, service_tier: str = ""
 ) -> float | None:
-    """What the answer to one request will cost, about; None where it is not known. No picture is taken."""
+    """Estimate the cost of one answer; None where it is unknown. No picture is taken."""
     per_image = image_tokens(model, _PICTURE_PX, detail) if request.images else 0
     if per_image is None:
         return None

@@ -26,20 +26,20 @@ class FunctionBackend:
     def __init__(
         self, function: Callable[[LLMRequest], Returned | Awaitable[Returned]], *, model: str = "function"
     ) -> None:
-        told = misfit(function, (None,), {}) if callable(function) else f"It is {checks.represented(function)}."
-        if told:
-            raise ConfigError(f"function must take one argument, the LLMRequest, and give the answer. {told}")
+        problem = misfit(function, (None,), {}) if callable(function) else f"It is {checks.represented(function)}."
+        if problem:
+            raise ConfigError(f"function must take one argument, the LLMRequest, and give the answer. {problem}")
         self._function = function
         self.model = model
         self.requests: list[LLMRequest] = []
 
     @property
     def identity(self) -> dict[str, Any]:
-        """What decides the answer besides the request."""
+        """The settings on which an answer depends besides the request."""
         return {"model": self.model}
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """What the function returns, as a reply."""
+        """The result of the function, as a reply."""
         self.requests.append(request)
         returned = self._function(request)
         if inspect.isawaitable(returned):

@@ -39,7 +39,7 @@ _HEADERS_READ = ("x-should-retry", "x-request-id", *waits.HEADERS)
 
 @dataclass(frozen=True)
 class Endpoint:
-    """A server, the key to it, how long one answer may take in all (`timeout_s` [s]), and the pause it asks for."""
+    """A server, the key to it, how long one answer may take in all (`timeout_s` [s]), and the pause it requests."""
 
     base_url: str
     secret: Secret
@@ -70,7 +70,7 @@ class Endpoint:
         return await self._send("POST", path, form.read(), FILE_TIMEOUT_S, form.headers["content-type"])
 
     async def get(self, path: str, timeout_s: float) -> HttpReply:
-        """What lies at a path below the base address. Raises: BackendUnavailable: no reply came."""
+        """Get a path below the base address. Raises: BackendUnavailable: no reply came."""
         return await self._send("GET", path, None, min(timeout_s, self.timeout_s))
 
     async def download(self, path: str) -> HttpReply:

@@ -1,4 +1,4 @@
-"""What a status that is not success means: whether trying again can help, and when.
+"""Interpret an HTTP status other than success: whether a retry can help, and when.
 
 Retries as OpenAI's own Python client: 408, 409, 429 and 500 upwards, unless `x-should-retry` says otherwise. An empty
 account answers 429 as well, but no waiting fills it.
@@ -12,7 +12,7 @@ from typing import Any
 
 from scene2hap.errors import BackendUnavailable
 from scene2hap.llm.http_reply import HttpReply
-from scene2hap.llm.waits import LONGEST_WAIT_S, asked_wait_s, reset_wait_s
+from scene2hap.llm.waits import LONGEST_WAIT_S, reset_wait_s, stated_wait_s
 
 _RETRYABLE = frozenset({408, 409, 429})
 _OUT_OF_MONEY = frozenset(
@@ -25,7 +25,7 @@ _OUT_OF_MONEY = frozenset(
     }
 )
 _NO_EYES = "image input is not supported"
-"""What llama.cpp says, with status 500, where it was started without a vision projector."""
+"""Message of llama.cpp, with status 500, where it was started without a vision projector."""
 
 _HINTS = {
     401: "Check the API key.",
@@ -62,7 +62,7 @@ def server_error(reply: HttpReply) -> ServerError:
 def failure(reply: HttpReply, *, now_s: float | None = None) -> BackendUnavailable:
     """The error to raise for a reply without success; `now_s` [s since 1970] is what a date is counted from."""
     error = server_error(reply)
-    wait_s = asked_wait_s(reply.headers, time.time() if now_s is None else now_s)
+    wait_s = stated_wait_s(reply.headers, time.time() if now_s is None else now_s)
     if wait_s is None and reply.status == 429:
         wait_s = reset_wait_s(reply.headers)
     kind = error.code or error.type
@@ -86,9 +86,9 @@ def failure(reply: HttpReply, *, now_s: float | None = None) -> BackendUnavailab
 
 
 def _retryable(reply: HttpReply) -> bool:
-    told = reply.headers.get("x-should-retry", "").lower()
-    if told in ("true", "false"):
-        return told == "true"
+    should_retry = reply.headers.get("x-should-retry", "").lower()
+    if should_retry in ("true", "false"):
+        return should_retry == "true"
     return reply.status in _RETRYABLE or reply.status >= 500
 
 

@@ -29,7 +29,7 @@ def first_object(text: str) -> str | None:
 
 
 def _without_thoughts(text: str) -> str:
-    """What stands outside thoughts, after the last end of one that some chat templates open themselves."""
+    """The text outside thoughts, after the last end of one that some chat templates open themselves."""
     said, begin, thinks = list[str](), 0, False
     for mark in _THOUGHT.finditer(text):
         is_end = bool(mark[1])

@@ -93,7 +93,7 @@ class LocalBackend:
 
     @property
     def identity(self) -> dict[str, Any]:
-        """What decides the answer besides the request; never a key. The model is None until `ready` has found it."""
+        """The settings on which an answer depends; never a key. The model is None until `ready` has found it."""
         return {"model": self.model, "base_url": self._endpoint.base_url, **asdict(self._decoding)}
 
     @property
@@ -162,7 +162,7 @@ class LocalBackend:
                 sees = ours[0].sees if ours else None
                 self._warn_of_ollama(bool(ours) and ours[0].owner == "library")
         except BackendUnavailable:
-            return  # the request itself will tell, and be asked again
+            return  # the request itself will fail too, and be retried
         if sees is False:
             raise BackendUnavailable(
                 f"{self.model} at {self._endpoint.base_url} takes no pictures. Choose a model that sees (llama.cpp "

@@ -24,8 +24,8 @@ def surface_size(answer: ObjectAnswer, measured_m: Sequence[float]) -> tuple[siz
     length, width, thickness = (
         other if edge in replaced else one for edge, one, other in zip(EDGES, stated, known, strict=True)
     )
-    told = {edge: f"{value:.3g} m is used" for edge, value in zip(EDGES, known, strict=True)}
-    return (length, width, thickness), tuple(f"{edge}: {why}; {told[edge]}" for edge, why in wrong.items())
+    used = {edge: f"{value:.3g} m is used" for edge, value in zip(EDGES, known, strict=True)}
+    return (length, width, thickness), tuple(f"{edge}: {why}; {used[edge]}" for edge, why in wrong.items())
 
 
 def size_without_answer(measured_m: Sequence[float]) -> sizes.Size:

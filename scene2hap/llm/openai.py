@@ -114,12 +114,12 @@ class OpenAIBackend:
 
     @property
     def endpoint(self) -> Endpoint:
-        """The server that is asked."""
+        """The server that requests go to."""
         return self._endpoint
 
     @property
     def service_tier(self) -> str:
-        """The tier that is asked for, "" for the project's own."""
+        """The requested tier, "" for the project's own."""
         return self._tier or ""
 
     @property
@@ -129,7 +129,7 @@ class OpenAIBackend:
 
     @property
     def identity(self) -> dict[str, Any]:
-        """What decides the answer besides the request; never the key."""
+        """The settings on which an answer depends besides the request; never the key."""
         return {"model": self.model, "base_url": self._endpoint.base_url, "detail": self._detail, **self._decoding}
 
     async def complete(self, request: LLMRequest) -> LLMReply:
@@ -143,7 +143,7 @@ class OpenAIBackend:
         return self.judged(request, await self._ask(self._body(request)))
 
     def body(self, request: LLMRequest) -> dict[str, Any]:
-        """What is posted for a request, without parameters that this model turned out not to take."""
+        """The body of a request, without parameters that this model has refused."""
         return self._adapted(self._body(request))
 
     def judged(self, request: LLMRequest, said: chat.Said) -> LLMReply:
@@ -155,7 +155,7 @@ class OpenAIBackend:
         return LLMReply(said.content, said.model, said.finish_reason, said.usage, service_tier=said.service_tier)
 
     def report(self) -> dict[str, int]:
-        """Answers that were asked for in the standard tier, since their own had no capacity."""
+        """Count the requests repeated in the standard tier, since their own tier had no capacity."""
         return {"without_capacity": self._without_capacity}
 
     def _body(self, request: LLMRequest) -> dict[str, Any]:

@@ -30,27 +30,27 @@ _SLIPS = {"density_kg_m3": "g/cm3? Give kg/m3", "youngs_modulus_gpa": "pascal or
 _SLIP = 30.0  # times beyond the bound, from which a number was meant in another unit
 
 
-def implausible(component: Component, told: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]:
-    """What no such object or material has, by the answer's field: in words for the model that said it.
+def implausible(component: Component, answer: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]:
+    """Find values that no such object or material has. Returns a text for the model by field of the answer.
 
-    Nothing without the facts of the request.
+    Empty if the request has no facts to compare with.
     """
     if component == "object_analyzer":
-        return _sizes(told, facts) | _mass(told, facts)
+        return _sizes(answer, facts) | _mass(answer, facts)
     if component == "material_estimator" and "material_category" in facts:
-        return constants(str(facts["material_category"]), told)
+        return constants(str(facts["material_category"]), answer)
     return {}
 
 
-def constants(word: str, told: Mapping[str, Any]) -> dict[str, str]:
-    """Which of a material's constants are far from all that sources give for it, by the answer's field.
+def constants(word: str, answer: Mapping[str, Any]) -> dict[str, str]:
+    """Find constants of a material far from all published values. Returns a text by field of the answer.
 
-    Only the density of a material that no row of the table speaks of is bounded.
+    A material without a row in the table has bounds for its density only.
     """
     row = row_of(word)
     wrong = {}
     for name, (low, high) in _bounds(row).items():
-        value = told.get(name)
+        value = answer.get(name)
         if not _is_number(value) or low <= value <= high:
             continue
         off = max(value / high, low / value if value > 0 else 0.0)
@@ -88,20 +88,20 @@ def _bounds(row: MaterialRow | None) -> dict[str, tuple[float, float]]:
     }
 
 
-def _sizes(told: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]:
+def _sizes(answer: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]:
     measured = [edge for edge in (facts.get(f"{name}_m") for name in EDGES) if _is_number(edge)]
     if len(measured) < len(EDGES):
         return {}
-    stated = [told.get(f"estimated_{name}_m") for name in EDGES]
-    # What is no number is another fault; the rest is held against the bounds all the same.
+    stated = [answer.get(f"estimated_{name}_m") for name in EDGES]
+    # A value that is no number is another fault; the other values are still compared with the bounds.
     found = sizes.faults(
         [one if _is_number(one) else other for one, other in zip(stated, measured, strict=True)], measured
     )
     return {f"estimated_{edge}_m": why for edge, why in found.items() if _is_number(stated[EDGES.index(edge)])}
 
 
-def _mass(told: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]:
-    mass, whole = told.get("estimated_mass_kg"), [facts.get(f"whole_{edge}_m") for edge in _WHOLE]
+def _mass(answer: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]:
+    mass, whole = answer.get("estimated_mass_kg"), [facts.get(f"whole_{edge}_m") for edge in _WHOLE]
     edges = [edge for edge in whole if _is_number(edge)]
     why = mass_fault(mass, edges) if _is_number(mass) and len(edges) == len(whole) else ""
     return {"estimated_mass_kg": why} if why else {}

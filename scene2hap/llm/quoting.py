@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from typing import Any
 
 LONGEST_NAME = 200
-"""Characters of an authored name; assumed, longer than any that tells something."""
+"""Characters of an authored name; assumed, longer than any meaningful one."""
 LONGEST_TEXT = 600
 """Characters of one text in a prompt: as many as the longest text of an answer may have (`llm.answers`)."""
 MOST_ITEMS = 1000

@@ -39,7 +39,7 @@ def is_filtered(finish_reason: str) -> bool:
 
 
 def refusal_in(text: str) -> str | None:
-    """What a model says instead of an answer, None where it does not refuse.
+    """Find the refusal in a model's message, None where it does not refuse.
 
     A text with a JSON object is an answer, whatever is said around it, but for an object of excuses alone.
     """

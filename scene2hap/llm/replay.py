@@ -28,7 +28,10 @@ MAX_RECORDING_BYTES = 1 << 28
 
 
 class _Entry(BaseModel):
-    """One line of a recording. `asked_model` may be answered for by a dated name; `parts` name what is not kept."""
+    """One line of a recording.
+
+    `model` may be a dated name of the requested `asked_model`; `parts` are digests of parts that are not kept.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -75,8 +78,8 @@ class ReplayBackend:
         return LLMReply(entry.text, entry.model, entry.finish_reason, entry.usage, key, is_kept=True)
 
     def _miss(self, request: LLMRequest, key: str) -> str:
-        asked = f"{request.component} about {request.subject or 'the scene'!r}"
-        missing = f"{self._path} has no answer for {asked} (key {key})."
+        question = f"{request.component} about {request.subject or 'the scene'!r}"
+        missing = f"{self._path} has no answer for {question} (key {key})."
         differences = [
             (_differing(entry, request, self._model), entry)
             for entry in self._all
@@ -136,13 +139,13 @@ class RecordingBackend:
             model=reply.model,
             finish_reason=reply.finish_reason,
             usage=dict(reply.usage),
-            asked_model=self._asked_model() or reply.model,
+            asked_model=self._requested_model() or reply.model,
             parts=part_names(request),
         )
         await asyncio.to_thread(self._append, canonical(entry.model_dump()).encode() + b"\n")
         return replace(reply, key=key)
 
-    def _asked_model(self) -> str:
+    def _requested_model(self) -> str:
         try:
             return str(self.identity.get("model", ""))
         except ConfigError:  # a recording does without
@@ -184,14 +187,14 @@ def _entries(path: Path, content: bytes) -> Iterator[_Entry]:
 
 
 def _differing(entry: _Entry, request: LLMRequest, model: str | None) -> list[str]:
-    """What a recorded request differs in from `request`."""
-    asked, recorded = plain(request.facts), entry.facts
-    fields = [f"facts.{name}" for name in sorted({*asked, *recorded}) if asked.get(name) != recorded.get(name)]
+    """Names of the parts in which a recorded request differs from `request`."""
+    facts, recorded = plain(request.facts), entry.facts
+    fields = [f"facts.{name}" for name in sorted({*facts, *recorded}) if facts.get(name) != recorded.get(name)]
     recorded_model = entry.asked_model or entry.model
     if model not in (None, recorded_model):
-        fields.append(f"model ({recorded_model!r} recorded, {model!r} asked)")
+        fields.append(f"model ({recorded_model!r} recorded, {model!r} requested)")
     if entry.prompt_version != request.prompt_version:
-        fields.append(f"prompt_version ({entry.prompt_version!r} recorded, {request.prompt_version!r} asked)")
+        fields.append(f"prompt_version ({entry.prompt_version!r} recorded, {request.prompt_version!r} requested)")
     return fields + [name for name, part in part_names(request).items() if entry.parts.get(name, part) != part]
 
 

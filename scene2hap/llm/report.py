@@ -53,7 +53,7 @@ class InferenceReport:
         return by_model
 
     def cost_usd(self, prices: PriceList) -> float | None:
-        """What the answers cost; None where a model or tier has no price, or an answer came without its usage."""
+        """Cost of the answers; None where a model or tier has no price, or an answer came without its usage."""
         costs = [prices.cost_usd(model, used, tier) for (model, tier), used in self.billed.items()]
         known = [cost for cost in costs if cost is not None]
         return None if self.unmetered or len(known) < len(costs) else sum(known)

@@ -55,7 +55,7 @@ def from_model(word: str, answer: MaterialAnswer, provenance: str) -> Estimate:
 
 
 def without_answer(word: str, problem: str) -> Estimate:
-    """What stands in for an estimate that could not be had: the table's row, or nothing; flagged either way."""
+    """Substitute for a missing estimate: the table's row, or nothing; flagged either way."""
     known = from_table(word)
     if known is None:
         return Estimate(None, f"error: {problem}", (f"no constants: {problem}",))

@@ -41,7 +41,7 @@ class Fault:
 
 
 def find_fault(component: Component, text: str, facts: Mapping[str, Any] | None = None) -> Fault | None:
-    """What is wrong with a reply, in words for the model that wrote it; None where nothing is.
+    """Find the fault of a reply, in words for the model that wrote it; None if there is none.
 
     With the `facts` of the request, a sentence must begin with the object's category, and numbers must be such
     as that object or material may have. All that is wrong is named at once.
@@ -64,12 +64,12 @@ def find_fault(component: Component, text: str, facts: Mapping[str, Any] | None 
 
 
 def _fields(text: str) -> dict[str, Any]:
-    """The fields of an answer as far as it is one."""
+    """The fields of an answer; none if it is no JSON object."""
     try:
-        told = json.loads(text)
+        fields = json.loads(text)
     except (ValueError, RecursionError):  # ValueError: also a number of thousands of digits
         return {}
-    return told if isinstance(told, dict) else {}
+    return fields if isinstance(fields, dict) else {}
 
 
 def _misses_category(sentence: str, category: str) -> Fault | None:

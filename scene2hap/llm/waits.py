@@ -24,17 +24,17 @@ _PART = re.compile(r"(\d+(?:\.\d+)?)(ms|h|m|s)")
 _SECONDS = {"ms": 1e-3, "s": 1.0, "m": 60.0, "h": 3600.0}
 
 
-def asked_wait_s(headers: Mapping[str, str], now_s: float) -> float | None:
-    """What Retry-After says [s], a date counted from `now_s` [s since 1970]; None where it says nothing sensible."""
+def stated_wait_s(headers: Mapping[str, str], now_s: float) -> float | None:
+    """Wait that Retry-After states [s], a date counted from `now_s` [s since 1970]; None if it states none."""
     milliseconds = _number(headers.get("retry-after-ms"))
     if milliseconds is not None:
         return milliseconds / 1000.0
-    told = headers.get("retry-after")
-    seconds = _number(told)
-    if seconds is not None or told is None:
+    retry_after = headers.get("retry-after")
+    seconds = _number(retry_after)
+    if seconds is not None or retry_after is None:
         return seconds
     try:
-        return max(parsedate_to_datetime(told).timestamp() - now_s, 0.0)
+        return max(parsedate_to_datetime(retry_after).timestamp() - now_s, 0.0)
     except (ValueError, OverflowError):
         return None
 

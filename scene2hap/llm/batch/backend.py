@@ -1,4 +1,4 @@
-"""BatchBackend: answers from what batches brought; what none was asked yet is noted for the next one."""
+"""BatchBackend: answers from finished batches, and collects new questions for the next batch."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class AnswerPending(BackendUnavailable):
 class BatchBackend:
     """Answers of `model` from a folder of batches.
 
-    A question without an answer is written for the next batch, once, unless one that has not ended asks it. Parameters
+    A question without an answer is written for the next batch, once, unless an open batch has it. Parameters
     that the model turned out not to take are left out from then on.
     """
 
@@ -46,7 +46,7 @@ class BatchBackend:
         self._failures: Counter[str] = Counter()
         self._why: dict[str, str] = {}
         rows = folder.rows()
-        self._asked = set(keys_in(rows, "written", "uploaded", "begun"))
+        self._sent = set(keys_in(rows, "written", "uploaded", "begun"))
         self._writer: RequestWriter = folder.writer()
         own = keys_in(rows, *get_args(Stage))
         for key, outcome in folder.outcomes():
@@ -55,12 +55,12 @@ class BatchBackend:
 
     @property
     def identity(self) -> dict[str, Any]:
-        """Those of the model: an answer is the same, however it was asked for."""
+        """The identity of the model, since an answer in a batch equals one to a single call."""
         return self._model.identity
 
     @property
     def cost_usd(self) -> float | None:
-        """What all answers in the folder cost; None if a price or a usage is unknown."""
+        """Cost of all answers in the folder; None if a price or a usage is unknown."""
         costs = []
         for reply in self._answers.values():
             said = chat.read_chat(reply, self._model.model)
@@ -83,8 +83,8 @@ class BatchBackend:
             return self._model.judged(request, replace(said, service_tier=TIER))
         if self._failures[key] >= _TRIES:
             raise BadAnswer(f"{about}: batches brought no answer: {self._why.get(key, 'no reason given')}.")
-        if key not in self._asked:
-            self._asked.add(key)
+        if key not in self._sent:
+            self._sent.add(key)
             cost_usd = estimated_cost_usd(request, self._model.model, self._detail, self._prices, TIER)
             self._writer.add(key, body, cost_usd)
         raise AnswerPending(f"{about}: no batch has answered yet.")

@@ -1,4 +1,4 @@
-"""Batches on disk: what was asked in which, and what came of it.
+"""Batches on disk: the questions of each batch, its state, and its answers.
 
 FOLDER/0001.json           one batch: its requests, its ids, how far it is
 FOLDER/0001.input.jsonl    what is sent, until the server has it
@@ -32,7 +32,7 @@ _PART_BYTES, _PART_REQUESTS = MOST_BYTES * 9 // 10, MOST_REQUESTS // 5
 class BatchRow:
     """One batch.
 
-    Parameters: number : its place in the folder; requests : keys of what it asks; stage : "written" here, "uploaded" as
+    Parameters: number : its place in the folder; requests : keys of questions; stage : "written" here, "uploaded" as
     a file, "begun" on the server, "collected" again; estimate_usd : of its cost, None if unknown; status : what the
     server last said; faults : of the batch as a whole.
     """
@@ -51,7 +51,7 @@ class BatchRow:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a request came to: the status and the body of the server's answer, or in place of both an error's code."""
+    """Result of a request: the status and the body of the server's answer, or in place of both an error's code."""
 
     status: int
     body: Any
@@ -194,5 +194,5 @@ def _outcome(line: bytes) -> tuple[str, Outcome] | None:
 
 
 def keys_in(rows: Iterable[BatchRow], *stages: Stage) -> frozenset[str]:
-    """What the batches of some stages ask."""
+    """The keys of the questions in batches at some stages."""
     return frozenset(key for row in rows if row.stage in stages for key in row.requests)

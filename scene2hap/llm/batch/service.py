@@ -13,7 +13,7 @@ from scene2hap.llm.http_client import Endpoint
 from scene2hap.llm.http_reply import HttpReply
 
 COMPLETIONS = "/v1/chat/completions"
-"""What every request of a batch is posted to."""
+"""The endpoint of every request of a batch."""
 MOST_REQUESTS = 50_000
 MOST_BYTES = 200 * 10**6
 """Of one batch; the service's own limits."""
@@ -25,7 +25,7 @@ _PAGE = 100
 
 @dataclass(frozen=True)
 class BatchStatus:
-    """A batch as the server tells of it. `faults` are what is wrong with the whole of it."""
+    """State of a batch, from the server. `faults` are errors of the batch as a whole."""
 
     id: str
     status: str
@@ -43,7 +43,7 @@ class BatchStatus:
 
 
 class BatchService:
-    """Asks a server; whatever can be asked twice without harm is repeated where waiting can help.
+    """Client of a server's batches. Retries after transient errors, if a second request does no harm.
 
     Every method raises BackendUnavailable: no answer, or a refusal; BadAnswer: not what such a server answers.
     """
@@ -122,7 +122,7 @@ def _status(body: Mapping[str, Any]) -> BatchStatus:
     counts = chat.counts(body.get("request_counts"))
     errors = body.get("errors")
     faults = errors.get("data") if isinstance(errors, dict) else None
-    told = [chat.text_of(fault.get("message")) for fault in faults or () if isinstance(fault, dict)]
+    messages = [chat.text_of(fault.get("message")) for fault in faults or () if isinstance(fault, dict)]
     return BatchStatus(
         batch,
         status,
@@ -131,5 +131,5 @@ def _status(body: Mapping[str, Any]) -> BatchStatus:
         chat.text_of(body.get("error_file_id")),
         counts.get("completed", 0),
         counts.get("failed", 0),
-        tuple(message for message in told if message),
+        tuple(message for message in messages if message),
     )

@@ -22,7 +22,7 @@ class LexiconBackend:
 
     What the table does not know becomes category "unknown" with confidence of at most 0.2 and stays silent.
     Raises (from `complete`): BadAnswer: a fact is missing or of the wrong kind, or no row of the material table has
-    the material that is asked for.
+    the requested material.
     """
 
     async def complete(self, request: LLMRequest) -> LLMReply:

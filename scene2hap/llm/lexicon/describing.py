@@ -22,7 +22,7 @@ _RHYTHMS = {"ticking": "regularly", "ringing": "in bursts", "alerting": "in burs
 
 
 def describe(category: str, state_name: str, scene_category: str = "") -> VibrationAnswer:
-    """What the object does and how: "refrigerator humming softly and steadily while switched on in the kitchen".
+    """Describe what an object does: "refrigerator humming softly and steadily while switched on in the kitchen".
 
     A category that the table does not know, as a language model may have found it, is described by its state alone.
     """

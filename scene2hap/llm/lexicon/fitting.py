@@ -1,7 +1,7 @@
-"""Whether what a name says fits what is measured: height, size and neighbours of the object.
+"""Check whether an object's name fits its measured height, size and neighbours.
 
-A name is read as it stands, and a "bench" may be the hob on a kitchen bench. What does not fit lowers the confidence,
-each doubt by its factor, and is told; only an inner part of the very machine that it touches is kept silent.
+A name is read as it stands, and a "bench" may be the hob on a kitchen bench. Each misfit lowers the confidence by its
+factor, and is reported. Only an inner part of the very machine that it touches is kept silent.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _STANDS = _set(
     "picnic table,desk,computer desk,workbench,wardrobe,sideboard,dresser,night stand,bookcase,refrigerator,dishwasher,"
     "washing machine,tumble dryer,bathtub,floor lamp,piano,grand piano,treadmill,pool table,ironing board"
 )
-"""What stands on the floor, or on what covers or raises it."""
+"""Objects that stand on the floor, or on a cover or a platform on it."""
 
 _GROUND = _set(
     "floor,parquet,tile,carpet,mat,pallet,road,sidewalk,terrace,deck,path,grass,ground,foundation,podium,stage,sand,"
@@ -35,7 +35,7 @@ _GROUND = _set(
 )
 
 _INNER = _set("motor,pump,fan,sprinkler,turbine,engine,compressor,burner,heater,transformer,propeller,blade,arm")
-"""What machines have inside them, and what is also an object of its own."""
+"""Parts inside machines that are also objects of their own."""
 
 _COMPONENTS = _set(
     "arm,arms,rack,racks,tray,basket,drum,hose,filter,handle,knob,door,drawer,lid,leg,foot,blade,hinge,panel,cover,"
@@ -108,8 +108,8 @@ def _by_size(row: ObjectRow, size_m: tuple[float, float, float], flags: Sequence
 
 def _by_name(reading: NameReading, row: ObjectRow) -> list[tuple[float, str]]:
     outside = set(reading.words) - set(reading.head.split())
-    told = sorted(outside & _COMPONENTS) if row.vibrates else []
-    return [(_PART, f"The name also says {told[0]!r}, which may be a part of the {row.noun}.")] if told else []
+    parts = sorted(outside & _COMPONENTS) if row.vibrates else []
+    return [(_PART, f"The name also says {parts[0]!r}, which may be a part of the {row.noun}.")] if parts else []
 
 
 def _machine_around(reading: NameReading, row: ObjectRow, beside: Sequence[ObjectRow]) -> str:

@@ -173,8 +173,8 @@ def _thickness(item: Measured, plausible_m: float, category: str) -> tuple[float
 def _states(row: ObjectRow, neighbour_names: Sequence[str]) -> tuple[list[StateAnswer], str]:
     """The states that hold here, and why; a pan's only where it touches something that heats it.
 
-    A pan that touches nothing (held in the air, or looked at by itself) is not known to stand elsewhere: its states are
-    told with the heater that they wait for. On a table it is still, as in the paper, section "Study 1".
+    A pan that touches nothing (held in the air, or looked at by itself) is not known to stand elsewhere: its states
+    name the heater that they wait for. On a table it is still, as in the paper, section "Study 1".
     """
     own = [state for state in row.states if not state.needs_contact]
     if own:

@@ -1,4 +1,4 @@
-"""What an object is made of and how thick its plate is: from its name, its paint, its place, and the table."""
+"""Material of an object and thickness of its plate: from its name, its paint, its place, and the table."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ def painted_with(material_names: Sequence[str]) -> str | None:
     A chair painted with "wood" and "fabric" is left to the table, which knows what one sits on, and so is a cabinet
     that is mostly "sage_lacquer" with handles of "steel". Names stand in the order of the faces that they cover.
     """
-    told = [_told_by(name) for name in material_names]
-    return told[0] if told and set(told) <= {told[0], None} else None
+    found = [_painted_with(name) for name in material_names]
+    return found[0] if found and set(found) <= {found[0], None} else None
 
 
-def _told_by(material_name: str) -> str | None:
+def _painted_with(material_name: str) -> str | None:
     tokens, _ = spelling.read_words(material_name)
     return next((words.PAINT_WORDS[word] for word in reversed(tokens) if word in words.PAINT_WORDS), None)
 

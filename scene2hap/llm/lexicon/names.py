@@ -37,7 +37,7 @@ _PRIMITIVE = re.compile(r"box\d+", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class NameReading:
-    """What an authored name says.
+    """The parts of an authored name.
 
     `name` is what was read; `words` are its words in lower case; `row` is the table's row or None; `confidence` is 0..1
     and at most 0.2 where `row` is None. `head` is the recognised part, `unread` the words that nothing knows,
@@ -180,7 +180,7 @@ def _object_first(tokens: Sequence[str], nouns: Sequence[_Noun]) -> _Noun | None
 
 
 def _whole(tokens: Sequence[str], head: _Noun, nouns: Sequence[_Noun]) -> ObjectRow | None:
-    """What a part belongs to: the noun before it, unless that is its material (glass door)."""
+    """The owner of a part: the noun before it, unless that is its material (glass door)."""
     before = [noun for noun in nouns if noun.end <= head.start]
     if head.row.role != "part" or not before or tokens[before[-1].end - 1] in words.MATERIAL_WORDS:
         return None

@@ -142,7 +142,7 @@ def nouns() -> dict[str, tuple[ObjectRow, tuple[str, ...]]]:
 
 @cache
 def _vocabulary() -> frozenset[str]:
-    """Every word that can be part of a noun or tells its place or material."""
+    """Every word that can be part of a noun or names its place or material."""
     parts = {part for _, spelled in nouns().values() for part in spelled}
     return frozenset({*nouns(), *parts, *words.PLACE_WORDS, *words.MATERIAL_WORDS})
 

@@ -6,7 +6,7 @@ rests on. Intensities are ranked by published hand-arm vibration where there is 
 scale of `haptics.SourceState`; thicknesses and sizes are assumed unless the row's source says otherwise. Masses are
 those of usual products (shop listings and data sheets, from memory), for the size in which they are usual.
 
-`role` tells names apart that hold two nouns: a "container" or "vessel" may be followed by its "content"
+`role` resolves names that hold two nouns: a "container" or "vessel" may be followed by its "content"
 (crate_tomatoes); a "part" belongs to the noun before it (oven_door). A "vehicle" that is far too small is a toy.
 """
 

@@ -46,7 +46,7 @@ class BudgetBackend(Wrapper):
 
     @property
     def cost(self) -> float | None:
-        """What the answers cost so far; None as soon as one came without its usage or from a model without a price."""
+        """Cost of the answers so far; None as soon as one came without its usage or from a model without a price."""
         return None if self._unpriced or self._blind else self._cost
 
     @property

@@ -26,7 +26,7 @@ _STANDARD_TIERS = frozenset({"", "auto", "default"})
 @clear_construction
 @dataclass(frozen=True)
 class Price:
-    """What a model costs per million tokens; the list is in US dollars, your own prices should be too.
+    """Cost of a model per million tokens; the list is in US dollars, your own prices should be too.
 
     cached_input_per_million : of input that the service had in its prompt cache; None: as all input.
     """

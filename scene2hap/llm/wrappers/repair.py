@@ -32,17 +32,17 @@ class RepairBackend(Wrapper):
         super().__init__(inner)
         checks.number("repairs", repairs, "-", at_least=0, error=ConfigError)
         self._repairs = repairs
-        self._calls = self._asked_again = self._given_up = 0
+        self._calls = self._n_repairs = self._given_up = 0
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """An answer that is valid. Raises: BadAnswer: none came, with the last raw text; and as the inner backend."""
+        """Return a valid answer. Raises: BadAnswer: none came, with the last raw text; and as the inner backend."""
         self._calls += 1
         about = describe(request)
-        asked, usage, left = request, Counter[str](), self._repairs
+        question, usage, left = request, Counter[str](), self._repairs
         usable: LLMReply | None = None  # with a minor fault, which one further question may mend
         while True:
             try:
-                reply = await self.inner.complete(asked)
+                reply = await self.inner.complete(question)
             except UnusableAnswer as problem:
                 usage.update(problem.usage)
                 problem.usage = dict(usage)
@@ -68,12 +68,12 @@ class RepairBackend(Wrapper):
                 message = f"{about}: still wrong after {self._repairs} repairs: {fault.reason}."
                 raise unusable(said, message, reply.text)
             left -= 1
-            self._asked_again += 1
-            asked = _repair(request, text, fault)
+            self._n_repairs += 1
+            question = _repair(request, text, fault)
 
     def report(self) -> dict[str, int]:
         """Calls, repairs, and calls given up after all repairs."""
-        return {"calls": self._calls, "repairs": self._asked_again, "given_up": self._given_up}
+        return {"calls": self._calls, "repairs": self._n_repairs, "given_up": self._given_up}
 
 
 def _repair(request: LLMRequest, text: str, fault: Fault) -> LLMRequest:

@@ -51,7 +51,7 @@ class RetryBackend(Wrapper):
     async def complete(self, request: LLMRequest) -> LLMReply:
         """The inner backend's answer. Raises: as the inner backend, its last error."""
         self._calls += 1
-        untold = told = 0
+        n_unstated = n_stated = 0
         while True:
             try:
                 return await self.inner.complete(request)
@@ -59,13 +59,13 @@ class RetryBackend(Wrapper):
                 if not problem.retryable:
                     raise
                 if problem.retry_after_s is not None and self._told_retries is not None:
-                    told += 1
+                    n_stated += 1
                 else:
-                    untold += 1
-                if untold > self._retries or told > (self._told_retries or 0):
+                    n_unstated += 1
+                if n_unstated > self._retries or n_stated > (self._told_retries or 0):
                     self._given_up += 1
                     raise
-                wait_s = self._wait_s(untold - 1, problem)
+                wait_s = self._wait_s(n_unstated - 1, problem)
             self._retried += 1
             self._waited_s += wait_s
             await self._sleep(wait_s)

@@ -1,4 +1,4 @@
-"""What all wrappers share: how an inner backend is given, named and reported on."""
+"""The common part of all wrappers: an inner backend, its identity and its reports."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ Spec = LLMBackend | Mapping[str, Any] | str
 
 
 def identity(backend: object) -> Mapping[str, Any]:
-    """What a backend says decides its answers: model, address, ...; empty where it does not say."""
+    """The properties on which a backend's answers depend: model, address, ...; empty if it does not name them."""
     try:
-        told = getattr(backend, "identity", None)
-    except ConfigError:  # a wrapper around one that does not say
-        told = None
-    return told if isinstance(told, Mapping) else {}
+        named = getattr(backend, "identity", None)
+    except ConfigError:  # a wrapper around a backend that does not name them
+        named = None
+    return named if isinstance(named, Mapping) else {}
 
 
 def is_remote(backend: object) -> bool:
@@ -28,7 +28,7 @@ def is_remote(backend: object) -> bool:
 
 
 def reports(backend: object) -> dict[str, Mapping[str, Any]]:
-    """What each layer of a stack has to report, by its class, outermost first."""
+    """The report of each layer of a stack, by its class, outermost first."""
     found: dict[str, Mapping[str, Any]] = {}
     while backend is not None:
         report = getattr(backend, "report", None)
@@ -39,7 +39,7 @@ def reports(backend: object) -> dict[str, Mapping[str, Any]]:
 
 
 def innermost(backend: object) -> object:
-    """The model that a stack of wrappers asks."""
+    """The model behind a stack of wrappers."""
     while (inner := getattr(backend, "inner", None)) is not None:
         backend = inner
     return backend
@@ -72,7 +72,7 @@ class Wrapper:
         identity = getattr(self.inner, "identity", None)
         if not isinstance(identity, Mapping):
             raise ConfigError(
-                f"{self.inner!r} has no `identity` (model, address), so that its answers cannot be told from another "
-                "model's. Put the cache inside of it, or give the backend that property."
+                f"{self.inner!r} has no `identity` (model, address), so that its answers cannot be distinguished from "
+                "another model's. Put the cache inside of it, or give the backend that property."
             )
         return dict(identity)

@@ -43,8 +43,8 @@ def standard_stack(
     is not. What happened is in `reports`.
     Raises: ConfigError: a setting that cannot work.
     """
-    asked = RetryBackend(inner, retries, told_retries=told_retries, sleep=sleep)
-    paid = BudgetBackend(asked, max_calls, max_tokens, max_cost, prices)
+    retried = RetryBackend(inner, retries, told_retries=told_retries, sleep=sleep)
+    paid = BudgetBackend(retried, max_calls, max_tokens, max_cost, prices)
     valid = RepairBackend(paid, repairs)
     return valid if cache_folder is None else CacheBackend(valid, cache_folder)
 
@@ -56,7 +56,7 @@ def build_backend(
     max_cost: float | None = None,
     prices: Mapping[str, Price | Given] | None = None,
 ) -> object:
-    """What a configuration names, with the standard stack around it where it needs one.
+    """Make the backend of a configuration, with the standard stack around it where it needs one.
 
     That is where it is given as a kind or mapping and builds a backend that reaches a service by its address. What was
     given ready made, wrappers, the lexicon, recordings and functions are taken as they are.

@@ -205,13 +205,13 @@ def test_miss_names_the_part_that_changed(tmp_path: Path, part: str, value: Any)
 def test_another_model_misses(tmp_path: Path) -> None:
     path = record(tmp_path / "answers.jsonl")
     assert ask(ReplayBackend(path, model="echo")).model == "echo"
-    with pytest.raises(ReplayMiss, match=r"model \('echo' recorded, 'gpt-4o' asked\)"):
+    with pytest.raises(ReplayMiss, match=r"model \('echo' recorded, 'gpt-4o' requested\)"):
         ask(ReplayBackend(path, model="gpt-4o"))
 
 
 def test_miss_of_another_prompt_version(tmp_path: Path) -> None:
     replay = ReplayBackend(record(tmp_path / "answers.jsonl"))
-    with pytest.raises(ReplayMiss, match=r"prompt_version \('1' recorded, '2' asked\)"):
+    with pytest.raises(ReplayMiss, match=r"prompt_version \('1' recorded, '2' requested\)"):
         ask(replay, prompt="new words", prompt_version="2")
 
 
