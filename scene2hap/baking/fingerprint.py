@@ -34,23 +34,23 @@ _MADE_BY = ("sound", "converter", "actuator", "intensity", "plan")
 _NO_FINGERPRINT = "no fingerprint"
 
 
-def asked_for(description: VibrationDescription, config: BakeConfig) -> dict[str, str]:
-    """The names of what decides which sound is chosen."""
-    asked = (description.object_category, description.state, description.sentence, description.keywords)
-    sources = [told(source) for source in config.audio]
+def request_digests(description: VibrationDescription, config: BakeConfig) -> dict[str, str]:
+    """The digests that decide which sound is chosen: of the words and of the sound sources."""
+    words = (description.object_category, description.state, description.sentence, description.keywords)
+    sources = [described(source) for source in config.audio]
     return {
-        "words": _name([*asked, description.seed]),
+        "words": _name([*words, description.seed]),
         "sources": _name([*sources, config.enough_candidates]),
     }
 
 
 def converter_name(converter: object) -> str:
-    """The name of a converter and its settings; takes milliseconds, since guests are looked for among packages."""
-    return _name([converter_settings(converter), told(converter)])
+    """The digest of a converter and its settings; takes milliseconds, since guests are looked for among packages."""
+    return _name([converter_settings(converter), described(converter)])
 
 
 def made_by(clip: AudioClip, converter: str, plan: Plan) -> dict[str, str]:
-    """The names of what decides how the loops of a clip come out; `converter` is that of `converter_name`."""
+    """The digests that decide how the loops of a clip are made; `converter` is that of `converter_name`."""
     context = plan.context
     # A converter with a given target does not need the other sources' frequencies.
     neighbours_hz = () if context.target_hz is not None else sorted(context.neighbours_hz)
@@ -67,7 +67,7 @@ def made_by(clip: AudioClip, converter: str, plan: Plan) -> dict[str, str]:
 
 
 def differences(earlier: Mapping[str, str], now: Mapping[str, str]) -> tuple[str, ...]:
-    """What differs in how a loop is made; the plan is named only where nothing else is, since it follows from that."""
+    """Names of the inputs of a loop that differ; the plan only if it is the only one, since it follows from others."""
     if not earlier:
         return (_NO_FINGERPRINT,)
     found = tuple(part for part in _MADE_BY if earlier.get(part) != now[part])
@@ -88,8 +88,8 @@ def converter_settings(converter: object) -> dict[str, Any]:
         return {"class": place}
 
 
-def told(part: object) -> str:
-    """What a part says of itself; the usual text of an object holds its address, which says nothing."""
+def described(part: object) -> str:
+    """The `repr` of a part, or its class: the default `repr` holds an address, which differs in each run."""
     return type(part).__qualname__ if type(part).__repr__ is object.__repr__ else repr(part)
 
 

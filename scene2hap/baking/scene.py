@@ -1,6 +1,6 @@
 """Design time: a scene in, a bundle out.
 
-Inference tells what each object is and how it vibrates; a sound is found or made for each state of each vibrating
+Inference names each object and how it vibrates; a sound is found or made for each state of each vibrating
 object, the best candidate chosen, looped and turned into a tactile signal.
 """
 
@@ -37,7 +37,7 @@ OnRemade = Callable[[Remade], None]
 
 
 VIBRATES = "This object vibrates by itself: tell in which states."
-"""What a model is told of an object that a person wants to vibrate."""
+"""Prompt for an object that a person wants to vibrate."""
 
 _ASSUMED_INTENSITY = 0.3
 """Of a state that a person wants and no model describes."""
@@ -149,7 +149,7 @@ def rebake(
         "actuator", "intensity", "plan" (where the source lies among the others), "new", or "no fingerprint". `progress`
         receives the same.
     Raises: as `bake`; UnknownObject. ConfigError: the bundle's converter was given ready made; give it again.
-    Warns: BundleWarning: loops of an older bundle, which tell not what they were made from, stay as they are.
+    Warns: BundleWarning: loops of an older bundle, which have no fingerprint, stay as they are.
     """
     return run_waiting(
         arebake(
@@ -199,7 +199,7 @@ async def arebake(
     earlier = Earlier(
         bundle.loops,
         bundle.choices,
-        anew=again,
+        chosen_again=again,
         any_source=not given & {"audio", "enough_candidates"},
         any_making=not given & {"actuator", "tactile", "spread"},
     )
@@ -251,13 +251,13 @@ def _settings_of(bundle: HapticBundle, config: BakeConfig) -> BakeConfig:
 
 
 def _all_are_known(loops: Mapping[str, Mapping[str, HapticLoop]]) -> bool:
-    """Whether every loop tells what it was made from; a warning where one does not."""
+    """Whether every loop has a fingerprint; warns of loops without one."""
     unknown = [key for key, states in loops.items() if not all(loop.fingerprint for loop in states.values())]
     if unknown:
         some = ", ".join(unknown[:3]) + (", ..." if len(unknown) > 3 else "")
         warnings.warn(
             f"the loops of {len(unknown)} sources ({some}) do not tell what they were "
-            "made from, as in bundles of before, and stay as they are. Name actuator or tactile to make them anew.",
+            "made from, as in bundles of before, and stay as they are. Name actuator or tactile to make them again.",
             BundleWarning,
             stacklevel=3,
         )
@@ -291,7 +291,7 @@ async def _infer(
 
 
 def _as_wished(haptics: ObjectHaptics, wish: Override | None) -> ObjectHaptics:
-    """What is said of an object after a person's correction; one that is to vibrate has at least one state."""
+    """An object's haptics after a person's correction; an object that is to vibrate has at least one state."""
     if wish is None:
         return haptics
     if wish.vibrates and not haptics.states:

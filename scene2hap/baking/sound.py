@@ -24,7 +24,7 @@ from scene2hap.audio.loops import middle_of
 from scene2hap.audio.select import Choice, explain_choice
 from scene2hap.audio.sources.chain import gather
 from scene2hap.baking.config import BakeConfig
-from scene2hap.baking.fingerprint import OWN_CLIP, asked_for, converter_name, differences, made_by
+from scene2hap.baking.fingerprint import OWN_CLIP, converter_name, differences, made_by, request_digests
 from scene2hap.bundle import BundleWarning, Override
 from scene2hap.haptics import ObjectHaptics, SourceState, VibrationDescription
 
@@ -32,7 +32,7 @@ Progress = Callable[[str, str, int, int], None]
 """Called with (stage, the step, how many are done, of how many)."""
 
 Remade = Mapping[str, Mapping[str, tuple[str, ...]]]
-"""What differed for each loop that was made, by id and state: parts of its fingerprint, or "new"."""
+"""Reasons why each loop was made, by id and state: parts of its fingerprint, or "new"."""
 
 _REPEATED_S = 3.0
 _MOST_THREADS = 4
@@ -47,13 +47,13 @@ _UNCHANGED: tuple[str, ...] = ()
 class Earlier:
     """Loops and sounds of an earlier bundle, and the exceptions that may not be reused.
 
-    anew : objects whose sounds are chosen again; any_source : keep sounds of other sound sources than the present ones;
-    any_making : leave loops without a fingerprint as they are.
+    chosen_again : objects whose sounds are chosen again; any_source : keep sounds of other sound sources than the
+    present ones; any_making : leave loops without a fingerprint as they are.
     """
 
     loops: Mapping[str, Mapping[str, HapticLoop]] = field(default_factory=dict)
     choices: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
-    anew: Collection[str] = ()
+    chosen_again: Collection[str] = ()
     any_source: bool = True
     any_making: bool = True
 
@@ -75,7 +75,7 @@ class _Part:
     state: SourceState
     group: str
     clip: AudioClip | None
-    asked: Mapping[str, str]
+    request: Mapping[str, str]
     earlier: HapticLoop | None
     keep: bool = False
     pitch_hz: float | None = None
@@ -170,27 +170,27 @@ class _Chooser:
             return _Part(object_id, state, group, None, {}, before), why
         if wish is not None and wish.clip is not None:
             clip = self._own.setdefault(object_id, _prepared(wish.clip))
-            asked = {"words": OWN_CLIP, "sources": OWN_CLIP}
-            return _Part(object_id, state, group, clip, asked, before, wish.keep), ""
+            request = {"words": OWN_CLIP, "sources": OWN_CLIP}
+            return _Part(object_id, state, group, clip, request, before, wish.keep), ""
         description = self._description(haptics, state)
-        asked = asked_for(description, self._config)
-        if before is not None and object_id not in self._earlier.anew:
+        request = request_digests(description, self._config)
+        if before is not None and object_id not in self._earlier.chosen_again:
             why = self._earlier.choices.get(object_id, {}).get(state.name, "")
             if not before.fingerprint:
                 repeated = None if self._earlier.any_making else _prepared(_repeated(before.audible))
-                return _Part(object_id, state, group, repeated, asked, before), why
-            if self._holds(before.fingerprint, asked):
+                return _Part(object_id, state, group, repeated, request, before), why
+            if self._holds(before.fingerprint, request):
                 clip = before.source or _prepared(_repeated(before.audible))  # None: somebody removed it
-                return _Part(object_id, state, group, clip, _asked(before, asked), before), why
+                return _Part(object_id, state, group, clip, _with_sources_of(before, request), before), why
         if description not in self._chosen:
             choice = self._choose(object_id, description)
             self._chosen[description] = _prepared(choice.winner), str(choice)
         clip, why = self._chosen[description]
-        return _Part(object_id, state, group, clip, asked, before), why
+        return _Part(object_id, state, group, clip, request, before), why
 
-    def _holds(self, fingerprint: Mapping[str, str], asked: Mapping[str, str]) -> bool:
+    def _holds(self, fingerprint: Mapping[str, str], request: Mapping[str, str]) -> bool:
         parts = ("words",) if self._earlier.any_source else ("words", "sources")
-        return all(fingerprint.get(part) == asked[part] for part in parts)
+        return all(fingerprint.get(part) == request[part] for part in parts)
 
     def _choose(self, object_id: str, description: VibrationDescription) -> Choice:
         config = self._config
@@ -233,7 +233,7 @@ class _Maker:
     ) -> tuple[HapticLoop, tuple[str, ...]]:
         if key not in self._names:
             self._names[key] = made_by(clip, self._converter, plan)
-        fingerprint = {**part.asked, **self._names[key]}
+        fingerprint = {**part.request, **self._names[key]}
         reasons = differences(part.earlier.fingerprint, fingerprint) if part.earlier is not None else _NEW
         if part.earlier is not None and not reasons:
             unchanged = dict(part.earlier.fingerprint) == fingerprint
@@ -241,7 +241,7 @@ class _Maker:
         if key not in self._made:
             self._made[key] = felt_loop(clip, self._config.tactile, plan)
         # A person's own clip is kept with the override; once that is gone another sound is to be chosen.
-        source = None if part.asked["words"] == OWN_CLIP else clip
+        source = None if part.request["words"] == OWN_CLIP else clip
         return replace(self._made[key], source=source, fingerprint=fingerprint), reasons
 
 
@@ -254,22 +254,24 @@ def _pitch_hz(object_id: str, state: str, wishes: Mapping[str, Override], config
     wanted_hz = wish.pitch_of(state) if wish is not None else None
     if wish is None or wanted_hz is None or wish.locked:
         return None
-    told = f"pitch_hz of {object_id!r} is {wanted_hz:g} Hz; "
+    limits = f"pitch_hz of {object_id!r} is {wanted_hz:g} Hz; "
     if not getattr(config.tactile, "follows_target", False):
         name = type(config.tactile).__name__
-        warnings.warn(f"{told}{name} does not move sources. Use the converter 'adaptive'.", BundleWarning, stacklevel=2)
+        warnings.warn(
+            f"{limits}{name} does not move sources. Use the converter 'adaptive'.", BundleWarning, stacklevel=2
+        )
         return None
     played_hz = min(max(wanted_hz, actuator.min_frequency_hz), actuator.max_frequency_hz)
     if played_hz != wanted_hz:
-        told += (
+        limits += (
             f"the actuator {actuator.name!r} plays {actuator.min_frequency_hz:g} to {actuator.max_frequency_hz:g} Hz"
         )
-        warnings.warn(f"{told}. The loop is at {played_hz:g} Hz.", BundleWarning, stacklevel=2)
+        warnings.warn(f"{limits}. The loop is at {played_hz:g} Hz.", BundleWarning, stacklevel=2)
     return played_hz
 
 
-def _asked(before: HapticLoop, asked: Mapping[str, str]) -> dict[str, str]:
-    return {**asked, "sources": before.fingerprint.get("sources", "")}
+def _with_sources_of(before: HapticLoop, request: Mapping[str, str]) -> dict[str, str]:
+    return {**request, "sources": before.fingerprint.get("sources", "")}
 
 
 def _prepared(clip: AudioClip) -> AudioClip:

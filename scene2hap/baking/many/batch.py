@@ -1,7 +1,7 @@
 """Ask about many scenes in batches, which cost half and answer within a day.
 
 The chain's questions depend on each other: the kind of place, then the objects, then materials and states. So scenes
-are inferred in stages, each one batch over all of them: `submit_batch` sends every question that can be asked now,
+are inferred in stages, each one batch over all of them: `submit_batch` sends every question that is ready now,
 `collect_batch` fetches the answers, keeps them in the cache, and writes the draft of each scene that is answered
 throughout, from which `bake_many` goes on without a question.
 
@@ -42,11 +42,11 @@ Config = BakeConfig | Mapping[str, Any] | str | os.PathLike[str] | None
 @clear_attributes
 @dataclass(frozen=True)
 class BatchReport:
-    """How far the batches of a folder are.
+    """Progress of the batches of a folder.
 
-    Parameters: batches : all so far; n_scenes : asked about; n_ready : scenes that are answered throughout, for
-    `bake_many`; n_answers, cost_usd : answers so far and what they cost, None if unknown; errors : scenes that cannot
-    be asked about, by path.
+    Parameters: batches : all so far; n_scenes : scenes in the batches; n_ready : completely answered scenes, for
+    `bake_many`; n_answers, cost_usd : answers so far and their cost, None if unknown; errors : by path of each scene
+    that cannot be read or inferred.
     """
 
     batches: tuple[BatchRow, ...]
@@ -102,7 +102,7 @@ def submit_batch(
     user_prompt: str = "",
     progress: Progress | None = None,
 ) -> BatchReport:
-    """Send all questions about scenes that can be asked now and were not asked before.
+    """Send all questions about scenes that are ready now and were not sent before.
 
     Parameters are those of `bake_many`. The model is one of kind "openai", at OpenAI or at a service that has its
     batches. If the run ends on the way, the next one goes on: no batch is begun twice.
@@ -126,7 +126,7 @@ def collect_batch(
     user_prompt: str = "",
     progress: Progress | None = None,
 ) -> BatchReport:
-    """Fetch the answers of batches that have ended, and find what is to be asked next.
+    """Fetch the answers of batches that have ended, and collect the next questions.
 
     Parameters are those of `bake_many`. Answers are on disk before they are read. Questions of a batch that expired, or
     was cancelled, are sent again by the next `submit_batch`, those that were answered are not.
@@ -213,7 +213,7 @@ class _Work:
         )
 
     async def survey(self, given: _Given) -> BatchReport:
-        """Infer every scene as far as answers reach, and write what is to be asked next."""
+        """Infer every scene as far as answers reach, and write the next questions."""
         paths = scene_paths(given.scenes)
         backend = BatchBackend(self.model, self.batches, price_list(self.config.prices))
         stack = CacheBackend(RepairBackend(backend), self.config.cache_dir or cache_folder("llm"))

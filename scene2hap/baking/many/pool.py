@@ -21,7 +21,7 @@ _TRIES = 3
 
 
 class Submits(Protocol):
-    """What `concurrent.futures` calls an executor; those of Dask, MPI and Slurm are such."""
+    """An executor as in `concurrent.futures`, such as those of Dask, MPI and Slurm."""
 
     def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]:
         """Run a function elsewhere."""
@@ -32,7 +32,7 @@ class Pool:
     """Runs tasks for coroutines.
 
     Parameters: executor : None for this process, one task at a time; "processes" or "processes:N" for worker processes
-    of ours, which are begun anew where one dies; "dask:ADDRESS" for a Dask scheduler; or an object with `submit`.
+    of ours, of which a new one replaces one that dies; "dask:ADDRESS" for a Dask scheduler; or an object with `submit`.
     """
 
     def __init__(self, executor: str | Submits | None) -> None:
@@ -73,7 +73,7 @@ class Pool:
             close()
 
     async def run(self, task: Callable[..., Result], *args: Any) -> Result:
-        """What a task returns, which gets the number of its threads before its arguments.
+        """Run a task and return its result. The task gets the number of its threads before its arguments.
 
         One whose worker died is begun again, in our own processes.
 

@@ -1,4 +1,4 @@
-"""What is done: by a digest of the scene file and one of the settings, beside each bundle's draft."""
+"""Records of finished work: digests of the scene file and of the settings, beside each bundle's draft."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from typing import Any
 
 from scene2hap import __version__
 from scene2hap.baking.config import BakeConfig
-from scene2hap.baking.fingerprint import converter_settings, told
+from scene2hap.baking.fingerprint import converter_settings, described
 from scene2hap.errors import ConfigError, SceneError
 from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.wrappers import identity
@@ -70,9 +70,9 @@ def settings_digest(config: BakeConfig, user_prompt: str, options: Mapping[str, 
         "version": __version__,
         "llm": backend,
         "inference": {name: getattr(config, name) for name in InferenceConfig.model_fields if name != "concurrency"},
-        "audio": [told(source) for source in config.audio],
+        "audio": [described(source) for source in config.audio],
         "enough": config.enough_candidates,
-        "tactile": [converter_settings(config.tactile), told(config.tactile)],
+        "tactile": [converter_settings(config.tactile), described(config.tactile)],
         "actuator": asdict(config.actuator),
         "spread": config.spread.model_dump(),
         "seed": config.seed,
@@ -83,7 +83,7 @@ def settings_digest(config: BakeConfig, user_prompt: str, options: Mapping[str, 
 
 
 def read_record(path: Path) -> Record:
-    """What a record says; nothing where it is missing or damaged, so that its scene is done again."""
+    """Read a record; empty if it is missing or damaged, so that its scene is done again."""
     with suppress(OSError, ValueError):
         found = json.loads(path.read_text(encoding="utf-8"))
         if isinstance(found, dict):

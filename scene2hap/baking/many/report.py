@@ -17,7 +17,7 @@ class SceneReport:
     """One scene.
 
     Parameters: outcome : "baked"; "kept", since neither file nor settings have changed since an earlier run; or
-    "failed"; seconds : by stage: "baking" in a worker, and where a model is asked "reading" and "inference"; calls :
+    "failed"; seconds : by stage: "baking" in a worker, and with a model also "reading" and "inference"; calls :
     questions; kept : how many of them a cache answered; cost_usd : None if unknown.
     """
 
@@ -41,7 +41,7 @@ class SceneReport:
 @clear_attributes
 @dataclass(frozen=True)
 class ManyReport:
-    """All scenes, in the order in which they were given; how long the run took [s]; what the model's stack tells."""
+    """All scenes, in the order in which they were given; the time of the run [s]; the reports of the model's stack."""
 
     scenes: Sequence[SceneReport]
     seconds: float = 0.0
@@ -88,5 +88,5 @@ class ManyReport:
 
     def __str__(self) -> str:
         cost = "unknown cost" if self.cost_usd is None else f"{self.cost_usd:.2f} dollars"
-        told = f"{self.count('baked')} scenes baked, {self.count('kept')} kept, {self.count('failed')} failed in "
-        return f"{told}{self.seconds:.0f} s; {self.calls} calls, {self.kept} answered from the cache, {cost}"
+        scenes = f"{self.count('baked')} scenes baked, {self.count('kept')} kept, {self.count('failed')} failed in "
+        return f"{scenes}{self.seconds:.0f} s; {self.calls} calls, {self.kept} answered from the cache, {cost}"

@@ -6,8 +6,8 @@ FOLDER/.bake-many/NAME.pictures/   what a model is shown, until it has answered
 FOLDER/.bake-many/NAME.draft/      what a model said, until the bundle is written
 FOLDER/report.json                 the account of the last run
 
-Pictures and sounds, and where no model is asked over a network everything, are made on an executor. A model is asked
-from here: one cache, one budget and one pace for all scenes.
+Pictures and sounds are made on an executor, and without a model over a network everything. Questions to a model go out
+from here, so that all scenes share one cache, one budget and one pace.
 """
 
 from __future__ import annotations
@@ -119,7 +119,7 @@ async def abake_many(
         run = Run(
             checks.path("folder", folder, error=ConfigError),
             parsed.model_copy(update={"llm": _Lanes(parsed.llm, parsed.concurrency)}),
-            # A worker asks no model, and a connection cannot be sent to it.
+            # A worker sends no question to a model, and a connection cannot be sent to it.
             parsed.model_copy(update={"llm": LexiconBackend()}) if "base_url" in identity(parsed.llm) else parsed,
             dict(options or {}),
             user_prompt,
@@ -155,7 +155,7 @@ class _Lanes(Wrapper):
 
 @dataclass(frozen=True)
 class _Inferred:
-    """What a model said of a scene, and how long it took [s] by stage."""
+    """A model's answers about a scene, and the time that they took [s] by stage."""
 
     scene: SceneSnapshot
     found: Inference
@@ -180,10 +180,10 @@ class Run:
     names: dict[Path, str] = field(default_factory=dict)
 
     def name(self, paths: list[Path]) -> None:
-        """Settle which scenes there are, and by which settings they are made."""
+        """Name the scenes, and the settings by which they are made."""
         self.total, self.names = len(paths), _names(paths)
-        told = {**self.options, "pictures": self.pictures}
-        self.settings = settings_digest(self.config, self.user_prompt, told)
+        options = {**self.options, "pictures": self.pictures}
+        self.settings = settings_digest(self.config, self.user_prompt, options)
 
     async def all(self, paths: list[Path]) -> ManyReport:
         """Bake them, and write the report."""
@@ -198,7 +198,7 @@ class Run:
         return report
 
     async def each(self, paths: list[Path], work: Callable[[Path], Awaitable[Report]]) -> list[Report]:
-        """What becomes of each scene, with so many under way as keep the workers busy."""
+        """The report of each scene. Enough scenes are under way to keep the workers busy."""
         gate = asyncio.Semaphore(self.pool.n_workers + _AHEAD)
 
         async def one(path: Path) -> Report:
@@ -313,7 +313,7 @@ class Run:
 
 
 def _read(path: Path, options: Mapping[str, Any]) -> SceneSnapshot:
-    """A scene; what it is warned of, workers tell again when they check it."""
+    """Read a scene without its warnings, since workers give them again when they check it."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return load_scene(path, **options)

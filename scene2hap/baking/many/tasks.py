@@ -1,6 +1,6 @@
 """The parts of a bake that run in workers: each gets paths and settings, and returns counters.
 
-Where no model is asked over a network, a worker does a scene from its file to its bundle. Else inference runs in the
+Without a model over a network, a worker does a scene from its file to its bundle. Otherwise inference runs in the
 main process. A worker takes the pictures before it, into a folder. A worker gets a draft after it: a bundle without
 loops, on disk, so that nothing large goes through an executor and a later run goes on from there.
 """
@@ -29,7 +29,7 @@ from scene2hap.scene.snapshot import SceneSnapshot
 
 @dataclass(frozen=True)
 class Counters:
-    """What a task did: time [s], objects, sources, objects that nobody could name, questions, and warnings."""
+    """Counters of a task: time [s], objects, sources, unknown objects, questions, and warnings."""
 
     seconds: float
     n_objects: int
@@ -70,20 +70,20 @@ def make_sounds(n_threads: int, draft: str, target: str, config: BakeConfig) -> 
 
 
 def wishes_at(target: Path, scene: SceneSnapshot) -> dict[str, Override]:
-    """What was overridden in an earlier bundle at this place, of objects that are still there."""
+    """The overrides of an earlier bundle at this place, for objects that still exist."""
     known = {item.id for item in scene.objects}
     return {key: wish for key, wish in read_overrides(target).items() if key in known}
 
 
 def _counted(bundle: HapticBundle, watch: _Watch, calls: int = 0) -> Counters:
     n_unknown = sum(haptics.object_category in UNKNOWN for haptics in bundle.objects.values())
-    return Counters(watch.seconds, len(bundle.objects), len(bundle.loops), n_unknown, calls, tuple(watch.told))
+    return Counters(watch.seconds, len(bundle.objects), len(bundle.loops), n_unknown, calls, tuple(watch.warnings))
 
 
 @dataclass
 class _Watch:
     seconds: float = 0.0
-    told: list[str] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
 
 
 @contextmanager
@@ -98,4 +98,4 @@ def _watched(n_threads: int) -> Iterator[_Watch]:
         finally:
             watch.seconds = time.perf_counter() - begun
             N_THREADS.reset(before)
-            watch.told = list(dict.fromkeys(str(one.message) for one in caught))
+            watch.warnings = list(dict.fromkeys(str(one.message) for one in caught))
