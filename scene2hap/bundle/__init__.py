@@ -1,4 +1,4 @@
-"""What baking leaves behind and playing starts from."""
+"""Bundles: the result of baking, and the input of playing."""
 
 from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.differences import Difference, differences

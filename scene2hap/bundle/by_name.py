@@ -26,12 +26,12 @@ class ByName(dict[str, Thing]):
     def __missing__(self, key: object) -> NoReturn:
         known = ", ".join(map(repr, list(self)[:_MOST_NAMED])) or "none"
         near = checks.did_you_mean(key, self, f"There are {known}{', ...' if len(self) > _MOST_NAMED else ''}.")
-        told = f"{self.what} {checks.represented(key)} {self.of_what}".rstrip()
-        raise UnknownObject(f"the bundle has no {told}. {near}")
+        missing = f"{self.what} {checks.represented(key)} {self.of_what}".rstrip()
+        raise UnknownObject(f"the bundle has no {missing}. {near}")
 
 
 def by_name(entries: Mapping[str, Thing], what: str, of_what: str = "") -> ByName[Thing]:
-    """Such a mapping of these entries; the same if they are one."""
+    """Wrap entries in a `ByName`; return them as they are if they are one."""
     return entries if isinstance(entries, ByName) else ByName(entries, what, of_what)
 
 

@@ -1,4 +1,4 @@
-"""What a bundle says of its objects, held against its scene: a person may have edited the file."""
+"""Compare a bundle's objects with its scene, since a person may have edited the file."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def require_plausible(bundle: BundleContents, folder: Path) -> None:
         if haptics.material is not None:
             wrong = sizes.faults(haptics.estimated_size_m, scene.object(object_id).size_m)
             if wrong:
-                told = "; ".join(f"{edge} is {why}" for edge, why in wrong.items())
-                raise BundleError(f"{folder / 'objects.json'}: {object_id}.estimated_size_m: {told}.")
+                faults = "; ".join(f"{edge} is {why}" for edge, why in wrong.items())
+                raise BundleError(f"{folder / 'objects.json'}: {object_id}.estimated_size_m: {faults}.")
         for doubt in unmet_needs(object_id, haptics.states, categories):
             warnings.warn(f"{object_id!r}: {doubt}.", BundleWarning, stacklevel=4)

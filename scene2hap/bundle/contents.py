@@ -1,4 +1,4 @@
-"""What a baked scene holds, without the ways to change or keep it; reading and writing build on this alone."""
+"""The data of a baked scene, without methods to change or save it; reading and writing build on this alone."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from scene2hap.scene.snapshot import SceneSnapshot
 class BundleContents:
     """A baked scene: what is in it, what inference says of each object, and the loops of each source by state.
 
-    `overrides` are what a person says against inference; `choices` tell why each sound was chosen, as a table of its
+    `overrides` are a person's corrections; `choices` say why each sound was chosen, as a table of its
     candidates in text, by id and state; `made_with` are the settings that all loops share, None where nobody knows.
     """
 
@@ -46,12 +46,12 @@ class BundleContents:
 
     @property
     def actuator(self) -> ActuatorProfile | None:
-        """What all tactile loops were converted for; None where nobody knows."""
+        """The actuator that all tactile loops were converted for; None if unknown."""
         return self.made_with.actuator if self.made_with is not None else None
 
     @property
     def credits(self) -> tuple[Credit, ...]:
-        """Whom the sounds are owed to, each once, in order of source and state."""
+        """Credits of the sounds, each once, in order of source and state."""
         return tuple(dict.fromkeys(loop.audible.credit for states in self.loops.values() for loop in states.values()))
 
     def is_muted(self, object_id: str) -> bool:

@@ -13,7 +13,7 @@ _HERE = -100  # AT_FDCWD of Linux: paths are relative to the working folder
 _RENAME_EXCHANGE = 2  # Linux, <linux/fs.h>
 _RENAME_SWAP = 2  # macOS, <sys/stdio.h>
 _UNSUPPORTED = {errno.ENOSYS, errno.EINVAL, errno.ENOTSUP, errno.EOPNOTSUPP}
-"""What a kernel, or a file system that has no such step, answers."""
+"""Errors of a kernel or a file system without this operation."""
 
 
 def exchange(one: Path, other: Path) -> bool:

@@ -5,7 +5,7 @@ scene.json      the snapshot; geometry by reference to meshes/
 objects.json    ObjectHaptics of each object by id
 loops.json      for each source and state its sounds, frequencies, credit, and the fingerprint of their making
 overrides.json  what a person has overridden, by id
-credits.txt     whom the sounds are owed to
+credits.txt     credits of the sounds
 meshes/*.ply    one per distinct mesh [m]
 sounds/*.wav    audible and tactile loop of each source and state, equal in length and seam; equal ones are one file
 sounds/*.flac   the sounds that loops were cut from, to cut and convert them again
@@ -55,7 +55,7 @@ _objects: TypeAdapter[dict[str, ObjectHaptics]] = TypeAdapter(dict[str, ObjectHa
 _SURROGATE = re.compile("[\ud800-\udfff]")
 _MOST_READINGS = 5
 _DAMAGE = (ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RecursionError, TypeError, ValueError)
-"""What Python itself raises on a document of the wrong shape, on numbers beyond any bound, on files that vanish."""
+"""Errors that Python itself raises on a document of the wrong shape, on huge numbers, and on files that vanish."""
 
 
 def write_bundle(bundle: BundleContents, target: Path) -> Path:
@@ -145,8 +145,8 @@ def _read(folder: Path) -> BundleContents:
         manifest = read_manifest(folder)
         missing = [name for name in manifest.get("files", []) if not inside(folder, name).is_file()]
         if missing:
-            told = f"{folder} lacks {missing[0][:200]} ({len(missing)} missing). Bake it again or restore it."
-            raise BundleIncomplete(told)
+            problem = f"{folder} lacks {missing[0][:200]} ({len(missing)} missing). Bake it again or restore it."
+            raise BundleIncomplete(problem)
     with _reading(folder / "scene.json"):
         scene = _read_scene(folder)
     with _reading(folder / "objects.json"):
@@ -186,9 +186,9 @@ def _reading(path: Path) -> Iterator[None]:
         raise BundleError(f"{path}: {cause}") from cause
     except KeyError as cause:
         raise BundleError(f"{path} lacks {cause}. Bake again, or mend the file.") from cause
-    except _DAMAGE as cause:  # what files may hold has no end; the cause tells more
-        told = str(cause)[:200] or type(cause).__name__
-        raise BundleError(f"{path} holds what cannot be: {told}. Bake again, or mend the file.") from cause
+    except _DAMAGE as cause:  # files may be damaged in any way; the cause says more
+        reason = str(cause)[:200] or type(cause).__name__
+        raise BundleError(f"{path} holds what cannot be: {reason}. Bake again, or mend the file.") from cause
 
 
 def _identity(folder: Path) -> tuple[int, int] | None:
@@ -229,7 +229,7 @@ def _override_rows(bundle: BundleContents, folder: Path, written: list[str]) -> 
 
 
 def read_overrides(folder: Path) -> dict[str, Override]:
-    """What a person has overridden in the bundle of a folder, by id; nothing where no bundle is.
+    """Read the overrides of the bundle in a folder, by id; empty where no bundle is.
 
     Raises: BundleError and its children: the file cannot be read, so that it would be lost.
     """

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 class HapticBundle(BundleContents):
     """A baked scene: what is in it, what inference says of each object, and the loops of each source by state.
 
-    `overrides` are what a person says against inference; `choices` tell why each sound was chosen, as a table of its
+    `overrides` are a person's corrections; `choices` say why each sound was chosen, as a table of its
     candidates in text, by id and state; `made_with` are the settings that all loops share, None where nobody knows.
     """
 
@@ -121,10 +121,10 @@ class HapticBundle(BundleContents):
         return replace(self, objects=objects, loops=loops)
 
     def _require_unlocked(self, object_id: str, wish: Override, changes: Mapping[str, Any]) -> None:
-        asked = sorted(name for name in MAKES_LOOPS if changes[name] is not None)
-        if asked and wish.locked and changes["locked"] is not False and object_id in self.loops:
+        changed = sorted(name for name in MAKES_LOOPS if changes[name] is not None)
+        if changed and wish.locked and changes["locked"] is not False and object_id in self.loops:
             raise BundleError(
-                f"{object_id!r} is locked, so that {asked[0]} cannot change its loops. Unlock it first: "
+                f"{object_id!r} is locked, so that {changed[0]} cannot change its loops. Unlock it first: "
                 f"`override({object_id!r}, locked=False)`, or `scene2hap edit BUNDLE unlock {object_id}`."
             )
 

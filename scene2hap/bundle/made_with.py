@@ -13,7 +13,7 @@ from scene2hap.haptics import ActuatorProfile
 
 @dataclass(frozen=True)
 class MadeWith:
-    """What a scene was baked with, as far as it decides how a loop comes out of its sound.
+    """The settings of a bake that decide how a loop is made from its sound.
 
     `tactile` is the converter as configuration: its `kind` and settings; one that was given ready made and is
     registered nowhere has a `class` instead, and cannot be built again. `seed` is of what is synthesized.
@@ -35,7 +35,7 @@ class MadeWith:
 
     @classmethod
     def from_document(cls, document: object, place: str) -> MadeWith | None:
-        """What `to_document` wrote, None for None, as in bundles of before; `place` is what errors call it.
+        """Read the result of `to_document`, None for None, as in older bundles; `place` is its name in errors.
 
         Raises: BundleError: it is something else.
         """

@@ -1,4 +1,4 @@
-"""What a person says of an object against inference; kept when the scene is baked again."""
+"""A person's corrections of what was inferred of an object; kept when the scene is baked again."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ MAKES_LOOPS = frozenset({"vibrates", "clip", "keep", "intensity", "pitch_hz"})
 
 _MOST_GAIN_DB = 60.0
 _PITCH_HZ = (10.0, 1000.0)
-"""What hands feel as a pitch, which is also the band of an actuator without a profile."""
+"""Frequencies that hands feel as a pitch, also the band of an actuator without a profile."""
 
 
 @clear_construction
@@ -111,7 +111,7 @@ class Override:
         return self.pitch_hz.get(state, self.pitch_hz.get(ANY_STATE))
 
     def applied(self, haptics: ObjectHaptics) -> ObjectHaptics:
-        """What is then said of the object. That it vibrates needs a state, which baking it again brings."""
+        """Apply these corrections to inferred haptics. An object made to vibrate gets a state when baked again."""
         provenance = dict(haptics.provenance)
         if self.material is not None:
             provenance |= {"material": USER, "material_category": USER}

@@ -25,7 +25,7 @@ _OURS = re.compile(
 
 
 def read_manifest(folder: Path) -> dict[str, Any]:
-    """What bundle.json says, of a format and version that can be read.
+    """Read bundle.json, of a format and version that can be read.
 
     Raises: BundleIncomplete: it is missing or damaged; BundleVersionError: of a newer scene2hap; BundleError: it is
     something else.
@@ -57,7 +57,7 @@ def require_folder(folder: Path) -> None:
 
 
 def our_files(folder: Path) -> frozenset[str]:
-    """What a bundle's folder holds of ours, by its own account: names with forward slashes. Raises: as `read_manifest`.
+    """Names of the files that a bundle's manifest lists, with forward slashes. Raises: as `read_manifest`.
 
     A name that we would never write is not ours, whatever the account says.
     """
@@ -78,7 +78,7 @@ def read_json(folder: Path, name: str) -> dict[str, Any]:
 
 
 def read_bytes(folder: Path, name: str) -> bytes:
-    """What is in a file of a bundle, of at most `MAX_FILE_BYTES`. Raises: BundleIncomplete, BundleError."""
+    """Read a file of a bundle, of at most `MAX_FILE_BYTES`. Raises: BundleIncomplete, BundleError."""
     path = own_file(folder, name)
     try:
         size = path.stat().st_size
@@ -102,8 +102,8 @@ def own_file(folder: Path, name: object) -> Path:
             f"{folder} has no {str(name)[:80]}: not a bundle, or one that was not written to its end."
         ) from cause
     except OSError as cause:
-        told = f"{folder / str(name)[:80]} cannot be read: {cause.strerror}"
-        raise BundleIncomplete(f"{told}. Bake again, or mend the file.") from cause
+        problem = f"{folder / str(name)[:80]} cannot be read: {cause.strerror}"
+        raise BundleIncomplete(f"{problem}. Bake again, or mend the file.") from cause
     if not stat.S_ISREG(mode):
         raise BundleIncomplete(f"{path} is not a file. Bake again, or mend the folder.")
     return path

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
 
 MOST_SOURCES = 8
-"""Drawn unless others are asked for: more do not fit on a page."""
+"""How many sources are drawn by default: more do not fit on a page."""
 _MOST_LISTED = 24
 _CELLS = 320
 

@@ -118,8 +118,8 @@ def recover(target: Path) -> None:
                     f"{target} was being replaced when that process died. The new bundle is whole at {new}, the old "
                     f"one at {old}; move one of them to {target} ({cause.strerror})."
                 ) from cause
-            told = f"{target} was being replaced when that process died; the new bundle, which was whole, is there now."
-            warnings.warn(told, BundleWarning, stacklevel=4)
+            warning = f"{target} was being replaced when that process died; the new bundle was whole and is there now."
+            warnings.warn(warning, BundleWarning, stacklevel=4)
             with suppress(OSError, BundleError):
                 discard(old, place)
         return
@@ -147,8 +147,8 @@ def _put(draft: Path, place: Path, target: Path, held: ExitStack) -> None:
                 os.chmod(old, 0o700)  # it may be one that cannot be written
                 discard(old, place)
             except (OSError, BundleError) as cause:
-                told = f"{target} is written, but {old}, which it replaces, cannot be removed: {cause}"
-                warnings.warn(told, BundleWarning, stacklevel=6)
+                warning = f"{target} is written, but {old}, which it replaces, cannot be removed: {cause}"
+                warnings.warn(warning, BundleWarning, stacklevel=6)
         return
 
 
@@ -264,7 +264,7 @@ def _working_folder() -> Path | None:
 
 
 def _sync(folder: Path) -> None:
-    """Have the system write down what was renamed in a folder, where that can be asked for."""
+    """Write the renames in a folder to the disk, on systems that offer this for folders."""
     if os.name != "posix":
         return
     with suppress(OSError):

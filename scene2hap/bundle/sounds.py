@@ -93,7 +93,7 @@ def file_stem(text: str) -> str:
 
 
 def read_credit(fields: Mapping[str, Any]) -> Credit:
-    """Whom a sound is owed to, as a file says it. Raises: TypeError: it says something else."""
+    """Read the credit of a sound from the fields of a file. Raises: TypeError: a field is missing or no text."""
     credit = Credit(**fields)
     if not all(isinstance(value, str) for value in asdict(credit).values()):
         raise TypeError("'credit', which must be an object of texts")
