@@ -1,4 +1,4 @@
-"""What each request does, and its answer."""
+"""Handlers of the requests, and their answers."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ LONGEST_PREPARATION_S = 60.0
 
 
 async def answer(request: messages.Request, client: Client, host: Host) -> Document:
-    """Do what a client asks for. Raises: Scene2HapError: it cannot be done; the connection goes on."""
+    """Carry out a client's request. Raises: Scene2HapError: it cannot be done; the connection goes on."""
     match request:
         case messages.Hello():
             raise BridgeError("hello was said already; it comes once, as the first message.")
@@ -163,7 +163,7 @@ def _made(
     sink_spec: object,
     tell: Callable[[Document], None],
 ) -> PlayedSession:
-    """The session that a client asked for; this takes seconds, and runs on a thread."""
+    """Make the session that a client requested. This takes seconds, and runs on a thread."""
     bundle = HapticBundle.load(folder)
     scene = bundle.snapshot if request.scene is None else SceneSnapshot.from_json(json.dumps(request.scene))
     sink = None if sink_spec is None else cast("ActuatorSink", SINKS.build(sink_spec))

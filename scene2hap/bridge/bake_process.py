@@ -20,7 +20,7 @@ from scene2hap.scene.load import load_scene
 
 
 def main() -> None:
-    """Bake what standard input asks for."""
+    """Bake the request on standard input."""
     answers = sys.stdout
     sys.stdout = sys.stderr  # whatever a plug-in prints is no answer
 
@@ -50,7 +50,7 @@ def baked(wanted: dict[str, Any], progress: Any) -> HapticBundle:
 
 
 def summary(bundle: HapticBundle) -> list[dict[str, Any]]:
-    """What was inferred, for a client to show."""
+    """Inferred properties, for a client to show."""
     return [
         {
             "id": key,

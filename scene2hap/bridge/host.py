@@ -1,4 +1,4 @@
-"""What clients of a bridge share: sessions, bakes, the sink, and the folder of files."""
+"""The shared state of a bridge's clients: sessions, bakes, the sink, and the folder of files."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ class Host:
             self._plays_sink = None
 
     async def take_sink(self) -> object:
-        """What a session is to play on, None if the server has no sink; a session that waits for its player gives way.
+        """Take the sink for a session, None if the server has none; a session that waits for its player gives it up.
 
         Raises: BridgeError: another session plays on it.
         """

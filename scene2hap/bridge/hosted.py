@@ -12,7 +12,7 @@ from typing import Any, Literal, ParamSpec, Protocol, TypeVar
 
 from scene2hap.bridge.frames import Frame, decode_frame, encode_gains
 from scene2hap.bridge.played import PlayedSession
-from scene2hap.bridge.told_warnings import told
+from scene2hap.bridge.session_warnings import forwarding_warnings
 from scene2hap.errors import BridgeError, Scene2HapError, UnknownSession
 
 P = ParamSpec("P")
@@ -90,7 +90,7 @@ class HostedSession:
 
     async def _on_a_thread(self, work: Callable[[], Result]) -> Result:
         async with self._is_free:
-            return await asyncio.to_thread(told, self._tell, work)
+            return await asyncio.to_thread(forwarding_warnings, self._tell, work)
 
     async def settle(self) -> None:
         """Wait until no frame is left to take in."""
@@ -135,8 +135,8 @@ class HostedSession:
             frame, self._waits, reply = self._waits, None, self._reply
             assert frame is not None
             if self.played.may_wait:
-                return await asyncio.to_thread(told, self._tell, lambda: self._taken(frame)), reply
-            return told(self._tell, lambda: self._taken(frame)), reply
+                return await asyncio.to_thread(forwarding_warnings, self._tell, lambda: self._taken(frame)), reply
+            return forwarding_warnings(self._tell, lambda: self._taken(frame)), reply
 
     def _taken(self, frame: Frame) -> bytes | None:
         gains = self.played.take(frame)
@@ -151,7 +151,7 @@ class HostedSession:
             one.send_gains(message, must_arrive=False)
 
     async def change_layout(self, work: Callable[[], object]) -> dict[str, Any]:
-        """Let objects or sources come or go, and tell all clients the new layout; that of the player is returned."""
+        """Add or remove objects or sources, and send all clients the new layout; returns that of the player."""
 
         def changed() -> dict[str, Any]:
             work()
@@ -222,7 +222,7 @@ class HostedSession:
 
 
 def error_message(error: Exception) -> dict[str, Any]:
-    """The message that tells a client of an error; one that is not ours goes to the log, since it may tell too much."""
+    """The message to a client about an error; an unexpected error goes to the log, since it may reveal too much."""
     if isinstance(error, Scene2HapError):
         return {"type": "error", "error": type(error).__name__, "message": str(error)}
     _log.error("a fault of the bridge", exc_info=error)

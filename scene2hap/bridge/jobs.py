@@ -1,4 +1,4 @@
-"""Bakes that clients asked for, each in a process of its own."""
+"""Bakes that clients requested, each in a process of its own."""
 
 from __future__ import annotations
 

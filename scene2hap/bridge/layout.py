@@ -1,4 +1,4 @@
-"""What the numbers in binary frames stand for."""
+"""The meaning of the numbers in binary frames."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The JSON messages of clients; docs/bridge-protocol.md tells what each does."""
+"""The JSON messages of clients; docs/bridge-protocol.md describes them."""
 
 from __future__ import annotations
 

@@ -73,7 +73,7 @@ class PlayedSession:
         self._moving = self._layouts.change(moving, objects, self.session.hands, self.session.source_ids).moving
 
     def order(self) -> dict[str, Any]:
-        """The fields of the messages that tell the layout."""
+        """The fields of messages with the layout."""
         layout, session = self.layout, self.session
         return {
             "layout": layout.number,

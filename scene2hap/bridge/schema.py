@@ -59,7 +59,7 @@ class Progress(Answer):
 
 
 class BakedObject(BaseModel):
-    """What was inferred of an object."""
+    """Inferred properties of an object."""
 
     id: str
     category: str
@@ -125,13 +125,13 @@ class Playing(Order):
 
 
 class Done(Answer):
-    """The answer to requests that have nothing to tell."""
+    """The answer to requests without a result."""
 
     type: Literal["done", "left"]
 
 
 class Explanation(Answer):
-    """What a hand feels."""
+    """Explanation of the vibration at a hand."""
 
     type: Literal["explanation"]
     hand: str
@@ -168,7 +168,7 @@ class Impact(Answer):
 
 
 class State(Answer):
-    """What became of the session that a client watches."""
+    """State of the session that a client watches."""
 
     type: Literal["state"]
     session: str
@@ -176,14 +176,14 @@ class State(Answer):
 
 
 class Warned(Answer):
-    """Something that the person who plays should know."""
+    """A warning for the person who plays."""
 
     type: Literal["warning"]
     message: str
 
 
 class Error(Answer):
-    """What was given, what is expected, what to do next."""
+    """An error: the given value, the expected one, and the next step."""
 
     type: Literal["error"]
     error: str

@@ -144,8 +144,8 @@ class BridgeServer:
             document = read_document(message)
             # First, since another version may have other fields.
             if document.get("type") == "hello" and document.get("version") != VERSION:
-                told = checks.represented(document.get("version"))
-                wrong = BridgeError(f"version is {told}; this bridge speaks version {VERSION}. Use a client for it.")
+                version = checks.represented(document.get("version"))
+                wrong = BridgeError(f"version is {version}; this bridge speaks version {VERSION}. Use a client for it.")
                 await _close_with(socket, wrong, OTHER_VERSION, f"this bridge speaks version {VERSION}")
                 return False
             hello = parse_request(document)

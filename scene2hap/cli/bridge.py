@@ -4,7 +4,7 @@ scene2hap bridge --root scenes
 scene2hap bridge --sink soundcard
 scene2hap bridge --check "./my_client"
 
-docs/bridge.md tells how to play from C, C#, Godot and the browser, docs/bridge-protocol.md how to write a client.
+docs/bridge.md shows how to play from C, C#, Godot and the browser, docs/bridge-protocol.md how to write a client.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         return _check(arguments.check, console)
     # By need: no other command listens.
     from scene2hap.bridge import BridgeConfig, BridgeServer
-    from scene2hap.bridge.told_warnings import warnings_to_clients
+    from scene2hap.bridge.session_warnings import warnings_to_clients
 
     given = {
         "host": arguments.host,

@@ -14,8 +14,8 @@ Result = TypeVar("Result")
 _tell: ContextVar[Tell | None] = ContextVar("tell", default=None)
 
 
-def told(tell: Tell, work: Callable[[], Result]) -> Result:
-    """Do something, and send what it warns of by `tell` while `warnings_to_clients` is on."""
+def forwarding_warnings(tell: Tell, work: Callable[[], Result]) -> Result:
+    """Run `work`, and send its warnings by `tell` while `warnings_to_clients` is on."""
     before = _tell.set(tell)
     try:
         return work()
@@ -25,8 +25,8 @@ def told(tell: Tell, work: Callable[[], Result]) -> Result:
 
 @contextmanager
 def warnings_to_clients() -> Iterator[None]:
-    """Hand warnings to the clients of the session that gives them. For a whole program: Python has one place where
-    warnings go."""
+    """Send warnings to the clients of the session that gives them. This changes the whole program, since Python has
+    one function that shows warnings."""
     with warnings.catch_warnings():
         warnings.filterwarnings("always", category=UserWarning)
         shown = warnings.showwarning
