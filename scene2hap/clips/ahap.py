@@ -113,8 +113,8 @@ def read_ahap(path: Path, *, range_hz: tuple[float, float] = RANGE_HZ) -> Haptic
     parts = [_pattern(read_fields(part, needed="Pattern", kind="AHAP")) for part in _pair(path)]
     ignored = sorted(set[str]().union(*(part.ignored for part in parts)))
     if ignored:
-        told = f"{path}: {', '.join(ignored)} in it is not played; haptic events alone are."
-        warnings.warn(told, ClipWarning, stacklevel=2)
+        warning = f"{path}: {', '.join(ignored)} in it is not played; haptic events alone are."
+        warnings.warn(warning, ClipWarning, stacklevel=2)
     transients = tuple(sorted((one for part in parts for one in _felt(part)), key=lambda one: one.time_s))
     main = next((part for part in parts if part.continuous), parts[0])
     if not main.continuous and not transients:
@@ -200,8 +200,9 @@ def _pattern(fields: Fields) -> _Pattern:
             one = item.within("Parameter")
             _add(pattern, one.text("ParameterID"), [(_time(one), _value(one))])
     if len(pattern.continuous) > _MOST_EVENTS:
-        told = f"has {len(pattern.continuous)} continuous events; it must have at most {_MOST_EVENTS}. Split the clip"
-        raise fields.error("Pattern", told)
+        number = len(pattern.continuous)
+        problem = f"has {number} continuous events; it must have at most {_MOST_EVENTS}. Split the clip"
+        raise fields.error("Pattern", problem)
     for control, name in zip((pattern.intensity, pattern.sharpness), _CONTROLS, strict=True):
         control.set(pattern.points.get(name, []))
     return pattern
@@ -209,15 +210,15 @@ def _pattern(fields: Fields) -> _Pattern:
 
 def _read_event(event: Fields, pattern: _Pattern) -> None:
     kind, start = event.text("EventType"), _time(event)
-    told = {_INTENSITY: 1.0, _SHARPNESS: 0.5}  # Apple's defaults
+    values = {_INTENSITY: 1.0, _SHARPNESS: 0.5}  # Apple's defaults
     for one in event.items("EventParameters", MAX_POINTS) if "EventParameters" in event else ():
-        told[one.text("ParameterID")] = _unit(_value(one))
+        values[one.text("ParameterID")] = _unit(_value(one))
     if kind == "HapticContinuous":
         duration_s = min(event.number("EventDuration", at_most=MAX_CLIP_S, unit="s"), MAX_EVENT_S)
         if duration_s > 0.0:
-            pattern.continuous.append(_Event(start, start + duration_s, told[_INTENSITY], told[_SHARPNESS]))
+            pattern.continuous.append(_Event(start, start + duration_s, values[_INTENSITY], values[_SHARPNESS]))
     elif kind == "HapticTransient":
-        pattern.transients.append(Transient(start, told[_INTENSITY], told[_SHARPNESS]))
+        pattern.transients.append(Transient(start, values[_INTENSITY], values[_SHARPNESS]))
     else:
         pattern.ignored.add(f"an event of type {kind!r}")
 

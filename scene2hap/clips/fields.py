@@ -95,8 +95,8 @@ def read_fields(path: Path, *, needed: str, kind: str) -> Fields:
         content = read_small(path, MAX_BYTES)
     except (OSError, ValueError) as cause:
         near = "" if path.exists() else f" {checks.near_files(path)}".rstrip()
-        told = getattr(cause, "strerror", None) or cause
-        raise ClipError(f"{path}: cannot be read as {kind}: {told}.{near}") from cause
+        reason = getattr(cause, "strerror", None) or cause
+        raise ClipError(f"{path}: cannot be read as {kind}: {reason}.{near}") from cause
     try:
         document = json.loads(content.decode("utf-8-sig"))
     except (ValueError, RecursionError) as cause:  # ValueError: no UTF-8, no JSON, or a number of thousands of digits

@@ -80,7 +80,7 @@ class Transient:
 
 @dataclass(frozen=True)
 class About:
-    """What a file says of a clip beside its curves: program, author, source, project, tags, description."""
+    """Metadata of a clip: program, author, source, project, tags, description."""
 
     editor: str = "scene2hap"
     author: str = ""
@@ -90,7 +90,7 @@ class About:
     description: str = ""
 
     def credit(self, title: str) -> Credit:
-        """Whom the clip is owed to, for the ledger of a bundle."""
+        """The credit of the clip, for the credits of a bundle."""
         return Credit(title, self.author or "unknown", "unknown", origin=f"haptic clip, {self.editor or 'by hand'}")
 
 

@@ -123,6 +123,6 @@ def _emphasis(fields: Fields, time_s: float, level: float) -> Transient:
 def _about(fields: Fields) -> About:
     if "metadata" not in fields:
         return About(editor="")
-    told = fields.within("metadata")
+    metadata = fields.within("metadata")
     names = ("editor", "author", "source", "project", "description")
-    return About(tags=told.texts("tags"), **{name: told.text(name) for name in names})
+    return About(tags=metadata.texts("tags"), **{name: metadata.text(name) for name in names})

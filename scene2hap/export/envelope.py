@@ -29,7 +29,7 @@ FLOOR_DB = -40.0
 
 _SHARPENING_STEPS = 5
 _PADDING_S = 0.1
-"""What a signal is continued by at both ends before it is transformed [s]: two cycles at 20 Hz."""
+"""Time by which a signal is extended at both ends before the transform [s]: two cycles at 20 Hz."""
 PROMINENCE_DB = 9.0
 LONGEST_PULSE_S = 0.06
 APART_S = 0.08
@@ -134,10 +134,10 @@ def decibels(amplitude: Signal, peak: float) -> Signal:
 def _pulses(times: Signal, amplitude: Signal, frequency_hz: Signal) -> tuple[Pulse, ...]:
     level = decibels(amplitude, float(amplitude.max()))
     widest = LONGEST_PULSE_S / STEP_S
-    tops, told = scipy.signal.find_peaks(level, prominence=PROMINENCE_DB, width=(None, widest), rel_height=0.5)
+    tops, found_at = scipy.signal.find_peaks(level, prominence=PROMINENCE_DB, width=(None, widest), rel_height=0.5)
     rhythm, _ = scipy.signal.find_peaks(level, prominence=PROMINENCE_DB / 2)
     found = []
-    for top, left, right in zip(tops, told["left_ips"], told["right_ips"], strict=True):
+    for top, left, right in zip(tops, found_at["left_ips"], found_at["right_ips"], strict=True):
         others = rhythm[rhythm != top]
         if others.size and np.abs(times[others] - times[top]).min() < APART_S:
             continue

@@ -187,5 +187,5 @@ def _put(folder: Path, name: str, content: bytes) -> None:
         with written_whole(path) as beside:
             beside.write_bytes(content)
     except (OSError, AudioError) as cause:
-        told = getattr(cause, "strerror", None) or cause
-        raise ExportError(f"{path} cannot be written: {told}. Choose a folder that is yours.") from cause
+        reason = getattr(cause, "strerror", None) or cause
+        raise ExportError(f"{path} cannot be written: {reason}. Choose a folder that is yours.") from cause

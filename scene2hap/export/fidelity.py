@@ -34,14 +34,14 @@ class Fidelity:
     transients: int = 0
 
     def __str__(self) -> str:
-        told = f"amplitude within {self.median_db:.2f} dB (median), {self.p95_db:.2f} dB (95 %)"
+        text = f"amplitude within {self.median_db:.2f} dB (median), {self.p95_db:.2f} dB (95 %)"
         if self.median_jnd is not None and self.p95_jnd is not None:
-            told += f"; frequency within {self.median_jnd:.2f} JND (median), {self.p95_jnd:.2f} JND (95 %)"
-        return told
+            text += f"; frequency within {self.median_jnd:.2f} JND (median), {self.p95_jnd:.2f} JND (95 %)"
+        return text
 
 
 def fidelity(channel: Channel, played: Played) -> Fidelity:
-    """What is lost between a channel and what is played of its export.
+    """Compare a channel with the signal that a player makes of its export.
 
     Moments at which the channel is more than 40 dB below its peak do not count: nobody feels them.
     """
@@ -72,7 +72,7 @@ def fidelity(channel: Channel, played: Played) -> Fidelity:
 
 
 def played_samples(played: Played) -> Signal:
-    """What is played, at `ANALYSIS_HZ`."""
+    """The played signal, at `ANALYSIS_HZ`."""
     return synthesize(played, ANALYSIS_HZ) if isinstance(played, HapticClip) else played.at_rate(ANALYSIS_HZ)
 
 

@@ -143,16 +143,16 @@ def manifest_of(
 
 def _state(bundle: HapticBundle, source: str, name: str, files: tuple[FileEntry, ...]) -> StateEntry:
     loop = bundle.loops[source][name]
-    told = next(one for one in bundle.objects[source].states if one.name == name)
+    inferred = next(one for one in bundle.objects[source].states if one.name == name)
     return StateEntry(
         name=name,
-        intensity=told.intensity,
-        needs_contact=told.needs_contact,
+        intensity=inferred.intensity,
+        needs_contact=inferred.needs_contact,
         duration_s=loop.tactile.duration_s,
         frequency_hz=loop.frequency_tactile_hz,
         level_db=loop.felt.level_db if loop.felt is not None else None,
-        start_up_s=told.start_up_s,
-        wind_down_s=told.wind_down_s,
+        start_up_s=inferred.start_up_s,
+        wind_down_s=inferred.wind_down_s,
         credit=vars(loop.audible.credit),
         files=files,
     )

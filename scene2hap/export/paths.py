@@ -21,7 +21,7 @@ LEAST_GAIN = 1e-3
 
 @dataclass(frozen=True)
 class ContactPath:
-    """What arrives of a source on an object where it touches another.
+    """The vibration of a source that enters an object at one contact.
 
     Parameters: source, object_id, by : the source, the object, and the object on the other side of the contact;
     point_m : the contact [m], world; gain : amplitude there over that of the source [-]; decay_per_m : by the paper's

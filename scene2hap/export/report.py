@@ -1,4 +1,4 @@
-"""What an export lost, by file."""
+"""The errors of an export, by file."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from scene2hap.export.fidelity import Fidelity
 
 @dataclass(frozen=True)
 class FileReport:
-    """One channel of one track in one format: its files, and how near they come; None where nobody can tell."""
+    """One channel of one track in one format: its files, and their error, None if unknown."""
 
     kind: str
     track: str
@@ -28,12 +28,12 @@ class FileReport:
 
     def __str__(self) -> str:
         name = f"{self.track}.{self.channel}" if self.channel else self.track
-        told = str(self.fidelity) if self.fidelity is not None else "its error is unknown"
+        fidelity = str(self.fidelity) if self.fidelity is not None else "its error is unknown"
         points = ""
         if self.fidelity is not None and self.fidelity.amplitude_points:
             amplitude, frequency = self.points_per_s
             points = f"; {amplitude:.1f} + {frequency:.1f} points a second, {self.fidelity.transients} transients"
-        return f"{self.kind} {name}: {told}{points}"
+        return f"{self.kind} {name}: {fidelity}{points}"
 
 
 @dataclass(frozen=True)

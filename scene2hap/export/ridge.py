@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 Signal = NDArray[np.float64]
 
 WINDOW_S = 0.1
-"""Length of the window [s]: frequencies from 20 Hz up, in steps that touch hardly tells apart."""
+"""Length of the window [s]: frequencies from 20 Hz up, in steps that touch hardly distinguishes."""
 STEP_S = 0.025
 RANGE_HZ = (20.0, 1000.0)
 PER_OCTAVE = 24
 JUMP_DB = 60.0
-"""What a change by an octave costs [dB]; assumed, by trying it on recordings: hums in noise stay where they are."""
+"""Cost of a change by an octave [dB]; assumed, by trying it on recordings: hums in noise stay where they are."""
 _FLOOR_DB = -60.0
 
 

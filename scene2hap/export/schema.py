@@ -13,11 +13,11 @@ from scene2hap.export.manifest import Manifest
 
 def manifest_schema() -> dict[str, Any]:
     """The schema (JSON Schema, 2020-12) of manifest.json."""
-    told = _plain(Manifest.model_json_schema(mode="serialization"))
+    schema = _plain(Manifest.model_json_schema(mode="serialization"))
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "scene2hap export manifest",
-        **{key: value for key, value in told.items() if key != "description"},
+        **{key: value for key, value in schema.items() if key != "description"},
     }
 
 

@@ -102,7 +102,7 @@ class Channel:
 @clear_construction
 @dataclass(frozen=True, eq=False)
 class Track:
-    """What one export is made of: a name, and the channels by actuator ("left", "right"), or one named ""."""
+    """The input of one export: a name, and the channels by actuator ("left", "right"), or one named ""."""
 
     name: str
     channels: Mapping[str, Channel] = field(default_factory=dict)

@@ -20,7 +20,7 @@ from scene2hap.export.track import Track
 SUFFIX = ".hjif"
 Profile = Literal["Simple Parametric", "Main"]
 _TIMESCALE = {"Simple Parametric": 1000, "Main": 48_000}
-"""Ticks a second: what the profile asks for, and the most that it allows."""
+"""Ticks a second: the number that the profile requires, and the most that it allows."""
 _DATE = "2023-01-01"
 """Of the edition of the standard; a date of writing would make equal exports differ."""
 _MOST_CHANNELS = 127

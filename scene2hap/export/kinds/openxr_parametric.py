@@ -93,7 +93,7 @@ class OpenXrParametricExport:
         return calls
 
     def _edges(self, end: int, rows: tuple[Rows, ...]) -> list[int]:
-        """Ends of the frames: as long as asked for, and longer ones that would leave no rest of a frame at the end."""
+        """Ends of the frames, of the requested length; the last frame takes in a rest of less than 1 ms."""
         edges = []
         length, edge = nanoseconds(self.first_frame_s), 0
         while edge < end:
@@ -114,7 +114,7 @@ class OpenXrParametricExport:
 
 
 def _rows(clip: HapticClip) -> tuple[Rows, Rows, Rows]:
-    """All points and transients, the amplitude and the frequency from time 0 on, as the first frame asks for."""
+    """All points and transients, the amplitude and the frequency from time 0 on, as the first frame requires."""
     end = nanoseconds(clip.duration_s)
     amplitude = _points(clip.amplitude)
     if amplitude[0]["time_ns"] > 0:

@@ -24,7 +24,7 @@ def amplitudes_at_steps(channel: Channel, step_s: float) -> NDArray[np.float64]:
 
 
 def steps_as_clip(amplitudes: NDArray[np.float64], step_s: float, duration_s: float) -> HapticClip:
-    """What a player makes of steps: each amplitude until the next."""
+    """The signal that a player makes of steps: it holds each amplitude until the next."""
     starts = np.arange(len(amplitudes)) * step_s
     ends = np.append(starts[1:], max(duration_s, starts[-1] + 1e-6))
     times = np.stack([starts, ends], axis=1).ravel()
