@@ -40,7 +40,7 @@ class Gate:
         return self._place == 0
 
     def factors(self, n_frames: int, is_opening: bool) -> Signal | float:
-        """What the next frames are multiplied with (n_frames, 1), while the gate moves towards open or shut."""
+        """Factors of the next frames (n_frames, 1), while the gate opens or shuts."""
         target = self._top if is_opening else 0
         if self._place == target:
             return 1.0 if is_opening else 0.0
@@ -152,8 +152,8 @@ class PowerGuard:
         sums = np.cumsum(moments, axis=2)[:, :, -1]
         self._moments = sums[:, -1] if n_full < len(cells) else np.zeros_like(self._moments)
         gains = np.zeros((len(cells), 2, cells.shape[2]))
-        for channel, told in enumerate(np.moveaxis(sums, 2, 0).tolist()):
-            for cell, (a, b, c) in enumerate(zip(*told, strict=True)):
+        for channel, sums_of_cells in enumerate(np.moveaxis(sums, 2, 0).tolist()):
+            for cell, (a, b, c) in enumerate(zip(*sums_of_cells, strict=True)):
                 now, following = self._gains[channel]
                 change = following - now
                 gains[cell, :, channel] = now, change

@@ -23,7 +23,7 @@ from scene2hap.compiled import compiled
 
 THRESHOLD = 10 ** (-3 / 20)
 NOTHING = 1e-7
-"""What is turned down by less is not turned down: 1e-6 dB."""
+"""A smaller reduction is not applied: 1e-6 dB."""
 RELEASE_S = 1.0
 """Time constant of letting go: longer than beats that are felt one by one. At 0.3 s there are twice the harmonics."""
 

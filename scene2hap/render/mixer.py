@@ -32,8 +32,8 @@ from scene2hap.render.upsampler import Upsampler
 
 @dataclass(frozen=True)
 class MixerStats:
-    """What was done so far: rows (bands of loops) times cells that were mixed, that were skipped since nothing lets
-    them through, and changes of gains that came too fast and went into the next one."""
+    """Counters so far: rows (bands of loops) times cells that were mixed, or skipped since their gains are 0; and
+    changes of gains that came too fast and went into the next one."""
 
     rows_mixed: int = 0
     rows_skipped: int = 0
@@ -80,7 +80,7 @@ class Mixer:
 
     @property
     def stats(self) -> MixerStats:
-        """What was done so far."""
+        """Counters so far."""
         mixed, offered = self._mix.n_rows_mixed, self._mix.n_cells * self._shape[1]
         return MixerStats(mixed, offered - mixed, self._mix.n_merged)
 
@@ -108,18 +108,18 @@ class Mixer:
         heard: Sequence[int] | None,
         at_frame: int,
     ) -> None:
-        told = None
+        checked_gains = None
         if gains.shape == wanted:
-            told = Gains.of(gains.reshape(by_loop), loops, heard)
-        if told is None:
+            checked_gains = Gains.of(gains.reshape(by_loop), loops, heard)
+        if checked_gains is None:
             raise SessionError(f"gains has shape {gains.shape}; it must be finite numbers of shape {wanted}.")
         latest = self._latest
         if latest is not None and latest.at_frame == at_frame:
             # Of gains that begin at one sample the newest alone count.
-            latest.gains = told
+            latest.gains = checked_gains
             if self._is_waiting(latest):
                 return
-        self._latest = Change(at_frame, told)
+        self._latest = Change(at_frame, checked_gains)
         self._incoming.append(self._latest)
 
     def _is_waiting(self, change: Change) -> bool:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scene2hap.render.loop_bank import Block, LoopBank, StoredLoop, stored_once
 
 HOLD_S = 0.5
-"""What follows a passage, the steady loop or silence, until whoever plays it notices that it is over."""
+"""The tail of a passage, the steady loop or silence, until the player notices that the passage is over."""
 LEAD_S = 0.03
 """A loop that dies away goes on for so long, while it takes over from the steady one."""
 

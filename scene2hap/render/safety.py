@@ -50,7 +50,7 @@ _ROUNDING = 2.0**-23
 
 @dataclass(frozen=True)
 class Budget:
-    """What an actuator can bear, from its profile.
+    """The limits of an actuator, from its profile.
 
     Parameters:
     max_amplitude : largest sample, 0..1 [-]; max_rms : largest root mean square over any window of `rms_window_s`
@@ -73,8 +73,8 @@ class Budget:
     @classmethod
     def of(cls, profile: ActuatorProfile) -> Budget:
         """The budget of a profile; fields that it lacks keep their defaults."""
-        told = {item.name: getattr(profile, item.name) for item in fields(cls) if hasattr(profile, item.name)}
-        return cls(**told)
+        known = {item.name: getattr(profile, item.name) for item in fields(cls) if hasattr(profile, item.name)}
+        return cls(**known)
 
 
 @dataclass(frozen=True)
@@ -190,7 +190,7 @@ class SafetyLayer:
 
     @property
     def stats(self) -> SafetyStats:
-        """What had to be changed so far."""
+        """Counters of the changes so far."""
         return SafetyStats(
             self._repaired,
             self._clipped,

@@ -68,7 +68,7 @@ def slots_for(ramp: int, sample_rate_hz: int) -> int:
 
 
 def rise_over(ramp: int) -> Block:
-    """What of gains counts, as `RampedProduct` wants it."""
+    """Weights of the gains over a ramp, as `RampedProduct` takes them."""
     rising = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, ramp + 1) / ramp)
     return np.concatenate([np.zeros(CELL), rising, np.ones(CELL)]).astype(np.float32)
 

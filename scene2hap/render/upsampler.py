@@ -7,7 +7,7 @@ It is symmetric, so the delay is one number for all frequencies. Output m needs 
 later than m itself: filtering looks back only.
 
 The outputs of a cell are one product Y = X B^T with a banded matrix, the same for every cell if the rates divide, else
-one of few. Its shape is the same for every cell, so that the bits do not depend on how outputs are asked for.
+one of few. Its shape is the same for every cell, so that the bits do not depend on the sizes of the requested blocks.
 
 Source: Crochiere and Rabiner, Multirate Digital Signal Processing (1983), section 2.3.
 Symbols: x, X inputs, y, Y outputs, h taps, B matrix, m frame of the output, q sample of the input, p phase.
@@ -39,8 +39,8 @@ Block = NDArray[np.float32]
 class PolyphaseFilter:
     """The outputs of a cell, as one product with a banded matrix.
 
-    Parameters: h : taps (n_taps * up,); n_frames : how many outputs; offsets : with which it will be asked, as far as
-    that is known.
+    Parameters: h : taps (n_taps * up,); n_frames : how many outputs; offsets : the expected offsets, whose matrices are
+    made now.
     """
 
     def __init__(self, h: Block, up: int, down: int, n_frames: int, offsets: Collection[int]) -> None:
