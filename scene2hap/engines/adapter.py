@@ -1,4 +1,4 @@
-"""What an engine has to say in each frame."""
+"""The data that an engine gives in each frame."""
 
 from __future__ import annotations
 

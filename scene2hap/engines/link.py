@@ -91,7 +91,7 @@ def _require_same_scene(poses: Mapping[str, Pose], session: HapticSession) -> No
             "the engine's own snapshot, or of a bundle that was baked from it."
         )
     if not all(isinstance(poses[object_id], Pose) for object_id in here):
-        return  # which the first update tells
+        return  # the first update reports it
     ours = np.array([pose.position_m for pose in here.values()])
     theirs = np.array([poses[object_id].position_m for object_id in here])
     ways = np.linalg.norm(ours, axis=1)

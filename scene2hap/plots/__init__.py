@@ -29,7 +29,7 @@ def new_figure(width_in: float, height_in: float) -> Figure:
     Raises: MissingExtra: matplotlib is not installed.
     """
     try:
-        from matplotlib.figure import Figure  # noqa: F401  # asked for here, so that its absence is told by name
+        from matplotlib.figure import Figure  # noqa: F401  # imported here, so that the error names it
     except ImportError as cause:
         raise MissingExtra("figures need matplotlib. Run: pip install 'scene2hap[plots]'") from cause
     from scene2hap.plots.shown_figure import ShownFigure

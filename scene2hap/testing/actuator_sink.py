@@ -23,7 +23,7 @@ def check_actuator_sink(
 ) -> None:
     """Hold a sink against its protocol: opened, started, drawn from, stopped and closed, the last two twice.
 
-    Parameters: make : a fresh sink, called twice; within_s : time that a device may take until it asks for frames [s].
+    Parameters: make : a fresh sink, called twice; within_s : time that a device may take until it requests frames [s].
     Raises: AssertionError: the sentence says which promise is broken.
     """
     _hold_unused(make())
@@ -41,11 +41,11 @@ def check_actuator_sink(
                 sink.pull(n_frames)  # type: ignore[attr-defined]  # without a clock
     finally:
         sink.stop()
-    assert tone.n_frames, f"{name} has asked for no frames within {within_s} s of start"
-    assert not tone.has_overlapped, f"{name} asked for frames while it was being given some"
+    assert tone.n_frames, f"{name} has requested no frames within {within_s} s of start"
+    assert not tone.has_overlapped, f"{name} requested frames while it was being given some"
     taken = tone.n_frames
     time.sleep(0.05)
-    assert tone.n_frames == taken, f"{name} asks for frames after stop"
+    assert tone.n_frames == taken, f"{name} requests frames after stop"
     sink.stop()
     sink.close()
     sink.close()

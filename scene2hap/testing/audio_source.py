@@ -39,7 +39,7 @@ def check_audio_source(source: AudioSource, description: VibrationDescription = 
         same = len(again) == len(found) and all(
             np.array_equal(one.samples, other.samples) for one, other in zip(found, again, strict=True)
         )
-        assert same, f"{name} finds something else when it is asked again; say so by repeats=False"
+        assert same, f"{name} finds something else for the same description; say so by repeats=False"
     with suppress(AudioError, BackendUnavailable):  # as its protocol allows
         _clips(source, _NOTHING_LIKE_IT)
 

@@ -33,7 +33,7 @@ _NO_TURN = (0.0, 0.0, 0.0, 1.0)
 
 @dataclass(frozen=True)
 class ClientCheck:
-    """What a client did: frames that were answered, how often it resumed, and the largest difference of a gain [-]."""
+    """Counters of a client: answered frames, resumed connections, and the largest difference of a gain [-]."""
 
     n_frames: int
     n_resumed: int

@@ -34,7 +34,7 @@ def positions_m(frame: int) -> NDArray[np.float32]:
 
 
 def touches(frame: int) -> list[Touch]:
-    """What the hands touch, with points in single precision, as frames carry them."""
+    """The touches, with points in single precision, as frames carry them."""
     found = []
     if frame % 600 < 540:
         found.append(("left", "table", (-0.5, 0.72, 0.1)))

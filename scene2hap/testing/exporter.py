@@ -46,9 +46,9 @@ def _hold(exporter: Exporter, track: Track) -> None:
         assert "/" not in file, f"{name} names a file {file!r}; it must be a name without a folder."
         assert "\\" not in file, f"{name} names a file {file!r}; it must be a name without a folder."
         assert isinstance(content, bytes), f"{name} gives {type(content).__name__} for {file!r}; files are bytes."
-    assert dict(made.files) == dict(again.files), f"{name} writes other bytes when it is asked again"
+    assert dict(made.files) == dict(again.files), f"{name} writes other bytes for the same track"
     for channel, played in made.played.items():
         assert channel in track.channels, f"{name} tells what is played on {channel!r}, which the track has not"
         found = fidelity(track.channels[channel], played)
-        told = f"{name} is {found.median_db:.1f} dB off on {track.name!r}, in the median"
-        assert found.median_db <= 6.0, f"{told}; what it plays is another signal."
+        error = f"{name} is {found.median_db:.1f} dB off on {track.name!r}, in the median"
+        assert found.median_db <= 6.0, f"{error}; what it plays is another signal."

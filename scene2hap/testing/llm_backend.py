@@ -27,11 +27,12 @@ ROOM = SceneSnapshot.build(
 
 
 def check_llm_backend(backend: LLMBackend, scene: SceneSnapshot = ROOM) -> None:
-    """Hold a backend against its protocol: it is asked all that a scene needs, several questions at once, and each of
-    its answers must hold.
+    """Check a backend against its protocol: it gets all questions about a scene, several at once, and each answer must
+    be valid.
 
-    Parameters: scene : what is asked about, three objects by default; a paid service is paid for some ten answers.
-    Raises: AssertionError: the sentence says which promise is broken; and what the backend raises.
+    Parameters: scene : the scene of the questions, three objects by default; a paid service is paid for some ten
+    answers.
+    Raises: AssertionError: the sentence names the broken promise; and the errors of the backend.
     """
     problem = lacking(backend, BACKENDS.members)
     assert not problem, problem
@@ -42,20 +43,20 @@ def check_llm_backend(backend: LLMBackend, scene: SceneSnapshot = ROOM) -> None:
     unanswered = {key: haptics.provenance for key, haptics in objects.items() if haptics.object_category == "unknown"}
     assert len(unanswered) < len(objects), f"{name} has no answer for any object: {unanswered}"
     for component in ("scene_analyzer", "object_analyzer"):
-        assert watched.asked[component], f"{name} was not asked for the {component}"
+        assert watched.n_requests[component], f"{name} got no request for the {component}"
 
 
 class _Watched:
-    """Passes questions on and looks at what comes back."""
+    """Passes questions on and checks the replies."""
 
     def __init__(self, backend: LLMBackend) -> None:
-        self.asked: Counter[str] = Counter()
+        self.n_requests: Counter[str] = Counter()
         self._backend = backend
 
     async def complete(self, request: LLMRequest) -> LLMReply:
         """See `LLMBackend`."""
         by, facts = f"{type(self._backend).__name__}.complete", copy.deepcopy(request.facts)
-        self.asked[request.component] += 1
+        self.n_requests[request.component] += 1
         awaited = self._backend.complete(request)
         assert inspect.isawaitable(awaited), f"{by} gives a {type(awaited).__name__}; write it as 'async def complete'"
         reply = await asyncio.ensure_future(awaited)

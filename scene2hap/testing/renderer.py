@@ -38,11 +38,11 @@ def check_renderer(factory: RendererFactory) -> None:
             pixels, ids = drawn(renderer, camera, selection)
             seen = set(np.unique(ids).tolist()) - {-1}
             assert pixels.dtype == np.uint8, f"{name}.draw gives pixels of type {pixels.dtype}; it must be uint8"
-            assert seen == shown, f"{name} shows the actors {sorted(seen)}; asked for were {sorted(shown)}"
+            assert seen == shown, f"{name} shows the actors {sorted(seen)}; requested were {sorted(shown)}"
             identified = renderer.identify(camera, selection)
             assert np.array_equal(identified, ids), f"{name}.identify and draw tell other ids"
             again, _ = drawn(renderer, camera, selection)
-            assert np.array_equal(again, pixels), f"{name} draws the same picture otherwise when it is asked again"
+            assert np.array_equal(again, pixels), f"{name} draws another picture when it draws again"
             _hold_background(name, pixels, ids)
 
 

@@ -59,7 +59,7 @@ def _hold_block_sizes(converter: TactileConverter, context: ConversionContext) -
 
 
 def _hold_refusal(converter: TactileConverter, context: ConversionContext) -> None:
-    """What is not finite is refused and leaves no trace."""
+    """Samples that are not finite are refused and leave no trace."""
     name, x = type(converter).__name__, _machine(8000, 0.2)
     for bad in (np.nan, np.inf, -np.inf):
         wrong, stream = x.copy(), opened_stream(converter, 8000, context)
