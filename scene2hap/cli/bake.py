@@ -1,7 +1,7 @@
 """Tell what each object of a scene is, how it vibrates, and write the bundle.
 
 Without settings it works offline: a lexicon of everyday objects reads the authored names, and a synthesizer makes the
-sounds. `--llm openai:gpt-4o` or `--llm local:qwen2.5vl` asks a model that sees pictures. A settings file (TOML or JSON)
+sounds. `--llm openai:gpt-4o` or `--llm local:qwen2.5vl` uses a model that sees pictures. A settings file (TOML or JSON)
 with a table [bake] chooses all other parts. What a bundle's user has overridden stays when it is baked again.
 BUNDLE.account.json has calls, tokens, cost and skips, for `scene2hap report`.
 """
@@ -44,7 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_model_arguments(parser: argparse.ArgumentParser) -> None:
-    """What infers, and what makes sounds."""
+    """The arguments that choose the model and the sound sources."""
     parser.add_argument("--prompt", default="", help="text for the model, which outranks everything else")
     parser.add_argument("--llm", metavar="KIND[:MODEL]", help="lexicon (default), openai:MODEL, local:MODEL, ...")
     parser.add_argument("--base-url", metavar="URL", help="address of the model's server, if not the usual one")
@@ -84,7 +84,7 @@ def read_scene(arguments: argparse.Namespace) -> SceneSnapshot:
 
 
 def scene_options(arguments: argparse.Namespace) -> dict[str, Any]:
-    """What `load_scene` is told beside the path."""
+    """The arguments of `load_scene` other than the path."""
     is_depth = arguments.group.isascii() and arguments.group.isdigit() and len(arguments.group) < 10
     return {
         "up_axis": arguments.up_axis,
@@ -162,7 +162,7 @@ def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console
     if pictures:
         scene = capture_images(scene)
     model = identity(config.llm).get("model", "no model behind an address")
-    told = asyncio.run(
+    estimate = asyncio.run(
         dry_run(
             scene,
             str(model),
@@ -173,5 +173,5 @@ def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console
             service_tier=getattr(innermost(config.llm), "service_tier", ""),
         )
     )
-    console.table(f"{scene.name}: what a bake would ask", ("what", ">how much"), told.rows())
-    return told.as_json()
+    console.table(f"{scene.name}: what a bake would ask", ("what", ">how much"), estimate.rows())
+    return estimate.as_json()

@@ -6,7 +6,7 @@ scene2hap batch collect levels/*.glb -o bundles/ --llm openai:gpt-5
 
 Give the same scenes and settings each time. Questions depend on earlier answers: send again after each collection,
 until none is left to send; then `scene2hap bake-many`, with the same arguments, makes the bundles without a question.
-What was asked and answered is in BUNDLES/.bake-many/batch. Nothing is asked twice, also if a run ends on the way.
+Questions and answers are in BUNDLES/.bake-many/batch. No question is sent twice, also if a run ends on the way.
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "verb",
         choices=("submit", "status", "collect", "cancel"),
         metavar="VERB",
-        help="submit: send what can be asked now; status: how far it is; collect: fetch answers; cancel: end it",
+        help="submit: send the questions that are ready; status: how far it is; collect: fetch answers; cancel: end it",
     )
     add_many_arguments(parser, "*")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Do one step, and show how far the batches are. Raises: SceneError: some scenes cannot be asked about."""
+    """Do one step, and show how far the batches are. Raises: SceneError: some scenes cannot be read or inferred."""
     config = BakeConfig.parse(many_settings(arguments))
     if arguments.verb in ("status", "cancel"):
         report = batch_status(arguments.output, config=config, cancel=arguments.verb == "cancel")
@@ -59,7 +59,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     if report.errors:
         if arguments.json:
             console.outcome(report.to_data())
-        raise SceneError(f"{len(report.errors)} of {report.n_scenes} scenes cannot be asked about.")
+        raise SceneError(f"{len(report.errors)} of {report.n_scenes} scenes cannot be read or inferred.")
     return report.to_data()
 
 

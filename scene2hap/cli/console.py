@@ -1,4 +1,4 @@
-"""What a person sees: progress on standard error, tables on standard output, one line per trouble.
+"""The output for a person: progress on standard error, tables on standard output, one line per problem.
 
 A command goes on where its output cannot be written: nobody reads it, or the disk is full.
 """
@@ -19,7 +19,7 @@ from scene2hap.cli import streams
 from scene2hap.printable import printable, printable_json
 
 Tell = Callable[[str, str, int, int], None]
-"""Told (stage, what is done, how many are done, of how many)."""
+"""Called with (stage, the item, how many are done, of how many)."""
 
 
 def _safe(text: str, *, lines: bool = False) -> str:
@@ -108,7 +108,7 @@ class Console:
             print(printable_json(text), flush=True)
 
     def close(self) -> int:
-        """Write out what is left. The exit status for output that was asked for: 0, or 1 if it cannot be written."""
+        """Flush the output. Returns the exit status: 0, or 1 if the output cannot be written."""
         failed = streams.flush() or self._unwritten
         if failed is None or streams.is_unread(failed):
             return 0

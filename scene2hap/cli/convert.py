@@ -23,7 +23,7 @@ from scene2hap.errors import AudioError, ConfigError
 
 HELP = "sound files -> tactile files"
 _CLOSE_DB = 3.0
-"""About what is felt as a difference of level, so that nobody needs to be told of less."""
+"""About the smallest difference of level that people feel; smaller misses are not shown."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

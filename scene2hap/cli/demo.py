@@ -35,7 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Bake, play, draw, and tell."""
+    """Bake, play, draw, and report."""
     folder = Path(arguments.output)
     require_replaceable(folder / "bundle")
     with console.progress() as tell:

@@ -1,9 +1,9 @@
-"""Tell what this machine has for scene2hap: extras, plug-ins, sound cards and serial ports; and what to install for
+"""Show what this machine has for scene2hap: extras, plug-ins, sound cards and serial ports; and what to install for
 the rest.
 
 `--sweep soundcard` (or any other sink) plays a quiet sweep on each hand in turn, through the safety layer. With
-`--loop-back` an input listens meanwhile, by a cable from the output or as a sound server's monitor; told is how long
-each hand's sweep took from being asked for to that input.
+`--loop-back` an input records meanwhile, by a cable from the output or as a sound server's monitor. The command reports
+the latency from request to that input, for each hand.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Look around, show, and play if asked."""
+    """Inspect the machine, show the result, and play a sweep if requested."""
     outcome: dict[str, Any] = {
         "scene2hap": __version__,
         "python": platform.python_version(),
@@ -169,7 +169,7 @@ def sweep(spec: object, hands: tuple[str, ...], console: Console, *, listen_to: 
     console.say(f"swept {', '.join(hands)}: {stats.frames} frames, {stats.underruns} underruns{latency}")
     outcome: dict[str, Any] = {"frames": stats.frames, "underruns": stats.underruns, "latency_s": latency_s}
     if recording is not None:
-        outcome["loop_back"] = _measured(recording.take(), sweeps.asked_at_s, hands, console)
+        outcome["loop_back"] = _measured(recording.take(), sweeps.requested_at_s, hands, console)
     return outcome
 
 
@@ -212,16 +212,16 @@ def _keep_fed(safety: SafetyLayer, seconds: float) -> None:
 
 
 def _measured(
-    take: loop_back.Take, asked_at_s: list[float | None], hands: tuple[str, ...], console: Console
+    take: loop_back.Take, requested_at_s: list[float | None], hands: tuple[str, ...], console: Console
 ) -> dict[str, Any]:
-    """Each hand's latency as the input heard it, told and as JSON values."""
+    """Show each hand's latency as the input recorded it, and return it as JSON values."""
     pattern = _wave(np.arange(round(SWEEP_S * take.rate_hz)) / take.rate_hz)
     by_hand: dict[str, Any] = {}
     console.say(f"heard by {take.device!r}, {MEASURED}:")
-    for hand, at_s in zip(hands, asked_at_s, strict=True):
+    for hand, at_s in zip(hands, requested_at_s, strict=True):
         if at_s is None:
             by_hand[hand] = None
-            console.say(f"  {hand}: the sink asked for no samples of it")
+            console.say(f"  {hand}: the sink requested no samples of it")
             continue
         found = loop_back.arrival(take, at_s, pattern)
         by_hand[hand] = asdict(found)
@@ -250,26 +250,26 @@ def _sentence(found: loop_back.Arrival) -> str:
 
 
 class _Sweeps:
-    """Silence, then a sweep on each channel in turn; notes when the first sample of each was asked for [s, monotonic].
+    """Silence, then a sweep on each channel in turn; keeps the time of request of each first sample [s, monotonic].
 
-    The silence lets a sound card come to its steady latency: it asks for the first samples all at once.
+    The silence lets a sound card come to its steady latency: it requests the first samples all at once.
     """
 
     def __init__(self, n_hands: int) -> None:
-        self.asked_at_s: list[float | None] = [None] * n_hands
+        self.requested_at_s: list[float | None] = [None] * n_hands
         self._position = 0
 
     def __call__(self, n_frames: int) -> Block:
         """The next block."""
         now = time.monotonic()
-        n_hands = len(self.asked_at_s)
+        n_hands = len(self.requested_at_s)
         frames = np.arange(self._position, self._position + n_frames)
         self._position += n_frames
         block = np.zeros((n_frames, n_hands), dtype=np.float32)
         for hand in range(n_hands):
             begin = round((PAUSE_S + hand * (SWEEP_S + PAUSE_S)) * RATE_HZ)
-            if self._position > begin and self.asked_at_s[hand] is None:
-                self.asked_at_s[hand] = now
+            if self._position > begin and self.requested_at_s[hand] is None:
+                self.requested_at_s[hand] = now
             block[:, hand] = _wave((frames - begin) / RATE_HZ)
         return block
 

@@ -128,7 +128,7 @@ def _edit(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 def _watch(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Edit, and again whenever the sound is saved; a file that is half written or broken is told and waited for."""
+    """Edit, and again whenever the sound is saved. Reports a broken file, and waits for the next save."""
     path = Path(arguments.file)
     seen = file_stamp(path)  # before the first edit: what is saved during it is read again
     outcome = _edit(arguments, console)

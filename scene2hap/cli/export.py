@@ -6,7 +6,7 @@ scene2hap export kitchen.bundle --to '{"kind": "openxr_pcm", "sample_rate_hz": 8
 scene2hap export kettle.haptic --to ahap -o kettle/
 
 A bundle gives every state of every source, and with --touches every hand over time. Beside the files stand
-manifest.json, by which an engine places them, and report.txt, which tells what each file lost.
+manifest.json, by which an engine places them, and report.txt with the error of each file.
 """
 
 from __future__ import annotations

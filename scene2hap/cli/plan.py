@@ -13,7 +13,7 @@ from scene2hap.scene.snapshot import SceneSnapshot
 _LETTERS = string.ascii_letters + string.digits
 _NOTHING = -1
 _LARGE = 0.8
-"""What spans this much of the scene along both axes and lies lowest is floor, and shown as a dot."""
+"""Share of the scene along both axes from which the lowest object counts as floor, shown as a dot."""
 
 
 @dataclass(frozen=True)

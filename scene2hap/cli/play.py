@@ -91,7 +91,7 @@ def silence(session: HapticSession, muted: Sequence[str], solo: Sequence[str]) -
 
 
 class Actuator:
-    """What becomes of the mix: `problem` is what a person must know of the sink, "" for nothing."""
+    """Output of the mix: `problem` is a message about the sink for the person, "" for none."""
 
     def __init__(self, sink: object) -> None:
         if not isinstance(sink, ActuatorSink):
@@ -104,7 +104,7 @@ class Actuator:
             sink.on_event = self.note  # type: ignore[attr-defined]  # looked up by name, see ActuatorSink
 
     def note(self, event: SinkEvent) -> None:
-        """Take in what a sink tells, in its own thread."""
+        """Take an event of a sink, in the sink's own thread."""
         is_well = event.kind in ("connected", "resumed")
         self.has_played |= is_well
         self.problem = "" if is_well else event.message
@@ -154,7 +154,7 @@ class Player:
         return key != "q"
 
     def touches(self) -> list[Touch]:
-        """What the hand touches now."""
+        """The present touch of the hand."""
         found = self.plan.touched(*self._hand) if self._is_down else None
         return [Touch(HAND, *found)] if found else []
 
@@ -162,8 +162,8 @@ class Player:
         """Plan, touched object, a meter per source, and why the actuator does not play or an edit is not felt."""
         state = self.on or "nothing" if self._is_down else "lifted"
         lines = [f"hand on: {state}    level {self.gain_db:+g} dB    arrows, space, + -, q"]
-        told = f"NOBODY FEELS THIS: {problem}" if problem else ""
-        lines.append(told or (f"not felt yet: {watch_problem}" if watch_problem else ""))
+        warning = f"NOBODY FEELS THIS: {problem}" if problem else ""
+        lines.append(warning or (f"not felt yet: {watch_problem}" if watch_problem else ""))
         for source_id in frame.sources:
             gain = min(frame.gain(HAND, source_id), 1.0)
             lines.append(f"{source_id:<28.28} {'#' * round(_METER * gain):<{_METER}} {gain:5.3f}")

@@ -1,4 +1,4 @@
-"""Tell of each object of a bundle what was inferred, by whom and why, and which sounds were considered.
+"""Show for each object of a bundle what was inferred, by which model and why, and which sounds were considered.
 
 scene2hap report kitchen.bundle
 scene2hap report kitchen.bundle -o report.html
@@ -31,7 +31,7 @@ _PICTURE_PX = 256
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``scene2hap report``."""
     parser.add_argument("bundle", metavar="BUNDLE", help="folder that bake wrote")
-    parser.add_argument("objects", metavar="OBJECT", nargs="*", help="ids to tell of; all that vibrate without any")
+    parser.add_argument("objects", metavar="OBJECT", nargs="*", help="ids of objects; all that vibrate by default")
     parser.add_argument("-o", "--output", metavar="FILE", help="write a page of the scene (.html), or its data (.json)")
     parser.add_argument("--serve", action="store_true", help="show the page on this machine until Ctrl-C")
     parser.add_argument("--port", type=int, default=0, help="of --serve; a free one without it")

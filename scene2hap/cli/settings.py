@@ -61,7 +61,7 @@ def setting_rows(settings: type[Settings], within: str = "") -> Iterator[dict[st
 
 
 def _meanings(settings: type[Settings]) -> dict[str, str]:
-    """What the docstrings of the class and its bases say of each setting, as ``name : meaning``."""
+    """The meaning of each setting, from ``name : meaning`` in the docstrings of the class and its bases."""
     found: dict[str, str] = {}
     for base in reversed(settings.__mro__):
         if issubclass(base, Settings) and base.__doc__:

@@ -54,7 +54,7 @@ def show_scene(console: Console, scene: SceneSnapshot) -> None:
 
 
 def bundle_outcome(bundle: HapticBundle) -> dict[str, Any]:
-    """What a bundle says, as JSON values."""
+    """The contents of a bundle as JSON values."""
     return {
         "scene": bundle.snapshot.name,
         "scene_category": bundle.scene_category,
@@ -87,7 +87,7 @@ def bundle_counts(bundle: HapticBundle) -> dict[str, int]:
 
 
 def show_bundle(console: Console, bundle: HapticBundle) -> None:
-    """What inference says of each object, sources first."""
+    """Show what was inferred of each object, sources first."""
     counts = bundle_counts(bundle)
     console.table(
         f"{bundle.snapshot.name}: {bundle.scene_category}, "
@@ -117,7 +117,7 @@ def _bundle_row(bundle: HapticBundle, object_id: str) -> tuple[str, ...]:
 
 
 def _level(felt: Sensation | None) -> str:
-    """The level that is felt, and the one that was asked for where that is missed."""
+    """The felt level, and the requested one where they differ by more than a person would notice."""
     if felt is None:
         return "?"
     missed = felt.asked_level_db - felt.level_db >= NOTICED_DB
@@ -125,10 +125,10 @@ def _level(felt: Sensation | None) -> str:
 
 
 def show_report(console: Console, report: InferenceReport, prices: Mapping[str, Given] | None = None) -> None:
-    """What an inference took: calls, tokens, cost, what was skipped, and what went wrong."""
-    asked = sum(report.calls.values())
+    """Show an inference's calls, tokens, cost, skipped questions, and errors."""
+    n_calls = sum(report.calls.values())
     tokens = sum(used.get("total_tokens", 0) for used in report.tokens.values())
-    said = [f"{asked} calls, {report.kept} of them answered before"]
+    said = [f"{n_calls} calls, {report.kept} of them answered before"]
     said += [f"{number} skipped: {reason.replace('_', ' ')}" for reason, number in report.skipped.items() if number]
     if report.tokens:
         cost = report.cost_usd(price_list(prices))

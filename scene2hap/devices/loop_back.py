@@ -1,12 +1,12 @@
 """Latency from the request for a signal to its recording at an input: by a cable, or a sound server's monitor.
 
-A sink tells the latency that its driver believes in; a loop-back measures it, with all that the driver does not know.
+A sink reports the latency that its driver states; a loop-back measures it, with all that the driver does not know.
 
     with Recording(find_input(None), 48000, 2) as recording:
-        ...                                     # play the pattern, and note when its first samples were asked for
-    arrival(recording.take(), asked_at_s, pattern).latency_s
+        ...                                     # play the pattern, and note when its first samples are requested
+    arrival(recording.take(), requested_at_s, pattern).latency_s
 
-A frame's time is that at which a block with it was handed over. Drivers tell the time at the converter as well, but not
+A frame's time is that at which a block with it was handed over. Drivers report the time at the converter too, but not
 reliably: PulseAudio behind ALSA puts it up to 15 ms after the block that holds the frame had been handed over.
 """
 
@@ -54,7 +54,7 @@ class Match:
 
 @dataclass(frozen=True)
 class Take:
-    """What an input heard.
+    """A recording from an input.
 
     `samples` (n_frames, n_channels) float32; when each block was handed over [s, on `time.monotonic`], and how many
     frames had been heard by then, both (n_blocks,); `block_s`, what the driver hands over at a time; `gaps`, how often
@@ -83,7 +83,7 @@ class Take:
 
 
 def _near(apart_s: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Which blocks tell the time: those near by, since frames may be lost in between, and the nearest in any case."""
+    """Blocks that give the time: nearby ones, since frames may be lost in between, and the nearest in any case."""
     apart_s = np.abs(apart_s)
     return np.asarray(apart_s <= max(_NEAR_S, float(apart_s.min())))
 
@@ -125,17 +125,17 @@ def find(heard: NDArray[np.floating], pattern: NDArray[np.floating]) -> Match:
     return Match(frame, float(np.clip(r[frame], -1.0, 1.0)), float(abs(products[frame])) / own)
 
 
-def arrival(take: Take, asked_at_s: float, pattern: NDArray[np.floating]) -> Arrival:
+def arrival(take: Take, requested_at_s: float, pattern: NDArray[np.floating]) -> Arrival:
     """Look for a pattern (m,), at the take's rate, on every channel from the time [s] of its request."""
     margin = round(take.block_s * take.rate_hz)
-    begin = max(0, take.frame_at(asked_at_s) - margin)
+    begin = max(0, take.frame_at(requested_at_s) - margin)
     end = begin + len(pattern) + round(LONGEST_S * take.rate_hz) + 2 * margin
     matches = [find(channel, pattern) for channel in take.samples[begin:end].T]
     best = max(range(len(matches)), key=lambda index: abs(matches[index].correlation))
     match = matches[best]
     if abs(match.correlation) < FOUND_FROM:
         return Arrival(None, take.block_s, match.correlation, best + 1, None)
-    latency_s = take.time_of(begin + match.frame) - asked_at_s
+    latency_s = take.time_of(begin + match.frame) - requested_at_s
     return Arrival(latency_s, take.block_s, match.correlation, best + 1, 20 * math.log10(match.gain))
 
 
@@ -183,7 +183,7 @@ class Recording:
         portaudio.close_stream(stream, drain=False)
 
     def take(self) -> Take:
-        """What was heard so far. Raises: DeviceError: nothing, not even silence."""
+        """The recording so far. Raises: DeviceError: it is empty, without even silence."""
         blocks = list(self._blocks)
         if not blocks:
             raise DeviceError(f"input {self._card.name!r} gave no samples; try another with --loop-back INPUT.")

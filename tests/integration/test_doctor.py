@@ -106,9 +106,9 @@ class Sweeps(doctor._Sweeps):
 
 def _found_s(recorder: Recorder, heard: NDArray[np.float32], channel: int, wave: NDArray[np.float64]) -> float:
     """How long after it was asked for a hand's sweep came, as another recorder heard it [s]."""
-    asked_at_s = Sweeps.latest.asked_at_s[channel]
-    assert asked_at_s is not None
-    begin = recorder.frame_at(asked_at_s)
+    requested_at_s = Sweeps.latest.requested_at_s[channel]
+    assert requested_at_s is not None
+    begin = recorder.frame_at(requested_at_s)
     return int(np.argmax(correlate(heard[begin : begin + 3 * RATE, channel], wave, "valid"))) / RATE
 
 
