@@ -68,6 +68,6 @@ def parts_of(sink: ActuatorSink) -> list[ActuatorSink]:
 
 
 def port_key(port: str) -> Hashable:
-    """What a serial port is known by, whatever link leads to it. Raises: ConfigError: it is no text."""
+    """The canonical name of a serial port, with links resolved. Raises: ConfigError: it is no text."""
     checks.text("port", port, error=ConfigError)
     return ("port", os.path.realpath(port) if os.path.exists(port) else port)

@@ -66,7 +66,7 @@ class Line(Protocol):
         ...
 
     def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
-        """Reach the device, and tell the sample rate [Hz] at which it plays."""
+        """Connect to the device. Returns the sample rate [Hz] at which it plays."""
         ...
 
     def wanted(self, timeout_s: float) -> int:
@@ -103,7 +103,7 @@ class LiveSink:
         self._stopping = threading.Event()
         self._playing = threading.Event()
         self._frames = self._dropped = self._faults = self._connects = 0
-        self._told: tuple[str, str] | None = None
+        self._last_event: tuple[str, str] | None = None
         self._filter_s = 0.0
         self._idle = Pace(1)
 
@@ -126,7 +126,7 @@ class LiveSink:
         self.stop()
         self._fill = fill
         self._stopping.clear()
-        self._told = None
+        self._last_event = None
         self._thread = threading.Thread(target=self._work, args=(self._format,), name=self._name, daemon=True)
         self._thread.start()
 
@@ -138,7 +138,7 @@ class LiveSink:
             return
         thread.join(_JOIN_S)
         if thread.is_alive():
-            self._tell("fault", f"{self._name}: its driver does not return; the thread ends when it does.")
+            self._report_once("fault", f"{self._name}: its driver does not return; the thread ends when it does.")
 
     def close(self) -> None:
         """Stop; `open` is needed before the next `start`."""
@@ -153,7 +153,7 @@ class LiveSink:
 
     @property
     def stats(self) -> SinkStats:
-        """What was done since `open`."""
+        """Counters since `open`."""
         latency_s = self._line.latency_s
         return SinkStats(
             frames=self._frames,
@@ -183,19 +183,19 @@ class LiveSink:
             pause_s = FIRST_RETRY_S if self._frames > frames else pause_s
             kind = "lost" if self._playing.is_set() else "unavailable"
             self._playing.clear()
-            self._tell(kind, f"{problem} Trying again.")
+            self._report_once(kind, f"{problem} Trying again.")
             self._idle_until(time.monotonic() + pause_s)
             pause_s = min(2 * pause_s, LAST_RETRY_S)
         self._playing.clear()
 
     def _attempt(self, format: SinkFormat) -> str:
-        """Reach the device and play until it fails; tells why it did, "" when stopped."""
+        """Connect to the device and play until it fails. Returns the reason, "" when stopped."""
         try:
             rate_hz = self._line.connect(format, self._carry_on)
             if not self._stopping.is_set():
                 self._connects += 1
                 self._playing.set()
-                self._tell("connected", f"{self._name} plays at {rate_hz} Hz.")
+                self._report_once("connected", f"{self._name} plays at {rate_hz} Hz.")
                 self._play(format, rate_hz)
         except DeviceError as cause:
             return str(cause)
@@ -222,7 +222,7 @@ class LiveSink:
                 if stalled:
                     stalled = False
                     stream = _Stream(self._pull, format, rate_hz)
-                    self._tell("resumed", f"{self._name} takes samples again.")
+                    self._report_once("resumed", f"{self._name} takes samples again.")
                 self._line.send(stream.take(n_frames))
                 self._frames += n_frames
                 waited_s = 0.0
@@ -232,7 +232,7 @@ class LiveSink:
             elif waited_s > STALL_S:
                 if not stalled:
                     stalled = True
-                    self._tell("stalled", f"{self._name} took no samples for {waited_s:.2f} s.")
+                    self._report_once("stalled", f"{self._name} took no samples for {waited_s:.2f} s.")
                 self._drop_due(format)
 
     def _carry_on(self) -> bool:
@@ -263,14 +263,14 @@ class LiveSink:
             return block
         except Exception as cause:  # silence is better for a hand than a thread that died on a note
             self._faults += 1
-            self._tell("fault", f"{self._name} plays silence: {type(cause).__name__}: {cause}.")
+            self._report_once("fault", f"{self._name} plays silence: {type(cause).__name__}: {cause}.")
             return np.zeros((n_frames, n_channels), dtype=np.float32)
 
-    def _tell(self, kind: str, message: str) -> None:
-        """Report once, not at every attempt."""
-        if self._told == (kind, message):
+    def _report_once(self, kind: str, message: str) -> None:
+        """Report an event once, not again at every attempt."""
+        if self._last_event == (kind, message):
             return
-        self._told = (kind, message)
+        self._last_event = (kind, message)
         callback = self.on_event
         if callback is None:
             return

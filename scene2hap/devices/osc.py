@@ -30,7 +30,7 @@ _BLOCK_S = 0.02
 
 
 class GainFrame(Protocol):
-    """What is needed of a HapticFrame: gains (n_hands, n_sources, n_bands)."""
+    """The part of a HapticFrame that is used: gains (n_hands, n_sources, n_bands)."""
 
     @property
     def gains(self) -> NDArray[np.float32]: ...  # noqa: D102
@@ -52,7 +52,7 @@ class OscLine:
         self.latency_s: float | None = None
         self._datagrams = datagrams
         self._clips = clips
-        self._told: dict[tuple[str, int], float] = {}
+        self._sent_gains: dict[tuple[str, int], float] = {}
         self._playing: set[str] = set()
         self._repeated_s = 0.0
         self._pace = Pace(1)
@@ -65,7 +65,7 @@ class OscLine:
 
     def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
         """Send hello, and forget the gains sent before."""
-        self._told.clear()
+        self._sent_gains.clear()
         self._playing.clear()
         self._datagrams.connect(encode("/scene2hap/hello", format.sample_rate_hz), carry_on)
         self._block_frames = max(1, round(_BLOCK_S * format.sample_rate_hz))
@@ -74,8 +74,8 @@ class OscLine:
         return format.sample_rate_hz
 
     def wanted(self, timeout_s: float) -> int:
-        """Tell what has changed, then wait for the clock."""
-        self._tell_changes()
+        """Send the gains that have changed, then wait for the clock."""
+        self._send_changes()
         wait_s = self._pace.wait_s(self._block_frames, time.monotonic())
         if wait_s > 0:
             time.sleep(min(wait_s, timeout_s))
@@ -86,26 +86,26 @@ class OscLine:
         self._pace.take(len(block))
 
     def disconnect(self) -> None:
-        """Tell that nothing is felt any more."""
-        loud = [key for key, gain in self._told.items() if gain]
+        """Send gain 0 for everything that still plays."""
+        loud = [key for key, gain in self._sent_gains.items() if gain]
         self._datagrams.close(*(encode("/scene2hap/gain", 0.0, clip, hand) for clip, hand in loud))
-        self._told.clear()
+        self._sent_gains.clear()
 
-    def _tell_changes(self) -> None:
+    def _send_changes(self) -> None:
         frame = self.latest
         now = time.monotonic()
         if now - self._repeated_s > REPEAT_S:
             self._repeated_s = now
-            self._told = dict.fromkeys(self._told, -1.0)
+            self._sent_gains = dict.fromkeys(self._sent_gains, -1.0)
         if frame is None:
             return
         for clip, hand, gain in gains_of(frame, self._clips):
             if gain > 0 and clip not in self._playing:
                 self._playing.add(clip)
                 self._datagrams.send(encode("/scene2hap/play", clip))
-            if gain != self._told.get((clip, hand), 0.0):
+            if gain != self._sent_gains.get((clip, hand), 0.0):
                 self._datagrams.send(encode("/scene2hap/gain", gain, clip, hand))
-            self._told[clip, hand] = gain
+            self._sent_gains[clip, hand] = gain
 
 
 def gains_of(frame: GainFrame, clips: Mapping[str, str]) -> Iterator[tuple[str, int, float]]:

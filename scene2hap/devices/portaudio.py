@@ -120,7 +120,7 @@ def open_recording(
 
 
 def is_active(stream: Any) -> bool:
-    """Whether a stream still asks for samples."""
+    """Whether a stream still requests samples."""
     try:
         return bool(stream.active)
     except _sounddevice().PortAudioError:

@@ -48,7 +48,7 @@ class SinkStats:
 @clear_construction
 @dataclass(frozen=True)
 class SinkEvent:
-    """Something that a game may want to tell its player.
+    """An event of a sink that a game may want to show to its player.
 
     kind : "connected" (first or again), "unavailable" (cannot be reached, tried again later), "stalled" (takes no
     samples), "resumed" (takes them again), "lost" (was there, is gone) or "fault" (the mix could not be had).
@@ -78,7 +78,7 @@ class ActuatorSink(Protocol):
         ...
 
     def start(self, fill: Fill) -> None:
-        """Begin to take blocks. A device pulls them in its own time; a file or memory takes what `pull` asks for."""
+        """Begin to take blocks. A device pulls them in its own time; a file or memory takes them by `pull`."""
         ...
 
     def stop(self) -> None:

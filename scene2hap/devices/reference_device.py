@@ -84,7 +84,7 @@ class ReferenceDevice:
                 self._accept(frame, now_s)
 
     def advance(self, now_s: float) -> None:
-        """Play until now; mute when the host is silent; tell it where things stand."""
+        """Play until now; mute when the host is silent; send the host the present position."""
         if now_s - self._fed_s > WATCHDOG_S:
             self._mute()
         if self._clock_s == -np.inf:
@@ -177,7 +177,7 @@ class Wire(Protocol):
     """Bytes to and from a host; both raise OSError when it has gone."""
 
     def read(self, timeout_s: float) -> bytes:
-        """What has arrived, waiting at most so long for a first byte."""
+        """Read the bytes that have arrived; wait at most so long for a first byte."""
         ...
 
     def write(self, data: bytes) -> None:
@@ -198,7 +198,7 @@ class PseudoTerminal:
         self.name = os.ttyname(self._slave)
 
     def read(self, timeout_s: float) -> bytes:
-        """What has arrived, waiting at most so long for a first byte."""
+        """Read the bytes that have arrived; wait at most so long for a first byte."""
         ready, _, _ = select.select([self._master], [], [], timeout_s)
         return os.read(self._master, 4096) if ready else b""
 
@@ -244,7 +244,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     keep = heard.append if chosen.wav else None
     device = ReferenceDevice(chosen.rate, chosen.channels, on_output=keep)
     stop = threading.Event()
-    # Told by name, since a program that is started in the background of a shell is born deaf to Ctrl-C.
+    # Set explicitly, since a program started in the background of a shell ignores Ctrl-C.
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stop.set())
     try:

@@ -130,7 +130,7 @@ class SerialLine:
 
     def _greet(self, port: SerialPort, n_channels: int, carry_on: CarryOn) -> DeviceFormat | None:
         hello = to_wire(Hello(self._wish_hz, n_channels).to_frame())
-        began = asked = time.monotonic()
+        began = sent = time.monotonic()
         port.write(hello)
         while carry_on():
             for frame in self._parser.feed(port.read(0.005)):
@@ -142,8 +142,8 @@ class SerialLine:
                     f"{self._name} does not answer at {self._baud_rate} baud. Is it the right port, does its program "
                     "speak scene2hap's protocol (firmware/), and does the baud rate match?"
                 )
-            if now - asked > HELLO_EVERY_S:
-                asked = now
+            if now - sent > HELLO_EVERY_S:
+                sent = now
                 port.write(hello)
         return None
 
@@ -166,7 +166,7 @@ class SerialLine:
             )
 
     def _listen(self, timeout_s: float) -> None:
-        """Take in credits, the newest of which tells all."""
+        """Take in credits; only the newest counts."""
         if self._port is None:
             raise DeviceLost(f"{self._name} is not open.")
         newest: tuple[Credit, int] | None = None

@@ -6,7 +6,7 @@ the session does, and Python's own pauses, are hidden by what lies ahead:
     session ──► ring (`latency` + 12 ms) ──► PortAudio's buffer (`latency`) ──► actuator
 
 The ring is as long as the buffer since Python may stop all its threads at once, the callback among them, as when it
-collects garbage (60 ms were seen). Once that is over, the driver asks in one go for all that was played meanwhile.
+collects garbage (60 ms were seen). Once that is over, the driver requests all that was played meanwhile at once.
 Losing the device is a state, handled by `scene2hap.devices.link`.
 """
 
@@ -65,7 +65,7 @@ class SoundCardSink(LiveSink):
         None for 1, 2, ... Channels that no hand has stay silent.
     latency : of the device's buffer [s], or "low" or "high" for what its driver suggests.
     sample_rate_hz : of the device; None for the session's where the device takes it, else the device's own.
-    block_frames : frames that the device asks for at a time; fewer let "low" be lower, and cost more calls.
+    block_frames : frames that the device requests at a time; fewer let "low" be lower, and cost more calls.
     on_event : an EventCallback or None.
     Raises: ConfigError: a channel, latency or block that cannot be; MissingExtra: sounddevice is not installed.
     """
@@ -102,7 +102,7 @@ class SoundCardSink(LiveSink):
 
     @property
     def stats(self) -> SoundCardStats:
-        """What was done since `open`."""
+        """Counters since `open`."""
         line = self._card_line
         return SoundCardStats(**vars(super().stats), load=line.load, device=line.device)
 
@@ -160,7 +160,7 @@ class _CardLine:
         return [number - 1 for number in numbers]
 
     def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
-        """Find and open the device; tells its sample rate."""
+        """Find and open the device. Returns its sample rate."""
         self._columns = self.columns(format)
         try:
             return self._open(portaudio.find_card(self._wanted_device), format)

@@ -28,7 +28,7 @@ MAX_LAG_S = 0.1
 class TeeSink(Pulled):
     """Hands one mix to several sinks: objects, kinds, or mappings with a `kind`.
 
-    `stats` adds them up, is connected if any is, and tells the largest latency; `sinks` gives access to each. With only
+    `stats` adds them up, is connected if any is, and has the largest latency; `sinks` gives access to each. With only
     sinks that have no clock, `pull` takes from the session, as theirs does.
     Raises: ConfigError: no sink, or something that is none.
     """
@@ -109,7 +109,7 @@ class TeeSink(Pulled):
 
     @property
     def stats(self) -> SinkStats:
-        """What all did together."""
+        """Counters of all sinks together."""
         each = [sink.stats for sink in self.sinks]
         latencies = [stats.latency_s for stats in each if stats.latency_s is not None]
         return SinkStats(

@@ -54,7 +54,7 @@ class UdpSink(LiveSink):
         datagrams = Datagrams(host, int(checks.number("port", port, "-", at_least=1, at_most=65535, error=ConfigError)))
         self._osc = OscLine(datagrams, clips or {}) if content == "osc" else None
         line: OscLine | PcmLine = self._osc or PcmLine(datagrams, sample_rate_hz, block_frames, _SAMPLES[samples])
-        # Two streams of samples make noise of each other; messages tell whose they are.
+        # Two streams of samples make noise of each other; messages name their sender.
         key = None if content == "osc" else ("udp", host, port)
         super().__init__(line, f"UDP receiver {host}:{port}", on_event=on_event, key=key)
 

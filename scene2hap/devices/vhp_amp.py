@@ -22,12 +22,12 @@ from scene2hap.errors import ConfigError, DeviceError, DeviceLost, DeviceTimeout
 
 BAUD_RATE = 1_000_000
 KICK_S = 0.1
-"""A board whose question got lost asks again once it is given a block."""
+"""A board whose request got lost sends it again once it gets a block."""
 
 ANSWER_S = 1.0
 
 ECHO_S = 0.002
-"""Half a block: what the board asks sooner after a block is no question."""
+"""Half a block: a byte that comes sooner after a block is no request."""
 
 
 @clear_calls
@@ -60,10 +60,10 @@ class VhpLine:
         self.latency_s: float | None = vhp.FRAMES * (vhp.SLIM_QUEUE_FRAMES if slim else 1) / vhp.SAMPLE_RATE_HZ
         self._port: SerialPort | None = None
         self._heard = b""
-        self._asked_s = self._kicked_s = 0.0
+        self._requested_s = self._kicked_s = 0.0
 
     def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
-        """Open the port, switch amplifiers on, and wait for the board to ask."""
+        """Open the port, switch amplifiers on, and wait for a request of the board."""
         if len(format.channels) > vhp.CHANNELS:
             raise DeviceError(
                 f"{self._name} has {vhp.CHANNELS} channels; the session has {len(format.channels)} hands."
@@ -74,25 +74,25 @@ class VhpLine:
             self._port.write(vhp.packet(vhp.Message(vhp.MessageType.ENABLE_AMPLIFIERS, recipient=vhp.Recipient.SLEEVE)))
         began = time.monotonic()
         self._write(_REST)
-        while carry_on() and not self._is_asked(0.005):
+        while carry_on() and not self._has_request(0.005):
             now = time.monotonic()
             if now - began > ANSWER_S:
                 raise DeviceTimeout(f"{self._name} asks for no samples. Is it a VHP board with a streaming program?")
             if now - self._kicked_s > KICK_S:
                 self._write(_REST)
         self._write(_REST)
-        self._asked_s = time.monotonic()
+        self._requested_s = time.monotonic()
         return vhp.SAMPLE_RATE_HZ
 
     def wanted(self, timeout_s: float) -> int:
-        """A block for each time that the board asks."""
+        """The frames of one block for each request of the board."""
         now = time.monotonic()
-        if self._is_asked(timeout_s):
-            self._asked_s = now
+        if self._has_request(timeout_s):
+            self._requested_s = now
             return vhp.FRAMES
-        if now - self._asked_s > ANSWER_S:
+        if now - self._requested_s > ANSWER_S:
             raise DeviceLost(f"{self._name} has stopped asking for samples.")
-        if now - max(self._asked_s, self._kicked_s) > KICK_S:
+        if now - max(self._requested_s, self._kicked_s) > KICK_S:
             self.underruns += 1
             return vhp.FRAMES
         return 0
@@ -109,7 +109,7 @@ class VhpLine:
         try:
             for _ in range(vhp.SLIM_QUEUE_FRAMES if self._slim else 1):
                 # Block by block, since its counter must land on a full buffer.
-                self._is_asked(KICK_S / 2)
+                self._has_request(KICK_S / 2)
                 self._write(_REST)
             if not self._slim:
                 off = vhp.Message(vhp.MessageType.DISABLE_AMPLIFIERS, recipient=vhp.Recipient.SLEEVE)
@@ -121,7 +121,7 @@ class VhpLine:
         port.close()
         self._port = None
 
-    def _is_asked(self, timeout_s: float) -> bool:
+    def _has_request(self, timeout_s: float) -> bool:
         if self._port is None:
             raise DeviceLost(f"{self._name} is not open.")
         end = time.monotonic() + timeout_s
@@ -130,7 +130,7 @@ class VhpLine:
             sign = vhp.SLIM_CREDIT if self._slim else bytes([vhp.MORE])
             if sign in self._heard:
                 self._heard = b""
-                # Two questions at once, or one sooner than a block can be played: a frame that USB has cut in two.
+                # Two requests at once, or one sooner than a block can be played: a frame that USB has cut in two.
                 if time.monotonic() - self._kicked_s > ECHO_S:
                     return True
             if time.monotonic() >= end:

@@ -18,7 +18,7 @@ from scene2hap.errors import ConfigError, DeviceError
 
 @clear_calls
 class WavSink(Pulled):
-    """Writes the mix as 24-bit PCM. It has no clock of its own: `pull` asks for the next frames.
+    """Writes the mix as 24-bit PCM. It has no clock of its own: `pull` requests the next frames.
 
     The file appears under its name when the sink is closed, whole; a run that dies leaves none. Integer PCM rather
     than float, whose header carries a time stamp, so that equal runs give equal files.

@@ -1,4 +1,4 @@
-"""Times in whole frames: a 90 Hz game asks for 533.3 frames of 48 kHz at a time, and after a second has 48,000."""
+"""Times in whole frames: a 90 Hz game needs 533.3 frames of 48 kHz at a time, and after a second has 48,000."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ def encode(data: bytes) -> bytes:
 
 
 def decode(data: bytes) -> bytes | None:
-    """What was encoded, or None where the bytes were not made by `encode`."""
+    """Decode the bytes of `encode`; None if they are not such bytes."""
     if not data or 0 in data:
         return None
     out = bytearray()

@@ -1,4 +1,4 @@
-"""Sums that tell damaged bytes from whole ones."""
+"""Checksums that detect damaged bytes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ def with_crc32(data: bytes) -> bytes:
 
 
 def without_crc32(data: bytes) -> bytes | None:
-    """What `with_crc32` was given, or None where the sum does not fit."""
+    """The bytes without their checksum, or None if the checksum does not fit."""
     body = data[:-CRC_SIZE]
     if len(data) < CRC_SIZE or zlib.crc32(body) != int.from_bytes(data[-CRC_SIZE:], "little"):
         return None

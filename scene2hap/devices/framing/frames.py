@@ -31,7 +31,7 @@ _FULL_SCALE = 32767.0
 
 
 class FrameType(IntEnum):
-    """What a frame is for."""
+    """The purpose of a frame."""
 
     HELLO = 1
     FORMAT = 2

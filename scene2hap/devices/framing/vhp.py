@@ -36,7 +36,7 @@ _START = 200
 _PACKET_SIZE = 132
 _HEADER_SIZE = 4
 MORE = 23
-"""The byte by which the sleeve asks for the next packet."""
+"""The byte by which the sleeve requests the next packet."""
 
 
 class Recipient(IntEnum):
