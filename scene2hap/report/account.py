@@ -1,4 +1,4 @@
-"""What a bake took, as rows of text: calls, tokens, cost, and questions that were saved."""
+"""The account of a bake as rows of text: calls, tokens, cost, and saved questions."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ _SAVED = {
 """Reasons of `InferenceReport.skipped` in words."""
 
 
-def told_account(account: Mapping[str, Any]) -> dict[str, Any]:
-    """Rows of a label and a text, and problems by object or word of a material.
+def account_table(account: Mapping[str, Any]) -> dict[str, Any]:
+    """Rows of a label and a text, and problems by object or material word.
 
     Parameters: account : as of `InferenceReport.as_json`; `cost_usd` and `ended` may be there.
     Raises: ConfigError: it is something else.

@@ -1,4 +1,4 @@
-"""What a report shows, as plain data: the scene, what was inferred, sounds, contacts, and the felt map.
+"""The contents of a report as plain data: the scene, inferred properties, sounds, contacts, and the felt map.
 
 Large arrays stand as base64 of little-endian numbers. Every text in it comes from scenes, models and people, and is
 shown as text alone.
@@ -21,7 +21,7 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import UnknownMaterial
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.materials import Material, lookup
-from scene2hap.report.account import told_account
+from scene2hap.report.account import account_table
 from scene2hap.report.felt_map import MODELS, FeltMap, felt_map
 from scene2hap.report.left_out import left_out
 from scene2hap.report.patches import MOST_POINTS
@@ -56,7 +56,7 @@ def document(
 
     Parameters: models : kinds or settings of the propagation models of the felt map; pictures : the scene with its
     looks, as `capture_images` returns it, whose images and colours are shown; most_points : of the felt map; account :
-    what the bake took, as `InferenceReport.as_json` returns it. Raises: as `felt_map` and `told_account`.
+    what the bake took, as `InferenceReport.as_json` returns it. Raises: as `felt_map` and `account_table`.
     """
     scene = bundle.snapshot
     meshes: dict[str, int] = {}
@@ -80,7 +80,7 @@ def document(
         "counters": _counters(bundle),
         "left_out": left_out(bundle, felt, whole),
         "warnings": [str(found) for found in scene.check()],
-        "account": None if account is None else told_account(account),
+        "account": None if account is None else account_table(account),
         "meshes": _meshes(scene, meshes),
         "objects": objects,
         "contacts": _contacts(bundle),
@@ -177,7 +177,7 @@ def _constants(material: Material) -> list[list[Any]]:
 
 
 def _said(wish: Override) -> dict[str, Any]:
-    """What a person has set, as texts and numbers."""
+    """A person's corrections, as texts and numbers."""
     rest = Override()
     fields = {name: getattr(wish, name) for name in wish.__dataclass_fields__}
     changed = {name: value for name, value in fields.items() if value != getattr(rest, name)}
@@ -292,7 +292,7 @@ def level_bytes(levels_db: NDArray[np.float32]) -> bytes:
 
 
 def path_bytes(of_points: NDArray[np.uint32]) -> str:
-    """Numbers of paths as two bytes each; a path of a higher number is not told."""
+    """Encode numbers of paths as two bytes each; a number that needs more becomes 0."""
     return _base64(np.where(of_points <= _MOST_PATHS, of_points, 0), "<u2")
 
 
@@ -314,7 +314,7 @@ def _counters(bundle: HapticBundle) -> list[list[str]]:
 
 
 def _credits(bundle: HapticBundle) -> list[list[str]]:
-    """What was used, once, and whose it is."""
+    """Each used sound once, with its credit."""
     rows = {
         (f"{object_id}, {state}", _credit(loop))
         for object_id, loops in bundle.loops.items()

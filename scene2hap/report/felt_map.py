@@ -91,7 +91,7 @@ def felt_map(
 
 
 def _session(bundle: HapticBundle, model: Any, edges_hz: list[float] | None) -> HapticSession:
-    """A session that plays the bundle with a model, ready to tell gains."""
+    """A session that plays the bundle with a model, whose field is prepared."""
     config: dict[str, Any] = {"propagation": model, "prepare": "blocking"}
     if edges_hz is not None:
         config["bands"] = edges_hz

@@ -16,31 +16,31 @@ _UNKNOWN = ("", "unknown", "undefined")
 
 
 def left_out(bundle: HapticBundle, felt: FeltMap, shells: Collection[str]) -> list[dict[str, Any]]:
-    """Reasons, each with the ids that it is true of; those that are true of none are left out."""
+    """Reasons, each with the ids of the objects that it holds for; leaves out reasons without objects."""
     categories = {item.id: "" for item in bundle.snapshot.objects}
     categories |= {key: haptics.object_category for key, haptics in bundle.objects.items()}
     wishes = bundle.overrides
     reached = _reached(felt)
     reasons: Mapping[str, Callable[[str, ObjectHaptics], bool]] = {
-        "not answered: the model's answer failed": lambda _, told: _is_error(told, "object_category"),
-        "unknown: nobody could tell what it is, so it is silent": lambda _, told: (
-            told.object_category in _UNKNOWN and not told.vibrates and not _is_error(told, "object_category")
+        "not answered: the model's answer failed": lambda _, haptics: _is_error(haptics, "object_category"),
+        "unknown: nobody could tell what it is, so it is silent": lambda _, haptics: (
+            haptics.object_category in _UNKNOWN and not haptics.vibrates and not _is_error(haptics, "object_category")
         ),
-        "material unknown: nothing spreads through it": lambda _, told: told.material is None,
-        "vibrates, but has no sound": lambda key, told: told.vibrates and not bundle.loops.get(key),
-        "waits for a contact that nothing here can give": lambda key, told: bool(
-            unmet_needs(key, told.states, categories)
+        "material unknown: nothing spreads through it": lambda _, haptics: haptics.material is None,
+        "vibrates, but has no sound": lambda key, haptics: haptics.vibrates and not bundle.loops.get(key),
+        "waits for a contact that nothing here can give": lambda key, haptics: bool(
+            unmet_needs(key, haptics.states, categories)
         ),
         "muted until a game unmutes it": lambda key, _: bundle.is_muted(key),
         "locked: rebake leaves its loops as they are": lambda key, _: key in wishes and wishes[key].locked,
         "out of reach: nothing arrives of any source": lambda key, _: key in reached and not reached[key],
         "hides the room: its surface is not on the felt map": lambda key, _: key in shells,
-        "silent: it does not vibrate by itself": lambda key, told: (
-            not told.vibrates and told.object_category not in _UNKNOWN
+        "silent: it does not vibrate by itself": lambda key, haptics: (
+            not haptics.vibrates and haptics.object_category not in _UNKNOWN
         ),
     }
     rows = [
-        {"why": why, "objects": [key for key, haptics in bundle.objects.items() if holds(key, haptics)]}
+        {"why": why, "objects": [key for key, one in bundle.objects.items() if holds(key, one)]}
         for why, holds in reasons.items()
     ]
     absent = [item.id for item in bundle.snapshot.objects if item.id not in bundle.objects]

@@ -30,17 +30,17 @@ class ReportServer:
 
         class Handler(BaseHTTPRequestHandler):
             def do_GET(self) -> None:
-                if not self._is_asked_here() or self.path not in ("/", "/index.html"):
+                if not self._is_own_request() or self.path not in ("/", "/index.html"):
                     self._answer(404, b"There is only one page, at /.")
                     return
                 self._answer(200, content, "text/html; charset=utf-8")
 
             def do_POST(self) -> None:
                 length = self.headers.get("content-length", "")
-                if not self._is_asked_here() or self.path != "/overrides":
+                if not self._is_own_request() or self.path != "/overrides":
                     self._answer(404, b"Corrections are posted to /overrides, by the page itself.")
                 elif not length.isdecimal() or int(length) > MAX_BYTES:
-                    # Read as far as is bearable: who still writes does not hear the answer.
+                    # Read a bounded part of the body: a browser that still writes does not read the answer.
                     self.rfile.read(min(int(length), 8 * MAX_BYTES) if length.isdecimal() else 0)
                     self._answer(413, b"A file of corrections has at most a megabyte.")
                 else:
@@ -57,7 +57,7 @@ class ReportServer:
                 saved(corrections)
                 self._answer(200, json.dumps({"file": corrections.name}).encode(), "application/json")
 
-            def _is_asked_here(self) -> bool:
+            def _is_own_request(self) -> bool:
                 """Whether a request names this server, and comes from its own page: other pages reach it too."""
                 here = {f"{name}:{own.port}" for name in (_HOST, "localhost")}
                 origin = self.headers.get("origin")
