@@ -1,4 +1,4 @@
-"""What is almost surely wrong with a scene: units, quaternions that begin with w, the up axis, things that float or are
+"""Find likely mistakes in a scene: units, quaternions that begin with w, the up axis, things that float or are
 sunk in the floor.
 
 Each finding is a sentence with the value, the bound and what to do. Boxes around objects decide, so that a scene is
@@ -48,7 +48,7 @@ class Finding(NamedTuple):
 
 
 def findings(scene: SceneData) -> Iterator[Finding]:
-    """What is almost surely wrong with a scene."""
+    """Find likely mistakes in a scene."""
     ids = tuple(item.id for item in scene.objects)
     sizes = implausible(scene)
     if sizes is not None:

@@ -12,7 +12,7 @@ from scene2hap.scene.appearance import Appearance, FaceMaterial
 
 Floats = NDArray[np.float64]
 
-# Steps of a channel, tried in turn until the materials are this few (assumed: a picture seldom tells more apart); after
+# Steps of a channel, tried in turn until the materials are this few (assumed: a picture seldom shows more); after
 # the last, they may be more.
 _STEPS, _FEW = (255, 31, 15, 7), 256
 

@@ -72,7 +72,7 @@ class DaeMaterials:
 
 
 def _paint(effect: Any) -> Any:
-    """The colour or map that tells most of an effect's looks: a constant shader has no diffuse light."""
+    """The colour or map that decides most of an effect's looks: a constant shader has no diffuse light."""
     return effect.emission if effect.shadingtype == "constant" else effect.diffuse
 
 

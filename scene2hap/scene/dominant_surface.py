@@ -333,7 +333,7 @@ def _fitted_frames(triangles: Floats) -> Iterator[Floats]:
     if len(across):
         seconds = (level @ _largest_direction(normals[:, across], area[across]))[:, None]
     else:
-        # A sheet: no face tells which way it lies, but one of its edges may.
+        # A sheet: no face shows which way it lies, but one of its edges may.
         sides = level @ (np.roll(triangles, -1, axis=1) - triangles).reshape(3, -1)
         longest = sides[:, np.argsort(-np.hypot(*sides), kind="stable")[:_SIDES_TRIED]]
         seconds = np.column_stack((np.linalg.eigh(level @ spread @ level.T)[1], longest[:, longest.any(axis=0)]))

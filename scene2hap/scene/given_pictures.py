@@ -56,7 +56,7 @@ _FORM = "given 1"
 
 Kind = Literal["scene", "isolated", "context"]
 PictureKey = tuple[str | None, Kind, str]
-"""What a picture shows: object id (None for the whole scene), kind, name of the view."""
+"""Key of a picture: object id (None for the whole scene), kind, name of the view."""
 
 
 @dataclass(frozen=True)
@@ -83,8 +83,8 @@ class GivenPictures:
 
     def __init__(self, pictures: Mapping[PictureKey, bytes]) -> None:
         if not isinstance(pictures, Mapping):
-            told = checks.described(pictures)
-            raise SceneError(f"pictures is {told}; it must be a dict of files by (object id, kind, view).")
+            given = checks.described(pictures)
+            raise SceneError(f"pictures is {given}; it must be a dict of files by (object id, kind, view).")
         self._files: dict[Shot, bytes | Path] = {}
         for key, file in pictures.items():
             self._add(_shot(key), file)
@@ -107,7 +107,7 @@ class GivenPictures:
                 )
             shot = _shot((row.get("object"), row.get("kind"), row.get("view")))
             if shot in found._files:
-                raise SceneError(f"{place} is the second {_told(shot)}; give each view of a thing its own name.")
+                raise SceneError(f"{place} is the second {_label(shot)}; give each view of a thing its own name.")
             found._add(shot, inside(root, root, row["file"], place))
         return found
 
@@ -122,13 +122,13 @@ class GivenPictures:
         Raises: SceneError: it was not given; its file is gone or cannot be decoded.
         """
         if shot not in self._files:
-            raise SceneError(f"there is no {_told(shot)} among the {len(self._files)} pictures that were given.")
-        file = _content(self._files[shot], _told(shot))
+            raise SceneError(f"there is no {_label(shot)} among the {len(self._files)} pictures that were given.")
+        file = _content(self._files[shot], _label(shot))
         key = f"{_FORM} {hashlib.sha256(file).hexdigest()}"
         shown = MEMORY.get(key)
         if shown is None:
-            check_picture(file, _told(shot))  # a file on the disk may have changed
-            shown = _as_shown(file, _told(shot))
+            check_picture(file, _label(shot))  # a file on the disk may have changed
+            shown = _as_shown(file, _label(shot))
             MEMORY.put(key, shown)
         return shown
 
@@ -162,7 +162,7 @@ class GivenPictures:
     def _add(self, shot: Shot, file: bytes | Path) -> None:
         if len(self._files) >= MAX_PICTURES:
             raise SceneError(f"there are more than {MAX_PICTURES:,} pictures; give fewer views of each object.")
-        check_picture(_content(file, _told(shot)), _told(shot))
+        check_picture(_content(file, _label(shot)), _label(shot))
         self._files[shot] = file
 
     def __len__(self) -> int:
@@ -224,8 +224,8 @@ def _shot(key: Any) -> GivenShot:
     return GivenShot(kind, subject, 0.0, 0.0, view)
 
 
-def _told(shot: Shot) -> str:
-    """A picture, for messages."""
+def _label(shot: Shot) -> str:
+    """Describe a picture for a message."""
     whose = "" if shot.subject is None else f" of object {checks.represented(shot.subject)}"
     return f"{shot.kind} picture {checks.represented(shot.label)}{whose}"
 

@@ -76,7 +76,7 @@ def _decoded(file: GltfFile, number: object, place: str) -> DracoMesh:
         decoded = DracoPy.decode(data)
         points = np.asarray(decoded.points, dtype=np.float64).reshape(-1, 3)
         faces = np.asarray(decoded.faces, dtype=np.int64).reshape(-1, 3)
-        # Releases before 1.5 tell positions alone.
+        # Releases before 1.5 have positions alone.
         attributes = {int(row["unique_id"]): np.asarray(row["data"]) for row in getattr(decoded, "attributes", ())}
     # DracoPy raises its own classes, ValueError and plain Exception for broken data.
     except Exception as cause:

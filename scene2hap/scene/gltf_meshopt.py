@@ -18,7 +18,7 @@ _STORED_PER_DECODED = 2
 
 
 def meshopt_row(view: Json) -> tuple[str, Json] | None:
-    """The extension of a buffer view that tells how it is compressed, and its name; None if it is not compressed."""
+    """The extension of a buffer view with its compression, and its name; None if it is not compressed."""
     extensions = view.get("extensions")
     if isinstance(extensions, dict):
         for name in MESHOPT:

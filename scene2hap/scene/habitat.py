@@ -318,7 +318,7 @@ def _flag(row: Json, key: str, place: str) -> bool:
 
 
 def _mass(row: Json, place: str, mass_kg: float | None, volume: float) -> float | None:
-    """What an instance of a template of that mass weighs [kg], scaled `volume` times; None if nobody knows."""
+    """Mass of an instance of a template of that mass [kg], scaled `volume` times; None if unknown."""
     given = row.get("mass_scale", 1.0)
     factor = checks.number(f"{place}.mass_scale", given, "-", at_least=0.0, error=SceneFormatError)
     if _flag(row, "apply_scale_to_mass", place):
@@ -332,7 +332,7 @@ def _mass(row: Json, place: str, mass_kg: float | None, volume: float) -> float 
 
 
 def _keyed(node: AuthoredNode, number: int, seen: dict[int, Piece]) -> AuthoredNode:
-    """A node whose pieces are told from those of other files."""
+    """Copy a node so that the keys of its pieces differ from those of other files."""
     pieces = []
     for piece in node.pieces:
         if id(piece) not in seen:
@@ -382,7 +382,7 @@ def _links_kg(model: _Model) -> float | None:
 
 
 def _is_bent(pose: object) -> bool:
-    """Whether joints that are listed, or told by name, do not all begin at 0."""
+    """Whether any joint, in a list or in a table by name, does not begin at 0."""
     values = list(pose.values()) if isinstance(pose, dict) else pose
     return isinstance(values, list) and any(value not in (0, None) for value in values)
 

@@ -12,7 +12,7 @@ In 1 to 3 a name is a file's name, the end of its path, or, as in Habitat, any p
 alphabetical order counts. In 4 it is a file's name or the end of its path.
 
 Habitat knows two values that it does not apply to the models that it draws; neither are they applied here: the stage's
-`origin`, and `units_to_meters`, which a warning tells if it is not 1.
+`origin`, and `units_to_meters`, which brings a warning if it is not 1.
 
 Sources: "Using JSON Files to configure Attributes" (docs/pages/attributesJSON.rst of habitat-sim,
 https://aihabitat.org/docs/habitat-sim/attributesJSON.html), and in habitat-sim's src/esp: the names of templates in
@@ -238,7 +238,7 @@ class Dataset:
     # -- fields ------------------------------------------------------------------------------------------------------
 
     def _attributes(self, kind: Kind, source: _Source) -> tuple[Json, Path, str]:
-        """What is written about a template, the folder that its paths start from, and where that is written."""
+        """The document of a template, the folder that its paths start from, and the place of the document."""
         if source.file is not None and source.file.name.endswith(_CONFIG_SUFFIX[kind]):
             return {**self._defaults(kind), **self._json(source.file)}, source.file.parent, source.file.name
         if source.file is not None:

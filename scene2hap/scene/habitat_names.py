@@ -51,7 +51,7 @@ _MOST_BYTES = 1 << 26
 
 
 class ObjectNames:
-    """What objects of a template are called."""
+    """The name of a template's objects."""
 
     def __init__(self, given: Names | None, dataset: Dataset) -> None:
         """Read what the caller gave, and what the dataset has.

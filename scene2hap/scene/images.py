@@ -34,7 +34,7 @@ class ImageSource(Protocol):
 class ImageSet(Sequence[bytes]):
     """Pictures of one thing from several angles, each taken when it is first read.
 
-    `shots` tells the angles without taking anything.
+    `shots` gives the angles without taking a picture.
     """
 
     def __init__(self, source: ImageSource, shots: Sequence[Shot]) -> None:

@@ -89,7 +89,7 @@ def from_document(document: dict[str, Any]) -> SceneData:
         objects = document.get("objects")
         if isinstance(objects, list):
             limits.at_most("the number of objects", len(objects), "MAX_OBJECTS")
-            objects = [_with_geometry(_told(row), shared) for row in objects]
+            objects = [_with_geometry(_without_nulls(row), shared) for row in objects]
         fields = {key: document[key] for key in ("name", "up_axis", "contacts") if key in document}
         scene = _scene.validate_python({**fields, "objects": objects})
     except ValidationError as cause:
@@ -118,8 +118,8 @@ def _with_geometry(row: Any, shared: dict[str, Geometry]) -> Any:
     return {**row, "geometry": shared[key]}
 
 
-def _told(row: Any) -> Any:
-    """An object's row without nulls, and with a surface to be measured if it has none."""
+def _without_nulls(row: Any) -> Any:
+    """Copy an object's row without its nulls. A row without a surface gets one to be measured."""
     if not isinstance(row, dict):
         return row
     return {"surface": _UNMEASURED, **{key: value for key, value in row.items() if value is not None}}

@@ -40,7 +40,7 @@ def name_words(name: str) -> tuple[str, ...]:
 
 
 def material_names(item: SceneObject) -> tuple[str, ...]:
-    """What the author called the materials of an object, those of most faces first, each once."""
+    """The authored names of an object's materials, those of most faces first, each once."""
     looks = item.appearance
     if looks is None:
         return ()

@@ -1,8 +1,8 @@
 """Decoders of meshopt data: attributes (versions 0 and 1), triangles, indices, and the filters behind them.
 
 Written here, since the PyPI package `meshoptimizer` (0.2.30a0) is an alpha release without wheels: installing it takes
-a C++ compiler. Data is untrusted: every read is held against the end of the data, and nothing is allocated beyond what
-the caller asked for. Callers bound `count * stride`.
+a C++ compiler. Data is untrusted: every read is checked against the end of the data, and no allocation exceeds the size
+that the caller requested. Callers bound `count * stride`.
 
 Source: glTF extensions EXT_meshopt_compression and KHR_meshopt_compression, appendices "Bitstream" and "Filters".
 """
@@ -108,11 +108,11 @@ class _GroupReader:
             else:
                 bits = _BITS[0 if not version else mode + 1]
                 headers, at = self._data[at : at + n_headers], at + n_headers
-                told = [bits[header >> shift & 3] for header in headers for shift in (0, 2, 4, 6)][:n_groups]
-                for width in told:
+                widths = [bits[header >> shift & 3] for header in headers for shift in (0, 2, 4, 6)][:n_groups]
+                for width in widths:
                     self._starts.append(at)
                     at += self._sizes_of(width)[at]
-                self._bits += told
+                self._bits += widths
             if at > self._end:
                 raise ValueError("attributes are cut short")
         return at
@@ -363,7 +363,7 @@ def _octahedral(elements: _Bytes) -> NDArray[Any]:
 
 
 def _quaternion(elements: _Bytes) -> NDArray[Any]:
-    """Unit quaternions, from their three smaller components; the last number tells scale and place of the largest."""
+    """Unit quaternions, from their three smaller components; the last number has scale and place of the largest."""
     stored = elements.view("<i2").astype(np.int64)
     scale = np.sqrt(0.5) / (stored[:, 3] | 3)
     small = stored[:, :3] * scale[:, None]
@@ -385,7 +385,7 @@ def _exponential(elements: _Bytes) -> NDArray[Any]:
 
 
 def _color(elements: _Bytes) -> NDArray[Any]:
-    """RGBA from YCoCg and alpha, whose highest bit tells how many bits all have."""
+    """RGBA from YCoCg and alpha, whose highest bit marks how many bits all have."""
     bits = 2 * elements.shape[1]
     unsigned, signed = elements.view(f"<u{bits // 8}").astype(np.int64), elements.view(f"<i{bits // 8}")
     y, alpha = unsigned[:, 0], unsigned[:, 3]

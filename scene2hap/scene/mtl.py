@@ -94,10 +94,10 @@ class MtlLibraries:
     def _material(self, rows: dict[str, str], name: str) -> MtlMaterial:
         color = _numbers(rows.get("kd", ""), 3) or (0.8, 0.8, 0.8)
         opacity = 1.0
-        if (told := _numbers(rows.get("d", "").removeprefix("-halo"), 1)) is not None:
-            opacity = told[0]
-        elif (told := _numbers(rows.get("tr", ""), 1)) is not None:
-            opacity = 1.0 - told[0]
+        if (number := _numbers(rows.get("d", "").removeprefix("-halo"), 1)) is not None:
+            opacity = number[0]
+        elif (number := _numbers(rows.get("tr", ""), 1)) is not None:
+            opacity = 1.0 - number[0]
         r, g, b, a = (min(max(channel, 0.0), 1.0) for channel in (*color, opacity))
         file, lies = _texture(rows.get("map_kd", ""))
         if not file:

@@ -1,6 +1,6 @@
 """Wavefront OBJ files as authored trees: one node for each `o`, or for each `g` where a file has no `o`.
 
-Read here rather than by trimesh (5.2), which merges objects of one name, tells them in reverse order, and counts
+Read here rather than by trimesh (5.2), which merges objects of one name, returns them in reverse order, and counts
 negative vertex numbers from the end of the file instead of from where they stand.
 
 Source: Wavefront, Advanced Visualizer manual (1990s), appendix B1, "Object files".

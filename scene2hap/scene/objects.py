@@ -181,7 +181,7 @@ def _measured(geometry: Geometry, up: tuple[float, ...]) -> DominantSurface:
 
 @dataclass(frozen=True)
 class SceneData:
-    """What of a scene is plain data, as it stands in JSON; see `SceneSnapshot`."""
+    """The plain data of a scene, as in its JSON; see `SceneSnapshot`."""
 
     name: str
     up_axis: UpAxis

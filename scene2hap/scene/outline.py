@@ -25,7 +25,7 @@ _LINES = 4  # scan lines through a row of pixels; along a line the share is exac
 @clear_construction
 @dataclass(frozen=True)
 class Outline:
-    """What a plate covers: all that an odd number of rings surrounds, so that a ring within another cuts a hole.
+    """The area of a plate: all points inside an odd number of rings, so that a ring within another cuts a hole.
 
     Parameters: rings_m : rings of at least 3 corners (x, y) each [m], in either direction, closed by themselves; x and
     y run along the plate's length and width, from its corner.
@@ -41,7 +41,7 @@ class Outline:
         n_corners = sum(map(len, rings))
         if not 3 <= n_corners <= MOST_CORNERS:
             raise SceneError(
-                f"the outline has {n_corners} corners; it must have 3 to {MOST_CORNERS}. A circle is well told by 64."
+                f"the outline has {n_corners} corners; it must have 3 to {MOST_CORNERS}. 64 are enough for a circle."
             )
         x0, y0, x1, y1 = self.box_m
         if not (x1 > x0 and y1 > y0 and self.area_m2 > 1e-6 * (x1 - x0) * (y1 - y0)):

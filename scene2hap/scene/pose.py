@@ -163,7 +163,7 @@ class Pose:
         if np.linalg.norm(side) <= _LEAST_SLANT * np.linalg.norm(front):
             raise SceneError(
                 f"target_m {tuple(target.tolist())} is at or straight above or below position_m {tuple(at.tolist())}; "
-                "which side is up cannot be told. Give a rotation instead."
+                "no side is up then. Give a rotation instead."
             )
         front, side = front / np.linalg.norm(front), side / np.linalg.norm(side)
         over = np.cross(front, side)
@@ -191,9 +191,9 @@ class Pose:
 
 
 def _warn_of_length(rotation: Sequence[float], length: float) -> None:
-    told = ", ".join(f"{component:g}" for component in rotation)
+    parts = ", ".join(f"{component:g}" for component in rotation)
     warn_of(
-        f"rotation_xyzw is ({told}), of length {length:.3g}; a rotation is a unit quaternion (x, y, z, w), so that "
+        f"rotation_xyzw is ({parts}), of length {length:.3g}; a rotation is a unit quaternion (x, y, z, w), so that "
         "this one was divided by its length. For angles write Pose.from_euler(position_m, angles_rad), for a "
         "quaternion that begins with w Pose.from_wxyz(position_m, rotation_wxyz)."
     )

@@ -77,8 +77,8 @@ class _Generator(GenerateJsonSchema):
 
 def scene_schema() -> _Json:
     """The schema (JSON Schema, 2020-12) of the text that `SceneSnapshot.from_json` reads."""
-    told = _plain(TypeAdapter(SceneSnapshot).json_schema(schema_generator=_Generator))
-    parts: _Json = told["$defs"]
+    plain = _plain(TypeAdapter(SceneSnapshot).json_schema(schema_generator=_Generator))
+    parts: _Json = plain["$defs"]
     for name, part in parts.items():
         part["properties"] = {
             key: {**_described(f"{name}.{key}"), **field, **_BOUNDS.get(f"{name}.{key}", {})}
@@ -93,7 +93,7 @@ def scene_schema() -> _Json:
         words, _ = field.pop("description"), field.pop("default", None)
         thing["properties"][key] = {"description": words, "anyOf": [field, {"type": "null"}]}
     thing["required"] = [key for key in thing["required"] if key not in _MEASURED]
-    told["properties"]["objects"]["minItems"] = 1
+    plain["properties"]["objects"]["minItems"] = 1
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "scene2hap scene",
@@ -102,14 +102,14 @@ def scene_schema() -> _Json:
         "properties": {
             "format": {"const": FORMAT},
             "version": {"const": VERSION},
-            **told["properties"],
+            **plain["properties"],
             "geometries": {
                 "description": "Geometries that objects name, each once.",
                 "type": "object",
                 "additionalProperties": {"anyOf": shapes},
             },
         },
-        "required": ["format", "version", *told["required"]],
+        "required": ["format", "version", *plain["required"]],
         "$defs": parts,
     }
 

@@ -96,7 +96,7 @@ class TriMesh:
 
     @property
     def mesh(self) -> TriMesh:
-        """Itself, so that boxes and meshes are asked alike."""
+        """This mesh itself, so that boxes and meshes have the same interface."""
         return self
 
     @cached_property
@@ -139,7 +139,7 @@ class DominantSurface:
     """The plate of an object, such as the top of a table, and where it lies in the object's own frame.
 
     `pose` puts the plate's corner frame into the object's own frame: its origin is a corner of the plate's mid-plane,
-    x runs along the length, y along the width, z along the thickness (the plate's normal). `flags` tell why a
+    x runs along the length, y along the width, z along the thickness (the plate's normal). `flags` say why a
     measured value wants a second look; an engine or a person who states it leaves them empty. `outline` is what a
     surface covers that is no rectangle, from the same corner along length and width, beyond which it may reach: they
     are then those of a rectangle like it.

@@ -1,6 +1,6 @@
 """Bounds of a stated plate size, relative to the measured one.
 
-A model may correct what a mesh cannot tell: the thickness of a floor of two triangles, a table modelled as a solid
+A model may correct sizes that a mesh lacks: the thickness of a floor of two triangles, a table modelled as a solid
 block. It cannot know better than the mesh how far the table reaches.
 """
 

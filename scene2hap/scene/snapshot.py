@@ -1,7 +1,7 @@
 """A scene as typed, frozen data: what inference reads and what playing starts from.
 
-Metres, right-handed. An object's mesh and its dominant surface are told in the object's own frame; its pose places
-that frame in the world. Scale and mirroring are baked into the mesh, so a pose is always rigid.
+Metres, right-handed. An object's mesh and its dominant surface are in the object's own frame; its pose places that
+frame in the world. Scale and mirroring are baked into the mesh, so a pose is always rigid.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from scene2hap.scene.pose import Pose
 
 
 class ObjectTuple(tuple[SceneObject, ...]):
-    """Objects in their order, which tells how to find one by its id."""
+    """Objects in their order; an error names the ways to find one by its id."""
 
     __slots__ = ()
 
@@ -54,7 +54,7 @@ _MOST_OBJECTS, _MOST_CONTACTS = 10_000_000, 100_000_000  # as an endless generat
 class SceneSnapshot(SceneData):
     """All that is read out of a scene at one moment.
 
-    `contacts` is None where the source of the scene does not tell them; they are then found from geometry. `images` are
+    `contacts` is None where the source of the scene has none; they are then found from geometry. `images` are
     of the whole scene, None until `capture_images`.
     Raises: SceneError: no object, or two objects with one id, or a contact with an object that is not there.
     """
@@ -85,8 +85,8 @@ class SceneSnapshot(SceneData):
             object.__setattr__(self, "contacts", contacts)
             for contact in contacts:
                 if not isinstance(contact, Contact):
-                    told = checks.described(contact)
-                    raise SceneError(f"a contact is {told}; it must be a Contact(a, b, point_m) of two object ids.")
+                    given = checks.described(contact)
+                    raise SceneError(f"a contact is {given}; it must be a Contact(a, b, point_m) of two object ids.")
                 self.object(contact.a)
                 self.object(contact.b)
 
@@ -132,14 +132,14 @@ class SceneSnapshot(SceneData):
         return self._by_id[object_id]
 
     def with_poses(self, moved: Mapping[str, Pose]) -> SceneSnapshot:
-        """The same scene with some objects elsewhere; heights are told anew, given contacts and images are dropped."""
+        """Move some objects. Returns a scene with heights computed again, without given contacts and images."""
         for object_id in moved:
             self.object(object_id)
         objects = [replace(item, pose=moved.get(item.id, item.pose), images=None) for item in self.objects]
         return SceneSnapshot(self.name, self.up_axis, with_relative_heights(objects, self.up_axis))
 
     def check(self) -> tuple[Finding, ...]:
-        """What is almost surely wrong: units, quaternions that begin with w, the up axis, what floats or is sunk."""
+        """Find likely mistakes: units, quaternions that begin with w, the up axis, objects that float or are sunk."""
         from scene2hap.scene.check import findings
 
         return tuple(findings(self))

@@ -37,7 +37,7 @@ _DOUBT_ONE, _DOUBT_SEVERAL = 2.2, 1.5
 
 
 class _Voice(NamedTuple):
-    """What one named object says: the factor that its size is off from the usual, and from what is still usual."""
+    """Evidence of one named object: the factors between its size and the usual size, and the usual range."""
 
     factor: float
     excess: float
@@ -79,7 +79,7 @@ def implausible(snapshot: SceneData, unit_m: float = 1.0) -> str | None:
 def _voices(
     objects: Sequence[SceneObject], tops_m: NDArray[np.float64], extents_m: NDArray[np.float64]
 ) -> list[_Voice]:
-    """What the named things say; of a kind at most three, the middle ones, so that a dozen chairs outvote nobody."""
+    """Evidence of the named objects; of a kind at most three, the middle ones, so that many chairs outvote nobody."""
     named = [
         (known, item.name, float(top), tuple(f"{edge:.3g}" for edge in sorted(extent)), float(extent.max()))
         for item, top, extent in zip(objects, tops_m, extents_m, strict=True)

@@ -45,7 +45,7 @@ def read_urdf(path: Path, assets_root: Path, read_mesh: Callable[[Path, Path], A
     """The links of a URDF file in metres, Z up, in the order of the file; `read_mesh` reads a file in a root.
 
     Raises: SceneFormatError: the file is not URDF, or broken. SceneError: a mesh is missing, too large or outside
-    `assets_root`; the message tells the root that is needed. MissingExtra: a mesh is COLLADA, and pycollada is not
+    `assets_root`; the message names the root that is needed. MissingExtra: a mesh is COLLADA, and pycollada is not
     installed.
     """
     return _Reader(path, assets_root, read_mesh, _parsed(path)).scene()
@@ -227,8 +227,8 @@ class _Reader:
     def _painted(self, mesh: AuthoredNode, row: Element, place: str) -> AuthoredNode:
         """A node whose pieces without looks of their own have those of a <material>."""
         name = row.get("name") or ""
-        told = row if len(row) else self._materials.get(name)
-        colour, texture = None if told is None else told.find("color"), None if told is None else told.find("texture")
+        look = row if len(row) else self._materials.get(name)
+        colour, texture = (None, None) if look is None else (look.find("color"), look.find("texture"))
         rgba = None
         if colour is not None:
             r, g, b, a = (min(max(x, 0.0), 1.0) for x in _numbers(colour, "rgba", f"{place}, <color>", 4))

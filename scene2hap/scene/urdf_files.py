@@ -58,7 +58,7 @@ class UrdfFiles:
             plain = name.replace("\\", "/")
             yield folder / plain
             if (compiler := self.compiler) is not None:
-                # MuJoCo takes only the last part of a name, unless told otherwise.
+                # MuJoCo takes only the last part of a name, unless `strippath` is "false".
                 is_whole = compiler.get("strippath") == "false"
                 yield folder / (compiler.get("meshdir") or "") / (plain if is_whole else PurePosixPath(plain).name)
         elif scheme == "file":

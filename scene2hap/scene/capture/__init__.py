@@ -51,7 +51,7 @@ RENDERERS = PluginGroup(
     },
     extras={"embree": "pictures", "panda3d": "panda3d"},
 )
-"""What can draw a stage: classes or functions that are called with a `Stage` and whether to smooth edges."""
+"""Registered renderers: classes or functions that are called with a `Stage` and whether to smooth edges."""
 
 
 @clear_call
@@ -86,8 +86,8 @@ def capture_images(
     name = settings.renderer if renderer is None or kind is not None else _name_of(factory)
     if isinstance(object_ids, str):
         raise ConfigError(f"object_ids is the text {object_ids!r}; give a list of ids, [{object_ids!r}].")
-    asked = None if object_ids is None else checks.items("object_ids", object_ids, error=ConfigError)
-    wanted = {item.id for item in scene.objects} if asked is None else {scene.object(key).id for key in asked}
+    given = None if object_ids is None else checks.items("object_ids", object_ids, error=ConfigError)
+    wanted = {item.id for item in scene.objects} if given is None else {scene.object(key).id for key in given}
     studio = Studio(scene, settings, factory, name)
 
     def images(item: SceneObject) -> ObjectImages:

@@ -56,7 +56,7 @@ def render_all(scene: SceneSnapshot, workers: int | None = None, *, progress: Pr
 
 
 def capture_stats(scene: SceneSnapshot) -> CaptureStats:
-    """What the capture of a scene did so far.
+    """Progress of the capture of a scene.
 
     Raises: ConfigError: the scene was not captured.
     """

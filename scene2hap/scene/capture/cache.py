@@ -49,7 +49,7 @@ class MemoryCache:
 
 
 MEMORY = MemoryCache()
-"""What captures of this process share."""
+"""The cache that all captures of this process share."""
 
 
 class FolderCache:

@@ -69,7 +69,7 @@ class Culler:
         return cls(stage, renderer, below, shells(stage), near_share, hidden_share)
 
     def around(self, target: int, close: Camera, wide: Camera) -> Selection:
-        """What the context picture `wide` shows, where `close` is the same eye framing the target alone."""
+        """Select the actors of the context picture `wide`; `close` is the same eye framing the target alone."""
         aim = _Aim(self, target, close.resized(_GRID_PX))
         opened = self._hiding_shells(self.shells - {target}, wide, aim.focus_m)
         blockers = aim.blockers(opened)
@@ -90,7 +90,7 @@ class Culler:
         return Selection(kept, opened & kept, aim.focus_m)
 
     def overview(self, wide: Camera) -> Selection:
-        """What a picture of the whole scene shows."""
+        """Select the actors of a picture of the whole scene."""
         low, high = self.stage.box_m
         focus = _triple((low + high) / 2)
         opened = self._hiding_shells(self.shells, wide, focus)

@@ -48,7 +48,7 @@ _ADDED_RAYS = ((-0.33, 0.17), (0.17, -0.33))
 
 @dataclass(frozen=True, eq=False)
 class _Hits:
-    """What rays met: triangle (n,) of the stage, -1 for none; depth (n,) [m]; weights (2, n) of its corners 2 and 3."""
+    """Hits of rays: triangle (n,) of the stage, -1 for none; depth (n,) [m]; weights (2, n) of its corners 2 and 3."""
 
     triangle: Ints
     depth: Floats
@@ -98,7 +98,7 @@ class EmbreeRenderer:
         return self._ids(camera, pixels, self._cast(camera, camera.directions(pixels), selection))
 
     def draw(self, camera: Camera, selection: Selection) -> tuple[Pixels, Ids]:
-        """The picture, and the ids as `identify` tells them."""
+        """The picture, and the ids as from `identify`."""
         pixels = self._covered(camera, selection)
         directions = camera.directions(pixels)
         hits = self._cast(camera, directions, selection)
@@ -182,7 +182,7 @@ class EmbreeRenderer:
         return passed
 
     def _colors(self, camera: Camera, hits: _Hits) -> NDArray[np.uint8]:
-        """What each ray sees."""
+        """The colour that each ray sees."""
         # One light per triangle and view, since the light comes straight along the view; the last row is no triangle.
         paint = np.vstack((self._paint * light(self._normals, camera.axes[2], self._stage.up)[:, None], BACKGROUND_RGB))
         colors = paint.astype(np.uint8).take(hits.triangle, axis=0)

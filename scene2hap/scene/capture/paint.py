@@ -21,7 +21,7 @@ Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
 
 BACKGROUND_RGB = (190, 194, 200)
-"""What is behind everything: light enough for black things, dark enough for white ones (assumed)."""
+"""The background: light enough for black things, dark enough for white ones (assumed)."""
 
 AMBIENT, HEADLIGHT, SKYLIGHT = 0.40, 0.50, 0.10
 """Parts of a colour that show regardless of angle, facing the eye, and facing up (minus facing down) (tuned by eye)."""
@@ -100,7 +100,7 @@ class Palette:
         return where
 
     def pattern(self, material: Ints, uv: Floats) -> Floats:
-        """What the textures multiply colours by (n, 3), 0..1."""
+        """Factors of the colours from textures (n, 3), 0..1."""
         return self.texels.take(self.texel(material, uv), axis=0)[:, :3] * np.float32(1 / 255)
 
     @cached_property

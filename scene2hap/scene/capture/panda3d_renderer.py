@@ -76,7 +76,7 @@ class Panda3DRenderer:
         return ids
 
     def draw(self, camera: Camera, selection: Selection) -> tuple[Pixels, Ids]:
-        """The picture, and the ids as `identify` tells them."""
+        """The picture, and the ids as from `identify`."""
         triangles = self._shown(camera, selection)
         groups = _groups(self._paint_row[triangles], self._painted)
         colors = self._lit(camera.axes[2])[triangles]

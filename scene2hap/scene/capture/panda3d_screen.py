@@ -18,14 +18,14 @@ from scene2hap.scene.capture.views import Camera
 Bytes = NDArray[np.uint8]
 Floats = NDArray[np.float32]
 
-# Depth range as parts of the scene's diagonal. This rasteriser tells depths apart the better, the nearer it begins
+# Depth range as parts of the scene's diagonal. This rasteriser resolves depths the better, the nearer it begins
 # (tuned: from 0.01 on, a carpet 1 mm over the floor is lost).
 _NEAR, _FAR = 1e-3, 8.0
 
 
 @dataclass(frozen=True, eq=False)
 class Look:
-    """What triangles are drawn with: their own colours, times a texture."""
+    """Colours of triangles: their own, times a texture."""
 
     state: Any
 

@@ -26,7 +26,7 @@ Pixels = NDArray[np.uint8]
 
 @dataclass(frozen=True)
 class Selection:
-    """What a picture shows: the actors `shown`; of those `opened` only faces that cannot hide the `focus_m`.
+    """The contents of a picture: the actors `shown`; of those `opened` only faces that cannot hide the `focus_m`.
 
     A face can hide a point if its plane separates the point from the eye. So an opened room loses the walls between it
     and the camera and keeps floor and far walls, whether it is one mesh or several.
@@ -45,12 +45,12 @@ class Renderer(Protocol):
         ...
 
     def draw(self, camera: Camera, selection: Selection) -> tuple[Pixels, Ids]:
-        """The picture, and the ids as `identify` tells them."""
+        """The picture, and the ids as from `identify`."""
         ...
 
 
 RendererFactory = Callable[[Stage, bool], Renderer]
-"""Builds a renderer for a stage; the flag asks for smooth edges."""
+"""Builds a renderer for a stage; the flag requests smooth edges."""
 
 _RENDERER: Members = {"identify": ("camera", "selection"), "draw": ("camera", "selection")}
 

@@ -23,7 +23,7 @@ _FORMAT = 2
 
 @dataclass(frozen=True)
 class CaptureStats:
-    """What a capture did: pictures rendered, and pictures found in memory and in `cache_dir` instead."""
+    """Counters of a capture: pictures rendered, and pictures found in memory and in `cache_dir` instead."""
 
     rendered: int = 0
     from_memory: int = 0
@@ -104,12 +104,12 @@ class Studio:
 
     @cached_property
     def copies(self) -> Copies:
-        """Who stands for whom."""
+        """The groups of objects that share pictures."""
         return Copies(self.scene.objects, self.below, self.config.share_copies)
 
     @cached_property
     def below(self) -> tuple[int | None, ...]:
-        """What each object stands on."""
+        """The number of the object below each object, None for none."""
         return supports(self.stage)
 
     @cached_property

@@ -120,12 +120,12 @@ def _cross(a: Floats, b: Floats) -> Floats:
 
 
 class Copies:
-    """Who stands for whom in pictures.
+    """The groups of objects that share pictures.
 
     Objects of one `instance_key` share isolated images, whatever their names: those of the first of them in scene
-    order, as it is turned. Objects of one *context class*, which is their kind (`likeness.copy_key`) and that of the
-    object below (`supports`), share context images: those of the first of the class, among its own surroundings. An
-    object without a key stands for itself.
+    order, at its own rotation. A *context class* is the kind of an object (`likeness.copy_key`) and that of the object
+    below it (`supports`). The objects of one class share context images: those of the first of the class, among its
+    own surroundings. An object without a key has pictures of its own.
     """
 
     def __init__(self, objects: Sequence[SceneObject], below: Sequence[int | None], share: bool) -> None:

@@ -1,4 +1,4 @@
-"""Running Python engines as snapshots, each through an optional extra that is imported when it is first asked for.
+"""Running Python engines as snapshots, each through an optional extra that is imported on first use.
 
 `scene2hap.scene.engines.mujoco` reads MuJoCo models and MJCF files, `scene2hap.scene.engines.panda3d` reads Panda3D
 scene graphs. Engines that are not written in Python hand over JSON (docs/scene-json.md).

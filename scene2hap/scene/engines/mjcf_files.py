@@ -32,7 +32,7 @@ MAX_COPIED_ELEMENTS = 50_000
 MAX_CELLS = 1 << 25
 """Cells of all textures and height fields together, those that pictures store apart (assumed: eight of 2048 x 2048)."""
 _CELLS_PER_BYTE = 20.0
-"""What a byte of a picture may unpack to, in cells (assumed: ten times what photographs do)."""
+"""Cells that a byte of a picture may unpack to (assumed: ten times the cells of photographs)."""
 MAX_INCLUDED = 1_000
 """Files that one model includes (assumed: a kitchen of hundreds of things has as many)."""
 MAX_MODELS = 200
@@ -44,8 +44,8 @@ MAX_MESH_STEPS = 200
 MAX_MADE_TRIANGLES = 400_000
 """Triangles of all built-in meshes together (assumed: MuJoCo takes 600 bytes for each while it compiles)."""
 FREE_MESH_BYTES, MESH_BYTES_PER_STORED = 8 << 20, 2.0
-"""What all rows that name mesh files may read, each for itself, and how much more for each byte that there is
-(assumed: MuJoCo decodes a file anew for every row, a megabyte in 0.2 s)."""
+"""Bytes that all rows with mesh files may read together, a file counted for each row: a fixed number, and more for each
+byte that is stored (assumed: MuJoCo decodes a file again for every row, a megabyte in 0.2 s)."""
 
 # Whatever multiplies what it holds, and whatever makes a grid of that many cells.
 _COPIES = {"replicate": "count", "composite": "count", "flexcomp": "count"}
@@ -57,7 +57,7 @@ def check_files(path: Path, assets_root: Path) -> None:
     """Make sure that an MJCF file, and all that it names, may be given to MuJoCo.
 
     Raises: SceneFormatError: it is not well-formed XML, not MJCF, has a document type, or includes a file twice.
-    SceneError: a file is missing, too large or outside `assets_root`; the message tells the root that is needed.
+    SceneError: a file is missing, too large or outside `assets_root`; the message names the root that is needed.
     """
     root = assets_root.resolve()
     path = path.resolve()
@@ -77,7 +77,7 @@ class _Wanted(NamedTuple):
 
 @dataclass
 class _Totals:
-    """What the whole model comes to, with all models in it; a million small rows are as much as a large one."""
+    """Totals of the whole model, with all models in it, since a million small rows take as much as a large one."""
 
     cells: limits.Budget = field(
         default_factory=lambda: limits.Budget(
@@ -211,7 +211,7 @@ class _Model:
 
 @dataclass
 class _Reader:
-    """Walks through one XML file and tells its model what it names; `open_copies` has a row for each open element."""
+    """Reads one XML file and gives its model the named files; `open_copies` has a row for each open element."""
 
     model: _Model
     path: Path

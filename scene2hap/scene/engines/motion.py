@@ -1,4 +1,7 @@
-"""Which objects of a simulation really move: things at rest tremble, and each tremble has contacts looked for anew."""
+"""Select the objects of a simulation that really move.
+
+Objects at rest tremble in a simulation, and each moved pose makes the contact graph search for contacts again.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,7 @@ from operator import mul
 from scene2hap.scene.pose import Pose
 
 AT_REST_M, AT_REST_RAD = 1e-4, 1e-3
-"""What an object may move and turn by and still count as at rest (assumed: 0.1 mm, and that at 10 cm from the pivot;
+"""Largest motion and rotation of an object that counts as at rest (assumed: 0.1 mm, and that at 10 cm from the pivot;
 contacts are found to millimetres)."""
 
 
@@ -18,7 +21,7 @@ def moved(
 ) -> dict[str, Pose]:
     """The poses among `now` that differ from those `before`, or are new.
 
-    Parameters: by_m, by_rad : what an object may move and turn by and still count as at rest. Keep what counted as
+    Parameters: by_m, by_rad : largest motion and rotation that count as at rest. Keep the poses that counted as
         moved as the next `before`, so that slow motion adds up:
 
         changed = moved(poses(model, data), known)

@@ -6,7 +6,7 @@
 3. If a body has geoms that cannot collide (contype and conaffinity 0) and can be seen, these are its looks; if not, all
    its geoms are. Of the world's geoms, which are not drawn in pairs, those are left out that collide and are in groups
    3 to 5, which MuJoCo's viewer hides. `geom_groups` overrides both.
-4. An object's id is the name of the body (or world geom), unique in MuJoCo; one without a name is told by the id of
+4. An object's id is the name of the body (or world geom), unique in MuJoCo. Without a name, the id is made of that of
    the body that it hangs on and its place there: `cabinet/body2`, `world/geom1`. Its name is that too, unless a
    wrapper lends it one: a body without geoms that holds nothing else, and does not move against it (`microwave` over
    `microroot`), by the rule (c) of `scene2hap.scene.grouping`. Without any, the name of a geom or mesh in it serves.
@@ -63,7 +63,7 @@ def snapshot(
     model, data : `mujoco.MjModel` and `mujoco.MjData`.
     name : of the scene; None means the model's.
     geom_groups : the numbers of the groups that are drawn, instead of rule 3.
-    contacts : None finds contacts from geometry; "engine" takes those in `data.contact`. MuJoCo tells none between
+    contacts : None finds contacts from geometry; "engine" takes those in `data.contact`. MuJoCo has none between
         bodies that cannot move against each other, such as a kettle welded to its stove.
     masses : None has them inferred; "engine" takes `model.body_mass`, if its author gave masses: MuJoCo makes up those
         that are missing, as if all were solid water.
@@ -77,7 +77,7 @@ def snapshot(
         raise SceneError(f"contacts is {contacts!r}; it must be 'engine', or None to find them from geometry.")
     if masses not in (None, "engine"):
         raise SceneError(f"masses is {masses!r}; it must be 'engine', or None to have them inferred.")
-    items = _layout(mujoco, model, geom_groups, anew=True)
+    items = _layout(mujoco, model, geom_groups, read_again=True)
     limits.at_most("the number of objects", len(items.all), "MAX_OBJECTS")
     placed = _poses(model, data, items, unit_m)
     reader, maker = GeomReader(model), ObjectMaker("z", unit_m)
@@ -90,9 +90,9 @@ def snapshot(
     if not objects:
         why = "the model has no geoms" if geom_groups is None else f"no geom is in geom_groups {set(geom_groups)}"
         raise SceneError(f"{why}; nothing in it can be touched.")
-    told = None if contacts is None else _contacts(model, data, items, unit_m)
+    touching = None if contacts is None else _contacts(model, data, items, unit_m)
     title = name or model.names[: model.names.index(b"\0")].decode("utf-8", "replace") or "mujoco"
-    return SceneSnapshot(title, "z", with_relative_heights(objects, "z"), told)
+    return SceneSnapshot(title, "z", with_relative_heights(objects, "z"), touching)
 
 
 def poses(model: Any, data: Any, *, geom_groups: Collection[int] | None = None, unit_m: float = 1.0) -> PoseTable:
@@ -118,8 +118,8 @@ def geoms_below(model: Any, data: Any, body: str) -> NDArray[np.bool_]:
     named = {mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, k) or "": k for k in range(1, model.nbody)}
     named.pop("", None)
     if not isinstance(body, str) or body not in named:
-        told = checks.did_you_mean(body, named) if isinstance(body, str) else "Give the name of one body."
-        raise UnknownObject(f"the model has no body {checks.represented(body)}. {told}".rstrip())
+        hint = checks.did_you_mean(body, named) if isinstance(body, str) else "Give the name of one body."
+        raise UnknownObject(f"the model has no body {checks.represented(body)}. {hint}".rstrip())
     is_below = np.zeros(model.nbody, dtype=bool)
     is_below[named[body]] = True
     # MuJoCo numbers a body after the one that it hangs on.
@@ -144,7 +144,7 @@ def touched(
     geom_groups: Collection[int] | None = None,
     unit_m: float = 1.0,
 ) -> list[tuple[str, tuple[float, float, float]]]:
-    """Which objects the geoms of a part, as `geoms_below` tells them, touch now, and where [m]: one for each contact
+    """Objects that the geoms of a part, from `geoms_below`, touch now, and where [m]: one for each contact
     point with what is not of the part itself."""
     items = _layout(_engine(model, data), model, geom_groups)
     if not data.ncon:
@@ -172,7 +172,7 @@ def open_mjcf(path: str | os.PathLike[str], *, assets_root: str | os.PathLike[st
     Parameters: assets_root : the folder that all included files, meshes and textures must be in or below; None means
     the file's own folder. Nothing outside it is opened.
     Raises: MissingExtra: MuJoCo is not installed. SceneFormatError: the file is not MJCF, or MuJoCo refuses it.
-    SceneError: it is missing, too large, or wants a file outside assets_root (the message tells the root it needs).
+    SceneError: it is missing, too large, or wants a file outside assets_root (the message names the root it needs).
     """
     mujoco = engine("mujoco")
     path = Path(path)
@@ -181,11 +181,11 @@ def open_mjcf(path: str | os.PathLike[str], *, assets_root: str | os.PathLike[st
         with _silence(mujoco):
             model = mujoco.MjModel.from_xml_path(str(path.resolve()))
             data = mujoco.MjData(model)
-            # Enough for poses; contacts of a model that never moved would tell little, and may take minutes to find.
+            # Enough for poses; contacts of a model that never moved say little, and may take minutes to find.
             mujoco.mj_kinematics(model, data)
     except (ValueError, RuntimeError, MemoryError, mujoco.FatalError, mujoco.UnexpectedError) as cause:
-        told = " ".join(str(cause).split()).removeprefix("Error: ")
-        raise SceneFormatError(f"MuJoCo cannot read {path.name!r}: {told}.") from cause
+        reason = " ".join(str(cause).split()).removeprefix("Error: ")
+        raise SceneFormatError(f"MuJoCo cannot read {path.name!r}: {reason}.") from cause
     return model, data
 
 
@@ -245,13 +245,13 @@ class _Items:
 _layouts: WeakKeyDictionary[Any, dict[frozenset[int] | None, _Items]] = WeakKeyDictionary()
 
 
-def _layout(mujoco: Any, model: Any, geom_groups: Collection[int] | None, *, anew: bool = False) -> _Items:
-    """The items of a model; told anew for a snapshot, and as they were then for the frames that follow it."""
+def _layout(mujoco: Any, model: Any, geom_groups: Collection[int] | None, *, read_again: bool = False) -> _Items:
+    """The items of a model. A snapshot reads them again; the frames after it use the items of that snapshot."""
     if geom_groups is not None and (isinstance(geom_groups, str) or not isinstance(geom_groups, Collection)):
         raise SceneError(f"geom_groups is {geom_groups!r}; it must be a set of group numbers, such as {{1}}.")
     known = _layouts.setdefault(model, {})
     groups = None if geom_groups is None else frozenset(geom_groups)
-    if anew or groups not in known:
+    if read_again or groups not in known:
         known[groups] = _Items(_items(mujoco, model, groups))
     return known[groups]
 

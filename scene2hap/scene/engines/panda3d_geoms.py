@@ -1,6 +1,6 @@
 """Panda3D geoms as triangles with looks.
 
-Whatever layout, packing and kind of primitive a geom has, Panda3D itself is asked to turn it into triangles of 32-bit
+Geoms have many layouts, packings and kinds of primitives. Panda3D itself turns each geom into triangles of 32-bit
 floats, which are then read as one block of memory.
 
 Source: Panda3D manual, "Internal structures" (GeomVertexData, GeomPrimitive) and "Render attributes".

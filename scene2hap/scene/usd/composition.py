@@ -28,7 +28,7 @@ Key = tuple[str, Any]
 
 @dataclass
 class _Prim:
-    """What a layer says about a prim: its children, the largest child of each variant set, and its arcs."""
+    """A prim in a layer: its children, the largest child of each variant set, and its arcs."""
 
     children: list[Key] = field(default_factory=list)
     variants: list[list[Key]] = field(default_factory=list)

@@ -41,7 +41,7 @@ _CLIPS = ("clips", "clipSets")
 
 @dataclass(frozen=True)
 class _Home:
-    """What relative names in a layer start from: a folder, or one within an archive."""
+    """The base of relative names in a layer: a folder, or one within an archive."""
 
     folder: Path | str
     archive: Archive | None = None
@@ -134,7 +134,8 @@ class Layers:
         try:
             layer = Sdf.Layer.OpenAsAnonymous(where)
         except Tf.ErrorException as cause:
-            raise SceneFormatError(f"{name!r} cannot be read as USD: {told(cause).replace(where, name)}.") from cause
+            reason = reason_of(cause).replace(where, name)
+            raise SceneFormatError(f"{name!r} cannot be read as USD: {reason}.") from cause
         if layer is None:
             raise SceneFormatError(f"{name!r} cannot be read as USD: it is not what its name says.")
         self._kept.append(layer)
@@ -271,8 +272,8 @@ def _relative(path: str, folder: Path) -> str:
         return path
 
 
-def told(cause: Exception) -> str:
-    """What usd-core says about a file, in one line, without the places in its own source."""
+def reason_of(cause: Exception) -> str:
+    """The message of usd-core about a file, in one line, without the places in its own source."""
     said = " ".join(str(cause).split())
     quoted = re.search(r" : '(.*?)'(?: Error in|$)", said)
     return (quoted[1] if quoted else said)[:300].rstrip(". ")

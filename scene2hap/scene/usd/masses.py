@@ -1,4 +1,4 @@
-"""What the prims of a USD stage weigh, as far as the file says so.
+"""Masses of the prims of a USD stage, as far as the file has them.
 
 A mass of a prim is that of all below it, whatever is written there. Without one, density times volume counts: the
 density of the prim, else of the nearest prim above, else of its physics material. Volume is that of closed meshes

@@ -33,7 +33,7 @@ TIMED_OUT = "Timeout ("
 
 
 class Request(NamedTuple):
-    """What the child is to read, and the limits as the parent has them."""
+    """The file that the child reads, and the limits of the parent."""
 
     path: str
     assets_root: str

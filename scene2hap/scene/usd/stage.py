@@ -27,7 +27,7 @@ from scene2hap.scene import limits
 from scene2hap.scene.objects import UpAxis
 from scene2hap.scene.texture_files import TextureFiles
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
-from scene2hap.scene.usd.layers import Layers, told
+from scene2hap.scene.usd.layers import Layers, reason_of
 from scene2hap.scene.usd.masses import Masses
 from scene2hap.scene.usd.materials import UsdMaterials
 from scene2hap.scene.usd.meshes import Triangles, mesh_triangles, shape_triangles, subsets
@@ -62,7 +62,7 @@ def read_stage(
             raise
         # usd-core raises its own errors, and attributes may hold values of any type.
         except Exception as cause:
-            raise SceneFormatError(f"{path.name!r} cannot be read as USD: {told(cause)}.") from cause
+            raise SceneFormatError(f"{path.name!r} cannot be read as USD: {reason_of(cause)}.") from cause
         return AuthoredScene(roots, _up_axis(stage, path.name), _unit_m(stage, path.name), textures.left_out)
 
 
@@ -83,7 +83,7 @@ def _unit_m(stage: Any, name: str) -> float:
 
 @dataclass(frozen=True, eq=False)
 class _Above:
-    """What a prim takes over from those above it."""
+    """Properties that a prim inherits from the prims above it."""
 
     world: Matrix = field(default_factory=lambda: np.eye(4))
     purpose: str = "default"
@@ -214,7 +214,7 @@ class _Reader:
     # -- point instancers --------------------------------------------------------------------------------------------
 
     def _copies(self, instancer: Any, above: _Above) -> tuple[AuthoredNode, ...]:
-        """What a point instancer draws: each copy is one object."""
+        """The nodes of a point instancer: each copy is one object."""
         place = f"prim {instancer.GetPath()}"
         targets = instancer.GetPrototypesRel().GetForwardedTargets()
         prototypes = [self._stage.GetPrimAtPath(target) for target in targets]

@@ -25,7 +25,7 @@ def rest_time(attributes: Sequence[Any]) -> Any:
 
 
 def value(attribute: Any) -> Any:
-    """What an attribute holds; None if it does not exist or holds nothing."""
+    """The value of an attribute; None if it does not exist or is empty."""
     return attribute.Get(rest_time((attribute,))) if attribute else None
 
 
