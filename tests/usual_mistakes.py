@@ -405,7 +405,7 @@ TOPICS: dict[str, tuple[Mistake, ...]] = {
         python("session.snapshot()", "callable"),
         python("ContactGraph(scene).update()", "moved"),
     ),
-    "Other values than asked for": (
+    "Other values than expected": (
         mistake("load_scene(b'kitchen.glb')", "b'kitchen.glb'", "path"),
         mistake("load_scene('kitchen.glb', assets_root=3)", "assets_root", "3"),
         mistake("bake(scene, {'llm': lambda request: None})", "function", "FunctionBackend"),
