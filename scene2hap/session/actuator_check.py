@@ -14,7 +14,7 @@ class OtherActuatorWarning(UserWarning):
 
 
 def warn_if_other(bundle: HapticBundle, actuator: ActuatorProfile) -> None:
-    """Warn, by `OtherActuatorWarning`, if the loops of a bundle were made for an actuator that answers otherwise.
+    """Warn, by `OtherActuatorWarning`, if the loops of a bundle were made for an actuator of another response.
 
     Limits of amplitude and power do not count: they are the safety layer's, and no loop is made by them. A bundle
     without a record of its actuator, or without loops, fits any.

@@ -20,7 +20,7 @@ from scene2hap.session.config import SkipConfig
 from scene2hap.session.counts import Counts
 
 BELOW_THRESHOLD_DB = 10.0
-"""How far below the threshold of touch everything stays that is left out of a hand's mix."""
+"""Margin of everything that is left out of a hand's mix below the threshold of touch."""
 SILENT = 1e-7
 """Peak re full scale below which a band counts as silent."""
 

@@ -18,20 +18,20 @@ from scene2hap.contact.junction import Junction
 from scene2hap.scene.pose import Pose
 
 WINDOW_S, MOST_STEPS = 0.05, 8
-"""Over which a speed is measured."""
+"""Time and number of updates over which a speed is measured."""
 LEAST_TRAVEL_M = 0.004
-"""On one way: what jitters by a millimetre to each side of three axes never goes so far."""
+"""Shortest fall in one direction: an object that jitters by a millimetre along three axes never moves so far."""
 LEAST_SPEED_M_S = 0.1
 """A cup put down more slowly is as good as not felt, and trackers shake as fast."""
 FASTEST_M_S = 10.0
-"""Faster is no fall (5 m) but something that the game puts elsewhere."""
+"""A faster motion is no fall (5 m): the game has moved the object elsewhere."""
 LEFT = 0.3
-"""Share of its speed that something still has, at most, after it landed."""
+"""Largest share of its speed that an object keeps after it landed."""
 HEAD_ON = 0.5
-"""Share of its travel along the normal of a contact, at least: what slides along does not land."""
+"""Smallest share of its travel along the normal of a contact: an object that slides along does not land."""
 _SUDDEN = ((1 - LEFT) * HEAD_ON) ** 2
 MOST_MOVING = 100
-"""Objects followed at once; what moves beside so many others is no event of its own."""
+"""Objects followed at once; among so many moving objects a single landing is not noticed."""
 
 Vector = tuple[float, float, float]
 
@@ -52,7 +52,7 @@ class _Step(NamedTuple):
 
 
 class _Track:
-    """A moving object: its latest steps, where it last turned or landed and went one way since, and its last step.
+    """A moving object: its latest steps, the start of its present motion in one direction, and its last step.
 
     stride : updates from one step to the next.
     """
@@ -64,13 +64,13 @@ class _Track:
         self.turn(step.update, step.pose.position_m)
 
     def turn(self, update: int, position_m: Vector) -> None:
-        """Begin another way."""
+        """Begin a motion in another direction."""
         self.since, self.n_steps, self.origin_m = update, 0, position_m
         self.position_m, self.step_m = position_m, (0.0, 0.0, 0.0)
 
     @property
     def is_falling(self) -> bool:
-        """Whether it went on one way, far enough; a single step is something that the game put elsewhere."""
+        """Whether it moved far enough in one direction; in a single step the game has moved it elsewhere."""
         return self.n_steps > 1 and math.dist(self.origin_m, self.position_m) >= LEAST_TRAVEL_M
 
     def is_sudden(self, onward: Vector) -> bool:
@@ -80,7 +80,7 @@ class _Track:
         return x * x + y * y + z * z >= _SUDDEN * (u * u + v * v + w * w) and self.is_falling
 
     def follow(self, step: _Step, onward: Vector) -> None:
-        """Take in a step."""
+        """Add a step."""
         steps = self.steps
         last = steps[-1].update
         (x, y, z), (u, v, w) = onward, self.step_m
@@ -93,18 +93,18 @@ class _Track:
             del steps[:-MOST_STEPS]
 
     def run(self) -> list[_Step]:
-        """The steps one way, of the latest time."""
+        """The latest steps in one direction."""
         end_s = self.steps[-1].time_s
         kept = [x for x in self.steps[-MOST_STEPS:] if x.update >= self.since and end_s - x.time_s <= WINDOW_S]
         return kept if len(kept) > 1 else self.steps[-2:]
 
     def pose_at(self, update: int) -> Pose:
-        """Where the object was after an update, or as soon after as is known."""
+        """Pose of the object after an update, or the first known one after it."""
         return next((one.pose for one in self.steps if one.update >= update), self.steps[-1].pose)
 
 
 class Landings:
-    """Follows what moves.
+    """Follows moving objects, and finds those that land.
 
     Parameters: graph : the contacts, read at each `look`; middle_m : of an object's box, in its own frame [m];
     period_s : usual time between updates, for a clock that stands still.
@@ -116,7 +116,7 @@ class Landings:
         self._n_updates = 0
 
     def begin(self, moved: Mapping[str, Pose], time_s: float) -> None:
-        """Take note of where the objects are that are about to move; before the graph does."""
+        """Keep the poses of the objects that are about to move. Call it before the graph moves."""
         tracks = self._tracks
         for object_id in moved:
             if object_id not in tracks and len(tracks) < MOST_MOVING and object_id in self._graph:
@@ -178,7 +178,7 @@ class Landings:
         return [Landing(object_id, *best, speed)] if LEAST_SPEED_M_S <= speed <= FASTEST_M_S else []
 
     def _nearing(self, object_id: str, other: str, point_m: Vector, since: int, until: int) -> Vector:
-        """How far what is at a point now went between two updates, as part of an object, re another one [m]."""
+        """Travel of a point of an object between two updates, relative to another object [m]."""
         x, y, z = self._went(object_id, point_m, since, until)
         a, b, c = self._went(other, point_m, since, until)
         return x - a, y - b, z - c
@@ -196,7 +196,7 @@ class Landings:
         return x, y, z
 
     def _normal(self, object_id: str, other: str, point_m: Vector, junction: Junction) -> Vector:
-        """From the object to the other; where the contact has none, from the object's middle to the contact."""
+        """Normal from the object to the other; without one, the direction from the object's middle to the contact."""
         for normal in junction.normals:
             if normal is not None:
                 x, y, z = normal

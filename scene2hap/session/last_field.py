@@ -92,7 +92,7 @@ def put_together(
     among: Sequence[frozenset[int] | None],
     shape: tuple[int, int],
 ) -> Gains:
-    """The rows (n, *shape) of several answers, each of which has some of them.
+    """Join the results of several queries into rows (n, *shape).
 
     Parameters: answers : of so many rows, each (n_own, n_theirs, n_bands); columns : which of ours are known, and where
     they are among theirs; among : for each row the columns of ours that may be other than 0, None for all.
@@ -109,7 +109,7 @@ def put_together(
 
 @lru_cache(maxsize=64)
 def _shared(ours: tuple[str, ...], theirs: tuple[str, ...]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Where the ids that both have are in ours, and where in theirs."""
+    """Columns of the ids that both have: in ours, and in theirs."""
     column = {source_id: i for i, source_id in enumerate(ours)}
     pairs = [(column[x], there) for there, x in enumerate(theirs) if x in column]
     here, there = np.array(pairs, dtype=np.intp).reshape(-1, 2).T.copy()

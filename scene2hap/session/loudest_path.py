@@ -26,7 +26,7 @@ class LoudestPath:
     entries: tuple[Point, ...] = ()
 
     def on(self, object_id: str, entry: Point) -> LoudestPath:
-        """One object further."""
+        """Extend the path by one object."""
         return LoudestPath((*self.objects, object_id), (*self.entries, entry))
 
 

@@ -1,4 +1,4 @@
-"""One mixer of a session, which has several once hands or many loops came while it played."""
+"""One mixer of a session. A session gets further mixers if hands or many loops come while it plays."""
 
 from __future__ import annotations
 

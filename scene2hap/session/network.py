@@ -17,7 +17,7 @@ from scene2hap.session.furniture import ASSEMBLED_LOSS, is_assembled
 from scene2hap.session.sources import LoopRow
 
 UNKNOWN_MASS_KG = 1.0
-"""Mass of a source of which neither mass nor material is known."""
+"""Mass of a source without known mass and material."""
 
 
 def body_of(haptics: ObjectHaptics | None, surface: DominantSurface | None = None) -> Plate | None:

@@ -71,8 +71,10 @@ class PersonalLimit:
 
 
 def _frequencies_hz(rows: Sequence[LoopRow], bands: Bands) -> NDArray[np.float64]:
-    """Where each source is felt in each band (n_sources, n_bands) [Hz]: at its own frequency in the band that holds it,
-    at the middle of others."""
+    """The frequency at which each source is felt in each band (n_sources, n_bands) [Hz].
+
+    It is the source's own frequency in the band that holds it, and the middle of each other band.
+    """
     own = np.array([row.loop.frequency_tactile_hz for row in rows], dtype=np.float64).reshape(-1, 1)
     widths = bands.widths_hz()
     if not len(widths):

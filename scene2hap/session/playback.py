@@ -119,7 +119,7 @@ class Playback:
         return np.array(found, dtype=np.float32).reshape(len(rows), 2, n_bands)
 
     def take_prepared(self) -> bool:
-        """Let in the loops that the worker has prepared by now, silent until gains are set again; false for none."""
+        """Add the loops that the worker has prepared by now, silent until gains are set again; false for none."""
         ready = [row for row, loop in self._coming.items() if loop.done()]
         for row in ready:
             self._let_in(row, self._coming.pop(row).result(), len(ready))
@@ -176,7 +176,7 @@ class Playback:
         return mixer, None if len(own) == len(rows) else own, slots, outputs.tolist(), None if is_alone else channels
 
     def change_rows(self, rows: Sequence[LoopRow], at_frame: int) -> None:
-        """Go on with other rows; what is not among them any more is faded out.
+        """Play other rows; rows that are no longer among them are faded out.
 
         Loops that nobody has prepared yet come later, see `take_prepared`, unless preparing is to block.
         """

@@ -24,7 +24,7 @@ from scene2hap.render.loop_bank import LoopBank
 from scene2hap.session.peaks import peaks_of
 
 KEPT_BYTES = 32 * 2**20
-"""Memory of loops that are kept though nobody uses them."""
+"""Memory of unused loops that are kept."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +50,7 @@ def find(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop | 
 
 
 def prepare(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop:
-    """A clip's loop, made here and now unless one of the same content is there."""
+    """A clip's loop, made at once unless one of the same content is kept."""
     found = find(clip, bands, tactile_rate_hz)
     if found is not None:
         return found
@@ -67,7 +67,7 @@ def prepare(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop
 
 
 def order(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> Future[PreparedLoop]:
-    """Have a worker prepare a clip's loop."""
+    """Let a worker prepare a clip's loop."""
     return _worker().submit(prepare, clip, bands, tactile_rate_hz)
 
 

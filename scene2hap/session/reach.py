@@ -19,7 +19,7 @@ _NONE: frozenset[int] = frozenset()
 
 
 class _Group:
-    """Objects that hang together, at least two, and the columns of the sources among them."""
+    """A connected component of the contact graph, of at least two objects, and the columns of its sources."""
 
     __slots__ = ("members", "sources")
 
@@ -33,7 +33,7 @@ class _Group:
 
 
 class _Search:
-    """A walk from an end of a contact that went.
+    """A graph search from one end of a contact that vanished.
 
     `waiting` is a heap of degrees and ids, `cost` how many contacts it has looked at.
     """
@@ -45,12 +45,12 @@ class _Search:
 
     @property
     def next_cost(self) -> int:
-        """How many contacts it will have looked at after one more step."""
+        """Number of contacts that the search has looked at after one more step."""
         return self.cost + self.waiting[0][0]
 
 
 class Reach:
-    """The groups of objects that hang together, and the sources in each.
+    """Connected components of the contact graph, and the sources in each, kept up to date incrementally.
 
     Parameters: beside : what each object touches, with whatever weight, since that may change; read again by `follow`;
     carriers : ids of all that may pass vibration on, sources included.
@@ -66,7 +66,7 @@ class Reach:
                 self._found(x)
 
     def follow(self, change: ContactChange) -> None:
-        """Take in contacts that came and went; `beside` is as it is after."""
+        """Apply a change of contacts; `beside` already has the new ones."""
         for a, b in change.appeared:
             self._join(a, b)
         ends: dict[_Group, set[str]] = {}
@@ -88,12 +88,12 @@ class Reach:
         return group is not None and bool(group.sources)
 
     def sources(self, object_id: str) -> frozenset[int]:
-        """The columns of the sources that hang together with an object."""
+        """The columns of the sources that are connected with an object."""
         group = self._group.get(object_id)
         return _NONE if group is None else group.sources
 
     def concerns(self, change: ContactChange) -> bool:
-        """Whether a source reaches an object of these contacts."""
+        """Whether a source reaches an object of the changed contacts."""
         for pairs in (change.shifted, change.appeared, change.vanished):
             for a, b in pairs:
                 if self.has(a) or self.has(b):
@@ -102,7 +102,7 @@ class Reach:
 
     @property
     def objects(self) -> set[str]:
-        """All that a source reaches over contacts, sources in contact included."""
+        """All objects that a source reaches over contacts, sources in contact included."""
         return set().union(*(group.members for group in self._groups_with_sources()))
 
     def objects_near(self, object_ids: Iterable[str]) -> set[str]:
@@ -111,14 +111,14 @@ class Reach:
         return set().union(*(group.members for group in near if group.sources))
 
     def n_without(self, others: Iterable[str]) -> int:
-        """How many objects a source reaches over contacts, some sources left out."""
+        """Number of objects that a source reaches over contacts, without some sources."""
         return self._n_reached - sum([x in self._group for x in others])
 
     def _groups_with_sources(self) -> set[_Group]:
         return {self._group[x] for x in self._column if x in self._group}
 
     def _found(self, x: str) -> None:
-        """Group all that hangs together with an object."""
+        """Make the group of all objects that are connected with an object."""
         beside, carriers = self._beside, self._carriers
         members, waiting = {x}, [x]
         while waiting:
@@ -156,11 +156,10 @@ class Reach:
         self._n_reached += one.n_reached
 
     def _part(self, group: _Group, starts: Iterable[str]) -> None:
-        """Search from all starts, the cheapest first. Searches that meet go on as one; what one that ends has seen is a
-        group.
+        """Split a group after contacts vanished: search from all starts, the cheapest search first.
 
-        Each part of the former group has a start, so that the last search, which need not be led to its end, has the
-        rest.
+        Searches that meet are joined. The objects that a finished search has seen are a group. Each part of the former
+        group has a start, so that the last search need not finish: the remaining objects are its group.
         """
         self._n_reached -= group.n_reached
         owner = {start: _Search(start, self._degree(start)) for start in starts}

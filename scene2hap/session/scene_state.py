@@ -43,7 +43,7 @@ class SceneState:
 
     @property
     def snapshot(self) -> SceneSnapshot:
-        """The scene as it is now."""
+        """The present scene."""
         scene = SceneSnapshot(self._scene.name, self._scene.up_axis, tuple(self.objects.values()))
         return scene.with_poses(self.graph.poses)
 
@@ -71,7 +71,7 @@ class SceneState:
         return haptics.object_category if haptics is not None else ""
 
     def add(self, item: SceneObject, haptics: ObjectHaptics | None) -> ContactChange:
-        """Put in an object. Raises: SceneError: its id is taken."""
+        """Add an object. Raises: SceneError: its id is taken."""
         body = self._body(item, haptics)
         change = self.graph.update({}, added=[item])
         self.objects = _with(self.objects, item.id, item)
@@ -84,7 +84,7 @@ class SceneState:
         return body_of(haptics, item.surface if self._follows_outlines else None)
 
     def remove(self, object_id: str) -> ContactChange:
-        """Take out an object. Raises: UnknownObject."""
+        """Remove an object. Raises: UnknownObject."""
         change = self.graph.update({}, removed=[object_id])
         self.objects = _with(self.objects, object_id, None)
         self.ids = frozenset(self.objects)
@@ -95,7 +95,7 @@ class SceneState:
         return change
 
     def middle_m(self, object_id: str) -> tuple[float, float, float]:
-        """Of the box around an object, in its own frame [m]."""
+        """Centre of the box around an object, in its own frame [m]."""
         x, y, z = self.objects[object_id].geometry.mesh.bounds_m.mean(axis=0).tolist()
         return x, y, z
 
@@ -136,7 +136,7 @@ class SceneState:
 
 
 class _Spelling:
-    """Contacts spelled out; those of a junction that is still the same are remembered."""
+    """Makes contacts of junctions, and keeps those of junctions that have not changed."""
 
     def __init__(self) -> None:
         self._known: dict[Pair, tuple[Junction, tuple[Contact, ...]]] = {}

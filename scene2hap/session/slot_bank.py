@@ -13,9 +13,9 @@ from scene2hap.render.loop_bank import Block, LoopBank, read
 
 
 class SlotBank(LoopBank):
-    """A `LoopBank` of places.
+    """A `LoopBank` of slots.
 
-    Parameters: slots : a bank of one loop for each place, None for an empty one; shift : tactile samples by which the
+    Parameters: slots : a bank of one loop for each slot, None for an empty one; shift : tactile samples by which the
     clock of its mixer lags the session's.
     """
 
@@ -25,7 +25,7 @@ class SlotBank(LoopBank):
         self._bands, self._shift = bands, shift
 
     def shifted(self, shift: int) -> SlotBank:
-        """The same places, for a mixer that began that many tactile samples after the session."""
+        """The same slots, for a mixer that began so many tactile samples after the session."""
         return SlotBank(self.slots, self._bands, self.sample_rate_hz, shift)
 
     def __len__(self) -> int:

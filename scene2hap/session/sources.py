@@ -27,7 +27,7 @@ class Level:
     is_muted: bool = False
 
     def set(self, gain_db: float | None, mute: bool | None) -> None:
-        """Turn what is not None. Raises: SessionError: the gain is out of bounds."""
+        """Set the arguments that are not None. Raises: SessionError: the gain is out of bounds."""
         if gain_db is not None:
             hint = "Use mute for silence."
             bounded = checks.number("gain_db", gain_db, "dB", at_most=MAX_GAIN_DB, error=SessionError, hint=hint)
@@ -115,7 +115,7 @@ class Sources:
         *,
         is_muted: bool = False,
     ) -> None:
-        """Take in a source with a loop for each of its states, at least one."""
+        """Add a source with a loop for each of its states, at least one."""
         rows = {state: LoopRow(object_id, state, loop) for state, loop in loops.items()}
         inferred = {state.name: state for state in haptics.states} if haptics is not None else {}
         needs = {name: state.needs_contact for name, state in inferred.items()}
@@ -170,7 +170,7 @@ class Sources:
         return self._active_rows
 
     def set(self, source_id: str, on: bool | None, state: str | None, gain_db: float | None, mute: bool | None) -> bool:
-        """Change what is not None; true if the source is in another state then.
+        """Set the arguments that are not None; true if the source is in another state then.
 
         Raises: UnknownObject; SessionError: it has no such state, or the gain is out of bounds.
         """

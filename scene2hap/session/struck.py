@@ -68,7 +68,7 @@ def struck_later(
 
 
 def _at_least_itself(gains: Floats, object_id: str, hands: Sequence[Sequence[TouchedPoint]]) -> Floats:
-    """Where a model lets nothing pass, or knows no material, the struck object itself is felt."""
+    """Set gain 1 at hands on the struck object whose gains are all 0, since the impact itself is always felt."""
     for row, hand in zip(gains, hands, strict=True):
         if not row.any() and any(touched_id == object_id for touched_id, _ in hand):
             row[:] = 1.0
