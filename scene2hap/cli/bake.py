@@ -2,7 +2,7 @@
 
 Without settings it works offline: a lexicon of everyday objects reads the authored names, and a synthesizer makes the
 sounds. `--llm openai:gpt-4o` or `--llm local:qwen2.5vl` uses a model that sees pictures. A settings file (TOML or JSON)
-with a table [bake] chooses all other parts. What a bundle's user has overridden stays when it is baked again.
+with a table [bake] chooses all other parts. Overrides in a bundle stay when it is baked again.
 BUNDLE.account.json has calls, tokens, cost and skips, for `scene2hap report`.
 """
 
