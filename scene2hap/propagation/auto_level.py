@@ -89,5 +89,6 @@ def _receptance(
     could_be_first = 36.0 * max(plate.length_m / plate.width_m, plate.width_m / plate.length_m)
     if n_rigid_motions(plate) == 0 and omega[0] < could_be_first / (plate.length_m * plate.width_m) * math.sqrt(D / m):
         below = (2 * math.pi * first_bending_hz(plate)) ** 2 - omega**2
-        bound = np.minimum(bound, np.where(below > 0, 5.2 / (mass * np.maximum(below, 1e-300)), np.inf))
+        is_below = below > 0
+        bound = np.where(is_below, np.minimum(bound, 5.2 / (mass * np.where(is_below, below, 1.0))), bound)
     return bound

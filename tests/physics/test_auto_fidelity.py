@@ -49,6 +49,18 @@ def test_it_keeps_its_tolerance_on_furniture() -> None:
     assert len(rungs) >= 3
 
 
+def test_a_foil_above_its_first_resonance_has_a_level_without_overflow() -> None:
+    """A held foil of nanograms: what is below its first resonance must not be worked out above it."""
+    foil = Plate(0.034, 0.00048, 2.5e-6, replace(OAK, density_kg_m3=120.0), "CCFF")
+    bands = Bands.dominant()
+    with np.errstate(all="raise", under="ignore"):
+        for f in (10.0, 400.0, 900.0):
+            scene = assemble(*phone_on(foil), bands, ContactLaw(), "ignore")
+            joints = [joint for _, several in scene.groups for joint in several]
+            level = peak_level_db(foil, 0.05, [(0.2, joints)], [(0.01, 0.0002)], bands, [f])
+            assert np.isfinite(level)
+
+
 def test_no_gain_exceeds_the_level_that_is_promised() -> None:
     for one in furniture(30):
         scene = assemble(one.network, one.excitations, one.bands, ContactLaw(), "ignore")
