@@ -107,6 +107,7 @@ FIGURES = {
     "sound-card-hour": Figure("actuators", "stress/soak.py", 60, has_times=True, is_text=True, needs="sound server"),
     "masses": Figure("inference", "benchmarks/masses.py", 1, needs="scenes"),
     "coupled": Figure("accuracy", "benchmarks/coupled.py", 5),
+    "hand": Figure("propagation", "benchmarks/hand.py", 1, has_times=True),
     "outlines": Figure("accuracy", "benchmarks/outlines.py", 2, has_times=True),
     "auto-scenes": Figure(
         "propagation",

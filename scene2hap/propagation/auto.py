@@ -29,6 +29,7 @@ from scene2hap.propagation.auto_rungs import Choice, Situation, body_of
 from scene2hap.propagation.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupling import ElasticBody, Joint
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, warn_if_thick
+from scene2hap.propagation.hand import Hand, checked_hand
 from scene2hap.propagation.modes import n_rigid_motions, points_on
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
@@ -56,7 +57,7 @@ class AutoFidelity:
 
     Parameters: tolerance_db : 0.1..6 [dB], error of a band's gain that is allowed, against `ModalPlate`; gains below
     -40 dB re the source count as -40 dB. It held in 99.7 % of 1,570 touches in real scenes (docs/propagation.md).
-    loss_floor, contact, outside_domain : as of `ModalPlate`.
+    loss_floor, contact, outside_domain, hand : as of `ModalPlate`.
     Raises: ConfigError: out of bounds.
     """
 
@@ -64,6 +65,7 @@ class AutoFidelity:
     loss_floor: float = 0.01
     contact: ContactLaw = field(default_factory=ContactLaw)
     outside_domain: OutsideDomain = "warn"
+    hand: Hand | None = None
     kind: Literal["auto"] = "auto"
     least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
     usual_bands: ClassVar[Bands] = AROUND
@@ -72,6 +74,7 @@ class AutoFidelity:
     def __post_init__(self) -> None:
         checks.number("tolerance_db", self.tolerance_db, "dB", at_least=0.1, at_most=6.0, error=ConfigError)
         object.__setattr__(self, "contact", checked_law(self.contact, self.outside_domain, self.loss_floor))
+        object.__setattr__(self, "hand", checked_hand(self.hand))
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> AutoField:
         """The field of a scene; `AutoField.choices` holds each object's rung. Errors, warnings: as of `ModalPlate`."""
@@ -83,7 +86,7 @@ class AutoFidelity:
             key: body_of(choices[key].rung, plate, scene.top_hz, self._loss_factor(plate))
             for key, plate in scene.plates.items()
         }
-        solved = scene.solve(elastic, self._density())
+        solved = scene.solve(elastic, self._density(), self.hand)
         return AutoField(
             solved.source_ids,
             solved.bands,

@@ -119,7 +119,8 @@ class JointForces:
     """The forces g in all joints, for each source.
 
     bodies, joints, source_ids : as given; frequencies_hz : (n_f,) [Hz]; forces : (n_f, n_joints, n_sources) [N/m], on
-    b from a, per unit of the source's free deflection; ends : as of `ends_of`.
+    b from a, per unit of the source's free deflection; ends : as of `ends_of`; receptances : of each body among its
+    joints (n_f, n_ends, n_ends) [m/N].
     """
 
     bodies: Mapping[str, ElasticBody]
@@ -128,6 +129,7 @@ class JointForces:
     frequencies_hz: NDArray[np.float64]
     forces: NDArray[np.complex128]
     ends: Mapping[str, Ends]
+    receptances: Mapping[str, NDArray[np.complex128]]
 
     def deflection(self, body_id: str, points_m: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Deflection of a body per free deflection of each source, its own free motion included.
@@ -144,6 +146,19 @@ class JointForces:
         if body_id in self.source_ids:
             moved[:, :, self.source_ids.index(body_id)] += 1.0
         return moved
+
+    def holding(self, body_id: str) -> NDArray[np.complex128]:
+        """H, with what forces all else holds a body at its joints, per free deflection at each of them.
+
+            Y_coupled(x, x') = Y(x, x') - Y(x, x_j) H Y(x_j, x')
+
+        All joints are solved again. Returns: (n_frequencies, n_own, n_own) complex128 [N/m], in the order of its ends.
+        """
+        own = self.ends[body_id]
+        free = np.zeros((len(self.joints), len(own.rows)))
+        free[own.rows, np.arange(len(own.rows))] = own.signs
+        forces = _forces(self.receptances, self.ends, self.joints, free, self.frequencies_hz)
+        return own.signs[:, None] * forces[:, own.rows]
 
 
 def couple(
@@ -170,7 +185,7 @@ def couple(
         body_id: bodies[body_id].receptance(own.points_m, own.points_m, frequencies_hz) for body_id, own in ends.items()
     }
     forces = solve_joints(receptances, ends, joints, source_ids, frequencies_hz)
-    return JointForces(bodies, tuple(joints), tuple(source_ids), frequencies_hz, forces, ends)
+    return JointForces(bodies, tuple(joints), tuple(source_ids), frequencies_hz, forces, ends, receptances)
 
 
 def ends_of(joints: Sequence[Joint]) -> dict[str, Ends]:
@@ -201,11 +216,22 @@ def solve_joints(
     frequencies_hz: NDArray[np.float64],
 ) -> NDArray[np.complex128]:
     """Forces (n_f, n_joints, n_sources) from the receptance of each body at its joints (n_f, n_ends, n_ends)."""
-    if not joints:
-        return np.zeros((len(frequencies_hz), 0, len(source_ids)), dtype=np.complex128)
     free = np.zeros((len(joints), len(source_ids)))
     for column, source_id in enumerate(source_ids):
         if source_id in ends:
             free[ends[source_id].rows, column] = ends[source_id].signs
+    return _forces(receptances, ends, joints, free, frequencies_hz)
+
+
+def _forces(
+    receptances: Mapping[str, NDArray[np.complex128]],
+    ends: Mapping[str, Ends],
+    joints: Sequence[Joint],
+    free: NDArray[np.float64],
+    frequencies_hz: NDArray[np.float64],
+) -> NDArray[np.complex128]:
+    """Forces (n_f, n_joints, n) for free deflections across the joints (n_joints, n)."""
+    if not joints:
+        return np.zeros((len(frequencies_hz), *free.shape), dtype=np.complex128)
     elements = [Element(own.rows, own.signs, receptances[body_id]) for body_id, own in ends.items()]
     return solve(elements, compliances_m_n(joints, frequencies_hz), free).transpose(2, 0, 1)

@@ -27,6 +27,7 @@ from scene2hap.calls import clear_construction
 from scene2hap.haptics import Bands
 from scene2hap.propagation.contact_stiffness import ContactLaw
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, warn_if_thick
+from scene2hap.propagation.hand import Hand, checked_hand
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
@@ -76,25 +77,29 @@ class InfinitePlate:
 
     Parameters: contact : stiffness of contacts, or its settings; outside_domain : what to do about an object of a scene
     that is thicker than thin-plate theory allows (`domain.THIN_WAVELENGTHS`): "warn" once per object, "raise" or
-    "ignore".
+    "ignore"; hand : as of `ModalPlate`.
     Raises: ConfigError: out of bounds.
     """
 
     contact: ContactLaw = field(default_factory=ContactLaw)
     outside_domain: OutsideDomain = "warn"
+    hand: Hand | None = None
     kind: Literal["infinite_plate"] = "infinite_plate"
     least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
     usual_bands: ClassVar[Bands] = AROUND
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "contact", checked_law(self.contact, self.outside_domain))
+        object.__setattr__(self, "hand", checked_hand(self.hand))
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> CoupledField:
         """The field of a scene: all bodies coupled at their contacts, see `substructuring`.
 
         Raises: ModelDomainError: an object outside the domain, if so configured. Warns: ThinPlateWarning, otherwise.
         """
-        return prepare_coupled(network, excitations, bands, self.elastic_body, self.contact, self.outside_domain)
+        return prepare_coupled(
+            network, excitations, bands, self.elastic_body, self.contact, self.outside_domain, hand=self.hand
+        )
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> InfiniteBody:
         """A plate, ready to be coupled at any frequency."""

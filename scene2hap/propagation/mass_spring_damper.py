@@ -36,6 +36,7 @@ from scene2hap.propagation.domain import (
     driven_on_held_edge,
     warn_if_thick,
 )
+from scene2hap.propagation.hand import Hand, checked_hand
 from scene2hap.propagation.infinite_plate import InfiniteBody
 from scene2hap.propagation.lattice_body import lattice_body
 from scene2hap.propagation.lattice_modes import (
@@ -70,7 +71,8 @@ class MassSpringDamper:
     """The bending lattice of a plate.
 
     Parameters: resolution : fewest cells along the shorter side, 4..256; a plate whose waves are shorter than
-    `CELLS_PER_WAVE` of them gets as many as they need; loss_floor, contact, outside_domain : as of `ModalPlate`.
+    `CELLS_PER_WAVE` of them gets as many as they need; loss_floor, contact, outside_domain, hand : as of
+    `ModalPlate`.
     Raises: ConfigError: out of bounds.
     """
 
@@ -78,6 +80,7 @@ class MassSpringDamper:
     loss_floor: float = 0.01
     contact: ContactLaw = field(default_factory=ContactLaw)
     outside_domain: OutsideDomain = "warn"
+    hand: Hand | None = None
     kind: Literal["mass_spring_damper"] = "mass_spring_damper"
     least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
     usual_bands: ClassVar[Bands] = AROUND
@@ -89,6 +92,7 @@ class MassSpringDamper:
             raise ConfigError(f"resolution is {cells:g} cells; it must be a whole number, as 8.")
         object.__setattr__(self, "resolution", int(cells))
         object.__setattr__(self, "contact", checked_law(self.contact, self.outside_domain, self.loss_floor))
+        object.__setattr__(self, "hand", checked_hand(self.hand))
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> CoupledField:
         """The field of a scene: all lattices coupled at their contacts, see `substructuring`.
@@ -97,7 +101,9 @@ class MassSpringDamper:
         outside the domain, or a plate that is coarsened (`elastic_body`), if so configured. Warns: ThinPlateWarning,
         CoarsenedWarning, otherwise.
         """
-        return prepare_coupled(network, excitations, bands, self.elastic_body, self.contact, self.outside_domain)
+        return prepare_coupled(
+            network, excitations, bands, self.elastic_body, self.contact, self.outside_domain, hand=self.hand
+        )
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
         """A plate, ready to be coupled, for frequencies up to `max_frequency_hz` [Hz]; see `lattice_body`.

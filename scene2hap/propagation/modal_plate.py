@@ -32,6 +32,7 @@ from scene2hap.propagation.domain import (
     driven_on_held_edge,
     warn_if_thick,
 )
+from scene2hap.propagation.hand import Hand, checked_hand
 from scene2hap.propagation.modal_body import modal_body
 from scene2hap.propagation.modes import MARGIN, n_rigid_motions, plate_modes, points_on
 from scene2hap.propagation.near_field import NearField
@@ -50,19 +51,22 @@ class ModalPlate:
     Parameters: loss_floor : 0..2 [-], smallest loss factor of a plate. Tables give the loss of the bare material, 1e-4
     for a metal, while joints and supports bring assembled objects to 0.005-0.02; the default 0.01 lies between.
     contact : stiffness of contacts, or its settings; outside_domain : what to do about an object of a scene that is
-    thicker than thin-plate theory allows (`domain.THIN_WAVELENGTHS`): "warn" once per object, "raise" or "ignore".
+    thicker than thin-plate theory allows (`domain.THIN_WAVELENGTHS`): "warn" once per object, "raise" or "ignore"; hand
+    : what loads an object where it is touched: "palm", "fingertip", a `Hand` or its settings, None for nothing.
     Raises: ConfigError: out of bounds.
     """
 
     loss_floor: float = 0.01
     contact: ContactLaw = field(default_factory=ContactLaw)
     outside_domain: OutsideDomain = "warn"
+    hand: Hand | None = None
     kind: Literal["modal_plate"] = "modal_plate"
     least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
     usual_bands: ClassVar[Bands] = AROUND
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "contact", checked_law(self.contact, self.outside_domain, self.loss_floor))
+        object.__setattr__(self, "hand", checked_hand(self.hand))
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> CoupledField:
         """The field of a scene: all bodies coupled at their contacts, see `substructuring`.
@@ -70,7 +74,9 @@ class ModalPlate:
         Raises: ModelDomainError: too many modes (`plate_modes`); no loss at all, since a resonance is then infinite;
         an object outside the domain, if so configured. Warns: ThinPlateWarning, otherwise.
         """
-        return prepare_coupled(network, excitations, bands, self.elastic_body, self.contact, self.outside_domain)
+        return prepare_coupled(
+            network, excitations, bands, self.elastic_body, self.contact, self.outside_domain, hand=self.hand
+        )
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
         """A plate, ready to be coupled, for frequencies up to `max_frequency_hz` [Hz]; see `modal_body`."""

@@ -5,7 +5,8 @@
 If each source has one frequency, everything that does not depend on x is summed over the contacts on the first touch
 (`contracted`), so a touch costs the same for any number of contacts. In bands a touch takes a product of small
 matrices for every frequency, until the object is expected to be touched often: then the sum over contacts and
-frequencies is computed in advance (`band_shapes`), which takes as long as some dozen touches.
+frequencies is computed in advance (`band_shapes`), which takes as long as some dozen touches. Under a hand
+(`hand_load`) neither is possible, since each point and frequency has a factor of its own.
 
 Letters: as `coupling`.
 """
@@ -21,6 +22,7 @@ from numpy.typing import NDArray
 
 from scene2hap.propagation.band_shapes import band_gains
 from scene2hap.propagation.coupling import ElasticBody, Joint
+from scene2hap.propagation.hand_load import HandLoad, LoadedGains
 from scene2hap.propagation.inclined_body import FeltInSpace, InclinedBody
 from scene2hap.propagation.object_response import Gains, Magnitudes
 from scene2hap.propagation.response_basis import HasResponseBasis
@@ -103,7 +105,7 @@ class SolvedObject:
     points_m : (n_joints, 2) [m], or ports (n_joints, 6) of an `InclinedBody`; rows, signs : (n_joints,) where its
     joints are in the forces of its group and which way they pull; forces : (n_all_joints, n_sources, n_frequencies), or
     without the last axis if each source has one frequency [N/m]; columns : (n_sources,) which of all sources these are;
-    joints : all of its group.
+    joints : all of its group; load : a hand that may touch it, if any.
     """
 
     body: ElasticBody
@@ -113,6 +115,7 @@ class SolvedObject:
     forces: NDArray[np.complex128]
     columns: NDArray[np.intp]
     joints: Sequence[Joint] = ()
+    load: HandLoad | None = None
     _own: NDArray[np.complex128] | None = field(default=None, repr=False)
 
     @property
@@ -160,6 +163,8 @@ class SolvedObject:
 
     def gains(self, sampling: Sampling, *, is_expected: bool) -> Gains:
         """Gains at points on the object, of its sources; quick ones in any case if each has one frequency."""
+        if self.load is not None:
+            return LoadedGains(self.body, self.points_m, self.own_forces, self.columns, self.load, sampling)
         if isinstance(self.body, InclinedBody):
             return FeltInSpace(self._gains(sampling, is_expected=is_expected), self.body)
         return self._gains(sampling, is_expected=is_expected)

@@ -25,6 +25,8 @@ from scene2hap.haptics import Bands
 from scene2hap.propagation.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupling import ElasticBody, Joint, couple, inclined_in
 from scene2hap.propagation.domain import OutsideDomain, check_choice, check_thin
+from scene2hap.propagation.hand import Hand
+from scene2hap.propagation.hand_load import HandLoad
 from scene2hap.propagation.inclined_body import InclinedBody, inclined
 from scene2hap.propagation.joints import joints_of, legs_of, source_groups
 from scene2hap.propagation.legged_body import legged
@@ -54,10 +56,10 @@ class Assembly:
     plates: Mapping[str, Plate]
     top_hz: float
 
-    def solve(self, elastic: Mapping[str, ElasticBody], density: float = 1.0) -> CoupledField:
+    def solve(self, elastic: Mapping[str, ElasticBody], density: float = 1.0, hand: Hand | None = None) -> CoupledField:
         """The field, given a body for each of the plates.
 
-        Parameters: density : frequencies per band over what is needed.
+        Parameters: density : frequencies per band over what is needed; hand : what loads an object where it is touched.
         """
         source_ids = tuple(item.source_id for item in self.excitations)
         bodies: dict[str, ElasticBody] = {**self.rigid, **{key: self._legged(key, elastic[key]) for key in elastic}}
@@ -69,7 +71,7 @@ class Assembly:
         reach: dict[str, SolvedObject] = {}
         for sources, joints in self.groups:
             if joints:
-                reach |= _solved(bodies, joints, sources, source_ids, sampling)
+                reach |= _solved(bodies, joints, sources, source_ids, sampling, hand)
         return CoupledField(source_ids, self.bands, self.network, sampling, reach)
 
     def _legged(self, object_id: str, plate: ElasticBody) -> ElasticBody:
@@ -122,17 +124,19 @@ def prepare_coupled(
     law: ContactLaw,
     outside_domain: OutsideDomain = "warn",
     density: float = 1.0,
+    hand: Hand | None = None,
 ) -> CoupledField:
     """The field of a scene.
 
     Parameters: elastic_body : makes the body of a plate that is not compact, for frequencies up to some top [Hz];
-    law : stiffness of contacts; density : frequencies per band over what is needed, for checks.
+    law : stiffness of contacts; density : frequencies per band over what is needed, for checks; hand : what loads an
+    object where it is touched, None for nothing.
     Raises, warns: ModelDomainError or ThinPlateWarning, as `outside_domain` says, for an object whose bending waves
     are shorter than six of its thicknesses.
     """
     scene = assemble(network, excitations, bands, law, outside_domain)
     top_hz = scene.top_hz if bands.edges_hz else _next_step_hz(scene.top_hz)
-    return scene.solve({key: elastic_body(plate, top_hz) for key, plate in scene.plates.items()}, density)
+    return scene.solve({key: elastic_body(plate, top_hz) for key, plate in scene.plates.items()}, density, hand)
 
 
 def _next_step_hz(frequency_hz: float) -> float:
@@ -146,6 +150,7 @@ def _solved(
     sources: Sequence[str],
     source_ids: tuple[str, ...],
     sampling: Sampling,
+    hand: Hand | None,
 ) -> dict[str, SolvedObject]:
     solved = couple(bodies, joints, sources, sampling.frequencies_hz)
     forces = np.ascontiguousarray(solved.forces.transpose(1, 2, 0))
@@ -153,7 +158,16 @@ def _solved(
     if sampling.is_single:
         forces = np.take_along_axis(forces, columns[None, :, None], axis=2)[:, :, 0]
     return {
-        x: SolvedObject(bodies[x], ends.points_m, ends.rows, ends.signs, forces, columns, joints)
+        x: SolvedObject(
+            bodies[x],
+            ends.points_m,
+            ends.rows,
+            ends.signs,
+            forces,
+            columns,
+            joints,
+            None if hand is None else HandLoad(hand, x, solved),
+        )
         for x, ends in solved.ends.items()
     }
 

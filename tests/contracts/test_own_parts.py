@@ -36,6 +36,13 @@ def test_propagation_models(kind: str) -> None:
     check_propagation_model(MODELS.build({"kind": kind, **SETTINGS.get(kind, {})}))  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("hand", ["palm", "fingertip"])
+@pytest.mark.parametrize("kind", ["infinite_plate", "modal_plate", "auto", "mass_spring_damper"])
+@pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
+def test_propagation_models_under_a_hand(kind: str, hand: str) -> None:
+    check_propagation_model(MODELS.build({"kind": kind, "hand": hand}))  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize("kind", CONVERTERS.kinds())
 def test_converters(kind: str) -> None:
     check_tactile_converter(CONVERTERS.build(kind))  # type: ignore[arg-type]

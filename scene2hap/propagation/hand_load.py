@@ -1,0 +1,85 @@
+"""What a hand does to the vibration of what it touches.
+
+    u = (1 + j omega Z Y_t)^-1 u_free              Y_t = Y(x, x) - Y(x, x_j) H Y(x_j, x)
+
+Y_t is how far the object yields where it is touched, coupled to all that it stands on and that stands on it. Each point
+is touched alone: of a hand at several points, each bears the whole. Where an object moves in three directions, Y_t is a
+matrix of three by three, and the hand pulls back alike in each.
+
+Letters: u [-] deflection over the source's free one, Z [N s/m] impedance of the hand (`hand`), Y [m/N] receptance of
+the object alone, x where it is touched, x_j its joints, H [N/m] by which these hold it (`coupling.JointForces`).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.propagation.coupling import ElasticBody, JointForces
+from scene2hap.propagation.hand import Hand
+from scene2hap.propagation.inclined_body import InclinedBody
+from scene2hap.propagation.sampling import Sampling
+
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True, eq=False)
+class HandLoad:
+    """A hand that may touch an object of a solved group of bodies."""
+
+    hand: Hand
+    object_id: str
+    group: JointForces
+
+
+class LoadedGains:
+    """Gains at points of an object under a hand, see `Gains`.
+
+    Parameters: body, points_m, columns, load : as of `SolvedObject`; forces : its `own_forces`. Making one takes
+    as long as solving the group.
+    """
+
+    def __init__(
+        self,
+        body: ElasticBody,
+        points_m: Floats,
+        forces: Complex,
+        columns: NDArray[np.intp],
+        load: HandLoad,
+        sampling: Sampling,
+    ) -> None:
+        self._body, self._points_m, self._columns, self._sampling = body, points_m, columns, sampling
+        self._frequencies_hz = sampling.frequencies_hz[columns] if sampling.is_single else sampling.frequencies_hz
+        # (n_frequencies, n_joints, n): of a source at its own frequency n is 1.
+        self._forces = forces.T[:, :, None] if sampling.is_single else forces
+        held = load.group.holding(load.object_id)
+        self._held = held[columns] if sampling.is_single else held
+        self._stiffness = 2j * math.pi * self._frequencies_hz * load.hand.impedance_n_s_m(self._frequencies_hz)
+
+    def __call__(self, points_m: Floats) -> Floats:
+        """At points (n_points, 2) [m]: (n_points, n_sources, n_bands)."""
+        n_bands = len(self._sampling.bands) if self._sampling.is_shared else 1
+        found = np.empty((len(points_m), len(self._columns), n_bands))
+        for i in range(len(points_m)):
+            found[i] = self._at(points_m[i : i + 1])
+        return found
+
+    def _at(self, point_m: Floats) -> Floats:
+        ports = self._body.felt(point_m) if isinstance(self._body, InclinedBody) else point_m
+        # Of an array of its own, since bodies remember what they give among the same points.
+        yielding = self._body.receptance(ports, ports.copy(), self._frequencies_hz)
+        towards = self._body.receptance(ports, self._points_m, self._frequencies_hz)
+        yielding = yielding - towards @ self._held @ towards.transpose(0, 2, 1)
+        moved = towards @ self._forces
+        pulled = np.eye(len(ports)) + self._stiffness[:, None, None] * yielding
+        loaded: Complex = np.linalg.solve(pulled, moved).astype(np.complex128, copy=False)
+        if self._sampling.is_single:
+            gains: Floats = np.abs(loaded[:, :, 0]).T[:, :, None]
+        else:
+            gains = self._sampling.gains(loaded, self._columns)
+        lengths: Floats = np.sqrt(np.square(gains).sum(axis=0))
+        return lengths
