@@ -29,6 +29,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # read once, by the first im
 
 import argparse
 import collections
+import gc
 import itertools
 import math
 import random
@@ -52,6 +53,7 @@ from scene2hap import (
     Plate,
 )
 from scene2hap.errors import Scene2HapError
+from scene2hap.propagation import bending_lattice, lattice_body, lattice_modes, modal_body, modes
 from scene2hap.propagation.domain import SlowPlateWarning, ThinPlateWarning
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 from scene2hap.propagation.modes import first_bending_hz, n_rigid_motions
@@ -62,6 +64,15 @@ MODELS: dict[str, Any] = {
     "auto": AutoFidelity(outside_domain="ignore"),
     "mass_spring_damper": MassSpringDamper(outside_domain="ignore"),
 }
+KEPT: tuple[Any, ...] = (
+    modes._modes_up_to,
+    modal_body.modal_body,
+    lattice_body.lattice_body,
+    lattice_modes._modes_up_to,
+    bending_lattice.bending_lattice,
+    bending_lattice.axes_of,
+)
+"""What is remembered of plates, which would fill some gigabytes: no plate comes twice."""
 EDGES = ("FFFF", "CCCC", "SSSS", "CFFF", "SSFF", "CCFF", "SFSF", "CFSF", "FFCC", "CFFC", "SFFF", "FFSS")
 ROUNDING, BETWEEN_POINTS = 1e-9, 1e-4
 IN_A_SCENE, WHATEVER_IT_TAKES = 4, 100
@@ -229,6 +240,10 @@ def main() -> int:
             for line in outcome.bad[n_bad:]:
                 print(f"* {line}", flush=True)
         asked += 1
+        for kept in KEPT:
+            kept.cache_clear()
+        if asked % 10 == 0:
+            gc.collect()  # bodies and what they remember refer to each other
     print(f"\n{asked} plates from number {numbers[0]}, seed {given.seed}\n")
     print("| model | answered | in scenes | announced and left | with a warning | refused | bad | slowest [s] |")
     print("|---|---|---|---|---|---|---|---|")

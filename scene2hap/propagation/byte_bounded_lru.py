@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
-from collections.abc import Callable
+from collections import OrderedDict, deque
+from collections.abc import Callable, Iterator
+from itertools import count
 from threading import Lock
 from typing import Any, ClassVar, Generic, Protocol, TypeVar
+from weakref import ReferenceType, ref
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,38 +31,46 @@ _Key = tuple[Any, ...]
 class ByteBoundedLru(Generic[Answer]):
     """LRU cache of a function of arrays: `room` values at most, and `MOST_BYTES` over all instances.
 
-    Safe to call from several threads: a worker prepares a field while the game's thread evaluates another.
+    Each instance holds its own values, which go when it goes: a value may refer to all that its body is made of, which
+    its own size does not count. Safe to call from several threads: a worker prepares a field while the game's thread
+    evaluates another.
     """
 
-    # Of all instances: values and sizes by instance and arguments, the most recently used last.
-    _shelf: ClassVar[OrderedDict[_Key, tuple[Any, int]]] = OrderedDict()
+    # Of all instances: whose each value is, and its size, the most recently used last.
+    _shelf: ClassVar[OrderedDict[_Key, tuple[ReferenceType[ByteBoundedLru[Any]], int]]] = OrderedDict()
     _held_bytes: ClassVar[int] = 0
     _lock: ClassVar[Lock] = Lock()
+    # Keys of instances that are gone. The garbage collector may run while this thread has the lock.
+    _gone: ClassVar[deque[_Key]] = deque()
+    _numbers: ClassVar[Iterator[int]] = count()
 
     def __init__(self, function: Callable[..., Answer], room: int = 16) -> None:
-        self._function, self._room = function, room
-        self._own: OrderedDict[_Key, None] = OrderedDict()
+        self._function, self._room, self._number = function, room, next(self._numbers)
+        self._own: OrderedDict[_Key, Answer] = OrderedDict()
+
+    def __del__(self) -> None:
+        self._gone.extend(self._own)
 
     def __call__(self, *arrays: NDArray[np.float64]) -> Answer:
         """The function's value for these arrays. Arrays of equal bytes count as equal, so shapes must not vary."""
-        key = (self, *[array.tobytes() for array in arrays])
+        key = (self._number, *[array.tobytes() for array in arrays])
         with self._lock:
-            found = self._shelf.get(key)
-            if found is not None:
+            if key in self._own:
                 self._shelf.move_to_end(key)
                 self._own.move_to_end(key)
-                known: Answer = found[0]
-                return known
+                return self._own[key]
         answer = self._function(*arrays)
         with self._lock:
-            if key not in self._shelf:
+            if key not in self._own:
                 self._put(key, answer)
         return answer
 
     def _put(self, key: _Key, answer: Answer) -> None:
         size = sum(one.nbytes for one in answer) if isinstance(answer, tuple) else answer.nbytes
-        self._shelf[key], self._own[key] = (answer, size), None
+        self._shelf[key], self._own[key] = (ref(self), size), answer
         ByteBoundedLru._held_bytes += size
+        while self._gone:
+            self._forget(self._gone.popleft())
         if len(self._own) > self._room:
             self._forget(next(iter(self._own)))
         while self._held_bytes > MOST_BYTES and len(self._shelf) > 1:
@@ -68,6 +78,10 @@ class ByteBoundedLru(Generic[Answer]):
 
     @staticmethod
     def _forget(key: _Key) -> None:
-        _, size = ByteBoundedLru._shelf.pop(key)
-        del key[0]._own[key]
+        found = ByteBoundedLru._shelf.pop(key, None)
+        if found is None:
+            return  # of an instance that is gone, and forgotten for room already
+        owner, size = found
         ByteBoundedLru._held_bytes -= size
+        if (lru := owner()) is not None:
+            del lru._own[key]

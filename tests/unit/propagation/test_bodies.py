@@ -1,6 +1,8 @@
 """Which bodies are what, and where points of the world lie on them."""
 
+import gc
 import math
+import weakref
 from collections import OrderedDict
 
 import numpy as np
@@ -119,6 +121,23 @@ def test_what_is_remembered_is_bounded_in_all(monkeypatch: pytest.MonkeyPatch) -
     large = ByteBoundedLru(lambda array: np.empty(9000))
     assert large(np.array([1.0])) is large(np.array([1.0]))
     assert len(ByteBoundedLru._shelf) == 1
+
+
+def test_what_is_remembered_goes_with_its_body(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A value may refer to all that its body is made of, as a plate under forces does to its modes."""
+    monkeypatch.setattr(ByteBoundedLru, "_shelf", OrderedDict())
+    monkeypatch.setattr(ByteBoundedLru, "_held_bytes", 0)
+    body = ModalBody(Plate(0.6, 0.4, 0.01, OAK), 500.0, 0.01)
+    body.receptance(np.array([[0.1, 0.2]]), np.array([[0.3, 0.2]]), np.array([100.0]))
+    modes = weakref.ref(body.terms)
+    assert len(ByteBoundedLru._shelf) == 2
+    del body
+    gc.collect()
+    assert modes() is None
+    other = ByteBoundedLru(lambda array: 2 * array)
+    other(np.array([1.0]))
+    assert len(ByteBoundedLru._shelf) == 1
+    assert ByteBoundedLru._held_bytes == 8
 
 
 def test_bodies_are_shared_by_sources_of_nearly_the_same_frequency() -> None:
