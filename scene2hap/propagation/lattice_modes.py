@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.bending_lattice import MOST_NODES, bending_lattice, n_nodes_of
+from scene2hap.propagation.block_lanczos import largest
 from scene2hap.propagation.domain import warn_if_slow
 from scene2hap.propagation.lattice import Lattice
 from scene2hap.propagation.modes import n_rigid_motions
@@ -49,8 +50,11 @@ _EXACT = 1e-7
 """Relative error at which a solution is good: that of a frequency is its square."""
 QUICK_WORK = 5e7
 """Of these, what takes less than about a second."""
-SMALL = 150
-"""Nodes up to which all modes are solved at once, which is then faster than Lanczos' method."""
+DENSE_SHARE = 0.2
+"""Share of its modes from which a lattice is solved for all of them at once, which is then faster than Lanczos' method.
+Tuned."""
+_BURIED = 1e-6
+"""Part of a solution that rounding may bury in Lanczos' method, since the modes are then told by the springs."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,13 +162,15 @@ def check_work(plate: Plate, resolution: int, n_modes: float) -> None:
 def _modes_up_to(plate: Plate, resolution: int, top_frequency_hz: float) -> LatticeModes:
     wanted = float(plate.wavenumber_rad_m(MARGIN * top_frequency_hz)) ** 4
     lattice, factors, shift = _factorised(plate, resolution, wanted)
-    expected = count = n_modes_below(lattice, wanted)
+    expected = n_modes_below(lattice, wanted)
+    count = max(expected, 7)
     while True:
-        count = int(1.2 * count) + 4
+        count += 1
         k4, shapes = _lowest(lattice, factors, shift, count)
         enough = k4[-1] > wanted and np.count_nonzero(k4 <= wanted * (1 + 1e-9)) >= expected
         if enough or len(k4) == lattice.n_nodes:
             break
+        count += count // 5
     kept = max(np.count_nonzero(k4 <= wanted), n_rigid_motions(plate))
     return LatticeModes(lattice, k4[:kept], shapes[:, :kept], shift, factors)
 
@@ -204,8 +210,7 @@ def solve_shifted(
     """Deflections u of (K + s A) u = p, (n_nodes, ...) each, refined."""
     found: NDArray[np.float64] = factors.solve(forces)
     # Each pass gains the digits that the shift has above the rounding of the stiffest springs.
-    lost = np.finfo(float).eps * lattice.stiffest_k4 / shift_k4
-    for _ in range(math.ceil(math.log(_EXACT) / math.log(lost)) - 1):
+    for _ in range(math.ceil(math.log(_EXACT) / math.log(_lost(lattice, shift_k4))) - 1):
         found += factors.solve(forces - lattice.restoring(found) - shift_k4 * (lattice.masses @ found))
     return found
 
@@ -215,23 +220,27 @@ def _lowest(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """k^4 (n,) [m^-4], rising, and shapes (n_nodes, n) [1/m] of at least `count` modes, or of all."""
     from scipy.linalg import eigh
-    from scipy.sparse.linalg import LinearOperator, eigsh
 
     n, masses = lattice.n_nodes, lattice.masses
 
     def compliance(force: NDArray[np.float64]) -> NDArray[np.float64]:
         return solve_shifted(lattice, factors, shift_k4, force)
 
-    if n > SMALL and count < n // 3:
-        operator = LinearOperator((n, n), matvec=compliance, matmat=compliance, dtype=np.float64)
-        start = np.random.default_rng(0).standard_normal(n)
-        shapes = eigsh(lattice.stiffness, count, M=masses, sigma=-shift_k4, OPinv=operator, which="LM", v0=start)[1]
+    is_clear = _lost(lattice, shift_k4) < _BURIED
+    if count < DENSE_SHARE * n:
+        shapes = largest(factors.solve if is_clear else compliance, masses, count)
+    elif is_clear:
+        shapes = eigh(lattice.stiffness.toarray(), masses.toarray(), driver="gvd")[1][:, :count]
     else:
         dense = masses @ compliance(masses.toarray())
-        shapes = eigh((dense + dense.T) / 2, masses.toarray(), subset_by_index=(max(n - count, 0), n - 1))[1]
-    # Rayleigh's quotient over the springs: exact to the square of what the shapes still miss.
-    k4 = np.einsum("in,in->n", shapes, lattice.restoring(shapes))
-    order = np.argsort(k4)
-    k4 = k4[order]
+        shapes = eigh((dense + dense.T) / 2, masses.toarray(), driver="gvd")[1][:, : -count - 1 : -1]
+    # The shapes' own modes over the springs (Ritz): exact to the square of what the shapes still miss.
+    stiffness = shapes.T @ lattice.restoring(shapes)
+    k4, turned = eigh((stiffness + stiffness.T) / 2, shapes.T @ (masses @ shapes))
     k4[: n_rigid_motions(lattice.plate)] = 0.0
-    return k4, shapes[:, order]
+    return k4, shapes @ turned
+
+
+def _lost(lattice: Lattice, shift_k4: float) -> float:
+    """Part of a solution that rounding of the stiffest springs buries."""
+    return float(np.finfo(float).eps * lattice.stiffest_k4 / shift_k4)

@@ -117,6 +117,17 @@ class _Pieces:
         np.add.at(shares, (number, row, column), coverage)
         return cls(cells, inside, number, nearest, cell, one, shares)
 
+    @property
+    def beside(self) -> tuple[Ints, Ints]:
+        """Pairs of pieces (n, 2) that touch across the side of a cell, along x and along y."""
+        found = []
+        for number, inside in ((self.number, self.inside), (self.number.T, self.inside.T)):
+            low, high = slice(PIXELS - 1, -1, PIXELS), slice(PIXELS, None, PIXELS)
+            both = inside[low] & inside[high]
+            pairs = np.unique(number[low][both] * len(self.cell) + number[high][both])
+            found.append(np.stack(np.divmod(pairs, len(self.cell)), axis=1))
+        return found[0], found[1]
+
     def nearest(self, points_m: Floats, x_m: Floats, y_m: Floats) -> tuple[Ints, Floats]:
         """The piece of each point, given the lines between pixels, and where it is; beside the plate, the middle of
         the nearest pixel."""
@@ -134,28 +145,30 @@ class _Pieces:
 
 def _nodes_of(pieces: _Pieces) -> tuple[Ints, int]:
     """The nodes (n_pieces, 16) of each piece, and how many there are: a node whose reach of 4 by 4 cells is cut into
-    parts has one copy in each of them."""
-    from scipy.ndimage import label
+    parts has one copy in each of them.
 
-    nx, ny = pieces.cells
-    around = np.arange(4)
-    along, across = (pieces.cell[:, axis, None] + around for axis in (0, 1))
-    node = (along[:, :, None] * (ny + 3) + across[:, None, :]).reshape(-1, 16)
-    copy = np.zeros_like(node)
-    whole: NDArray[np.bool_] = np.all(pieces.inside.reshape(nx, PIXELS, ny, PIXELS), axis=(1, 3))
-    for a, b in np.ndindex(nx + 3, ny + 3):
-        cells = slice(max(a - 3, 0), a + 1), slice(max(b - 3, 0), b + 1)
-        if whole[cells].all():
-            continue
-        low = np.array([cells[0].start, cells[1].start]) * PIXELS
-        parts, n_parts = label(pieces.inside[low[0] : (a + 1) * PIXELS, low[1] : (b + 1) * PIXELS])
-        if n_parts > 1:
-            rows, columns = np.nonzero(node == a * (ny + 3) + b)
-            at = pieces.one[rows] - low
-            copy[rows, columns] = parts[at[:, 0], at[:, 1]] - 1
-    _, nodes = np.unique(node + copy * ((nx + 3) * (ny + 3)), return_inverse=True)
-    nodes = nodes.reshape(node.shape).astype(np.intp)
-    return nodes, int(nodes.max()) + 1
+    Pieces side by side share the nodes that reach both; what so hangs together is one node.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    grid = np.arange(16 * len(pieces.cell)).reshape(-1, 4, 4)
+    along, across = pieces.beside
+    shared = [
+        (grid[along[:, 0], 1:], grid[along[:, 1], :-1]),
+        (grid[across[:, 0], :, 1:], grid[across[:, 1], :, :-1]),
+    ]
+    a, b = (np.concatenate([pair[side].ravel() for pair in shared]) for side in (0, 1))
+    same = coo_array((np.ones(len(a), dtype=np.int8), (a, b)), shape=(grid.size, grid.size))
+    n_nodes, part = connected_components(same, directed=False)
+    # In the order of the grid.
+    place = (pieces.cell[:, :1, None] + np.arange(4)[:, None]) * (pieces.cells[1] + 3)
+    place = place + pieces.cell[:, 1:, None] + np.arange(4)
+    first = np.empty(n_nodes, dtype=np.intp)
+    first[part] = place.ravel()
+    rank = np.empty(n_nodes, dtype=np.intp)
+    rank[np.argsort(first, kind="stable")] = np.arange(n_nodes)
+    return rank[part].reshape(-1, 16), int(n_nodes)
 
 
 @dataclass(frozen=True, eq=False)
