@@ -28,7 +28,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, Plate, Pose, PropagationField, materials
-from scene2hap.propagation import infinite_plate, modal_body, modes, rigid
+from scene2hap.propagation import (
+    bending_lattice,
+    infinite_plate,
+    lattice_body,
+    lattice_modes,
+    modal_body,
+    modes,
+    rigid,
+)
 from scene2hap.propagation.auto import AutoFidelity, AutoField
 from scene2hap.propagation.auto_rungs import FINENESS, FLOOR_DB, MODAL_DB, Situation, body_of
 from scene2hap.propagation.contact_stiffness import ContactLaw
@@ -161,6 +169,9 @@ def forget() -> None:
     """Make every plate one that was never seen."""
     for cached in (modes._modes_up_to, modes.first_bending_hz, modal_body.modal_body, rigid.is_compact):
         cached.cache_clear()
+    for kept in (lattice_modes._modes_up_to, lattice_body.lattice_body, bending_lattice.bending_lattice):
+        kept.cache_clear()
+    bending_lattice.axes_of.cache_clear()
     infinite_plate._table.cache_clear()
 
 

@@ -43,6 +43,7 @@ from scene2hap.propagation.protocol import ContactNetwork
 from scene2hap.propagation.substructuring import prepare_coupled
 from scene2hap.session import HapticSession
 from scene2hap.session.network import excitations_of
+from scene2hap.session.scene_state import SceneState
 
 BANDS = Bands.third_octaves(10, 1000)
 N_POINTS, SEED = 200, 11
@@ -56,12 +57,15 @@ MODELS: dict[str, tuple[Callable[[], PropagationModel], str]] = {
 }
 
 
-def scene_input(path: str) -> tuple[ContactNetwork, tuple[Excitation, ...], list[tuple[str, NDArray[np.float64]]]]:
-    """The models' input as a session gives it, and points on objects that a source reaches, sources left out."""
+def scene_input(
+    path: str, *, follows_outlines: bool = False
+) -> tuple[ContactNetwork, tuple[Excitation, ...], list[tuple[str, NDArray[np.float64]]]]:
+    """The models' input as a session gives it, to a model that follows outlines or not, and points on objects that a
+    source reaches, sources left out."""
     scene = load_scene(path)
     bundle = bake(scene)
     session = HapticSession(scene, bundle)
-    state, sources = session._state, session._sources
+    state, sources = SceneState(scene, bundle, follows_outlines=follows_outlines), session._sources
     network = state.network(None)(()).network
     reach = state.reach(sources.ids)
     rng = np.random.default_rng(SEED)
