@@ -63,7 +63,9 @@ def judged(clip: AudioClip, kind: str, actuator: str) -> str:
     profile, rate = actuator_profile(actuator), clip.sample_rate_hz
     anchor = anchor_of(clip.samples, rate, sensation_level_db(INTENSITY), profile)
     assert anchor is not None
-    context = ConversionContext(profile, INTENSITY, own_hz=anchor.frequency_hz, rough_hz=anchor.rough_hz)
+    context = ConversionContext(
+        profile, INTENSITY, own_hz=anchor.frequency_hz, target_hz=anchor.carrier_hz, rough_hz=anchor.rough_hz
+    )
     heard = clip.samples.astype(np.float64)
     felt = convert_clip(clip, CONVERTERS.build(kind), context).samples.astype(np.float64)
     before, after = (levels_db(x, rate, 0.1) for x in (heard, felt))

@@ -54,10 +54,11 @@ def plan_scene(
     """
     levels = [sensation_level_db(source.intensity) for source in sources]
     anchors = _anchors(sources, levels, actuator)
+    follows = bool(getattr(converter, "follows_target", False))
     known = [i for i, anchor in enumerate(anchors) if anchor is not None]
     voices = [
         Voice(
-            source.pitch_hz or anchor.frequency_hz,
+            source.pitch_hz or (anchor.felt_hz if follows else anchor.frequency_hz),
             level,
             source.group,
             anchor.crest_db,
@@ -68,7 +69,7 @@ def plan_scene(
         if anchor is not None
     ]
     fixed = [_standing_voice(loop, group, actuator) for loop, group in standing]
-    if getattr(converter, "follows_target", False):
+    if follows:
         placed = dict(zip(known, spread([*voices, *fixed], actuator, limits), strict=False))
     else:
         placed = {i: Placement(voice.own_hz, voice.level_db) for i, voice in zip(known, voices, strict=True)}
@@ -122,4 +123,5 @@ def felt_loop(
 
     loop = loop_pair(clip, converter, plan.context, at_planned_level)
     level_db = felt_level_db(loop.tactile.samples, loop.tactile.sample_rate_hz, actuator)
-    return replace(loop, felt=Sensation(level_db, plan.level_db, plan.context.own_hz, plan.context.target_hz))
+    where = plan.context
+    return replace(loop, felt=Sensation(level_db, plan.level_db, where.own_hz, where.target_hz, where.rough_hz))

@@ -21,18 +21,19 @@ class Sensation:
 
     Parameters: level_db : over the threshold of touch, of `asked_level_db`, which the actuator or head-room may forbid
     [dB]; own_hz : the component of the sound that stands for the source, None where there is none; target_hz : where
-    that is felt [Hz].
+    that is felt [Hz]; rough_hz : the component that is felt as roughness and not as a tone, None where there is none.
     """
 
     level_db: float
     asked_level_db: float
     own_hz: float | None = None
     target_hz: float | None = None
+    rough_hz: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("level_db", "asked_level_db"):
             object.__setattr__(self, name, checks.number(name, getattr(self, name), "dB", error=AudioError))
-        for name in ("own_hz", "target_hz"):
+        for name in ("own_hz", "target_hz", "rough_hz"):
             if getattr(self, name) is not None:
                 checks.number(name, getattr(self, name), "Hz", above=0.0, error=AudioError)
 
@@ -40,7 +41,8 @@ class Sensation:
         weaker = f" of {self.asked_level_db:.1f} asked" if self.asked_level_db - self.level_db >= NOTICED_DB else ""
         moved = f", moved from {self.own_hz:.0f}" if self.own_hz and self.is_moved else ""
         at = f" at {self.target_hz:.0f} Hz{moved}" if self.target_hz else ""
-        return f"{self.level_db:.1f} dB over the threshold{weaker}{at}"
+        rough = f", rough at {self.rough_hz:.0f} Hz" if self.rough_hz else ""
+        return f"{self.level_db:.1f} dB over the threshold{weaker}{at}{rough}"
 
     @property
     def is_moved(self) -> bool:
@@ -97,5 +99,6 @@ class HapticLoop:
             self.tactile.sample_rate_hz,
             self.audible.credit.title if title is None else title,
             (self.frequency_raw_hz, self.frequency_tactile_hz),
+            None if self.felt is None else str(self.felt),
             figure=figure,
         )

@@ -53,6 +53,7 @@ def plot_loop(
     sample_rate_hz: int,
     title: str,
     frequencies_hz: tuple[float, float],
+    felt: str | None = None,
     *,
     figure: Figure | SubFigure | None,
 ) -> Figure | SubFigure:
@@ -61,6 +62,8 @@ def plot_loop(
     axes = [figure.add_subplot(2, 2, n) for n in (1, 3, (2, 4))]
     draw_loop(axes[0], axes[1], axes[2], sound, touch, sample_rate_hz, frequencies_hz)
     set_title(axes[0], plain(title))
+    if felt is not None:
+        set_title(axes[2], felt)
     axes[0].tick_params(labelbottom=False)
     axes[0].set_xlabel("")
     return figure

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
-from scene2hap.audio.haptic_loop import NOTICED_DB, Sensation
+from scene2hap.audio.haptic_loop import NOTICED_DB, HapticLoop, Sensation
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
 from scene2hap.llm.chain import UNKNOWN
@@ -111,9 +111,17 @@ def _bundle_row(bundle: HapticBundle, object_id: str) -> tuple[str, ...]:
         f"{haptics.confidence:.2f}",
         ", ".join(f"{state.name} ({state.keywords})" for state in haptics.states),
         ", ".join(f"{loop.frequency_raw_hz:.0f}" for loop in loops.values()),
-        ", ".join(f"{loop.frequency_tactile_hz:.0f}" for loop in loops.values()),
+        ", ".join(_place(loop) for loop in loops.values()),
         ", ".join(_level(loop.felt) for loop in loops.values()),
     )
+
+
+def _place(loop: HapticLoop) -> str:
+    """Where a loop is strongest, which component was moved there by more than a hertz, and what is roughness [Hz]."""
+    felt, place = loop.felt, f"{loop.frequency_tactile_hz:.0f}"
+    if felt is not None and felt.is_moved:
+        place += f" from {felt.own_hz:.0f}"
+    return place if felt is None or felt.rough_hz is None else f"{place} rough {felt.rough_hz:.0f}"
 
 
 def _level(felt: Sensation | None) -> str:

@@ -13,6 +13,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from scene2hap.audio.conversion.meter import Meter
 from scene2hap.audio.files import opened_sound
+from scene2hap.audio.haptic_loop import Sensation
 from scene2hap.audio.levels import drive_db
 from scene2hap.haptics import ActuatorProfile
 
@@ -30,12 +31,18 @@ _STOPS = np.array([[10, 12, 40], [70, 20, 110], [180, 45, 95], [245, 130, 50], [
 
 
 def draw_conversion(
-    title: str, source: Path, felt: Path, meters: tuple[Meter, Meter], actuator: ActuatorProfile, path: Path
+    title: str,
+    source: Path,
+    felt: Path,
+    meters: tuple[Meter, Meter],
+    actuator: ActuatorProfile,
+    path: Path,
+    sensation: Sensation | None = None,
 ) -> None:
     """Draw sound and touch of a file one above the other, and save it as PNG.
 
     Both spectrograms share one scale. What is strongest in the touch has a line, and so has, in its envelope, the least
-    drive of that frequency that is felt on the actuator.
+    drive of that frequency that is felt on the actuator. `sensation` is written above the touch.
 
     `felt` is the converted file; `meters` heard both and hold their envelopes (n_columns,). Each of `WIDTH` columns of
     a spectrogram is one window at its place in the file, so that memory does not grow with length.
@@ -50,7 +57,8 @@ def draw_conversion(
     loudest = max(float(powers.max()) for powers, _ in spectrograms)
     felt_hz = meters[1].dominant_frequency_hz()
     for name, (powers, rate), meter in zip(("before", "after"), spectrograms, meters, strict=True):
-        draw.text((MARGIN, top), f"{name}: {DEPTH_DB:g} dB down from the loudest of both", fill=_INK, font=font)
+        says = f", {sensation}" if sensation is not None and name == "after" else ""
+        draw.text((MARGIN, top), f"{name}: {DEPTH_DB:g} dB down from the loudest of both{says}", fill=_INK, font=font)
         image.paste(_coloured(powers, loudest), (MARGIN, top + 18))
         _frequency_axis(draw, top + 18, min(HIGHEST_HZ, 0.5 * rate), font)
         _draw_envelope(draw, meter, top + 18 + LANE + 6, font)

@@ -28,6 +28,7 @@ from scene2hap.audio.conversion.equalizer import Equalizer
 from scene2hap.audio.conversion.felt_level import FeltLevel
 from scene2hap.audio.conversion.meter import Meter
 from scene2hap.audio.files import opened_sound, require_finite, written_whole
+from scene2hap.audio.haptic_loop import Sensation
 from scene2hap.audio.levels import FAINTEST_PEAK_DB, TACTILE_HEADROOM_DB, sensation_level_db
 from scene2hap.audio.protocol import (
     ConversionContext,
@@ -141,7 +142,8 @@ def convert(
 
             with written_whole(drawn) as picture_beside:
                 title = f"{source.name} through {type(built).__name__}"
-                draw_conversion(title, source, beside, (felt.before, felt.after), context.actuator, picture_beside)
+                meters, sensation = (felt.before, felt.after), felt.sensation(context)
+                draw_conversion(title, source, beside, meters, context.actuator, picture_beside, sensation)
     return Conversion(
         source,
         output,
@@ -169,7 +171,9 @@ def _looked_at(file: soundfile.SoundFile, context: ConversionContext) -> Convers
     if len(heard) < 2 or not np.isfinite(heard).all():  # which is told when it is converted
         return context
     anchor = anchor_of(heard, file.samplerate, sensation_level_db(context.intensity), context.actuator)
-    return context if anchor is None else replace(context, own_hz=anchor.frequency_hz, rough_hz=anchor.rough_hz)
+    if anchor is None:
+        return context
+    return replace(context, own_hz=anchor.frequency_hz, target_hz=anchor.carrier_hz, rough_hz=anchor.rough_hz)
 
 
 def settled(converter: object, actuator: object, intensity: float) -> tuple[TactileConverter, ConversionContext]:
@@ -255,6 +259,14 @@ class _Felt:
         self.after.hear(block)
         if self.after.peak > 1.0:
             self._n_clipped += int(np.count_nonzero(np.abs(block) > 1.0))
+
+    def sensation(self, context: ConversionContext) -> Sensation | None:
+        """How the vibration is felt, and where; None for what was not brought to a level."""
+        if self.level_db is None:
+            return None
+        own_hz, target_hz = context.own_hz, context.target_hz or context.own_hz
+        asked_db = sensation_level_db(context.intensity)
+        return Sensation(self.level_db, asked_db, own_hz, target_hz, context.rough_hz)
 
     @property
     def n_clipped(self) -> int:

@@ -20,12 +20,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from scene2hap import checks
-from scene2hap.audio.anchor import BAND_Q, Anchor, TrackedAnchor, reachable_hz
+from scene2hap.audio.anchor import BAND_Q, Anchor, reachable_hz
 from scene2hap.audio.distinctness import FREQUENCY_WEBER
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.stages import ShiftStage, Signal, SosStage, Stage, StageStream
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
+from scene2hap.audio.tracked_anchor import TrackedAnchor
 from scene2hap.errors import ConfigError
 
 _LOOK_S = 0.5
@@ -43,8 +44,8 @@ _MOST_GAIN = 4.0
 """A band takes over at most so much louder or softer [-]."""
 _SILENCE = 1e-4
 """A stretch whose amplitude stays below -80 dB re full scale says nothing about its source."""
-_SHIFT_BAND = (0.25, 1.75)
-"""What is shifted, as shares of the own frequency; its mirror image lies twice the own frequency away."""
+_SHIFTED = 0.75
+"""What is shifted on either side, as a share of the own frequency; its mirror image lies twice that frequency away."""
 
 
 @dataclass(frozen=True)
@@ -75,12 +76,13 @@ class Adaptive:
     def band(self, sample_rate_hz: float, context: ConversionContext, own_hz: float) -> list[Stage]:
         """The filters for a source of that frequency, and its shift, if any."""
         own_hz = min(own_hz, _HIGHEST * sample_rate_hz)
+        target_hz = min(self._target_hz(context, own_hz), _HIGHEST * sample_rate_hz)
         section = SvfBandpass(own_hz, self.q).section(sample_rate_hz)
         stages: list[Stage] = [SosStage(np.concatenate([section, section]))]
-        shift_hz = min(self._target_hz(context, own_hz), _HIGHEST * sample_rate_hz) - own_hz
-        if shift_hz != 0.0:
-            low, high = (share * own_hz for share in _SHIFT_BAND)
-            stages.append(ShiftStage(low, high, shift_hz, sample_rate_hz))
+        if target_hz != own_hz:
+            # What comes from far above is wider than there is room below it.
+            half_hz = _SHIFTED * (target_hz if target_hz < own_hz / 2.0 else own_hz)
+            stages.append(ShiftStage(own_hz - half_hz, own_hz + half_hz, target_hz - own_hz, sample_rate_hz))
         return stages
 
     def _target_hz(self, context: ConversionContext, own_hz: float) -> float:

@@ -3,12 +3,11 @@
 What people prefer depends on the sound (Sound2Hap, CHI 2026). A hum is known by its frequency, an engine by its
 roughness, a tick by its moment.
 
-- The bed goes through `adaptive`.
+- The bed goes through `adaptive`, and rises and falls with the whole sound (`following`) where somebody had all of it
+  to look at; a live stream cannot wait that long.
 - Where the sound's strongest component is too low to be felt as itself (the 49 Hz of a compressor on a phone's motor),
   the bed is modulated at that rate and by that component's own waveform r, whose envelope is e: y = bed (1 + r / 2e).
-- Each onset becomes a burst of its own (`onsets`).
-
-A sound without either comes out as from `adaptive`, bit for bit.
+- Each short onset becomes a burst of its own (`onsets`).
 """
 
 from __future__ import annotations
@@ -18,16 +17,15 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import butter
 
-from scene2hap.audio.actuators import response_db
-from scene2hap.audio.anchor import BAND_Q
-from scene2hap.audio.levels import threshold_db
+from scene2hap.audio.anchor import BAND_Q, best_carrier_hz
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.adaptive import Adaptive
+from scene2hap.audio.tactile.following import Following
 from scene2hap.audio.tactile.onsets import WithOnsets
-from scene2hap.audio.tactile.stages import Signal, SosStage, Stage, StageStream
+from scene2hap.audio.tactile.stages import Chain, Signal, SosStage, Stage, StageStream
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 
-_CARRIERS_HZ = np.geomspace(100.0, 300.0, 65)
+_CARRIERS_HZ = (100.0, 300.0)
 """Where a burst of 8 ms still has a frequency, and touch is keen."""
 DEPTH = 0.5
 """Of the modulation: felt as rough (the least depth that counts as a rhythm is 0.2, see `distinctness`), while side
@@ -43,25 +41,27 @@ class Auto(Adaptive):
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
         """A fresh conversion at that rate."""
-        bed: list[Stage] = [*super().stream(sample_rate_hz, context).stages]
+        bed: Stage = Chain(super().stream(sample_rate_hz, context).stages)
         if context.rough_hz is not None:
-            bed = [_Roughened(bed, context.rough_hz, sample_rate_hz)]
-        return StageStream(WithOnsets(bed, carrier_hz(context), sample_rate_hz))
+            bed = _Roughened(bed, context.rough_hz, sample_rate_hz)
+        is_known = context.own_hz is not None
+        if is_known:  # somebody had the whole sound to look at, so that it may wait
+            bed = Following(bed, sample_rate_hz)
+        return StageStream(WithOnsets(bed, carrier_hz(context), sample_rate_hz, bed_follows=is_known))
 
 
 def carrier_hz(context: ConversionContext) -> float:
     """Where bursts are felt: at the source's own place if that will do, else where the actuator is felt best."""
-    actuator, wanted = context.actuator, context.target_hz or context.own_hz
+    wanted = context.target_hz or context.own_hz
     if wanted is not None and _CARRIERS_HZ[0] <= wanted <= _CARRIERS_HZ[-1]:
         return wanted
-    felt_db = response_db(actuator, _CARRIERS_HZ) - threshold_db(_CARRIERS_HZ)
-    return float(_CARRIERS_HZ[int(np.argmax(felt_db))])
+    return best_carrier_hz(context.actuator)
 
 
 class _Roughened:
     """A bed that is modulated by a low component of the sound, at its own rate."""
 
-    def __init__(self, bed: list[Stage], rough_hz: float, sample_rate_hz: float) -> None:
+    def __init__(self, bed: Stage, rough_hz: float, sample_rate_hz: float) -> None:
         section = SvfBandpass(rough_hz, BAND_Q).section(sample_rate_hz)
         self._bed, self._band = bed, SosStage(np.concatenate([section, section]))
         self._envelope = SosStage(butter(2, rough_hz / _SLOWER, fs=sample_rate_hz, output="sos"))
@@ -70,10 +70,8 @@ class _Roughened:
         """Equally many samples."""
         low = self._band.run(x)
         envelope = np.maximum(self._envelope.run(np.abs(low)) * (0.5 * np.pi), _NOTHING)
-        for stage in self._bed:
-            x = stage.run(x)
-        return np.asarray(x * (1.0 + DEPTH * np.clip(low / envelope, -1.0, 1.0)))
+        return np.asarray(self._bed.run(x) * (1.0 + DEPTH * np.clip(low / envelope, -1.0, 1.0)))
 
     def rest(self) -> Signal:
-        """Nothing."""
+        """Nothing, as the bed below it."""
         return np.empty(0)

@@ -34,9 +34,12 @@ LATE_S = 5.0
 SHARP_S, DULL_S = 0.008, 0.020
 SPARED_S = 0.06
 """After an onset the bed hears no more than there was before it for so long, or it would ring on."""
+SUSTAINED, _AFTER = 0.5, (2, 4)
+"""Share of an onset's energy that is left so many steps after its highest, from which on it is more than a tick: a
+syllable, a knock."""
 TICKS_HZ = 1000.0
-ABOVE_BED, AROUND_S = 3.0, 0.25
-"""A burst is at most so much stronger than the bed around it (10 dB): what is stronger takes the room in which the bed
+ABOVE_BED, AROUND_S = 8.0, 0.25
+"""A burst is at most so much stronger than the bed around it (18 dB): what is stronger takes the room in which the bed
 is to reach its level."""
 NO_BED = 0.01
 """Of a burst, below which a bed is none: between the ticks of a clock."""
@@ -44,16 +47,19 @@ _WARM = round(MEAN_S / STEP_S)
 
 
 class WithOnsets:
-    """A `Stage`: the bed through its own stages, which are spared onsets, plus a burst of `carrier_hz` for each."""
+    """A `Stage`: the bed through its own stages, which are spared onsets, plus a burst of `carrier_hz` for each.
 
-    def __init__(self, bed: list[Stage], carrier_hz: float, sample_rate_hz: float) -> None:
+    A bed that follows the level of the sound carries sustained onsets by itself.
+    """
+
+    def __init__(self, bed: Stage, carrier_hz: float, sample_rate_hz: float, *, bed_follows: bool = False) -> None:
         self._bed, self._carrier_hz, self._rate_hz = bed, carrier_hz, sample_rate_hz
         self._step = max(1, round(STEP_S * sample_rate_hz))
         ticks_hz = min(TICKS_HZ, 0.4 * sample_rate_hz)
         self._high = SosStage(butter(2, ticks_hz, "highpass", fs=sample_rate_hz, output="sos"))
         self._heard = np.empty((2, 0))  # the sound and its ticks, not yet a whole step
         self._waiting = np.empty(0)  # of the sound, not decided
-        self._watch, self._n_released = _Watch(), 0
+        self._watch, self._n_released, self._n_made = _Watch(spares_sustained=bed_follows), 0, 0
         self._past = np.zeros(round(AROUND_S * sample_rate_hz))  # of the bed
         self._bursts: list[tuple[int, Signal]] = []
 
@@ -75,7 +81,7 @@ class WithOnsets:
 
     def rest(self) -> Signal:
         """The last steps, in which no onset is looked for any more."""
-        return self._mixed(self._n_released, self._through(self._waiting))
+        return np.concatenate([self._mixed(self._bed.run(self._waiting)), self._mixed(self._bed.rest())])
 
     def _burst(self, height: float, left: float) -> Signal:
         n = round((SHARP_S + (DULL_S - SHARP_S) * left) * self._rate_hz)
@@ -89,21 +95,16 @@ class WithOnsets:
 
     def _felt(self, end: int, share: float) -> Signal:
         """What is felt up to a sample of the sound, of which the bed hears a share."""
-        begin, n = self._n_released, end - self._n_released
+        n = end - self._n_released
         x, self._waiting = self._waiting[:n], self._waiting[n:]
         self._n_released = end
-        bed = self._through(x if share == 1.0 else share * x)
-        self._past = np.concatenate([self._past, bed])[n:]
-        return self._mixed(begin, bed)
+        return self._mixed(self._bed.run(x if share == 1.0 else share * x))
 
-    def _through(self, x: Signal) -> Signal:
-        for stage in self._bed:
-            x = stage.run(x)
-        return x
-
-    def _mixed(self, begin: int, bed: Signal) -> Signal:
-        """The bed from a sample on, with its bursts."""
-        end, out = begin + len(bed), bed
+    def _mixed(self, bed: Signal) -> Signal:
+        """The bed from where it went on, which may be later than what is decided, with its bursts."""
+        begin, end, out = self._n_made, self._n_made + len(bed), bed
+        self._n_made = end
+        self._past = np.concatenate([self._past, bed])[len(bed) :]
         for start, burst in self._bursts:
             first, last = max(start, begin), min(start + len(burst), end)
             if first < last:
@@ -143,14 +144,20 @@ class _Rise:
         faded = self._FORGET * self.loudest
         self.loudest = energy if energy > faded else faded
 
+    def goes_on(self, k: int, top: float) -> bool:
+        """Whether the onset at a step is sustained beyond its highest energy."""
+        at = self.energies.index(top, k)
+        return max(self.energies[at + _AFTER[0] : at + _AFTER[1] + 1]) > SUSTAINED * top
+
 
 class _Watch:
     """Finds onsets in the energies of the sound and of its ticks, step by step."""
 
     _APART, _SPARED = round(APART_S / STEP_S), round(SPARED_S / STEP_S)
 
-    def __init__(self) -> None:
-        self._bands = _Rise(), _Rise()
+    def __init__(self, *, spares_sustained: bool) -> None:
+        self._bands, self._spares_sustained = (_Rise(), _Rise()), spares_sustained
+        self._look = LOOK + _AFTER[1] if spares_sustained else LOOK
         self.n_decided, self._last = 0, -self._SPARED
         self._before = self._height = 0.0  # energy of the sound before the last onset, and of that
 
@@ -158,7 +165,7 @@ class _Watch:
         """The steps that are more than bed, of those that are decided now."""
         for band, energies in zip(self._bands, (whole, ticks), strict=True):
             band.energies += energies
-        n = max(0, len(self._bands[0].energies) - LOOK)
+        n = max(0, len(self._bands[0].energies) - self._look)
         found = [step for k in range(n) if (step := self._looked_at(k)) is not None]
         for band in self._bands:
             del band.energies[:n]
@@ -179,14 +186,15 @@ class _Watch:
         return step
 
     def _onset(self, number: int, k: int) -> _Step | None:
-        height, left = 0.0, 0.0
+        height, left, is_sustained = 0.0, 0.0, False
         for band in self._bands:
             if band.energies[k] > max(RISE * band.mean, QUIETEST, FAINTEST * band.loudest):
                 top = max(band.energies[k : k + LOOK + 1])
                 if top - band.mean > height:
                     height, left = top - band.mean, min(band.energies[k + LOOK] / top, 1.0)
+                    is_sustained = self._spares_sustained and band.goes_on(k, top)
         since = number - self._last
-        if height <= (0.0 if since >= self._APART else LOUDER * self._height):
+        if is_sustained or height <= (0.0 if since >= self._APART else LOUDER * self._height):
             return None
         # Between strokes that follow each other at once there is nothing but these.
         self._before = self._bands[0].mean if since >= self._SPARED else self._before

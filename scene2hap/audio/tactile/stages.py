@@ -8,6 +8,7 @@ order.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Protocol
 
 import numpy as np
@@ -75,6 +76,26 @@ def _joined(parts: list[Samples]) -> Samples:
     if not parts:
         return np.empty(0, dtype=np.float32)
     return parts[0] if len(parts) == 1 else np.concatenate(parts)
+
+
+class Chain:
+    """Stages in series as one."""
+
+    def __init__(self, stages: Sequence[Stage]) -> None:
+        self.stages = stages
+
+    def run(self, x: Signal) -> Signal:
+        """The next samples (n,), less what a stage holds back."""
+        for stage in self.stages:
+            x = stage.run(x)
+        return x
+
+    def rest(self) -> Signal:
+        """What all stages held back."""
+        left = np.empty(0)
+        for stage in self.stages:
+            left = np.concatenate([stage.run(left), stage.rest()]) if left.size else stage.rest()
+        return left
 
 
 class SosStage:

@@ -7,10 +7,13 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from scene2hap.audio.actuators import actuator_profile
-from scene2hap.audio.anchor import anchor_of
+from scene2hap.audio.actuators import actuator_profile, response_db
+from scene2hap.audio.anchor import anchor_of, best_carrier_hz
 from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.levels import sensation_level_db
+from scene2hap.audio.tactile import CONVERTERS
+from sound_draws import coloured_noise
 
 RATE = 8000
 
@@ -74,3 +77,60 @@ def test_what_cannot_be_felt_as_a_tone_is_kept_as_roughness(
     assert found is not None
     assert found.frequency_hz == pytest.approx(felt_hz, abs=0.1)
     assert found.rough_hz == (None if rough_hz is None else pytest.approx(rough_hz, abs=0.1))
+
+
+@pytest.mark.parametrize(
+    ("amplitudes", "actuator", "own_hz", "carrier_hz", "rough_hz"),
+    [
+        ({"f30": 0.5}, "flat", 30.0, 250.0, 30.0),  # too weak as itself, and slow enough for roughness
+        ({"f80": 0.5}, "flat", 80.0, None, None),  # the actuator plays it, if weaker than asked
+        ({"f80": 0.5}, "lra", 80.0, 175.0, None),
+        ({"f50": 0.5, "f180": 0.05}, "lra", 50.0, 175.0, 50.0),  # 20 dB below is not what it is known by
+        ({"f50": 0.5, "f180": 0.2}, "lra", 180.0, None, 50.0),
+        ({"f3000": 0.5}, "flat", 3000.0, 250.0, None),
+        ({"f3000": 0.5, "f120": 0.1}, "flat", 120.0, None, None),  # a hum under a whine
+    ],
+)
+def test_what_can_neither_be_felt_nor_driven_is_carried_to_where_the_actuator_is_best(
+    amplitudes: dict[str, float], actuator: str, own_hz: float, carrier_hz: float | None, rough_hz: float | None
+) -> None:
+    x = tones(**amplitudes) + 1e-4 * np.random.default_rng(0).standard_normal(5 * RATE)
+    found = anchor_of(x, RATE, sensation_level_db(0.4), actuator_profile(actuator))
+    assert found is not None
+    assert found.frequency_hz == pytest.approx(own_hz, abs=0.1)
+    assert found.carrier_hz == (None if carrier_hz is None else pytest.approx(carrier_hz, rel=0.03))
+    assert found.rough_hz == (None if rough_hz is None else pytest.approx(rough_hz, abs=0.1))
+    assert found.felt_hz == (found.carrier_hz or found.frequency_hz)
+
+
+@pytest.mark.parametrize("slope", [0.0, 1.0])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_noise_is_known_by_a_band_that_can_be_felt_as_asked(slope: float, seed: int) -> None:
+    """Its highest peak is an accident: a pink noise was felt 10 dB weaker than asked, and rough by 25 Hz."""
+    clip = AudioClip(0.1 * coloured_noise(np.random.default_rng(seed), 5 * RATE, slope), RATE)
+    (plan,) = plan_scene([SourceClip(clip, 0.3)], CONVERTERS.build("auto"), actuator_profile("flat"))
+    assert plan.context.rough_hz is None
+    loop = felt_loop(clip, CONVERTERS.build("auto"), plan)
+    assert loop.felt is not None
+    assert loop.felt.level_db == pytest.approx(loop.felt.asked_level_db, abs=3.0)
+
+
+@pytest.mark.parametrize("actuator", ["flat", "lra", "voice_coil"])
+@pytest.mark.parametrize(("tone_hz", "is_rough"), [(30.0, True), (49.0, True), (2600.0, False)])
+def test_what_is_carried_is_felt_as_asked_and_says_from_where(tone_hz: float, is_rough: bool, actuator: str) -> None:
+    rng = np.random.default_rng(1)
+    x = 0.4 * np.sin(2 * np.pi * tone_hz * np.arange(4 * RATE) / RATE) + 1e-4 * rng.standard_normal(4 * RATE)
+    clip, converter = AudioClip(x.astype(np.float32), RATE), CONVERTERS.build("auto")
+    (plan,) = plan_scene([SourceClip(clip, 0.2)], converter, actuator_profile(actuator))
+    loop = felt_loop(clip, converter, plan)
+    assert loop.felt is not None
+    assert loop.felt.own_hz == pytest.approx(tone_hz, abs=0.1)
+    assert loop.felt.target_hz == pytest.approx(best_carrier_hz(actuator_profile(actuator)))
+    assert loop.felt.rough_hz == (pytest.approx(tone_hz, abs=0.1) if is_rough else None)
+    assert loop.felt.level_db == pytest.approx(loop.felt.asked_level_db, abs=3.0)
+    felt = np.abs(np.fft.rfft(loop.tactile.samples * np.hanning(len(loop.tactile.samples))))
+    f = np.fft.rfftfreq(len(loop.tactile.samples), 1 / RATE)
+    felt_db = 20 * np.log10(felt + 1e-12) + response_db(actuator_profile(actuator), f)
+    if is_rough and actuator != "lra":  # its resonance leaves nothing of a side band
+        side_db = felt_db[np.abs(f - (loop.felt.target_hz - tone_hz)) < 1.0].max()
+        assert side_db - felt_db.max() == pytest.approx(-12.0, abs=3.0)

@@ -58,12 +58,12 @@ def test_silence_stays_silent() -> None:
 
 
 def test_a_scene_plans_it_and_says_how_each_source_is_felt() -> None:
-    converter, actuator = CONVERTERS.build(DEFAULT_CONVERTER), ActuatorProfile("lra", 100.0, 400.0, 175.0, 8.0)
-    source = SourceClip(AudioClip(ENGINE, RATE), 0.9)
-    (plan,) = plan_scene([source], converter, actuator)
-    assert plan.context.rough_hz == pytest.approx(40.0, abs=0.1)
+    converter = CONVERTERS.build(DEFAULT_CONVERTER)
+    source = SourceClip(AudioClip((0.5 * np.sin(2 * np.pi * 80 * T)).astype(np.float32), RATE), 0.9)
+    (plan,) = plan_scene([source], converter, ActuatorProfile())
     loop = felt_loop(source.clip, converter, plan)
     assert loop.felt is not None
+    assert loop.felt.rough_hz is None
     assert loop.felt.asked_level_db == plan.level_db
     assert loop.felt.own_hz == plan.context.own_hz
     assert loop.felt.level_db < loop.felt.asked_level_db - 3.0
@@ -73,6 +73,8 @@ def test_a_scene_plans_it_and_says_how_each_source_is_felt() -> None:
 def test_a_sensation_says_where_it_went() -> None:
     assert str(Sensation(20.0, 21.0, 98.0, 80.0)) == "20.0 dB over the threshold at 80 Hz, moved from 98"
     assert str(Sensation(20.0, 20.0, 98.0, 98.2)) == "20.0 dB over the threshold at 98 Hz"
+    rough = "20.0 dB over the threshold at 250 Hz, moved from 49, rough at 49 Hz"
+    assert str(Sensation(20.0, 20.0, 49.0, 250.0, 49.0)) == rough
     assert str(Sensation(14.0, 20.0)) == "14.0 dB over the threshold of 20.0 asked"
     with pytest.raises(AudioError, match="level_db"):
         Sensation(float("nan"), 20.0)

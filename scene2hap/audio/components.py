@@ -1,0 +1,104 @@
+"""What a spectrum consists of: lines, which stand out of the noise around them, and bands of noise."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import scipy.fft
+from numpy.typing import NDArray
+
+Signal = NDArray[np.float64]
+
+LINE_DB = 12.0
+"""By which a line is higher than the median of what is around it. The highest of 500 bins of noise exceeds its median
+by 9.5 dB."""
+_AROUND = 2.0 ** (1.0 / 3.0)
+_LOBES = 8.0
+"""Widths of the window's main lobe around a component that are looked at, if that is more."""
+_APART = 2.0 ** (1.0 / 6.0)
+_MOST = 8
+
+
+class Component(NamedTuple):
+    """A peak of a spectrum: frequency [Hz], height of the spectrum there [dB], and how far that is above the median of
+    what is around it [dB]."""
+
+    hz: float
+    level_db: float
+    above_noise_db: float
+
+    @property
+    def is_line(self) -> bool:
+        """Whether it is more than a peak of noise."""
+        return self.above_noise_db >= LINE_DB
+
+
+def magnitudes(x: Signal) -> Signal:
+    """Magnitudes under a Hann window, of a sound (n,) padded to an even number of twice its length and more."""
+    n = 2 * scipy.fft.next_fast_len(len(x), real=True)
+    found: Signal = np.abs(scipy.fft.rfft((x - x.mean()) * np.hanning(len(x) + 2)[1:-1], n))
+    return found
+
+
+def components(
+    magnitude: Signal, sample_rate_hz: float, range_hz: tuple[float, float], faintest_db: float
+) -> list[Component]:
+    """The peaks of a spectrum from `magnitudes` within a range, strongest first, at most eight.
+
+    None is within a sixth of an octave of a stronger one, or more than `faintest_db` (negative) below the strongest.
+    Parabola through the logarithms of the three bins around a peak.
+    """
+    n = 2 * (len(magnitude) - 1)
+    low, high = range_hz
+    first, last = max(1, int(np.ceil(low * n / sample_rate_hz))), int(high * n / sample_rate_hz)
+    bins = np.arange(first, min(last, len(magnitude) - 2) + 1)
+    bins = bins[(magnitude[bins] >= magnitude[bins - 1]) & (magnitude[bins] > magnitude[bins + 1])]
+    if bins.size == 0:
+        return []
+    bins = bins[magnitude[bins] >= magnitude[bins].max() * 10 ** (faintest_db / 20)]
+    heights = magnitude[bins]
+    kept: list[int] = []
+    while heights.any() and len(kept) < _MOST:
+        k = int(bins[np.argmax(heights)])
+        kept.append(k)
+        heights[(bins <= k * _APART) & (bins >= k / _APART)] = 0.0
+    return [
+        Component(
+            (k + _peak_offset(magnitude[k - 1 : k + 2])) * sample_rate_hz / n,
+            20.0 * float(np.log10(magnitude[k])),
+            _above_noise_db(magnitude, k),
+        )
+        for k in kept
+    ]
+
+
+def strongest_bands_hz(
+    magnitude: Signal, sample_rate_hz: float, range_hz: tuple[float, float], faintest_db: float
+) -> list[float]:
+    """Middles of the third octaves within a range, strongest first, none further below that than `faintest_db` [Hz]."""
+    n = 2 * (len(magnitude) - 1)
+    low, high = range_hz
+    middles = 10 ** (np.arange(np.ceil(10 * np.log10(low)), np.floor(10 * np.log10(high)) + 1) / 10)
+    power = np.concatenate([[0.0], np.cumsum(magnitude**2)])
+    edges = np.clip(
+        np.rint(np.outer([10**-0.05, 10**0.05], middles) * n / sample_rate_hz).astype(int), 0, len(magnitude)
+    )
+    energy = power[edges[1]] - power[edges[0]]
+    if not energy.any():
+        return []
+    order = [int(k) for k in np.argsort(-energy, kind="stable")]
+    return [float(middles[k]) for k in order if energy[k] >= energy.max() * 10 ** (faintest_db / 10)]
+
+
+def _above_noise_db(magnitude: Signal, k: int) -> float:
+    # Spectra are padded to twice the sound: a main lobe has eight bins.
+    reach = max(k * (_AROUND - 1.0), _LOBES * 8)
+    around = magnitude[max(1, int(k - reach)) : int(k + reach) + 1]
+    return float(20.0 * np.log10(magnitude[k] / max(float(np.median(around)), 1e-300)))
+
+
+def _peak_offset(three: Signal) -> float:
+    a, b, c = np.log(np.maximum(three, np.finfo(float).tiny))
+    curvature = a - 2 * b + c
+    return float(np.clip(0.5 * (a - c) / curvature, -0.5, 0.5)) if curvature < 0 else 0.0

@@ -1,0 +1,76 @@
+"""The anchor of a sound that goes on, for streams of which nobody has seen the whole."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.audio.anchor import FAINTEST_DB, HIGHEST_PEAK_DB, RANGE_HZ, rendered_hz
+from scene2hap.audio.components import components, magnitudes
+from scene2hap.audio.levels import drive_db
+from scene2hap.haptics import ActuatorProfile
+
+STAYS_DB = 3.0
+"""An anchor that was followed stays while it is no weaker than the best by more; about what is felt as a difference."""
+LOST_DB = 12.0
+"""An anchor that falls so far behind the best within one stretch belonged to another sound; assumed."""
+_SAME = 1.06
+"""Between looks a component moves less than this; a faster one is another component."""
+_NEW_SHARE = 0.3
+"""Of the newest stretch in the averaged spectrum; assumed: two looks make half of it."""
+
+
+class TrackedAnchor:
+    """The anchor of a sound that goes on, looked at in stretches of one length and taken for steady, which is quicker.
+
+    Spectra are averaged from look to look, and an anchor stays while its component is within `STAYS_DB` of the best: a
+    machine with two harmonics alike does not hop between them.
+
+    Parameters: sample_rate_hz : of the stretches; level_db : over the threshold, at which the sound is to be felt.
+    """
+
+    def __init__(self, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile) -> None:
+        self._rate_hz, self._level_db, self._actuator = sample_rate_hz, level_db, actuator
+        self._power: NDArray[np.float64] | None = None
+        self.own_hz: float | None = None
+
+    def look(self, stretch: NDArray[np.float64]) -> float | None:
+        """The anchor after another stretch (n_samples,); None while there is nothing [Hz]."""
+        magnitude = magnitudes(stretch)
+        self._power = self._averaged(magnitude)
+        found = components(np.sqrt(self._power), self._rate_hz, rendered_hz(self._rate_hz, self._actuator), FAINTEST_DB)
+        if not found:
+            return self.own_hz
+        hz, height_db = np.array([(one.hz, one.level_db) for one in found]).T
+        drive = drive_db(hz, self._level_db, self._actuator)
+        good = drive <= HIGHEST_PEAK_DB
+        best = int(np.argmax(good) if good.any() else np.argmin(drive))
+        if self.own_hz is not None:
+            near = int(np.argmin(np.abs(np.log(hz / self.own_hz))))
+            is_same = abs(np.log(hz[near] / self.own_hz)) < np.log(_SAME)
+            if is_same and good[near] == good[best] and height_db[near] >= height_db[best] - STAYS_DB:
+                best = near
+        self.own_hz = float(hz[best])
+        return self.own_hz
+
+    def _averaged(self, magnitude: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Power by bins, of this stretch and those before; of this one alone if the anchor is lost in it."""
+        power = magnitude**2
+        before, own_hz = self._power, self.own_hz
+        if before is None or own_hz is None or len(before) != len(power):
+            return power
+        per_bin = 2 * (len(power) - 1) / self._rate_hz
+        low, high = int(own_hz / _SAME * per_bin), int(own_hz * _SAME * per_bin) + 1
+        first, last = (int(edge * per_bin) for edge in RANGE_HZ)
+        if power[low : high + 1].max() < power[first : last + 1].max() * 10 ** (-LOST_DB / 10):
+            return power
+        return _NEW_SHARE * power + (1.0 - _NEW_SHARE) * before
+
+    def share(self, passes: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> float:
+        """The power that a filter of this gain over frequency [Hz] lets through, of the stretches so far [-]."""
+        if self._power is None:
+            return 0.0
+        f = np.arange(len(self._power)) * self._rate_hz / (2 * (len(self._power) - 1))
+        return float(self._power @ passes(f) ** 2)

@@ -1,0 +1,109 @@
+"""A bed rises and falls as the sound that it is made of."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.tactile import CONVERTERS
+from scene2hap.audio.tactile.following import MOST_LIFTED_DB, Following
+from sound_draws import band_noise, coloured_noise
+
+RATE = 8000
+T = np.arange(6 * RATE) / RATE
+
+
+def through(x: np.ndarray, own_hz: float = 120.0, *, block: int = 3001) -> np.ndarray:
+    stream = CONVERTERS.build("auto").stream(RATE, ConversionContext(own_hz=own_hz))
+    fed = (0.5 * x / np.abs(x).max()).astype(np.float32)
+    parts = [stream.process(fed[at : at + block]) for at in range(0, len(fed), block)]
+    return np.concatenate([*parts, stream.finish()]).astype(float)
+
+
+def levels_db(x: np.ndarray) -> np.ndarray:
+    """Of each 100 ms, without the first second, in which filters settle."""
+    return 10 * np.log10((x[RATE:].reshape(-1, RATE // 10) ** 2).mean(axis=1) + 1e-12)
+
+
+def range_db(x: np.ndarray) -> float:
+    return float(np.subtract(*np.percentile(levels_db(x), (95, 5))))
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("slope", [0.0, 1.0])
+def test_a_steady_noise_stays_steady(slope: float, seed: int) -> None:
+    """A narrow band of it surges by 5 to 9 dB by itself."""
+    x = coloured_noise(np.random.default_rng(seed), len(T), slope)
+    assert range_db(through(x)) <= range_db(x) + 3.0
+
+
+def test_beats_of_what_lies_in_the_band_do_not_grow() -> None:
+    x = np.sin(2 * np.pi * 120.0 * T) + 0.7 * np.sin(2 * np.pi * 121.5 * T) + 4.0 * np.sin(2 * np.pi * 400.0 * T)
+    assert range_db(through(x)) <= range_db(x) + 3.0
+
+
+def test_what_rises_and_falls_outside_of_the_band_is_felt_to_do_so() -> None:
+    rng = np.random.default_rng(2)
+    surge = 0.1 + np.maximum(0.0, np.sin(2 * np.pi * 0.8 * T)) ** 2
+    x = 0.5 * np.sin(2 * np.pi * 120.0 * T) + 3.0 * surge * band_noise(rng, len(T), RATE, 500.0, 3500.0)
+    felt, sound = (10 ** (levels_db(y) / 20) for y in (through(x), x))
+    assert np.corrcoef(felt, sound)[0, 1] > 0.8
+
+
+class _Bed:
+    """A bed with a gain of its own."""
+
+    def __init__(self, gain: np.ndarray) -> None:
+        self._gain, self._n = gain, 0
+
+    def run(self, x: np.ndarray) -> np.ndarray:
+        self._n += len(x)
+        return x * self._gain[self._n - len(x) : self._n]
+
+    def rest(self) -> np.ndarray:
+        return np.empty(0)
+
+
+def followed(gain: np.ndarray, cuts: list[int]) -> np.ndarray:
+    stage = Following(_Bed(gain), RATE)
+    x = 0.5 * np.sin(2 * np.pi * 200 * T)
+    return np.concatenate([*(stage.run(part) for part in np.split(x, cuts)), stage.rest()])
+
+
+def test_what_stays_within_half_a_decibel_is_untouched_bit_for_bit() -> None:
+    gain = 0.1 * 10 ** (0.2 * np.sin(2 * np.pi * 0.7 * T) / 20)
+    np.testing.assert_array_equal(followed(gain, []), gain * 0.5 * np.sin(2 * np.pi * 200 * T))
+
+
+def test_it_returns_every_sample_however_a_sound_is_cut() -> None:
+    gain = 0.1 * (1.0 + 0.9 * np.sin(2 * np.pi * 1.3 * T))
+    whole = followed(gain, [])
+    assert len(whole) == len(T)
+    for cuts in ([1, 2, 30], [79, 80, 81, 4000], list(range(0, len(T), 777))):
+        np.testing.assert_array_equal(followed(gain, cuts), whole)
+    for n in (0, 1, 79, 80, 500):
+        stage = Following(_Bed(np.ones(n)), RATE)
+        assert len(np.concatenate([stage.run(np.ones(n)), stage.rest()])) == n
+
+
+def test_its_gain_is_bounded_and_moves_without_a_step() -> None:
+    gain = np.where(T < 3.0, 1.0, 1e-4)
+    found = followed(gain, [])
+    late = np.abs(found[round(3.2 * RATE) : round(4.0 * RATE)]).max() / (0.5 * 1e-4)
+    assert 20 * np.log10(late) == pytest.approx(MOST_LIFTED_DB, abs=0.1)
+    assert np.isfinite(found).all()
+
+
+def test_silence_stays_silent() -> None:
+    stage = Following(_Bed(np.ones(RATE)), RATE)
+    assert not np.concatenate([stage.run(np.zeros(RATE)), stage.rest()]).any()
+
+
+def test_blocks_of_any_size_give_the_same_bits_with_onsets_over_it() -> None:
+    rng = np.random.default_rng(4)
+    x = coloured_noise(rng, len(T), 1.0) + 20.0 * (rng.random(len(T)) < 2e-4)
+    whole = through(x, block=len(x))
+    assert len(whole) == len(x)
+    for block in (1237, 64, 20_011):
+        np.testing.assert_array_equal(through(x, block=block), whole)

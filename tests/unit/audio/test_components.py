@@ -1,0 +1,31 @@
+"""Lines and bands of noise in a spectrum."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from scene2hap.audio.components import components, magnitudes, strongest_bands_hz
+
+RATE = 8000
+RANGE = (20.0, 1000.0)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_noise_has_no_lines_and_a_hum_in_it_has(seed: int) -> None:
+    rng, t = np.random.default_rng(seed), np.arange(5 * RATE) / RATE
+    noise = rng.standard_normal(len(t))
+    assert not any(one.is_line for one in components(magnitudes(noise), RATE, RANGE, -14.0))
+    hum = noise + 0.3 * np.sin(2 * np.pi * 97.3 * t)
+    strongest = components(magnitudes(hum), RATE, RANGE, -14.0)[0]
+    assert strongest.is_line
+    assert strongest.hz == pytest.approx(97.3, abs=0.1)
+
+
+def test_the_strongest_bands_come_first_and_faint_ones_not_at_all() -> None:
+    rng = np.random.default_rng(3)
+    spectrum = np.fft.rfft(rng.standard_normal(5 * RATE))
+    f = np.fft.rfftfreq(5 * RATE, 1 / RATE)
+    x = np.fft.irfft(np.where((f > 143) & (f < 176), spectrum, 0.01 * spectrum), 5 * RATE)
+    assert strongest_bands_hz(magnitudes(x), RATE, RANGE, -14.0) == [pytest.approx(158.5, abs=0.1)]
+    assert strongest_bands_hz(magnitudes(np.zeros(RATE)), RATE, RANGE, -14.0) == []
