@@ -4,8 +4,8 @@ python stress/audio.py [frequency] [loops] [chopped] [choice] [--seed 0] [--draw
 
 frequency : 1,000 tones of 15 to 500 Hz with a second partial at -6 dB, 2.5 s, noise in 20-1000 Hz at 10 dB below;
     of the recorded hums, the strongest third octave of a bank of Butterworth filters tells the octave.
-loops : 300 clips, of which recordings, noises, tones and beats a quarter each; the wrap of the loop is judged against
-    200 places inside the clip (`tests/seam_judge.py`).
+loops : 300 clips, of which recordings, noises, tones and beats a quarter each, through every converter in turn; the
+    wrap of the loop is judged against percentiles of 200 places inside the clip (`tests/seam_judge.py`).
 chopped : a test of that test: 1,500 tones and 1,500 noises, each cut once at random; 1 to 8 tones in a hundred meet
     themselves by chance.
 choice : 200 draws of a recorded hum among the other recordings and eight synthesized decoys (`tests/sound_draws.py`).
@@ -19,6 +19,7 @@ import platform
 import sys
 import time
 from collections import defaultdict
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -27,12 +28,15 @@ from scipy.signal import butter, sosfiltfilt
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 from scene2hap.audio import analysis
+from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert_clip
+from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.loops import apply_seam, find_seam
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.select import explain_choice
-from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
+from scene2hap.audio.tactile import CONVERTERS
+from scene2hap.haptics import ActuatorProfile
 from seam_judge import judge
 from sound_draws import (
     HUMS,
@@ -44,6 +48,7 @@ from sound_draws import (
     recordings,
 )
 
+LEVEL_DB = sensation_level_db(0.3)
 KINDS = ("recording", "noise", "tone", "beat")
 
 
@@ -94,6 +99,9 @@ def strongest_third_octave_hz(x: Signal, rate: int) -> float:
 def loops(real: dict[str, tuple[Signal, int]], seed: int, draws: int | None) -> None:
     kinds = KINDS if real else KINDS[1:]
     rows: dict[str, list[tuple[bool, bool]]] = defaultdict(list)
+    by_converter: dict[str, list[bool]] = defaultdict(list)
+    lengths: list[tuple[float, float]] = []
+    converters = CONVERTERS.kinds()
     slowest, phases = 0.0, []
     for i in range(draws or 300):
         kind = kinds[i % len(kinds)]
@@ -101,24 +109,34 @@ def loops(real: dict[str, tuple[Signal, int]], seed: int, draws: int | None) -> 
         _, x, rate, pitch_hz = loop_clip(kind, rng, real)
         clip = AudioClip(x.astype(np.float32), rate)
         heard = clip.samples.astype(float)
-        felt = convert_clip(clip, SvfBandpass(), ConversionContext()).samples.astype(float)
+        converter = converters[i // len(kinds) % len(converters)]
+        anchor = anchor_of(heard, rate, LEVEL_DB, ActuatorProfile())
+        context = ConversionContext(intensity=0.3)
+        if anchor is not None:
+            places = {"own_hz": anchor.frequency_hz, "target_hz": anchor.carrier_hz, "rough_hz": anchor.rough_hz}
+            context = replace(context, **places)
+        felt = convert_clip(clip, CONVERTERS.build(converter), context).samples.astype(float)
         begin = time.process_time()
         seam = find_seam(heard, rate, felt)
         slowest = max(slowest, time.process_time() - begin)
         if kind == "tone":
             phases.append(360 * abs((pitch_hz * seam.length / rate + 0.5) % 1.0 - 0.5))
-        rows[kind].append(
-            (
-                judge(apply_seam(heard, seam), heard, rate, rng).passes,
-                judge(apply_seam(felt, seam.fitted(felt)), felt, rate, rng).passes,
-            )
-        )
+        lengths.append((seam.length / rate, seam.length / len(heard)))
+        is_felt_well = judge(apply_seam(felt, seam.fitted(felt)), felt, rate, rng).passes
+        by_converter[converter].append(is_felt_well)
+        rows[kind].append((judge(apply_seam(heard, seam), heard, rate, rng).passes, is_felt_well))
     everything = [row for kind in rows.values() for row in kind]
     print(f"loops, {len(everything)} clips: share whose wrap does not stand out")
     print(f"  {'kind':10} {'clips':>5} {'heard':>7} {'felt':>7}")
     for kind, row in (*rows.items(), ("all", everything)):
         heard_share, felt_share = np.mean(row, axis=0)
         print(f"  {kind:10} {len(row):5} {heard_share:7.1%} {felt_share:7.1%}")
+    for converter, passed in sorted(by_converter.items()):
+        print(f"  {converter:16} {len(passed):3} clips {np.mean(passed):7.1%} felt")
+    long = [share for seconds, share in lengths if seconds / share >= 3.0]
+    print(f"  a loop takes {np.median([share for _, share in lengths]):.0%} of its clip in the median")
+    short = np.mean([seconds < 2.5 for seconds, share in lengths if seconds / share >= 3.0])
+    print(f"  of {len(long)} clips of 3 s and more {short:.0%} give loops below 2.5 s")
     print(
         f"  tones wrap within {max(phases):.2f} degrees; slowest search for a shared seam {slowest:.2f} s of processor"
     )

@@ -39,8 +39,18 @@ TACTILE_RANGE_HZ = (10.0, 1000.0)
 FAINTEST_PEAK_DB = -60.0
 """Of a sound, below which it is taken for the noise of a recording, which is not to be felt [dB re full scale]."""
 
+LEFT_PEAK_DB = -40.0
+"""Of a vibration against its sound: what is below this and below `FAINTEST_PEAK_DB` is the noise of the recording, of
+which a converter left nothing else; assumed."""
+
 _NOTHING_DB = -120.0
 """Below this there are only errors of rounding."""
+
+
+def is_noise(sound_peak: float, touch_peak: float) -> bool:
+    """Whether a sound, or what a converter left of it, is but the noise of its recording; from both peaks [-]."""
+    faintest = 10 ** (FAINTEST_PEAK_DB / 20)
+    return sound_peak < faintest or touch_peak < min(faintest, sound_peak * 10 ** (LEFT_PEAK_DB / 20))
 
 
 def sensation_level_db(intensity: float) -> float:

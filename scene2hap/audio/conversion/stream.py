@@ -29,7 +29,7 @@ from scene2hap.audio.conversion.felt_level import FeltLevel
 from scene2hap.audio.conversion.meter import Meter
 from scene2hap.audio.files import opened_sound, require_finite, written_whole
 from scene2hap.audio.haptic_loop import Sensation
-from scene2hap.audio.levels import FAINTEST_PEAK_DB, TACTILE_HEADROOM_DB, sensation_level_db
+from scene2hap.audio.levels import TACTILE_HEADROOM_DB, is_noise, sensation_level_db
 from scene2hap.audio.protocol import (
     ConversionContext,
     TactileConverter,
@@ -71,10 +71,10 @@ class Conversion:
     """Result of converting a file. Peaks are absolute samples [re full scale], before clipping.
 
     `n_clipped` samples were beyond full scale and were written as full scale. `level_db` is how far over the threshold
-    of touch the vibration is on the whole [dB], of `asked_level_db`, which head-room may forbid; None for silence, for
-    the noise of a recording (`levels.FAINTEST_PEAK_DB`), which is not lifted, and for what is left as a converter made
-    it. A dominant frequency is that of the mean power spectrum of all channels, 10 Hz to 20 kHz; None for silence.
-    `picture` is None where none was drawn.
+    of touch the vibration is on the whole [dB], of `asked_level_db`, which head-room may forbid. It is None for
+    silence, for `raw`, and where the sound, or what the converter leaves of it, is the noise of a recording
+    (`levels.is_noise`), which is not lifted. A dominant frequency is that of the mean power spectrum of all channels, 10
+    Hz to 20 kHz; None for silence. `picture` is None where none was drawn.
     """
 
     source: Path
@@ -296,7 +296,7 @@ def _at_level(blocks: Iterator[Block], felt: _Felt, context: ConversionContext, 
         heard.hear(block)
         held.write(block.tobytes())
     now_db, gain = heard.level_db(), 1.0
-    if now_db > _NOTHING_DB and felt.before.peak >= 10 ** (FAINTEST_PEAK_DB / 20):
+    if now_db > _NOTHING_DB and not is_noise(felt.before.peak, heard.peak):
         asked_db = sensation_level_db(context.intensity)
         gain = min(10 ** ((asked_db - now_db) / 20), 10 ** (-TACTILE_HEADROOM_DB / 20) / heard.peak)
         felt.level_db = now_db + 20 * math.log10(gain)

@@ -12,7 +12,7 @@ from scene2hap.audio import analysis
 from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.haptic_loop import HapticLoop
-from scene2hap.audio.levels import FAINTEST_PEAK_DB, TACTILE_HEADROOM_DB
+from scene2hap.audio.levels import FAINTEST_PEAK_DB, TACTILE_HEADROOM_DB, is_noise
 from scene2hap.audio.loops.seam import apply_seam
 from scene2hap.audio.loops.seam_search import CROSSFADE_S, MAX_LOOP_S, MIN_CLIP_S, find_seam
 from scene2hap.audio.loops.whole import whole_loop
@@ -55,8 +55,9 @@ def loop_pair(
 
     The whole clip is converted before it is cut, so that a converter's start-up lies outside the loop. The seam suits
     both signals; each is faded by the law that suits it. The audible loop peaks at `AUDIBLE_PEAK_DBFS`, the tactile one
-    at `context.intensity` times full scale less `TACTILE_HEADROOM_DB`. A clip that is a vibration already is looped
-    whole, and converted only to move it.
+    at `context.intensity` times full scale less `TACTILE_HEADROOM_DB`; if the converter leaves only the noise of the
+    recording (`levels.is_noise`), this is not lifted. A clip that is a vibration already is looped whole, and
+    converted only to move it.
 
     Parameters: finish : what is done to the tactile loop last, such as equalizing it for an actuator.
     Raises: AudioError: the clip is shorter than `MIN_CLIP_S` or silent, or its conversion is.
@@ -73,8 +74,10 @@ def loop_pair(
     for name, loop in (("sound", audible), ("tactile signal", tactile)):
         if not loop.any():
             raise AudioError(f"{clip.credit.title!r}: the {name} is silent. Choose another sound or converter.")
-    felt = _with_peak(tactile, intensity * 10 ** (-TACTILE_HEADROOM_DB / 20))
-    felt = felt if finish is None else finish(felt)
+    felt = tactile
+    if not is_noise(peak, float(np.abs(tactile).max())):
+        felt = _with_peak(tactile, intensity * 10 ** (-TACTILE_HEADROOM_DB / 20))
+        felt = felt if finish is None else finish(felt)
     return HapticLoop(
         replace(clip, samples=_with_peak(audible, 10 ** (AUDIBLE_PEAK_DBFS / 20))),
         replace(clip, samples=felt),

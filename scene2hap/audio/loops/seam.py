@@ -5,6 +5,10 @@
 Stretches that are alike (r = 1) keep their level under a linear fade, w_in + w_out = 1, unrelated ones (r = 0) under an
 equal-power one, w_in^2 + w_out^2 = 1; the root is 1 in both cases, and between them it takes away what is left of the
 dip or the bump, up to 1.2 dB.
+
+A sound that has become softer or louder by T dB from one stretch to the other is tilted back along the loop, by a gain
+of T (i / L - 1/2) dB at sample i of L, so that both stretches are equally loud. Levels are medians over 20 ms, which a
+tick in one of the stretches leaves alone, and up to 1 dB nothing is tilted: a tone keeps its amplitude exactly.
 Source: M. Fink, M. Holters, U. Zölzer, "Signal-matched power-complementary cross-fading and dry-wet mixing", DAFx 2016.
 """
 
@@ -24,6 +28,10 @@ FadeLaw = Literal["linear", "equal-power"]
 
 _ALIKE = 0.5
 """Correlation above which a fade is linear."""
+_LEVEL_PARTS = 10
+"""Parts of a stretch of which the median level counts: 20 ms of 200."""
+_LEVEL_FREE_DB, _MOST_TILTED_DB = 1.0, 12.0
+"""Differences that are not tilted away, since nobody notices them, and the most that is."""
 _MOST_OPPOSED = -0.5
 """Stretches more opposed than this are not brought to full power: the gain would lift what does not cancel by 3 dB."""
 
@@ -33,7 +41,8 @@ class Seam:
     """Where a loop is cut and how it is closed: first sample, length and crossfade length [samples], and fade law.
 
     `correlation` -1..1 [-] is that of the stretches faded into each other; None stands for 1 where the law is linear
-    and 0 where it is equal-power, to which each law is made.
+    and 0 where it is equal-power, to which each law is made. `tilt_db` is what the end of the loop is lifted by against
+    its beginning [dB].
     """
 
     start: int
@@ -41,12 +50,14 @@ class Seam:
     crossfade: int
     law: FadeLaw
     correlation: float | None = None
+    tilt_db: float = 0.0
 
     def __post_init__(self) -> None:
         if self.start < 0 or not 0 <= self.crossfade <= self.length or self.length < 1:
             raise AudioError(f"{self} is impossible; it needs start >= 0, length >= 1 and 0 <= crossfade <= length.")
         if self.correlation is not None:
             checks.number("correlation", self.correlation, "-", at_least=-1.0, at_most=1.0, error=AudioError)
+        checks.number("tilt_db", self.tilt_db, "dB", at_least=-60.0, at_most=60.0, error=AudioError)
 
     @property
     def n_samples_needed(self) -> int:
@@ -54,22 +65,43 @@ class Seam:
         return self.start + self.length + self.crossfade
 
     def fitted(self, samples: ArrayLike) -> Seam:
-        """The same place with the law and the correlation of another signal (n,), cut in step with the first."""
+        """The same place with the law, correlation and tilt of another signal (n,), cut in step with the first."""
         x = _signal(samples, self)
         a, b = _stretches(x - x.mean(), self)
         energy = float(np.sqrt((a @ a) * (b @ b)))
         correlation = float(np.clip(a @ b / energy, -1.0, 1.0)) if energy > 0.0 else 1.0
-        return replace(self, law="linear" if correlation > _ALIKE else "equal-power", correlation=correlation)
+        law: FadeLaw = "linear" if correlation > _ALIKE else "equal-power"
+        return replace(self, law=law, correlation=correlation, tilt_db=_tilt_db(a, b))
 
 
 def apply_seam(samples: ArrayLike, seam: Seam) -> Samples:
     """The loop (seam.length,) that a seam cuts from a signal (n,). Raises: AudioError: it is too short for the seam."""
-    x = _signal(samples, seam)
+    x = _tilted(_signal(samples, seam), seam)
     loop = x[seam.start : seam.start + seam.length].copy()
     ahead, behind = _stretches(x, seam)
     w_in, w_out = _weights(seam)
     loop[: seam.crossfade] = w_in * ahead + w_out * behind
     return loop.astype(np.float32)
+
+
+def _tilt_db(ahead: NDArray[np.float64], behind: NDArray[np.float64]) -> float:
+    """By how much the stretch ahead is louder than the one behind, 0 where that is not noticed [dB]."""
+    n = len(ahead) // _LEVEL_PARTS
+    if n < 1:
+        return 0.0
+    one, other = (float(np.median((x[: n * _LEVEL_PARTS].reshape(-1, n) ** 2).mean(axis=1))) for x in (ahead, behind))
+    if min(one, other) <= 0.0:
+        return 0.0
+    difference_db = 10.0 * float(np.log10(one / other))
+    return float(np.clip(difference_db, -_MOST_TILTED_DB, _MOST_TILTED_DB)) * (abs(difference_db) > _LEVEL_FREE_DB)
+
+
+def _tilted(x: NDArray[np.float64], seam: Seam) -> NDArray[np.float64]:
+    if seam.tilt_db == 0.0:
+        return x
+    n, mean = seam.n_samples_needed, x.mean()
+    along = (np.arange(n) - seam.start) / seam.length - 0.5
+    return np.asarray(mean + (x[:n] - mean) * 10.0 ** (seam.tilt_db * along / 20.0))
 
 
 def _weights(seam: Seam) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -44,6 +44,9 @@ _N_REFINED = 96
 _AS_GOOD = 3e-5
 """Seams whose likeness is this close to the best are as good, and the longest of them wins: a tone out of phase by 0.44
 degrees differs by as much."""
+_LONG_SHARES, _WORTH_LENGTH = (0.8, 0.65), 0.5
+"""A loop that takes so much of the clip is preferred if it lacks at most half more in likeness than the best one: of
+noise all seams are alike, and what returns later is noticed later. A rhythm has few seams, long or not."""
 _SILENT = 1e-9
 """Of the whole energy; below, likeness would be a ratio of rounding errors."""
 
@@ -72,6 +75,12 @@ def find_seam(samples: ArrayLike, sample_rate_hz: float, *others: ArrayLike) -> 
     weights = [_mean_power(x, fade) for x in cut]
     found = _refined(cut, weights, fade, _promising(cut, weights, fade, min(1.0, _COARSE_HZ / rate)))
     best = max(likeness for likeness, _, _ in found)
+    for share in _LONG_SHARES:
+        long = [seam for seam in found if seam[1] >= share * (usable - fade)]
+        likest = max((seam[0] for seam in long), default=-1.0)
+        if likest >= best - max(_AS_GOOD, _WORTH_LENGTH * (1.0 - best)):
+            found, best = long, likest
+            break
     _, length, start = max((seam for seam in found if seam[0] >= best - _AS_GOOD), key=lambda seam: (seam[1], -seam[2]))
     return Seam(offset + start, length, fade, "linear").fitted(signals[0])
 
@@ -109,7 +118,9 @@ def _promising(signals: Sequence[Signal], weights: Sequence[Signal], fade: int, 
     rows = np.concatenate(found)
     # Of equal promise the longer first: what returns later is noticed later.
     order = np.lexsort((-rows[:, 2], -np.round(rows[:, 0] / _AS_GOOD)))
-    return rows[order[:_N_REFINED], 1:].astype(np.int64)
+    length, longest = rows[order, 2], len(signals[0]) - fade
+    chosen = [order[length >= share * longest][:_N_REFINED] for share in (*_LONG_SHARES, 0.0)]
+    return rows[np.concatenate(chosen), 1:].astype(np.int64)
 
 
 def _likeness(x: Signal, plain: Signal, width: int, starts: NDArray[np.int64]) -> Signal:

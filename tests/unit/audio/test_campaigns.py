@@ -62,6 +62,19 @@ def test_the_judge_notices_tones_and_rumble_chopped_at_random() -> None:
     assert noticed["brown"] >= 4
 
 
+def test_the_judge_notices_a_level_that_jumps_in_a_sound_that_varies() -> None:
+    """The largest jump of 200 places lets it pass."""
+    rng, rate = np.random.default_rng(6), RATES[1]
+    t = np.arange(12 * rate) / rate
+    surge = 1.0 + 0.8 * np.sin(2 * np.pi * 0.7 * t)
+    x = surge * coloured_noise(rng, len(t), 1.0)
+    x[2 * rate :][: rate // 50] *= 8.0  # one bang
+    loop = x[round(0.36 * rate) : round(1.07 * rate)]  # from loud to soft
+    verdict = judge(loop, x, rate, rng)
+    assert verdict.jump_db > 0.5
+    assert not verdict.passes
+
+
 @pytest.mark.parametrize("maker", by_whom())
 def test_a_hum_wins_over_whatever_else_a_search_brings_home(maker: str) -> None:
     lost = []

@@ -364,3 +364,18 @@ def test_the_noise_of_a_recording_is_not_lifted(tmp_path: Path, peak_db: float, 
     made = audio.convert(source, tmp_path / "b.wav")
     assert (made.level_db is None) == is_noise
     assert (made.peak_out < 1e-3) == is_noise
+
+
+@pytest.mark.parametrize("kind", ["lowpass", "envelope", "auto"])
+def test_what_a_converter_leaves_of_a_whine_is_noise_and_not_lifted(tmp_path: Path, kind: str) -> None:
+    """Noise at -80 dB re full scale became -21."""
+    t, rng = np.arange(2 * 32_000) / 32_000, np.random.default_rng(0)
+    source = tmp_path / "a.wav"
+    whine = np.minimum(1.0, 10.0 * t) * np.sin(2 * np.pi * 9000 * t)
+    soundfile.write(source, 0.5 * whine + 1e-4 * rng.standard_normal(len(t)), 32_000)
+    made = audio.convert(source, tmp_path / "b.wav", converter=kind, intensity=0.3)
+    if kind == "lowpass":
+        assert made.level_db is None
+        assert made.peak_out < 1e-3
+    else:  # a carrier has its level
+        assert made.level_db == pytest.approx(sensation_level_db(0.3), abs=0.1)
