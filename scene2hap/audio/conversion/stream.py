@@ -73,8 +73,8 @@ class Conversion:
     `n_clipped` samples were beyond full scale and were written as full scale. `level_db` is how far over the threshold
     of touch the vibration is on the whole [dB], of `asked_level_db`, which head-room may forbid. It is None for
     silence, for `raw`, and where the sound, or what the converter leaves of it, is the noise of a recording
-    (`levels.is_noise`), which is not lifted. A dominant frequency is that of the mean power spectrum of all channels, 10
-    Hz to 20 kHz; None for silence. `picture` is None where none was drawn.
+    (`levels.is_noise`), which is not lifted. A dominant frequency is that of the mean power spectrum of all channels,
+    10 Hz to 20 kHz; None for silence. `picture` is None where none was drawn.
     """
 
     source: Path

@@ -36,10 +36,12 @@ def mains_hum(take: Take) -> Signal:
 
 
 def microwave(take: Take) -> Signal:
-    """A microwave oven: its transformer, the fan that cools it, and a turntable that loads both six times a minute."""
+    """A microwave oven: its transformer, the fan that cools it, and a turntable and a stirrer that load both."""
     cooling = fan(take, shaft_hz=44.0, blades=5, rotor=0.4, blade=0.5, flow=0.5)
-    turntable = 1.0 + 0.06 * np.cos(2.0 * np.pi * 0.1 * times() + take.rng.uniform(0.0, 2.0 * np.pi))
-    return (unit_rms(mains_hum(take)) + 0.5 * unit_rms(cooling)) * turntable
+    # A stirrer turns in the field and loads the magnetron; by how much depends on what stands in it.
+    stirrer = 1.0 + 0.27 * np.cos(phase(take.about(1.6) * (1.0 + 0.02 * wander(take.rng))))
+    turntable = 1.0 + 0.03 * np.cos(2.0 * np.pi * 0.1 * times() + take.rng.uniform(0.0, 2.0 * np.pi))
+    return (unit_rms(mains_hum(take)) + 0.5 * unit_rms(cooling)) * turntable * stirrer
 
 
 def vibration_motor(take: Take, *, motor_hz: float = 182.0) -> Signal:
@@ -80,20 +82,37 @@ def reciprocating(take: Take, *, stroke_hz: float, rattle: float = 0.1) -> Signa
     return unit_rms(stroke) + rattle * (0.5 + take.drive) * unit_rms(ends)
 
 
-def combustion(take: Take, *, firing_hz: float, loud_order: int = 2) -> Signal:
+def combustion(
+    take: Take, *, firing_hz: float, loud_order: int = 2, revs: float = 0.0, rev_s: float = 2.5, roar: float = 0.0
+) -> Signal:
     """A piston engine: firings that vary from one to the next, through an exhaust, over a crankshaft.
 
     `loud_order` is the multiple of the firing rate that body and exhaust carry best; for a four-stroke engine of one
-    cylinder, order 2 is its crankshaft.
+    cylinder, order 2 is its crankshaft. Whoever holds the throttle lets the speed rise and fall by the share `revs`,
+    once in `rev_s` seconds; the blasts grow with the square of the speed. `roar` is the level of an open exhaust.
     """
     rate_hz = take.speed_hz(firing_hz)
     n = round(rate_hz * DURATION_S)
+    speed, angle = _throttle(take, n, revs, rev_s)
     # A whole number of firings; the jitter of one per cent of a cycle is what keeps an idle from sounding like a tone.
-    at = (np.arange(n) + 0.01 * take.rng.standard_normal(n)) / n * DURATION_S
+    at = np.interp(np.arange(n) + 0.01 * take.rng.standard_normal(n), angle, times())
     strength = 1.0 + 0.1 * np.clip(take.rng.standard_normal(n), -2.0, 2.0)
+    strength *= np.interp(at, times(), speed) ** 2
     resonance_hz = loud_order * n / DURATION_S
     # Driven hard, the blast is over sooner: more of its harmonics are heard.
     exhaust = ringing(at, strength, resonance_hz, (2.0 - 1.6 * take.drive) / resonance_hz)
-    crank = partials(phase(resonance_hz), take.roll_off(6), take.rng)
-    intake = noise(take.rng, 60.0, 1500.0, -3.0)
+    crank = partials(2.0 * np.pi * loud_order * angle, take.roll_off(6), take.rng) * speed**2
+    intake = noise(take.rng, 60.0, 1500.0, -3.0) * speed**2
+    if roar:
+        intake = intake + roar * noise(take.rng, 150.0, 1500.0) * speed**2
     return unit_rms(exhaust) + 0.4 * unit_rms(crank) + (0.15 + 0.3 * take.drive) * intake
+
+
+def _throttle(take: Take, n_firings: int, revs: float, rev_s: float) -> tuple[Signal, Signal]:
+    """The speed against its mean (n,) [-], and how many firings there were at each sample (n,) [-]."""
+    n_revs = max(1, round(DURATION_S / rev_s))
+    turn = 2.0 * np.pi * (n_revs * times() / DURATION_S + take.rng.uniform())
+    speed = 1.0 + revs * np.sin(turn + 0.5 * np.sin(turn))
+    speed /= speed.mean()
+    angle = np.cumsum(speed) - speed[0]
+    return speed, angle * (n_firings / (angle[-1] + speed[-1]))

@@ -31,10 +31,13 @@ def _fan(
     return Patch(voice, (0.96 * order * shaft_hz, 1.04 * order * shaft_hz), size_m)
 
 
-def _engine(firing_hz: float, loud_order: int, size_m: float) -> Patch:
+def _engine(
+    firing_hz: float, loud_order: int, size_m: float, *, revs: float = 0.0, rev_s: float = 2.5, roar: float = 0.0
+) -> Patch:
     loud_hz = loud_order * firing_hz
-    voice = partial(combustion, firing_hz=firing_hz, loud_order=loud_order)
-    return Patch(voice, (0.95 * loud_hz, 1.05 * loud_hz), size_m)
+    voice = partial(combustion, firing_hz=firing_hz, loud_order=loud_order, revs=revs, rev_s=rev_s, roar=roar)
+    reach = 0.05 + revs
+    return Patch(voice, ((1.0 - reach) * loud_hz, (1.0 + reach) * loud_hz), size_m, is_steady=revs < 0.1)
 
 
 def _to_and_fro(stroke_hz: float, *, rattle: float = 0.1) -> Patch:
@@ -73,7 +76,7 @@ _HUM = Patch(mains_hum, (99.8, 100.2))
 _COMPRESSOR = Patch(compressor, (48.5, 49.5))
 _PISTONS = _to_and_fro(47.5, rattle=0.3)
 # Bubbles rise in surges.
-_BOILING = Patch(partial(bubbles, largest_hz=90.0, smallest_hz=380.0), (80.0, 420.0), rhythm=Rhythm(4.3, 0.28, 0.02))
+_BOILING = Patch(partial(bubbles, largest_hz=90.0, smallest_hz=380.0), (80.0, 420.0), rhythm=Rhythm(4.3, 0.4, 0.02))
 _SIZZLING = Patch(partial(bubbles, largest_hz=150.0, smallest_hz=500.0, per_second=1200.0), (130.0, 550.0))
 _CRACKLING = Patch(
     partial(bubbles, largest_hz=100.0, smallest_hz=400.0, per_second=40.0), (80.0, 440.0), is_steady=False
@@ -108,9 +111,10 @@ _PUMP = Patch(pump, (276.0, 300.0), 0.3)
 _MUSIC = Patch(music, (60.0, 135.0), is_steady=False)
 # Blades that are not quite alike, and air that leans on them.
 _BREEZE = replace(_fan(22.0, 5, 0.4, rotor=0.5, blade=1.0, flow=1.0), rhythm=Rhythm(1.9, 0.28, 0.02))
-_BLOWER = _fan(220.0, 9, 0.22, blade=0.2, flow=0.7)
+# The air flutters in the nozzle.
+_BLOWER = replace(_fan(220.0, 9, 0.22, blade=0.2, flow=0.7), rhythm=Rhythm(10.7, 0.35, 0.03))
 # Two fans that turn almost alike.
-_COMPUTER = replace(_fan(26.0, 7, 0.12, rotor=0.4, blade=1.0, flow=1.8), rhythm=Rhythm(0.7, 0.32, 0.02))
+_COMPUTER = replace(_fan(26.0, 7, 0.12, rotor=0.4, blade=1.0, flow=1.8), rhythm=Rhythm(1.45, 0.32, 0.02))
 _CASE_FAN = replace(_fan(26.0, 7, 0.12, rotor=0.6, blade=1.0, flow=2.3), rhythm=Rhythm(0.7, 0.12, 0.02))
 _CENTRIFUGE = _fan(66.0, 4, 0.4, blade=0.1, flow=0.2)
 _KNEADER = _geared(48.0, 3.5, 0.35, load=0.25)
@@ -118,7 +122,8 @@ _CONVEYOR = _geared(48.0, 9.0, 3.0, rumble=0.4)
 _WINCH = _geared(48.0, 6.0, 1.5)
 _ELECTRIC_DRIVE = _geared(90.0, 8.0, 1.5)
 _TUMBLER = replace(_geared(48.0, 0.85, 0.6, load=0.1, thump_hz=70.0), rhythm=Rhythm(0.85, 0.28, 0.0))
-_STEPPER = Patch(stepper, (85.0, 265.0))
+# Each move begins with a jerk.
+_STEPPER = Patch(stepper, (85.0, 265.0), rhythm=Rhythm(2.7, 0.28, 0.02))
 _ROLLING = Patch(rolling, (40.0, 60.0))
 _HISS = Patch(jet, (45.0, 300.0))
 _WATER = Patch(partial(jet, low_hz=60.0, tilt_db=-4.5), (55.0, 350.0))
@@ -155,7 +160,8 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("washer", "rinse, fill, flow", Patch(partial(washing, drum_hz=0.7, slosh=0.5), (99.8, 100.2))),
     ("washer", "drain, pump", Patch(partial(pump, vanes=3), (138.0, 150.0), 0.6)),
     ("dryer", "", _TUMBLER),
-    ("toothbrush", "", _to_and_fro(260.0)),
+    # Its head passes from tooth to tooth.
+    ("toothbrush", "", replace(_to_and_fro(260.0), rhythm=Rhythm(4.5, 0.28, 0.02))),
     ("shaver, razor, trimmer, clipper, epilator", "", _to_and_fro(110.0, rattle=0.15)),
     ("hairdryer, hand dryer, heat gun", "", _BLOWER),
     ("massager, massage gun, vibrator", "", _SHAKER),
@@ -211,7 +217,8 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("hoist, winch, lift, crane", "hum, whir", _WINCH),
     # garden and building site
     # The chain bites, and the engine feels it.
-    ("chainsaw", "", replace(_engine(150.0, 1, 0.8), rhythm=Rhythm(7.0, 0.4, 0.3))),
+    ("chainsaw", "", replace(_engine(150.0, 1, 0.8, revs=0.04, roar=2.0), rhythm=Rhythm(7.0, 0.4, 0.3))),
+    ("chainsaw", "rev, start, throttle", _engine(130.0, 1, 0.8, revs=0.35, rev_s=1.7, roar=2.0)),
     ("leafblower, string trimmer, brush cutter", "", _TWO_STROKE),
     ("lawnmower, generator, tiller, scarifier, snow blower, cultivator", "", _SMALL_ENGINE),
     ("robot mower", "", _fan(50.0, 3, 0.6)),

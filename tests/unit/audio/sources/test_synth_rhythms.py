@@ -1,0 +1,66 @@
+"""Rhythms that tell machines apart where their pitches do not, and an engine whose throttle moves."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.distinctness import feel_of
+from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
+from scene2hap.audio.sources.synth import Synthesizer
+from scene2hap.audio.tactile import CONVERTERS
+from scene2hap.haptics import ActuatorProfile, VibrationDescription
+
+
+def made(kind: str, verb: str, seed: int, intensity: float = 0.5) -> AudioClip:
+    words = f"{kind} {verb}"
+    return Synthesizer().find(VibrationDescription(kind, "on", words, words, intensity, (0.3, 0.3, 0.3), seed=seed))[0]
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(
+    ("kind", "verb", "rate_hz"),
+    [
+        ("kettle", "boiling", 4.3),
+        ("hair dryer", "blowing", 10.7),
+        ("printer", "printing", 2.7),
+        ("electric toothbrush", "brushing", 4.5),
+        ("microwave", "humming", 1.6),
+        ("computer", "humming", 1.45),
+    ],
+)
+def test_what_is_felt_of_a_machine_has_its_rhythm(kind: str, verb: str, rate_hz: float, seed: int) -> None:
+    """These had none, or one that their band did not keep."""
+    clip, converter = made(kind, verb, seed, 0.2), CONVERTERS.build("auto")
+    (plan,) = plan_scene([SourceClip(clip, 0.2)], converter, ActuatorProfile())
+    loop = felt_loop(clip, converter, plan).tactile
+    assert feel_of(loop.samples, loop.sample_rate_hz).envelope_hz == pytest.approx(rate_hz, rel=0.15)
+
+
+def levels_db(clip: AudioClip) -> np.ndarray:
+    stretches = clip.samples[: len(clip.samples) // 4800 * 4800].reshape(-1, 4800).astype(float)
+    return 10 * np.log10((stretches**2).mean(axis=1))
+
+
+def pitches_hz(clip: AudioClip) -> np.ndarray:
+    """The strongest frequency in 80 to 220 Hz, of each quarter of a second."""
+    found = []
+    for part in clip.samples[: len(clip.samples) // 12_000 * 12_000].reshape(-1, 12_000).astype(float):
+        power = np.abs(np.fft.rfft(part * np.hanning(12_000), 48_000)) ** 2
+        found.append(80 + np.argmax(power[80:220]))
+    return np.array(found)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_chainsaw_revs(seed: int) -> None:
+    """Louder while it is faster; at work by a little, at the throttle by a third of its speed."""
+    for verb, at_least in (("sawing", 1.04), ("revving", 1.4)):
+        clip = made("chainsaw", verb, seed)
+        assert np.isfinite(clip.samples).all()
+        low, high = np.percentile(pitches_hz(clip), (10, 90))
+        assert high / low > at_least, verb
+    pitch, level = pitches_hz(clip), levels_db(clip)[: 2 * (len(levels_db(clip)) // 2)]
+    assert np.subtract(*np.percentile(level, (95, 5))) > 6.0
+    loud = np.interp(np.arange(len(pitch)) * 0.25 + 0.125, (np.arange(len(level)) + 0.5) * 0.1, level)
+    assert np.corrcoef(pitch, loud)[0, 1] > 0.5
