@@ -74,7 +74,7 @@ FIGURES = {
         "contacts", f"stress/contacts.py {MOVERS} --moves 1500", 60, is_text=True, needs="scenes"
     ),
     "distinctness": Figure("conversion", "benchmarks/distinctness.py", 1),
-    "kinds": Figure("conversion", "benchmarks/kinds.py --seeds 4", 1),
+    "kinds": Figure("conversion", "benchmarks/kinds.py --seeds 5", 1),
     "many-scenes": Figure("many-scenes", "benchmarks/bake_many.py", 6, has_times=True, needs="scenes"),
     "many-scenes-200": Figure(
         "many-scenes",

@@ -89,6 +89,9 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
             lowest, highest = rendered_hz(sample_rate_hz, actuator)
             candidates += [hz for hz in bands if lowest <= hz <= highest] or [one.hz for one in near]
     found, missed_db = needs.first_met(candidates)
+    is_whine = heard[0].hz > RANGE_HZ[1]
+    if found is not None and is_whine and needs.above_db(found.frequency_hz, heard[0].hz) < FAINTEST_BELOW_WHINE_DB:
+        found, strongest = None, heard[0]  # of a hiss, what is left at its lower end
     is_slow = strongest.is_line and strongest.hz <= ROUGH_HZ[1]
     is_rendered = found is not None and float(response_db(actuator, found.frequency_hz)) >= -MAX_BOOST_DB
     if found is None or (missed_db > MISSED_DB and (is_slow or not is_rendered)):
@@ -167,6 +170,11 @@ class _Needs:
         rms = float(np.sqrt(2.0 * np.sum(np.abs(band) ** 2)) / self._n)
         crest_db = 20.0 * float(np.log10(peak / (np.sqrt(2.0) * rms)))
         return Anchor(own_hz, crest_db, carrier_hz=best_carrier_hz(self._actuator))
+
+    def above_db(self, one_hz: float, other_hz: float) -> float:
+        """By how much more energy a band has than another [dB]."""
+        one, other = (float(np.sum(np.abs(self._band(hz)[0]) ** 2)) for hz in (one_hz, other_hz))
+        return 10.0 * float(np.log10(max(one, 1e-300) / max(other, 1e-300)))
 
     def _band(self, own_hz: float) -> tuple[NDArray[np.complex128], float]:
         """The spectrum of a band, and its peak."""

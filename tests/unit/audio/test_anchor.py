@@ -13,7 +13,7 @@ from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.tactile import CONVERTERS
-from sound_draws import coloured_noise
+from sound_draws import band_noise, coloured_noise
 
 RATE = 8000
 
@@ -113,6 +113,17 @@ def test_a_noise_is_known_by_a_band_that_can_be_felt_as_asked(slope: float, seed
     loop = felt_loop(clip, CONVERTERS.build("auto"), plan)
     assert loop.felt is not None
     assert loop.felt.level_db == pytest.approx(loop.felt.asked_level_db, abs=3.0)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_hiss_is_not_known_by_the_rumble_of_its_recording(seed: int) -> None:
+    """A peak at 20 Hz that was 38 dB weaker let a band at 160 Hz stand for it, which nobody feels."""
+    rng, rate = np.random.default_rng(seed), 32_000
+    rumble = 0.01 * coloured_noise(rng, 4 * rate, 2.0)
+    found = anchor_of(band_noise(rng, 4 * rate, rate, 2000.0, 8000.0) + rumble, rate, 22.0, actuator_profile("flat"))
+    assert found is not None
+    assert found.frequency_hz > 1500.0
+    assert found.carrier_hz is not None
 
 
 @pytest.mark.parametrize("actuator", ["flat", "lra", "voice_coil"])
