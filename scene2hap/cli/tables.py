@@ -111,12 +111,12 @@ def _bundle_row(bundle: HapticBundle, object_id: str) -> tuple[str, ...]:
         f"{haptics.confidence:.2f}",
         ", ".join(f"{state.name} ({state.keywords})" for state in haptics.states),
         ", ".join(f"{loop.frequency_raw_hz:.0f}" for loop in loops.values()),
-        ", ".join(_place(loop) for loop in loops.values()),
+        ", ".join(place_of(loop) for loop in loops.values()),
         ", ".join(_level(loop.felt) for loop in loops.values()),
     )
 
 
-def _place(loop: HapticLoop) -> str:
+def place_of(loop: HapticLoop) -> str:
     """Where a loop is strongest, which component was moved there by more than a hertz, and what is roughness [Hz]."""
     felt, place = loop.felt, f"{loop.frequency_tactile_hz:.0f}"
     if felt is not None and felt.is_moved:
