@@ -59,8 +59,8 @@ def actuator_profile(spec: object) -> ActuatorProfile:
         if str(spec).lower().endswith(".csv"):
             return read_response_csv(spec)
     near = checks.did_you_mean(spec, ACTUATORS)
-    told = f"actuator is {spec!r}; it must be one of {', '.join(ACTUATORS)}, or a CSV file of Hz and dB. {near}"
-    raise ConfigError(told.rstrip())
+    problem = f"actuator is {spec!r}; it must be one of {', '.join(ACTUATORS)}, or a CSV file of Hz and dB. {near}"
+    raise ConfigError(problem.rstrip())
 
 
 def read_response_csv(path: str | Path) -> ActuatorProfile:
@@ -137,8 +137,8 @@ def _from_fields(fields: Mapping[str, Any]) -> ActuatorProfile:
         profile = actuator_profile(base)
         return ActuatorProfile(**{**vars(profile), **known})
     except TypeError as cause:
-        told = misfit(ActuatorProfile, (), known) or f"{cause}."
-        raise ConfigError(f"actuator does not take {checks.shown(fields)}: {told}") from cause
+        reason = misfit(ActuatorProfile, (), known) or f"{cause}."
+        raise ConfigError(f"actuator does not take {checks.shown(fields)}: {reason}") from cause
 
 
 def _is_number(text: str) -> bool:

@@ -69,7 +69,7 @@ def largest(compliance: Callable[[Floats], Floats], masses: csr_array, count: in
         look = _NEXT_LOOK * size
         values, vectors = np.linalg.eigh((projected[:size, :size] + projected[:size, :size].T) / 2)
         values, vectors = values[: -count - 1 : -1], vectors[:, : -count - 1 : -1]
-        # Values that hardly differ need more digits to be told apart.
+        # Values that hardly differ need more digits to differ.
         scale = np.maximum(np.minimum(values, values[0] - values[-1]), _FINEST * values)
         if is_whole or (np.linalg.norm(beyond @ vectors[new], axis=0) <= EXACT * scale).all():
             found: Floats = basis[:, :size] @ vectors

@@ -93,7 +93,7 @@ def checked_hand(hand: Hand | Mapping[str, Any] | str | None) -> Hand | None:
         try:
             return Hand(**hand)
         except TypeError:
-            pass  # told below
+            pass  # the error below names the settings
     raise ConfigError(
         f"hand is {checks.shown(hand)}; it must be one of {', '.join(map(repr, HANDS))}, a Hand, its settings "
         "masses_kg, stiffnesses_n_m and dampings_n_s_m, or None."

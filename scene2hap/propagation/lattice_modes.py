@@ -54,7 +54,7 @@ DENSE_SHARE = 0.2
 """Share of its modes from which a lattice is solved for all of them at once, which is then faster than Lanczos' method.
 Tuned."""
 _BURIED = 1e-6
-"""Part of a solution that rounding may bury in Lanczos' method, since the modes are then told by the springs."""
+"""Part of a solution that rounding may bury in Lanczos' method, since the springs then decide the modes."""
 
 
 @dataclass(frozen=True, eq=False)

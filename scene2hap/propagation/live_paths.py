@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 _MOST_WEIGHTS = 1024
 
 _POINT = "\0point"
-"""Stands for a source that is a point of some object, and that the network has only while it is asked for."""
+"""Stands for a source that is a point of some object, and that the network has only during a query."""
 
 
 class _CrossingCosts(dict[float, float]):

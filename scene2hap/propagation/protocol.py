@@ -140,19 +140,19 @@ def checked_field(
 ) -> PropagationField:
     """The field that a model prepared.
 
-    Raises: ModelDomainError: it is none, or has other sources than were asked for.
+    Raises: ModelDomainError: it is none, or has other sources than were requested.
     """
     made_by = f"{type(model).__name__}.prepare"
     if problem := lacking(field, _FIELD):
         raise ModelDomainError(f"{made_by} gave no PropagationField: {problem}")
-    ids, asked = (
+    ids, requested = (
         checks.items("source_ids", field.source_ids, error=ModelDomainError),
         {x.source_id for x in excitations},
     )
-    if set(ids) != asked:
+    if set(ids) != requested:
         raise ModelDomainError(
             f"{made_by} gave a field of the sources {checks.shown(list(ids))}; it must have those of its excitations, "
-            f"{checks.shown(sorted(asked))}."
+            f"{checks.shown(sorted(requested))}."
         )
     return field
 

@@ -35,7 +35,7 @@ END_WEIGHTS = np.array([13 / 12, 7 / 8, 25 / 24])
 """Of the frequencies next to the edge of a band, outermost first; all others weigh 1."""
 
 AROUND = Bands.dominant(octaves=0.5)
-"""Bands of a model that resonates, unless others are asked for: a single frequency meets a resonance or misses it. It
+"""Bands of a model that resonates, unless others are given: a single frequency meets a resonance or misses it. It
 reaches one just noticeable difference to each side, 0.18 to 0.25 of the frequency.
 
 Source: Israr, Tan, Reed, Frequency and amplitude discrimination along the kinesthetic-cutaneous continuum, JASA 120

@@ -168,7 +168,7 @@ def _looked_at(file: soundfile.SoundFile, context: ConversionContext) -> Convers
     file.seek(max(0, int(file.frames) - n) // 2)
     heard = file.read(n, dtype="float32", always_2d=True).mean(axis=1, dtype=np.float64)
     file.seek(0)
-    if len(heard) < 2 or not np.isfinite(heard).all():  # which is told when it is converted
+    if len(heard) < 2 or not np.isfinite(heard).all():  # converting it will say so
         return context
     anchor = anchor_of(heard, file.samplerate, sensation_level_db(context.intensity), context.actuator)
     if anchor is None:
@@ -242,7 +242,7 @@ class _Felt:
         """Of each channel, over the beginning of the file."""
         head = file.read(_OFFSET_FRAMES, dtype="float32", always_2d=True)
         file.seek(0)
-        if not len(head) or not np.isfinite(head).all():  # which is told when it is converted
+        if not len(head) or not np.isfinite(head).all():  # converting it will say so
             return [0.0] * self.channels
         mean = head.mean(axis=0, dtype=np.float64)
         return [float(mean.mean())] if self._mono else mean.tolist()

@@ -52,10 +52,10 @@ def gather(
             clips = _clips(source.find(description))
         except Exception as cause:
             # Guests raise what they like; a broken source must not end a bake that another one can finish.
-            told = str(cause) if isinstance(cause, Scene2HapError) else f"{type(cause).__name__}: {cause}"
-            fates.append(f"{name} failed: {told}")
-            _LOG.info("%s: no sound from %s: %s", subject, name, told)
-            warnings.warn(f"{subject}: no sound from {name}: {told}", SourceWarning, stacklevel=2)
+            reason = str(cause) if isinstance(cause, Scene2HapError) else f"{type(cause).__name__}: {cause}"
+            fates.append(f"{name} failed: {reason}")
+            _LOG.info("%s: no sound from %s: %s", subject, name, reason)
+            warnings.warn(f"{subject}: no sound from {name}: {reason}", SourceWarning, stacklevel=2)
             continue
         fates.append(f"{name} has none")
         found += clips

@@ -66,7 +66,7 @@ class FolderLibrary:
             raise ConfigError(f"the sound library {self.folder} is not a folder. Create it, or choose another source.")
 
     def _entries(self) -> Iterator[tuple[Path, set[str], Credit]]:
-        """Every sound: path, words, and whom it is owed to."""
+        """Every sound: path, words and credit."""
         index = self.folder / INDEX_NAME
         if index.is_file():
             yield from self._listed(index)

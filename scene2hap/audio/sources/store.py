@@ -52,18 +52,18 @@ def is_long_enough(clip: AudioClip) -> bool:
 def read_checked(path: Path, credit: Credit) -> AudioClip:
     """A stranger's sound file, refused by its header if decoding it could fill the memory. Raises: AudioError."""
     try:
-        told = soundfile.info(path)
+        info = soundfile.info(path)
     except (soundfile.SoundFileError, TypeError, OSError) as cause:
         raise AudioError(f"{credit.title!r} is not a readable sound ({cause}).") from cause
     low, high = SAMPLE_RATES_HZ
-    if not (low <= told.samplerate <= high and told.channels <= MAX_CHANNELS):
+    if not (low <= info.samplerate <= high and info.channels <= MAX_CHANNELS):
         raise AudioError(
-            f"{credit.title!r} has {told.channels} channels at {told.samplerate} Hz; it must have at most "
+            f"{credit.title!r} has {info.channels} channels at {info.samplerate} Hz; it must have at most "
             f"{MAX_CHANNELS}, at {low} to {high} Hz."
         )
-    if told.frames > MAX_CLIP_S * told.samplerate:
+    if info.frames > MAX_CLIP_S * info.samplerate:
         raise AudioError(
-            f"{credit.title!r} lasts {told.frames / told.samplerate:.0f} s; it must be at most {MAX_CLIP_S:.0f} s."
+            f"{credit.title!r} lasts {info.frames / info.samplerate:.0f} s; it must be at most {MAX_CLIP_S:.0f} s."
         )
     return read_clip(path, credit)
 

@@ -38,7 +38,7 @@ def _settled(room: Room, start: Array) -> Outcome:
 
 
 class _Neighbours:
-    """Whom a voice must keep away from, and whom it must stay stronger or weaker than, and by how much [dB]."""
+    """The voices that a voice must keep away from, or stay stronger or weaker than, and by how much [dB]."""
 
     def __init__(self, room: Room, i: int) -> None:
         self.partners = np.array([b if a == i else a for a, b in room.pairs if i in (a, b)], dtype=np.int64)

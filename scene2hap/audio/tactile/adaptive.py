@@ -53,7 +53,7 @@ class Adaptive:
     """Band-pass around the source's own frequency, shifted to its target.
 
     Parameters: q 0.5..20 [-] of each of the two filters; shift_octaves 0..1, how far the band may be moved where no
-    target is told.
+    target is given.
     Raises: ConfigError: outside these bounds, or a sample rate below 1 kHz.
     """
 

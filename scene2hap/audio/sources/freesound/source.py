@@ -129,14 +129,14 @@ class Freesound:
 
     def _search(self, query: str) -> list[Sound]:
         """Kept results, or the service's, kept before they are used; only those that may be used."""
-        asked = {"base_url": self._service.base_url, "query": query, "filter": self._filter, "sort": self._sort}
-        name = f"searches/{digest(asked)}.json"
+        search = {"base_url": self._service.base_url, "query": query, "filter": self._filter, "sort": self._sort}
+        name = f"searches/{digest(search)}.json"
         kept = self._store.document(name)
-        sounds = read_sounds(kept.get("results")) if isinstance(kept, dict) and kept.get("asked") == asked else None
+        sounds = read_sounds(kept.get("results")) if isinstance(kept, dict) and kept.get("asked") == search else None
         if sounds is None:
             sounds = self._service.search(query, self._filter, self._sort)
             results = [sound.model_dump(mode="json") for sound in sounds]
-            self._store.keep_document(name, {"asked": asked, "results": results})
+            self._store.keep_document(name, {"asked": search, "results": results})
         return [sound for sound in sounds if self._may_use(sound)]
 
     def _may_use(self, sound: Sound) -> bool:

@@ -144,9 +144,16 @@ def check(origin: dict[str, str], packages: Sequence[str]) -> int:
     missing = [name for name in packages if importlib.util.find_spec(name) is None]
     with tempfile.TemporaryDirectory() as folder:
         request = os.path.join(folder, "request.json")
-        asked = {"contract": CONTRACT, "version": VERSION, "prompt": "a hum", "count": 1, "duration_s": 0.5, "seed": 0}
+        document = {
+            "contract": CONTRACT,
+            "version": VERSION,
+            "prompt": "a hum",
+            "count": 1,
+            "duration_s": 0.5,
+            "seed": 0,
+        }
         with open(request, "w", encoding="utf-8") as file:
-            json.dump(asked, file)
+            json.dump(document, file)
         status = serve(argparse.Namespace(request=request, folder=folder), origin, tones)
     found: dict[str, Any] = {"contract": CONTRACT, "version": VERSION, "python": platform.python_version(), **origin}
     print(json.dumps({**found, "missing": missing, "rehearsal": "failed" if status else "passed"}, indent=1))

@@ -75,7 +75,7 @@ def music(take: Take, *, beats_per_minute: float = 120.0) -> Signal:
     beat = np.floor(t / beat_s).astype(np.int64)
     since_s = t - beat * beat_s
     line = root_hz * 2.0 ** (take.rng.permutation([0, 0, 7, 10])[beat % 4] / 12.0)
-    # Phase runs from each beat anew, so that every bar is the same and the piece loops.
+    # Phase restarts with each beat, so that every bar is the same and the piece loops.
     note = np.exp(-since_s / 0.6) * (1.0 - np.exp(-since_s / 0.01))
     bass = partials(2.0 * np.pi * line * since_s, [1.0, 0.4, 0.15])
     drum = np.where(beat % 2 == 0, np.sin(2.0 * np.pi * 55.0 * since_s) * np.exp(-since_s / 0.08), 0.0)

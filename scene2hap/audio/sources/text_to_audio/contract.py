@@ -69,8 +69,8 @@ def read_reply(folder: Path, scrub: Callable[[str], str] = str) -> Reply:
     try:
         reply = Reply.model_validate(json.loads(text))
     except (ValueError, RecursionError) as cause:
-        told = checks.first_problem(cause) if isinstance(cause, ValidationError) else None
-        reason = f"{told.place}: {told.reason}" if told else str(cause)
+        problem = checks.first_problem(cause) if isinstance(cause, ValidationError) else None
+        reason = f"{problem.place}: {problem.reason}" if problem else str(cause)
         raise BadAnswer(f"{REPLY_NAME} of the generator: {reason}. See docs/sound-sources.md.", text[:2000]) from cause
     if (reply.contract, reply.version) != (CONTRACT, VERSION):
         raise BadAnswer(
@@ -100,11 +100,11 @@ def read_file(folder: Path, name: str, max_bytes: int) -> bytes:
 
 def _content(path: Path, max_bytes: int) -> bytes:
     """A plain file: neither a link, which may lead anywhere, nor a pipe, which would block. Raises: OSError."""
-    told = path.lstat()
-    if not stat.S_ISREG(told.st_mode):
+    status = path.lstat()
+    if not stat.S_ISREG(status.st_mode):
         raise OSError(f"{path.name} is not a plain file")
-    if told.st_size > max_bytes:
-        raise OSError(f"{path.name} has {told.st_size} bytes; at most {max_bytes} are read")
+    if status.st_size > max_bytes:
+        raise OSError(f"{path.name} has {status.st_size} bytes; at most {max_bytes} are read")
     descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0))
     with os.fdopen(descriptor, "rb") as file:
         return file.read(max_bytes)

@@ -75,8 +75,8 @@ def run(command: Sequence[str], folder: Path, allowance: Allowance, variables: M
                 start_new_session=True,
             )
         except (OSError, ValueError) as cause:
-            told = cause.strerror if isinstance(cause, OSError) else cause
-            raise CannotStart(f"cannot start {command[0]!r}: {told}. Check `command` or `python`.") from cause
+            reason = cause.strerror if isinstance(cause, OSError) else cause
+            raise CannotStart(f"cannot start {command[0]!r}: {reason}. Check `command` or `python`.") from cause
     name = Path(command[0]).name
     try:
         fate = _watched(process, folder, allowance)

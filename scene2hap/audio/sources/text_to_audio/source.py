@@ -117,9 +117,9 @@ class TextToAudio:
         try:
             folder = work / "sounds"
             folder.mkdir()
-            asked = work / "request.json"
-            asked.write_text(json.dumps(request.to_document()), encoding="utf-8")
-            paths = {"{request}": str(asked), "{folder}": str(folder)}
+            request_file = work / "request.json"
+            request_file.write_text(json.dumps(request.to_document()), encoding="utf-8")
+            paths = {"{request}": str(request_file), "{folder}": str(folder)}
             command = [_filled(word, paths) for word in self._command]
             variables = environment(self._keep_env, os.environ)
             run(command, work, self._allowance, variables)
