@@ -78,7 +78,7 @@ FINGERTIP = Hand((0.006,), (500.0,), (5.0,))
 """The tip of an index finger that presses with a few newtons, along its normal: 5-20 N s/m from 10 Hz to 500 Hz.
 
 Source: Hajian, Howe, Identification of the mechanical impedance at the human finger tip, J. Biomech. Eng. 119 (1997)
-109: in extension 3.5-8.7 g, 4-7.4 N s/m and 255-1255 N/m; here a hand in the middle of these.
+109: in extension 3.5-8.7 g, 4-7.4 N s/m and 255-1255 N/m, as later papers quote it; here a hand in the middle of these.
 """
 HANDS = {"palm": PALM, "fingertip": FINGERTIP}
 
