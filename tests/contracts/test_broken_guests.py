@@ -122,7 +122,7 @@ class Once(MemorySink):
     [
         (object, "object has no 'open'"),
         (OpensAlone, r"OpensAlone.open\(\) must take \(format\)"),
-        (Idle, "Idle has asked for no frames"),
+        (Idle, "Idle has requested no frames"),
         (Uncounted, "Uncounted.stats has 0 frames after"),
         (Wordless, "Wordless.stats is a NoneType"),
         (Once, "Once was stopped twice"),
@@ -295,7 +295,7 @@ def test_a_plain_renderer_passes() -> None:
         (changed(lambda pixels, ids: (pixels, ids + 1)), "shows the actors"),
         (changed(lambda pixels, ids: (pixels, np.roll(ids, 1, axis=0))), "identify and draw tell other ids"),
         (changed(lambda pixels, ids: (np.full_like(pixels, 255), ids)), "in the colour of the background"),
-        (changed(restless), "asked again"),
+        (changed(restless), "when it draws again"),
     ],
 )
 def test_renderers(factory: Any, words: str) -> None:

@@ -18,8 +18,8 @@ from host import rasteriser_problem
 from scene2hap.render.safety import FADE_OUT_S
 
 ROOT = Path(__file__).parents[2]
-SILENT = 2.0**-19
-"""Of full scale: 16 steps of the file, as a resampler's last samples are."""
+SILENT = 2.0**-17
+"""Of full scale: a quarter of a step of 16 bits, as the last samples of resampler and safety filters are."""
 
 
 def run(example: str, *arguments: str | Path, folder: Path, **environment: str) -> str:
