@@ -16,10 +16,8 @@ from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import threshold_db
 from scene2hap.audio.select import select_clip
 from scene2hap.audio.sources.synth import Synthesizer
-from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.audio.tactile.adaptive import Adaptive
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
-from scene2hap.cli.tables import place_of
 from scene2hap.haptics import ActuatorProfile, VibrationDescription
 
 FLAT = ActuatorProfile()
@@ -148,14 +146,3 @@ def test_levels_hold_on_a_resonant_actuator() -> None:
     answer = a[1:] / np.sqrt(1 + (12.0 * (r - 1 / r)) ** 2)
     felt = np.sum((answer / 10 ** (threshold_db(f[1:]) / 20))[f[1:] <= 1000] ** 2)
     assert 10 * math.log10(felt) == pytest.approx(31.0 + 17.0 * math.log10(0.2), abs=0.1)
-
-
-def test_the_picture_and_the_table_say_what_was_reached_and_from_where() -> None:
-    t = np.arange(4 * 8000) / 8000
-    clip = AudioClip((0.5 * np.sin(2 * np.pi * 49 * t)).astype(np.float32), 8000)
-    converter = CONVERTERS.build("auto")
-    (plan,) = plan_scene([SourceClip(clip, 0.2, "a")], converter, FLAT)
-    loop = felt_loop(clip, converter, plan)
-    titles = [axes.get_title() + axes.get_title(loc="left") for axes in loop.plot().axes]
-    assert any(str(loop.felt) in title for title in titles)
-    assert place_of(loop) == f"{loop.frequency_tactile_hz:.0f} from 49 rough 49"

@@ -7,9 +7,13 @@ import numpy as np
 import pytest
 
 from scene2hap import AudioClip, Credit, HapticLoop
+from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.levels import threshold_db
 from scene2hap.audio.plots import component_levels_db
+from scene2hap.audio.tactile import CONVERTERS
+from scene2hap.cli.tables import place_of
 from scene2hap.errors import MissingExtra
+from scene2hap.haptics import ActuatorProfile
 from scene2hap.plots import plain, set_title
 
 figures = pytest.importorskip("matplotlib.figure", reason="needs the extra plots")
@@ -112,3 +116,14 @@ def test_a_missing_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_components_are_amplitudes() -> None:
     hertz, level_db = component_levels_db(tone(100.0, amplitude=1.0).samples, RATE)
     assert level_db[np.searchsorted(hertz, 100.0)] == pytest.approx(0.0, abs=1e-4)
+
+
+def test_the_picture_and_the_table_say_what_was_reached_and_from_where() -> None:
+    t = np.arange(4 * 8000) / 8000
+    clip = AudioClip((0.5 * np.sin(2 * np.pi * 49 * t)).astype(np.float32), 8000)
+    converter = CONVERTERS.build("auto")
+    (plan,) = plan_scene([SourceClip(clip, 0.2, "a")], converter, ActuatorProfile())
+    loop = felt_loop(clip, converter, plan)
+    titles = [axes.get_title() + axes.get_title(loc="left") for axes in loop.plot().axes]
+    assert any(str(loop.felt) in title for title in titles)
+    assert place_of(loop) == f"{loop.frequency_tactile_hz:.0f} from 49 rough 49"
