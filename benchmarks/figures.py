@@ -78,8 +78,7 @@ FIGURES = {
     "many-scenes": Figure("many-scenes", "benchmarks/bake_many.py", 6, has_times=True, needs="scenes"),
     "many-scenes-200": Figure(
         "many-scenes",
-        "benchmarks/bake_many.py --scenes 200 "
-        '--runs "this process" "a pool of one" "a pool of two" "Dask, two workers"',
+        'benchmarks/bake_many.py --scenes 200 --runs "a pool of one" "a pool of two" "Dask, two workers"',
         7,
         has_times=True,
         needs="scenes",
