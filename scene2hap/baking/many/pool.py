@@ -16,8 +16,8 @@ from scene2hap.errors import ConfigError, MissingExtra
 
 Result = TypeVar("Result")
 
-_TRIES = 3
-"""How often a task is begun before a scene that kills its worker is given up."""
+_TRIES = 4
+"""How often a task is begun alone in a worker before a scene that kills its worker is given up."""
 
 
 class Submits(Protocol):
@@ -37,6 +37,9 @@ class Pool:
 
     def __init__(self, executor: str | Submits | None) -> None:
         self._own: ProcessPoolExecutor | None = None
+        # One worker for tasks that ran when a worker died: the death of one breaks the whole pool.
+        self._alone: ProcessPoolExecutor | None = None
+        self._alone_turn = asyncio.Lock()
         self._close: list[Callable[[], Any]] = []
         self._turn = asyncio.Semaphore(1)
         self.n_workers = 1
@@ -45,7 +48,9 @@ class Pool:
             kind, _, rest = executor.partition(":")
             if kind == "processes":
                 self.n_workers = _n_workers(rest)
-                self._own = self._begun()
+                self._own = self._begun(self.n_workers)
+                # No task waits inside of the pool, where it would break with those that run.
+                self._turn = asyncio.Semaphore(self.n_workers)
             elif kind == "dask" and rest:
                 self._given = self._of_dask(rest)
             else:
@@ -67,15 +72,16 @@ class Pool:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if self._own is not None:
-            self._own.shutdown(wait=error is None, cancel_futures=True)
+        for pool in (self._own, self._alone):
+            if pool is not None:
+                pool.shutdown(wait=error is None, cancel_futures=True)
         for close in self._close:
             close()
 
     async def run(self, task: Callable[..., Result], *args: Any) -> Result:
         """Run a task and return its result. The task gets the number of its threads before its arguments.
 
-        One whose worker died is begun again, in our own processes.
+        One whose worker died is begun again, in our own processes: then alone, so that it is not blamed for another.
 
         Raises: what the task raises; ConfigError: a worker dies each time.
         """
@@ -85,22 +91,34 @@ class Pool:
             async with self._turn:
                 return await asyncio.to_thread(task, 0, *args)
         n_threads = max(1, (os.cpu_count() or 1) // self.n_workers)
-        for _ in range(_TRIES):
+        async with self._turn:
             pool = self._own
             try:
                 return await _awaited(pool.submit(task, n_threads, *args))
             except BrokenExecutor:
-                if self._own is pool:  # the first of all that waited for it
+                if self._own is pool:  # the first of all whose worker is gone
                     pool.shutdown(wait=False, cancel_futures=True)
-                    self._own = self._begun()
+                    self._own = self._begun(self.n_workers)
+        async with self._alone_turn:
+            return await self._run_alone(task, n_threads, *args)
+
+    async def _run_alone(self, task: Callable[..., Result], n_threads: int, *args: Any) -> Result:
+        for _ in range(_TRIES):
+            if self._alone is None:
+                self._alone = self._begun(1)
+            try:
+                return await _awaited(self._alone.submit(task, n_threads, *args))
+            except BrokenExecutor:
+                self._alone.shutdown(wait=False, cancel_futures=True)
+                self._alone = None
         raise ConfigError(
-            f"a worker died {_TRIES} times in {task.__name__}: out of memory, or killed. Use fewer workers, "
-            "'processes:1', or bake this scene alone to see why."
+            f"a worker that ran {task.__name__} alone died {_TRIES} times: out of memory, or killed. Use fewer "
+            "workers, 'processes:1', or bake this scene alone to see why."
         )
 
-    def _begun(self) -> ProcessPoolExecutor:
+    def _begun(self, n_workers: int) -> ProcessPoolExecutor:
         # Threads and locks of this process do not go along, as they would by fork.
-        return ProcessPoolExecutor(self.n_workers, mp_context=multiprocessing.get_context("spawn"))
+        return ProcessPoolExecutor(n_workers, mp_context=multiprocessing.get_context("spawn"))
 
     def _of_dask(self, address: str) -> Submits:
         try:

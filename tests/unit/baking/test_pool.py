@@ -1,0 +1,42 @@
+"""That a worker's death costs its own task alone."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import time
+from typing import Any
+
+from scene2hap.baking.many.pool import Pool
+from scene2hap.errors import ConfigError
+
+TASKS = {"deadly": os._exit, "harmless": abs, "slow": time.sleep}
+
+
+def test_only_what_kills_its_worker_is_given_up() -> None:
+    """Workers die in several tasks while others run beside them or wait for a turn."""
+
+    async def everything() -> list[tuple[str, Any]]:
+        with Pool("processes:2") as pool:
+            # Each task gets the number of its threads first.
+            kinds = [
+                "deadly",
+                "harmless",
+                "slow",
+                "harmless",
+                "deadly",
+                "harmless",
+                "harmless",
+                "deadly",
+                "slow",
+                "harmless",
+            ]
+            tasks = [pool.run(TASKS[kind]) for kind in kinds]
+            return list(zip(kinds, await asyncio.gather(*tasks, return_exceptions=True), strict=True))
+
+    for kind, found in asyncio.run(everything()):
+        if kind == "deadly":
+            assert isinstance(found, ConfigError)
+            assert "died" in str(found)
+        else:
+            assert found is None or found >= 1, (kind, found)
