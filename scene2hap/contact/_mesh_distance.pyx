@@ -38,6 +38,7 @@ cdef struct Face:
     double uu, uv, vv, area2, root
     bint is_level         # for `drops`
     bint is_measured      # or else has nothing but corners
+    unsigned char features
 
 
 cdef inline double lesser(double x, double y) noexcept:
@@ -92,6 +93,7 @@ cdef struct Tree:
     const double* nodes        # (2 n_leaves - 1, 6) lowest and highest corners
     const double* corners      # (n_leaves, 9)
     const Py_ssize_t* columns  # (n_leaves,) in the shape
+    const unsigned char* features  # (n_leaves,)
     Py_ssize_t n_leaves, m
     bint is_placed             # or else in its own frame
     Placement at
@@ -108,9 +110,10 @@ cdef int open_tree(Tree* tree, shape, Role role, const Placement* at) except -1:
     cdef const double[:, ::1] nodes = over[0]
     cdef const double[:, ::1] corners = over[1]
     cdef const Py_ssize_t[::1] columns = over[2]
+    cdef const unsigned char[::1] features = over[3]
     cdef Py_ssize_t n_nodes = nodes.shape[0]
     tree.m, tree.n_leaves = shape.triangles.shape[2], columns.shape[0]
-    tree.nodes, tree.corners, tree.columns = &nodes[0, 0], &corners[0, 0], &columns[0]
+    tree.nodes, tree.corners, tree.columns, tree.features = &nodes[0, 0], &corners[0, 0], &columns[0], &features[0]
     tree.role, tree.is_placed = role, at != NULL
     # Room for all, of which a search touches little: pages of memory come with their first use.
     tree.faces = <Face*>malloc(tree.n_leaves * sizeof(Face))
@@ -206,6 +209,7 @@ cdef inline const Face* face_of(Tree* tree, Py_ssize_t leaf) noexcept:
         face.is_measured = False
     if not face.is_measured:
         face.is_measured = True
+        face.features = tree.features[leaf]
         if tree.role == FALLER:
             shrink(face)
         measure_face(face)
@@ -290,8 +294,16 @@ cdef bint is_inside(const Face* face, const double* point) noexcept:
     return beta >= -RIM and gamma >= -RIM and beta + gamma <= 1 + RIM
 
 
+cdef inline bint has_edge(const Face* face, int i) noexcept:
+    return face.features >> i & 1
+
+
+cdef inline bint has_corner(const Face* face, int i) noexcept:
+    return face.features >> (3 + i) & 1
+
+
 cdef void meet(Meetings* found, const Face* p, const Face* q, double within) noexcept:
-    """Those of the 21 local meetings of a pair that are within reach, in the order of `triangles.meetings`."""
+    """The local meetings of a pair and its features that are within reach, in the order of `triangles.meetings`."""
     cdef double over_p[3]
     cdef double over_q[3]
     found.n = 0
@@ -326,10 +338,12 @@ cdef void meet_edges(Meetings* found, const Face* p, const Face* q, double withi
     for j in range(3):
         edge_box(&of_q[j], q, j)
     for i in range(3):
+        if not has_edge(p, i):
+            continue
         edge_box(&of_p, p, i)
         a = dot(p.edges[i], p.edges[i])
         for j in range(3):
-            if squared_distance(&of_p, &of_q[j]) > reach2:
+            if not has_edge(q, j) or squared_distance(&of_p, &of_q[j]) > reach2:
                 continue
             less(r, p.corners[i], q.corners[j])
             b, e = dot(p.edges[i], q.edges[j]), dot(q.edges[j], q.edges[j])
@@ -365,6 +379,8 @@ cdef void meet_corners(
     cdef double distance
     cdef int i, axis
     for i in range(3):
+        if not has_corner(other, i):
+            continue
         distance = fabs(heights[i]) * own.root
         if distance <= within and is_inside(own, other.corners[i]):
             for axis in range(3):
@@ -384,6 +400,8 @@ cdef void cross_edges(Meetings* found, const Face* other, const Face* own, const
         return
     in_plane = IN_PLANE_M / own.root
     for i in range(3):
+        if not has_edge(other, i):
+            continue
         start, end = heights[i], heights[(i + 1) % 3]
         if start * end < 0 and fabs(start) > in_plane and fabs(end) > in_plane:
             s = start / (start - end)
@@ -459,7 +477,8 @@ cdef struct Search:
     # drops
     bint guest_falls
     double bottom, reach, touch, first
-    double* each
+    double later          # how much more than the first another may fall that counts
+    double* each          # NULL where the first alone counts
 
 
 cdef void descend(Search* search, Py_ssize_t g, Py_ssize_t h) noexcept:
@@ -713,33 +732,46 @@ cdef inline bint is_before(const double* points, const double* ends, Py_ssize_t 
 # --- drops -----------------------------------------------------------------------------------------------------------
 
 def drops(host, guest, turn, shift, frame, limits, bint guest_falls):
-    cdef Search search
+    cdef double first, touch = limits[2]
     cdef Py_ssize_t k
-    cdef Placement at = placement_of(turn, shift), upright = placement_of(frame, (0.0, 0.0, 0.0)), placed
     cdef double[::1] each
+    if not (host.triangles.shape[2] and guest.triangles.shape[2]):
+        return None
+    falls = np.full((guest if guest_falls else host).triangles.shape[2], np.inf)
+    each = falls
+    first = search_drops(host, guest, turn, shift, frame, limits, guest_falls, touch, &each[0])
+    if first == INFINITY:
+        return None
+    for k in range(each.shape[0]):
+        if each[k] > first + touch:
+            each[k] = INFINITY
+    return falls
+
+
+def first_drop(host, guest, turn, shift, frame, limits, bint guest_falls):
+    return search_drops(host, guest, turn, shift, frame, limits, guest_falls, 0.0, NULL)
+
+
+cdef double search_drops(
+    host, guest, turn, shift, frame, limits, bint guest_falls, double later, double* each
+) except? -1:
+    """The first fall; at least -touch. Other triangles' falls up to so much later go into each."""
+    cdef Search search
+    cdef Placement at = placement_of(turn, shift), upright = placement_of(frame, (0.0, 0.0, 0.0)), placed
     memset(&search, 0, sizeof(Search))
     try:
         multiply(&placed, &upright, &at)
         open_tree(&search.guest, guest, FALLER if guest_falls else BEARER, &placed)
         open_tree(&search.host, host, BEARER if guest_falls else FALLER, &upright)
-        if not (search.guest.m and search.host.m):
-            return None
         search.bottom, search.reach, search.touch = limits
         search.bottom += search.reach
-        search.guest_falls, search.first = guest_falls, INFINITY
-        falls = np.full(search.guest.m if guest_falls else search.host.m, np.inf)
-        each = falls
-        search.each = &each[0]
-        if fall(&search, box_of(&search.guest, 0), box_of(&search.host, 0)) < INFINITY:
-            drop_down(&search, 0, 0)
+        search.guest_falls, search.first, search.later, search.each = guest_falls, INFINITY, later, each
+        if search.guest.m and search.host.m:
+            if fall(&search, box_of(&search.guest, 0), box_of(&search.host, 0)) < INFINITY:
+                drop_down(&search, 0, 0)
     finally:
         close(&search)
-    if search.first == INFINITY:
-        return None
-    for k in range(each.shape[0]):
-        if each[k] > search.first + search.touch:
-            each[k] = INFINITY
-    return falls
+    return search.first
 
 
 cdef void multiply(Placement* found, const Placement* frame, const Placement* at) noexcept:
@@ -754,7 +786,7 @@ cdef void multiply(Placement* found, const Placement* frame, const Placement* at
 
 
 cdef inline double most_fall(const Search* search) noexcept:
-    return lesser(search.reach, search.first + search.touch) + ROUNDING_M
+    return lesser(search.reach, search.first + search.later) + ROUNDING_M
 
 
 cdef inline double fall(const Search* search, const Box* of_guest, const Box* of_host) noexcept:
@@ -823,5 +855,6 @@ cdef void visit_drops(Search* search, Py_ssize_t leaf_g, Py_ssize_t leaf_h) noex
     if least >= -search.reach and least <= search.reach and most >= -search.touch:
         if least < -search.touch:
             least = 0.0
-        search.each[column] = lesser(search.each[column], least)
+        if search.each != NULL:
+            search.each[column] = lesser(search.each[column], least)
         search.first = lesser(search.first, least)

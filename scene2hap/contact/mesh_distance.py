@@ -115,17 +115,18 @@ class MeshPair:
         than nothing, and one that is sunk in deeper by nothing. A triangle that would fall `touch_m` farther than
         another, which has come to rest by then, falls by inf.
         """
-        up = self.host.rows[up_axis]
-        lowest = lowest_m - self.host.position_m[up_axis]
-        return drops(
-            self.host.shape,
-            self.guest.shape,
-            self._turn,
-            self._shift,
-            upright_frame(up),
-            (lowest, reach_m, touch_m),
-            faller is self.guest,
-        )
+        return drops(*self._falling(faller, up_axis, lowest_m, reach_m, touch_m))
+
+    def first_drop_m(self, faller: Placed, up_axis: int, lowest_m: float, reach_m: float, touch_m: float) -> float:
+        """The least of these, inf if there is none."""
+        return first_drop(*self._falling(faller, up_axis, lowest_m, reach_m, touch_m))
+
+    def _falling(
+        self, faller: Placed, up_axis: int, lowest_m: float, reach_m: float, touch_m: float
+    ) -> tuple[Shape, Shape, Rows, Triple, Rows, Triple, bool]:
+        limits = (lowest_m - self.host.position_m[up_axis], reach_m, touch_m)
+        frame = upright_frame(self.host.rows[up_axis])
+        return self.host.shape, self.guest.shape, self._turn, self._shift, frame, limits, faller is self.guest
 
     def _placed(self, point: Triple) -> Triple:
         (x, y, z), (u, v, w) = rotated(self.host.rows, point), self.host.position_m
@@ -144,7 +145,7 @@ def closest_points(
     posed = _posed(guest.triangles, turn, shift)
     for i, j in _near(posed, boxes_of(posed), host, within):
         p, q = posed.take(i, axis=2), host.triangles.take(j, axis=2)
-        every = meetings(p, q)
+        every = meetings(p, q, guest.features[i], host.features[j])
         row = every.distance.argmin(axis=0)
         distance = every.distance[row, np.arange(len(i))]
         for k in np.flatnonzero(distance <= within).tolist():
@@ -165,7 +166,8 @@ def contact_points(
     posed = _posed(guest.triangles, turn, (x + way[0], y + way[1], z + way[2]))
     found = [np.empty((6, 0))]
     for i, j in _near(posed, boxes_of(posed), host, within):
-        every = meetings(posed.take(i, axis=2), host.triangles.take(j, axis=2))
+        p, q = posed.take(i, axis=2), host.triangles.take(j, axis=2)
+        every = meetings(p, q, guest.features[i], host.features[j])
         near = every.distance <= within
         found.append(np.concatenate([every.on_p[:, near] - np.array(way)[:, None], every.on_q[:, near]]))
     ends = np.concatenate(found, axis=1)
@@ -203,6 +205,15 @@ def drops(
     first = each.min(initial=np.inf)
     each[each > first + touch] = np.inf
     return each if first < np.inf else None
+
+
+@compiled
+def first_drop(
+    host: Shape, guest: Shape, turn: Rows, shift: Triple, frame: Rows, limits: Triple, guest_falls: bool
+) -> float:
+    """The least of `drops` [m], inf if there is none."""
+    each = drops(host, guest, turn, shift, frame, limits, guest_falls)
+    return math.inf if each is None else float(each.min())
 
 
 def _near(posed: Floats, boxes: Boxes, host: Shape, within: float) -> Iterator[tuple[Indices, Indices]]:

@@ -50,8 +50,11 @@ class BodyPair:
 
     def first_fall_m(self, x: str) -> float:
         """How far x is to fall by its triangles, inf if it meets nothing."""
-        each_m = self.falls(x)
-        return math.inf if each_m is None else float(each_m.min())
+        found: float = self._once(("first", x), lambda: self._first_fall_m(*self.falling(x)))
+        return found
+
+    def _first_fall_m(self, faller: Body, other: Body) -> float:
+        return self._meeting.first_drop_m(*_falls_by(faller)) if is_over(faller, other) else math.inf
 
     def falls(self, x: str) -> Floats | None:
         """How far each of its triangles is to fall; see `MeshPair.drops`."""
@@ -61,7 +64,7 @@ class BodyPair:
     def _falls(self, faller: Body, other: Body) -> Floats | None:
         if not is_over(faller, other):
             return None
-        return self._meeting.drops(faller, faller.up_axis, faller.lowest_m, fall_reach_m(faller.size_m), TOUCH_M)
+        return self._meeting.drops(*_falls_by(faller))
 
     def falling(self, x: str) -> tuple[Body, Body]:
         """x, and the other."""
@@ -117,6 +120,11 @@ class BodyPair:
         if made is None:
             made = self._meeting_made = MeshPair(self.a, self.b)
         return made
+
+
+def _falls_by(faller: Body) -> tuple[Body, int, float, float, float]:
+    """The limits of a fall; see `MeshPair.drops`."""
+    return faller, faller.up_axis, faller.lowest_m, fall_reach_m(faller.size_m), TOUCH_M
 
 
 def box_distance_m(x: Body, y: Body) -> float:

@@ -1,4 +1,5 @@
-"""The triangles of a mesh with what is derived from them, once per mesh: boxes, a tree, base faces, tops and ledges."""
+"""The triangles of a mesh with what is derived from them, once per mesh: boxes, features, a tree, base faces, tops and
+ledges."""
 
 from __future__ import annotations
 
@@ -11,6 +12,7 @@ import numpy as np
 
 from scene2hap.contact.base_face import BaseFace, base_face_of, top_of, triples, uneven_m
 from scene2hap.contact.broad import Boxes
+from scene2hap.contact.features import Features, features_of
 from scene2hap.contact.ledge import Ledges, Upright
 from scene2hap.contact.rays import first_hits
 from scene2hap.contact.triangle_tree import TriangleTree
@@ -47,7 +49,12 @@ class Shape:
     @cached_property
     def tree(self) -> TriangleTree:
         """A bounding volume hierarchy over the triangles."""
-        return TriangleTree.over(self.triangles, self.boxes)
+        return TriangleTree.over(self.triangles, self.boxes, self.features)
+
+    @cached_property
+    def features(self) -> Features:
+        """The corners and edges of the triangles that are searched."""
+        return features_of(self.triangles)
 
     @cached_property
     def is_cuboid(self) -> bool:

@@ -16,6 +16,7 @@ import numpy as np
 
 from scene2hap.compiled import compiled
 from scene2hap.contact.broad import Boxes
+from scene2hap.contact.features import Features
 from scene2hap.contact.vectors import Floats, Indices, Triple
 
 _MORTON_BITS = 16
@@ -23,15 +24,17 @@ _MORTON_BITS = 16
 
 class TriangleTree(NamedTuple):
     """nodes : (2 n_leaves - 1, 6) lowest and highest corners [m]; corners : (n_leaves, 9) the triangle of each leaf,
-    three corners of three coordinates [m]; columns : (n_leaves,) its column in the shape, -1 for an empty leaf."""
+    three corners of three coordinates [m]; columns : (n_leaves,) its column in the shape, -1 for an empty leaf;
+    features : (n_leaves,) which of its corners and edges are searched, see `features`."""
 
     nodes: Floats
     corners: Floats
     columns: Indices
+    features: Features
 
     @classmethod
-    def over(cls, triangles: Floats, boxes: Boxes) -> TriangleTree:
-        """Build the tree over triangles (3, 3, m) in their boxes."""
+    def over(cls, triangles: Floats, boxes: Boxes, features: Features) -> TriangleTree:
+        """Build the tree over triangles (3, 3, m) in their boxes, of which these features are searched."""
         columns = _leaves(boxes)
         n_leaves, is_full = len(columns), columns >= 0
         corners = np.zeros((n_leaves, 9))
@@ -47,7 +50,9 @@ class TriangleTree(NamedTuple):
             first, n = first - n // 2, n // 2
             nodes[first : first + n, :3] = children[..., :3].min(axis=1)
             nodes[first : first + n, 3:] = children[..., 3:].max(axis=1)
-        return cls(nodes, corners, columns)
+        of_leaves = np.zeros(n_leaves, dtype=np.uint8)
+        of_leaves[is_full] = features[columns[is_full]]
+        return cls(nodes, corners, columns, of_leaves)
 
 
 @compiled

@@ -1,8 +1,8 @@
 """How near two triangles come, for many pairs at once.
 
 The nearest points of two triangles lie on a vertex of one and the inside of the other, on two edges, or where an edge
-of one runs through the other. All 21 such meetings are returned, since the corners of a patch where faces lie on each
-other are among them, and a single nearest point would hide them.
+of one runs through the other. All such meetings are returned, since the corners of a patch where faces lie on each
+other are among them, and a single nearest point would hide them. Of meshes only their `features` meet.
 
 Source: C. Ericson, Real-Time Collision Detection (2005), section 5.1.9 (segments), 5.1.10 (triangles), 3.4 (barycentric
 coordinates). Differs: a vertex is only measured against the inside of a face; its edges are left to the segments.
@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from scene2hap.contact.features import Features
 from scene2hap.contact.vectors import Floats, Marks, cross, dot, highest, lowest
 
 # Squared sine below which edges are parallel and corners in line: the rest of their answer would be rounding noise.
@@ -26,6 +27,7 @@ _PARALLEL = 1e-12
 _RIM = 1e-9
 _IN_PLANE_M = 1e-9
 _N_MEETINGS = 21
+_BITS = (1 << np.arange(6)).astype(np.uint8)
 
 
 class Meetings(NamedTuple):
@@ -36,9 +38,9 @@ class Meetings(NamedTuple):
     on_q: Floats
 
 
-def meetings(p: Floats, q: Floats) -> Meetings:
-    """The 21 local meetings of each pair (3, 3, n): nine of edges, six of vertices with faces, six of edges through
-    faces."""
+def meetings(p: Floats, q: Floats, of_p: Features, of_q: Features) -> Meetings:
+    """The 21 local meetings of each pair (3, 3, n) and of their features (n,): nine of edges, six of vertices with
+    faces, six of edges through faces."""
     n = p.shape[2]
     every = Meetings(np.empty((_N_MEETINGS, n)), np.empty((3, _N_MEETINGS, n)), np.empty((3, _N_MEETINGS, n)))
     _fill(every, 0, _edges_with_edges(p, q))
@@ -47,6 +49,11 @@ def meetings(p: Floats, q: Floats) -> Meetings:
     for first, (distance, points, feet) in ((9, faces.meet_vertices()), (15, faces.meet_edges())):
         _fill(every, first, Meetings(distance[:, :n], points[..., :n], feet[..., :n]))
         _fill(every, first + 3, Meetings(distance[:, n:], feet[..., n:], points[..., n:]))
+    edges_p, corners_p = _present(of_p)
+    edges_q, corners_q = _present(of_q)
+    of_edges = (edges_p[:, None] & edges_q[None]).reshape(9, n)
+    present = np.concatenate([of_edges, corners_p, corners_q, edges_p, edges_q])
+    every.distance[~present] = np.inf
     return every
 
 
@@ -136,6 +143,12 @@ class _Faces(NamedTuple):
         gamma = (uu * wv - uv * wu) / self.area2
         within: Marks = (beta >= -_RIM) & (gamma >= -_RIM) & (beta + gamma <= 1 + _RIM)
         return within
+
+
+def _present(features: Features) -> tuple[Marks, Marks]:
+    """Which edges and which corners (3, n) are among the features (n,)."""
+    present = (features & _BITS[:, None]) != 0
+    return present[:3], present[3:]
 
 
 def _fill(every: Meetings, first: int, some: Meetings) -> None:

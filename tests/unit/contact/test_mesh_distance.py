@@ -1,5 +1,7 @@
 """Distance, contact points and drop of pairs of meshes: boxes in closed form, and what must hold for any."""
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -159,14 +161,15 @@ def test_what_falls_comes_to_rest_on_the_other(up_axis: int, seed: int) -> None:
     bodies, n_fell = heap(seed, up_axis), 0
     for faller in bodies:
         for other in bodies:
-            reach_m = 0.25 * faller.size_m
-            falls_m = MeshPair(faller, other).drops(faller, up_axis, faller.lowest_m, reach_m, 0.004)
+            limits = (faller, up_axis, faller.lowest_m, 0.25 * faller.size_m, 0.004)
+            falls_m = MeshPair(faller, other).drops(*limits)
+            first_m = MeshPair(faller, other).first_drop_m(*limits)
+            assert first_m == (math.inf if falls_m is None else falls_m.min())
             if faller is other or falls_m is None:
                 continue
             n_fell += 1
             assert len(falls_m) == faller.shape.triangles.shape[2]
-            first_m = float(falls_m.min())
-            assert -0.004 <= first_m <= reach_m
+            assert -0.004 <= first_m <= 0.25 * faller.size_m
             assert (falls_m[np.isfinite(falls_m)] <= first_m + 0.004).all()
             x, y, z = faller.position_m
             at = (x, y - first_m, z) if up_axis == 1 else (x, y, z - first_m)
@@ -182,8 +185,10 @@ def test_what_falls_comes_to_rest_on_the_other(up_axis: int, seed: int) -> None:
 def test_a_tree_holds_every_triangle_once_and_boxes_hold_their_children(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
     triangles = rng.normal(size=(3, 3, n)) * rng.choice([0.0, 1e-3, 1.0], (3, 1, 1))
-    nodes, corners, columns = TriangleTree.over(triangles, boxes_of(triangles))
+    of_triangles = rng.integers(0, 64, n).astype(np.uint8)
+    nodes, corners, columns, features = TriangleTree.over(triangles, boxes_of(triangles), of_triangles)
     is_full = columns >= 0
+    np.testing.assert_array_equal(features[is_full], of_triangles[columns[is_full]])
     assert sorted(columns[is_full].tolist()) == list(range(n))
     np.testing.assert_array_equal(corners[is_full].reshape(-1, 3, 3), triangles.transpose(2, 1, 0)[columns[is_full]])
     n_leaves = len(columns)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog, nnls
 
 from scene2hap.contact.mesh_distance import upright_frame
-from scene2hap.contact.triangles import clearances, heights, meetings
+from scene2hap.contact.triangles import Meetings, clearances, heights, meetings
 
 Floats = NDArray[np.float64]
 
@@ -22,14 +22,21 @@ def axes_first(triangles: object) -> Floats:
     return np.array(triangles, dtype=float).transpose(2, 1, 0)
 
 
+def all_meetings(p: object, q: object) -> Meetings:
+    """Of every corner and edge."""
+    first, second = axes_first(p), axes_first(q)
+    features = np.full(first.shape[2], 0b111_111, dtype=np.uint8)
+    return meetings(first, second, features, features)
+
+
 def one(p: object, q: object) -> tuple[float, Floats, Floats]:
-    every = meetings(axes_first([p]), axes_first([q]))
+    every = all_meetings([p], [q])
     k = int(every.distance[:, 0].argmin())
     return float(every.distance[k, 0]), every.on_p[:, k, 0], every.on_q[:, k, 0]
 
 
 def distances(p: object, q: object) -> Floats:
-    least: Floats = meetings(axes_first(p), axes_first(q)).distance.min(axis=0)
+    least: Floats = all_meetings(p, q).distance.min(axis=0)
     return least
 
 
@@ -112,7 +119,7 @@ def test_distance_told_by_hand(q: list[list[float]], distance: float) -> None:
 def test_every_corner_of_two_faces_on_each_other_is_told() -> None:
     """A square's half hangs over the other's slanted edge: the common patch has the corners below."""
     q = np.array([[[0.5, 0.1, 0.0], [2.0, 0.1, 0.0], [0.5, 1.6, 0.0]]])
-    every = meetings(axes_first([FLAT]), axes_first(q))
+    every = all_meetings([FLAT], q)
     touching = every.on_p[:, every.distance <= 1e-9].T
     for corner in ([0.5, 0.1, 0.0], [0.9, 0.1, 0.0], [0.5, 0.5, 0.0]):
         assert np.linalg.norm(touching - corner, axis=1).min() < 1e-9
