@@ -21,48 +21,52 @@ Block = NDArray[np.float32]
 class FeltLevel:
     """Hears a vibration, for an actuator, and tells how far over the threshold of touch it is on the whole.
 
-    The mean power of pieces of a second each, under Hann's window, stands for the components of `levels`.
+    The mean power of overlapping pieces of a second each stands for the components of `levels`. Before and after the
+    sound there is silence: under sine windows that overlap by half, every sample counts the same, also the first of a
+    knock. Source: J. P. Princen, A. B. Bradley, IEEE Trans. ASSP 34 (1986) 1153, for the windows.
     """
 
     def __init__(self, sample_rate_hz: int, channels: int, actuator: ActuatorProfile) -> None:
-        size = scipy.fft.next_fast_len(round(_SEGMENT_S * sample_rate_hz) or 2, real=True)
+        half = scipy.fft.next_fast_len(max(round(0.5 * _SEGMENT_S * sample_rate_hz), 1), real=True)
         self.peak = 0.0
-        self._segment, self._filled, self._n = np.zeros((channels, size), dtype=np.float32), 0, 0
-        self._window = np.hanning(size + 2)[1:-1].astype(np.float32)
-        f = np.fft.rfftfreq(size, 1.0 / sample_rate_hz)
+        self._segment, self._filled, self._n_frames = np.zeros((channels, 2 * half), dtype=np.float32), half, 0
+        self._window = np.sin(np.pi * (np.arange(2 * half) + 0.5) / (2 * half)).astype(np.float32)
+        f = np.fft.rfftfreq(2 * half, 1.0 / sample_rate_hz)
         inside = (f >= TACTILE_RANGE_HZ[0]) & (f <= TACTILE_RANGE_HZ[1])
         weight = 10 ** ((response_db(actuator, f[inside]) - threshold_db(f[inside])) / 10)
         self._inside, self._weight = np.flatnonzero(inside), weight
-        self._power = np.zeros(channels)
+        self._energy = np.zeros(channels)
 
     def hear(self, block: Block) -> None:
         """Take in the next frames."""
         if not len(block):
             return
         self.peak = max(self.peak, float(np.abs(block).max()))
+        self._n_frames += len(block)
         at, size = 0, self._segment.shape[1]
         while at < len(block):
             n = min(len(block) - at, size - self._filled)
             self._segment[:, self._filled : self._filled + n] = block[at : at + n].T
             self._filled, at = self._filled + n, at + n
             if self._filled == size:
-                self._add()
+                self._energy += self._heard(self._segment)
+                self._segment[:, : size // 2] = self._segment[:, size // 2 :]
+                self._filled = size // 2
 
     def level_db(self) -> float:
-        """Of the channel that is felt most [dB], minus infinity for silence. What is cut off at the end, less than a
-        piece, counts where there is nothing else."""
-        if not self._n and self._filled:
-            self._segment[:, self._filled :] = 0.0
-            self._window = np.zeros_like(self._window)
-            self._window[: self._filled] = np.hanning(self._filled + 2)[1:-1]
-            self._add()
-        most = float(self._power.max()) / max(self._n, 1)
+        """Of the channel that is felt most [dB], minus infinity for silence."""
+        rest, half = self._segment.copy(), self._segment.shape[1] // 2
+        rest[:, self._filled :] = 0.0
+        energy = self._energy + self._heard(rest)
+        rest[:, :half], rest[:, half:] = rest[:, half:], 0.0
+        energy = energy + self._heard(rest)
+        most = float(energy.max()) / max(self._n_frames, 1)
         return 10.0 * math.log10(most) if most > 0.0 else -math.inf
 
-    def _add(self) -> None:
-        spectrum = scipy.fft.rfft(self._segment * self._window, axis=1)[:, self._inside]
-        # The window lets through its mean square of the power.
-        through = len(self._window) * float(np.sum(self._window.astype(np.float64) ** 2)) / 4.0
-        amplitude2 = (spectrum.real.astype(np.float64) ** 2 + spectrum.imag.astype(np.float64) ** 2) / through
-        self._power += amplitude2 @ self._weight
-        self._n, self._filled = self._n + 1, 0
+    def _heard(self, piece: Block) -> NDArray[np.float64]:
+        """Of each channel of a piece (channels, n), the squares of its components' amplitudes over their thresholds,
+        summed over time [samples]."""
+        spectrum = scipy.fft.rfft(piece * self._window, axis=1)[:, self._inside]
+        power = spectrum.real.astype(np.float64) ** 2 + spectrum.imag.astype(np.float64) ** 2
+        # Both sides of the spectrum, and the square of an amplitude is twice its mean power (Parseval).
+        return np.asarray(4.0 / piece.shape[1] * (power @ self._weight))

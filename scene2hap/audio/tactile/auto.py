@@ -7,6 +7,8 @@ roughness, a tick by its moment.
   to look at; a live stream cannot wait that long.
 - Where the sound's strongest component is too low to be felt as itself (the 49 Hz of a compressor on a phone's motor),
   the bed is modulated at that rate and by that component's own waveform r, whose envelope is e: y = bed (1 + r / 2e).
+- Where it is too high, as in a beep of 2 kHz, touch follows its rise and fall alone, which go on a carrier
+  (`envelope`). A band that is moved would lose the other notes of a melody.
 - Each short onset becomes a burst of its own (`onsets`).
 """
 
@@ -20,6 +22,7 @@ from scipy.signal import butter
 from scene2hap.audio.anchor import BAND_Q, best_carrier_hz
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.adaptive import Adaptive
+from scene2hap.audio.tactile.envelope import EnvelopeCarrier
 from scene2hap.audio.tactile.following import Following
 from scene2hap.audio.tactile.onsets import WithOnsets
 from scene2hap.audio.tactile.stages import Chain, Signal, SosStage, Stage, StageStream
@@ -30,6 +33,8 @@ _CARRIERS_HZ = (100.0, 300.0)
 DEPTH = 0.5
 """Of the modulation: felt as rough (the least depth that counts as a rhythm is 0.2, see `distinctness`), while side
 bands stay 12 dB below the bed and do not take its place where touch is keener."""
+FROM_ABOVE = 1.5
+"""Sources are moved apart by a third of an octave at most (1.26); what comes from farther above could not be felt."""
 _SLOWER = 4.0
 """By which the envelope of a rough component is slower than it."""
 _NOTHING = 1e-6
@@ -41,13 +46,29 @@ class Auto(Adaptive):
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
         """A fresh conversion at that rate."""
-        bed: Stage = Chain(super().stream(sample_rate_hz, context).stages)
+        if comes_from_above(context):
+            rise_and_fall = EnvelopeCarrier().stream(sample_rate_hz, context)
+            bed: Stage = Chain([_beep(context, sample_rate_hz), *rise_and_fall.stages])
+        else:
+            bed = Chain(super().stream(sample_rate_hz, context).stages)
         if context.rough_hz is not None:
             bed = _Roughened(bed, context.rough_hz, sample_rate_hz)
         is_known = context.own_hz is not None
         if is_known:  # somebody had the whole sound to look at, so that it may wait
             bed = Following(bed, sample_rate_hz)
         return StageStream(WithOnsets(bed, carrier_hz(context), sample_rate_hz, bed_follows=is_known))
+
+
+def comes_from_above(context: ConversionContext) -> bool:
+    """Whether a source is felt far below its own frequency."""
+    own_hz, target_hz = context.own_hz, context.target_hz
+    return own_hz is not None and target_hz is not None and own_hz > FROM_ABOVE * target_hz
+
+
+def _beep(context: ConversionContext, sample_rate_hz: float) -> Stage:
+    """What is not an octave below the source's own frequency: no hum or noise of the room fills its pauses."""
+    lowest_hz = min(0.5 * (context.own_hz or 0.0), 0.4 * sample_rate_hz)
+    return SosStage(butter(2, lowest_hz, "highpass", fs=sample_rate_hz, output="sos"))
 
 
 def carrier_hz(context: ConversionContext) -> float:

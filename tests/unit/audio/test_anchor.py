@@ -10,6 +10,7 @@ import pytest
 from scene2hap.audio.actuators import actuator_profile, response_db
 from scene2hap.audio.anchor import anchor_of, best_carrier_hz
 from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.tactile import CONVERTERS
@@ -145,3 +146,28 @@ def test_what_is_carried_is_felt_as_asked_and_says_from_where(tone_hz: float, is
     if is_rough and actuator != "lra":  # its resonance leaves nothing of a side band
         side_db = felt_db[np.abs(f - (loop.felt.target_hz - tone_hz)) < 1.0].max()
         assert side_db - felt_db.max() == pytest.approx(-12.0, abs=3.0)
+
+
+@pytest.mark.parametrize(("hz", "intensity", "is_moved"), [(330, 1.0, False), (500, 0.1, False), (900, 0.3, True)])
+def test_a_beep_that_nobody_could_feel_is_moved_to_where_touch_is_keenest(
+    hz: float, intensity: float, is_moved: bool
+) -> None:
+    """330 Hz is felt nearly as well as 250, and 500 Hz as strongly as a tenth of the intensity asks for."""
+    flat = actuator_profile("flat")
+    found = anchor_of(tones(**{f"f{hz}": 0.5}), RATE, sensation_level_db(intensity), flat)
+    assert found is not None
+    assert found.frequency_hz == pytest.approx(hz, abs=0.1)
+    assert found.carrier_hz == (best_carrier_hz(flat) if is_moved else None)
+
+
+def test_a_melody_of_beeps_keeps_every_note_and_every_pause() -> None:
+    """A band that is moved down would keep what is within an octave of the strongest, and mirror some of the rest."""
+    t, pause = np.arange(RATE // 2) / RATE, np.zeros(RATE // 2)
+    notes = [0.5 * np.sin(2 * np.pi * hz * t) for hz in (2600.0, 3500.0, 1800.0, 3000.0, 2200.0)]
+    clip = AudioClip(np.concatenate([part for note in notes for part in (note, pause)]).astype(np.float32), RATE)
+    flat, converter = actuator_profile("flat"), CONVERTERS.build("auto")
+    (plan,) = plan_scene([SourceClip(clip, 0.5)], converter, flat)
+    felt = convert_clip(clip, converter, plan.context).samples.astype(float)
+    levels = np.sqrt((felt.reshape(-1, RATE // 2)[:, 800:-400] ** 2).mean(axis=1))
+    assert levels[::2].max() < 1.5 * levels[::2].min()
+    assert levels[1::2].max() < 0.03 * levels[::2].min()

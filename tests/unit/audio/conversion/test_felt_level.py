@@ -1,0 +1,52 @@
+"""How strongly a whole file is felt, against the closed form of a tone: the square of its amplitude times its share."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from scene2hap.audio.conversion.felt_level import FeltLevel
+from scene2hap.audio.levels import threshold_db
+from scene2hap.haptics import ActuatorProfile
+
+RATE = 4000
+
+
+def level_db(samples: np.ndarray, block: int) -> float:
+    heard = FeltLevel(RATE, samples.shape[1], ActuatorProfile())
+    for start in range(0, len(samples), block):
+        heard.hear(samples[start : start + block].astype(np.float32))
+    return heard.level_db()
+
+
+@given(
+    start=st.integers(0, 2 * RATE),
+    n=st.integers(RATE // 10, 2 * RATE),
+    rest=st.integers(0, RATE),
+    block=st.integers(37, 9000),
+)
+@settings(derandomize=True, deadline=None, max_examples=40)
+def test_a_tone_counts_alike_wherever_it_stands_and_however_long_the_file(
+    start: int, n: int, rest: int, block: int
+) -> None:
+    samples = np.zeros((start + n + rest, 1))
+    samples[start : start + n, 0] = 0.3 * np.sin(2 * np.pi * 250 * np.arange(n) / RATE)
+    share_db = 10 * np.log10(n / len(samples))
+    expected_db = 20 * np.log10(0.3) - float(threshold_db(250.0)) + share_db
+    assert level_db(samples, block) == pytest.approx(expected_db, abs=0.3)
+
+
+def test_the_channel_that_is_felt_most_counts_and_silence_is_not_felt() -> None:
+    t = np.arange(RATE) / RATE
+    samples = np.stack([0.01 * np.sin(2 * np.pi * 250 * t), 0.3 * np.sin(2 * np.pi * 250 * t)], axis=1)
+    assert level_db(samples, 1000) == pytest.approx(level_db(samples[:, 1:], 1000), abs=1e-4)
+    assert level_db(np.zeros((RATE, 1)), 1000) == -np.inf
+    assert level_db(np.zeros((0, 1)), 1000) == -np.inf
+
+
+def test_a_level_may_be_asked_for_at_any_time() -> None:
+    rng = np.random.default_rng(0)
+    heard, parts = FeltLevel(RATE, 1, ActuatorProfile()), rng.normal(size=(5, 3000, 1)).astype(np.float32)
+    for n, part in enumerate(parts, 1):
+        heard.hear(part)
+        assert heard.level_db() == heard.level_db() == level_db(np.concatenate(parts[:n]), 1234)
