@@ -27,18 +27,22 @@ class RunCurve:
     lasts_s : how long it takes, above 0, at most 30 [s].
     amplitude : of the vibration re steady running, at equal steps from the begin to the end, at least two, 0..1 [-].
     speed : pitch re steady running at the same instants, 0..4 [-]; empty where the recording does not tell.
+    inferred_s : what was inferred in its place, and holds again once there is another recording, 0..30 [s].
     Raises: AudioError: a number out of bounds, or a different number of points.
     """
 
     lasts_s: float
     amplitude: tuple[float, ...]
     speed: tuple[float, ...] = ()
+    inferred_s: float = 0.0
 
     def __post_init__(self) -> None:
-        lasts_s = checks.number(
-            "lasts_s", self.lasts_s, "s", above=0.0, at_most=LONGEST_PASSAGE_S, error=AudioError
-        )
+        lasts_s = checks.number("lasts_s", self.lasts_s, "s", above=0.0, at_most=LONGEST_PASSAGE_S, error=AudioError)
         object.__setattr__(self, "lasts_s", lasts_s)
+        inferred_s = checks.number(
+            "inferred_s", self.inferred_s, "s", at_least=0.0, at_most=LONGEST_PASSAGE_S, error=AudioError
+        )
+        object.__setattr__(self, "inferred_s", inferred_s)
         object.__setattr__(self, "amplitude", _points("amplitude", self.amplitude, 1.0))
         object.__setattr__(self, "speed", _points("speed", self.speed, _HIGHEST_SPEED))
         n, n_speeds = len(self.amplitude), len(self.speed)
@@ -48,9 +52,17 @@ class RunCurve:
                 "other, or no speed."
             )
 
-    def lasting(self, lasts_s: float) -> RunCurve | None:
-        """The same curve over another time [s]; None for 0, which is at once."""
-        return replace(self, lasts_s=lasts_s) if lasts_s > 0.0 else None
+    @property
+    def keeps_pitch(self) -> bool:
+        """Whether the recording shows that the pitch stays as in steady running."""
+        return bool(self.speed) and all(one == 1.0 for one in self.speed)
+
+    def instead_of(self, time_s: float, before: RunCurve | None) -> RunCurve:
+        """This curve in the place of an inferred time [s], or of another recording's `before` that was in force."""
+        if before is not None and replace(before, inferred_s=self.inferred_s) == self:
+            return before
+        was_recorded = before is not None and time_s == before.lasts_s
+        return replace(self, inferred_s=before.inferred_s if before is not None and was_recorded else time_s)
 
     def amplitude_at(self, x: ArrayLike) -> NDArray[np.float64]:
         """Amplitude (n,) [-] at shares x (n,) of the time, 0..1."""

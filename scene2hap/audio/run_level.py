@@ -142,7 +142,9 @@ class _Fit:
         length, noise_db, n_pairs = max(2.0, 1.2 * (steady - quiet)), float(_db(noise)), 1 + bool(self._speed.size)
         low = [-_BEFORE * self._n, 2.0, -3.0, noise_db - 10.0, *_LEAST_EXPONENTS * n_pairs]
         high = [self._n, 2.0 * self._n, 3.0, noise_db + 10.0, *_MOST_EXPONENTS, *_MOST_OF_SPEED][: 4 + 2 * n_pairs]
-        begins = [[max(0.0, steady - length), length, 0.0, noise_db, *shape, 1.2, 1.2][: 4 + 2 * n_pairs] for shape in _SHAPES]
+        begins = [
+            [max(0.0, steady - length), length, 0.0, noise_db, *shape, 1.2, 1.2][: 4 + 2 * n_pairs] for shape in _SHAPES
+        ]
         scale = [10.0, 10.0, 1.0, 1.0, *(0.3, 0.5) * n_pairs]
         fits = [
             least_squares(self._residuals, begin, bounds=(low, high), x_scale=scale, loss="soft_l1", max_nfev=60)

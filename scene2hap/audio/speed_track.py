@@ -63,7 +63,9 @@ def track_speed(
     """
     begin, end = (round(t * sample_rate_hz) for t in steady_s)
     steady = samples[begin:end]
-    found = components(magnitudes(steady), sample_rate_hz, (LINES_HZ[0], min(LINES_HZ[1], 0.45 * sample_rate_hz)), FAINTEST_LINE_DB)
+    found = components(
+        magnitudes(steady), sample_rate_hz, (LINES_HZ[0], min(LINES_HZ[1], 0.45 * sample_rate_hz)), FAINTEST_LINE_DB
+    )
     lines_hz = np.array([one.hz for one in found if one.is_line])
     if not lines_hz.size:
         return None
