@@ -74,7 +74,9 @@ class RunCurve:
 
 
 def _between(points: Sequence[float], x: ArrayLike) -> NDArray[np.float64]:
-    return np.asarray(np.interp(x, np.linspace(0.0, 1.0, len(points)), points), dtype=np.float64)
+    return np.asarray(
+        np.interp(np.asarray(x, dtype=np.float64), np.linspace(0.0, 1.0, len(points)), points), dtype=np.float64
+    )
 
 
 def _points(name: str, values: Sequence[float], at_most: float) -> tuple[float, ...]:

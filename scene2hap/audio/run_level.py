@@ -27,26 +27,34 @@ Signal = NDArray[np.float64]
 FELT_HZ = (10.0, 1000.0)
 BIN_S = 0.010
 LEAST_RISE_DB = 12.0
-"""Below steady running, from where a rise begins [dB]: a sound that was turned up a little is no machine that starts."""
+"""Between the room's level and steady running [dB]: what was turned up a little is no machine that starts."""
 SHORTEST_S, LONGEST_S = 0.2, 10.0
 """A cut file is faded over some 50 ms, and what takes longer than the latter is a change of load, not a start."""
 MIN_STEADY_S = 1.0
 """Of steady running, from which a loop can be cut."""
 MOST_SPREAD_DB = 6.0
-"""Of the level of steady running over 100 ms, from its 2nd to its 98th percentile [dB]. Running machines at hand stay
-below 4; rings, ticks, speech and music have pauses and notes, and lie above 10."""
+"""Of the level of steady running over 100 ms, from its 2nd to its 98th percentile [dB]. Recorded hums, a fan and a
+washing machine have 1.2 to 3.5, pink noise 3.4, revved chainsaws 8.7 and 19, ticks, rings and speech above 50."""
 MOST_RESIDUAL_DB = 2.5
 """Of the fit, rms over the rise [dB]; a rise that falls in between, or comes in steps, does not fit; assumed."""
 
 _WINDOW = np.hanning(11)[1:-1] / np.hanning(11)[1:-1].sum()
+_SHORT, _LONG = 10, 50
+"""Bins over which a level is averaged: to see single notes and strokes, and to see past them."""
+_USUAL_PERCENTILE = 75.0
+"""Of the level, which is that of steady running where a start and a stop take up to three quarters of a recording."""
 _NEAR_DB = 3.0
 _QUIET_DB = 6.0
+"""Above its quietest before the rise, to which a room's level may go [dB]; whatever is 12 dB below the machine may."""
 _FLOOR = 1e-6
+"""Of the power of steady running; silence in a file has no level."""
 _SHAPES = ((1.0, 1.0), (2.0, 2.0), (1.0, 3.0), (1.5, 1.0))
+"""Exponents p, q from which the fit is searched."""
 _LEAST_EXPONENTS, _MOST_EXPONENTS, _MOST_OF_SPEED = (0.8, 0.8), (2.2, 5.0), (2.2, 2.2)
 _BEFORE = 0.2
 """Of the recording, by which a rise may have begun before it."""
 _SPEED_ERROR = 0.008
+"""Of a speed that was followed [-]; weighs as much in the fit as 1 dB of a level. The track has steps of 0.01."""
 _POINTS_PER_S, _FEWEST_POINTS = 20, 17
 
 
@@ -81,18 +89,18 @@ def felt_power(samples: Signal, sample_rate_hz: float) -> Signal:
 
 
 def steady_part(power: Signal) -> Steady | None:
-    """The longest part, from the first bin near the usual level to the last one; None where its level is not steady."""
+    """From the first bin near the usual level to the last one; None where it is short, or its level not steady."""
     if not power.size or power.max() <= 0.0:
         return None
-    slow, level = _db(_smoothed(power, 50)), _db(_smoothed(power, 10))
-    near = np.flatnonzero(slow >= np.percentile(slow, 75) - _NEAR_DB)
+    slow, level = _db(_smoothed(power, _LONG)), _db(_smoothed(power, _SHORT))
+    near = np.flatnonzero(slow >= np.percentile(slow, _USUAL_PERCENTILE) - _NEAR_DB)
     first, end = int(near[0]), int(near[-1]) + 1
     if (end - first) * BIN_S < MIN_STEADY_S:
         return None
     low, high = np.percentile(level[first:end], (2, 98))
     if high - low > MOST_SPREAD_DB:
         return None
-    return Steady(first, end, float(np.median(_smoothed(power, 10)[first:end])))
+    return Steady(first, end, float(np.median(_smoothed(power, _SHORT)[first:end])))
 
 
 def find_rise(power: Signal, steady: Steady, track: SpeedTrack | None = None) -> Rise | None:
@@ -100,7 +108,7 @@ def find_rise(power: Signal, steady: Steady, track: SpeedTrack | None = None) ->
 
     Parameters: track : its speed, which tells the begin where the level is lost in the room's noise.
     """
-    level = _smoothed(power, 10)
+    level = _smoothed(power, _SHORT)
     if steady.first < 2:
         return None
     quiet = int(np.argmin(level[: steady.first]))
@@ -108,7 +116,7 @@ def find_rise(power: Signal, steady: Steady, track: SpeedTrack | None = None) ->
     quiet_db = _db(level[: quiet + 1] / steady.power)
     if _db(noise) > -LEAST_RISE_DB or quiet_db.max() > max(_db(noise) + _QUIET_DB, -LEAST_RISE_DB):
         return None
-    n = min(steady.end, steady.first + max(50, steady.first - quiet))
+    n = min(steady.end, steady.first + max(_LONG, steady.first - quiet))
     fit = _Fit(power[:n] / steady.power, track)
     found = fit.best(quiet, steady.first, max(noise, _FLOOR))
     t0, length, lift, noise_db = found[:4]
@@ -120,7 +128,7 @@ def find_rise(power: Signal, steady: Steady, track: SpeedTrack | None = None) ->
     at = t0 + x * length
     a = _rising(x, *found[4:6])
     of_machine = a**2 / (a**2 + 10 ** ((noise_db - lift) / 10))
-    off_db = np.interp(at, np.arange(n), _smoothed(residual_db, 10)) * of_machine
+    off_db = np.interp(at, np.arange(n), _smoothed(residual_db, _SHORT)) * of_machine
     amplitude = _pinned(a * 10 ** (off_db / 20))
     speed = None if track is None else fit.speed(found, x)
     return Rise((t0 + 0.5) * BIN_S, (t0 + length + 0.5) * BIN_S, amplitude, speed)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.run_curve import RunCurve
@@ -54,24 +55,26 @@ def with_recorded_times(
 
 
 def _object(haptics: ObjectHaptics, loops: Mapping[str, HapticLoop], before: Mapping[str, HapticLoop]) -> ObjectHaptics:
-    now = [runs_of(loops.get(state.name)) for state in haptics.states]
-    earlier = [runs_of(before.get(state.name)) for state in haptics.states]
     states, provenance = haptics.states, dict(haptics.provenance)
     for place, name in enumerate(("start_up_s", "wind_down_s")):
-        states = tuple(
-            replace(state, **{name: _time_s(getattr(state, name), one[place], other[place])})
-            for state, one, other in zip(states, now, earlier, strict=True)
-        )
-        if any(
-            one[place] is not None and one[place] is not other[place] for one, other in zip(now, earlier, strict=True)
-        ):
+        curves = [
+            (runs_of(loops.get(state.name))[place], runs_of(before.get(state.name))[place]) for state in haptics.states
+        ]
+        states = tuple(_timed(state, name, *pair) for state, pair in zip(states, curves, strict=True))
+        if any(now is not None and now is not earlier for now, earlier in curves):
             provenance[name] = RECORDING
-        elif provenance.get(name) == RECORDING and all(one[place] is None for one in now):
+        elif provenance.get(name) == RECORDING and all(now is None for now, _ in curves):
             del provenance[name]
     return replace(haptics, states=states, provenance=provenance)
 
 
-def _time_s(said_s: float, now: RunCurve | None, before: RunCurve | None) -> float:
+def _timed(state: SourceState, name: str, now: RunCurve | None, before: RunCurve | None) -> SourceState:
+    """A state with the time of its start or stop [s] that a recording shows, if that is another one than before."""
+    if now is before:
+        return state
+    changes: dict[str, Any] = {}
     if now is not None:
-        return said_s if now is before else now.lasts_s
-    return before.inferred_s if before is not None and said_s == before.lasts_s else said_s
+        changes[name] = now.lasts_s
+    elif before is not None and getattr(state, name) == before.lasts_s:
+        changes[name] = before.inferred_s
+    return replace(state, **changes)

@@ -109,7 +109,8 @@ class Override:
     def changed(self, changes: Mapping[str, Any]) -> Override:
         """With the fields that are not None in place of what they were; numbers by state are added to earlier ones."""
         now = replace(self, **{name: value for name, value in changes.items() if value is not None})
-        return replace(now, **{name: _on_top(getattr(self, name), getattr(now, name)) for name in BY_STATE})
+        by_state: dict[str, Any] = {name: _on_top(getattr(self, name), getattr(now, name)) for name in BY_STATE}
+        return replace(now, **by_state)
 
     def pitch_of(self, state: str) -> float | None:
         """The frequency at which a state is to be felt [Hz], None if it is not overridden."""
@@ -153,8 +154,8 @@ class Override:
 
     def _timed(self, state: SourceState, name: str) -> SourceState:
         times: Mapping[str, float] = getattr(self, name)
-        time_s = times.get(state.name, times.get(ANY_STATE))
-        return state if time_s is None else replace(state, **{name: time_s})
+        changes: dict[str, Any] = {name: times.get(state.name, times.get(ANY_STATE))}
+        return state if changes[name] is None else replace(state, **changes)
 
 
 def _by_state(value: object, bounded: Callable[[str, object], float], name: str) -> dict[str, float]:

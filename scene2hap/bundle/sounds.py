@@ -79,8 +79,8 @@ class SoundReader:
             raise TypeError("'fingerprint', which must be an object of texts")
         felt = Sensation(**row["felt"]) if "felt" in row else None
         frequencies = row["frequency_raw_hz"], row["frequency_tactile_hz"]
-        runs = {name: RunCurve(**row[name]) for name in _RUNS if name in row}
-        return HapticLoop(audible, tactile, *frequencies, source, fingerprint, felt, **runs)
+        start_up, wind_down = (RunCurve(**row[name]) if name in row else None for name in _RUNS)
+        return HapticLoop(audible, tactile, *frequencies, source, fingerprint, felt, start_up, wind_down)
 
     def _clip(self, name: str, credit: Credit) -> AudioClip:
         path = own_file(self._folder, name)
