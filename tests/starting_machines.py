@@ -1,6 +1,6 @@
 """Recordings of machines that start and stop, made from formulas, so that what they show is known.
 
-    v(t) = a(t) (sum_k sin(k phi(t)) / k + noise) + room noise,     phi' = 2 pi f s(t)
+v(t) = a(t) (sum_k sin(k phi(t)) / k + noise) + room noise,     phi' = 2 pi f s(t)
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def machine(
 ) -> Take:
     """A machine in a room; it starts and stops where a time is given. What spins has the force of an unbalance, s^2.
 
-    Parameters: hiss_db : its noise re its tones, which comes up with them; room_db : of the room, which is always there.
+    Parameters: hiss_db : its noise re its tones, which comes up with them; room_db : of the room, which stays [dB].
     """
     rng = np.random.default_rng(seed)
     begin = quiet_s if start_s else 0.0

@@ -129,11 +129,7 @@ def _account(bundle: HapticBundle, object_id: str) -> dict[str, Any]:
             )
             for state in haptics.states
         ),
-        *(
-            (f"felt {state}", str(loop.felt), "")
-            for state, loop in loops.items()
-            if loop.felt is not None
-        ),
+        *((f"felt {state}", str(loop.felt), "") for state, loop in loops.items() if loop.felt is not None),
         ("confidence", f"{haptics.confidence:.2f}", ""),
     ]
     if gain_db := bundle.gain_db(object_id):
