@@ -15,8 +15,7 @@ from scene2hap.audio.files import read_clip
 from scene2hap.audio.recorded_runs import RecordedRuns, recorded_runs
 from scene2hap.audio.run_curve import RunCurve
 from scene2hap.errors import AudioError
-from sound_draws import coloured_noise
-from starting_machines import RATE_HZ, Signal, Take, machine
+from starting_machines import RATE_HZ, errors, machine, without_runs
 
 MACHINES: dict[str, dict[str, Any]] = {
     "motor, 1 s": {"start_s": 1.0},
@@ -28,18 +27,6 @@ MACHINES: dict[str, dict[str, Any]] = {
     "fan, as much air as tone": {"stop_s": 3.0, "frequency_hz": 150.0, "hiss_db": 0.0, "n_harmonics": 3},
     "mixer, both": {"start_s": 1.5, "stop_s": 4.0},
 }
-
-
-def errors(take: Take, curve: RunCurve, begin_s: float) -> tuple[float, float]:
-    """The largest error of level [dB] and of speed [-] while the machine is within 20 dB of steady running."""
-    x = np.linspace(0.0, 1.0, 500)
-    at, t = begin_s + x * curve.lasts_s, np.arange(len(take.samples)) / RATE_HZ
-    amplitude, speed = np.interp(at, t, take.amplitude), np.interp(at, t, take.speed)
-    is_felt = amplitude > 0.1
-    level_db = 20 * np.log10(np.maximum(curve.amplitude_at(x), 1e-6)[is_felt] / amplitude[is_felt])
-    followed = curve.speed_at(x)
-    assert followed is not None
-    return float(np.abs(level_db).max()), float(np.abs(followed[is_felt] / speed[is_felt] - 1).max())
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
@@ -77,52 +64,10 @@ def nothing(found: RecordedRuns, n: int) -> bool:
     return found == (None, None, 0, n)
 
 
-def decay(t: Signal, begin_s: float, per_s: float) -> Signal:
-    return np.where(t < begin_s, 0.0, np.exp(-per_s * np.maximum(t - begin_s, 0.0)))
-
-
-def negatives(seed: int) -> dict[str, Signal]:
-    """Sounds of 8 s without a start or a stop."""
-    rng = np.random.default_rng(seed)
-    n = 8 * RATE_HZ
-    t = np.arange(n) / RATE_HZ
-    room = 0.003 * rng.standard_normal(n)
-    hum = np.sin(2 * np.pi * 100 * t)
-    syllables = np.interp(t, np.arange(0, 8.3, 0.12), np.maximum(0.0, rng.standard_normal(70)))
-    glide = 2 * np.pi * np.cumsum(120 * (1 + 0.2 * np.interp(t, np.arange(0, 8.3, 0.3), rng.standard_normal(28))))
-    voice = syllables * np.sum([np.sin(k * glide / RATE_HZ) / k for k in range(1, 12)], axis=0)
-    rev = np.interp(t, np.arange(0, 8.5, 0.5), rng.uniform(0.4, 1.0, 17))
-    notes = np.sum(
-        [
-            np.sin(2 * np.pi * 110 * 2 ** (rng.integers(0, 24) / 12) * t) * decay(t, 0.2 * i, rng.uniform(2, 8))
-            for i in range(40)
-        ],
-        axis=0,
-    )
-    ticks = np.sum([decay(t, i * rng.uniform(0.3, 1.0), 200.0) for i in range(8)], axis=0) * np.sin(2 * np.pi * 300 * t)
-    fade = np.clip(np.minimum(t, 8 - t) / 0.05, 0.0, 1.0)
-    return {
-        "white": rng.standard_normal(n),
-        "pink": coloured_noise(rng, n, 1.0),
-        "brown": coloured_noise(rng, n, 2.0),
-        "ticks": ticks + room,
-        "rings": ((t * rng.uniform(0.4, 1.5)) % 1 < 0.5) * hum + room,
-        "speech": voice + room,
-        "speech, then a hum": np.where(t < 3, 0.5 * voice, hum) + room,
-        "music": notes + room,
-        "one event": hum * decay(t, rng.uniform(0.2, 3.0), rng.uniform(0.5, 8.0)) + room,
-        "a bell that fades for long": hum * np.exp(-t / 2) + 0.01 * room,
-        "revving": rev**2 * np.sin(2 * np.pi * np.cumsum(80 * rev) / RATE_HZ) + room,
-        "a cut file, faded over 50 ms": fade * (hum + 30 * room),
-        "turned up by 8 dB": np.interp(t, (0, 1, 2, 8), (0.4, 0.4, 1, 1)) * coloured_noise(rng, n, 1.0),
-        "a drop in between": np.interp(t, (0, 1, 1.5, 2, 2.5, 8), (0.02, 1, 1, 0.02, 1, 1)) * hum + room,
-    }
-
-
 @pytest.mark.parametrize("seed", range(5))
-@pytest.mark.parametrize("name", negatives(0))
+@pytest.mark.parametrize("name", without_runs(0))
 def test_there_is_no_false_start(name: str, seed: int) -> None:
-    x = negatives(seed)[name]
+    x = without_runs(seed)[name]
     assert nothing(recorded_runs(x, RATE_HZ), len(x))
 
 
