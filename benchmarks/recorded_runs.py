@@ -93,10 +93,9 @@ def main() -> None:
     print(spread("time", [row.time_error for row in found], 0.15, ".1%"))
     print(spread("level [dB]", [row.level_error_db for row in found], 3.0, ".1f"))
     print(spread("pitch that moves", [row.speed_error for row in told], 0.05, ".1%"))
-    n_still = sum(row.is_pitch_told for row in found if not row.spins)
-    print(
-        f"\nPitch told of {len(told)} of {len(moving)} that move, and of {n_still} of {len(found) - len(moving)} that stay."
-    )
+    still = [row for row in found if not row.spins]
+    n_still = sum(row.is_pitch_told for row in still)
+    print(f"\nPitch told of {len(told)} of {len(moving)} that move, and of {n_still} of {len(still)} that stay.")
     false = false_ends(max(1, arguments.draws // 20))
     print(", ".join(f"{name} {n}" for name, n in false.items()) or "none seems to have one.")
 
