@@ -120,9 +120,11 @@ def find_rise(power: Signal, steady: Steady, track: SpeedTrack | None = None) ->
     fit = _Fit(power[:n] / steady.power, track)
     found = fit.best(quiet, steady.first, max(noise, _FLOOR))
     t0, length, lift, noise_db = found[:4]
+    is_within = t0 + length > 1.0 and (steady.end - t0 - length) * BIN_S >= MIN_STEADY_S
+    if not is_within or not SHORTEST_S <= length * BIN_S <= LONGEST_S:
+        return None
     residual_db = fit.residual_db(found)
-    rise = slice(max(0, math.floor(t0)), math.ceil(t0 + length))
-    if not SHORTEST_S <= length * BIN_S <= LONGEST_S or _rms(residual_db[rise]) > MOST_RESIDUAL_DB:
+    if _rms(residual_db[max(0, math.floor(t0)) : math.ceil(t0 + length)]) > MOST_RESIDUAL_DB:
         return None
     x = np.linspace(0.0, 1.0, max(_FEWEST_POINTS, round(length * BIN_S * _POINTS_PER_S) + 1))
     at = t0 + x * length
