@@ -90,6 +90,7 @@ FIGURES = {
     "recordings": Figure("conversion", "benchmarks/recordings.py", 0.5, needs="recordings"),
     "conversion-cost": Figure("conversion", "benchmarks/convert.py", 5, has_times=True, is_text=True),
     "audio": Figure("audio", "stress/audio.py", 5, is_text=True, needs="recordings"),
+    "recorded-runs": Figure("audio", "benchmarks/recorded_runs.py", 2, needs="recordings"),
     "accuracy": Figure("accuracy", "benchmarks/accuracy.py", 10, has_times=True),
     "auto-fidelity": Figure("propagation", "benchmarks/auto_fidelity.py --workers 2", 20, has_times=True),
     "propagation-cost": Figure("propagation", "benchmarks/propagation.py", 5, has_times=True),

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.run_curve import RunCurve
 from scene2hap.calls import clear_construction
 from scene2hap.errors import AudioError
 
@@ -63,6 +64,7 @@ class HapticLoop:
     `frequency_tactile_hz` is the peak of the tactile one, after conversion.
     `source` is the sound before it was cut, None for a person's own clip, which the bundle keeps anyway, or
     if unknown; `fingerprint` has a digest of each input of the loops, empty if unknown; `felt` is None if unknown.
+    `start_up` and `wind_down` are what the recording shows of the machine's start and stop, None for nothing.
     Raises: AudioError: lengths or rates differ, or a frequency is not positive.
     """
 
@@ -73,6 +75,8 @@ class HapticLoop:
     source: AudioClip | None = None
     fingerprint: Mapping[str, str] = field(default_factory=dict)
     felt: Sensation | None = None
+    start_up: RunCurve | None = None
+    wind_down: RunCurve | None = None
 
     def __post_init__(self) -> None:
         shapes = [(len(clip.samples), clip.sample_rate_hz) for clip in (self.audible, self.tactile)]

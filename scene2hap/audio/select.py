@@ -3,6 +3,9 @@
 The rule of the paper (Implementation, "Audio Retrieval/Generation"): cut silent ends; keep what is longer than 2.5 s;
 drop what has a dynamic range above 5 dB, since it would not loop, raising that limit by 5 dB until something is left;
 of the rest take the lowest spectral flatness, since harmonic sounds please more than noisy ones; normalise its peak.
+
+A start or a stop at its ends is no part of the loop: range and flatness are those of the steady part, and so is the
+winner.
 """
 
 from __future__ import annotations
@@ -15,6 +18,8 @@ import numpy as np
 from scene2hap import checks
 from scene2hap.audio import analysis
 from scene2hap.audio.clip import AudioClip, Samples
+from scene2hap.audio.recorded_runs import RecordedRuns, recorded_runs
+from scene2hap.audio.run_curve import RunCurve
 from scene2hap.errors import AudioError
 
 MIN_DURATION_S = 2.5
@@ -69,7 +74,8 @@ COLUMNS = ("", "sound", "origin", ">s", ">range dB", ">flatness", ">peak Hz", ">
 class Choice:
     """The winner, ready for use, and a row for every candidate in the order given; as text, a table of them.
 
-    The winner has no silent ends, is faded over 5 ms where something was cut off, and has a peak of 1.
+    The winner has no silent ends, is faded over 5 ms where something was cut off, and has a peak of 1. `start_up` and
+    `wind_down` are what was cut off of a machine's start and stop, None for nothing.
     `dynamic_range_limit_db` is what the limit had to be raised to, `flatness_band_hz` where flatness was compared.
     """
 
@@ -77,6 +83,8 @@ class Choice:
     rows: tuple[Candidate, ...]
     dynamic_range_limit_db: float
     flatness_band_hz: tuple[float, float]
+    start_up: RunCurve | None = None
+    wind_down: RunCurve | None = None
 
     def __str__(self) -> str:
         lines = [tuple(heading.removeprefix(">") for heading in COLUMNS), *(row.cells() for row in self.rows)]
@@ -114,7 +122,9 @@ def explain_choice(clips: Sequence[AudioClip]) -> Choice:
         analysis.FLATNESS_BAND_HZ[0],
         min(analysis.FLATNESS_BAND_HZ[1], _NYQUIST_MARGIN * min(clips[i].sample_rate_hz for i in eligible)),
     )
-    scores = {i: _Scores.of(clips[i].samples[slice(*spans[i])], clips[i].sample_rate_hz, band) for i in eligible}
+    runs = {i: recorded_runs(clips[i].samples, clips[i].sample_rate_hz) for i in eligible}
+    steady_spans = {i: (max(spans[i][0], runs[i].first), min(spans[i][1], runs[i].end)) for i in eligible}
+    scores = {i: _Scores.of(clips[i].samples[slice(*steady_spans[i])], clips[i].sample_rate_hz, band) for i in eligible}
     limit_db = DYNAMIC_RANGE_STEP_DB
     while min(score.dynamic_range_db for score in scores.values()) > limit_db:
         limit_db += DYNAMIC_RANGE_STEP_DB
@@ -132,11 +142,11 @@ def explain_choice(clips: Sequence[AudioClip]) -> Choice:
             frequency_raw_hz=score.frequency_raw_hz if score else None,
             frequency_tactile_hz=score.frequency_tactile_hz if score else None,
             is_chosen=i == best,
-            verdict=_verdict(durations[i], score, limit_db, scores[best], is_best=i == best),
+            verdict=_verdict(durations[i], score, limit_db, scores[best], runs[i] if i == best else None),
         )
 
-    winner = _ready(clips[best], *spans[best])
-    return Choice(winner, tuple(map(row, range(len(clips)))), limit_db, band)
+    winner, found = _ready(clips[best], *steady_spans[best]), runs[best]
+    return Choice(winner, tuple(map(row, range(len(clips)))), limit_db, band, found.start_up, found.wind_down)
 
 
 @dataclass(frozen=True)
@@ -157,15 +167,20 @@ class _Scores:
         )
 
 
-def _verdict(duration_s: float, score: _Scores | None, limit_db: float, best: _Scores, *, is_best: bool) -> str:
+def _verdict(
+    duration_s: float, score: _Scores | None, limit_db: float, best: _Scores, chosen: RecordedRuns | None
+) -> str:
+    """The outcome and its reason; `chosen` are the runs of the best candidate, None for any other."""
     if duration_s == 0.0:
         return "silent"
     if score is None:
         return f"too short: not longer than {MIN_DURATION_S:g} s"
     if score.dynamic_range_db > limit_db:
         return f"not steady: dynamic range above {limit_db:g} dB"
-    if is_best:
-        return "chosen"
+    if chosen is not None:
+        ends = [("start", chosen.start_up), ("stop", chosen.wind_down)]
+        shown = [f"{name} of {curve.lasts_s:.1f} s" for name, curve in ends if curve is not None]
+        return f"chosen; has a {' and a '.join(shown)}" if shown else "chosen"
     return "noisier than the chosen one" if score.flatness > best.flatness else "as tonal as the chosen one"
 
 

@@ -17,6 +17,7 @@ from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import converter_settings
+from scene2hap.baking.recorded import with_recorded_times
 from scene2hap.baking.sound import Earlier, Progress, Remade, make_loops
 from scene2hap.bundle import BundleWarning, HapticBundle, MadeWith, Override
 from scene2hap.bundle.given import given_bundle
@@ -98,6 +99,7 @@ async def with_sounds(
     """The bundle of a scene whose objects are inferred; what `bake` does behind inference. Raises: AudioError."""
     objects = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in inferred.items()}
     sounds = await make_loops(objects, wishes, config, progress or _say_nothing)
+    objects = _as_recorded(objects, sounds.loops, {}, wishes)
     _warn_of(scene, objects)
     return HapticBundle(scene, scene_category, objects, sounds.loops, wishes, sounds.choices, _made_with(config))
 
@@ -207,6 +209,7 @@ async def arebake(
     if on_remade is not None:
         on_remade(sounds.remade)
     made_with = _made_with(config) if _all_are_known(sounds.loops) else None
+    said = _as_recorded(said, sounds.loops, bundle.loops, wishes)
     return replace(bundle, objects=said, loops=sounds.loops, choices=sounds.choices, made_with=made_with)
 
 
@@ -299,6 +302,19 @@ def _as_wished(haptics: ObjectHaptics, wish: Override | None) -> ObjectHaptics:
         on = SourceState("on", _ASSUMED_INTENSITY, f"{words} running", f"{words} humming")
         haptics = replace(haptics, vibrates=True, states=(on,))
     return wish.applied(haptics)
+
+
+def _as_recorded(
+    objects: Mapping[str, ObjectHaptics],
+    loops: Mapping[str, Mapping[str, HapticLoop]],
+    before: Mapping[str, Mapping[str, HapticLoop]],
+    wishes: Mapping[str, Override],
+) -> dict[str, ObjectHaptics]:
+    """The objects with the times that recordings show, which a person's corrections outrank."""
+    return {
+        key: wishes[key].applied(haptics) if key in wishes else haptics
+        for key, haptics in with_recorded_times(objects, loops, before).items()
+    }
 
 
 def _of_this_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) -> dict[str, Override]:

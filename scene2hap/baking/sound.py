@@ -21,10 +21,12 @@ from scene2hap.audio.felt_loop import Plan, SourceClip, felt_loop, plan_scene
 from scene2hap.audio.files import as_stored
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.loops import middle_of
+from scene2hap.audio.recorded_runs import recorded_runs
 from scene2hap.audio.select import Choice, explain_choice
 from scene2hap.audio.sources.chain import gather
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import OWN_CLIP, converter_name, differences, made_by, request_digests
+from scene2hap.baking.recorded import NO_RUNS, Runs, runs_of, shown_runs
 from scene2hap.bundle import BundleWarning, Override
 from scene2hap.haptics import ObjectHaptics, SourceState, VibrationDescription
 
@@ -69,7 +71,8 @@ class Sounds:
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """One state of one source, with its sound; without one its earlier loop stays as it is."""
+    """One state of one source, with its sound; without one its earlier loop stays as it is. `runs` are its recorded
+    start and stop."""
 
     object_id: str
     state: SourceState
@@ -79,6 +82,7 @@ class _Part:
     earlier: HapticLoop | None
     keep: bool = False
     pitch_hz: float | None = None
+    runs: Runs = NO_RUNS
 
 
 async def make_loops(
@@ -158,8 +162,8 @@ class _Chooser:
 
     def __init__(self, config: BakeConfig, wishes: Mapping[str, Override], earlier: Earlier) -> None:
         self._config, self._wishes, self._earlier = config, wishes, earlier
-        self._chosen: dict[VibrationDescription, tuple[AudioClip, str]] = {}
-        self._own: dict[str, AudioClip] = {}
+        self._chosen: dict[VibrationDescription, tuple[AudioClip, str, Runs]] = {}
+        self._own: dict[str, tuple[AudioClip, Runs]] = {}
 
     def part(self, object_id: str, haptics: ObjectHaptics, state: SourceState) -> tuple[_Part, str]:
         """The state with its sound, and why that was chosen, "" where there was no choice."""
@@ -169,24 +173,29 @@ class _Chooser:
             why = self._earlier.choices.get(object_id, {}).get(state.name, "")
             return _Part(object_id, state, group, None, {}, before), why
         if wish is not None and wish.clip is not None:
-            clip = self._own.setdefault(object_id, _prepared(wish.clip))
+            if object_id not in self._own:
+                self._own[object_id] = _own(wish.clip)
+            clip, runs = self._own[object_id]
             request = {"words": OWN_CLIP, "sources": OWN_CLIP}
-            return _Part(object_id, state, group, clip, request, before, wish.keep), ""
+            shown = shown_runs(runs, state, before)
+            return _Part(object_id, state, group, clip, request, before, wish.keep, runs=shown), ""
         description = self._description(haptics, state)
         request = request_digests(description, self._config)
         if before is not None and object_id not in self._earlier.chosen_again:
             why = self._earlier.choices.get(object_id, {}).get(state.name, "")
             if not before.fingerprint:
                 repeated = None if self._earlier.any_making else _prepared(_repeated(before.audible))
-                return _Part(object_id, state, group, repeated, request, before), why
+                return _Part(object_id, state, group, repeated, request, before, runs=runs_of(before)), why
             if self._holds(before.fingerprint, request):
                 clip = before.source or _prepared(_repeated(before.audible))  # None: somebody removed it
-                return _Part(object_id, state, group, clip, _with_sources_of(before, request), before), why
+                request = _with_sources_of(before, request)
+                return _Part(object_id, state, group, clip, request, before, runs=runs_of(before)), why
         if description not in self._chosen:
             choice = self._choose(object_id, description)
-            self._chosen[description] = _prepared(choice.winner), str(choice)
-        clip, why = self._chosen[description]
-        return _Part(object_id, state, group, clip, request, before), why
+            runs = choice.start_up, choice.wind_down
+            self._chosen[description] = _prepared(choice.winner), str(choice), runs
+        clip, why, runs = self._chosen[description]
+        return _Part(object_id, state, group, clip, request, before, runs=shown_runs(runs, state, before)), why
 
     def _holds(self, fingerprint: Mapping[str, str], request: Mapping[str, str]) -> bool:
         parts = ("words",) if self._earlier.any_source else ("words", "sources")
@@ -236,13 +245,18 @@ class _Maker:
         fingerprint = {**part.request, **self._names[key]}
         reasons = differences(part.earlier.fingerprint, fingerprint) if part.earlier is not None else _NEW
         if part.earlier is not None and not reasons:
-            unchanged = dict(part.earlier.fingerprint) == fingerprint
-            return part.earlier if unchanged else replace(part.earlier, fingerprint=fingerprint), _UNCHANGED
+            unchanged = dict(part.earlier.fingerprint) == fingerprint and runs_of(part.earlier) == part.runs
+            return part.earlier if unchanged else _as_of(part, part.earlier, fingerprint), _UNCHANGED
         if key not in self._made:
             self._made[key] = felt_loop(clip, self._config.tactile, plan)
         # A person's own clip is kept with the override; once that is gone another sound is to be chosen.
         source = None if part.request["words"] == OWN_CLIP else clip
-        return replace(self._made[key], source=source, fingerprint=fingerprint), reasons
+        return replace(_as_of(part, self._made[key], fingerprint), source=source), reasons
+
+
+def _as_of(part: _Part, loop: HapticLoop, fingerprint: Mapping[str, str]) -> HapticLoop:
+    start_up, wind_down = part.runs
+    return replace(loop, fingerprint=fingerprint, start_up=start_up, wind_down=wind_down)
 
 
 def _pitch_hz(object_id: str, state: str, wishes: Mapping[str, Override], config: BakeConfig) -> float | None:
@@ -272,6 +286,17 @@ def _pitch_hz(object_id: str, state: str, wishes: Mapping[str, Override], config
 
 def _with_sources_of(before: HapticLoop, request: Mapping[str, str]) -> dict[str, str]:
     return {**request, "sources": before.fingerprint.get("sources", "")}
+
+
+def _own(clip: AudioClip) -> tuple[AudioClip, Runs]:
+    """The steady part of a person's clip, as a bundle keeps it, and its recorded start and stop."""
+    if clip.is_vibration:
+        return _prepared(clip), NO_RUNS
+    found = recorded_runs(clip.samples, clip.sample_rate_hz)
+    if found.start_up is None and found.wind_down is None:
+        return _prepared(clip), NO_RUNS
+    steady = replace(clip, samples=clip.samples[found.first : found.end])
+    return _prepared(steady), (found.start_up, found.wind_down)
 
 
 def _prepared(clip: AudioClip) -> AudioClip:

@@ -11,13 +11,14 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap import checks
+from scene2hap.bundle.override import BY_STATE
 from scene2hap.errors import BundleError
 from scene2hap.printable import read_json
 from scene2hap.text_files import read_small_text
 
 FORMAT, VERSION = "scene2hap/overrides", 1
 FIELDS = frozenset(
-    {"vibrates", "gain_db", "material", "mass_kg", "feet", "intensity", "pitch_hz", "state", "muted", "locked", "keep"}
+    {"vibrates", "gain_db", "material", "mass_kg", "feet", "state", "muted", "locked", "keep", *BY_STATE}
 )
 
 

@@ -62,6 +62,8 @@ def _inferred(haptics: ObjectHaptics) -> Iterator[tuple[str, str]]:
         yield "feet", haptics.feet.name
     for state in haptics.states:
         yield f"intensity {state.name}", f"{state.intensity:.2f}"
+        yield f"start {state.name}", f"{state.start_up_s:g} s"
+        yield f"stop {state.name}", f"{state.wind_down_s:g} s"
 
 
 def _digest(loop: HapticLoop) -> str:

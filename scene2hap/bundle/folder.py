@@ -28,7 +28,7 @@ from scene2hap import checks
 from scene2hap.audio.files import read_clip, write_wav
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.made_with import MadeWith
-from scene2hap.bundle.override import Override
+from scene2hap.bundle.override import BY_STATE, Override
 from scene2hap.bundle.own_files import (
     FORMAT,
     MANIFEST,
@@ -222,7 +222,7 @@ def _override_rows(bundle: BundleContents, folder: Path, written: list[str]) -> 
                 row["clip"]["is_vibration"] = True
         row["keep"] = None if wish.keep else False
         row["locked"] = True if wish.locked else None
-        row["intensity"], row["pitch_hz"] = wish.intensity or None, wish.pitch_hz or None
+        row |= {name: getattr(wish, name) or None for name in BY_STATE}
         row["state"], row["muted"] = wish.state, True if wish.muted else None
         rows[object_id] = {field: value for field, value in row.items() if value is not None}
     return rows

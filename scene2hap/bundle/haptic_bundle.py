@@ -15,7 +15,7 @@ from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.corrections import read_corrections
 from scene2hap.bundle.folder import read_bundle, write_bundle
 from scene2hap.bundle.notebook import bundle_table
-from scene2hap.bundle.override import ANY_STATE, MAKES_LOOPS, Override
+from scene2hap.bundle.override import ANY_STATE, BY_STATE, MAKES_LOOPS, Override
 from scene2hap.calls import clear_calls
 from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.errors import BundleError
@@ -51,15 +51,17 @@ class HapticBundle(BundleContents):
         muted: bool | None = None,
         mass_kg: float | None = None,
         feet: Material | str | None = None,
+        start_up_s: float | Mapping[str, float] | None = None,
+        wind_down_s: float | Mapping[str, float] | None = None,
     ) -> Self:
         """The bundle with a correction to one object, on top of earlier ones; None leaves a field as it is.
 
         A clip, or the path of one, stays at its own frequency unless `keep=False` allows to move it clear of the
-        scene's other sources. Intensity and pitch are numbers for all states, or mappings by state; `state` is the one
-        that plays at first. Corrections are kept in the folder and by `rebake`. Level, material, mass, feet, first
-        state, mute and silence count at once. The others, and vibration where none was inferred, count after
-        `rebake(bundle)`, which makes the loops. The loops of a locked object stay as they are, byte for byte; a
-        correction that would change them is refused.
+        scene's other sources. Intensity, pitch and the times of start and stop are numbers for all states, or mappings
+        by state; `state` is the one that plays at first. Corrections are kept in the folder and by `rebake`. Level,
+        material, mass, feet, times, first state, mute and silence count at once. The others, and vibration where none
+        was inferred, count after `rebake(bundle)`, which makes the loops. The loops of a locked object stay as they
+        are, byte for byte; a correction that would change them is refused.
         Raises: UnknownObject; BundleError: a field out of bounds, a state that the object has not, or one that would
         change the loops of a locked object; UnknownMaterial. Warns: SceneWarning: a clip for an object that does not
         vibrate, or a level that looks like a percentage.
@@ -78,11 +80,13 @@ class HapticBundle(BundleContents):
             "muted": muted,
             "mass_kg": mass_kg,
             "feet": feet,
+            "start_up_s": start_up_s,
+            "wind_down_s": wind_down_s,
         }
         wish = self.overrides.get(object_id, Override())
         self._require_unlocked(object_id, wish, changes)
         wish = wish.changed(changes)
-        named = {*wish.intensity, *wish.pitch_hz} if intensity is not None or pitch_hz is not None else set()
+        named = {name for field in BY_STATE if changes[field] is not None for name in getattr(wish, field)}
         self._require_states(object_id, [*sorted(named - {ANY_STATE}), *([] if state is None else [state])])
         if pitch_hz is not None:
             self._require_played(object_id, wish)

@@ -14,7 +14,7 @@ from scene2hap.calls import clear_construction
 from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.clips.reading import as_vibration, read_any_clip
 from scene2hap.errors import BundleError
-from scene2hap.haptics import ObjectHaptics, SourceState, checked_mass_kg
+from scene2hap.haptics import LONGEST_PASSAGE_S, ObjectHaptics, SourceState, checked_mass_kg
 from scene2hap.materials import Material, lookup
 from scene2hap.scene.sizes import with_thickness
 
@@ -26,6 +26,10 @@ ANY_STATE = "*"
 
 MAKES_LOOPS = frozenset({"vibrates", "clip", "keep", "intensity", "pitch_hz"})
 """Fields that decide how loops are made; while an object is locked they cannot change."""
+
+PASSAGES = ("start_up_s", "wind_down_s")
+BY_STATE = ("intensity", "pitch_hz", *PASSAGES)
+"""Fields that are numbers by state."""
 
 _MOST_GAIN_DB = 60.0
 _PITCH_HZ = (10.0, 1000.0)
@@ -47,7 +51,8 @@ class Override:
         the scene's other sources keep clear of it.
     locked : whether its loops stay as they are, whatever is baked again.
     intensity : of the vibration at the object itself, 0..1 [-]; pitch_hz : the frequency at which it is felt, 10..1000
-        [Hz]. Each is a number for all states or a mapping by state.
+        [Hz]; start_up_s, wind_down_s : how long it takes to come up and to die away, 0..30 [s]. Each is a number for
+        all states or a mapping by state.
     state : the one that it plays at first; muted : whether it is silent until a game unmutes it.
     Raises: BundleError: a field of another type or out of bounds. UnknownMaterial.
     """
@@ -64,6 +69,8 @@ class Override:
     muted: bool = False
     mass_kg: float | None = None
     feet: Material | None = None
+    start_up_s: Mapping[str, float] = field(default_factory=dict)
+    wind_down_s: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.vibrates is not None and not isinstance(self.vibrates, bool):
@@ -72,6 +79,8 @@ class Override:
             checks.flag(name, getattr(self, name), error=BundleError)
         object.__setattr__(self, "intensity", _by_state(self.intensity, _intensity, "intensity"))
         object.__setattr__(self, "pitch_hz", _by_state(self.pitch_hz, _pitch_hz, "pitch_hz"))
+        for name in PASSAGES:
+            object.__setattr__(self, name, _by_state(getattr(self, name), _passage_s, name))
         if self.state is not None:
             checks.text("state", self.state, error=BundleError)
         if self.gain_db is not None:
@@ -100,11 +109,8 @@ class Override:
     def changed(self, changes: Mapping[str, Any]) -> Override:
         """With the fields that are not None in place of what they were; numbers by state are added to earlier ones."""
         now = replace(self, **{name: value for name, value in changes.items() if value is not None})
-        return replace(
-            now,
-            intensity=_on_top(self.intensity, now.intensity),
-            pitch_hz=_on_top(self.pitch_hz, now.pitch_hz),
-        )
+        by_state: dict[str, Any] = {name: _on_top(getattr(self, name), getattr(now, name)) for name in BY_STATE}
+        return replace(now, **by_state)
 
     def pitch_of(self, state: str) -> float | None:
         """The frequency at which a state is to be felt [Hz], None if it is not overridden."""
@@ -134,6 +140,10 @@ class Override:
         if self.intensity and haptics.states:
             provenance["intensity"] = USER
             haptics = replace(haptics, states=tuple(map(self._as_strong, haptics.states)))
+        for name in PASSAGES:
+            if getattr(self, name) and haptics.states:
+                provenance[name] = USER
+                haptics = replace(haptics, states=tuple(self._timed(state, name) for state in haptics.states))
         if self.state is not None:
             haptics = replace(haptics, states=tuple(sorted(haptics.states, key=lambda one: one.name != self.state)))
         return replace(haptics, provenance=provenance)
@@ -141,6 +151,11 @@ class Override:
     def _as_strong(self, state: SourceState) -> SourceState:
         strength = self.intensity.get(state.name, self.intensity.get(ANY_STATE))
         return state if strength is None else replace(state, intensity=strength)
+
+    def _timed(self, state: SourceState, name: str) -> SourceState:
+        times: Mapping[str, float] = getattr(self, name)
+        changes: dict[str, Any] = {name: times.get(state.name, times.get(ANY_STATE))}
+        return state if changes[name] is None else replace(state, **changes)
 
 
 def _by_state(value: object, bounded: Callable[[str, object], float], name: str) -> dict[str, float]:
@@ -161,6 +176,10 @@ def _intensity(name: str, value: object) -> float:
 def _pitch_hz(name: str, value: object) -> float:
     low_hz, high_hz = _PITCH_HZ
     return checks.number(name, value, "Hz", at_least=low_hz, at_most=high_hz, error=BundleError)
+
+
+def _passage_s(name: str, value: object) -> float:
+    return checks.number(name, value, "s", at_least=0.0, at_most=LONGEST_PASSAGE_S, error=BundleError)
 
 
 def _on_top(earlier: Mapping[str, float], later: Mapping[str, float]) -> Mapping[str, float]:

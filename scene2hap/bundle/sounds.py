@@ -17,10 +17,12 @@ from typing import Any
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import fits_flac, read_clip, sound_digest, write_flac, write_wav
 from scene2hap.audio.haptic_loop import HapticLoop, Sensation
+from scene2hap.audio.run_curve import RunCurve
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.own_files import own_file
 
 _KINDS = ("audible", "tactile", "source")
+_RUNS = ("start_up", "wind_down")
 
 
 def write_loops(bundle: BundleContents, folder: Path, written: list[str]) -> dict[str, dict[str, Any]]:
@@ -47,6 +49,9 @@ def write_loops(bundle: BundleContents, folder: Path, written: list[str]) -> dic
             row["frequency_tactile_hz"] = loop.frequency_tactile_hz
             if loop.felt is not None:
                 row["felt"] = asdict(loop.felt)
+            for name in _RUNS:
+                if (curve := getattr(loop, name)) is not None:
+                    row[name] = asdict(curve)
             row["credit"] = asdict(loop.audible.credit)
             if loop.fingerprint:
                 row["fingerprint"] = dict(loop.fingerprint)
@@ -74,7 +79,8 @@ class SoundReader:
             raise TypeError("'fingerprint', which must be an object of texts")
         felt = Sensation(**row["felt"]) if "felt" in row else None
         frequencies = row["frequency_raw_hz"], row["frequency_tactile_hz"]
-        return HapticLoop(audible, tactile, *frequencies, source, fingerprint, felt)
+        start_up, wind_down = (RunCurve(**row[name]) if name in row else None for name in _RUNS)
+        return HapticLoop(audible, tactile, *frequencies, source, fingerprint, felt, start_up, wind_down)
 
     def _clip(self, name: str, credit: Credit) -> AudioClip:
         path = own_file(self._folder, name)

@@ -3,6 +3,8 @@
 scene2hap edit kitchen.bundle gain fan -6
 scene2hap edit kitchen.bundle intensity fan 0.3
 scene2hap edit kitchen.bundle pitch fan 120 --state high
+scene2hap edit kitchen.bundle start fan 1.5
+scene2hap edit kitchen.bundle stop fan 4
 scene2hap edit kitchen.bundle material table oak
 scene2hap edit kitchen.bundle mass microwave 14
 scene2hap edit kitchen.bundle feet microwave rubber
@@ -62,7 +64,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     intensity.add_argument("intensity", metavar="VALUE", type=float, help="0..1; a ringing phone has 0.5")
     pitch = verb("pitch", "set the frequency at which an object is felt, and make its loops again", _remade)
     pitch.add_argument("pitch_hz", metavar="HZ", type=float, help="within the band of the actuator")
-    for added in (intensity, pitch):
+    start = verb("start", "set how long a source takes to come up when it is switched on", _overridden)
+    start.add_argument("start_up_s", metavar="S", type=float, help="0..30; 0 is at once")
+    stop = verb("stop", "set how long a source takes to die away when it is switched off", _overridden)
+    stop.add_argument("wind_down_s", metavar="S", type=float, help="0..30; 0 is at once")
+    for added in (intensity, pitch, start, stop):
         added.add_argument("--state", dest="only", metavar="NAME", help="of this state alone, instead of all")
     material = verb("material", "set the material of an object", _overridden)
     material.add_argument("material", metavar="NAME", help="a name in the table, see `scene2hap list materials`")
@@ -160,7 +166,10 @@ def interrupted() -> Iterator[threading.Event]:
         signal.signal(signal.SIGINT, before)
 
 
-_FIELDS = ("gain_db", "intensity", "pitch_hz", "material", "mass_kg", "feet", "state", "muted", "vibrates", "locked")
+_FIELDS = (
+    *("gain_db", "intensity", "pitch_hz", "start_up_s", "wind_down_s", "material", "mass_kg", "feet", "state"),
+    *("muted", "vibrates", "locked"),
+)
 
 
 def _overridden(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade) -> HapticBundle:

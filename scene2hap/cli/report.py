@@ -18,6 +18,7 @@ import contextlib
 from pathlib import Path
 from typing import Any
 
+from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
 from scene2hap.errors import BundleError
@@ -90,13 +91,16 @@ def _page(arguments: argparse.Namespace, bundle: HapticBundle, console: Console)
     return outcome
 
 
-def _account_of_state(state: SourceState) -> str:
+def _account_of_state(state: SourceState, loop: HapticLoop | None) -> str:
     parts = [f"intensity {state.intensity:g}"]
     if state.needs_contact:
         parts.append(f"on {state.needs_contact}")
     if state.start_up_s or state.wind_down_s:
         spins = ", spinning" if state.spins else ""
         parts.append(f"starts in {state.start_up_s:g} s and stops in {state.wind_down_s:g} s{spins}")
+    for name, curve in () if loop is None else (("start", loop.start_up), ("stop", loop.wind_down)):
+        if curve is not None:
+            parts.append(f"its recording shows a {name} of {curve.lasts_s:g} s ({curve.inferred_s:g} s was inferred)")
     if state.on_s is not None and state.off_s is not None:
         parts.append(f"runs {state.on_s:g} s and rests {state.off_s:g} s in turns")
     return "; ".join(parts)
@@ -106,7 +110,7 @@ def _account(bundle: HapticBundle, object_id: str) -> dict[str, Any]:
     if object_id not in bundle.objects:
         raise BundleError(f"{object_id!r} stands in the scene, but nothing was inferred of it. Bake again.")
     haptics = bundle.objects[object_id]
-    by = haptics.provenance
+    by, loops = haptics.provenance, bundle.loops.get(object_id, {})
     rows = [
         ("category", haptics.object_category, by.get("object_category", "")),
         ("material", haptics.material_category, by.get("material", "")),
@@ -120,16 +124,12 @@ def _account(bundle: HapticBundle, object_id: str) -> dict[str, Any]:
         *(
             (
                 f"state {state.name}",
-                f"{state.sentence} ({_account_of_state(state)})",
+                f"{state.sentence} ({_account_of_state(state, loops.get(state.name))})",
                 by.get(f"states.{state.name}", ""),
             )
             for state in haptics.states
         ),
-        *(
-            (f"felt {state}", str(loop.felt), "")
-            for state, loop in bundle.loops.get(object_id, {}).items()
-            if loop.felt is not None
-        ),
+        *((f"felt {state}", str(loop.felt), "") for state, loop in loops.items() if loop.felt is not None),
         ("confidence", f"{haptics.confidence:.2f}", ""),
     ]
     if gain_db := bundle.gain_db(object_id):

@@ -9,6 +9,7 @@ from typing import Any
 from scene2hap.audio.haptic_loop import NOTICED_DB, HapticLoop, Sensation
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
+from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.llm.chain import UNKNOWN
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.wrappers.prices import Given, price_list
@@ -71,12 +72,24 @@ def bundle_outcome(bundle: HapticBundle) -> dict[str, Any]:
                         "raw_hz": loop.frequency_raw_hz,
                         "tactile_hz": loop.frequency_tactile_hz,
                         "felt": None if loop.felt is None else asdict(loop.felt),
+                        **_times_outcome(haptics, state, loop),
                     }
                     for state, loop in bundle.loops.get(object_id, {}).items()
                 },
             }
             for object_id, haptics in bundle.objects.items()
         },
+    }
+
+
+def _times_outcome(haptics: ObjectHaptics, name: str, loop: HapticLoop) -> dict[str, Any]:
+    """How long a state takes to start and to stop [s], and what its recording shows of that."""
+    inferred = {state.name: state for state in haptics.states}.get(name)
+    return {
+        "start_up_s": None if inferred is None else inferred.start_up_s,
+        "wind_down_s": None if inferred is None else inferred.wind_down_s,
+        "recorded_start_up_s": None if loop.start_up is None else loop.start_up.lasts_s,
+        "recorded_wind_down_s": None if loop.wind_down is None else loop.wind_down.lasts_s,
     }
 
 
@@ -92,7 +105,10 @@ def show_bundle(console: Console, bundle: HapticBundle) -> None:
     console.table(
         f"{bundle.snapshot.name}: {bundle.scene_category}, "
         + ", ".join(f"{number} {what}" for what, number in counts.items()),
-        ("object", "type", "material", ">mass kg", ">confidence", "vibrates", ">sound Hz", ">vibration Hz", ">felt dB"),
+        (
+            *("object", "type", "material", ">mass kg", ">confidence", "vibrates", ">sound Hz", ">vibration Hz"),
+            *(">felt dB", "starts, stops s"),
+        ),
         (
             _bundle_row(bundle, object_id)
             for object_id in sorted(bundle.objects, key=lambda key: key not in bundle.loops)
@@ -113,6 +129,7 @@ def _bundle_row(bundle: HapticBundle, object_id: str) -> tuple[str, ...]:
         ", ".join(f"{loop.frequency_raw_hz:.0f}" for loop in loops.values()),
         ", ".join(place_of(loop) for loop in loops.values()),
         ", ".join(_level(loop.felt) for loop in loops.values()),
+        ", ".join(times_of(state, loops.get(state.name)) for state in haptics.states),
     )
 
 
@@ -122,6 +139,15 @@ def place_of(loop: HapticLoop) -> str:
     if felt is not None and felt.is_moved:
         place += f" from {felt.own_hz:.0f}"
     return place if felt is None or felt.rough_hz is None else f"{place} rough {felt.rough_hz:.0f}"
+
+
+def times_of(state: SourceState, loop: HapticLoop | None) -> str:
+    """How long a state takes to start and to stop [s], and which of both its recording shows."""
+    curves = (None, None) if loop is None else (loop.start_up, loop.wind_down)
+    return " ".join(
+        f"{time_s:.2g}" + ("" if curve is None else " recorded" if curve.lasts_s == time_s else " recorded, stretched")
+        for time_s, curve in zip((state.start_up_s, state.wind_down_s), curves, strict=True)
+    )
 
 
 def _level(felt: Sensation | None) -> str:

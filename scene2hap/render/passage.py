@@ -1,53 +1,105 @@
 """How a loop comes up or dies away: itself, played ever faster or slower, louder or weaker.
 
-    u(t) = integral of s           s speed re full, 0..1           amplitude s^2, the force of an unbalance
+    u(t) = integral of s           s speed re full, 0..1           a amplitude re full, 0..1
 
-A motor's speed nears its end as s = x (2 - x), and coasts down as s = (1 - x)^2, x being the share of the time. What
-does not spin keeps its pitch, and its amplitude goes along half a cosine. A passage ends, or begins, in step with the
-loop itself, so that one goes over into the other without a seam.
+Assumed: a motor's speed nears its end as s = x (2 - x), and coasts down as s = (1 - x)^2, x being the share of the
+time; its amplitude is a = s^2, the force of an unbalance. What does not spin keeps its pitch, and its amplitude goes
+along half a cosine. Recorded: a is that of the recording, and so is s where the recording tells it, else s = sqrt(a) of
+what spins. A passage ends, or begins, in step with the loop itself, so that one goes over into the other without a
+seam. One that begins under way goes on from the amplitude that is felt; where the curve has another speed there, the
+difference fades over the rest of the passage.
 """
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.audio.run_curve import RunCurve
 from scene2hap.render.loop_bank import Block, LoopBank, StoredLoop, stored_once
 
 HOLD_S = 0.5
 """The tail of a passage, the steady loop or silence, until the player notices that the passage is over."""
 LEAD_S = 0.03
 """A loop that dies away goes on for so long, while it takes over from the steady one."""
+_GRID = np.linspace(0.0, 1.0, 4097)
+"""Shares of the time at which an amplitude is looked for: 7 ms apart in the longest passage."""
+
+Signal = NDArray[np.float64]
+
+
+class Running(NamedTuple):
+    """How fast and how strongly a source runs, both re steady running, 0..1 [-]."""
+
+    speed: float
+    amplitude: float
+
+
+STEADY, STILL = Running(1.0, 1.0), Running(0.0, 0.0)
+
+
+class Course(NamedTuple):
+    """The way of a passage: up or down, of what spins or not, along a recorded curve or, for None, an assumed one."""
+
+    goes_up: bool
+    spins: bool
+    curve: RunCurve | None = None
+
+    def speed(self, x: Signal) -> Signal:
+        """Speed (n,) [-] at shares x (n,) of the time."""
+        recorded = None if self.curve is None else self.curve.speed_at(x)
+        if recorded is not None:
+            return recorded
+        if not self.spins:
+            return np.ones_like(x)
+        if self.curve is not None:
+            return np.sqrt(self.amplitude(x))
+        return x * (2 - x) if self.goes_up else (1 - x) ** 2
+
+    def amplitude(self, x: Signal) -> Signal:
+        """Amplitude (n,) [-] at shares x (n,) of the time."""
+        if self.curve is not None:
+            return self.curve.amplitude_at(x)
+        if self.spins:
+            return self.speed(x) ** 2
+        return np.asarray(np.sin(np.pi / 2 * (x if self.goes_up else 1 - x)) ** 2)
+
+    def share(self, running: Running) -> float:
+        """The share of the time at which it has the amplitude of what runs already [-]."""
+        a = self.amplitude(_GRID)
+        up = np.maximum.accumulate(a if self.goes_up else a[::-1])
+        if not up[0] < running.amplitude < up[-1]:
+            return float((running.amplitude > up[0]) == self.goes_up)
+        x = float(np.interp(running.amplitude, up, _GRID))
+        return x if self.goes_up else 1.0 - x
 
 
 class Passage(LoopBank):
     """A bank of one loop that is on its way up or down, once.
 
     Parameters: steady : the bank of the loop itself; begin : tactile sample of the clock at which it starts; lasts_s :
-    from standing still to full speed, or back [s]; from_speed : 0..1, where it starts; `end` is the sample from which
+    from standing still to full speed, or back [s]; since : how it runs when it starts; `end` is the sample from which
     on the steady loop, or silence, may take over.
     """
 
-    def __init__(
-        self, steady: LoopBank, begin: int, lasts_s: float, *, goes_up: bool, spins: bool, from_speed: float
-    ) -> None:
+    def __init__(self, steady: LoopBank, begin: int, lasts_s: float, course: Course, since: Running) -> None:
         rate = self.sample_rate_hz = steady.sample_rate_hz
         self.n_bands = steady.n_bands
-        self._begin, self._goes_up, self._lasts = begin, goes_up, lasts_s * rate
-        self._from = 1 - math.sqrt(1 - from_speed) if goes_up else 1 - math.sqrt(from_speed)
-        lead, n = 0 if goes_up else round(LEAD_S * rate), math.ceil((1 - self._from) * self._lasts)
+        self._begin, self._course, self._lasts = begin, course, lasts_s * rate
+        self._from = course.share(since)
+        # Of what stands still or runs steadily, no curve says less.
+        is_under_way = 0.0 < since.amplitude < 1.0
+        self._ahead = since.speed - float(course.speed(np.array([self._from]))[0]) if is_under_way else 0.0
+        lead, n = self._lead, math.ceil((1 - self._from) * self._lasts)
         self.end = begin + lead + n
-        x = np.clip(self._from + (np.arange(lead + n + round(HOLD_S * rate)) - lead) / self._lasts, self._from, 1.0)
-        speed = _speed(x, goes_up)
-        if spins:
-            played = np.concatenate([[0.0], np.cumsum(speed[:-1])])
-            # On its way up it is in step at the end, on its way down at the beginning.
-            at, amplitude = played - played[n] + n if goes_up else played, speed**2
-        else:
-            at = np.arange(len(x), dtype=np.float64)
-            amplitude = np.sin(np.pi / 2 * (x if goes_up else 1 - x)) ** 2
+        x = self._share(np.arange(begin, self.end + round(HOLD_S * rate)))
+        speed, amplitude = self._speed(x), course.amplitude(x)
+        played = np.concatenate([[0.0], np.cumsum(speed[:-1])])
+        # On its way up it is in step at the end, on its way down at the beginning.
+        at = played - played[n] + n if course.goes_up else played
         low = math.floor(at.min())
         source = steady.taken(0, begin + low, math.ceil(at.max()) - low + 2)
         samples = _between(source, at - low) * amplitude[:, None].astype(np.float32)
@@ -59,15 +111,22 @@ class Passage(LoopBank):
         """See `LoopBank`."""
         return self._samples.nbytes
 
-    def speed(self, at: int) -> float:
-        """How far up it is at a tactile sample, 0..1."""
-        lead = 0 if self._goes_up else round(LEAD_S * self.sample_rate_hz)
-        x = self._from + (at - self._begin - lead) / self._lasts
-        return float(_speed(np.array(min(max(x, self._from), 1.0)), self._goes_up))
+    @property
+    def _lead(self) -> int:
+        return 0 if self._course.goes_up else round(LEAD_S * self.sample_rate_hz)
 
+    def running(self, at: int) -> Running:
+        """How fast and how strongly it runs at a tactile sample."""
+        x = self._share(np.array([at]))
+        return Running(float(self._speed(x)[0]), float(self._course.amplitude(x)[0]))
 
-def _speed(x: NDArray[np.float64], goes_up: bool) -> NDArray[np.float64]:
-    return x * (2 - x) if goes_up else (1 - x) ** 2
+    def _share(self, at: NDArray[np.int_]) -> Signal:
+        """Shares of the time (n,) at tactile samples (n,)."""
+        return np.clip(self._from + (at - self._begin - self._lead) / self._lasts, self._from, 1.0)
+
+    def _speed(self, x: Signal) -> Signal:
+        left = (1.0 - x) / max(1.0 - self._from, 1e-9)
+        return np.maximum(0.0, self._course.speed(x) + self._ahead * left)
 
 
 def _between(samples: Block, at: NDArray[np.float64]) -> Block:

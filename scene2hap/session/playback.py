@@ -20,7 +20,7 @@ from scene2hap.devices.protocol import Block
 from scene2hap.render.bursts import Bursts, PlannedBurst
 from scene2hap.render.limiter import soft_limit
 from scene2hap.render.loop_bank import position_s
-from scene2hap.render.passage import Passage
+from scene2hap.render.passage import Course, Passage, Running
 from scene2hap.session.config import MIN_RAMP_S, SessionConfig
 from scene2hap.session.mixer_instance import MixerInstance
 from scene2hap.session.prepared_loops import PreparedLoop, find, order, prepare
@@ -214,21 +214,20 @@ class Playback:
         self._routes.clear()
 
     def pass_over(
-        self, row: LoopRow, of: LoopRow, at_frame: int, lasts_s: float, *, goes_up: bool, spins: bool, from_speed: float
+        self, row: LoopRow, of: LoopRow, at_frame: int, lasts_s: float, course: Course, since: Running
     ) -> Passage | None:
         """Make a row that is to be played of another, once, on its way up or down from a frame on; None if that is
         still being prepared."""
         ready = self._ready.get(of)
         if ready is None:
             return None
-        begin = self._tactile(at_frame)
-        passage = Passage(ready.bank, begin, lasts_s, goes_up=goes_up, spins=spins, from_speed=from_speed)
+        passage = Passage(ready.bank, self._tactile(at_frame), lasts_s, course, since)
         self._let_in(row, PreparedLoop(passage, ready.peaks), 1)
         return passage
 
-    def speed(self, passage: Passage, at_frame: int) -> float:
-        """How far up a passage is at a frame, 0..1."""
-        return passage.speed(self._tactile(at_frame))
+    def running(self, passage: Passage, at_frame: int) -> Running:
+        """How fast and how strongly a passage runs at a frame."""
+        return passage.running(self._tactile(at_frame))
 
     def end_frame(self, passage: Passage) -> int:
         """The frame from which on a passage is over."""

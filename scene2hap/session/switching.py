@@ -1,7 +1,8 @@
 """Sources that start and stop: they come up, die away, and some switch themselves, as a refrigerator does.
 
 All times are those of `render`'s clock, which stands still in a pause. A source that is cut short while it starts dies
-away from the speed that it has, and the other way round.
+away from the amplitude that it has, and the other way round. Where its recording shows a start or a stop, it goes along
+that.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from __future__ import annotations
 import zlib
 from dataclasses import dataclass
 
-from scene2hap.render.passage import Passage
+from scene2hap.render.passage import STEADY, STILL, Course, Passage
 from scene2hap.session.playback import Playback
 from scene2hap.session.sources import LoopRow, Source, Sources
 
@@ -86,16 +87,16 @@ class Switching:
         """Start to come up, or to die away."""
         inferred, goes_up = source.inferred.get(source.state), source.is_running
         before = self._passing.pop(source_id, None)
-        speed = float(not goes_up) if before is None else self._playback.speed(before.passage, now)
+        at_rest = STILL if goes_up else STEADY
+        since = at_rest if before is None else self._playback.running(before.passage, now)
         self._sources.let_pass(source_id, None)
         lasts_s = 0.0 if inferred is None else inferred.start_up_s if goes_up else inferred.wind_down_s
-        is_there = speed >= 1.0 if goes_up else speed <= 0.0
+        is_there = since.amplitude >= 1.0 if goes_up else since.amplitude <= 0.0
         if inferred is not None and lasts_s > 0.0 and not is_there:
             steady = source.row
             row = LoopRow(source_id, source.state, steady.loop)
-            passage = self._playback.pass_over(
-                row, steady, now, lasts_s, goes_up=goes_up, spins=inferred.spins, from_speed=speed
-            )
+            course = Course(goes_up, inferred.spins, steady.loop.start_up if goes_up else steady.loop.wind_down)
+            passage = self._playback.pass_over(row, steady, now, lasts_s, course, since)
             if passage is not None:
                 self._passing[source_id] = _Passing(passage, self._playback.end_frame(passage))
                 self._sources.let_pass(source_id, row)

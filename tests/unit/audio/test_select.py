@@ -11,6 +11,7 @@ from others import RECORDINGS, there
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.select import explain_choice, select_clip
 from scene2hap.errors import AudioError
+from starting_machines import machine
 
 RATE = 48_000
 T = np.arange(4 * RATE) / RATE
@@ -173,3 +174,17 @@ def test_among_machines_a_steady_hum_wins(sound: Callable[[str], AudioClip], by_
     assert choice.winner.credit.title == candidates[-1].credit.title
     assert choice.rows[2].verdict == "noisier than the chosen one"
     assert all(row.verdict.startswith("not steady") for row in choice.rows[:2])
+
+
+def test_a_start_and_a_stop_are_no_part_of_what_is_judged_and_chosen() -> None:
+    take = machine(start_s=2.0, stop_s=3.0)
+    choice = explain_choice([AudioClip(take.clip.samples, take.clip.sample_rate_hz, Credit("mixer", "", ""))])
+    (row,) = choice.rows
+    assert row.dynamic_range_db is not None
+    assert row.dynamic_range_db < 2.0
+    assert choice.start_up is not None
+    assert choice.wind_down is not None
+    assert row.verdict == (
+        f"chosen; has a start of {choice.start_up.lasts_s:.1f} s and a stop of {choice.wind_down.lasts_s:.1f} s"
+    )
+    assert choice.winner.duration_s == pytest.approx(5.0, rel=0.1)

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from scene2hap import AudioClip, Bands
+from scene2hap.audio.run_curve import RunCurve
 from scene2hap.render.loop_bank import CELL, LoopBank
-from scene2hap.render.passage import HOLD_S, LEAD_S, Passage
+from scene2hap.render.passage import HOLD_S, LEAD_S, STEADY, STILL, Course, Passage, Running
 
 RATE = 8000
 
@@ -27,9 +28,12 @@ def played(one: LoopBank, begin: int, n: int) -> np.ndarray:
     return np.concatenate(cells)[:n]
 
 
-def passage(**given: object) -> Passage:
-    told = {"lasts_s": 1.0, "goes_up": True, "spins": True, "from_speed": 0.0, **given}
-    return Passage(bank(), 12_345, **told)  # type: ignore[arg-type]
+def passage(
+    *, goes_up: bool = True, spins: bool = True, curve: RunCurve | None = None, since: Running | None = None
+) -> Passage:
+    """One of a second; it begins at rest or in steady running unless told otherwise."""
+    course = Course(goes_up, spins, curve)
+    return Passage(bank(), 12_345, 1.0, course, since or (STILL if goes_up else STEADY))
 
 
 @pytest.mark.parametrize("begin", [0, 7, 8000, 123_456_789])
@@ -49,7 +53,7 @@ def test_up_it_ends_as_the_loop_itself(spins: bool) -> None:
 
 @pytest.mark.parametrize("spins", [True, False])
 def test_down_it_begins_as_the_loop_itself_and_ends_in_silence(spins: bool) -> None:
-    down = passage(goes_up=False, from_speed=1.0, spins=spins)
+    down = passage(goes_up=False, spins=spins)
     lead = round(LEAD_S * RATE)
     np.testing.assert_allclose(played(down, 12_345, lead), played(bank(), 12_345, lead), atol=5e-3)
     assert np.abs(played(down, down.end, round(HOLD_S * RATE) - CELL)).max() < 1e-6
@@ -76,20 +80,63 @@ def test_what_does_not_spin_keeps_its_pitch() -> None:
 
 
 @pytest.mark.parametrize("goes_up", [True, False])
-@pytest.mark.parametrize("from_speed", [0.1, 0.5, 0.9])
-def test_it_may_start_under_way(goes_up: bool, from_speed: float) -> None:
-    one = passage(goes_up=goes_up, from_speed=from_speed)
-    whole = passage(goes_up=goes_up, from_speed=0.0 if goes_up else 1.0)
-    assert one.speed(12_345) == pytest.approx(from_speed)
-    assert one.speed(one.end) == pytest.approx(float(goes_up))
+@pytest.mark.parametrize("speed", [0.1, 0.5, 0.9])
+def test_it_may_start_under_way(goes_up: bool, speed: float) -> None:
+    one, whole = passage(goes_up=goes_up, since=Running(speed, speed**2)), passage(goes_up=goes_up)
+    assert one.running(12_345) == pytest.approx((speed, speed**2), abs=1e-3)
+    assert one.running(one.end) == pytest.approx((float(goes_up), float(goes_up)))
     assert one.end < whole.end
-    assert np.abs(played(one, 12_345, 240)).max() == pytest.approx(from_speed**2, rel=0.25, abs=0.02)
+    assert np.abs(played(one, 12_345, 240)).max() == pytest.approx(speed**2, rel=0.25, abs=0.02)
 
 
 @pytest.mark.parametrize("goes_up", [True, False])
 @pytest.mark.parametrize("spins", [True, False])
-def test_it_does_not_click(goes_up: bool, spins: bool) -> None:
-    one = passage(goes_up=goes_up, spins=spins, from_speed=0.0 if goes_up else 1.0)
+@pytest.mark.parametrize("amplitude", [0.05, 0.5, 0.95])
+def test_under_way_it_goes_on_from_what_is_felt(goes_up: bool, spins: bool, amplitude: float) -> None:
+    speed = 0.6 if spins else 1.0
+    one = passage(goes_up=goes_up, spins=spins, since=Running(speed, amplitude))
+    assert one.running(12_345) == pytest.approx((speed, amplitude), abs=1e-3)
+    assert one.running(one.end).amplitude == pytest.approx(float(goes_up), abs=1e-6)
+
+
+def backwards(curve: RunCurve) -> RunCurve:
+    return RunCurve(curve.lasts_s, curve.amplitude[::-1], curve.speed[::-1])
+
+
+STEPPED = RunCurve(1.0, (0.0, 0.02, 0.3, 0.32, 0.9, 1.0), (0.0, 0.4, 0.5, 0.8, 0.95, 1.0))
+
+
+@pytest.mark.parametrize("goes_up", [True, False])
+@pytest.mark.parametrize("curve", [STEPPED, RunCurve(1.0, STEPPED.amplitude)])
+def test_a_recorded_curve_is_followed(goes_up: bool, curve: RunCurve) -> None:
+    one = passage(goes_up=goes_up, curve=curve if goes_up else backwards(curve))
+    lead = 0 if goes_up else round(LEAD_S * RATE)
+    for x in (0.2, 0.5, 0.7):
+        at = round((x if goes_up else 1 - x) * RATE) + lead
+        around = played(one, 12_345, one.end - 12_345)[at - 400 : at + 400]
+        amplitude = np.interp(x, np.linspace(0, 1, 6), STEPPED.amplitude)
+        speed = np.interp(x, np.linspace(0, 1, 6), STEPPED.speed) if curve.speed else np.sqrt(amplitude)
+        assert crossings_hz(around) == pytest.approx(100 * speed, abs=10)
+        rms = np.interp(x + np.linspace(-0.05, 0.05, 101), np.linspace(0, 1, 6), STEPPED.amplitude)
+        assert np.sqrt(2 * (around**2).mean()) == pytest.approx(np.sqrt((rms**2).mean()), rel=0.15)
+
+
+def test_what_does_not_spin_keeps_its_pitch_along_a_recorded_curve() -> None:
+    up = played(passage(spins=False, curve=RunCurve(1.0, STEPPED.amplitude)), 12_345, RATE)
+    assert crossings_hz(up[2000:6000]) == pytest.approx(100, abs=2)
+
+
+def test_a_recorded_passage_ends_in_step() -> None:
+    up = passage(curve=STEPPED)
+    after = round(HOLD_S * RATE) - CELL
+    np.testing.assert_allclose(played(up, up.end, after), played(bank(), up.end, after), atol=5e-3)
+
+
+@pytest.mark.parametrize("goes_up", [True, False])
+@pytest.mark.parametrize("spins", [True, False])
+@pytest.mark.parametrize("curve", [None, STEPPED])
+def test_it_does_not_click(goes_up: bool, spins: bool, curve: RunCurve | None) -> None:
+    one = passage(goes_up=goes_up, spins=spins, curve=curve if goes_up or curve is None else backwards(curve))
     before = np.zeros((2000, 1)) if goes_up else played(bank(), 10_345, 2000)
     samples = np.concatenate([before, played(one, 12_345, one.end - 12_345 + 2000)])[:, 0]
     power = np.abs(np.fft.rfft(samples * np.hanning(len(samples)))) ** 2
@@ -98,6 +145,6 @@ def test_it_does_not_click(goes_up: bool, spins: bool) -> None:
 
 
 def test_bands_go_together() -> None:
-    one = Passage(bank(100.0, Bands((50.0, 150.0, 400.0))), 0, 0.5, goes_up=True, spins=True, from_speed=0.0)
+    one = Passage(bank(100.0, Bands((50.0, 150.0, 400.0))), 0, 0.5, Course(True, True), STILL)
     assert one.n_bands == 2
     assert np.abs(played(one, one.end, 800)[:, 0]).max() > 0.9

@@ -1,0 +1,75 @@
+"""The start and the stop of a machine at the ends of a recording, and the steady running between them.
+
+A recording that begins with a machine coming up from quiet shows how long that takes, how its strength grows, and how
+its pitch rises. Its loop is cut from the steady part alone. A stop is a start read backwards.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from scene2hap import checks
+from scene2hap.audio.run_curve import RunCurve
+from scene2hap.audio.run_level import BIN_S, MIN_STEADY_S, Rise, Signal, Steady, felt_power, find_rise, steady_part
+from scene2hap.audio.speed_track import track_speed
+from scene2hap.errors import AudioError
+
+
+class RecordedRuns(NamedTuple):
+    """The curves of a start and of a stop, None where there is none, and steady running: samples [first, end)."""
+
+    start_up: RunCurve | None
+    wind_down: RunCurve | None
+    first: int
+    end: int
+
+
+def recorded_runs(samples: ArrayLike, sample_rate_hz: float) -> RecordedRuns:
+    """Look for a start and a stop in a recording (n,).
+
+    A start rises by 12 dB or more to a steady level that lasts a second, from the room's level on, within 0.2 to 10 s,
+    and without falling; anything else is none. Raises: AudioError: the samples are not one channel, (n,), n >= 1.
+    """
+    rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=AudioError)
+    x = np.asarray(samples, dtype=np.float64)
+    if x.ndim != 1 or x.size == 0:
+        raise AudioError(f"samples has shape {x.shape}; a recording has one channel of at least one sample, (n,).")
+    power = felt_power(x, rate)
+    steady = steady_part(power)
+    if steady is None:
+        return RecordedRuns(None, None, 0, len(x))
+    n = len(power)
+    up = _rise(x, rate, power, steady)
+    length = round(n * BIN_S * rate)
+    down = _rise(x[:length][::-1], rate, power[::-1], Steady(n - steady.end, n - steady.first, steady.power))
+    first = 0 if up is None else round(up.end_s * rate)
+    end = len(x) if down is None else length - round(down.end_s * rate)
+    if (end - first) < MIN_STEADY_S * rate:
+        return RecordedRuns(None, None, 0, len(x))
+    return RecordedRuns(
+        None if up is None else _curve(up, backwards=False),
+        None if down is None else _curve(down, backwards=True),
+        first,
+        end,
+    )
+
+
+def _rise(x: Signal, rate: float, power: Signal, steady: Steady) -> Rise | None:
+    rise = find_rise(power, steady)
+    if rise is None:
+        return None
+    track = track_speed(x, rate, (rise.begin_s, rise.end_s), (rise.end_s, steady.end * BIN_S))
+    if track is None:
+        return rise
+    if track.is_constant:
+        return rise._replace(speed=np.ones(len(rise.amplitude)))
+    return find_rise(power, steady, track) or rise
+
+
+def _curve(rise: Rise, *, backwards: bool) -> RunCurve:
+    step = -1 if backwards else 1
+    speed = () if rise.speed is None else tuple(rise.speed[::step].round(4).tolist())
+    return RunCurve(round(rise.end_s - rise.begin_s, 3), tuple(rise.amplitude[::step].round(4).tolist()), speed)

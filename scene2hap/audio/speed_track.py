@@ -1,0 +1,151 @@
+"""Speed of a machine over time re steady running, from how its lines move together in a recording.
+
+A machine's lines lie at fixed multiples of its speed: those at f_i in steady running are at r f_i while it runs at r of
+that speed. The score of a speed r in a frame is the mean, over the lines, of how far the spectrum at r f_i rises above
+the ground around it, less that of the whole spectrum [dB]. The track is the path of the highest sum of scores (Viterbi)
+that ends at r = 1. It climbs by no more than three times the mean rate and hardly falls: harmonics coincide at half the
+speed too, to which a track must not jump. Mains hum that stays is one line of many.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import scipy.fft
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import NDArray
+
+from scene2hap.audio.components import components, magnitudes
+
+Signal = NDArray[np.float64]
+
+LINES_HZ = (20.0, 1000.0)
+FAINTEST_LINE_DB = -30.0
+"""Re the strongest line [dB]."""
+CLEAR_DB, BY_CHANCE_DB = 4.0, 4.0
+"""A frame tells the speed above CLEAR_DB + BY_CHANCE_DB / n for n lines [dB]. In white noise the best path has at most
+6.9 for one line, 5.1 for two, and 2.8 for eight, over 30 draws."""
+STEADY_WITHIN = 0.03
+"""Median difference from full speed below which the pitch stays [-]."""
+LEAST_SHARE = 0.4
+"""Of a rise over which the speed must be told, or it is unknown [-]."""
+SHORTEST_S = 0.5
+"""Of a rise whose pitch moves; in a shorter one lines move further within a frame than they are apart."""
+
+_HOP_S = 0.02
+_FRAME_S, _FRAMES_PER_RISE = (0.128, 0.256), 12
+"""Frames are so many to a rise, within bounds: in a longer one a line moves on, a shorter one blurs lines into one."""
+_STEP = 0.01
+_SPEEDS = np.arange(0.15, 1.1 + _STEP / 2, _STEP)
+_FULL, _NEAR_FULL = int(np.argmin(np.abs(_SPEEDS - 1.0))), 3
+_STEEPEST = 3.0
+"""Times the mean rate. A motor that nears its speed as x (2 - x) begins with twice the mean rate."""
+_FALLS = 1
+"""Steps per frame that a track may fall, for the grid's sake."""
+_HIGHEST_DB = 40.0
+_PADDING = 4
+_BLOCK, _GROUND_PERCENTILE = 16, 25.0
+"""The ground is this percentile over so many bins of an unpadded spectrum: below the lines where they lie densely."""
+_LOBE = 2.0
+"""Half the main lobe of a Hann window [bins]; a lower line cannot be told from the spectrum's own end."""
+
+
+class SpeedTrack(NamedTuple):
+    """Times (n,) [s] at which a recording tells the speed, and the speed re steady running (n,) [-]."""
+
+    at_s: Signal
+    speed: Signal
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether the machine keeps its pitch all along."""
+        return bool(np.median(np.abs(self.speed - 1.0)) <= STEADY_WITHIN)
+
+
+def track_speed(
+    samples: Signal, sample_rate_hz: float, rise_s: tuple[float, float], steady_s: tuple[float, float]
+) -> SpeedTrack | None:
+    """The speed over a rise of a recording (n,), from the begins and ends of the rise and of steady running [s].
+
+    None where steady running has no lines, or they are not followed over enough of the rise.
+    """
+    begin, end = (round(time_s * sample_rate_hz) for time_s in steady_s)
+    range_hz = LINES_HZ[0], min(LINES_HZ[1], 0.45 * sample_rate_hz)
+    found = components(magnitudes(samples[begin:end]), sample_rate_hz, range_hz, FAINTEST_LINE_DB)
+    lines_hz = np.array([one.hz for one in found if one.is_line])
+    length_s = rise_s[1] - rise_s[0]
+    size = round(float(np.clip(length_s / _FRAMES_PER_RISE, *_FRAME_S)) * sample_rate_hz)
+    hop = max(1, round(_HOP_S * sample_rate_hz))
+    first = max(0, round(rise_s[0] * sample_rate_hz) - size // 2)
+    last = min(len(samples), round(rise_s[1] * sample_rate_hz) + 2 * size)
+    if not lines_hz.size or last - first < 2 * size:
+        return None
+    at = np.arange(first, last - size + 1, hop)
+    score = _scores(samples, at, size, sample_rate_hz, lines_hz)
+    path, clear_db = _best_path(score, max(1, math.ceil(_STEEPEST * _HOP_S / length_s / _STEP)))
+    unclear = np.flatnonzero(
+        (clear_db < CLEAR_DB + BY_CHANCE_DB / len(lines_hz)) | (path * lines_hz.min() < _LOBE * sample_rate_hz / size)
+    )
+    told = slice(int(unclear[-1]) + 1 if unclear.size else 0, None)
+    track = SpeedTrack((at + _centres(samples, at, size))[told] / sample_rate_hz, path[told])
+    told_s = np.count_nonzero(track.at_s < rise_s[1]) * hop / sample_rate_hz
+    is_told = told_s >= LEAST_SHARE * length_s and (track.is_constant or length_s >= SHORTEST_S)
+    return track if is_told else None
+
+
+def _centres(x: Signal, at: NDArray[np.intp], size: int) -> Signal:
+    """Where the energy of each windowed frame lies (n_frames,) [samples]: late in it while a machine grows louder."""
+    energy = (sliding_window_view(x, size)[at] * np.hanning(size + 2)[1:-1]) ** 2 + 1e-30
+    return np.asarray(energy @ np.arange(size) / energy.sum(axis=1))
+
+
+def _scores(x: Signal, at: NDArray[np.intp], size: int, rate: float, lines_hz: Signal) -> Signal:
+    """By frame and speed (n_frames, n_speeds) [dB]."""
+    n = scipy.fft.next_fast_len(_PADDING * size, real=True)
+    frames = sliding_window_view(x, size)[at]
+    window = np.hanning(size + 2)[1:-1]
+    spectrum = np.abs(scipy.fft.rfft((frames - frames.mean(axis=1, keepdims=True)) * window, n, axis=1))
+    top = min(spectrum.shape[1], int(1.2 * LINES_HZ[1] * n / rate) + 1)
+    level_db = 20 * np.log10(np.maximum(spectrum[:, :top], 1e-12))
+    over_db = np.clip(level_db - _ground_db(level_db, _BLOCK * _PADDING), 0.0, _HIGHEST_DB)
+    over_db -= over_db.mean(axis=1, keepdims=True)
+    bins = np.outer(_SPEEDS, lines_hz) * n / rate
+    low = np.clip(np.floor(bins).astype(np.intp), 0, top - 2)
+    share = np.clip(bins - low, 0.0, 1.0)
+    return np.asarray((over_db[:, low] * (1 - share) + over_db[:, low + 1] * share).mean(axis=2))
+
+
+def _ground_db(level_db: Signal, width: int) -> Signal:
+    """The ground of spectra (n_frames, n_bins), along lines between the middles of blocks [dB]."""
+    n_frames, n = level_db.shape
+    n_blocks = max(1, n // width)
+    blocks = level_db[:, : n_blocks * width].reshape(n_frames, n_blocks, -1) if n >= width else level_db[:, None]
+    ground = np.percentile(blocks, _GROUND_PERCENTILE, axis=2)
+    middles = (np.arange(n_blocks) + 0.5) * width
+    at = np.clip((np.arange(n) - middles[0]) / width, 0, n_blocks - 1)
+    low = np.minimum(at.astype(int), max(0, n_blocks - 2))
+    share = at - low
+    return np.asarray(ground[:, low] * (1 - share) + ground[:, np.minimum(low + 1, n_blocks - 1)] * share)
+
+
+def _best_path(score: Signal, steps: int) -> tuple[Signal, Signal]:
+    """Speed and score by frame (n_frames,) of the best path that ends near full speed, and climbs at most so many steps
+    of the grid a frame."""
+    n_frames, n = score.shape
+    speeds = np.arange(n)
+    best = np.where(np.abs(speeds - _FULL) <= _NEAR_FULL, score[-1], -np.inf)
+    next_speed = np.zeros((n_frames, n), dtype=np.intp)
+    moves = np.arange(-_FALLS, steps + 1)
+    for t in range(n_frames - 2, -1, -1):  # backwards: best[k] is that of all frames after t, from speed k on
+        padded = np.concatenate([np.full(_FALLS, -np.inf), best, np.full(steps, -np.inf)])
+        options = sliding_window_view(padded, len(moves))
+        chosen = options.argmax(axis=1)
+        next_speed[t] = speeds + moves[chosen]
+        best = score[t] + options[speeds, chosen]
+    path = np.empty(n_frames, dtype=np.intp)
+    path[0] = int(np.argmax(best))
+    for t in range(1, n_frames):
+        path[t] = next_speed[t - 1, path[t - 1]]
+    return _SPEEDS[path], score[np.arange(n_frames), path]

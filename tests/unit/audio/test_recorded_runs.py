@@ -1,0 +1,134 @@
+"""Starts and stops in recordings: found with their time, level and pitch where they are, and nowhere else."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from others import RECORDINGS, there
+from own_sounds import OWN_SOUNDS, own_sound
+from scene2hap.audio.files import read_clip
+from scene2hap.audio.recorded_runs import RecordedRuns, recorded_runs
+from scene2hap.audio.run_curve import RunCurve
+from scene2hap.errors import AudioError
+from starting_machines import RATE_HZ, errors, machine, without_runs
+
+MACHINES: dict[str, dict[str, Any]] = {
+    "motor, 1 s": {"start_s": 1.0},
+    "motor, 2 s": {"start_s": 2.0},
+    "motor, 2 s, in a loud room": {"start_s": 2.0, "room_db": -20.0},
+    "motor, 5 s, evenly": {"start_s": 5.0, "rise": "linear", "steady_s": 8.0},
+    "compressor, level alone": {"start_s": 1.5, "spins": False, "frequency_hz": 100.0},
+    "compressor, half a cosine": {"start_s": 1.5, "spins": False, "rise": "half a cosine", "hiss_db": -6.0},
+    "fan, as much air as tone": {"stop_s": 3.0, "frequency_hz": 150.0, "hiss_db": 0.0, "n_harmonics": 3},
+    "mixer, both": {"start_s": 1.5, "stop_s": 4.0},
+}
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+@pytest.mark.parametrize("name", MACHINES)
+def test_a_known_machine_is_found(name: str, seed: int) -> None:
+    told = MACHINES[name]
+    take = machine(**told, seed=seed)
+    found = recorded_runs(take.samples, RATE_HZ)
+    for curve, wanted_s, at_s in (
+        (found.start_up, told.get("start_s"), found.first / RATE_HZ),
+        (found.wind_down, told.get("stop_s"), found.end / RATE_HZ),
+    ):
+        assert (curve is None) == (wanted_s is None)
+        if curve is not None and wanted_s is not None:
+            assert curve.lasts_s == pytest.approx(wanted_s, rel=0.15)
+            level_db, speed = errors(take, curve, at_s - curve.lasts_s if curve is found.start_up else at_s)
+            assert level_db < 3.0
+            assert speed < 0.05
+            assert curve.keeps_pitch == (told.get("spins") is False)
+    steady = take.amplitude[found.first : found.end]
+    assert len(steady) >= 0.9 * told.get("steady_s", 5.0) * RATE_HZ
+    assert steady.min() > 0.8
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_of_air_the_level_is_found_and_the_pitch_is_not(seed: int) -> None:
+    take = machine(start_s=2.0, n_harmonics=1, hiss_db=20.0, seed=seed)
+    curve = recorded_runs(take.samples, RATE_HZ).start_up
+    assert curve is not None
+    assert curve.speed == ()
+    assert curve.lasts_s == pytest.approx(2.0, rel=0.2)
+
+
+def nothing(found: RecordedRuns, n: int) -> bool:
+    return found == (None, None, 0, n)
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("name", without_runs(0))
+def test_there_is_no_false_start(name: str, seed: int) -> None:
+    x = without_runs(seed)[name]
+    assert nothing(recorded_runs(x, RATE_HZ), len(x))
+
+
+@pytest.mark.parametrize("name", OWN_SOUNDS)
+def test_machines_that_run_all_along_have_none(name: str) -> None:
+    clip = own_sound(name)
+    assert nothing(recorded_runs(clip.samples, clip.sample_rate_hz), len(clip.samples))
+
+
+@pytest.mark.parametrize(
+    "path",
+    there(sorted(RECORDINGS.glob("*.*g")) + sorted(RECORDINGS.glob("*.wav")), lambda path: path),
+    ids=lambda path: path.name,
+)
+def test_recordings_that_are_cut_from_the_middle_have_none(path: Any) -> None:
+    clip = read_clip(path)
+    assert nothing(recorded_runs(clip.samples, clip.sample_rate_hz), len(clip.samples))
+
+
+@pytest.mark.parametrize(
+    "x", [[1.0], [0.0] * 50_000, [0.5] * 50_000, [1.0] * 30, [0.0, 1.0]], ids=["one", "silent", "equal", "30", "two"]
+)
+@pytest.mark.parametrize("rate", [1, 40, 16_000, 192_000])
+def test_what_has_nothing_to_find(x: list[float], rate: int) -> None:
+    assert nothing(recorded_runs(x, rate), len(x))
+
+
+@pytest.mark.parametrize("x", [[], [[1.0, 2.0]], 3.0])
+def test_what_is_no_channel_is_refused(x: Any) -> None:
+    with pytest.raises(AudioError, match="at least one sample"):
+        recorded_runs(x, RATE_HZ)
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.floats(0.5, 4.0), st.sampled_from(["motor", "linear"]), st.floats(1e-3, 1e3), st.integers(0, 99))
+def test_backwards_a_start_is_a_stop_and_loudness_does_not_matter(
+    start_s: float, rise: str, gain: float, seed: int
+) -> None:
+    x = machine(start_s=round(start_s, 1), rise=rise, seed=seed).samples
+    found = recorded_runs(x, RATE_HZ)
+    assert found.start_up is not None
+    assert found.wind_down is None
+    louder, backwards = recorded_runs(gain * x, RATE_HZ), recorded_runs(x[::-1], RATE_HZ)
+    for other in (louder.start_up, backwards.wind_down):
+        assert other is not None
+        turned = (
+            other if other is louder.start_up else RunCurve(other.lasts_s, other.amplitude[::-1], other.speed[::-1])
+        )
+        assert turned.lasts_s == pytest.approx(found.start_up.lasts_s, rel=0.02)
+        shares = np.linspace(0, 1, 50)
+        np.testing.assert_allclose(turned.amplitude_at(shares), found.start_up.amplitude_at(shares), atol=0.03)
+
+
+@settings(max_examples=8, deadline=None)
+@given(st.floats(0.6, 5.0), st.floats(60.0, 300.0), st.floats(-40.0, -20.0), st.integers(0, 999))
+def test_a_start_is_found_whatever_its_time_pitch_and_room(
+    start_s: float, frequency_hz: float, room_db: float, seed: int
+) -> None:
+    take = machine(start_s=start_s, frequency_hz=frequency_hz, room_db=room_db, steady_s=6.0, seed=seed)
+    curve = recorded_runs(take.samples, RATE_HZ).start_up
+    assert curve is not None
+    assert curve.lasts_s == pytest.approx(start_s, rel=0.25)
+    assert (np.diff(curve.amplitude) >= 0).all()
+    assert (np.diff(curve.speed) >= 0).all()
