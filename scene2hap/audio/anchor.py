@@ -41,8 +41,8 @@ FAINTEST_BELOW_WHINE_DB = -40.0
 MISSED_DB = 3.0
 """A component that misses its level by more cannot be felt as asked; about what is felt as a difference."""
 CARRIED_DB = 6.0
-"""What is too high is moved down if it is felt better by more there. Touch is 4 dB less keen at 350 Hz than at 250, 19 at
-500, and feels nothing of 900. What is too low keeps its frequency, by which an engine is known."""
+"""What is too high is moved down if it is felt better by more there. Touch is 4 dB less keen at 350 Hz than at 250 and
+19 at 500, and feels nothing of 900. What is too low keeps its frequency, by which an engine is known."""
 ROUGH_HZ = (20.0, 60.0)
 """Rates of modulation that are felt as roughness, not one by one and not as another tone."""
 RANGE_HZ = (20.0, 1000.0)

@@ -12,7 +12,7 @@ from scene2hap.audio.actuators import response_db
 from scene2hap.audio.levels import TACTILE_RANGE_HZ, threshold_db
 from scene2hap.haptics import ActuatorProfile
 
-_SEGMENT_S = 1.0
+_SEGMENT_S, _OVERLAP = 1.0, 0.1
 
 Block = NDArray[np.float32]
 """Samples (n, channels)."""
@@ -21,17 +21,20 @@ Block = NDArray[np.float32]
 class FeltLevel:
     """Hears a vibration, for an actuator, and tells how far over the threshold of touch it is on the whole.
 
-    The mean power of overlapping pieces of a second each stands for the components of `levels`. Before and after the
-    sound there is silence: under sine windows that overlap by half, every sample counts the same, also the first of a
-    knock. Source: J. P. Princen, A. B. Bradley, IEEE Trans. ASSP 34 (1986) 1153, for the windows.
+    The mean power of pieces of a second each stands for the components of `levels`. Before and after the sound there is
+    silence. Pieces overlap, and the slopes of their windows are sines, whose squares add up to 1: every sample counts
+    the same, also the first of a knock. Source: J. P. Princen, A. B. Bradley, IEEE Trans. ASSP 34 (1986) 1153.
     """
 
     def __init__(self, sample_rate_hz: int, channels: int, actuator: ActuatorProfile) -> None:
-        half = scipy.fft.next_fast_len(max(round(0.5 * _SEGMENT_S * sample_rate_hz), 1), real=True)
+        size = scipy.fft.next_fast_len(max(round(_SEGMENT_S * sample_rate_hz), 2), real=True)
+        self._overlap = max(1, round(_OVERLAP * size))
         self.peak = 0.0
-        self._segment, self._filled, self._n_frames = np.zeros((channels, 2 * half), dtype=np.float32), half, 0
-        self._window = np.sin(np.pi * (np.arange(2 * half) + 0.5) / (2 * half)).astype(np.float32)
-        f = np.fft.rfftfreq(2 * half, 1.0 / sample_rate_hz)
+        self._segment, self._filled = np.zeros((channels, size), dtype=np.float32), self._overlap
+        self._n_frames = 0
+        slope = np.sin(0.5 * np.pi * (np.arange(self._overlap) + 0.5) / self._overlap)
+        self._window = np.concatenate([slope, np.ones(size - 2 * self._overlap), slope[::-1]]).astype(np.float32)
+        f = np.fft.rfftfreq(size, 1.0 / sample_rate_hz)
         inside = (f >= TACTILE_RANGE_HZ[0]) & (f <= TACTILE_RANGE_HZ[1])
         weight = 10 ** ((response_db(actuator, f[inside]) - threshold_db(f[inside])) / 10)
         self._inside, self._weight = np.flatnonzero(inside), weight
@@ -50,15 +53,15 @@ class FeltLevel:
             self._filled, at = self._filled + n, at + n
             if self._filled == size:
                 self._energy += self._heard(self._segment)
-                self._segment[:, : size // 2] = self._segment[:, size // 2 :]
-                self._filled = size // 2
+                self._segment[:, : self._overlap] = self._segment[:, -self._overlap :]
+                self._filled = self._overlap
 
     def level_db(self) -> float:
         """Of the channel that is felt most [dB], minus infinity for silence."""
-        rest, half = self._segment.copy(), self._segment.shape[1] // 2
+        rest = self._segment.copy()
         rest[:, self._filled :] = 0.0
         energy = self._energy + self._heard(rest)
-        rest[:, :half], rest[:, half:] = rest[:, half:], 0.0
+        rest[:, : self._overlap], rest[:, self._overlap :] = rest[:, -self._overlap :], 0.0
         energy = energy + self._heard(rest)
         most = float(energy.max()) / max(self._n_frames, 1)
         return 10.0 * math.log10(most) if most > 0.0 else -math.inf
