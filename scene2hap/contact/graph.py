@@ -170,8 +170,12 @@ class ContactGraph:
 
     def pose(self, object_id: str) -> Pose:
         """Where an object is. Raises: UnknownObject."""
-        _demand(object_id, self._poses)
-        return self._poses[object_id]
+        poses = self._poses
+        try:
+            return poses[object_id]
+        except (KeyError, TypeError):
+            _demand(object_id, poses)
+            raise
 
     def patch(self, a: str, b: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The points of a pair in a's and in b's own coordinates, both (n, 3) [m], none where the two do not touch.

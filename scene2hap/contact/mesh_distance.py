@@ -30,6 +30,7 @@ from scene2hap.contact.vectors import Floats, Indices, Rows, Triple, cross, dot,
 ROUNDING_M = 1e-9
 """Below this a distance is rounding."""
 
+_NOT_TURNED: Rows = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _BATCH = 4096  # Pairs of triangles in a plain kernel at once: some 10 MB.
 
 
@@ -154,6 +155,14 @@ def closest_points(
                 best = key
                 ends = _triple(every.on_p[:, row[k], k]), _triple(every.on_q[:, row[k], k])
     return None if best is None or ends is None else (best[0], *ends)
+
+
+@compiled
+def surface_distance(host: Shape, point: Triple, within: float) -> float | None:
+    """How far a point of its frame is from a mesh's surface, None beyond `within`. All [m]."""
+    alone = Shape(np.tile(np.array(point)[:, None, None], (1, 3, 1)), np.array([point]))
+    found = closest_points(host, alone, _NOT_TURNED, (0.0, 0.0, 0.0), within)
+    return None if found is None else found[0]
 
 
 @compiled

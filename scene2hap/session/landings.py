@@ -45,23 +45,18 @@ class Landing(NamedTuple):
     speed_m_s: float
 
 
-class _Step(NamedTuple):
-    update: int
-    time_s: float
-    pose: Pose
-
-
 class _Track:
     """A moving object: its latest steps, the start of its present motion in one direction, and its last step.
 
-    stride : updates from one step to the next.
+    steps : number of the update, time [s] and pose, for every moved object in every frame; stride : updates from one
+    step to the next.
     """
 
     __slots__ = ("n_steps", "origin_m", "position_m", "since", "step_m", "steps", "stride")
 
-    def __init__(self, step: _Step) -> None:
-        self.steps, self.stride = [step], 1
-        self.turn(step.update, step.pose.position_m)
+    def __init__(self, update: int, time_s: float, pose: Pose) -> None:
+        self.steps, self.stride = [(update, time_s, pose)], 1
+        self.turn(update, pose.position_m)
 
     def turn(self, update: int, position_m: Vector) -> None:
         """Begin a motion in another direction."""
@@ -79,28 +74,29 @@ class _Track:
         x, y, z = x - u, y - v, z - w
         return x * x + y * y + z * z >= _SUDDEN * (u * u + v * v + w * w) and self.is_falling
 
-    def follow(self, step: _Step, onward: Vector) -> None:
+    def follow(self, update: int, time_s: float, pose: Pose, onward: Vector) -> None:
         """Add a step."""
         steps = self.steps
-        last = steps[-1].update
+        last = steps[-1][0]
         (x, y, z), (u, v, w) = onward, self.step_m
         if x * u + y * v + z * w <= 0:
             self.since, self.n_steps, self.origin_m = last, 0, self.position_m
-        self.position_m, self.step_m, self.stride = step.pose.position_m, onward, max(1, step.update - last)
+        self.position_m, self.step_m, self.stride = pose.position_m, onward, update - last or 1
         self.n_steps += 1
-        steps.append(step)
+        steps.append((update, time_s, pose))
         if len(steps) > 4 * MOST_STEPS:
             del steps[:-MOST_STEPS]
 
-    def run(self) -> list[_Step]:
-        """The latest steps in one direction."""
-        end_s = self.steps[-1].time_s
-        kept = [x for x in self.steps[-MOST_STEPS:] if x.update >= self.since and end_s - x.time_s <= WINDOW_S]
-        return kept if len(kept) > 1 else self.steps[-2:]
+    def run(self) -> list[tuple[int, float]]:
+        """Numbers and times [s] of the latest steps in one direction."""
+        latest = [(update, time_s) for update, time_s, _ in self.steps[-MOST_STEPS:]]
+        end_s = latest[-1][1]
+        kept = [(update, time_s) for update, time_s in latest if update >= self.since and end_s - time_s <= WINDOW_S]
+        return kept if len(kept) > 1 else latest[-2:]
 
     def pose_at(self, update: int) -> Pose:
         """Pose of the object after an update, or the first known one after it."""
-        return next((one.pose for one in self.steps if one.update >= update), self.steps[-1].pose)
+        return next((pose for later, _, pose in self.steps if later >= update), self.steps[-1][2])
 
 
 class Landings:
@@ -121,12 +117,12 @@ class Landings:
         for object_id in moved:
             if object_id not in tracks and len(tracks) < MOST_MOVING and object_id in self._graph:
                 pose = self._graph.pose(object_id)
-                tracks[object_id] = _Track(_Step(self._n_updates, time_s - self._period_s, pose))
+                tracks[object_id] = _Track(self._n_updates, time_s - self._period_s, pose)
 
     def look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
         """Find the objects that landed in this update. Call it after the graph moved."""
         self._n_updates = now = self._n_updates + 1
-        moving: list[tuple[_Track, _Step, Vector]] = []
+        moving: list[tuple[_Track, Pose, Vector]] = []
         stopped: list[str] = []
         found: list[Landing] = []
         rests: list[str] = []
@@ -135,11 +131,11 @@ class Landings:
             if pose is not None and pose.position_m != track.position_m:
                 (x, y, z), (a, b, c) = pose.position_m, track.position_m
                 onward = (x - a, y - b, z - c)
-                moving.append((track, _Step(now, time_s, pose), onward))
+                moving.append((track, pose, onward))
                 if track.is_sudden(onward):
                     stopped.append(object_id)
                 continue
-            late = now - track.steps[-1].update
+            late = now - track.steps[-1][0]
             if late == track.stride and track.is_falling:
                 stopped.append(object_id)
             elif late > track.stride:
@@ -147,8 +143,8 @@ class Landings:
         for object_id in stopped:
             if self._graph.beside.get(object_id):
                 found += self._landing(object_id, self._tracks[object_id])
-        for track, step, onward in moving:
-            track.follow(step, onward)
+        for track, pose, onward in moving:
+            track.follow(now, time_s, pose, onward)
         for landing in found:
             track = self._tracks[landing.object_id]
             track.turn(now, track.position_m)
@@ -159,21 +155,21 @@ class Landings:
     def _landing(self, object_id: str, track: _Track) -> list[Landing]:
         """The object that it landed on, or None: of all that it touches, the one that it approached the fastest."""
         run = track.run()
-        first, before, last = run[0], run[-2], run[-1]
+        (first, begin_s), (before, _), (last, end_s) = run[0], run[-2], run[-1]
         best, most_m, now = None, LEAST_TRAVEL_M, self._n_updates
         for other, junction in self._graph.beside.get(object_id, {}).items():
             point = _middle(junction)
             normal = self._normal(object_id, other, point, junction)
-            came = self._nearing(object_id, other, point, first.update, last.update)
+            came = self._nearing(object_id, other, point, first, last)
             closing = _dot(came, normal)
             if closing > most_m and closing >= HEAD_ON * math.hypot(*came):
-                step = _dot(self._nearing(object_id, other, point, before.update, last.update), normal)
-                if _dot(self._nearing(object_id, other, point, last.update, now), normal) <= LEFT * step:
+                step = _dot(self._nearing(object_id, other, point, before, last), normal)
+                if _dot(self._nearing(object_id, other, point, last, now), normal) <= LEFT * step:
                     best, most_m = (other, point), closing
         if best is None:
             return []
-        n_updates, elapsed_s = last.update - first.update, last.time_s - first.time_s
-        stands_still = elapsed_s <= 0 or (n_updates > 1 and run[1].time_s == last.time_s)
+        n_updates, elapsed_s = last - first, end_s - begin_s
+        stands_still = elapsed_s <= 0 or (n_updates > 1 and run[1][1] == end_s)
         speed = most_m / (n_updates * self._period_s if stands_still else elapsed_s)
         return [Landing(object_id, *best, speed)] if LEAST_SPEED_M_S <= speed <= FASTEST_M_S else []
 

@@ -8,11 +8,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-
-from scene2hap.contact.mesh_distance import closest_points
+from scene2hap.contact.mesh_distance import surface_distance
 from scene2hap.contact.shape import Shape, shape_of
-from scene2hap.contact.vectors import Rows, Triple
+from scene2hap.contact.vectors import Triple
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.scene_warning import warn_of
@@ -27,14 +25,13 @@ MOST_TRIANGLES = 20_000
 """Touches of larger meshes are not judged: sorting their triangles for the first touch would cost frames."""
 
 _ANYWHERE_M = 1e9
-_POINT = Shape(np.zeros((3, 3, 1)), np.zeros((1, 3)))  # a triangle without extent
-_NOT_TURNED: Rows = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 class _Judged(NamedTuple):
     """Whether a touch is off: true while its point, in the object's frame, moves by at most `slack_m`."""
 
     item: SceneObject
+    shape: Shape
     own_m: Triple
     slack_m: float
     is_off: bool
@@ -63,17 +60,18 @@ class OffSurface:
         own_m = _to_own(self._state.graph.pose(touch.object_id), touch.point_m)
         judged = self._judged.get(key)
         if judged is None or judged.item is not item or math.dist(judged.own_m, own_m) > judged.slack_m:
+            shape = shape_of(item.geometry.mesh) if judged is None or judged.item is not item else judged.shape
             # Twice as far as it takes, so that a point that is off has some slack too.
-            distance_m = _distance_m(item, own_m, 2 * FAR_M)
+            distance_m = _distance_m(shape, own_m, 2 * FAR_M)
             slack_m = FAR_M if distance_m is None else abs(FAR_M - distance_m)
-            judged = _Judged(item, own_m, slack_m, distance_m is None or distance_m > FAR_M)
+            judged = _Judged(item, shape, own_m, slack_m, distance_m is None or distance_m > FAR_M)
             self._judged[key] = judged
         return judged.is_off
 
     def _warn(self, touch: Touch) -> None:
         self._warned.add(touch.hand)
         item, pose = self._state.objects[touch.object_id], self._state.graph.pose(touch.object_id)
-        distance = _distance_m(item, _to_own(pose, touch.point_m), _ANYWHERE_M)
+        distance = _distance_m(shape_of(item.geometry.mesh), _to_own(pose, touch.point_m), _ANYWHERE_M)
         point = ", ".join(f"{x:g}" for x in touch.point_m)
         warn_of(
             f"hand {touch.hand!r} touches {touch.object_id!r} at ({point}), {distance or 0.0:.3g} m from its surface, "
@@ -82,12 +80,9 @@ class OffSurface:
         )
 
 
-def _distance_m(item: SceneObject, own_m: Triple, within_m: float) -> float | None:
+def _distance_m(shape: Shape, own_m: Triple, within_m: float) -> float | None:
     """How far a point of an object's own frame is from its surface [m], None if it is more than `within_m`."""
-    if len(item.geometry.mesh.faces) > MOST_TRIANGLES:
-        return 0.0
-    found = closest_points(shape_of(item.geometry.mesh), _POINT, _NOT_TURNED, own_m, within_m)
-    return None if found is None else found[0]
+    return 0.0 if shape.triangles.shape[2] > MOST_TRIANGLES else surface_distance(shape, own_m, within_m)
 
 
 def _to_own(pose: Pose, point_m: Triple) -> Triple:
