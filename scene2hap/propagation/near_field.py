@@ -10,15 +10,15 @@ together with its mirror images in the edges. Contacts are coupled by receptance
 matters most: without it the p95 error there is 0.5 to 2 dB, with it 0.05 to 0.3 dB. Nearer to a clamped edge than 4 %
 of the plate, or to a clamped corner than a tenth, where hardly anything moves, errors of several dB remain.
 
-An axis of length L has four images: the force itself, one in each edge, and the nearer of those in both edges. In a
-force at x0 and a point at x they are symmetric, and at an edge that holds they cancel in pairs, to the last one:
+An axis of length L has four images, the force among them, so that all cancel in pairs at an edge that holds. In a force
+at x0 and a point at x they are symmetric:
 
     r = |x - x0|, x + x0, 2 L - x - x0, 2 L - |x - x0|        weights 1, w_0, w_L, w_0 w_L
 
-K between two points is the larger of both, the wave that neither basis follows. Then the near field is passive: each
-of its waves is J0(kappa r) between those points whose K it exceeds and 0 elsewhere, which no forces drive backwards,
-and is weighted by kappa / (kappa^4 - k_c^4) > 0 (Bochner). Left out of this are images beyond 2 L, and w > 1 at free
-edges.
+The last is left out between two free edges, where there is nothing to cancel. K between two points is the larger of
+both, the least wave that neither basis follows. Then the near field is passive: each of its waves is J0(kappa r)
+between those points whose K it exceeds and 0 elsewhere, a matrix without negative eigenvalues (Bochner's theorem), and
+weighs kappa / (kappa^4 - k_c^4). Images farther than 2 L and weights above 1, at free edges, are exceptions from this.
 
 Letters: D [N m], k [rad/m], K [rad/m] cut-off of the basis, r [m], c complex.
 """
@@ -130,7 +130,7 @@ def _separations(x_m: Floats, drive_m: Floats, length_m: float) -> Floats:
 def _weights(edges: str) -> Floats:
     """Of these four images, for the two edges of an axis."""
     first, last = IMAGE[edges[0]], IMAGE[edges[1]]
-    return np.array([1.0, first, last, first * last])
+    return np.array([1.0, first, last, 0.0 if edges == "FF" else first * last])
 
 
 def beyond_cutoff_of_square(a2: Floats, pieces: Floats) -> Floats:

@@ -72,6 +72,22 @@ def test_a_held_edge_does_not_move_and_no_forces_gain_energy(edges: str, aspect:
     assert (gained.max(axis=1) < 1e-9 * size).all()
 
 
+@pytest.mark.parametrize("rung", FINENESS)
+@pytest.mark.parametrize("edges", ["CCFF", "SSFF", "CFFF", "FFFF"])
+def test_what_a_near_field_leaves_out_gains_no_more_than_is_stated(edges: str, rung: str) -> None:
+    """2e-5 of the largest receptance, among points in clusters on plates with free long edges (docs/propagation.md)."""
+    rng = np.random.default_rng(4)
+    for _ in range(25):
+        aspect = np.exp(rng.uniform(np.log(2), np.log(40)))
+        plate = Plate(1.0, 1.0 / aspect, 0.1 / aspect, "oak", edges)
+        spread = 10 ** rng.uniform(-3.0, -0.5, (1, 2))
+        points = np.clip(rng.uniform(0, 1, 2) + spread * rng.normal(size=(6, 2)), 0, 1) * plate.extent_m
+        f = np.array([2.0, 200.0])
+        receptance = modal_body(plate, float(f.max()), 0.05, FINENESS[rung]).receptance(points, points, f)
+        gained = np.linalg.eigvalsh((receptance - receptance.conj().transpose(0, 2, 1)) / 2j).max(axis=1)
+        assert (gained < 2e-5 * np.abs(receptance).max(axis=(1, 2))).all()
+
+
 @pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
 @settings(derandomize=True, max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(
