@@ -1,6 +1,6 @@
 """A hundred thousand plates: every model passive, finite and quick, at any edges, aspect and frequency.
 
-python stress/plates.py [--plates 100000] [--first 0] [--minutes M] [--seed 1] [--seconds 1] [--only N]
+python stress/plates.py [--plates 100000] [--first 0] [--minutes M] [--processes 1] [--seed 1] [--seconds 1] [--only N]
 
 Draws plates of 1 cm to 10 m and aspects up to 1:100, held at any of their edges, of materials from felt to steel and of
 any loss, and asks every model for the receptance among four points, corners and edges included, at six frequencies up
@@ -8,17 +8,18 @@ to 10 kHz, one of them exactly on a resonance of a plate that is held or free. C
 
     not finite     NaN or infinite
     gains energy   a driven point with a positive imaginary part, or the matrix among all points with an eigenvalue of
-                   it above 1e-4 of its largest entry (what the near field leaves out is a millionth)
+                   it above 1e-4 of its largest entry (docs/propagation.md says what a near field leaves out)
     negative       a driven point of a held plate that goes against a force far below its first resonance
     slow           more than a second of processor time without a warning
     other          any error outside scene2hap's own tree, or a floating-point warning
 
 On every fourth plate a source of 1e-6 to 1e4 kg stands too, and a scene of both is solved: gains must be finite and at
 least 0. A plate that a model announces by a `SlowPlateWarning` is left there and counted; every hundredth plate is
-worked out whatever it takes. Without these a plate takes 0.2 s in all models together, with them 1.3 s.
+worked out whatever it takes. A plate takes some 0.25 s of a processor in all models together.
 
-Each plate is drawn from its own number: `--only N` repeats one, `--first N` goes on where `--minutes` ended. One thread
-of BLAS is used; more would count as processor time without being any faster. Exits with 1 if anything is bad.
+Each plate is drawn from its own number: `--only N` repeats one, `--first N` goes on where `--minutes` ended. A process
+takes `PIECE` plates at a time, and finishes them when the minutes are over, so that those asked have no gaps. Each uses
+one thread of BLAS; more would count as processor time without being any faster. Exits with 1 if anything is bad.
 """
 
 from __future__ import annotations
@@ -30,11 +31,12 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # read once, by the first im
 import argparse
 import collections
 import gc
-import itertools
 import math
 import random
 import time
 import warnings
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -77,6 +79,8 @@ EDGES = ("FFFF", "CCCC", "SSSS", "CFFF", "SSFF", "CCFF", "SFSF", "CFSF", "FFCC",
 ROUNDING, BETWEEN_POINTS = 1e-9, 1e-4
 IN_A_SCENE, WHATEVER_IT_TAKES = 4, 100
 """Every how many plates a source stands on one, and one is worked out although it is announced."""
+PIECE = 50
+"""Plates that a process takes at a time."""
 Floats = NDArray[np.float64]
 
 
@@ -92,6 +96,16 @@ class Outcome:
     bad: list[str] = field(default_factory=list)
     slowest_s: float = 0.0
     """Of the calls without a warning."""
+
+    def add(self, other: Outcome) -> None:
+        """Take in what came back in another process."""
+        self.answered += other.answered
+        self.in_scenes += other.in_scenes
+        self.announced += other.announced
+        self.warned += other.warned
+        self.refused += other.refused
+        self.bad += other.bad
+        self.slowest_s = max(self.slowest_s, other.slowest_s)
 
 
 def some_plate(rng: random.Random) -> Plate:
@@ -152,7 +166,7 @@ class Case:
     def gains(self, model: Any) -> Floats:
         """At all points, of a source that stands inside the plate (n_points,)."""
         on_top = np.column_stack([self.points, np.zeros(len(self.points))])
-        hz = float(self.f[2 + self.number % 4])
+        hz = float(self.f[2 + self.number // IN_A_SCENE % 4])
         contact = Contact("plate", "source", tuple(on_top[-1].tolist()))
         network = ContactNetwork({"plate": self.plate}, [contact])
         scene = model.prepare(network, [Excitation("source", hz, hz, self.source_kg)], Bands.dominant())
@@ -217,33 +231,57 @@ def faults(found: NDArray[np.complex128], plate: Plate, model: Any) -> list[str]
     return wrong
 
 
+@dataclass(frozen=True)
+class Campaign:
+    """What is asked of every plate, and until when (`time.monotonic`)."""
+
+    models: tuple[str, ...]
+    seed: int
+    limit_s: float
+    end_s: float
+    leaves_none: bool = False
+
+    def ask(self, numbers: Sequence[int]) -> tuple[int, dict[str, Outcome]]:
+        """Ask all models about some plates: how many, and what came back; nothing once the time is over."""
+        outcomes = {name: Outcome() for name in self.models}
+        if time.monotonic() >= self.end_s:
+            return 0, outcomes
+        for number in numbers:
+            case = Case.drawn(number, self.seed)
+            whatever = self.leaves_none or number % WHATEVER_IT_TAKES == 0
+            for name, outcome in outcomes.items():
+                n_bad = len(outcome.bad)
+                ask(case, MODELS[name], self.limit_s, outcome, case.name(name), whatever=whatever)
+                for line in outcome.bad[n_bad:]:
+                    print(f"* {line}", flush=True)
+            for kept in KEPT:
+                kept.cache_clear()
+        gc.collect()  # bodies and what they remember refer to each other
+        return len(numbers), outcomes
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--plates", type=int, default=100_000)
+    parser.add_argument("--plates", type=int, default=100_000, help="number of the last plate, plus 1")
     parser.add_argument("--first", type=int, default=0, help="number of the first plate")
     parser.add_argument("--minutes", type=float, default=math.inf, help="when to stop")
+    parser.add_argument("--processes", type=int, default=1)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--seconds", type=float, default=1.0)
     parser.add_argument("--only", type=int)
     parser.add_argument("--model", choices=MODELS)
     given = parser.parse_args()
-    outcomes = {name: Outcome() for name in MODELS if given.model in (None, name)}
-    numbers = range(given.first, given.plates) if given.only is None else [given.only]
+    models = tuple(name for name in MODELS if given.model in (None, name))
     end_s = time.monotonic() + 60 * given.minutes
-    asked = 0
-    for number in itertools.takewhile(lambda _: time.monotonic() < end_s, numbers):
-        case = Case.drawn(number, given.seed)
-        whatever = number % WHATEVER_IT_TAKES == 0 or given.only is not None
-        for name, outcome in outcomes.items():
-            n_bad = len(outcome.bad)
-            ask(case, MODELS[name], given.seconds, outcome, case.name(name), whatever=whatever)
-            for line in outcome.bad[n_bad:]:
-                print(f"* {line}", flush=True)
-        asked += 1
-        for kept in KEPT:
-            kept.cache_clear()
-        if asked % 10 == 0:
-            gc.collect()  # bodies and what they remember refer to each other
+    campaign = Campaign(models, given.seed, given.seconds, end_s, leaves_none=given.only is not None)
+    numbers = range(given.first, given.plates) if given.only is None else range(given.only, given.only + 1)
+    pieces = [numbers[begin : begin + PIECE] for begin in range(0, len(numbers), PIECE)]
+    asked, outcomes = 0, {name: Outcome() for name in models}
+    with ProcessPoolExecutor(given.processes, initializer=gc.freeze) as pool:
+        for n_asked, found in pool.map(campaign.ask, pieces):
+            asked += n_asked
+            for name, outcome in found.items():
+                outcomes[name].add(outcome)
     print(f"\n{asked} plates from number {numbers[0]}, seed {given.seed}\n")
     print("| model | answered | in scenes | announced and left | with a warning | refused | bad | slowest [s] |")
     print("|---|---|---|---|---|---|---|---|")

@@ -1,7 +1,7 @@
 cdef class Dimples:
-    cdef const double[:, ::1] x, y, pieces
+    cdef const double[:, ::1] drive_m, pieces
     cdef const double[::1] x_weights, y_weights, cut2
-    cdef double per_length, per_width, kx, ky, per_piece
+    cdef double per_length, per_width, length2, width2, kx, ky, per_piece
 
     cdef double cutoff_squared(self, double x, double y) noexcept
     cdef double share(self, double x, double y, Py_ssize_t drive, double cut2) noexcept

@@ -2,16 +2,17 @@
 
 import numpy as np
 
-from libc.math cimport M_PI, atan2, atanh, fmax, sqrt
+from libc.math cimport M_PI, atan2, atanh, fabs, fmax, sqrt
 
 cdef double FAR = 20.0  # as in `near_field`, whose table ends there
 
 
 cdef class Dimples:
-    def __init__(self, x, y, x_weights, y_weights, cut2, extent, pieces):
-        self.x, self.y = np.ascontiguousarray(x), np.ascontiguousarray(y)
+    def __init__(self, drive_m, x_weights, y_weights, cut2, extent, pieces):
+        self.drive_m = np.ascontiguousarray(drive_m)
         self.x_weights, self.y_weights, self.cut2, self.pieces = x_weights, y_weights, cut2, pieces
         self.per_length, self.per_width, self.kx, self.ky = extent
+        self.length2, self.width2 = 4 / self.per_length, 4 / self.per_width
         self.per_piece = (len(pieces) - 1) / sqrt(FAR)
 
     def at(self, const double[:, :] points_m):
@@ -22,8 +23,7 @@ cdef class Dimples:
         for i in range(n_points):
             here2 = self.cutoff_squared(points_m[i, 0], points_m[i, 1])
             for k in range(n_drives):
-                # K^2 between two points is the geometric mean of both.
-                cut = sqrt(here2 * self.cut2[k])
+                cut = fmax(here2, self.cut2[k])
                 out[0, i, k] = self.share(points_m[i, 0], points_m[i, 1], k, cut)
                 out[1, i, k] = cut
         return found[0], found[1]
@@ -36,7 +36,7 @@ cdef class Dimples:
         for i in range(n_points):
             here2 = self.cutoff_squared(points_m[i, 0], points_m[i, 1])
             for drive in range(n_drives):
-                cut = sqrt(here2 * self.cut2[drive])
+                cut = fmax(here2, self.cut2[drive])
                 share = self.share(points_m[i, 0], points_m[i, 1], drive, cut)
                 for k in range(n_k2):
                     out[i, drive, k] = near_of(k2[k], cut, share)
@@ -49,28 +49,35 @@ cdef class Dimples:
         return M_PI / ((corner + half) / (kx * kx) + (M_PI / 2 - corner + half) / (ky * ky))
 
     cdef double share(self, double x, double y, Py_ssize_t drive, double cut2) noexcept:
-        """The sum over a force and its eight images."""
+        """The sum over a force and its fifteen images."""
         cdef Py_ssize_t i, j, piece, last = self.pieces.shape[0] - 1
-        cdef double dx, dy, t, total = 0, far2 = FAR * FAR / cut2
-        for i in range(3):
-            dx = x - self.x[drive, i]
-            dx *= dx
-            if dx >= far2:  # as are most images
+        cdef double dx2[4]
+        cdef double dy2[4]
+        cdef double t, total = 0, far2 = FAR * FAR / cut2
+        separate(dx2, x, self.drive_m[drive, 0], self.length2)
+        separate(dy2, y, self.drive_m[drive, 1], self.width2)
+        for i in range(4):
+            if dx2[i] >= far2:  # as are most images
                 continue
-            for j in range(3):
-                dy = y - self.y[drive, j]
-                dy *= dy
-                if dx + dy >= far2:
+            for j in range(4):
+                if dx2[i] + dy2[j] >= far2:
                     continue
                 # g is kept over the root of K r.
-                t = self.per_piece * sqrt(sqrt((dx + dy) * cut2))
+                t = self.per_piece * sqrt(sqrt((dx2[i] + dy2[j]) * cut2))
                 if t < last:
                     piece = <Py_ssize_t>t
                     t = self.pieces[piece, 0] + (t - piece) * self.pieces[piece, 1]
                     total += self.x_weights[i] * self.y_weights[j] * t
-        if x == self.x[drive, 0] and y == self.y[drive, 0]:
+        if dx2[0] == 0 and dy2[0] == 0:
             return fmax(total, 0.0)
         return total
+
+
+cdef void separate(double* squares, double x, double drive, double length2) noexcept:
+    """Squares of the separations of a point from a force and its images along an axis, of twice its length."""
+    cdef double apart = fabs(x - drive), sum = x + drive
+    squares[0], squares[1] = apart * apart, sum * sum
+    squares[2], squares[3] = (length2 - sum) * (length2 - sum), (length2 - apart) * (length2 - apart)
 
 
 cdef double near_of(double k2, double cut2, double share) noexcept:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from libc.math cimport acos, cos, fmax, fmin, sqrt
+from libc.math cimport acos, cos, fmax, fmin
 
 from scene2hap.propagation._near_field cimport Dimples, near_of
 from scene2hap.propagation._rows cimport add_rows, real
@@ -83,7 +83,7 @@ cdef void fold(
         return
     here2 = self.dimples.cutoff_squared(x, y)
     for drive in range(self.dimples.cut2.shape[0]):
-        cut = sqrt(here2 * self.dimples.cut2[drive])
+        cut = fmax(here2, self.dimples.cut2[drive])
         share = self.dimples.share(x, y, drive, cut)
         if share == 0:  # too far away
             continue

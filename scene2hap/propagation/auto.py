@@ -28,7 +28,7 @@ from scene2hap.propagation.auto_level import peak_level_db
 from scene2hap.propagation.auto_rungs import Choice, Situation, body_of
 from scene2hap.propagation.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupling import ElasticBody, Joint
-from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, warn_if_thick
+from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, off_zero, warn_if_thick
 from scene2hap.propagation.hand import Hand, checked_hand
 from scene2hap.propagation.modes import n_rigid_motions, points_on
 from scene2hap.propagation.plate import Plate
@@ -139,14 +139,12 @@ class AutoFidelity:
         self, plate: Plate, drive_m: NDArray[np.float64], points_m: NDArray[np.float64], f: NDArray[np.float64]
     ) -> NDArray[np.complex128]:
         warn_if_thick(plate, f)
-        top = float(f.max(initial=0.0))
-        # 1e-9 of the top frequency stands for 0 Hz, where a loose plate has a limit but no value.
-        positive = np.maximum(f, max(1e-9 * top, 1e-9))
-        return self.elastic_body(plate, max(top, 1e-9)).receptance(points_m, drive_m, positive)[:, :, 0].T
+        f = off_zero(plate, f)
+        return self.elastic_body(plate, float(f.max(initial=1e-9))).receptance(points_m, drive_m, f)[:, :, 0].T
 
     def _scale(self, plate: Plate, f: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Receptance of the plate without edges [m/N], 1 at 0 Hz."""
-        k = plate.wavenumber_rad_m(np.maximum(f, 1e-9))
+        """Receptance of the plate without edges [m/N], that of a wave as long as the plate where it would be longer."""
+        k = np.maximum(plate.wavenumber_rad_m(f), 1 / max(plate.extent_m))
         scale: NDArray[np.float64] = 1 / (8 * plate.bending_stiffness_nm * k**2)
         return scale
 

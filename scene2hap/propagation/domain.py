@@ -21,6 +21,9 @@ of Mindlin's plate, which shears (6.5 % at ten thicknesses); furniture stays abo
 Source: the usual engineering rule; Cremer, Heckl, Petersson, Structure-Borne Sound.
 """
 
+_LEAST_HZ = 1e-100
+"""Below, k^4 would not be a number above 0."""
+
 
 class ThinPlateWarning(UserWarning):
     """A plate is thick beside its shortest bending wave, so thin-plate theory makes it too stiff."""
@@ -58,6 +61,17 @@ def as_frequencies(frequencies_hz: ArrayLike, *, positive_because: str = "") -> 
     if positive_because and (f == 0).any():
         raise ModelDomainError(f"frequencies_hz holds 0 Hz; it must be above 0 [Hz], since {positive_because}.")
     return f
+
+
+def off_zero(plate: Plate, frequencies_hz: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Frequencies (n_frequencies,) [Hz] with a small one for 0, where a loose plate has a limit but no value.
+
+    It is a millionth of that with k L = 1 on the longer side L. The lowest resonance of a held plate is at 3.5 times
+    that (a cantilever), so that its deflection is the static one to 1e-13.
+    """
+    slow_hz = (plate.wavenumber_per_root_omega * max(plate.extent_m)) ** -2 / (2 * np.pi)
+    off: NDArray[np.float64] = np.where(frequencies_hz > 0, np.maximum(frequencies_hz, _LEAST_HZ), 1e-6 * slow_hz)
+    return off
 
 
 def warn_if_thick(plate: Plate, frequencies_hz: NDArray[np.float64]) -> None:

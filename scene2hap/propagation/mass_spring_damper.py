@@ -34,6 +34,7 @@ from scene2hap.propagation.domain import (
     OutsideDomain,
     as_frequencies,
     driven_on_held_edge,
+    off_zero,
     warn_if_thick,
 )
 from scene2hap.propagation.hand import Hand, checked_hand
@@ -226,11 +227,9 @@ class MassSpringDamper:
     def _receptance(
         self, plate: Plate, drive_m: NDArray[np.float64], points_m: NDArray[np.float64], f: NDArray[np.float64]
     ) -> NDArray[np.complex128]:
-        resolution, top = self._fine_enough(plate, f), float(f.max(initial=0.0))
-        # 1e-9 of the top frequency stands for 0 Hz, where a loose plate has a limit but no value.
-        positive = np.maximum(f, max(1e-9 * top, 1e-9))
-        body = lattice_body(plate, resolution, top, self._loss_factor(plate))
-        found: NDArray[np.complex128] = body.receptance(points_m, drive_m, positive)[:, :, 0].T
+        f = off_zero(plate, f)
+        body = lattice_body(plate, self._fine_enough(plate, f), float(f.max(initial=0.0)), self._loss_factor(plate))
+        found: NDArray[np.complex128] = body.receptance(points_m, drive_m, f)[:, :, 0].T
         return found
 
     def _loss_factor(self, plate: Plate) -> float:

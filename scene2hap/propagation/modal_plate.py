@@ -30,6 +30,7 @@ from scene2hap.propagation.domain import (
     OutsideDomain,
     as_frequencies,
     driven_on_held_edge,
+    off_zero,
     warn_if_thick,
 )
 from scene2hap.propagation.hand import Hand, checked_hand
@@ -123,10 +124,9 @@ class ModalPlate:
     ) -> NDArray[np.complex128]:
         _require_rectangle(plate)
         eta = self._loss_factor(plate)
-        top = float(f.max(initial=0.0))
-        modes = plate_modes(plate, max_frequency_hz=MARGIN * top)
-        # 1e-9 of the top frequency stands for 0 Hz, where a loose plate has a limit but no value.
-        k2 = plate.wavenumber_rad_m(np.maximum(f, max(1e-9 * top, 1e-9))) ** 2 / np.sqrt(1 + 1j * eta)
+        f = off_zero(plate, f)
+        modes = plate_modes(plate, max_frequency_hz=MARGIN * float(f.max(initial=0.0)))
+        k2 = plate.wavenumber_rad_m(f) ** 2 / np.sqrt(1 + 1j * eta)
         total = NearField(modes, drive_m)(points_m, k2)[:, 0]
         for block in modes.blocks:
             weights = block.deflections(points_m) * block.deflections(drive_m)

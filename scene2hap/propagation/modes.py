@@ -309,7 +309,7 @@ def _solve_whole(
     values, vectors = np.linalg.eigh((compliances + compliances.transpose(0, 2, 1)) / 2)
     # The stiffest functions lie below rounding; they take no part in any answer.
     k4 = 1 / np.maximum(values[:, ::-1], 1e-18 / shift) - shift
-    vectors = vectors[:, :, ::-1]
+    vectors = np.ascontiguousarray(vectors[:, :, ::-1])  # a product with a reversed view does without BLAS
     counts = (k4 <= limit).sum(axis=1)
     return tuple(
         ModeBlock(*pair, own[:n].copy(), columns[:, :n], compliance, shift, (own[n:], columns[:, n:]))
@@ -337,4 +337,5 @@ def _solve(x: AxisBasis, y: AxisBasis, poisson_ratio: float, shift: float, limit
     )
     turned = dormqr("L", "N", reflectors[1:, :-1], tau, vectors[1:], 64 * vectors.shape[1] + 64)[0]
     shapes: NDArray[np.float64] = np.vstack([vectors[:1], turned]).astype(np.float64, copy=False)
-    return ModeBlock(x, y, 1 / values[::-1] - shift, shapes[:, ::-1], compliance, shift)
+    shapes = np.ascontiguousarray(shapes[:, ::-1])  # as above
+    return ModeBlock(x, y, 1 / values[::-1] - shift, shapes, compliance, shift)

@@ -10,6 +10,16 @@ together with its mirror images in the edges. Contacts are coupled by receptance
 matters most: without it the p95 error there is 0.5 to 2 dB, with it 0.05 to 0.3 dB. Nearer to a clamped edge than 4 %
 of the plate, or to a clamped corner than a tenth, where hardly anything moves, errors of several dB remain.
 
+An axis of length L has four images, the force among them, so that all cancel in pairs at an edge that holds. In a force
+at x0 and a point at x they are symmetric:
+
+    r = |x - x0|, x + x0, 2 L - x - x0, 2 L - |x - x0|        weights 1, w_0, w_L, w_0 w_L
+
+The last is left out between two free edges, where there is nothing to cancel. K between two points is the larger of
+both, the least wave that neither basis follows. Then the near field is passive: each of its waves is J0(kappa r)
+between those points whose K it exceeds and 0 elsewhere, a matrix without negative eigenvalues (Bochner's theorem), and
+weighs kappa / (kappa^4 - k_c^4). Images farther than 2 L and weights above 1, at free edges, are exceptions from this.
+
 Letters: D [N m], k [rad/m], K [rad/m] cut-off of the basis, r [m], c complex.
 """
 
@@ -49,10 +59,9 @@ class NearField:
 
     def __init__(self, modes: PlateModes, drive_m: Floats) -> None:
         plate = modes.plate
-        x, x_weight = _images(drive_m[:, 0], plate.length_m, plate.edges[:2])
-        y, y_weight = _images(drive_m[:, 1], plate.width_m, plate.edges[2:])
+        weights = _weights(plate.edges[:2]), _weights(plate.edges[2:])
         cut2 = cutoff_squared(modes, drive_m)
-        self.dimples = Dimples(x, y, x_weight, y_weight, cut2, _extent(plate, modes.terms), table())
+        self.dimples = Dimples(drive_m, *weights, cut2, _extent(plate, modes.terms), table())
 
     def __call__(self, points_m: Floats, k2: NDArray[Number]) -> NDArray[Number]:
         """At points (n_points, 2) [m], for k2 (n_frequencies,) k_c^2 [m^-2], complex or real, above 0, |k2| < K^2.
@@ -77,36 +86,32 @@ def _beyond(k2: NDArray[Number], shares: Floats, cut2: Floats) -> NDArray[Number
 class Dimples:
     """Where the near fields of forces are felt, and those of their images.
 
-    Parameters: x, y : (n_drives, 3) coordinates of the forces and of their images [m]; x_weights, y_weights : (3,) of
-    each of these; cut2 : (n_drives,) K^2 at the forces; extent : see `_extent`; pieces : see `table`.
+    Parameters: drive_m : (n_drives, 2) [m]; x_weights, y_weights : (4,) of the images along each axis; cut2 :
+    (n_drives,) K^2 at the forces; extent : see `_extent`; pieces : see `table`.
     """
 
     def __init__(
         self,
-        x: Floats,
-        y: Floats,
+        drive_m: Floats,
         x_weights: Floats,
         y_weights: Floats,
         cut2: Floats,
         extent: _Extent,
         pieces: Floats,
     ) -> None:
-        # (n_drives, 9), all pairs of an image in x and one in y
-        self._x, self._y = np.repeat(x, 3, axis=1), np.tile(y, 3)
-        self._weights = np.repeat(x_weights, 3) * np.tile(y_weights, 3)
-        self._cut2, self._extent, self._pieces = cut2, extent, pieces
+        self._drive_m, self._cut2, self._extent, self._pieces = drive_m, cut2, extent, pieces
+        self._weights = np.outer(x_weights, y_weights).ravel()
 
     def at(self, points_m: Floats) -> tuple[Floats, Floats]:
         """At points (n_points, 2) [m]: the sum of g(K r) over images, and K^2 [m^-2], both (n_points, n_drives)."""
-        cut2 = _cutoffs_squared(points_m, self._extent)[:, None] * self._cut2
-        np.sqrt(cut2, out=cut2)
-        a2, y2 = points_m[:, :1, None] - self._x, points_m[:, 1:, None] - self._y
-        a2 *= a2
-        y2 *= y2
-        a2 += y2
-        driven = a2[:, :, 0] == 0.0
-        a2 *= cut2[:, :, None]
-        shares = beyond_cutoff_of_square(a2, self._pieces) @ self._weights
+        cut2 = np.maximum(_cutoffs_squared(points_m, self._extent)[:, None], self._cut2)
+        per_length, per_width = self._extent[:2]
+        x = _separations(points_m[:, :1], self._drive_m[:, 0], 2 / per_length)
+        y = _separations(points_m[:, 1:], self._drive_m[:, 1], 2 / per_width)
+        driven = (x[:, :, 0] == 0.0) & (y[:, :, 0] == 0.0)
+        a2 = (x**2)[:, :, :, None] + (y**2)[:, :, None, :]
+        a2 *= cut2[:, :, None, None]
+        shares = beyond_cutoff_of_square(a2.reshape(*cut2.shape, 16), self._pieces) @ self._weights
         # Beside an edge that holds, images take away a little too much; a plate gives way to a force, never against it.
         shares[driven] = np.maximum(shares[driven], 0.0)
         return shares, cut2
@@ -116,9 +121,16 @@ class Dimples:
         return _beyond(k2, *self.at(points_m))
 
 
-def _images(at_m: Floats, length_m: float, edges: str) -> tuple[Floats, Floats]:
-    """Coordinates (n_drives, 3) and their mirror images in both edges, and the weight (3,) of each."""
-    return np.stack([at_m, -at_m, 2 * length_m - at_m], axis=-1), np.array([1.0, IMAGE[edges[0]], IMAGE[edges[1]]])
+def _separations(x_m: Floats, drive_m: Floats, length_m: float) -> Floats:
+    """From a force and its three images to points, along one axis; last axis 4, see the head of this module [m]."""
+    apart, sum_m = np.abs(x_m - drive_m), x_m + drive_m
+    return np.stack([apart, sum_m, 2 * length_m - sum_m, 2 * length_m - apart], axis=-1)
+
+
+def _weights(edges: str) -> Floats:
+    """Of these four images, for the two edges of an axis."""
+    first, last = IMAGE[edges[0]], IMAGE[edges[1]]
+    return np.array([1.0, first, last, 0.0 if edges == "FF" else first * last])
 
 
 def beyond_cutoff_of_square(a2: Floats, pieces: Floats) -> Floats:

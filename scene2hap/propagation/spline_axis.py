@@ -13,13 +13,14 @@ Source: C. de Boor, A Practical Guide to Splines (1978), chapter X.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from scipy.sparse import csr_array
+    from scipy.sparse import csr_array, dia_array
 
 Floats = NDArray[np.float64]
 _HELD = {"F": 0, "S": 1, "C": 2}
@@ -68,14 +69,21 @@ class SplineAxis:
         return slice(_HELD[edges[0]], self.n_nodes - _HELD[edges[1]])
 
     def products(self, degree: int, other_degree: int) -> csr_array:
-        """Integrals of products of splines of two degrees [m]."""
-        from scipy.sparse import csr_array, diags_array
+        """Integrals of products of splines of two degrees, 1 to 3 [m]."""
+        from scipy.sparse import csr_array
+
+        splines, weight = self._at_gauss
+        return csr_array(splines[degree].T @ weight @ splines[other_degree])
+
+    @cached_property
+    def _at_gauss(self) -> tuple[dict[int, csr_array], dia_array]:
+        """Splines of each degree at the places of Gauss's rule, and its weights on a diagonal."""
+        from scipy.sparse import diags_array
 
         places, weights = np.polynomial.legendre.leggauss(4)
         h = np.diff(self.lines)[:, None]
         x = (self.lines[:-1, None] + h * (places + 1) / 2).ravel()
-        weight = diags_array((h * weights / 2).ravel())
-        return csr_array(self.splines(x, degree).T @ weight @ self.splines(x, other_degree))
+        return {degree: self.splines(x, degree) for degree in (1, 2, 3)}, diags_array((h * weights / 2).ravel())
 
 
 def _knots(lines: Floats, degree: int) -> Floats:

@@ -14,6 +14,7 @@ from scene2hap.propagation.auto import AutoFidelity
 from scene2hap.propagation.auto_level import peak_level_db
 from scene2hap.propagation.auto_rungs import FLOOR_DB, RUNGS, Situation
 from scene2hap.propagation.contact_stiffness import ContactLaw
+from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 from scene2hap.propagation.substructuring import assemble
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
@@ -149,6 +150,25 @@ def test_one_plate_by_itself() -> None:
     assert MODEL.choose(plate, 700.0).rung == "medium"
     with pytest.raises(ModelDomainError, match="does not move"):
         MODEL.plate_transfer(replace(plate, boundary="CFFF"), [0.0, 0.2], points, [50.0])
+
+
+@pytest.mark.parametrize("beside_hz", [0.0, 1.0, 200.0])
+def test_a_stiff_plate_that_is_held_answers_at_0_hz(beside_hz: float) -> None:
+    plate = Plate(0.1, 0.1, 0.01, OAK, "CCCC")
+    models = AutoFidelity(outside_domain="ignore"), ModalPlate(outside_domain="ignore")
+    found, exact = (model.plate_transfer(plate, [0.05, 0.05], [0.03, 0.04], [0.0, beside_hz])[0] for model in models)
+    np.testing.assert_allclose(found, exact, rtol=0.01)
+    with pytest.raises(ModelDomainError, match="does not move"):
+        models[0].plate_transfer(plate, [0.0, 0.05], [0.03, 0.04], [0.0])
+
+
+@pytest.mark.parametrize("model", [AutoFidelity(), ModalPlate(), MassSpringDamper()])
+def test_high_frequencies_leave_a_slow_force_alone(model: AutoFidelity | ModalPlate | MassSpringDamper) -> None:
+    """It moves a loose plate as a mass, however much higher the others are."""
+    plate = Plate(0.5, 0.3, 0.01, OAK)
+    centre = np.array([0.25, 0.15])
+    slow = model.plate_receptance(plate, centre, centre, [1e-9, 100.0])[0, 0]
+    assert slow * (2e-9 * np.pi) ** 2 * plate.moving_mass_kg == pytest.approx(-1.0, rel=1e-6)
 
 
 def test_settings() -> None:

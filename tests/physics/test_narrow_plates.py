@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from scene2hap import ModalPlate
 from scene2hap.errors import ModelDomainError
+from scene2hap.propagation.auto_rungs import FINENESS
 from scene2hap.propagation.domain import SlowPlateWarning
 from scene2hap.propagation.modal_body import modal_body
 from scene2hap.propagation.modes import QUICK_BLOCK, largest_block
@@ -52,6 +53,39 @@ def test_a_narrow_shelf_answers_alike_at_every_length() -> None:
     """What is held along one long edge carries nothing far along it."""
     answers = [compliance(Plate(length, 0.05, 0.002, "steel", "FFCF"), 0.5, 0.5) for length in (0.5, 1.0, 2.0)]
     np.testing.assert_allclose(answers, answers[1], rtol=0.02)
+
+
+@pytest.mark.parametrize("rung", FINENESS)
+@pytest.mark.parametrize("aspect", [1.0, 5.0, 30.0])
+@pytest.mark.parametrize("edges", ["CCFF", "SCFF", "FFSS", "CFCF", "CCCC"])
+def test_a_held_edge_does_not_move_and_no_forces_gain_energy(edges: str, aspect: float, rung: str) -> None:
+    """Of all near fields, images in one edge must cancel in the other, which is near on a narrow plate."""
+    plate = Plate(1.0, 1.0 / aspect, 0.1 / aspect, "oak", edges)
+    inside = [(0.11, 0.58), (0.05, 0.9), (0.5, 0.5), (0.93, 0.3)]
+    held = {0: (0.0, 0.7), 1: (1.0, 0.3), 2: (0.4, 0.0), 3: (0.6, 1.0)}
+    points = np.array([*inside, *(at for side, at in held.items() if edges[side] != "F")]) * plate.extent_m
+    f = np.array([10.0, 1e3])
+    receptance = modal_body(plate, float(f.max()), 0.05, FINENESS[rung]).receptance(points, points, f)
+    size = np.abs(receptance).max(axis=(1, 2))
+    assert (np.abs(receptance[:, len(inside) :]).max(axis=(1, 2)) < 1e-9 * size).all()
+    gained = np.linalg.eigvalsh((receptance - receptance.conj().transpose(0, 2, 1)) / 2j)
+    assert (gained.max(axis=1) < 1e-9 * size).all()
+
+
+@pytest.mark.parametrize("rung", FINENESS)
+@pytest.mark.parametrize("edges", ["CCFF", "SSFF", "CFFF", "FFFF"])
+def test_what_a_near_field_leaves_out_gains_no_more_than_is_stated(edges: str, rung: str) -> None:
+    """2e-5 of the largest receptance, among points in clusters on plates with free long edges (docs/propagation.md)."""
+    rng = np.random.default_rng(4)
+    for _ in range(25):
+        aspect = np.exp(rng.uniform(np.log(2), np.log(40)))
+        plate = Plate(1.0, 1.0 / aspect, 0.1 / aspect, "oak", edges)
+        spread = 10 ** rng.uniform(-3.0, -0.5, (1, 2))
+        points = np.clip(rng.uniform(0, 1, 2) + spread * rng.normal(size=(6, 2)), 0, 1) * plate.extent_m
+        f = np.array([2.0, 200.0])
+        receptance = modal_body(plate, float(f.max()), 0.05, FINENESS[rung]).receptance(points, points, f)
+        gained = np.linalg.eigvalsh((receptance - receptance.conj().transpose(0, 2, 1)) / 2j).max(axis=1)
+        assert (gained < 2e-5 * np.abs(receptance).max(axis=(1, 2))).all()
 
 
 @pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")

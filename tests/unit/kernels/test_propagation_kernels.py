@@ -73,9 +73,9 @@ def test_gains_of_bands(lengths: list[float]) -> None:
 @given(seed=seeds)
 def test_near_fields(seed: int) -> None:
     rng = np.random.default_rng(seed)
-    x, y, cut2 = rng.uniform(-1, 3, (4, 3)), rng.uniform(-1, 3, (4, 3)), rng.uniform(10, 1e4, 4)
-    numbers = (x, y, rng.normal(size=3), rng.normal(size=3), cut2, (2.0, 3.0, 30.0, 20.0), table())
-    points = np.concatenate([rng.uniform(0, [1.0, 2 / 3], (5, 2)), [[0.0, 0.0], [x[0, 0], y[0, 0]]]])
+    drives, cut2 = rng.uniform(0, [1.0, 2 / 3], (4, 2)), rng.uniform(10, 1e4, 4)
+    numbers = (drives, rng.normal(size=4), rng.normal(size=4), cut2, (2.0, 3.0, 30.0, 20.0), table())
+    points = np.concatenate([rng.uniform(0, [1.0, 2 / 3], (5, 2)), [[0.0, 0.0], drives[0]]])
     plain, twin = (kind(*numbers) for kind in both("propagation.near_field.Dimples"))
     k2 = rng.uniform(0.1, 5.0, 4)
     told, compiled = ((*dimples.at(points), dimples.near(points, k2)) for dimples in (plain, twin))
@@ -98,8 +98,8 @@ def test_products_of_cosines(seed: int, n: int) -> None:
 def test_forces_folded(seed: int, n: int, dtype: type) -> None:
     rng = np.random.default_rng(seed)
     n_forces, n_columns, k2 = int(rng.integers(0, 4)), int(rng.integers(0, 5)), rng.uniform(0.1, 5.0, 4)
-    x, y = rng.uniform(0, 1, (2, n_forces, 3))
-    near = (x, y, rng.normal(size=3), rng.normal(size=3), rng.uniform(10, 1e4, n_forces), (2.0, 2.0, 30.0, 20.0))
+    drives, cut2 = rng.uniform(0, 1, (n_forces, 2)), rng.uniform(10, 1e4, n_forces)
+    near = (drives, rng.normal(size=4), rng.normal(size=4), cut2, (2.0, 2.0, 30.0, 20.0))
     smooth, beyond = (rng.normal(size=(rows, n_columns)).astype(dtype) for rows in (20, 4 * n_forces))
     points = rng.uniform(0, 1, (n, 2))
     dimples = both("propagation.near_field.Dimples")
