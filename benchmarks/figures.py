@@ -94,7 +94,7 @@ FIGURES = {
     "accuracy": Figure("accuracy", "benchmarks/accuracy.py", 10, has_times=True),
     "auto-fidelity": Figure("propagation", "benchmarks/auto_fidelity.py --workers 2", 20, has_times=True),
     "propagation-cost": Figure("propagation", "benchmarks/propagation.py", 5, has_times=True),
-    "stability-plates": Figure("stability", "stress/plates.py --minutes 28", 28, has_times=True),
+    "stability-plates": Figure("stability", "stress/plates.py --plates 19000 --processes 2", 60, has_times=True),
     "stability": Figure("stability", "stress/propagation.py", 30, has_times=True),
     "frames-real-scenes": Figure(
         "frames", f"benchmarks/real_movers.py {MOVERS} --passes 3 --draws 3", 20, has_times=True, needs="scenes"

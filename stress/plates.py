@@ -15,7 +15,7 @@ to 10 kHz, one of them exactly on a resonance of a plate that is held or free. C
 
 On every fourth plate a source of 1e-6 to 1e4 kg stands too, and a scene of both is solved: gains must be finite and at
 least 0. A plate that a model announces by a `SlowPlateWarning` is left there and counted; every hundredth plate is
-worked out whatever it takes. A plate takes some 0.25 s of a processor in all models together.
+worked out whatever it takes. A plate takes some 0.21 s of a processor in all models together.
 
 Each plate is drawn from its own number: `--only N` repeats one, `--first N` goes on where `--minutes` ended. A process
 takes `PIECE` plates at a time, and finishes them when the minutes are over, so that those asked have no gaps. Each uses
