@@ -11,6 +11,9 @@ from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.propagation import MODELS
 from scenes import RATE, box, haptics, tone_loop
 
+# Two seconds are enough on a free processor; where other tests have the right of way it may take minutes.
+PATIENCE_S = 600.0
+
 pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
 
 
@@ -45,14 +48,14 @@ def live(session: HapticSession) -> None:
     session.add_hand("foot")
     visitor = box("visitor", (0.1, 0.1, 0.1), (0.8, 0.77, 0.4))
     session.add(visitor, haptics("plastic", (0.1, 0.1, 0.1), "on"), {"on": tone_loop(180)})
-    assert session.wait_prepared(60.0)
+    assert session.wait_prepared(PATIENCE_S)
     assert session.update(touches=[Touch("left", "visitor", (0.8, 0.77, 0.4))]).gain("left", "visitor") > 0.5
     assert session.render(4000).any()
     session.remove("visitor")
     session.remove_hand("foot")
     session.update({last.id: Pose((x, y + 1.0, z))}, touches)
     assert np.isfinite(session.render(400)).all()
-    assert session.wait_prepared(60.0)
+    assert session.wait_prepared(PATIENCE_S)
     assert session.stats.fields_failed == 0
 
 
