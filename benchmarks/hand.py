@@ -47,7 +47,7 @@ def on_feet(plate: Plate) -> ContactNetwork:
 
 
 def levels_db(hand: str | None, network: ContactNetwork, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    model = ModalPlate(outside_domain="ignore", hand=hand)  # type: ignore[arg-type]
+    model = ModalPlate(outside_domain="ignore", hand=hand)  # type: ignore[arg-type]  # a name is taken too
     field = model.prepare(network, [Excitation("phone", 170.0, 170.0, 0.2)], BANDS)
     return 20 * np.log10(field.attenuation("plate", points)[:, 0])
 
@@ -73,7 +73,7 @@ def costs() -> None:
     print("\n| kitchen | prepare again [s] | first touch of an object, median / largest [ms] | further, median [ms] |")
     print("|---|---|---|---|")
     for hand in (None, "palm"):
-        model = ModalPlate(outside_domain="ignore", hand=hand)  # type: ignore[arg-type]
+        model = ModalPlate(outside_domain="ignore", hand=hand)  # type: ignore[arg-type]  # a name is taken too
         model.prepare(network, excitations, AROUND)  # modes are kept from now on
         begin = time.process_time()
         field = model.prepare(network, excitations, AROUND)

@@ -233,7 +233,7 @@ def faults(found: NDArray[np.complex128], plate: Plate, model: Any) -> list[str]
 
 @dataclass(frozen=True)
 class Campaign:
-    """What is asked of every plate, and until when (`time.monotonic`)."""
+    """The checks of every plate, and the time (`time.monotonic`) at which they end."""
 
     models: tuple[str, ...]
     seed: int

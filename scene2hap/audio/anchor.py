@@ -96,12 +96,13 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
     is_whine = heard[0].hz > RANGE_HZ[1]
     if found is not None and is_whine and needs.above_db(found.frequency_hz, heard[0].hz) < FAINTEST_BELOW_WHINE_DB:
         found, strongest = None, heard[0]  # of a hiss, what is left at its lower end
-    is_slow = strongest.is_line and strongest.hz <= ROUGH_HZ[1]
-    is_rendered = found is not None and float(response_db(actuator, found.frequency_hz)) >= -MAX_BOOST_DB
-    carried = needs.carried(strongest.hz)
-    is_too_high = strongest.hz > carried.felt_hz and missed_db - needs.missed_db(carried) > CARRIED_DB
-    if found is None or is_too_high or (missed_db > MISSED_DB and (is_slow or not is_rendered)):
-        found = carried
+    if found is None or missed_db > MISSED_DB:
+        carried = needs.carried(strongest.hz)
+        is_slow = strongest.is_line and strongest.hz <= ROUGH_HZ[1]
+        is_rendered = found is not None and float(response_db(actuator, found.frequency_hz)) >= -MAX_BOOST_DB
+        is_too_high = strongest.hz > carried.felt_hz and missed_db - needs.missed_db(carried) > CARRIED_DB
+        if found is None or is_slow or not is_rendered or is_too_high:
+            found = carried
     return replace(found, rough_hz=_rough_hz(strongest, found, magnitude, sample_rate_hz))
 
 
@@ -162,10 +163,11 @@ class _Needs:
         for own_hz in candidates_hz:
             band, peak = self._band(own_hz)
             reached_db = felt_level_of_spectrum_db(band, self._n, self._rate_hz, self._actuator) - 20 * np.log10(peak)
-            needed_db = self._level_db - reached_db
-            missed_db = max(0.0, needed_db - HIGHEST_PEAK_DB)
+            crest_db = self._level_db - reached_db - float(drive_db(own_hz, self._level_db, self._actuator))
+            anchor = Anchor(own_hz, crest_db)
+            missed_db = self.missed_db(anchor)
             if missed_db < best[1]:
-                best = Anchor(own_hz, needed_db - float(drive_db(own_hz, self._level_db, self._actuator))), missed_db
+                best = anchor, missed_db
             if missed_db == 0.0:
                 break
         return best

@@ -68,7 +68,7 @@ class Steady(NamedTuple):
 
 class Rise(NamedTuple):
     """A rise: when it begins and ends [s] since the recording's begin, its amplitude (n_points,) [-] between, and its
-    speed at the same instants (n_points,) [-], None where nobody has followed it."""
+    speed at the same instants (n_points,) [-], None where it was not followed."""
 
     begin_s: float
     end_s: float

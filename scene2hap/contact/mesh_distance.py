@@ -30,6 +30,7 @@ from scene2hap.contact.vectors import Floats, Indices, Rows, Triple, cross, dot,
 ROUNDING_M = 1e-9
 """Below this a distance is rounding."""
 
+_POINT = Shape(np.zeros((3, 3, 1)), np.zeros((1, 3)))  # a triangle without extent
 _NOT_TURNED: Rows = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _BATCH = 4096  # Pairs of triangles in a plain kernel at once: some 10 MB.
 
@@ -160,8 +161,7 @@ def closest_points(
 @compiled
 def surface_distance(host: Shape, point: Triple, within: float) -> float | None:
     """How far a point of its frame is from a mesh's surface, None beyond `within`. All [m]."""
-    alone = Shape(np.tile(np.array(point)[:, None, None], (1, 3, 1)), np.array([point]))
-    found = closest_points(host, alone, _NOT_TURNED, (0.0, 0.0, 0.0), within)
+    found = closest_points(host, _POINT, _NOT_TURNED, point, within)
     return None if found is None else found[0]
 
 

@@ -33,7 +33,7 @@ _CARRIERS_HZ = (100.0, 300.0)
 DEPTH = 0.5
 """Of the modulation: felt as rough (the least depth that counts as a rhythm is 0.2, see `distinctness`), while side
 bands stay 12 dB below the bed and do not take its place where touch is keener."""
-FROM_ABOVE = 1.5
+_FROM_ABOVE = 1.5
 """Sources are moved apart by a third of an octave at most (1.26); what comes from farther above could not be felt."""
 _SLOWER = 4.0
 """By which the envelope of a rough component is slower than it."""
@@ -46,9 +46,11 @@ class Auto(Adaptive):
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
         """A fresh conversion at that rate."""
-        if comes_from_above(context):
-            rise_and_fall = EnvelopeCarrier().stream(sample_rate_hz, context)
-            bed: Stage = Chain([_beep(context, sample_rate_hz), *rise_and_fall.stages])
+        beep_hz = _beep_hz(context)
+        if beep_hz is not None:
+            # Without what is an octave below, no hum or noise of the room fills its pauses.
+            above = butter(2, min(0.5 * beep_hz, 0.4 * sample_rate_hz), "highpass", fs=sample_rate_hz, output="sos")
+            bed: Stage = Chain([SosStage(above), *EnvelopeCarrier().stream(sample_rate_hz, context).stages])
         else:
             bed = Chain(super().stream(sample_rate_hz, context).stages)
         if context.rough_hz is not None:
@@ -59,16 +61,10 @@ class Auto(Adaptive):
         return StageStream(WithOnsets(bed, carrier_hz(context), sample_rate_hz, bed_follows=is_known))
 
 
-def comes_from_above(context: ConversionContext) -> bool:
-    """Whether a source is felt far below its own frequency."""
+def _beep_hz(context: ConversionContext) -> float | None:
+    """The own frequency of a source that is felt far below it, else None [Hz]."""
     own_hz, target_hz = context.own_hz, context.target_hz
-    return own_hz is not None and target_hz is not None and own_hz > FROM_ABOVE * target_hz
-
-
-def _beep(context: ConversionContext, sample_rate_hz: float) -> Stage:
-    """What is not an octave below the source's own frequency: no hum or noise of the room fills its pauses."""
-    lowest_hz = min(0.5 * (context.own_hz or 0.0), 0.4 * sample_rate_hz)
-    return SosStage(butter(2, lowest_hz, "highpass", fs=sample_rate_hz, output="sos"))
+    return own_hz if own_hz is not None and target_hz is not None and own_hz > _FROM_ABOVE * target_hz else None
 
 
 def carrier_hz(context: ConversionContext) -> float:

@@ -49,7 +49,7 @@ class Pool:
             if kind == "processes":
                 self.n_workers = _n_workers(rest)
                 self._own = self._begun(self.n_workers)
-                # No task waits inside of the pool, where it would break with those that run.
+                # Tasks wait here: one that waits in a pool fails with it when another task kills its worker.
                 self._turn = asyncio.Semaphore(self.n_workers)
             elif kind == "dask" and rest:
                 self._given = self._of_dask(rest)

@@ -1,4 +1,4 @@
-"""Times that recordings show, those that were inferred, and those that somebody wrote."""
+"""Recorded, inferred and overridden times of starts and stops: which of them is played."""
 
 from __future__ import annotations
 
