@@ -89,12 +89,14 @@ def baked(scenes: list[Path], folder: Path, run: str) -> ManyReport:
         with ProcessPoolExecutor(1 if run.endswith("one") else 2, mp_context=get_context("spawn")) as pool:
             return bake_many(scenes, folder, executor=pool)
     if run.startswith("Dask"):
+        import dask
         from distributed import Client, LocalCluster
 
         n_workers = 1 if "one" in run else 2
         with (
             # Dask's nannies also set variables in this process, which workers of later runs would inherit.
             patch.dict(os.environ, KEEP_MEMORY),
+            dask.config.set({"distributed.worker.profile.enabled": False}),
             LocalCluster(n_workers=n_workers, threads_per_worker=1, dashboard_address=None) as cluster,
             Client(cluster) as client,
         ):
