@@ -205,7 +205,7 @@ class _Model:
             needed = "<a folder that holds both>"
         return (
             f"{wanted.place} wants {wanted.name!r}, which lies outside {str(self.root)!r}; only files inside it are "
-            f"read. Give assets_root={needed!r} if you trust the file."
+            f"read. Give assets_root={needed!r} (--assets-root) if you trust the file."
         )
 
 
