@@ -29,9 +29,10 @@ def hum(path: Path, frequency_hz: float = 98.0) -> Path:
 
 
 def test_a_file_becomes_a_file_and_the_table_says_what_happened(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    source, output = hum(tmp_path / "hum.wav"), tmp_path / "felt.flac"
+    monkeypatch.chdir(tmp_path)
+    source, output = hum(Path("hum.wav")), Path("felt.flac")
     assert main(["convert", str(source), "-o", str(output), "--picture"]) == 0
     shown = capsys.readouterr().out
     assert "1 files, 3.0 s of sound" in shown

@@ -71,9 +71,9 @@ def test_an_answer_that_is_none_is_a_bad_answer(tmp_path: Path, page: Page) -> N
 
 @pytest.mark.parametrize("manner", ["hang", "drip"])
 def test_a_server_that_stalls_is_given_up_in_time(tmp_path: Path, manner: str) -> None:
-    error, api, _ = failed(tmp_path, Page(manner=manner), timeout_s=0.2)
+    error, _, time = failed(tmp_path, Page(manner=manner), timeout_s=0.2)
     assert "did not answer within 0.2 s" in str(error)
-    assert len(api.asked) == 3
+    assert time.slept == [0.5, 1.0]  # a busy server may not have read a request that was given up
 
 
 def test_an_endless_answer_is_cut_off(tmp_path: Path) -> None:

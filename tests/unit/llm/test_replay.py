@@ -92,7 +92,7 @@ def test_key_does_not_change_with_the_rest(changes: dict[str, Any]) -> None:
     assert request_key(dataclasses.replace(REQUEST, **changes)) == request_key(REQUEST)
 
 
-@pytest.mark.parametrize("fact", [float("inf"), float("nan"), object(), "\ud800"], ids=repr)
+@pytest.mark.parametrize("fact", [float("inf"), float("nan"), object(), "\ud800"])
 def test_what_has_no_json_has_no_key(fact: Any) -> None:
     with pytest.raises(BackendError, match="no JSON"):
         request_key(dataclasses.replace(REQUEST, facts={"fact": fact}))

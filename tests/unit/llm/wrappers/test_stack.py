@@ -40,7 +40,7 @@ def test_a_whole_stack_from_a_configuration(tmp_path: Path) -> None:
     assert built.identity == OpenAIBackend("gpt-4.1", detail="high").identity
 
 
-@pytest.mark.parametrize("inner", [3, object(), {"kind": "no such"}, "no such", {"model": "m"}], ids=repr)
+@pytest.mark.parametrize("inner", [3, object(), {"kind": "no such"}, "no such", {"model": "m"}])
 def test_inner_must_be_a_backend(inner: object) -> None:
     with pytest.raises(ConfigError):
         RetryBackend(inner)  # type: ignore[arg-type]
@@ -140,7 +140,6 @@ def test_limits_of_the_standard_stack_hold(tmp_path: Path) -> None:
         (OpenAIBackend(), "OpenAIBackend"),
         (FunctionBackend(lambda _: ""), "FunctionBackend"),
     ],
-    ids=str,
 )
 def test_a_configuration_gets_the_standard_stack_where_it_needs_one(spec: object, built: str) -> None:
     assert type(build_backend(spec)).__name__ == built
