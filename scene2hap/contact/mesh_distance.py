@@ -81,7 +81,8 @@ class MeshPair:
     def __init__(self, a: Placed, b: Placed) -> None:
         self.guest_is_a = a.size_m < b.size_m
         self.guest, self.host = (a, b) if self.guest_is_a else (b, a)
-        back = transposed(self.host.rows)
+        self._rows = self.host.rows
+        back = self._back = transposed(self._rows)
         (x, y, z), (u, v, w) = self.guest.position_m, self.host.position_m
         self._turn = _product(back, self.guest.rows)
         self._shift = rotated(back, (x - u, y - v, z - w))
@@ -95,12 +96,12 @@ class MeshPair:
         if distance <= ROUNDING_M:
             return Gap(0.0, (0.0, 0.0, 0.0))
         sign = 1.0 if self.guest_is_a else -1.0
-        return Gap(distance, rotated(self.host.rows, (sign * (u - x), sign * (v - y), sign * (w - z))))
+        return Gap(distance, rotated(self._rows, (sign * (u - x), sign * (v - y), sign * (w - z))))
 
     def patch(self, way_m: Triple, within_m: float) -> list[Ends]:
         """Where the surfaces are at most `within_m` apart once `a` has moved by `way_m` [m] in the world: up to
         `spread.MAX_POINTS` points far from each other, with their ends where the bodies are now."""
-        x, y, z = rotated(transposed(self.host.rows), way_m)
+        x, y, z = rotated(self._back, way_m)
         way = (x, y, z) if self.guest_is_a else (-x, -y, -z)
         found = contact_points(
             self.host.shape, self.guest.shape, self._turn, self._shift, way, max(within_m, ROUNDING_M)
@@ -127,11 +128,11 @@ class MeshPair:
         self, faller: Placed, up_axis: int, lowest_m: float, reach_m: float, touch_m: float
     ) -> tuple[Shape, Shape, Rows, Triple, Rows, Triple, bool]:
         limits = (lowest_m - self.host.position_m[up_axis], reach_m, touch_m)
-        frame = upright_frame(self.host.rows[up_axis])
+        frame = upright_frame(self._rows[up_axis])
         return self.host.shape, self.guest.shape, self._turn, self._shift, frame, limits, faller is self.guest
 
     def _placed(self, point: Triple) -> Triple:
-        (x, y, z), (u, v, w) = rotated(self.host.rows, point), self.host.position_m
+        (x, y, z), (u, v, w) = rotated(self._rows, point), self.host.position_m
         return (x + u, y + v, z + w)
 
 

@@ -16,11 +16,13 @@ All weights are smooth in the gaps and know nothing of the past: the poses alone
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
+from scene2hap.compiled import compiled
 from scene2hap.contact.body import Body
 from scene2hap.contact.level import Rest
 from scene2hap.contact.vectors import Floats
@@ -66,6 +68,10 @@ OUTSIDE_SHARE = 0.5
 """Share of its box outside the other's at which a thing ceases to be enclosed."""
 
 
+# Reaches are kept by size: each is looked up some thirty times a frame.
+_SIZES = 4096
+
+
 def weight(gap_m: float, tolerance_m: float) -> float:
     """How much of a contact a gap leaves: 1 up to 2/3 of the tolerance, then half a cosine down to 0 at the tolerance.
 
@@ -78,26 +84,30 @@ def weight(gap_m: float, tolerance_m: float) -> float:
 
 
 def weights(gaps_m: Floats, tolerance_m: float) -> Floats:
-    """The same for many gaps (n,)."""
+    """The same for many gaps (...)."""
     if tolerance_m == 0.0:
         return np.where(gaps_m <= 0.0, 1.0, 0.0)
     x = 3 * gaps_m / tolerance_m - 2
-    found, rows = np.ones(len(x)), np.flatnonzero(x > 0)
-    # Few are so far apart, and numpy's cosine may end otherwise in the last bit.
-    found[rows] = [0.0 if one >= 1 else 0.5 * (1 + math.cos(math.pi * one)) for one in x[rows].tolist()]
+    found = np.where(x < 1, 1.0, 0.0)
+    # Few are in between, and numpy's cosine may end otherwise in the last bit.
+    between = (x > 0) & (x < 1)
+    found[between] = [0.5 * (1 + math.cos(math.pi * one)) for one in x[between].tolist()]
     return found
 
 
+@lru_cache(_SIZES)
 def fall_reach_m(size_m: float) -> float:
     """How far a thing of that diagonal may hover over its support [m]."""
     return min(_FALL_REACH_M, _FALL_REACH_SIZES * size_m)
 
 
+@lru_cache(_SIZES)
 def hang_reach_m(size_m: float) -> float:
     """How far a thing of that diagonal may stand off what it hangs from [m]; less than its `fall_reach_m`."""
     return min(HANG_REACH_M, max(_HANG_REACH_SIZES * size_m, min(_GRIP_REACH_M, _GRIP_REACH_SIZES * size_m)))
 
 
+@lru_cache(_SIZES)
 def play_reach_m(size_m: float) -> float:
     """With how much play on either side a thing of that diagonal may be enclosed [m]."""
     return min(_PLAY_M, _PLAY_SIZES * size_m)
@@ -117,17 +127,25 @@ class Support(NamedTuple):
 
 def supports(falls_m: Mapping[str, Floats], reach_m: float) -> dict[str, Support]:
     """Which of the things below hold a thing, from how far each of its triangles (m,) is to fall to each of them."""
-    if not falls_m:
-        return {}
-    table = np.stack(list(falls_m.values()))
+    found = support_weights(list(falls_m.values()), reach_m, TOUCH_M, _HIDDEN_M) if falls_m else []
+    return {name: Support(*support) for name, support in zip(falls_m, found, strict=True) if support[0] > 0}
+
+
+@compiled
+def support_weights(
+    falls_m: Sequence[Floats], reach_m: float, touch_m: float, hidden_m: float
+) -> list[tuple[float, float]]:
+    """The weight of each support, and how far it is to fall to the nearest part that bears [m]; from how far each
+    triangle (m,) is to fall to each of them, inf where it meets nothing."""
+    table = np.stack(falls_m)
     table = table[:, np.isfinite(table).any(axis=0)]
     first = table.min(axis=0)
-    seen = _weights(table, reach_m) * _weights(table - first.min(), TOUCH_M) * _weights(table - first, _HIDDEN_M)
-    return {
-        name: Support(float(share.max()), float(row[share > 0].min()))
-        for name, row, share in zip(falls_m, table, seen, strict=True)
-        if share.max() > 0
-    }
+    least = first.min(initial=math.inf)
+    seen = weights(table, reach_m) * weights(table - least, touch_m) * weights(table - first, hidden_m)
+    return [
+        (float(share.max(initial=0.0)), float(falls[share > 0].min(initial=math.inf)))
+        for falls, share in zip(table, seen, strict=True)
+    ]
 
 
 def level_supports(rests: Mapping[str, Rest], reach_m: float) -> dict[str, Support] | None:
@@ -157,11 +175,6 @@ def hangs(gaps_m: Mapping[str, float], reach_m: float) -> dict[str, float]:
     later_m = hang_later_m(reach_m)
     shares = {name: weight(gap, reach_m) * weight(gap - least, later_m) for name, gap in gaps_m.items()}
     return {name: share for name, share in shares.items() if share > 0}
-
-
-def _weights(gaps_m: Floats, tolerance_m: float) -> Floats:
-    x = np.clip(3 * gaps_m / tolerance_m - 2, 0.0, 1.0)
-    return np.where(x < 1.0, 0.5 * (1 + np.cos(np.pi * x)), 0.0)
 
 
 def is_over(x: Body, y: Body) -> bool:

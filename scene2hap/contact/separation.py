@@ -13,8 +13,6 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from scene2hap.compiled import compiled
-
 
 class Footprint(NamedTuple):
     """A body seen from above, around the middle of its box: the first axis (a_u, a_v) of a rectangle, the second being
@@ -32,14 +30,12 @@ Separation = tuple[float, float, float, float, float]
 the origin: one forwards, the other backwards [m]."""
 
 
-@compiled
 def reach_along(footprint: Footprint, n_u: float, n_v: float) -> float:
     """How far a footprint reaches from its middle along a direction [m]."""
     a_u, a_v, half_1, half_2, radius = footprint
     return min(radius, abs(n_u * a_u + n_v * a_v) * half_1 + abs(n_v * a_u - n_u * a_v) * half_2)
 
 
-@compiled
 def separation(
     one: Footprint, one_u: float, one_v: float, other: Footprint, other_u: float, other_v: float
 ) -> Separation:

@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 from kernels import both, seeds, steady
 from scene2hap.contact.body import Body
 from scene2hap.contact.mesh_distance import ROUNDING_M, MeshPair, upright_frame
-from scene2hap.contact.separation import Footprint
 from scene2hap.contact.shape import shape_of
 from scene2hap.contact.stance import Stance
 from scene2hap.contact.track import Standing
@@ -51,23 +50,6 @@ def test_moves_within_bounds_to_the_last_bit(up_axis: int, stands: bool) -> None
             assert compiled == plain
             n_within += plain is not None
     assert n_within > 100
-
-
-@steady
-@given(seed=seeds)
-def test_separations_to_the_last_bit(seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    plain, twin = both("contact.separation.separation")
-    for k in range(20):
-        posed = []
-        for _ in range(2):
-            angle = float(rng.uniform(0, 7)) if k % 3 else 0.0
-            half = rng.choice([0.05, 0.1, 0.3], 2).tolist()
-            footprint = Footprint(math.cos(angle), math.sin(angle), *half, float(rng.choice([0.07, math.hypot(*half)])))
-            posed += [footprint, *np.round(rng.uniform(-0.5, 0.5, 2), int(rng.choice([1, 9]))).tolist()]
-        assert twin(*posed) == plain(*posed)
-        plain_reach, twin_reach = both("contact.separation.reach_along")
-        assert twin_reach(posed[0], 0.6, -0.8) == plain_reach(posed[0], 0.6, -0.8)
 
 
 def mesh(rng: np.random.Generator) -> TriMesh:
@@ -125,6 +107,18 @@ def test_distances_of_meshes_to_the_last_bit(seed: int) -> None:
             point = tuple(np.round(rng.uniform(-0.4, 0.4, 3), 2).tolist())
             told, compiled = plain(given[0], point, within_m), twin(given[0], point, within_m)
             assert compiled == told or (told <= ROUNDING_M and compiled <= ROUNDING_M)
+
+
+@steady
+@given(seed=seeds)
+def test_weights_of_supports_to_the_last_bit(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    plain, twin = both("contact.rule.support_weights")
+    n, m = int(rng.integers(1, 5)), int(rng.integers(1, 40))
+    for reach_m in (0.0, 0.004, 0.09):
+        falls_m = rng.uniform(-0.004, 1.2 * reach_m + 0.001, (n, m)) if rng.random() < 0.7 else np.zeros((n, m))
+        falls_m[rng.random((n, m)) < 0.4] = np.inf
+        assert twin(list(falls_m), reach_m, 0.004, 0.002) == plain(list(falls_m), reach_m, 0.004, 0.002)
 
 
 @steady
