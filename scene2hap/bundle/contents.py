@@ -11,7 +11,7 @@ from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle.by_name import ByName, by_name
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.override import Override
-from scene2hap.errors import BundleError
+from scene2hap.errors import BundleError, UnknownObject
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -53,6 +53,19 @@ class BundleContents:
     def credits(self) -> tuple[Credit, ...]:
         """Credits of the sounds, each once, in order of source and state."""
         return tuple(dict.fromkeys(loop.audible.credit for states in self.loops.values() for loop in states.values()))
+
+    def require_same_scene(self, scene: SceneSnapshot) -> None:
+        """Raise an UnknownObject where it has loops for objects that a scene lacks, or shares no object with it."""
+        ids = {item.id for item in scene.objects}
+        baked = self.loops if self.loops or ids & self.objects.keys() else self.objects
+        lacking = [object_id for object_id in baked if object_id not in ids]
+        if lacking:
+            near = checks.did_you_mean(lacking[0], ids)
+            raise UnknownObject(
+                f"the bundle was baked for another scene: {scene.name!r} has no object {lacking[0]!r} ({len(lacking)} "
+                f"of {len(baked)} are missing). {near}{' ' if near else ''}Give the scene that was baked, "
+                "bundle.snapshot, or bake this one."
+            )
 
     def is_muted(self, object_id: str) -> bool:
         """Whether a source is silent until a game unmutes it."""

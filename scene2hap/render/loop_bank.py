@@ -8,6 +8,9 @@ number N of samples, over as many turns within a second as make that nearest, an
 in exact integer arithmetic. So it keeps the period of the loop that is heard beside it for ever: it is never off by
 more than one tactile sample, where playing N samples round and round would drift. Once in a while (10 s or more for a
 loop of 5 s, never where the rates divide) u steps by 0 or 2 samples; over that cell the two readings are cross-faded.
+
+A mixer reads a fixed number of loops. A `SlotBank` lets loops come and go under a running mixer: an empty slot costs
+nothing, since a mixer reads only the loops that its gains let through, and may be filled while the mixer plays.
 """
 
 from __future__ import annotations
@@ -114,6 +117,36 @@ class LoopBank:
     def position_s(self, loop: int, frame: int, sample_rate_hz: int) -> float:
         """Where a loop stands at a frame of a clock that runs at another rate, in time since its beginning [s]."""
         return position_s(*self._periods[loop], frame, sample_rate_hz)
+
+
+class SlotBank(LoopBank):
+    """A bank of slots, each with a bank of one loop or empty.
+
+    Parameters: slots : a bank of one loop for each slot, None for an empty one; shift : tactile samples by which the
+    clock of its mixer lags the session's.
+    """
+
+    def __init__(self, slots: list[LoopBank | None], bands: Bands, sample_rate_hz: int, shift: int = 0) -> None:
+        super().__init__((), bands, sample_rate_hz)
+        self.slots = slots
+        self._bands, self._shift = bands, shift
+
+    def shifted(self, shift: int) -> SlotBank:
+        """The same slots, for a mixer that began so many tactile samples after the session."""
+        return SlotBank(self.slots, self._bands, self.sample_rate_hz, shift)
+
+    def __len__(self) -> int:
+        return len(self.slots)
+
+    @property
+    def nbytes(self) -> int:
+        """Memory that the loops take [byte]."""
+        return sum(bank.nbytes for bank in self.slots if bank is not None)
+
+    def read(self, loops: Sequence[int], begin: int, out: Block) -> None:
+        """See `LoopBank`; silence from an empty slot."""
+        banks = [self.slots[loop] for loop in loops]
+        read([None if bank is None else bank.loops[0] for bank in banks], begin + self._shift, out)
 
 
 def position_s(n: int, rate_hz: int, frame: int, sample_rate_hz: int) -> float:

@@ -12,6 +12,7 @@ import os
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, NoReturn, Self
 
@@ -22,6 +23,7 @@ from scene2hap import checks
 from scene2hap.attributes import read_only
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
+from scene2hap.bundle.differences import changed_objects
 from scene2hap.bundle.given import given_pair
 from scene2hap.calls import clear_calls
 from scene2hap.contact.graph import ContactChange
@@ -32,10 +34,7 @@ from scene2hap.haptics import ObjectHaptics
 from scene2hap.render.safety import SafetyStats
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.session.actuator_check import warn_if_other
-from scene2hap.session.bundle_changes import changed_objects
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.explain import Explanation
 from scene2hap.session.frame import HapticFrame, SessionStats, Touch, unknown_hand
@@ -53,16 +52,13 @@ from scene2hap.session.hand_frames import HandFrames
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.impacts import Impact, Impacts, Strike
 from scene2hap.session.landings import Landings
-from scene2hap.session.off_surface import OffSurface
+from scene2hap.session.likely_mistakes import LikelyMistakes, warn_if_other_actuator, warn_if_other_hands
 from scene2hap.session.output import Output
-from scene2hap.session.personal import PersonalLimit
 from scene2hap.session.playback import Playback
 from scene2hap.session.scene_state import SceneState
-from scene2hap.session.silent_object import SilentObjects
 from scene2hap.session.sources import SourceInfo, Sources
 from scene2hap.session.switching import Switching
-from scene2hap.session.user_profile import UserProfile
-from scene2hap.session.w_first import warn_if_w_first
+from scene2hap.session.user_profile import PersonalLimit, UserProfile
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -102,12 +98,15 @@ class HapticSession:
         sink: ActuatorSink | str | Mapping[str, Any] | None = None,
         user: UserProfile | Mapping[str, Any] | str | os.PathLike[str] | None = None,
     ) -> None:
-        require_settings(config)
-        scene, bundle = given_pair(scene, bundle)
+        if config is not None and not isinstance(config, SessionConfig):
+            require_settings(config)
+        if not (isinstance(scene, SceneSnapshot) and isinstance(bundle, HapticBundle)):
+            scene, bundle = given_pair(scene, bundle)
+        bundle.require_same_scene(scene)
         self._config = SessionConfig.parse(config)
         self._hands = checks.names("hands", hands)
         self._bundle = bundle
-        warn_if_other(bundle, self.config.actuator)
+        warn_if_other_actuator(bundle, self.config.actuator)
         self._sources = Sources()
         for object_id, loops in bundle.loops.items():
             if loops:
@@ -116,22 +115,17 @@ class HapticSession:
         follows_outlines = bool(getattr(self.config.propagation, "follows_outlines", False))
         self._state = SceneState(scene, bundle, follows_outlines=follows_outlines)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
-        self._switching = Switching(self._sources, self._playback, self.config.sample_rate_hz)
+        self._switching: Switching | None = None
         self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
-        self._off_surface, self._silent_objects = OffSurface(self._state), SilentObjects()
-        hand_frames, level = self._hand_frames, self._sources.user
-        self._impacts = Impacts(
-            self.config, self._state, self._playback, lambda: hand_frames.field, lambda: level.factor
-        )
+        self._mistakes = LikelyMistakes(self._state)
         self._landings = Landings(self._state.graph, self._state.middle_m, self.config.control_period_s)
         self._follows_landings = self.config.impacts
         self._output = Output(sink, self.config)
-        self._whole = WholeFrames(self.config.sample_rate_hz)
-        self._user, device = UserProfile.parse(user), self.config.actuator.name
-        self._limit = PersonalLimit(self._user.limits(self._hands, device), self.config.sample_rate_hz)
-        self._use_profile()
+        self._user: UserProfile | None = None
+        self._limit: PersonalLimit | None = None
+        if user is not None:
+            self._use_profile(UserProfile.parse(user))
         self._last_stamp = self._updates = 0
-        self._warned_of_silence = self._has_moved = False
 
     @property
     def config(self) -> SessionConfig:
@@ -190,7 +184,9 @@ class HapticSession:
             moved, touches = given_frame(moved, touches)
         felt = self._by_hand(touches)
         stamp = self._stamp(at_sample)
-        if self._switching.advance(stamp):
+        if self._switching is None and self._sources.switch_themselves:
+            self._switching = self._new_switching()
+        if self._switching is not None and self._switching.advance(stamp):
             self._hand_frames.levels_changed()
         if self._playback.take_prepared():
             self._hand_frames.loops_came()
@@ -208,8 +204,8 @@ class HapticSession:
         self._updates += 1
         self._output.feed(frame)
         if felt:
-            self._warn_if_nothing_vibrates()
-            self._off_surface.look(felt)
+            self._mistakes.in_sources(self._sources.ids)
+            self._mistakes.in_touches(felt)
         return frame
 
     def strike(
@@ -357,6 +353,7 @@ class HapticSession:
         """
         was_running = self._sources[source_id].is_running
         self._hand_frames.levels_changed(self._sources.set(source_id, on, state, gain_db, mute))
+        self._switching = self._switching or self._new_switching()
         self._switching.switched(source_id, was_running, self._now, by_hand=on is not None)
 
     def set_user(
@@ -370,11 +367,13 @@ class HapticSession:
 
         Raises: SessionError: out of bounds; ConfigError: a profile that cannot be read or is out of bounds.
         """
-        user = self._user if profile is None else UserProfile.parse(profile)
+        other = None if profile is None else UserProfile.parse(profile)
         self._sources.user.set(gain_db, mute)
-        if user is not self._user:
-            self._user = user
-            self._use_profile()
+        if other is not None:
+            if self._limit is None:
+                # So that the limits do not click, they begin at full scale.
+                self._limit = PersonalLimit(np.ones(len(self._hands)), self.config.sample_rate_hz)
+            self._use_profile(other)
         self._hand_frames.levels_changed()
 
     def pause(self) -> None:
@@ -504,7 +503,8 @@ class HapticSession:
                 error=SessionError,
                 hint="For a time give seconds: `render_s`, or `pull_s` of a sink.",
             )
-        return self._limit.applied(self._playback.render(n_frames))
+        mix = self._playback.render(n_frames)
+        return mix if self._limit is None else self._limit.applied(mix)
 
     @property
     def position(self) -> int:
@@ -521,7 +521,7 @@ class HapticSession:
         Raises: SessionError: the session has no sink; DeviceError: it cannot be opened; ConfigError: the actuator's
         budget is out of bounds. Warns: SceneWarning: nothing vibrates.
         """
-        self._warn_if_nothing_vibrates()
+        self._mistakes.in_sources(self._sources.ids)
         self._output.start(self._rendered, self.hands)
 
     def stop(self) -> None:
@@ -555,7 +555,7 @@ class HapticSession:
         stats = self._hand_frames.stats(self._updates, self._playback.rows_not_mixed)
         return replace(
             stats,
-            touches_off_surface=self._off_surface.n_touches,
+            touches_off_surface=self._mistakes.n_touches_off,
             impacts=self._impacts.n_reported,
             impacts_felt=self._impacts.n_felt,
             impacts_left_out=self._impacts.n_left_out,
@@ -565,6 +565,19 @@ class HapticSession:
     def safety_stats(self) -> SafetyStats:
         """Counters of the changes by the safety layer of a started session."""
         return self._output.safety_stats
+
+    @cached_property
+    def _impacts(self) -> Impacts:
+        # Not the session itself, which would then be freed by the garbage collector alone.
+        frames, level = self._hand_frames, self._sources.user
+        return Impacts(self.config, self._state, self._playback, lambda: frames.field, lambda: level.factor)
+
+    @cached_property
+    def _whole(self) -> WholeFrames:
+        return WholeFrames(self.config.sample_rate_hz)
+
+    def _new_switching(self) -> Switching:
+        return Switching(self._sources, self._playback, self.config.sample_rate_hz)
 
     @property
     def _now(self) -> int:
@@ -585,7 +598,7 @@ class HapticSession:
             self._sources.add(item.id, loops, haptics, gain_db, is_muted=muted)
             self._playback.change_rows(self._sources.rows(), self._now)
         self._hand_frames.apply(change, sources_changed=bool(loops))
-        self._silent_objects.look(item.id, haptics, loops)
+        self._mistakes.in_added(item.id, haptics, loops)
 
     def _exchange(self, object_id: str) -> None:
         """Replace an object: with the bundle's present data, at its present pose."""
@@ -596,14 +609,6 @@ class HapticSession:
         if before is not None and object_id in self._sources:
             self._sources.go_on(object_id, before)
             self._hand_frames.levels_changed(is_other_state=True)
-
-    def _warn_if_nothing_vibrates(self) -> None:
-        if not self._warned_of_silence and not self._sources.ids:
-            self._warned_of_silence = True
-            warn_of(
-                f"of {len(self._state.objects)} objects none vibrates, so that nothing but impacts will be felt; add "
-                "one with loops, or bundle.override(id, vibrates=True) and rebake(bundle)."
-            )
 
     def _stamp(self, at_sample: int | None) -> int:
         if at_sample is not None and type(at_sample) is not int:
@@ -622,17 +627,20 @@ class HapticSession:
         self._last_stamp = self._now if at_sample is None else at_sample
         return self._last_stamp
 
-    def _use_profile(self) -> None:
-        self._hand_frames.use_profile(self._user)
-        self._limit.limits = limits = self._user.limits(self._hands, self.config.actuator.name)
+    def _use_profile(self, user: UserProfile) -> None:
+        self._user = user
+        self._hand_frames.use_profile(user)
+        limits = user.limits(self._hands, self.config.actuator.name)
+        if self._limit is None:
+            self._limit = PersonalLimit(limits, self.config.sample_rate_hz)
+        self._limit.limits = limits
         self._output.hold(limits)
-        if self._user.hands and not any(hand in self._user.hands for hand in self._hands):
-            named, own = (", ".join(map(repr, hands)) for hands in (self._user.hands, self._hands))
-            warn_of(f"the user's profile is for the hands {named}; this session has {own}. Rename one of them.")
+        warn_if_other_hands(tuple(user.hands), self._hands)
 
     def _use_hands(self, hands: tuple[str, ...]) -> None:
         self._hands = hands
-        self._use_profile()
+        if self._user is not None:
+            self._use_profile(self._user)
         self._hand_frames.levels_changed()
 
     def _by_hand(self, touches: Sequence[Touch] | None) -> Felt:
@@ -658,9 +666,7 @@ class HapticSession:
         return by_hand
 
     def _changed(self, moved: Mapping[str, Pose], contacts: Sequence[Contact] | None) -> ContactChange:
-        if moved and not self._has_moved:
-            self._has_moved = True
-            warn_if_w_first(moved, self._state.graph.pose, self._state.objects)
+        self._mistakes.in_moves(moved)
         try:
             return self._state.graph.update(moved, contacts=None if contacts is None else given_contacts(contacts))
         except SceneError:

@@ -101,6 +101,7 @@ class Sources:
         self._ids: tuple[str, ...] | None = None
         self._active_rows: tuple[LoopRow, ...] | None = None
         self._need_contacts: bool | None = None
+        self._switch_themselves: bool | None = None
         self.user = Level()
 
     def __contains__(self, object_id: object) -> bool:
@@ -189,7 +190,7 @@ class Sources:
 
     def _list(self) -> None:
         """Forget what is derived from the sources and their states."""
-        self._ids = self._active_rows = self._need_contacts = None
+        self._ids = self._active_rows = self._need_contacts = self._switch_themselves = None
 
     @property
     def ids(self) -> tuple[str, ...]:
@@ -204,6 +205,14 @@ class Sources:
         if self._need_contacts is None:
             self._need_contacts = any(one.needs.get(one.state) is not None for one in self._sources.values())
         return self._need_contacts
+
+    @property
+    def switch_themselves(self) -> bool:
+        """Whether any of them runs and rests in turns by itself, as by a thermostat, in any of its states."""
+        if self._switch_themselves is None:
+            states = (state for one in self._sources.values() for state in one.inferred.values())
+            self._switch_themselves = any(state.on_s is not None for state in states)
+        return self._switch_themselves
 
     def factors(
         self, neighbours: Callable[[str], Iterable[str]], category: Callable[[str], str]
