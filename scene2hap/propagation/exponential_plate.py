@@ -25,8 +25,7 @@ from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.band_rms import BandRms, band_rms
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_hops, check_thin
-from scene2hap.propagation.live_law import GammaAt, GammaOver, LiveLaw
-from scene2hap.propagation.live_paths import LivePaths
+from scene2hap.propagation.live_law import GammaAt, GammaOver, LiveLaw, LivePaths
 from scene2hap.propagation.paths import Arrivals, cheapest_arrivals
 from scene2hap.propagation.plate import Plate, require_plate
 from scene2hap.propagation.points import arrivals_at, as_points
