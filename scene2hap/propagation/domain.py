@@ -136,9 +136,3 @@ def driven_on_held_edge(plate: Plate, drive_m: NDArray[np.float64]) -> ModelDoma
         f"the driven point ({drive_m[0, 0]:g}, {drive_m[0, 1]:g}) m lies on an edge that does not move (boundary "
         f"{plate.boundary!r}), so nothing can be related to its amplitude. Drive a point off the edge."
     )
-
-
-def check_hops(max_hops: int | None) -> None:
-    """Raises: ConfigError: it is neither None nor a whole number of at least 1 contact."""
-    if max_hops is not None:
-        checks.whole("max_hops", max_hops, "contacts", at_least=1, at_most=2**31 - 1, error=ConfigError)

@@ -20,12 +20,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
-from scene2hap.attributes import read_only
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.differences import changed_objects
 from scene2hap.bundle.given import given_pair
-from scene2hap.calls import clear_calls
+from scene2hap.calls import clear_calls, read_only
 from scene2hap.contact.graph import ContactChange
 from scene2hap.devices.protocol import ActuatorSink, Block
 from scene2hap.devices.whole_frames import WholeFrames
