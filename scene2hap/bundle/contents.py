@@ -54,19 +54,6 @@ class BundleContents:
         """Credits of the sounds, each once, in order of source and state."""
         return tuple(dict.fromkeys(loop.audible.credit for states in self.loops.values() for loop in states.values()))
 
-    def require_same_scene(self, scene: SceneSnapshot) -> None:
-        """Raise an UnknownObject where it has loops for objects that a scene lacks, or shares no object with it."""
-        ids = {item.id for item in scene.objects}
-        baked = self.loops if self.loops or ids & self.objects.keys() else self.objects
-        lacking = [object_id for object_id in baked if object_id not in ids]
-        if lacking:
-            near = checks.did_you_mean(lacking[0], ids)
-            raise UnknownObject(
-                f"the bundle was baked for another scene: {scene.name!r} has no object {lacking[0]!r} ({len(lacking)} "
-                f"of {len(baked)} are missing). {near}{' ' if near else ''}Give the scene that was baked, "
-                "bundle.snapshot, or bake this one."
-            )
-
     def is_muted(self, object_id: str) -> bool:
         """Whether a source is silent until a game unmutes it."""
         wish = self.overrides.get(object_id) if isinstance(object_id, str) else None
@@ -76,3 +63,17 @@ class BundleContents:
         """The level of a source at the hand against the inferred one [dB]."""
         wish = self.overrides.get(object_id) if isinstance(object_id, str) else None
         return wish.gain_db if wish is not None and wish.gain_db is not None else 0.0
+
+
+def require_same_scene(scene: SceneSnapshot, bundle: BundleContents) -> None:
+    """Raise an UnknownObject where a bundle has loops for objects that a scene lacks, or shares no object with it."""
+    ids = {item.id for item in scene.objects}
+    baked = bundle.loops if bundle.loops or ids & bundle.objects.keys() else bundle.objects
+    lacking = [object_id for object_id in baked if object_id not in ids]
+    if lacking:
+        near = checks.did_you_mean(lacking[0], ids)
+        raise UnknownObject(
+            f"the bundle was baked for another scene: {scene.name!r} has no object {lacking[0]!r} ({len(lacking)} "
+            f"of {len(baked)} are missing). {near}{' ' if near else ''}Give the scene that was baked, "
+            "bundle.snapshot, or bake this one."
+        )

@@ -23,12 +23,13 @@ from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.differences import changed_objects
+from scene2hap.bundle.contents import require_same_scene
 from scene2hap.bundle.given import given_pair
 from scene2hap.calls import clear_calls, read_only
 from scene2hap.contact.graph import ContactChange
 from scene2hap.devices.protocol import ActuatorSink, Block
 from scene2hap.devices.whole_frames import WholeFrames
-from scene2hap.errors import BundleError, SceneError, SessionError, UnknownObject
+from scene2hap.errors import SceneError, SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.render.safety import SafetyStats
 from scene2hap.scene.objects import Contact, SceneObject
@@ -38,12 +39,17 @@ from scene2hap.session.config import SessionConfig
 from scene2hap.session.explain import Explanation
 from scene2hap.session.frame import HapticFrame, SessionStats, Touch, unknown_hand
 from scene2hap.session.given import (
+    MAX_RENDERED_FRAMES,
     given_contacts,
     given_frame,
+    given_frames,
+    given_stamp,
     given_strike,
     given_touches,
     require_addable,
+    require_correction,
     require_pose,
+    require_prefab,
     require_settings,
     swapped_hint,
 )
@@ -62,12 +68,6 @@ from scene2hap.session.user_profile import PersonalLimit, UserProfile
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
-
-MAX_RENDERED_FRAMES = 1 << 24
-"""At once; assumed: minutes, where a sink asks for milliseconds."""
-
-MAX_AHEAD_S = 3600
-"""How far an update may lie ahead of what was rendered; assumed: further, it is a time in other units."""
 
 
 @clear_calls
@@ -101,7 +101,7 @@ class HapticSession:
             require_settings(config)
         if not (isinstance(scene, SceneSnapshot) and isinstance(bundle, HapticBundle)):
             scene, bundle = given_pair(scene, bundle)
-        bundle.require_same_scene(scene)
+        require_same_scene(scene, bundle)
         self._config = SessionConfig.parse(config)
         self._hands = checks.names("hands", hands)
         self._bundle = bundle
@@ -255,17 +255,7 @@ class HapticSession:
         Corrections of the prefab hold for each copy.
         Raises: SessionError: the bundle has not exactly one object; SceneError: the id is taken or empty.
         """
-        if not isinstance(prefab, HapticBundle):
-            raise SessionError(
-                f"prefab is {checks.shown(prefab)}; it must be a HapticBundle of one object: bake_object(...) or "
-                "HapticBundle.load(folder)."
-            )
-        if len(prefab.snapshot.objects) != 1:
-            raise SessionError(
-                f"prefab has {len(prefab.snapshot.objects)} objects; it must have one. Bake each with bake_object."
-            )
-        if not isinstance(pose, Pose):
-            raise SessionError(f"pose is {checks.shown(pose)}; it must be a Pose.")
+        require_prefab(prefab, pose)
         (original,) = prefab.snapshot.objects
         copy = replace(original, id=object_id, name=object_id, pose=pose)
         loops = prefab.loops.get(original.id, {})
@@ -278,13 +268,7 @@ class HapticSession:
         of `set_source` stays unless the bundle's own has changed. Objects that the session does not have are left out.
         Raises: BundleError: no bundle, or one of another scene.
         """
-        if not isinstance(bundle, HapticBundle):
-            raise BundleError(f"bundle is {checks.described(bundle)}; it must be a HapticBundle.")
-        if other := set(bundle.objects) ^ set(self._bundle.objects):
-            raise BundleError(
-                f"the bundle is of another scene: only one of it and the bundle in use has {min(other)!r}. Make "
-                "another session for another scene."
-            )
+        require_correction(bundle, self._bundle)
         before, self._bundle = self._bundle, bundle
         for object_id in changed_objects(before, bundle):
             if object_id in self._state.objects:
@@ -493,15 +477,7 @@ class HapticSession:
 
     def _rendered(self, n_frames: int) -> Block:
         if type(n_frames) is not int or not 0 <= n_frames <= MAX_RENDERED_FRAMES:
-            n_frames = checks.whole(
-                "n_frames",
-                n_frames,
-                "-",
-                at_least=0,
-                at_most=MAX_RENDERED_FRAMES,
-                error=SessionError,
-                hint="For a time give seconds: `render_s`, or `pull_s` of a sink.",
-            )
+            n_frames = given_frames(n_frames)
         mix = self._playback.render(n_frames)
         return mix if self._limit is None else self._limit.applied(mix)
 
@@ -610,21 +586,11 @@ class HapticSession:
             self._hand_frames.levels_changed(is_other_state=True)
 
     def _stamp(self, at_sample: int | None) -> int:
-        if at_sample is not None and type(at_sample) is not int:
-            at_sample = checks.whole("at_sample", at_sample, "-", at_least=0, at_most=2**62, error=SessionError)
-        if at_sample is not None and at_sample > self._now + MAX_AHEAD_S * self.config.sample_rate_hz:
-            raise SessionError(
-                f"at_sample is {checks.represented(at_sample)}, more than {MAX_AHEAD_S} s ahead of `position`, "
-                f"{self._playback.position}; it must be a number of samples on the clock of `render`. Leave it out for "
-                "now."
-            )
-        if at_sample is not None and at_sample < self._last_stamp:
-            raise SessionError(
-                f"at_sample is {checks.represented(at_sample)}; the last update was at {self._last_stamp}, and time "
-                "cannot go back. Give updates in the order in which they happen."
-            )
-        self._last_stamp = self._now if at_sample is None else at_sample
-        return self._last_stamp
+        now = self._now
+        if at_sample is not None:
+            now = given_stamp(at_sample, self._last_stamp, self._playback.position, self.config.sample_rate_hz)
+        self._last_stamp = now
+        return now
 
     def _use_profile(self, user: UserProfile) -> None:
         self._user = user
