@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
-from scene2hap.bundle.differences import changed_objects
 from scene2hap.bundle.contents import require_same_scene
+from scene2hap.bundle.differences import changed_objects
 from scene2hap.bundle.given import given_pair
 from scene2hap.calls import clear_calls, read_only
 from scene2hap.contact.graph import ContactChange
