@@ -28,7 +28,7 @@ from scene2hap.errors import BudgetExceeded, ConfigError, Scene2HapError
 from scene2hap.llm.batch import AnswerPending, BatchBackend, BatchFolder, BatchRow, BatchService, BatchStatus
 from scene2hap.llm.openai import OpenAIBackend
 from scene2hap.llm.protocol import LLMReply, LLMRequest
-from scene2hap.llm.waiting import run_waiting
+from scene2hap.llm.run_coroutine import run_waiting
 from scene2hap.llm.wrappers import CacheBackend, RepairBackend, identity, innermost
 from scene2hap.llm.wrappers.prices import price_list
 from scene2hap.llm.wrappers.stack import Wrapper
