@@ -18,7 +18,7 @@ from scene2hap.scene.snapshot import SceneSnapshot
 
 @dataclass(frozen=True)
 class BundleContents:
-    """A baked scene: what is in it, what inference says of each object, and the loops of each source by state.
+    """A baked scene: its objects, the answers of inference for each, and the loops of each source by state.
 
     `overrides` are a person's corrections; `choices` say why each sound was chosen, as a table of its
     candidates in text, by id and state; `made_with` are the settings that all loops share, None where nobody knows.

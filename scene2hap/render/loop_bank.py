@@ -172,7 +172,7 @@ def stored_once(samples: Block, begin: int) -> StoredLoop:
 
 
 def _stored(loop: AudioClip, bands: Bands, sample_rate_hz: int) -> _Stored:
-    """A loop as it is stored."""
+    """Split a loop into bands and store it as in the head of this module."""
     # Over `turns` turns the loop lasts exact / unit tactile samples.
     turns = _turns(len(loop.samples), loop.sample_rate_hz, sample_rate_hz)
     exact, unit = turns * len(loop.samples) * sample_rate_hz, loop.sample_rate_hz
@@ -187,7 +187,7 @@ def _stored(loop: AudioClip, bands: Bands, sample_rate_hz: int) -> _Stored:
 
 
 def _turns(n_samples: int, sample_rate_hz: int, tactile_rate_hz: int) -> int:
-    """How many turns, within a second, come nearest to a whole number of tactile samples, relative to their length."""
+    """Number of turns within a second whose length is nearest to a whole number of tactile samples."""
 
     def error(turns: int) -> float:
         rest = turns * n_samples * tactile_rate_hz % sample_rate_hz

@@ -153,7 +153,7 @@ class Mixer:
 
     @property
     def delay_s(self) -> float:
-        """How long after its frame on the clock a sample is felt [s]; the same for all frequencies."""
+        """Time from a frame on the clock to its sample [s]; the same for all frequencies."""
         return self._delay_s
 
     @property

@@ -39,7 +39,7 @@ _SMALL_PRODUCT = 2**18
 
 @dataclass(frozen=True, eq=False)
 class Gains:
-    """Where the mix is going.
+    """Target gains of the mix.
 
     values : (n_hands, n_loops, n_bands) of some loops, 0 for all others; loops : which these are; heard : which loops
     are mixed.
@@ -66,7 +66,7 @@ class Gains:
 
 
 def slots_for(ramp: int, sample_rate_hz: int) -> int:
-    """In how many slots gains are on the way, if they come once per millisecond."""
+    """Number of slots that hold gains during their ramps, if gains come once per millisecond."""
     return min(MOST_SLOTS, -(-1000 * (ramp + CELL) // sample_rate_hz) + 2)
 
 
@@ -227,7 +227,7 @@ class TactileMix:
         self._is_stale = True
 
     def compute(self) -> bool:
-        """Bring `x` up to date with the gains that have started; true if anything was to do."""
+        """Update `x` with the gains that have started. Returns whether that was necessary."""
         if not self._is_stale:
             return False
         self._is_stale = False

@@ -39,7 +39,7 @@ _PRICES = np.concatenate([[0.0], np.geomspace(1e-4, 100.0, 240)])
 
 
 class Audibility:
-    """Which bands of some sources are strong enough to be mixed.
+    """Decides which bands of some sources are strong enough to be mixed.
 
     Parameters: peaks : (n_sources, 2, n_bands), see `prepared_loops.peaks_of`; skip : what to leave out.
     """
@@ -82,7 +82,7 @@ class Audibility:
 
 
 class CutoffCost:
-    """The vibration that arrives and that is felt of each source of a field, by path cost.
+    """Table of the gain and of the vibration felt of each source of a field, by path cost.
 
     Sources of equal excitation and equal peaks, as copies of an object are, share one column of the table.
     Raises: ModelDomainError: the field returns another shape.

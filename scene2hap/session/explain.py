@@ -36,7 +36,7 @@ LEAST_SHARE = 0.01
 
 @dataclass(frozen=True)
 class PathStep:
-    """One object on the way: how far through it [m], and how the level changes on that [dB].
+    """One object on a path: the length through it [m], and the change of the level over that length [dB].
 
     by_way_of : objects through which a short cut leads, from this one back to it; their lengths count in.
     """
@@ -72,7 +72,7 @@ class FeltSource:
 
     @property
     def length_m(self) -> float:
-        """Length of the whole way [m]."""
+        """Length of the whole path [m]."""
         return sum(step.length_m for step in self.steps)
 
     def __str__(self) -> str:
@@ -132,7 +132,7 @@ class Explanation:
 
 
 class Explainer:
-    """Explains one moment.
+    """Explains the gains of one moment.
 
     Parameters: field : in use, which `gains` evaluates; levels : of each source at the hand, by band (n_bands,) [-].
     """
@@ -184,7 +184,8 @@ def decibels(gain: float) -> float:
 
 
 def _steps(way: LoudestPath, point_m: Point, gain_at: Callable[[str, Point], float]) -> tuple[PathStep, ...]:
-    """A step runs through its object up to the next contact; what the contact costs counts to the object behind it."""
+    """Steps of a path. A step runs through its object up to the next contact; the loss of a contact belongs to the
+    object behind it."""
     steps, before_db = [PathStep(way.objects[0], 0.0, 0.0)], 0.0
     leaves = (*way.entries, point_m)[1:]
     for object_id, enter, leave in zip(way.objects[1:], way.entries, leaves, strict=True):
@@ -245,7 +246,7 @@ def loudest_path(
     bodies: Mapping[str, Body],
     model: object,
 ) -> LoudestPath | None:
-    """The cheapest way over contacts (Dijkstra), None if there is none; priced as in `propagation.paths`."""
+    """The cheapest path over contacts (Dijkstra), with the costs of `propagation.paths`; None if there is none."""
     if source_id == target_id:
         return LoudestPath((source_id,))
     law = model if isinstance(model, ExponentialPlate) else ExponentialPlate()

@@ -75,7 +75,7 @@ class FieldKeeper:
 
     @property
     def age_s(self) -> float:
-        """For how long the field in use has been out of date [s]."""
+        """Time for which the field in use has been out of date [s]."""
         outdated = self.in_use.situation.outdated_at_s
         return 0.0 if outdated is None else time.monotonic() - outdated
 
@@ -124,7 +124,7 @@ class FieldKeeper:
         return gained
 
     def take(self) -> bool:
-        """Take the newest field that is ready into use; false if it is already."""
+        """Take the newest field that is ready into use. Returns false if none is newer."""
         try:
             answer = self._desk.answers.pop()
         except IndexError:
@@ -138,8 +138,10 @@ class FieldKeeper:
         return False
 
     def wait(self, timeout_s: float | None = None) -> bool:
-        """Wait until nothing is being prepared, and what is touched is expected; false after the timeout [s]. The field
-        is then taken into use."""
+        """Wait until no field is being prepared and `expect` has run for all touched objects, and use that field.
+
+        Returns false after the timeout [s].
+        """
         end_s = None if timeout_s is None else time.monotonic() + timeout_s
         self.order()
         while True:
@@ -214,7 +216,7 @@ class LiveKeeper:
         return self.in_use
 
     def request(self, excitations: Sequence[Excitation]) -> None:
-        """Make a field of the present objects and sources, unless the one in use is of the same."""
+        """Make a field of the present objects and sources, unless the field in use is of the same."""
         self.n_prepared += 1
         bodies = self._state.bodies
         if self._made_for is None or self._made_for[0] is not bodies or self._made_for[1] is not excitations:

@@ -30,7 +30,7 @@ _TOUCH = "Touch(hand, object_id, point_m)"
 
 
 def require_settings(config: object) -> None:
-    """Raise a ConfigError where arguments of a session are given as its settings: its hands, or a sink."""
+    """Raise a ConfigError if other arguments of a session, its hands or a sink, are given as settings."""
     if isinstance(config, ActuatorSink):
         raise ConfigError(f"config is {checks.described(config)}; write HapticSession(..., sink=sink).")
     for name in ("hands", "sink"):
@@ -127,7 +127,7 @@ def given_contacts(contacts: object) -> Sequence[Contact]:
 def given_strike(
     object_id: str, point_m: object, with_object: str | None, speed_m_s: object, impulse_n_s: object
 ) -> Strike:
-    """A strike; a knock where nobody says how hard. Raises: SessionError: numbers that are out of bounds."""
+    """A strike; a knock without speed and impulse. Raises: SessionError: numbers that are out of bounds."""
     x, y, z = checks.vector("point_m", point_m, "m", size=3, error=SessionError)
     if speed_m_s is not None and impulse_n_s is not None:
         raise SessionError("speed_m_s and impulse_n_s are both given; give one of them.")

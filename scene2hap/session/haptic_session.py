@@ -1,4 +1,4 @@
-"""A scene under hands.
+"""A session: plays the vibration of a scene at the hands that touch it.
 
 `render` belongs to the audio thread, everything else to the game's. `update` keeps the contact graph, has the
 propagation field prepared when a contact changed unless it follows by itself, and turns touches into gains; `render`
@@ -73,7 +73,7 @@ if TYPE_CHECKING:
 @clear_calls
 @read_only
 class HapticSession:
-    """A scene under hands.
+    """A session: plays the vibration of a scene at the hands that touch it.
 
     Parameters: scene : objects and where they are now; bundle : what was baked for them; config : a SessionConfig, its
     settings, or the path of a TOML or JSON file with a table `session`; hands : names of the outputs; sink : where
@@ -152,7 +152,7 @@ class HapticSession:
 
     @property
     def poses(self) -> Mapping[str, Pose]:
-        """Where every object is now, by id."""
+        """The present pose of every object, by id."""
         return self._state.poses
 
     @property
@@ -168,11 +168,11 @@ class HapticSession:
         contacts: Sequence[Contact] | None = None,
         at_sample: int | None = None,
     ) -> HapticFrame:
-        """Take in a frame of the game, and set the gains that follow from it.
+        """Apply a frame of the game: move objects, and set the gains of all hands.
 
         Parameters: moved : new poses of objects that moved; touches : all touches of this frame (a hand that is not
         among them is lifted; one with several feels the largest gain per source); contacts : contacts that an engine
-        tells, instead of those found from geometry; at_sample : the position on `render`'s clock from which the gains
+        reports, instead of those found from geometry; at_sample : the position on `render`'s clock from which the gains
         change, None for the next block.
         A single Touch, touches as the first argument, and (hand, object id, point) instead of a Touch are taken too.
         Warns: SceneWarning: a hand touches an object more than 5 cm from its surface, once per hand; nothing vibrates.
@@ -262,7 +262,7 @@ class HapticSession:
         self._put(copy, prefab.objects.get(original.id), loops, prefab, original.id)
 
     def use_bundle(self, bundle: HapticBundle) -> None:
-        """Go on with a corrected bundle of the same scene: loops that differ fade over, levels are felt at once.
+        """Play a corrected bundle of the same scene: loops that differ are cross-faded, levels change at once.
 
         Objects stay where they are, and sources stay in their state if they still have it, on or off; a level or mute
         of `set_source` stays unless the bundle's own has changed. Objects that the session does not have are left out.
@@ -284,7 +284,7 @@ class HapticSession:
                 )
 
     def remove(self, object_id: str) -> None:
-        """Take an object out of the scene; what is felt of it fades.
+        """Take an object out of the scene; its vibration fades out.
 
         Raises: UnknownObject; SessionError: it is the last object.
         """
@@ -371,7 +371,7 @@ class HapticSession:
         self._hand_frames.levels_changed()
 
     def explain(self, hand: str) -> Explanation:
-        """Each source that a hand felt at the last update, and its way there, and the impacts of the last second.
+        """Report the sources that a hand felt at the last update, their paths, and the impacts of the last second.
 
         Raises: SessionError: an unknown hand.
         """
@@ -381,7 +381,7 @@ class HapticSession:
 
     @property
     def is_current(self) -> bool:
-        """Whether gains are of the scene as it is; false while a worker prepares a newer field."""
+        """Whether gains are those of the present scene; false while a worker prepares a newer field."""
         return self._hand_frames.keeper.is_current
 
     @property
@@ -483,11 +483,11 @@ class HapticSession:
 
     @property
     def position(self) -> int:
-        """The sample that `render` gives next, on the clock that `at_sample` speaks of; it stands still in a pause."""
+        """Number of the next sample of `render`, on the same clock as `at_sample`; it stands still in a pause."""
         return self._playback.position
 
     def position_s(self, source_id: str) -> float:
-        """Where in its loop a source is [s], for a game that plays the audible loop beside. Raises: UnknownObject."""
+        """Position of a source in its loop [s], for a game that plays the audible loop. Raises: UnknownObject."""
         return self._playback.position_s(self._sources[source_id].row)
 
     def start(self) -> None:
@@ -566,7 +566,7 @@ class HapticSession:
         corrected: HapticBundle,
         its_id: str,
     ) -> None:
-        """Put in an object with the level and the mute switch that a bundle has for `its_id`."""
+        """Add an object with the level and the mute switch that a bundle has for `its_id`."""
         change = self._state.add(item, haptics)
         if loops:
             gain_db, muted = corrected.gain_db(its_id), corrected.is_muted(its_id)

@@ -53,7 +53,7 @@ LEAST_GAIN = 10 ** (-60 / 20)
 MOST_WAITING = 4
 """Impacts that a worker has yet to compute."""
 LATEST_S = 0.3
-"""After which an impact is not felt any more; assumed: what is later is taken for another one."""
+"""Latest start of an impact after its time [s]; assumed: a later one would be taken for another impact."""
 KEPT = 64
 KNOCK_M_S = 0.5
 """Of a finger that knocks; assumed."""
@@ -192,7 +192,7 @@ class Impacts:
         return not wait(self._waiting, timeout_s).not_done
 
     def _levels(self, burst: Burst, hands: list[str], profile: UserProfile | None) -> Floats:
-        """Amplitude of each sine at each of these hands, were it at the struck point (n_hands, n) [-]."""
+        """Amplitude of each sine at each of these hands, as if it touched the struck point (n_hands, n) [-]."""
         actuator, f = self._config.actuator, burst.frequencies_hz
         accelerations = burst.accelerations_m_s2
         peak = peak_of(self._waves(burst), accelerations, burst.decays_s, self._config.sample_rate_hz)
@@ -212,7 +212,7 @@ class Impacts:
         return [wave_of(f, decay, rate_hz) for f, decay in components]
 
     def _is_admitted(self, strike: Strike, felt: Felt, at_frame: int) -> bool:
-        """Whether an impact may be felt, which then counts as the pair's last."""
+        """Whether an impact may be felt. If so, it is recorded as the last of its pair."""
         if not felt or self._playback.is_paused or not self._user_factor():
             return False
         pair = (strike.object_id, strike.with_object)
@@ -244,7 +244,7 @@ class Impacts:
             self.n_felt += 1
 
     def _order(self, prepared: Callable[[], Floats], sound: Callable[[Floats, int], None], at_frame: int) -> None:
-        """Have a worker prepare what arrives, and let it sound then, unless that is too late to be of that impact."""
+        """Let a worker prepare the gains and start the burst, unless it is more than `LATEST_S` late by then."""
         latest = at_frame + round(LATEST_S * self._config.sample_rate_hz)
 
         def work() -> None:

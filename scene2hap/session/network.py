@@ -32,7 +32,7 @@ HEAD_NOUNS = frozenset(_HEAD_NOUNS.split())
 
 
 def is_assembled(haptics: ObjectHaptics) -> bool:
-    """Whether an object is furniture, and nobody chose its material, whose loss would then be meant."""
+    """Whether an object is furniture whose material no person chose; a chosen material keeps its own loss."""
     head = haptics.object_category.lower().rpartition(" ")[2]
     return head in HEAD_NOUNS and haptics.provenance.get("material") != USER
 
@@ -108,7 +108,7 @@ class PlatePoses(Mapping[str, Pose]):
 
 @lru_cache(maxsize=4096)
 def _corner(surface: DominantSurface, length_m: float, width_m: float, *, has_outline: bool = False) -> Pose:
-    """A plate whose size was corrected shares its middle with the surface, or the outline, that was measured."""
+    """Pose of a plate's corner. A plate of corrected size keeps the middle of the measured surface or outline."""
     x, y = surface.length_m, surface.width_m
     if has_outline and surface.outline is not None:
         x0, y0, x1, y1 = surface.outline.box_m

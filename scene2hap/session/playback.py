@@ -116,7 +116,7 @@ class _Plan:
 
 @dataclass(eq=False)
 class _Place:
-    """Where a loop is; `free_at` is the frame from which on nothing of it can be left, once it was given up."""
+    """Bank and slot of a loop; `free_at` is the frame after which a loop that was given up has faded."""
 
     bank: SlotBank
     slot: int
@@ -281,8 +281,10 @@ class Playback:
     def pass_over(
         self, row: LoopRow, of: LoopRow, at_frame: int, lasts_s: float, course: Course, since: Running
     ) -> Passage | None:
-        """Make a row that is to be played of another, once, on its way up or down from a frame on; None if that is
-        still being prepared."""
+        """Add a row that plays another row once while it starts or stops, from a frame on.
+
+        Returns None if the other row is still being prepared.
+        """
         ready = self._ready.get(of)
         if ready is None:
             return None
@@ -302,7 +304,7 @@ class Playback:
         return frame * self._tactile_rate_hz // self._config.sample_rate_hz
 
     def add_hand(self) -> None:
-        """One output more, the last."""
+        """Add an output, behind the others."""
         token, self._next_hand = self._next_hand, self._next_hand + 1
         self._hands.append(token)
         self._mixers += [MixerInstance(self._config, bank, (token,), self._position) for bank in self._banks]

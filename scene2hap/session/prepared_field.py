@@ -121,8 +121,7 @@ def _shared(ours: tuple[str, ...], theirs: tuple[str, ...]) -> tuple[NDArray[np.
 
 
 class FieldInUse:
-    """A `LiveField` of prepared fields, which are replaced as others are prepared; notes what is touched, so that this
-    is prepared first.
+    """A `LiveField` of the newest prepared fields. It reports touches, so that touched objects are prepared first.
 
     Parameters: as_now : makes a live field of a prepared one; note : called with the touches. `use` comes first.
     """

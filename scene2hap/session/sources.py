@@ -44,7 +44,7 @@ class Level:
 
 @dataclass(frozen=True, eq=False)
 class LoopRow:
-    """One state of one source: what the mix has a row of loops for. Each is itself alone, whatever its names."""
+    """One state of one source, and a row of the mix. Rows are equal only to themselves."""
 
     source_id: str
     state: str
@@ -93,7 +93,7 @@ class Source:
 
 
 class Sources:
-    """The sources that are there now, in the order in which they came; each is on at first, in its first state."""
+    """The present sources, in the order in which they were added; each is on at first, in its first state."""
 
     def __init__(self) -> None:
         self._sources: dict[str, Source] = {}
@@ -130,11 +130,12 @@ class Sources:
         self._list()
 
     def get(self, object_id: str) -> Source | None:
-        """A source, None if the object is none."""
+        """A source; None if the object does not vibrate."""
         return self._sources.get(object_id)
 
     def go_on(self, source_id: str, before: Source) -> None:
-        """Let a source go on as it was before its loops were exchanged; the first state gives way to a new first."""
+        """Restore switch, level and state of a source whose loops were exchanged. A source in its first state takes the
+        new first state."""
         source = self._sources[source_id]
         source.is_on, source.level = before.is_on, before.level
         if before.state != next(iter(before.rows)) and before.state in source.rows:
@@ -160,7 +161,7 @@ class Sources:
         return [row for source in sources for row in source.rows.values()] + passing
 
     def let_pass(self, source_id: str, row: LoopRow | None) -> None:
-        """Play a row while a source starts or stops, None for that of its state again."""
+        """Play a row while a source starts or stops; None returns to the row of its state."""
         self._sources[source_id].passing = row
         self._active_rows = None
 
@@ -189,7 +190,7 @@ class Sources:
         return is_other
 
     def _list(self) -> None:
-        """Forget what is derived from the sources and their states."""
+        """Drop all values derived from the sources and their states."""
         self._ids = self._active_rows = self._need_contacts = self._switch_themselves = None
 
     @property
