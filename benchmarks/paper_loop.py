@@ -34,8 +34,7 @@ from scene2hap import Bands, HapticSession, Plate, Pose, Touch
 from scene2hap.contact.broad_phase import BroadPhase
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.propagation.band_rms import BandRms
-from scene2hap.propagation.live_law import LiveLaw
-from scene2hap.propagation.live_paths import LivePaths
+from scene2hap.propagation.live_law import LiveLaw, LivePaths
 from scene2hap.session.audibility import Audibility
 from scene2hap.session.playback import Playback
 

@@ -109,7 +109,7 @@ def __getattr__(name: str) -> Any:
 
     if name.startswith("_") or find_spec(f"{__name__}.{name}") is not None:  # a room that is about to be imported
         raise AttributeError(f"module 'scene2hap' has no attribute {name!r}")
-    from scene2hap.attributes import unknown_attribute
+    from scene2hap.calls import unknown_attribute
 
     raise unknown_attribute("scene2hap", name, __dir__())
 

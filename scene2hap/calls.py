@@ -1,24 +1,127 @@
-"""Calls whose arguments do not fit are answered with what the function takes.
+"""Errors for arguments that do not fit a call, and for attributes that do not exist or cannot be set.
 
-Classes of the public surface are decorated by `clear_calls`, or by `clear_construction` where a wrapper would slow
-down methods that are called in every frame; either also answers attributes that do not exist.
+Classes of the public surface are decorated by `clear_calls`; by `clear_construction` where a wrapper would slow down
+methods that are called in every frame; or by `clear_attributes` alone. Each message names the nearest that exists.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import inspect
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import FunctionType
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, NamedTuple, NoReturn, ParamSpec, TypeVar
 
 from scene2hap import checks
-from scene2hap.attributes import clear_attributes
-from scene2hap.errors import CallError
+from scene2hap.errors import CallError, ReadOnlyAttribute, UnknownAttribute
 
 Arguments = ParamSpec("Arguments")
 Result = TypeVar("Result")
 Class = TypeVar("Class", bound=type)
+
+
+class Missing(NamedTuple):
+    """The sentence for a name that something does not have.
+
+    The text is made when it is read: `hasattr` and `isinstance` of a protocol look up many names that are not there.
+    """
+
+    owner: str
+    wanted: str
+    known: tuple[str, ...]
+
+    def __str__(self) -> str:
+        near = checks.did_you_mean(self.wanted, self.known, f"There are {', '.join(self.known) or 'none'}.")
+        return f"{self.owner} has no attribute {checks.represented(self.wanted)}. {near}"
+
+
+def unknown_attribute(owner: str, wanted: str, known: Iterable[str]) -> UnknownAttribute:
+    """The error for a name that is none of those known."""
+    # Without an `obj` of its own, Python would keep the instance alive and append a suggestion of its own.
+    return UnknownAttribute(Missing(owner, wanted, tuple(sorted(known))), name=wanted, obj=None)
+
+
+def clear_attributes(cls: Class) -> Class:
+    """Raise errors of our own for a missing attribute, an index, and setting a field of frozen data. A decorator.
+
+    Copying, pickling and `hasattr` work as before, and so does a `__getattr__` that the class has already.
+    """
+    earlier = getattr(cls, "__getattr__", None)
+
+    def answer(self: Any, name: str) -> Any:
+        if earlier is not None:
+            try:
+                return earlier(self, name)
+            except UnknownAttribute:
+                raise
+            except AttributeError:
+                if name.startswith("_"):
+                    raise
+                raise unknown_attribute(type(self).__name__, name, _public(self)) from None
+        if any(name in vars(base) for base in type(self).__mro__):
+            return object.__getattribute__(self, name)  # a property raised an AttributeError: report that one
+        if name.startswith("_"):
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+        raise unknown_attribute(type(self).__name__, name, _public(self))
+
+    def refuse_item(self: Any, key: object) -> NoReturn:
+        raise CallError(
+            f"a {type(self).__name__} has no items, so that [{checks.represented(key)}] gives nothing; "
+            f"it has {', '.join(sorted(_public(self)))}."
+        )
+
+    _set(cls, "__getattr__", answer)
+    if not hasattr(cls, "__getitem__") and not hasattr(cls, "__iter__"):
+        _set(cls, "__getitem__", refuse_item)
+    parameters = getattr(cls, "__dataclass_params__", None)
+    if parameters is not None and parameters.frozen and "__setattr__" in vars(cls):
+        _set(cls, "__setattr__", _frozen(vars(cls)["__setattr__"]))
+    return cls
+
+
+def read_only(cls: Class) -> Class:
+    """Refuse to set public attributes, which would do nothing; a class's own names begin with _. A decorator."""
+
+    def refuse(self: Any, name: str, value: object) -> None:
+        if name[:1] != "_":
+            raise _cannot_set(self, name, "; call one of its methods")
+        object.__setattr__(self, name, value)
+
+    _set(cls, "__setattr__", refuse)
+    return cls
+
+
+def _frozen(earlier: Any) -> Any:
+    def refuse(self: Any, name: str, value: object) -> None:
+        try:
+            earlier(self, name, value)
+        except dataclasses.FrozenInstanceError:
+            how = f", since it never changes; dataclasses.replace(..., {name}=...) makes another"
+            raise _cannot_set(self, name, how) from None
+
+    return refuse
+
+
+def _cannot_set(self: object, name: str, how: str) -> ReadOnlyAttribute | UnknownAttribute:
+    owner, known = type(self).__name__, _public(self)
+    if name in known:
+        return ReadOnlyAttribute(f"{name} of a {owner} cannot be set{how}.")
+    return unknown_attribute(owner, name, known)
+
+
+def _public(self: object) -> set[str]:
+    cls = type(self)
+    settings = getattr(cls, "model_fields", None)  # of pydantic, whose classes have dozens of methods
+    if settings is not None:
+        return set(settings)
+    fields: Iterable[str] = getattr(cls, "__dataclass_fields__", ())
+    return {name for name in {*dir(cls), *fields, *getattr(self, "__dict__", ())} if not name.startswith("_")}
+
+
+def _set(cls: type, name: str, function: Any) -> None:
+    function.__name__, function.__qualname__ = name, f"{cls.__name__}.{name}"
+    type.__setattr__(cls, name, function)
 
 
 def clear_call(function: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
@@ -41,7 +144,7 @@ def clear_call(function: Callable[Arguments, Result]) -> Callable[Arguments, Res
 
 
 def clear_construction(cls: Class) -> Class:
-    """A class whose constructor and class methods answer as `clear_call` does; its attributes, see `attributes`."""
+    """Treat the constructor and class methods by `clear_call`, and attributes by `clear_attributes`. A decorator."""
     init = getattr(cls, "__init__")  # noqa: B009  # the function of the class itself
     type.__setattr__(cls, "__init__", clear_call(_taking_nothing(cls) if init is object.__init__ else init))
     for name, method in _public_methods(cls, classmethod):
@@ -50,7 +153,7 @@ def clear_construction(cls: Class) -> Class:
 
 
 def clear_calls(cls: Class) -> Class:
-    """A class whose constructor and public methods answer as `clear_call` does; its attributes, see `attributes`."""
+    """Treat the constructor and public methods by `clear_call`, and attributes by `clear_attributes`. A decorator."""
     for name, method in _public_methods(cls, FunctionType):
         setattr(cls, name, clear_call(method))
     return clear_construction(cls)

@@ -12,7 +12,7 @@ from typing import Any, ClassVar, Self
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from scene2hap import checks
-from scene2hap.attributes import clear_attributes
+from scene2hap.calls import clear_attributes
 from scene2hap.errors import ConfigError
 from scene2hap.text_files import read_small_text
 

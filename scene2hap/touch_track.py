@@ -16,7 +16,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, model_validator
 
 from scene2hap import checks
-from scene2hap.attributes import clear_attributes
+from scene2hap.calls import clear_attributes
 from scene2hap.errors import SessionError
 from scene2hap.text_files import read_small_text
 

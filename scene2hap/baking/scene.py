@@ -26,7 +26,7 @@ from scene2hap.errors import ConfigError, SceneError
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.llm.chain import Inference, infer_scene
 from scene2hap.llm.report import InferenceReport
-from scene2hap.llm.waiting import run_waiting
+from scene2hap.llm.run_coroutine import run_waiting
 from scene2hap.llm.wrappers import reports
 from scene2hap.scene.check import SceneWarning
 from scene2hap.scene.given import given_scene

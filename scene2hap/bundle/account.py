@@ -24,7 +24,7 @@ FORMAT, VERSION = "scene2hap/account", 1
 
 
 def account_path(folder: str | os.PathLike[str]) -> Path:
-    """Where the account of the bundle in a folder is."""
+    """Path of the account of the bundle in a folder."""
     place = Path(folder).absolute()
     return place.with_name(f"{place.name}.account.json")
 

@@ -1,4 +1,4 @@
-"""Mappings of a bundle, which answer a key that is not there with the nearest."""
+"""Mappings of a bundle whose error for a missing key names the nearest one."""
 
 from __future__ import annotations
 

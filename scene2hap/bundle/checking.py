@@ -12,11 +12,11 @@ from scene2hap.scene import sizes
 
 
 class BundleWarning(UserWarning):
-    """Something in a bundle that can be read and hardly means what it says, or that lacks what baking again needs."""
+    """A bundle has a value that is probably wrong, or lacks data that `rebake` needs."""
 
 
 def require_plausible(bundle: BundleContents, folder: Path) -> None:
-    """Hold sizes against the measured ones, and needed contacts against what there is.
+    """Check sizes against the measured ones, and that the scene can meet each needed contact.
 
     Raises: BundleError: a size that no plate of that object has.
     Warns: BundleWarning: a state that waits for a contact which nothing in the scene can give.

@@ -11,14 +11,14 @@ from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle.by_name import ByName, by_name
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.override import Override
-from scene2hap.errors import BundleError
+from scene2hap.errors import BundleError, UnknownObject
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics
 from scene2hap.scene.snapshot import SceneSnapshot
 
 
 @dataclass(frozen=True)
 class BundleContents:
-    """A baked scene: what is in it, what inference says of each object, and the loops of each source by state.
+    """A baked scene: its objects, the answers of inference for each, and the loops of each source by state.
 
     `overrides` are a person's corrections; `choices` say why each sound was chosen, as a table of its
     candidates in text, by id and state; `made_with` are the settings that all loops share, None where nobody knows.
@@ -63,3 +63,17 @@ class BundleContents:
         """The level of a source at the hand against the inferred one [dB]."""
         wish = self.overrides.get(object_id) if isinstance(object_id, str) else None
         return wish.gain_db if wish is not None and wish.gain_db is not None else 0.0
+
+
+def require_same_scene(scene: SceneSnapshot, bundle: BundleContents) -> None:
+    """Raise an UnknownObject where a bundle has loops for objects that a scene lacks, or shares no object with it."""
+    ids = {item.id for item in scene.objects}
+    baked = bundle.loops if bundle.loops or ids & bundle.objects.keys() else bundle.objects
+    lacking = [object_id for object_id in baked if object_id not in ids]
+    if lacking:
+        near = checks.did_you_mean(lacking[0], ids)
+        raise UnknownObject(
+            f"the bundle was baked for another scene: {scene.name!r} has no object {lacking[0]!r} ({len(lacking)} "
+            f"of {len(baked)} are missing). {near}{' ' if near else ''}Give the scene that was baked, "
+            "bundle.snapshot, or bake this one."
+        )

@@ -2,7 +2,7 @@
 
     {"format": "scene2hap/overrides", "version": 1, "overrides": {"fridge": {"material": "oak", "gain_db": -3.0}}}
 
-Fields are those of `HapticBundle.override`, but for clips; what is absent stays as it was.
+Fields are those of `HapticBundle.override`, but for clips; absent fields stay as they were.
 """
 
 from __future__ import annotations

@@ -1,10 +1,12 @@
-"""In what two bundles differ, for people."""
+"""The differences between two bundles: in words for people, and the objects that a session has to exchange."""
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
+
+import numpy as np
 
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle.contents import BundleContents
@@ -13,7 +15,7 @@ from scene2hap.haptics import ObjectHaptics
 
 
 class Difference(NamedTuple):
-    """One thing in which an object differs: what, and its value in either bundle, "-" where it has none."""
+    """One property of an object that differs, and its value in either bundle, "-" where it has none."""
 
     object_id: str
     what: str
@@ -22,7 +24,7 @@ class Difference(NamedTuple):
 
 
 def differences(one: BundleContents, other: BundleContents) -> tuple[Difference, ...]:
-    """In what two bundles differ, object by object; loops by their samples."""
+    """List what differs between two bundles, object by object; loops by their samples."""
     ids = list(dict.fromkeys((*(item.id for item in one.snapshot.objects), *(x.id for x in other.snapshot.objects))))
     sides = [{object_id: dict(_said(bundle, object_id)) for object_id in ids} for bundle in (one, other)]
     return tuple(
@@ -70,3 +72,24 @@ def _digest(loop: HapticLoop) -> str:
     """The frequency of a tactile loop, and a name for its samples."""
     content = hashlib.sha256(loop.tactile.samples.tobytes() + loop.audible.samples.tobytes()).hexdigest()[:8]
     return f"{loop.frequency_tactile_hz:.1f} Hz ({content})"
+
+
+def changed_objects(before: BundleContents, after: BundleContents) -> list[str]:
+    """Ids of objects whose haptics or tactile loops differ, in the order of `after`."""
+    ids = dict.fromkeys((*after.objects, *before.objects))
+    return [
+        key
+        for key in ids
+        if before.objects.get(key) != after.objects.get(key)
+        or not _are_equal(before.loops.get(key, {}), after.loops.get(key, {}))
+    ]
+
+
+def _are_equal(one: Mapping[str, HapticLoop], other: Mapping[str, HapticLoop]) -> bool:
+    """Whether both have the same states in the same order, and sound alike to the hand."""
+    return list(one) == list(other) and all(_is_same(one[state], other[state]) for state in one)
+
+
+def _is_same(one: HapticLoop, other: HapticLoop) -> bool:
+    a, b = one.tactile, other.tactile
+    return a is b or (a.sample_rate_hz == b.sample_rate_hz and np.array_equal(a.samples, b.samples))

@@ -1,4 +1,4 @@
-"""Two paths that swap what they name in one step, where the system has such a step."""
+"""Swap two folders in one step, on systems that have such a step."""
 
 from __future__ import annotations
 

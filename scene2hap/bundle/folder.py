@@ -59,7 +59,7 @@ _DAMAGE = (ArithmeticError, AttributeError, LookupError, MemoryError, OSError, R
 
 
 def write_bundle(bundle: BundleContents, target: Path) -> Path:
-    """Write the folder whole or not at all; a bundle that is there already is replaced, and what is not ours stays.
+    """Write the folder whole or not at all; an older bundle there is replaced, and files of others stay.
 
     Raises: BundleVersionError: a bundle of a newer scene2hap is there; BundleError: the folder holds something else, is
     the one that the process works in, or cannot be written.
@@ -170,7 +170,7 @@ def _read(folder: Path) -> BundleContents:
 
 @contextmanager
 def _reading(path: Path) -> Iterator[None]:
-    """Says of what goes wrong in the block which file it is about. Raises: BundleError and its children alone."""
+    """Turn errors of the block into a BundleError or a child of it that names the file."""
     try:
         yield
     except BundleError as cause:

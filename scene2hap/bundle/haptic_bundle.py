@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 @clear_calls
 @dataclass(frozen=True)
 class HapticBundle(BundleContents):
-    """A baked scene: what is in it, what inference says of each object, and the loops of each source by state.
+    """A baked scene: its objects, the answers of inference for each, and the loops of each source by state.
 
     `overrides` are a person's corrections; `choices` say why each sound was chosen, as a table of its
     candidates in text, by id and state; `made_with` are the settings that all loops share, None where nobody knows.
@@ -110,7 +110,7 @@ class HapticBundle(BundleContents):
         return bundle
 
     def with_overrides(self) -> Self:
-        """With every correction in force, as far as no new loops are needed for it."""
+        """The bundle with every correction applied that needs no new loops."""
         objects = {
             object_id: self.overrides[object_id].applied(haptics) if object_id in self.overrides else haptics
             for object_id, haptics in self.objects.items()
@@ -178,7 +178,7 @@ class HapticBundle(BundleContents):
         return bundle_table(self)
 
     def save(self, folder: str | os.PathLike[str]) -> Path:
-        """Write the folder whole or not at all; a bundle that is there already is replaced, and what is not ours stays.
+        """Write the folder whole or not at all; an older bundle there is replaced, and files of others stay.
 
         Raises: BundleVersionError: a bundle of a newer scene2hap is there; BundleError: the folder holds something
         else, is the one that the process works in, or cannot be written.

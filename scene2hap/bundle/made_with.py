@@ -16,7 +16,7 @@ class MadeWith:
     """The settings of a bake that decide how a loop is made from its sound.
 
     `tactile` is the converter as configuration: its `kind` and settings; one that was given ready made and is
-    registered nowhere has a `class` instead, and cannot be built again. `seed` is of what is synthesized.
+    registered nowhere has a `class` instead, and cannot be built again. `seed` is that of synthesized sounds.
     """
 
     actuator: ActuatorProfile

@@ -1,4 +1,4 @@
-"""A person's corrections of what was inferred of an object; kept when the scene is baked again."""
+"""A person's corrections of the inferred data of an object; kept when the scene is baked again."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _PITCH_HZ = (10.0, 1000.0)
 @clear_construction
 @dataclass(frozen=True)
 class Override:
-    """A correction; None leaves what was inferred.
+    """A correction; None leaves the inferred value.
 
     vibrates : whether the object vibrates by itself.
     gain_db : its level at the hand against the inferred one [dB].
@@ -107,7 +107,7 @@ class Override:
             )
 
     def changed(self, changes: Mapping[str, Any]) -> Override:
-        """With the fields that are not None in place of what they were; numbers by state are added to earlier ones."""
+        """Replace the fields that are not None; numbers by state are added to earlier ones."""
         now = replace(self, **{name: value for name, value in changes.items() if value is not None})
         by_state: dict[str, Any] = {name: _on_top(getattr(self, name), getattr(now, name)) for name in BY_STATE}
         return replace(now, **by_state)

@@ -1,4 +1,4 @@
-"""The files of a bundle's folder: which of them are ours, and reading one that anybody may have changed."""
+"""The files in a bundle's folder that belong to it, and safe reading of files that a person may have changed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A bundle's folder is replaced as a whole: built beside its place, then put there in one step.
+"""Replace a bundle's folder as a whole: build it beside its place, then move it there in one step.
 
 The draft stands beside the place as `.NAME.scene2hap-RANDOM-INODE.new`. The system exchanges the two folders in one
 step (`exchange`), and what was the old bundle is then removed under the draft's name. Where there is no such step, the
@@ -42,7 +42,7 @@ _MARK = ".scene2hap-"
 
 
 def require_replaceable(target: Path) -> None:
-    """Whether a bundle may be written there: nothing is there, an empty folder, or a bundle that can be read.
+    """Require a place that is free, an empty folder, or a bundle that can be read.
 
     Raises: BundleVersionError: a bundle of a newer scene2hap; BundleError: anything else, or a folder that this process
     works in, which cannot be moved away below it.
@@ -153,7 +153,7 @@ def _put(draft: Path, place: Path, target: Path, held: ExitStack) -> None:
 
 
 def _move_in(draft: Path, place: Path) -> Path:
-    """Put the draft at its place in two steps; where the old folder is then."""
+    """Move the draft to its place in two steps. Returns the path of the old folder."""
     old = draft.with_suffix(".old")
     place.rename(old)
     try:
@@ -181,7 +181,7 @@ def _new_draft(place: Path, held: ExitStack) -> Path:
 
 
 def _remove_abandoned(place: Path) -> None:
-    """Remove what saves to this place left when they died."""
+    """Remove the drafts of saves to this place that died."""
     for kind in ("", "new", "old"):
         for left in _left_beside(place, kind):
             with ExitStack() as held, suppress(OSError, BundleError):

@@ -2,7 +2,7 @@
 
 A file is named after the first source that uses it, and the number of others: `fan.on+94.audible.wav` serves 95. Who
 shares it stands in loops.json. To change one source alone, give it a file of its own there, or override its clip; what
-is changed in a shared file is changed for all. Saving a bundle shares and splits files by what is in them.
+is changed in a shared file is changed for all. Saving a bundle shares and splits files by their content.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _RUNS = ("start_up", "wind_down")
 
 
 def write_loops(bundle: BundleContents, folder: Path, written: list[str]) -> dict[str, dict[str, Any]]:
-    """Write the sounds of all loops below `folder`; the rows of loops.json. Adds to the names of what is `written`."""
+    """Write the sounds of all loops below `folder`; the rows of loops.json. Adds names of files to `written`."""
     digests: dict[int, str] = {}
     users: dict[tuple[str, str], list[str]] = {}
     for stem, loop in _stems(bundle):

@@ -1,4 +1,4 @@
-"""Files in a bundle's folder that are not ours: a thesis, notes, a repository. They outlive every bundle there.
+"""Files of others in a bundle's folder: a thesis, notes, a repository. They outlive every bundle there.
 
 A new bundle is built beside the old one and takes its place as a whole folder. Before that, what is not ours is linked
 into the new folder, so that it is at its place at every moment. Afterwards the old folder is emptied file by file:
@@ -20,7 +20,7 @@ from scene2hap.bundle.own_files import MANIFEST, our_files
 
 
 def carry_over(old: Path, new: Path) -> None:
-    """Link what is not ours in the bundle `old` into `new`; where links cannot be, copy. Raises: OSError.
+    """Link the files of others in the bundle `old` into `new`; copy where links are impossible. Raises: OSError.
 
     Where the new bundle has a file of that name, a name is added that is free.
     """
@@ -29,7 +29,7 @@ def carry_over(old: Path, new: Path) -> None:
 
 
 def discard(old: Path, new: Path) -> None:
-    """Remove the folder `old`, whose place `new` has taken, and nothing that is not ours and not in `new`.
+    """Remove the folder `old`, which `new` has replaced, but no file of others that is not in `new`.
 
     Raises: OSError: something cannot be removed or moved; the rest is then still there.
     """

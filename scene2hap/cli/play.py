@@ -1,6 +1,6 @@
 """Feel a bundle: arrow keys move a hand over a plan of the scene, meters show what it feels.
 
-The folder is watched: what is edited meanwhile, here or by `scene2hap edit`, is felt within a second.
+The folder is watched: edits, here or by `scene2hap edit`, are felt within a second.
 
 Keys: arrows move, space lifts the hand and puts it down, + and - turn the level, q ends.
 """

@@ -31,9 +31,9 @@ from scene2hap.llm.protocol import LLMBackend
 from scene2hap.llm.questions import Questions
 from scene2hap.llm.quoting import clean
 from scene2hap.llm.report import InferenceReport
+from scene2hap.llm.run_coroutine import run_waiting
 from scene2hap.llm.sharing import copies, of_any_scene, reachable
 from scene2hap.llm.trust import Estimate, from_model, from_table, without_answer
-from scene2hap.llm.waiting import run_waiting
 from scene2hap.llm.weighing import bounded_mass_kg, mass_fault
 from scene2hap.materials import Material
 from scene2hap.scene.given import given_scene

@@ -16,7 +16,7 @@ from urllib.parse import urlsplit
 
 from scene2hap import checks, web
 from scene2hap.errors import BackendError, ConfigError
-from scene2hap.llm import waits
+from scene2hap.llm import retry_after
 from scene2hap.llm.http_reply import HttpReply as HttpReply
 from scene2hap.llm.pace import Pace
 from scene2hap.secret import Secret as Secret
@@ -34,7 +34,7 @@ MAX_FILE_BYTES = 512 << 20
 FILE_TIMEOUT_S = 900.0
 """For a file of two hundred megabytes; assumed: a line of two megabits a second."""
 
-_HEADERS_READ = ("x-should-retry", "x-request-id", *waits.HEADERS)
+_HEADERS_READ = ("x-should-retry", "x-request-id", *retry_after.HEADERS)
 
 
 @dataclass(frozen=True)

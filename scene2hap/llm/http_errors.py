@@ -12,7 +12,7 @@ from typing import Any
 
 from scene2hap.errors import BackendUnavailable
 from scene2hap.llm.http_reply import HttpReply
-from scene2hap.llm.waits import LONGEST_WAIT_S, reset_wait_s, stated_wait_s
+from scene2hap.llm.retry_after import LONGEST_WAIT_S, reset_wait_s, stated_wait_s
 
 _RETRYABLE = frozenset({408, 409, 429})
 _OUT_OF_MONEY = frozenset(

@@ -11,7 +11,7 @@ import time
 
 from scene2hap.llm.http_errors import failure
 from scene2hap.llm.http_reply import HttpReply
-from scene2hap.llm.waits import LONGEST_WAIT_S, reset_wait_s
+from scene2hap.llm.retry_after import LONGEST_WAIT_S, reset_wait_s
 
 
 class Pace:

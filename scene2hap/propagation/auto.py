@@ -143,7 +143,7 @@ class AutoFidelity:
         return self.elastic_body(plate, float(f.max(initial=1e-9))).receptance(points_m, drive_m, f)[:, :, 0].T
 
     def _scale(self, plate: Plate, f: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Receptance of the plate without edges [m/N], that of a wave as long as the plate where it would be longer."""
+        """Receptance of the plate without edges [m/N], for waves no longer than the plate."""
         k = np.maximum(plate.wavenumber_rad_m(f), 1 / max(plate.extent_m))
         scale: NDArray[np.float64] = 1 / (8 * plate.bending_stiffness_nm * k**2)
         return scale
@@ -170,7 +170,7 @@ class AutoFidelity:
         return replace(situation, peak_db=peak)
 
     def _density(self) -> float:
-        """Frequencies over what `sampling` takes by itself, for a share of the tolerance."""
+        """Density of frequencies relative to that of `sampling`, for a share of the tolerance."""
         spacing = math.pi / math.log(2 / (10 ** (SAMPLING_SHARE * self.tolerance_db / 10) - 1))
         return min(1.0, SPACING / min(spacing, 1.0))
 

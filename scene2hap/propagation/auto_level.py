@@ -59,7 +59,7 @@ def _rise_at_hand(plate: Plate) -> float:
 
 
 def _rise_at(plate: Plate, places_m: NDArray[np.float64], omega: NDArray[np.float64]) -> NDArray[np.float64]:
-    """How much more a plate yields where it is pushed, by the free edges within a quarter wave (n_frequencies,)."""
+    """Factor of the receptance at a pushed point by the free edges within a quarter wave (n_frequencies,)."""
     quarter_m = math.pi / 2 / np.asarray(plate.wavenumber_rad_m(omega / (2 * math.pi)))
     rise = np.ones(len(omega))
     for axis, side_m in enumerate((plate.length_m, plate.width_m)):

@@ -48,7 +48,7 @@ MODAL_DB = {
 sources cannot bring it above `QUIET_DB`. Near edges that hold, a plate hardly moves, and small bases err most."""
 QUIET_DB = 5.0
 _COARSE_CELLS = 4
-"""Cells of a lattice that tells the first bending mode of an outline within some percent."""
+"""Cells of a lattice that has the first bending mode of an outline within some percent."""
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,7 @@ class Situation:
         return Choice(object_id, "modal", 0.0, f"no smaller basis serves a plate that is {held}")
 
     def _bending(self, tolerance_db: float) -> float:
-        """Top frequency over that of the first bending mode, infinite where a glance shows that it is too high."""
+        """Top frequency over that of the first bending mode; infinite where a simple bound is exceeded."""
         longer = max(self.plate.length_m, self.plate.width_m)
         # A free beam along the longer side is a trial deflection, so the first mode lies below its own (Rayleigh).
         beam_hz = 22.374 / (longer * self.plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)

@@ -23,7 +23,7 @@ _LEAST = 1e-3
 
 
 def band_rms(length: NDArray[np.float64], edges_hz: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The gains of any bands, to all digits.
+    """Compute the gains of any bands to full precision.
 
     Parameters: length : (...) float64, >= 0, may be infinite; edges_hz : (n_bands, 2) [Hz].
     Returns: (..., n_bands) float64 [-], in [0, 1].

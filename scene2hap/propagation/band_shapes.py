@@ -70,7 +70,7 @@ class BandLengths:
 
 
 class SourceLengths:
-    """Lengths of vectors, of which each source has a space of its own."""
+    """Lengths of vectors, with a space for each source."""
 
     def __init__(self, lengths: BandLengths) -> None:
         self._lengths = lengths
@@ -105,7 +105,7 @@ def band_gains(response: ResponseBasis, forces: Complex, sampling: Sampling, col
 
 
 def _spaces(sampling: Sampling, columns: NDArray[np.intp]) -> Iterator[tuple[Band, slice]]:
-    """Each band, with the sources that it is for."""
+    """List each band with its sources."""
     if sampling.is_shared:
         return ((band, slice(None)) for band in sampling.bands)
     return ((sampling.bands[number], slice(k, k + 1)) for k, number in enumerate(columns.tolist()))

@@ -1,4 +1,4 @@
-"""Which lattice a plate gets: how many cells, where their lines are, and of a rectangle or within an outline."""
+"""Choice of the lattice of a plate: number of cells, positions of their lines, rectangle or outline."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def cells_of(plate: Plate, resolution: int) -> tuple[int, int]:
 
 @lru_cache(maxsize=16)
 def axes_of(plate: Plate, resolution: int) -> tuple[SplineAxis, SplineAxis]:
-    """Where the lines of a plate's lattice are, along length and width."""
+    """Positions of the lines of a plate's lattice, along length and width."""
     if plate.outline is not None:
         return outline_axes(plate.outline, cells_of(plate, resolution))
     along, across = cells_of(plate, resolution)
@@ -43,7 +43,7 @@ def axes_of(plate: Plate, resolution: int) -> tuple[SplineAxis, SplineAxis]:
 
 
 def n_nodes_of(plate: Plate, resolution: int) -> int:
-    """Nodes of its lattice, before edges hold some."""
+    """Number of nodes of its lattice, those held by edges included."""
     if plate.outline is not None:
         return math.prod(axis.n_nodes for axis in axes_of(plate, resolution))
     return math.prod(n + 3 for n in cells_of(plate, resolution))

@@ -31,7 +31,7 @@ from scene2hap.propagation.elimination import Element, solve
 
 
 class ElasticBody(Protocol):
-    """A body that stands alone: what a model must give to be coupled."""
+    """Interface of a single body that a model provides for coupling."""
 
     @property
     def loss_factor(self) -> float:
@@ -52,7 +52,7 @@ class ElasticBody(Protocol):
 
 
 class Along(NamedTuple):
-    """In which direction a joint pulls at a body (x, y, z), in the body's own coordinates, and how high over its
+    """Direction in which a joint pulls at a body (x, y, z), in the body's own coordinates, and the height over its
     mid-plane [m]."""
 
     x: float
@@ -148,7 +148,7 @@ class JointForces:
         return moved
 
     def holding(self, body_id: str) -> NDArray[np.complex128]:
-        """H, with what forces all else holds a body at its joints, per free deflection at each of them.
+        """H, the forces of all other bodies on a body at its joints, per free deflection at each of them.
 
             Y_coupled(x, x') = Y(x, x') - Y(x, x_j) H Y(x_j, x')
 

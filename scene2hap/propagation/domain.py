@@ -1,4 +1,4 @@
-"""Where the thin-plate kernels hold: frequencies that make sense, and plates that are thin beside the wavelength."""
+"""The domain of the thin-plate kernels: valid frequencies, and plates that are thin compared with the wavelength."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ _LEAST_HZ = 1e-100
 
 
 class ThinPlateWarning(UserWarning):
-    """A plate is thick beside its shortest bending wave, so thin-plate theory makes it too stiff."""
+    """A plate is thick compared with its shortest bending wave, so thin-plate theory makes it too stiff."""
 
 
 class SlowPlateWarning(UserWarning):
-    """Modes of a plate are about to be worked out that take more than about a second; they are remembered then."""
+    """Computing the modes of a plate takes more than about a second; they are cached afterwards."""
 
 
 @lru_cache(maxsize=4096)
@@ -136,9 +136,3 @@ def driven_on_held_edge(plate: Plate, drive_m: NDArray[np.float64]) -> ModelDoma
         f"the driven point ({drive_m[0, 0]:g}, {drive_m[0, 1]:g}) m lies on an edge that does not move (boundary "
         f"{plate.boundary!r}), so nothing can be related to its amplitude. Drive a point off the edge."
     )
-
-
-def check_hops(max_hops: int | None) -> None:
-    """Raises: ConfigError: it is neither None nor a whole number of at least 1 contact."""
-    if max_hops is not None:
-        checks.whole("max_hops", max_hops, "contacts", at_least=1, at_most=2**31 - 1, error=ConfigError)

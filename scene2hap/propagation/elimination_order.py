@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, eq=False)
 class Pattern:
-    """Where a symmetric matrix of n rows has entries once it is factored, its rows in the order of elimination.
+    """Positions of the entries of a factored symmetric matrix of n rows, its rows in the order of elimination.
 
     place : (n,) position of each row in that order; begins : (n + 1,) first entry of each position; columns :
     (n_entries,) positions of entries, in each row the diagonal first and then rising; entry : (n, n) number of the

@@ -24,9 +24,8 @@ from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.band_rms import BandRms, band_rms
-from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_hops, check_thin
-from scene2hap.propagation.live_law import GammaAt, GammaOver, LiveLaw
-from scene2hap.propagation.live_paths import LivePaths
+from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_thin
+from scene2hap.propagation.live_law import GammaAt, GammaOver, LiveLaw, LivePaths
 from scene2hap.propagation.paths import Arrivals, cheapest_arrivals
 from scene2hap.propagation.plate import Plate, require_plate
 from scene2hap.propagation.points import arrivals_at, as_points
@@ -68,11 +67,13 @@ class ExponentialPlate:
     def __post_init__(self) -> None:
         if self.frequency not in ("tactile", "raw"):
             raise ConfigError(f"frequency is {self.frequency!r}; it must be 'tactile' or 'raw'.")
-        check_hops(self.max_hops)
+        if self.max_hops is not None:
+            checks.whole("max_hops", self.max_hops, "contacts", at_least=1, at_most=2**31 - 1, error=ConfigError)
         checks.number("interface_loss_db", self.interface_loss_db, "dB", at_least=0.0, error=ConfigError)
         if self.floor_db is not None:
             checks.number("floor_db", self.floor_db, "dB", at_most=0.0, error=ConfigError, hint="None is no floor.")
-        check_choice(self.outside_domain)
+        if self.outside_domain != "ignore":
+            check_choice(self.outside_domain)
 
     def plate_transfer(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
@@ -125,13 +126,13 @@ class ExponentialPlate:
 
     def _prices(self, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands) -> dict[str, float]:
         """Cost of a metre through each body, after checking that the law's theory holds for it."""
-        top_hz = max(bands.edges_hz, default=max((self._frequency_hz(item) for item in excitations), default=0.0))
-        prices = {}
-        for object_id, body in bodies.items():
-            if isinstance(body, Plate):
-                check_thin(object_id, body, top_hz, self.outside_domain)
-            prices[object_id] = body.wavenumber_per_root_omega if isinstance(body, Plate) else 0.0
-        return prices
+        plates = {object_id: body for object_id, body in bodies.items() if isinstance(body, Plate)}
+        if self.outside_domain != "ignore":
+            top_hz = max(bands.edges_hz, default=max((self._frequency_hz(item) for item in excitations), default=0.0))
+            for object_id, plate in plates.items():
+                check_thin(object_id, plate, top_hz, self.outside_domain)
+        prices = {object_id: plate.wavenumber_per_root_omega for object_id, plate in plates.items()}
+        return {**dict.fromkeys(bodies, 0.0), **prices}
 
     def _crossing_cost(self, weight: float) -> float:
         loss = self.interface_loss_db * math.log(10) / 20

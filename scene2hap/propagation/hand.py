@@ -24,7 +24,7 @@ from scene2hap.errors import ConfigError
 @clear_construction
 @dataclass(frozen=True)
 class Hand:
-    """A hand as a load on what it touches.
+    """A hand as a mechanical load.
 
     Parameters: masses_kg : at least one, >= 0, [0] is what touches; stiffnesses_n_m, dampings_n_s_m : as many, >= 0, of
     the spring and the damper behind each mass; those of the last lead to a place that does not move. `PALM` and

@@ -1,4 +1,4 @@
-"""What a hand does to the vibration of what it touches.
+"""The load of a hand on the vibration of the object that it touches.
 
     u = (1 + j omega Z Y_t)^-1 u_free              Y_t = Y(x, x) - Y(x, x_j) H Y(x_j, x)
 

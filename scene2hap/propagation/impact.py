@@ -1,4 +1,4 @@
-"""What an impact makes of the object that it meets: a few sines that die away, at the point that is struck.
+"""The response of a body to an impact: a few decaying sines at the struck point.
 
 Two bodies that meet at a speed v exchange the momentum J = (1 + e) v / (1/m + 1/m_s) through the spring of their
 contact, as a half sine of the time T = 1 / (2 f_c). The struck point moves by
@@ -7,7 +7,7 @@ contact, as a half sine of the time T = 1 / (2 f_c). The struck point moves by
     modes       2 pi f_n J phi_n^2 S(f_n)          f_n of a plate that is supported along its edges
 
 as acceleration. Y is the mobility of a plate without edges, which is what a large one shows while an impact lasts;
-S(f) = |cos(pi f T) / (1 - (2 f T)^2)| is what is left at f of an impact of that length: a rubber ball excites no high
+S(f) = |cos(pi f T) / (1 - (2 f T)^2)| is the share of an impact of that length at f: a rubber ball excites no high
 mode. Furniture stands on legs, between free and supported; the latter's modes are known in closed form, rise with
 stiffness and fall with size and weight as all do, and cost no eigenproblem when something lands.
 
@@ -38,9 +38,10 @@ Floats = NDArray[np.float64]
 RESTITUTION = 0.3
 """Of cups, books and tools on furniture; assumed (0 is clay, 0.9 a glass ball on steel)."""
 SLOWEST_HZ, FASTEST_HZ = 30.0, 250.0
-"""A contact rings within these: what is slower is a push, and what is faster a click, felt where touch is keenest."""
+"""Bounds of the frequency of a contact [Hz]: a slower one is a push, a faster one a click, played where touch is most
+sensitive."""
 HIGHEST_MODE_HZ = 400.0
-"""Beyond, touch grows dull, and onsets reach into what is heard."""
+"""Above, touch is less sensitive, and onsets become audible."""
 CONTACT_LOSS = 0.3
 """A contact that lets go again rings for a cycle or two; assumed."""
 SHORTEST_S, LONGEST_S = 0.008, 0.1
@@ -50,7 +51,7 @@ MOST_MODES = 5
 LEAST_SHARE = 0.01
 """Of the strongest mode, below which one is left out: on a node."""
 FINGER_KG, FINGER_N_M = 0.1, 2e4
-"""What strikes where nobody says: a fingertip with its part of the hand, soft enough for a thud of 70 Hz; assumed."""
+"""The default striker: a fingertip with its part of the hand, soft enough for a thud of 70 Hz; assumed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +75,7 @@ def burst_of(
     impulse_n_s: float | None = None,
     is_finger: bool = False,
 ) -> Burst:
-    """What an impact on a body makes of the struck point.
+    """Compute the vibration of the struck point after an impact on a body.
 
     Parameters: struck : None for one of unknown material, as stiff as hard plastic and as heavy as what strikes; at_m :
     from the corner of a plate along length and width [m], None for its middle; striker : the other body, None for an
@@ -132,7 +133,7 @@ class _Supported(NamedTuple):
 
 @lru_cache(maxsize=1024)
 def _supported(plate: Plate) -> _Supported:
-    """The modes up to `HIGHEST_MODE_HZ`; none of what is too thick to bend."""
+    """The modes up to `HIGHEST_MODE_HZ`; none of a plate that is too thick to bend."""
     length, width = plate.extent_m
     if plate.thickness_m > COMPACT_THICKNESS * min(length, width):
         return _Supported((np.empty(0), np.empty(0)), np.empty((2, 0), dtype=np.intp), np.empty(0))

@@ -1,4 +1,4 @@
-"""A plate with free edges in its own plane, by its modes there: it goes along and turns as a whole, and strains above.
+"""A plate with free edges in its own plane, by its modes there: it moves, turns and, at higher frequencies, strains.
 
     U = C/2 integral of u_x^2 + v_y^2 + 2 nu u_x v_y + (1 - nu)/2 (u_y + v_x)^2        C = E h / (1 - nu^2)
 
@@ -48,7 +48,7 @@ class InPlaneModes:
         self._vectors = vectors.reshape(2, n * n, -1) / np.sqrt(per_area)
 
     def shapes(self, points_m: Floats) -> Floats:
-        """How far points (n, 2) [m] go along x and y in each mode (2, n, n_modes) [kg^-1/2]."""
+        """Displacement of points (n, 2) [m] along x and y in each mode (2, n, n_modes) [kg^-1/2]."""
         shapes: Floats = products(self._x, self._y, points_m) @ self._vectors
         return shapes
 

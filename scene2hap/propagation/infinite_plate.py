@@ -135,7 +135,7 @@ class InfinitePlate:
 
 @dataclass(frozen=True, eq=False)
 class InfiniteBody:
-    """A plate without edges as an `ElasticBody`; nothing comes back in it, so that it has no resonances."""
+    """A plate without edges as an `ElasticBody`; without reflections, it has no resonances."""
 
     plate: Plate
     plate_loss: float

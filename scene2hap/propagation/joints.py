@@ -66,7 +66,7 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
 
 
 def legs_of(network: ContactNetwork, object_id: str, plate: Plate) -> list[tuple[float, float]]:
-    """Where an object stands on what is farther below its plate than this is thick: on legs, walls or a frame."""
+    """Contacts of an object to objects farther below its plate than the plate is thick: legs, walls or a frame."""
     pose = network.poses.get(object_id)
     points = [one.point_m for one in network.contacts if object_id in (one.a, one.b) and one.weight > 0]
     if pose is None or not points:
@@ -116,7 +116,7 @@ def _on_body(
 
 
 def _directions(network: ContactNetwork, object_id: str, contacts: Sequence[Contact]) -> Sequence[Along]:
-    """In which direction each contact pulls at an object; all along its normal where none is known to pull aside."""
+    """Direction in which each contact pulls at an object; the plate's normal where no contact has another one."""
     body, pose = network.bodies.get(object_id), network.poses.get(object_id)
     if not isinstance(body, Plate) or pose is None:
         return [NORMAL] * len(contacts)
@@ -153,7 +153,7 @@ def _merged(joints: Sequence[Joint]) -> list[Joint]:
 
 
 def _known_mass_kg(network: ContactNetwork, object_id: str) -> float | None:
-    """Mass of a whole object [kg], None if nobody stated it."""
+    """Stated mass of a whole object [kg], None if there is none."""
     body = network.bodies.get(object_id)
     return body.object_mass_kg if isinstance(body, Plate) else None
 

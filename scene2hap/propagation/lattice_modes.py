@@ -242,5 +242,5 @@ def _lowest(
 
 
 def _lost(lattice: Lattice, shift_k4: float) -> float:
-    """Part of a solution that rounding of the stiffest springs buries."""
+    """Share of a solution that is lost in the rounding of the stiffest springs."""
     return float(np.finfo(float).eps * lattice.stiffest_k4 / shift_k4)

@@ -1,4 +1,4 @@
-"""A plate with what the rest of its object weighs: legs, walls and a frame, as masses where the object stands.
+"""A plate with the mass of the rest of its object: legs, walls and a frame, as masses where the object stands.
 
 A mass m below a point l of a plate pulls by omega^2 m u(l). With the plate's receptance Y and those masses,
 
@@ -50,7 +50,7 @@ class LeggedBody:
         return (answer + answer.transpose(0, 2, 1)) / 2 if points_m is forces_m else answer
 
     def _pulled(self, forces_m: Floats, frequencies_hz: Floats) -> Complex:
-        """With what force each leg answers a force of 1 N (n_frequencies, n_legs, n_forces) [-]."""
+        """Force of each leg in response to a force of 1 N (n_frequencies, n_legs, n_forces) [-]."""
         among = self.plate.receptance(self.legs_m, self.legs_m, frequencies_hz).copy()
         n = np.arange(len(self.masses_kg))
         among[:, n, n] -= 1 / (self.masses_kg * (2 * np.pi * frequencies_hz[:, None]) ** 2)

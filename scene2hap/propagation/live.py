@@ -1,4 +1,4 @@
-"""Fields that follow the contacts by themselves.
+"""Live fields: they read the contacts at each query and need no preparation.
 
 Most models prepare a field for one moment on a worker thread (`protocol`). A model whose result depends on a few
 contacts may offer a live field instead. A live field reads the contact graph at each query, so it needs no preparation
@@ -106,7 +106,7 @@ class PointField(Protocol):
 
 @runtime_checkable
 class LiveModel(Protocol):
-    """Offers live fields."""
+    """A model that offers live fields."""
 
     def live(
         self, graph: ContactGraph, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands

@@ -63,7 +63,7 @@ LEAST_LIMIT_HZ = 1.0
 
 
 class CoarsenedWarning(UserWarning):
-    """A plate is too large a lattice to be solved in seconds, and bends as one up to some frequency only."""
+    """A plate's lattice is too large to be solved in seconds; it is used up to some frequency only."""
 
 
 @clear_construction

@@ -34,8 +34,8 @@ class ObjectResponse:
         self._place, self._gains, self._columns, self._shape, self._own = place, gains, columns, shape, own
 
     def __call__(self, points_m: Floats) -> Floats:
-        """Gains (n_points, n_sources, n_bands) [-] at points of the world (n_points, 3) [m]: 1 of itself, 0 of what
-        does not reach it."""
+        """Gains (n_points, n_sources, n_bands) [-] at points of the world (n_points, 3) [m]: 1 for a source on
+        itself, 0 for sources that do not reach the object."""
         found = np.zeros((len(points_m), *self._shape))
         found[:, self._columns] = self._gains(self._place(points_m))
         if self._own >= 0:

@@ -70,7 +70,7 @@ class OctaveSums:
 
     @property
     def nbytes(self) -> int:
-        """Memory that they hold [byte]."""
+        """Memory of the sums [byte]."""
         return self._far.nbytes + sum(one.far.nbytes + one.spectra.nbytes for one in self._octaves)
 
     def __call__(self, terms: Floats) -> Complex:

@@ -24,7 +24,7 @@ from scene2hap.scene.objects import Contact
 
 @dataclass(frozen=True)
 class Arrivals:
-    """How the sources reach one object.
+    """Costs at which the sources reach one object.
 
     `points_m` (n_contacts, 3) [m] : its contacts; `costs` (n_sources, n_contacts) : cost of the cheapest path up to
     that contact, infinite without one.

@@ -32,7 +32,7 @@ _EDGES = {"free": "FFFF", "simply-supported": "SSSS", "clamped": "CCCC"}
 @clear_construction
 @dataclass(frozen=True)
 class Plate:
-    """A plate of one material: a rectangle, or what an outline covers.
+    """A plate of one material: a rectangle, or the area within an outline.
 
     Parameters: length_m, width_m, thickness_m > 0 [m]; material : a Material, or its name in the table; boundary :
     "free", "simply-supported", "clamped", or four letters F, S, C for the edges x=0, x=length, y=0, y=width;

@@ -34,7 +34,7 @@ def as_points(points_m: ArrayLike, dimensions: int) -> NDArray[np.float64]:
 
 @compiled
 def of_tuples(points_m: object, dimensions: int) -> NDArray[np.float64] | None:
-    """Points as they mostly come, a list of tuples of finite numbers of Python; None for any others."""
+    """Points from the usual form, a list of tuples of finite Python numbers; None for any other form."""
     if type(points_m) is not list or not points_m:
         return None
     for place in points_m:

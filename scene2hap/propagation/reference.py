@@ -123,7 +123,7 @@ def _rings(network: ContactNetwork, excitations: Sequence[Excitation]) -> dict[s
 def _factors(
     field: PropagationField, law: PropagationField, rings: Mapping[str, list[tuple[str, Floats]]]
 ) -> dict[str, float]:
-    """What each source is to be multiplied by; 1 if it stands on nothing or nothing of it arrives."""
+    """Factor of each source; 1 if it stands on nothing or has no gain at the reference points."""
     power = {source_id: np.zeros(2) for source_id in field.source_ids}
     for other, around in rings.items():
         points = np.concatenate([ring for _, ring in around])

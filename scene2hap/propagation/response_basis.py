@@ -46,6 +46,6 @@ class HasResponseBasis(Protocol):
 
 
 def real_times(matrix: Floats, columns: Complex) -> Complex:
-    """A real matrix (m, n) times complex columns (n, ...), at half of what a complex one costs."""
+    """Multiply a real matrix (m, n) by complex columns (n, ...), at half the cost of a complex product."""
     flat = np.ascontiguousarray(columns).reshape(len(columns), math.prod(columns.shape[1:])).view(np.float64)
     return (matrix @ flat).view(np.complex128).reshape(len(matrix), *columns.shape[1:])

@@ -75,13 +75,15 @@ class RigidMotion:
         return answer
 
     def motions(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
-        """How far points (n_points, 2) [m] go in each motion (n_points, n_motions): 1 as all go up; if it rocks, their
-        distance from the middle along length and width [m] as it turns."""
+        """Displacement of points (n_points, 2) [m] in each motion (n_points, n_motions).
+
+        It is 1 as all go up; if the body rocks, the distance from the middle along length and width [m] as it turns.
+        """
         up = np.ones((len(points_m), 1))
         return up if self.size_m is None else np.concatenate([up, points_m - self._middle_m], axis=1)
 
     def _moved_by(self, forces_m: NDArray[np.float64]) -> NDArray[np.float64]:
-        """How much of each motion forces at points (n_forces, 2) [m] accelerate (n_motions, n_forces)."""
+        """Acceleration of each motion by forces at points (n_forces, 2) [m], per force (n_motions, n_forces)."""
         inertias = np.array([self.mass_kg])
         if self.size_m is not None:
             turning = self.mass_kg / 12 * (np.square(self.size_m[:2]) + self.size_m[2] ** 2)

@@ -1,4 +1,4 @@
-"""The frequencies at which a scene is solved, and the gain of a band from what was found there.
+"""The frequencies at which a scene is solved, and the gains of bands from the responses at these.
 
 The gain of a band is the rms of |H| over its width. |H|^2 near a resonance of loss eta is a Lorentzian of half-power
 width eta f; its mean over equally spaced frequencies d apart is off by 2 exp(-pi eta f / d) at most (Poisson's sum), at
@@ -46,7 +46,7 @@ Floats = NDArray[np.float64]
 
 
 class Band(NamedTuple):
-    """Where a band is among the frequencies, and what part of it each of these stands for (n,)."""
+    """Position of a band among the frequencies, and the share of it that each frequency represents (n,)."""
 
     at: slice
     weights: Floats

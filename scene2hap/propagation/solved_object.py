@@ -135,7 +135,7 @@ class SolvedObject:
         return [self.joints[row].b if sign > 0 else self.joints[row].a for row, sign in pairs]
 
     def shares_of_power(self, column: int, band: int, sampling: Sampling) -> Floats:
-        """What part of a source's power that comes into this object in a band comes through each joint (n_joints,).
+        """Share of each joint in the power of a source that enters this object in a band (n_joints,).
 
         The power through a joint is Re(g* j omega u) / 2, with u the deflection there. What an object brings through
         one joint and takes away through another does not count, and one that takes away more brings nothing. It is 0

@@ -1,4 +1,4 @@
-"""Cubic B-splines along one coordinate: what the nodes of a lattice weigh, and what its springs store.
+"""Cubic B-splines along one coordinate: the masses and the elastic energies of a lattice.
 
     u = sum of c_i b_i,    u' = sum of (S c)_i q_i,    u'' = sum of (B c)_i g_i
 
@@ -48,7 +48,7 @@ class SplineAxis:
 
     @property
     def n_nodes(self) -> int:
-        """Nodes, before edges hold some."""
+        """Number of nodes, those held by edges included."""
         return len(self.lines) + 2
 
     def splines(self, x_m: Floats, degree: int = 3) -> csr_array:

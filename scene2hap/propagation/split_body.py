@@ -1,4 +1,4 @@
-"""A plate that bends with its edges up to a frequency, and as if it had none above it."""
+"""A plate with edges up to a frequency, and without edges above it."""
 
 from __future__ import annotations
 

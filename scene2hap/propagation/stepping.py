@@ -1,4 +1,4 @@
-"""Time stepping of vibrating systems, by two integrators that no step makes unstable.
+"""Time stepping of vibrating systems by two unconditionally stable integrators.
 
     M u'' + C u' + K u = f(t),   f straight between the steps
 

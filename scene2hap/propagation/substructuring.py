@@ -1,4 +1,4 @@
-"""A whole scene for the physical models: every object a body of its own, coupled where they touch.
+"""A whole scene for the physical models: a body for each object, coupled at their contacts.
 
 What attenuation means: deflection at the touch over what the source would do if nothing touched it. The source is a
 rigid body with one free vibration on all of its contacts, in phase; for one contact, with mobilities Y of source,
@@ -59,7 +59,7 @@ class Assembly:
     def solve(self, elastic: Mapping[str, ElasticBody], density: float = 1.0, hand: Hand | None = None) -> CoupledField:
         """The field, given a body for each of the plates.
 
-        Parameters: density : frequencies per band over what is needed; hand : what loads an object where it is touched.
+        Parameters: density : frequencies per band relative to the needed ones; hand : load at touched points.
         """
         source_ids = tuple(item.source_id for item in self.excitations)
         bodies: dict[str, ElasticBody] = {**self.rigid, **{key: self._legged(key, elastic[key]) for key in elastic}}
@@ -75,7 +75,7 @@ class Assembly:
         return CoupledField(source_ids, self.bands, self.network, sampling, reach)
 
     def _legged(self, object_id: str, plate: ElasticBody) -> ElasticBody:
-        """A plate, and what the rest of its object weighs, where it stands."""
+        """A plate with the mass of the rest of its object at its feet."""
         own, bends = self.plates[object_id], not isinstance(plate, RigidMotion)
         rest_kg = own.moving_mass_kg - own.mass_kg
         legs = legs_of(self.network, object_id, own) if bends and rest_kg > 0 and own.edges == "FFFF" else []

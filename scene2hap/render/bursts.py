@@ -30,7 +30,7 @@ _FIRST_S, _FIRST_CYCLE_S = 0.06, 0.04
 
 @lru_cache(maxsize=256)
 def wave_of(frequency_hz: float, decay_s: float, sample_rate_hz: int) -> Samples:
-    """A decaying sine (n_samples,) with a peak of 1, from 0 and back to 0; kept, since an object has few."""
+    """A decaying sine (n_samples,) with a peak of 1, from 0 and back to 0. Cached, since an object has few."""
     n = round((ATTACK_S + decay_s * math.log(10 ** (-END_DB / 20))) * sample_rate_hz)
     per_frame = (2j * math.pi * frequency_hz - 1 / decay_s) / sample_rate_hz
     # exp of a sum is a product: two short tables instead of an exponential for each sample.
@@ -75,12 +75,12 @@ class PlannedBurst:
 
     @property
     def n_frames(self) -> int:
-        """How long it is."""
+        """Length [frames]."""
         return max((len(one) for one in self.samples.values()), default=0)
 
 
 class Bursts:
-    """The bursts that are ordered or sound."""
+    """The bursts that wait or sound."""
 
     def __init__(self) -> None:
         self._incoming: deque[PlannedBurst] = deque(maxlen=MOST_PLAYING)
@@ -89,12 +89,12 @@ class Bursts:
 
     @property
     def are_silent(self) -> bool:
-        """Whether there is nothing to add."""
+        """Whether no burst waits or sounds."""
         return not self._playing and not self._incoming
 
     @property
     def n_playing(self) -> int:
-        """How many there are."""
+        """Number of bursts that wait or sound."""
         return len(self._playing) + len(self._incoming)
 
     def start(self, burst: PlannedBurst) -> None:

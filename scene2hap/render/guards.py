@@ -1,6 +1,6 @@
-"""The parts of the safety layer that have a memory. Each gives the same samples however its input is cut in blocks.
+"""Gate, peak guard, power guard and slew guard of the safety layer: the same samples for blocks of any size.
 
-What must be reset now and then is reset at places counted from the first frame, never from the start of a block.
+State that has to be reset is reset at frames counted from the first one, never from the start of a block.
 Arrays are float64 (n_frames, n_channels).
 """
 
@@ -24,7 +24,7 @@ KNEE = 0.7
 
 
 class Gate:
-    """Opens and closes over raised cosines; a change of mind on the way goes on from where it is.
+    """Opens and closes over raised cosines; a reversal continues from the present gain.
 
     Position in the fade is an integer, so that a fade ends on the frame that it should.
     """
@@ -52,7 +52,7 @@ class Gate:
 
 
 class PeakGuard:
-    """Turns each channel down at once when it exceeds the limit, and lets go slowly.
+    """Turns each channel down at once when it exceeds the limit, and releases slowly.
 
         u[n] = max_{k <= n} c[k] a^(n - k),   c = max(0, 1 - P / |x|),   y = x (1 - u)
 
@@ -177,7 +177,7 @@ class SlewGuard:
         self.n_limited = 0
 
     def pass_through(self, x: Signal) -> Signal:
-        """The signal, or the nearest that is slow enough to follow it."""
+        """The signal, or the nearest signal within the slew limit."""
         if not len(x):
             return x
         steps = np.diff(x, axis=0, prepend=self._last[None])

@@ -8,6 +8,9 @@ number N of samples, over as many turns within a second as make that nearest, an
 in exact integer arithmetic. So it keeps the period of the loop that is heard beside it for ever: it is never off by
 more than one tactile sample, where playing N samples round and round would drift. Once in a while (10 s or more for a
 loop of 5 s, never where the rates divide) u steps by 0 or 2 samples; over that cell the two readings are cross-faded.
+
+A mixer reads a fixed number of loops. A `SlotBank` lets loops come and go under a running mixer: an empty slot costs
+nothing, since a mixer reads only the loops that its gains let through, and may be filled while the mixer plays.
 """
 
 from __future__ import annotations
@@ -116,6 +119,36 @@ class LoopBank:
         return position_s(*self._periods[loop], frame, sample_rate_hz)
 
 
+class SlotBank(LoopBank):
+    """A bank of slots, each with a bank of one loop or empty.
+
+    Parameters: slots : a bank of one loop for each slot, None for an empty one; shift : tactile samples by which the
+    clock of its mixer lags the session's.
+    """
+
+    def __init__(self, slots: list[LoopBank | None], bands: Bands, sample_rate_hz: int, shift: int = 0) -> None:
+        super().__init__((), bands, sample_rate_hz)
+        self.slots = slots
+        self._bands, self._shift = bands, shift
+
+    def shifted(self, shift: int) -> SlotBank:
+        """The same slots, for a mixer that began so many tactile samples after the session."""
+        return SlotBank(self.slots, self._bands, self.sample_rate_hz, shift)
+
+    def __len__(self) -> int:
+        return len(self.slots)
+
+    @property
+    def nbytes(self) -> int:
+        """Memory that the loops take [byte]."""
+        return sum(bank.nbytes for bank in self.slots if bank is not None)
+
+    def read(self, loops: Sequence[int], begin: int, out: Block) -> None:
+        """See `LoopBank`; silence from an empty slot."""
+        banks = [self.slots[loop] for loop in loops]
+        read([None if bank is None else bank.loops[0] for bank in banks], begin + self._shift, out)
+
+
 def position_s(n: int, rate_hz: int, frame: int, sample_rate_hz: int) -> float:
     """Where a loop of n samples stands at a frame of a clock that runs at another rate, since its beginning [s]."""
     return (frame * rate_hz % (n * sample_rate_hz)) / (sample_rate_hz * rate_hz)
@@ -139,7 +172,7 @@ def stored_once(samples: Block, begin: int) -> StoredLoop:
 
 
 def _stored(loop: AudioClip, bands: Bands, sample_rate_hz: int) -> _Stored:
-    """A loop as it is stored."""
+    """Split a loop into bands and store it as in the head of this module."""
     # Over `turns` turns the loop lasts exact / unit tactile samples.
     turns = _turns(len(loop.samples), loop.sample_rate_hz, sample_rate_hz)
     exact, unit = turns * len(loop.samples) * sample_rate_hz, loop.sample_rate_hz
@@ -154,7 +187,7 @@ def _stored(loop: AudioClip, bands: Bands, sample_rate_hz: int) -> _Stored:
 
 
 def _turns(n_samples: int, sample_rate_hz: int, tactile_rate_hz: int) -> int:
-    """How many turns, within a second, come nearest to a whole number of tactile samples, relative to their length."""
+    """Number of turns within a second whose length is nearest to a whole number of tactile samples."""
 
     def error(turns: int) -> float:
         rest = turns * n_samples * tactile_rate_hz % sample_rate_hz

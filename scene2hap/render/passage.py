@@ -1,4 +1,4 @@
-"""How a loop comes up or dies away: itself, played ever faster or slower, louder or weaker.
+"""Starts and stops of a loop: the loop played ever faster or slower, louder or weaker.
 
     u(t) = integral of s           s speed re full, 0..1           a amplitude re full, 0..1
 
@@ -32,7 +32,7 @@ Signal = NDArray[np.float64]
 
 
 class Running(NamedTuple):
-    """How fast and how strongly a source runs, both re steady running, 0..1 [-]."""
+    """Speed and amplitude of a source, both relative to steady running, 0..1 [-]."""
 
     speed: float
     amplitude: float
@@ -116,7 +116,7 @@ class Passage(LoopBank):
         return 0 if self._course.goes_up else round(LEAD_S * self.sample_rate_hz)
 
     def running(self, at: int) -> Running:
-        """How fast and how strongly it runs at a tactile sample."""
+        """Speed and amplitude at a tactile sample."""
         x = self._share(np.array([at]))
         return Running(float(self._speed(x)[0]), float(self._course.amplitude(x)[0]))
 

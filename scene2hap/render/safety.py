@@ -79,7 +79,7 @@ class Budget:
 
 @dataclass(frozen=True)
 class SafetyStats:
-    """Samples that the safety layer had to change, by reason, and how often the watchdog closed the gate."""
+    """Numbers of samples that the safety layer changed, by reason, and of closings by the watchdog."""
 
     repaired: int = 0
     clipped: int = 0
@@ -140,7 +140,7 @@ class SafetyLayer:
         self._repaired = self._clipped = self._trips = 0
 
     def feed(self) -> None:
-        """Tell the watchdog that the game is alive."""
+        """Reset the watchdog: the game is alive."""
         self._fed_at = self._clock()
 
     def hold(self, limits: NDArray[np.float64]) -> None:

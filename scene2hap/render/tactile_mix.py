@@ -20,6 +20,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -27,16 +28,18 @@ from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
 from scene2hap.render.loop_bank import CELL, LoopBank
-from scene2hap.render.ramped_product import RampedProduct
 
 Block = NDArray[np.float32]
 
 MOST_SLOTS = 40
 
+_SMALL_PRODUCT = 2**18
+"""OpenBLAS starts threads for more multiplications than this, and an audio thread must not wait for them."""
+
 
 @dataclass(frozen=True, eq=False)
 class Gains:
-    """Where the mix is going.
+    """Target gains of the mix.
 
     values : (n_hands, n_loops, n_bands) of some loops, 0 for all others; loops : which these are; heard : which loops
     are mixed.
@@ -63,7 +66,7 @@ class Gains:
 
 
 def slots_for(ramp: int, sample_rate_hz: int) -> int:
-    """In how many slots gains are on the way, if they come once per millisecond."""
+    """Number of slots that hold gains during their ramps, if gains come once per millisecond."""
     return min(MOST_SLOTS, -(-1000 * (ramp + CELL) // sample_rate_hz) + 2)
 
 
@@ -71,6 +74,77 @@ def rise_over(ramp: int) -> Block:
     """Weights of the gains over a ramp, as `RampedProduct` takes them."""
     rising = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, ramp + 1) / ramp)
     return np.concatenate([np.zeros(CELL), rising, np.ones(CELL)]).astype(np.float32)
+
+
+@compiled
+class RampedProduct:
+    """The product of a cell: `loops` L (n_rows, CELL) times `gains` G (n_places, n_slots, n_hands), weighed by slot.
+
+    Parameters: rise : the share of gains that counts, from CELL samples before they begin until CELL samples after they
+    have risen.
+    """
+
+    def __init__(self, n_rows: int, n_places: int, n_slots: int, n_hands: int, rise: Block) -> None:
+        # scipy.linalg is slow to import, and whoever imports a session may not play it.
+        from scipy.linalg.blas import sgemm
+
+        self._sgemm = sgemm
+        self._rises = np.lib.stride_tricks.sliding_window_view(rise, CELL)
+        self.loops = np.zeros((n_rows, CELL), dtype=np.float32)
+        self.gains = np.zeros((n_places, n_slots, n_hands), dtype=np.float32)
+        self._P = np.zeros((n_slots, n_hands, CELL), dtype=np.float32)
+        self._weights = np.zeros((n_slots, CELL), dtype=np.float32)
+        self._weighted = np.zeros((n_slots, CELL), dtype=np.float32)
+        self._sum = np.zeros(CELL, dtype=np.float32)
+        self._n_rows, self._parts = 0, list[tuple[Block, Block]]()
+
+    def set(self, slot: int, values: Block, places: Sequence[int], n_rows: int) -> None:
+        """Set the gains in a slot to values (n_hands, n_loops, n_bands) of the loops at these places, and to 0 up to a
+        row."""
+        n_bands = values.shape[2]
+        rows = np.add.outer(np.array(places, dtype=np.intp) * n_bands, np.arange(n_bands)).ravel()
+        self.gains[:n_rows, slot] = 0.0
+        self.gains[rows, slot] = values.reshape(len(values), -1).T
+
+    def mix(self, x: Block, n_rows: int, slots: Sequence[int], starts: Sequence[int], begin: int, first: int) -> None:
+        """Write x (n_hands, CELL) of a cell that begins at a sample, from its sample `first` on.
+
+        Parameters: n_rows : how many rows of the loops there are; slots, starts : which gains count, in their order,
+        and at what samples they begin to; those in the first slot have risen.
+        """
+        self._multiply(n_rows)
+        self._weigh(slots, starts, begin)
+        for hand, own in enumerate(x):
+            np.multiply(self._P[:, hand], self._weights, out=self._weighted)
+            np.add.reduce(self._weighted, axis=0, out=self._sum)
+            own[first:] = self._sum[first:]
+
+    def _weigh(self, slots: Sequence[int], starts: Sequence[int], begin: int) -> None:
+        self._weights.fill(0.0)
+        risen = self._rises[-1]
+        for (slot, _), (_, start) in pairwise(zip(slots, starts, strict=True)):
+            rising = self._rises[CELL + begin - start]
+            np.subtract(risen, rising, out=self._weights[slot])
+            risen = rising
+        self._weights[slots[-1]] = risen
+
+    def _multiply(self, n_rows: int) -> None:
+        """Products of the gains in all slots with the loops. scipy's BLAS keeps the interpreter's lock."""
+        if n_rows != self._n_rows:
+            self._arrange(n_rows)
+        if not self._parts:
+            self._P.fill(0.0)
+        P, kept = self._P.reshape(-1, CELL).T, 0.0
+        for loops, gains in self._parts:
+            self._sgemm(1.0, loops, gains, kept, P, 0, 1, 1)
+            kept = 1.0
+
+    def _arrange(self, n_rows: int) -> None:
+        """Make the views of the rows in use, once rather than for every product."""
+        gains = self.gains.reshape(len(self.gains), -1)
+        at_once = max(1, _SMALL_PRODUCT // (gains.shape[1] * CELL))
+        spans = [slice(begin, min(begin + at_once, n_rows)) for begin in range(0, n_rows, at_once)]
+        self._n_rows, self._parts = n_rows, [(self.loops[span].T, gains[span].T) for span in spans]
 
 
 class _Held(NamedTuple):
@@ -153,7 +227,7 @@ class TactileMix:
         self._is_stale = True
 
     def compute(self) -> bool:
-        """Bring `x` up to date with the gains that have started; true if anything was to do."""
+        """Update `x` with the gains that have started. Returns whether that was necessary."""
         if not self._is_stale:
             return False
         self._is_stale = False

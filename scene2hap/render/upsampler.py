@@ -1,4 +1,4 @@
-"""From the tactile rate to the session's, without a seam between cells.
+"""Resampling from the tactile rate to the session's rate, seamless between cells.
 
     y[m] = sum_j h[p + j up] x[q - j]        q = m down // up,  p = m down mod up,  up / down = f_out / f_in
 
@@ -53,7 +53,7 @@ class PolyphaseFilter:
         self._kept = {offset: self._matrix(offset) for offset in offsets}
 
     def advance(self, X: Block) -> None:
-        """Keep of X, the inputs of a cell and those before, what the outputs of the next one reach back to."""
+        """Shift X, the inputs of a cell and those before, by one cell; the next outputs reach back to the rest."""
         X[:, :-CELL] = X[:, CELL:]
 
     def fill(self, Y: Block, X: Block, offset: int) -> None:
@@ -104,7 +104,7 @@ class Upsampler:
         return -(-sample * self.up // self.down)
 
     def next_cell(self) -> None:
-        """Move on by CELL inputs; what outputs still reach back to is kept."""
+        """Move on by CELL inputs; inputs that outputs still need are kept."""
         self.filter.advance(self.inputs)
 
     def outputs(self, cell_begin: int) -> Block:

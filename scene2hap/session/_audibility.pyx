@@ -1,5 +1,7 @@
 """The compiled twins of the kernels in `audibility`."""
 
+from libc.math cimport INFINITY
+
 import numpy as np
 
 
@@ -63,3 +65,27 @@ cdef bint is_below(
         felt += <double>gains[k] * peak[j, k]
     n_new[0] = felt != 0
     return felt < least
+
+
+def within(list prices, list cutoff, list sought):
+    cdef Py_ssize_t n = len(cutoff), n_beyond = 0, i, x
+    cdef double price, limit
+    cdef list row
+    columns, each = [], [[] for _ in prices]
+    for x in range(n):
+        limit = cutoff[x]
+        is_near = False
+        for i in range(len(prices)):
+            row = prices[i]
+            price = row[x]
+            if price <= limit:
+                is_near = True
+            elif x in sought[i]:
+                n_beyond += 1
+        if is_near:
+            columns.append(x)
+            for i in range(len(prices)):
+                row = prices[i]
+                price = row[x]
+                (<list>each[i]).append(price if price <= limit else INFINITY)
+    return columns, each, n_beyond

@@ -9,7 +9,9 @@ and the share of the power through each contact.
 
 from __future__ import annotations
 
+import heapq
 import math
+from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -18,13 +20,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.html_tables import html_table
-from scene2hap.propagation.protocol import Carrier, CarryingField
+from scene2hap.propagation.exponential_plate import REFERENCE_HZ, ExponentialPlate
+from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.protocol import Body, Carrier, CarryingField
+from scene2hap.scene.objects import Contact
 from scene2hap.session.frame import HapticFrame, Touch
+from scene2hap.session.hand_gains import TouchGains
 from scene2hap.session.impacts import Impact
-from scene2hap.session.loudest_path import LoudestPath, Point, loudest_path
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.sources import Sources
-from scene2hap.session.touch_gains import TouchGains
 
 LEAST_SHARE = 0.01
 """Smallest share of the power that the text mentions."""
@@ -32,7 +36,7 @@ LEAST_SHARE = 0.01
 
 @dataclass(frozen=True)
 class PathStep:
-    """One object on the way: how far through it [m], and how the level changes on that [dB].
+    """One object on a path: the length through it [m], and the change of the level over that length [dB].
 
     by_way_of : objects through which a short cut leads, from this one back to it; their lengths count in.
     """
@@ -68,7 +72,7 @@ class FeltSource:
 
     @property
     def length_m(self) -> float:
-        """Length of the whole way [m]."""
+        """Length of the whole path [m]."""
         return sum(step.length_m for step in self.steps)
 
     def __str__(self) -> str:
@@ -128,7 +132,7 @@ class Explanation:
 
 
 class Explainer:
-    """Explains one moment.
+    """Explains the gains of one moment.
 
     Parameters: field : in use, which `gains` evaluates; levels : of each source at the hand, by band (n_bands,) [-].
     """
@@ -180,7 +184,8 @@ def decibels(gain: float) -> float:
 
 
 def _steps(way: LoudestPath, point_m: Point, gain_at: Callable[[str, Point], float]) -> tuple[PathStep, ...]:
-    """A step runs through its object up to the next contact; what the contact costs counts to the object behind it."""
+    """Steps of a path. A step runs through its object up to the next contact; the loss of a contact belongs to the
+    object behind it."""
     steps, before_db = [PathStep(way.objects[0], 0.0, 0.0)], 0.0
     leaves = (*way.entries, point_m)[1:]
     for object_id, enter, leave in zip(way.objects[1:], way.entries, leaves, strict=True):
@@ -214,3 +219,67 @@ def _in_words(carriers: Sequence[Carrier]) -> str:
         if sum(shares) >= LEAST_SHARE
     ]
     return ", ".join(described)
+
+
+Point = tuple[float, float, float]
+
+_END = ""
+
+
+@dataclass(frozen=True)
+class LoudestPath:
+    """Objects from a source to a touch, and the point at which each but the source is entered."""
+
+    objects: tuple[str, ...]
+    entries: tuple[Point, ...] = ()
+
+    def on(self, object_id: str, entry: Point) -> LoudestPath:
+        """Extend the path by one object."""
+        return LoudestPath((*self.objects, object_id), (*self.entries, entry))
+
+
+def loudest_path(
+    source_id: str,
+    target_id: str,
+    point_m: Point,
+    contacts: Sequence[Contact],
+    bodies: Mapping[str, Body],
+    model: object,
+) -> LoudestPath | None:
+    """The cheapest path over contacts (Dijkstra), with the costs of `propagation.paths`; None if there is none."""
+    if source_id == target_id:
+        return LoudestPath((source_id,))
+    law = model if isinstance(model, ExponentialPlate) else ExponentialPlate()
+    loss = law.interface_loss_db * math.log(10) / 20
+    beside: dict[str, list[tuple[str, Point, float]]] = defaultdict(list)
+    for contact in contacts:
+        if contact.weight > 0:
+            crossing = (loss - math.log(contact.weight)) / math.sqrt(2 * math.pi * REFERENCE_HZ)
+            beside[contact.a].append((contact.b, contact.point_m, crossing))
+            beside[contact.b].append((contact.a, contact.point_m, crossing))
+    waiting: list[tuple[float, int, LoudestPath]] = [(0.0, 0, LoudestPath((source_id,)))]
+    done: set[tuple[str, Point | None, int]] = set()
+    n_pushed = 0
+    while waiting:
+        cost, _, way = heapq.heappop(waiting)
+        here, hops = way.objects[-1], len(way.entries)
+        if here == _END:
+            return LoudestPath(way.objects[:-1], way.entries[:-1])
+        entry = way.entries[-1] if way.entries else None
+        # The same place after more hops is another state only where hops are counted.
+        state = (here, entry, hops if law.max_hops is not None else 0)
+        if state in done or (entry is not None and here not in bodies):
+            continue
+        done.add(state)
+        onward = [] if law.max_hops is not None and hops >= law.max_hops else beside[here]
+        end = [(_END, point_m, 0.0)] if here == target_id else []
+        for other, leave, crossing in (*onward, *end):
+            # Inside the source distance is free: it moves as a whole.
+            through = 0.0 if entry is None else _price_per_m(bodies[here]) * math.dist(entry, leave)
+            n_pushed += 1
+            heapq.heappush(waiting, (cost + through + crossing, n_pushed, way.on(other, leave)))
+    return None
+
+
+def _price_per_m(body: Body) -> float:
+    return body.wavenumber_per_root_omega if isinstance(body, Plate) else 0.0

@@ -1,4 +1,4 @@
-"""Provides the newest propagation field that is ready, while a worker prepares the next.
+"""Provides the propagation field to evaluate: the newest that a worker has prepared, or a live one.
 
 All methods belong to the game's thread. The worker ends with the keeper.
 """
@@ -8,29 +8,31 @@ from __future__ import annotations
 import time
 import warnings
 import weakref
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from threading import Thread
 
 from scene2hap.errors import Scene2HapError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.controls import NoPropagation
-from scene2hap.propagation.live import TouchedPoint
+from scene2hap.propagation.live import LiveField, LiveModel, TouchedPoint
 from scene2hap.propagation.protocol import (
+    Body,
     ContactNetwork,
     Excitation,
     ExpectantField,
     PropagationField,
     PropagationModel,
 )
-from scene2hap.session.field_in_use import FieldInUse
-from scene2hap.session.last_field import LastField
+from scene2hap.propagation.reference import FeltNear
+from scene2hap.session.config import SessionConfig
+from scene2hap.session.prepared_field import FieldInUse, LastField
 from scene2hap.session.reach import Reach
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.worker import Desk, Prepared, Sign, Situation, put_to_work
 
 
 class FieldKeeper:
-    """The field in use, and how it is kept up to date.
+    """Keeps a field prepared for the present scene, and the last one in use meanwhile.
 
     Parameters: is_background : whether a worker prepares, beginning now; until the first field is ready, each source is
     felt on itself alone; skips_unreachable : leave objects that no source reaches out of the model's input.
@@ -73,7 +75,7 @@ class FieldKeeper:
 
     @property
     def age_s(self) -> float:
-        """For how long the field in use has been out of date [s]."""
+        """Time for which the field in use has been out of date [s]."""
         outdated = self.in_use.situation.outdated_at_s
         return 0.0 if outdated is None else time.monotonic() - outdated
 
@@ -122,7 +124,7 @@ class FieldKeeper:
         return gained
 
     def take(self) -> bool:
-        """Take the newest field that is ready into use; false if it is already."""
+        """Take the newest field that is ready into use. Returns false if none is newer."""
         try:
             answer = self._desk.answers.pop()
         except IndexError:
@@ -136,8 +138,10 @@ class FieldKeeper:
         return False
 
     def wait(self, timeout_s: float | None = None) -> bool:
-        """Wait until nothing is being prepared, and what is touched is expected; false after the timeout [s]. The field
-        is then taken into use."""
+        """Wait until no field is being prepared and `expect` has run for all touched objects, and use that field.
+
+        Returns false after the timeout [s].
+        """
         end_s = None if timeout_s is None else time.monotonic() + timeout_s
         self.order()
         while True:
@@ -187,3 +191,64 @@ class FieldKeeper:
             weakref.finalize(self, self._desk.orders.put, Sign.END)
         self._n_put += 1
         self._desk.orders.put(order)
+
+
+class LiveKeeper:
+    """Provides a live field, and makes another one when sources or objects come and go. It is never out of date.
+
+    Raises: the errors of the model.
+    """
+
+    is_current = True
+    age_s = latency_s = 0.0
+    n_failed = 0
+    last_failure = ""
+
+    def __init__(self, model: LiveModel, bands: Bands, state: SceneState, excitations: Sequence[Excitation]) -> None:
+        self._model, self._bands, self._state = model, bands, state
+        self.n_prepared = 0
+        self._made_for: tuple[Mapping[str, Body], Sequence[Excitation]] | None = None
+        self.request(excitations)
+
+    @property
+    def field(self) -> LiveField:
+        """The field to evaluate."""
+        return self.in_use
+
+    def request(self, excitations: Sequence[Excitation]) -> None:
+        """Make a field of the present objects and sources, unless the field in use is of the same."""
+        self.n_prepared += 1
+        bodies = self._state.bodies
+        if self._made_for is None or self._made_for[0] is not bodies or self._made_for[1] is not excitations:
+            self._made_for = (bodies, excitations)
+            self.in_use: LiveField = self._model.live(self._state.graph, bodies, excitations, self._bands)
+
+    def order(self) -> None:
+        """Nothing is left to be prepared."""
+
+    def method(self, source_ids: tuple[str, ...], reach: Reach) -> LiveField:
+        """The field of these sources."""
+        return self.in_use
+
+    unnoted = method
+
+    def take(self) -> bool:
+        """False: there is never another field."""
+        return False
+
+    def wait(self, timeout_s: float | None = None) -> bool:
+        """True: nothing is being prepared."""
+        return True
+
+
+def keeper_of(config: SessionConfig, state: SceneState, excitations: Sequence[Excitation]) -> FieldKeeper | LiveKeeper:
+    """The keeper for the configured model: of a live field where the model offers one."""
+    model, bands = config.propagation, config.bands
+    if isinstance(model, LiveModel):
+        return LiveKeeper(model, bands, state, excitations)
+    if config.reference == "felt_near":
+        model = FeltNear(model)
+    is_background, skips_unreachable = config.prepare == "background", config.skip.unreachable
+    return FieldKeeper(
+        model, bands, state, excitations, is_background=is_background, skips_unreachable=skips_unreachable
+    )

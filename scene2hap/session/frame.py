@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
-from scene2hap.attributes import clear_attributes
-from scene2hap.calls import clear_call, clear_construction
+from scene2hap.calls import clear_attributes, clear_call, clear_construction
 from scene2hap.errors import SessionError, UnknownObject
 
 _TOUCH = "A touch is Touch(hand, object_id, point_m), its point in the world."
@@ -127,6 +126,25 @@ class SessionStats:
     impacts: int = 0
     impacts_felt: int = 0
     impacts_left_out: int = 0
+
+
+@dataclass
+class Counts:
+    """The fields of `SkipCounts` that are counted here, and gains that were capped."""
+
+    unreachable_objects: int = 0
+    unreachable_touches: int = 0
+    changes_out_of_reach: int = 0
+    below_threshold: int = 0
+    silent_bands: int = 0
+    idle_hands: int = 0
+    unchanged_frames: int = 0
+    gains_capped: int = 0
+
+    def skipped(self, rows_not_mixed: int) -> SkipCounts:
+        """Copy the present counts into a `SkipCounts`."""
+        counted = {name: count for name, count in vars(self).items() if name != "gains_capped"}
+        return SkipCounts(rows_not_mixed=rows_not_mixed, **counted)
 
 
 def unknown_hand(hand: str, hands: Sequence[str]) -> str:

@@ -1,6 +1,6 @@
-"""Read arguments of a session that have an unexpected type: use them where their meaning is plain, else raise.
+"""Arguments of a session: use those of an unexpected type where their meaning is plain, else raise.
 
-This runs only after the expected type did not fit, so that a frame with the expected types costs nothing more.
+An ordinary frame runs nothing of this module but the check of its stamp, so that it costs nothing more.
 """
 
 from __future__ import annotations
@@ -11,19 +11,26 @@ from typing import Any, NoReturn
 
 from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.bundle import HapticBundle
 from scene2hap.devices.protocol import ActuatorSink
-from scene2hap.errors import ConfigError, SceneError, SessionError
+from scene2hap.errors import BundleError, ConfigError, SceneError, SessionError
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.session.frame import Touch
 from scene2hap.session.impacts import KNOCK_M_S, Strike
 
+MAX_RENDERED_FRAMES = 1 << 24
+"""Frames of one call; assumed: minutes, while a sink takes milliseconds at a time."""
+
+MAX_AHEAD_S = 3600
+"""How far an update may lie ahead of what was rendered; assumed: further, it is a time in other units."""
+
 _TOUCH = "Touch(hand, object_id, point_m)"
 
 
 def require_settings(config: object) -> None:
-    """Raise a ConfigError where arguments of a session are given as its settings: its hands, or a sink."""
+    """Raise a ConfigError if other arguments of a session, its hands or a sink, are given as settings."""
     if isinstance(config, ActuatorSink):
         raise ConfigError(f"config is {checks.described(config)}; write HapticSession(..., sink=sink).")
     for name in ("hands", "sink"):
@@ -120,7 +127,7 @@ def given_contacts(contacts: object) -> Sequence[Contact]:
 def given_strike(
     object_id: str, point_m: object, with_object: str | None, speed_m_s: object, impulse_n_s: object
 ) -> Strike:
-    """A strike; a knock where nobody says how hard. Raises: SessionError: numbers that are out of bounds."""
+    """A strike; a knock without speed and impulse. Raises: SessionError: numbers that are out of bounds."""
     x, y, z = checks.vector("point_m", point_m, "m", size=3, error=SessionError)
     if speed_m_s is not None and impulse_n_s is not None:
         raise SessionError("speed_m_s and impulse_n_s are both given; give one of them.")
@@ -157,3 +164,57 @@ def require_addable(item: object, haptics: object, loops: object) -> None:
             raise SessionError(f"loops[{state!r}] of {item.id!r} is {what}; it must be a HapticLoop.{hint}")
         if not isinstance(state, str):
             raise SessionError(f"loops of {item.id!r} has the state {checks.represented(state)}; it must be a text.")
+
+
+def given_frames(n_frames: object) -> int:
+    """A number of frames to render. Raises: SessionError: out of bounds."""
+    hint = "For a time give seconds: `render_s`, or `pull_s` of a sink."
+    bounds = {"at_least": 0, "at_most": MAX_RENDERED_FRAMES}
+    return checks.whole("n_frames", n_frames, "-", **bounds, error=SessionError, hint=hint)
+
+
+def given_stamp(at_sample: object, last: int, position: int, sample_rate_hz: int) -> int:
+    """The sample at which an update happens, after one at `last`, while `render` is at `position`.
+
+    Raises: SessionError: it lies before the last update, or too far ahead.
+    """
+    sample = at_sample
+    if type(sample) is not int:
+        sample = checks.whole("at_sample", at_sample, "-", at_least=0, at_most=2**62, error=SessionError)
+    if sample > max(position, last) + MAX_AHEAD_S * sample_rate_hz:
+        raise SessionError(
+            f"at_sample is {checks.represented(sample)}, more than {MAX_AHEAD_S} s ahead of `position`, {position}; it "
+            "must be a number of samples on the clock of `render`. Leave it out for now."
+        )
+    if sample < last:
+        raise SessionError(
+            f"at_sample is {checks.represented(sample)}; the last update was at {last}, and time cannot go back. Give "
+            "updates in the order in which they happen."
+        )
+    return sample
+
+
+def require_prefab(prefab: object, pose: object) -> None:
+    """Raise a SessionError unless a bundle of one object and its pose are given."""
+    if not isinstance(prefab, HapticBundle):
+        raise SessionError(
+            f"prefab is {checks.shown(prefab)}; it must be a HapticBundle of one object: bake_object(...) or "
+            "HapticBundle.load(folder)."
+        )
+    if len(prefab.snapshot.objects) != 1:
+        raise SessionError(
+            f"prefab has {len(prefab.snapshot.objects)} objects; it must have one. Bake each with bake_object."
+        )
+    if not isinstance(pose, Pose):
+        raise SessionError(f"pose is {checks.shown(pose)}; it must be a Pose.")
+
+
+def require_correction(bundle: object, before: HapticBundle) -> None:
+    """Raise a BundleError unless a bundle has the same objects as the one before."""
+    if not isinstance(bundle, HapticBundle):
+        raise BundleError(f"bundle is {checks.described(bundle)}; it must be a HapticBundle.")
+    if other := set(bundle.objects) ^ set(before.objects):
+        raise BundleError(
+            f"the bundle is of another scene: only one of it and the bundle in use has {min(other)!r}. Make another "
+            "session for another scene."
+        )

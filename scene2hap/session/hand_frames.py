@@ -8,24 +8,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.contact.graph import ContactChange
-from scene2hap.propagation.live import LiveField, LiveModel, PricedField
+from scene2hap.propagation.live import LiveField, PricedField
 from scene2hap.propagation.protocol import Excitation
-from scene2hap.propagation.reference import FeltNear
-from scene2hap.session.audibility import SILENT, Audibility
+from scene2hap.session.audibility import SILENT, Audibility, CutoffCost
 from scene2hap.session.config import SessionConfig
-from scene2hap.session.counts import Counts
-from scene2hap.session.cutoff import CutoffCost
 from scene2hap.session.explain import Explainer, Explanation
-from scene2hap.session.field_keeper import FieldKeeper
-from scene2hap.session.frame import HapticFrame, SessionStats, Touch
-from scene2hap.session.hand_gains import AllGains, Felt, GainMethod, HandGains, Loudness, PrunedGains
-from scene2hap.session.live_keeper import LiveKeeper
+from scene2hap.session.field_keeper import LiveKeeper, keeper_of
+from scene2hap.session.frame import Counts, HapticFrame, SessionStats, Touch
+from scene2hap.session.hand_gains import AllGains, Felt, GainMethod, HandGains, Loudness, PrunedGains, TouchGains
 from scene2hap.session.network import excitations_of
-from scene2hap.session.personal import PersonalGains
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.sources import LoopRow, Sources
-from scene2hap.session.touch_gains import TouchGains
-from scene2hap.session.user_profile import UserProfile
+from scene2hap.session.user_profile import PersonalGains, UserProfile
 
 PeaksOf = Callable[[Sequence[LoopRow]], NDArray[np.float32]]
 """Peaks (n_rows, 2, n_bands) of the loops of some rows, 0 of those that cannot be mixed yet."""
@@ -47,7 +41,8 @@ class HandFrames:
         self._method_field: LiveField | None = None
         self._n_unreachable: int | None = None
         self._levels, self._are_levels_known = np.empty(0), False
-        self._profile, self._hands = UserProfile(), hands
+        self._profile: UserProfile | None = None
+        self._hands = hands
         self._personal: PersonalGains | None = None
         self._audibility: Audibility | None = None
         self._loudness: Loudness | None = None
@@ -108,7 +103,7 @@ class HandFrames:
 
     def use_profile(self, profile: UserProfile) -> None:
         """Use the levels of another person."""
-        self._profile = profile
+        self._profile = None if profile.is_neutral else profile
         self.levels_changed()
 
     def frame(
@@ -283,7 +278,7 @@ class HandFrames:
         if not self._are_levels_known:
             levels = self._sources.factors(self._state.graph.neighbours, self._state.category)
             self._personal = None
-            if not self._profile.is_neutral:
+            if self._profile is not None:
                 config, rows = self._config, self._sources.active_rows()
                 self._personal = PersonalGains(self._profile, config.actuator.name, self._hands, rows, config.bands)
                 levels *= self._personal.highest
@@ -309,16 +304,3 @@ class HandFrames:
             skips_unreachable=config.skip.unreachable,
             limit=None if config.gain_limit_db is None else 10 ** (config.gain_limit_db / 20),
         )
-
-
-def keeper_of(config: SessionConfig, state: SceneState, excitations: Sequence[Excitation]) -> FieldKeeper | LiveKeeper:
-    """The keeper for the configured model: of a live field where the model offers one."""
-    model, bands = config.propagation, config.bands
-    if isinstance(model, LiveModel):
-        return LiveKeeper(model, bands, state, excitations)
-    if config.reference == "felt_near":
-        model = FeltNear(model)
-    is_background, skips_unreachable = config.prepare == "background", config.skip.unreachable
-    return FieldKeeper(
-        model, bands, state, excitations, is_background=is_background, skips_unreachable=skips_unreachable
-    )

@@ -1,4 +1,4 @@
-"""A scene under hands.
+"""A session: plays the vibration of a scene at the hands that touch it.
 
 `render` belongs to the audio thread, everything else to the game's. `update` keeps the contact graph, has the
 propagation field prepared when a contact changed unless it follows by itself, and turns touches into gains; `render`
@@ -12,6 +12,7 @@ import os
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, NoReturn, Self
 
@@ -19,33 +20,36 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
-from scene2hap.attributes import read_only
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
+from scene2hap.bundle.contents import require_same_scene
+from scene2hap.bundle.differences import changed_objects
 from scene2hap.bundle.given import given_pair
-from scene2hap.calls import clear_calls
+from scene2hap.calls import clear_calls, read_only
 from scene2hap.contact.graph import ContactChange
 from scene2hap.devices.protocol import ActuatorSink, Block
 from scene2hap.devices.whole_frames import WholeFrames
-from scene2hap.errors import BundleError, SceneError, SessionError, UnknownObject
+from scene2hap.errors import SceneError, SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.render.safety import SafetyStats
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.session.actuator_check import warn_if_other
-from scene2hap.session.bundle_changes import changed_objects
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.explain import Explanation
 from scene2hap.session.frame import HapticFrame, SessionStats, Touch, unknown_hand
 from scene2hap.session.given import (
+    MAX_RENDERED_FRAMES,
     given_contacts,
     given_frame,
+    given_frames,
+    given_stamp,
     given_strike,
     given_touches,
     require_addable,
+    require_correction,
     require_pose,
+    require_prefab,
     require_settings,
     swapped_hint,
 )
@@ -53,32 +57,23 @@ from scene2hap.session.hand_frames import HandFrames
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.impacts import Impact, Impacts, Strike
 from scene2hap.session.landings import Landings
-from scene2hap.session.off_surface import OffSurface
+from scene2hap.session.likely_mistakes import LikelyMistakes, warn_if_other_actuator, warn_if_other_hands
 from scene2hap.session.output import Output
-from scene2hap.session.personal import PersonalLimit
 from scene2hap.session.playback import Playback
 from scene2hap.session.scene_state import SceneState
-from scene2hap.session.silent_object import SilentObjects
 from scene2hap.session.sources import SourceInfo, Sources
 from scene2hap.session.switching import Switching
-from scene2hap.session.user_profile import UserProfile
-from scene2hap.session.w_first import warn_if_w_first
+from scene2hap.session.user_profile import PersonalLimit, UserProfile
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
 
-MAX_RENDERED_FRAMES = 1 << 24
-"""At once; assumed: minutes, where a sink asks for milliseconds."""
-
-MAX_AHEAD_S = 3600
-"""How far an update may lie ahead of what was rendered; assumed: further, it is a time in other units."""
-
 
 @clear_calls
 @read_only
 class HapticSession:
-    """A scene under hands.
+    """A session: plays the vibration of a scene at the hands that touch it.
 
     Parameters: scene : objects and where they are now; bundle : what was baked for them; config : a SessionConfig, its
     settings, or the path of a TOML or JSON file with a table `session`; hands : names of the outputs; sink : where
@@ -102,12 +97,15 @@ class HapticSession:
         sink: ActuatorSink | str | Mapping[str, Any] | None = None,
         user: UserProfile | Mapping[str, Any] | str | os.PathLike[str] | None = None,
     ) -> None:
-        require_settings(config)
-        scene, bundle = given_pair(scene, bundle)
+        if config is not None and not isinstance(config, SessionConfig):
+            require_settings(config)
+        if not (isinstance(scene, SceneSnapshot) and isinstance(bundle, HapticBundle)):
+            scene, bundle = given_pair(scene, bundle)
+        require_same_scene(scene, bundle)
         self._config = SessionConfig.parse(config)
         self._hands = checks.names("hands", hands)
         self._bundle = bundle
-        warn_if_other(bundle, self.config.actuator)
+        warn_if_other_actuator(bundle, self.config.actuator)
         self._sources = Sources()
         for object_id, loops in bundle.loops.items():
             if loops:
@@ -116,22 +114,17 @@ class HapticSession:
         follows_outlines = bool(getattr(self.config.propagation, "follows_outlines", False))
         self._state = SceneState(scene, bundle, follows_outlines=follows_outlines)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
-        self._switching = Switching(self._sources, self._playback, self.config.sample_rate_hz)
+        self._switching: Switching | None = None
         self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
-        self._off_surface, self._silent_objects = OffSurface(self._state), SilentObjects()
-        hand_frames, level = self._hand_frames, self._sources.user
-        self._impacts = Impacts(
-            self.config, self._state, self._playback, lambda: hand_frames.field, lambda: level.factor
-        )
+        self._mistakes = LikelyMistakes(self._state)
         self._landings = Landings(self._state.graph, self._state.middle_m, self.config.control_period_s)
         self._follows_landings = self.config.impacts
         self._output = Output(sink, self.config)
-        self._whole = WholeFrames(self.config.sample_rate_hz)
-        self._user, device = UserProfile.parse(user), self.config.actuator.name
-        self._limit = PersonalLimit(self._user.limits(self._hands, device), self.config.sample_rate_hz)
-        self._use_profile()
+        self._user: UserProfile | None = None
+        self._limit: PersonalLimit | None = None
+        if user is not None:
+            self._use_profile(UserProfile.parse(user))
         self._last_stamp = self._updates = 0
-        self._warned_of_silence = self._has_moved = False
 
     @property
     def config(self) -> SessionConfig:
@@ -159,7 +152,7 @@ class HapticSession:
 
     @property
     def poses(self) -> Mapping[str, Pose]:
-        """Where every object is now, by id."""
+        """The present pose of every object, by id."""
         return self._state.poses
 
     @property
@@ -175,11 +168,11 @@ class HapticSession:
         contacts: Sequence[Contact] | None = None,
         at_sample: int | None = None,
     ) -> HapticFrame:
-        """Take in a frame of the game, and set the gains that follow from it.
+        """Apply a frame of the game: move objects, and set the gains of all hands.
 
         Parameters: moved : new poses of objects that moved; touches : all touches of this frame (a hand that is not
         among them is lifted; one with several feels the largest gain per source); contacts : contacts that an engine
-        tells, instead of those found from geometry; at_sample : the position on `render`'s clock from which the gains
+        reports, instead of those found from geometry; at_sample : the position on `render`'s clock from which the gains
         change, None for the next block.
         A single Touch, touches as the first argument, and (hand, object id, point) instead of a Touch are taken too.
         Warns: SceneWarning: a hand touches an object more than 5 cm from its surface, once per hand; nothing vibrates.
@@ -190,7 +183,9 @@ class HapticSession:
             moved, touches = given_frame(moved, touches)
         felt = self._by_hand(touches)
         stamp = self._stamp(at_sample)
-        if self._switching.advance(stamp):
+        if self._switching is None and self._sources.switch_themselves:
+            self._switching = self._new_switching()
+        if self._switching is not None and self._switching.advance(stamp):
             self._hand_frames.levels_changed()
         if self._playback.take_prepared():
             self._hand_frames.loops_came()
@@ -208,8 +203,8 @@ class HapticSession:
         self._updates += 1
         self._output.feed(frame)
         if felt:
-            self._warn_if_nothing_vibrates()
-            self._off_surface.look(felt)
+            self._mistakes.in_sources(self._sources.ids)
+            self._mistakes.in_touches(felt)
         return frame
 
     def strike(
@@ -260,36 +255,20 @@ class HapticSession:
         Corrections of the prefab hold for each copy.
         Raises: SessionError: the bundle has not exactly one object; SceneError: the id is taken or empty.
         """
-        if not isinstance(prefab, HapticBundle):
-            raise SessionError(
-                f"prefab is {checks.shown(prefab)}; it must be a HapticBundle of one object: bake_object(...) or "
-                "HapticBundle.load(folder)."
-            )
-        if len(prefab.snapshot.objects) != 1:
-            raise SessionError(
-                f"prefab has {len(prefab.snapshot.objects)} objects; it must have one. Bake each with bake_object."
-            )
-        if not isinstance(pose, Pose):
-            raise SessionError(f"pose is {checks.shown(pose)}; it must be a Pose.")
+        require_prefab(prefab, pose)
         (original,) = prefab.snapshot.objects
         copy = replace(original, id=object_id, name=object_id, pose=pose)
         loops = prefab.loops.get(original.id, {})
         self._put(copy, prefab.objects.get(original.id), loops, prefab, original.id)
 
     def use_bundle(self, bundle: HapticBundle) -> None:
-        """Go on with a corrected bundle of the same scene: loops that differ fade over, levels are felt at once.
+        """Play a corrected bundle of the same scene: loops that differ are cross-faded, levels change at once.
 
         Objects stay where they are, and sources stay in their state if they still have it, on or off; a level or mute
         of `set_source` stays unless the bundle's own has changed. Objects that the session does not have are left out.
         Raises: BundleError: no bundle, or one of another scene.
         """
-        if not isinstance(bundle, HapticBundle):
-            raise BundleError(f"bundle is {checks.described(bundle)}; it must be a HapticBundle.")
-        if other := set(bundle.objects) ^ set(self._bundle.objects):
-            raise BundleError(
-                f"the bundle is of another scene: only one of it and the bundle in use has {min(other)!r}. Make "
-                "another session for another scene."
-            )
+        require_correction(bundle, self._bundle)
         before, self._bundle = self._bundle, bundle
         for object_id in changed_objects(before, bundle):
             if object_id in self._state.objects:
@@ -305,7 +284,7 @@ class HapticSession:
                 )
 
     def remove(self, object_id: str) -> None:
-        """Take an object out of the scene; what is felt of it fades.
+        """Take an object out of the scene; its vibration fades out.
 
         Raises: UnknownObject; SessionError: it is the last object.
         """
@@ -357,6 +336,7 @@ class HapticSession:
         """
         was_running = self._sources[source_id].is_running
         self._hand_frames.levels_changed(self._sources.set(source_id, on, state, gain_db, mute))
+        self._switching = self._switching or self._new_switching()
         self._switching.switched(source_id, was_running, self._now, by_hand=on is not None)
 
     def set_user(
@@ -370,11 +350,13 @@ class HapticSession:
 
         Raises: SessionError: out of bounds; ConfigError: a profile that cannot be read or is out of bounds.
         """
-        user = self._user if profile is None else UserProfile.parse(profile)
+        other = None if profile is None else UserProfile.parse(profile)
         self._sources.user.set(gain_db, mute)
-        if user is not self._user:
-            self._user = user
-            self._use_profile()
+        if other is not None:
+            if self._limit is None:
+                # So that the limits do not click, they begin at full scale.
+                self._limit = PersonalLimit(np.ones(len(self._hands)), self.config.sample_rate_hz)
+            self._use_profile(other)
         self._hand_frames.levels_changed()
 
     def pause(self) -> None:
@@ -389,7 +371,7 @@ class HapticSession:
         self._hand_frames.levels_changed()
 
     def explain(self, hand: str) -> Explanation:
-        """Each source that a hand felt at the last update, and its way there, and the impacts of the last second.
+        """Report the sources that a hand felt at the last update, their paths, and the impacts of the last second.
 
         Raises: SessionError: an unknown hand.
         """
@@ -399,7 +381,7 @@ class HapticSession:
 
     @property
     def is_current(self) -> bool:
-        """Whether gains are of the scene as it is; false while a worker prepares a newer field."""
+        """Whether gains are those of the present scene; false while a worker prepares a newer field."""
         return self._hand_frames.keeper.is_current
 
     @property
@@ -495,24 +477,17 @@ class HapticSession:
 
     def _rendered(self, n_frames: int) -> Block:
         if type(n_frames) is not int or not 0 <= n_frames <= MAX_RENDERED_FRAMES:
-            n_frames = checks.whole(
-                "n_frames",
-                n_frames,
-                "-",
-                at_least=0,
-                at_most=MAX_RENDERED_FRAMES,
-                error=SessionError,
-                hint="For a time give seconds: `render_s`, or `pull_s` of a sink.",
-            )
-        return self._limit.applied(self._playback.render(n_frames))
+            n_frames = given_frames(n_frames)
+        mix = self._playback.render(n_frames)
+        return mix if self._limit is None else self._limit.applied(mix)
 
     @property
     def position(self) -> int:
-        """The sample that `render` gives next, on the clock that `at_sample` speaks of; it stands still in a pause."""
+        """Number of the next sample of `render`, on the same clock as `at_sample`; it stands still in a pause."""
         return self._playback.position
 
     def position_s(self, source_id: str) -> float:
-        """Where in its loop a source is [s], for a game that plays the audible loop beside. Raises: UnknownObject."""
+        """Position of a source in its loop [s], for a game that plays the audible loop. Raises: UnknownObject."""
         return self._playback.position_s(self._sources[source_id].row)
 
     def start(self) -> None:
@@ -521,7 +496,7 @@ class HapticSession:
         Raises: SessionError: the session has no sink; DeviceError: it cannot be opened; ConfigError: the actuator's
         budget is out of bounds. Warns: SceneWarning: nothing vibrates.
         """
-        self._warn_if_nothing_vibrates()
+        self._mistakes.in_sources(self._sources.ids)
         self._output.start(self._rendered, self.hands)
 
     def stop(self) -> None:
@@ -555,7 +530,7 @@ class HapticSession:
         stats = self._hand_frames.stats(self._updates, self._playback.rows_not_mixed)
         return replace(
             stats,
-            touches_off_surface=self._off_surface.n_touches,
+            touches_off_surface=self._mistakes.n_touches_off,
             impacts=self._impacts.n_reported,
             impacts_felt=self._impacts.n_felt,
             impacts_left_out=self._impacts.n_left_out,
@@ -565,6 +540,19 @@ class HapticSession:
     def safety_stats(self) -> SafetyStats:
         """Counters of the changes by the safety layer of a started session."""
         return self._output.safety_stats
+
+    @cached_property
+    def _impacts(self) -> Impacts:
+        # Not the session itself, which would then be freed by the garbage collector alone.
+        frames, level = self._hand_frames, self._sources.user
+        return Impacts(self.config, self._state, self._playback, lambda: frames.field, lambda: level.factor)
+
+    @cached_property
+    def _whole(self) -> WholeFrames:
+        return WholeFrames(self.config.sample_rate_hz)
+
+    def _new_switching(self) -> Switching:
+        return Switching(self._sources, self._playback, self.config.sample_rate_hz)
 
     @property
     def _now(self) -> int:
@@ -578,14 +566,14 @@ class HapticSession:
         corrected: HapticBundle,
         its_id: str,
     ) -> None:
-        """Put in an object with the level and the mute switch that a bundle has for `its_id`."""
+        """Add an object with the level and the mute switch that a bundle has for `its_id`."""
         change = self._state.add(item, haptics)
         if loops:
             gain_db, muted = corrected.gain_db(its_id), corrected.is_muted(its_id)
             self._sources.add(item.id, loops, haptics, gain_db, is_muted=muted)
             self._playback.change_rows(self._sources.rows(), self._now)
         self._hand_frames.apply(change, sources_changed=bool(loops))
-        self._silent_objects.look(item.id, haptics, loops)
+        self._mistakes.in_added(item.id, haptics, loops)
 
     def _exchange(self, object_id: str) -> None:
         """Replace an object: with the bundle's present data, at its present pose."""
@@ -597,42 +585,27 @@ class HapticSession:
             self._sources.go_on(object_id, before)
             self._hand_frames.levels_changed(is_other_state=True)
 
-    def _warn_if_nothing_vibrates(self) -> None:
-        if not self._warned_of_silence and not self._sources.ids:
-            self._warned_of_silence = True
-            warn_of(
-                f"of {len(self._state.objects)} objects none vibrates, so that nothing but impacts will be felt; add "
-                "one with loops, or bundle.override(id, vibrates=True) and rebake(bundle)."
-            )
-
     def _stamp(self, at_sample: int | None) -> int:
-        if at_sample is not None and type(at_sample) is not int:
-            at_sample = checks.whole("at_sample", at_sample, "-", at_least=0, at_most=2**62, error=SessionError)
-        if at_sample is not None and at_sample > self._now + MAX_AHEAD_S * self.config.sample_rate_hz:
-            raise SessionError(
-                f"at_sample is {checks.represented(at_sample)}, more than {MAX_AHEAD_S} s ahead of `position`, "
-                f"{self._playback.position}; it must be a number of samples on the clock of `render`. Leave it out for "
-                "now."
-            )
-        if at_sample is not None and at_sample < self._last_stamp:
-            raise SessionError(
-                f"at_sample is {checks.represented(at_sample)}; the last update was at {self._last_stamp}, and time "
-                "cannot go back. Give updates in the order in which they happen."
-            )
-        self._last_stamp = self._now if at_sample is None else at_sample
-        return self._last_stamp
+        now = self._now
+        if at_sample is not None:
+            now = given_stamp(at_sample, self._last_stamp, self._playback.position, self.config.sample_rate_hz)
+        self._last_stamp = now
+        return now
 
-    def _use_profile(self) -> None:
-        self._hand_frames.use_profile(self._user)
-        self._limit.limits = limits = self._user.limits(self._hands, self.config.actuator.name)
+    def _use_profile(self, user: UserProfile) -> None:
+        self._user = user
+        self._hand_frames.use_profile(user)
+        limits = user.limits(self._hands, self.config.actuator.name)
+        if self._limit is None:
+            self._limit = PersonalLimit(limits, self.config.sample_rate_hz)
+        self._limit.limits = limits
         self._output.hold(limits)
-        if self._user.hands and not any(hand in self._user.hands for hand in self._hands):
-            named, own = (", ".join(map(repr, hands)) for hands in (self._user.hands, self._hands))
-            warn_of(f"the user's profile is for the hands {named}; this session has {own}. Rename one of them.")
+        warn_if_other_hands(tuple(user.hands), self._hands)
 
     def _use_hands(self, hands: tuple[str, ...]) -> None:
         self._hands = hands
-        self._use_profile()
+        if self._user is not None:
+            self._use_profile(self._user)
         self._hand_frames.levels_changed()
 
     def _by_hand(self, touches: Sequence[Touch] | None) -> Felt:
@@ -658,9 +631,7 @@ class HapticSession:
         return by_hand
 
     def _changed(self, moved: Mapping[str, Pose], contacts: Sequence[Contact] | None) -> ContactChange:
-        if moved and not self._has_moved:
-            self._has_moved = True
-            warn_if_w_first(moved, self._state.graph.pose, self._state.objects)
+        self._mistakes.in_moves(moved)
         try:
             return self._state.graph.update(moved, contacts=None if contacts is None else given_contacts(contacts))
         except SceneError:

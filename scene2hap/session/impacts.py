@@ -1,6 +1,10 @@
-"""Impacts: what is struck, or lands, is felt once by each hand that it reaches.
+"""Impacts: a strike or a landing is felt once by each hand that it reaches.
 
-    impact ── propagation.impact ──► Burst (decaying sines) ── model in use (`struck`) ──► at each hand ──► the mix
+    impact ── propagation.impact ──► Burst (decaying sines) ── model in use ──► at each hand ──► the mix
+
+A model with a live field gives the gain at each hand at once (`PointField`). Others prepare a field of their own for
+the impact, in which a small source stands on the struck point. The gains are relative to that point, so that neither
+the mass of that source nor the stiffness of its contact counts.
 
 Bounds: a pair of objects strikes once in `LEAST_INTERVAL_S`, `render.bursts.MOST_PLAYING` bursts sound at once, and
 each stays `PEAK` below full scale, as a source of full intensity does. Nothing is computed for an impact that no hand
@@ -11,25 +15,27 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.attributes import clear_attributes
 from scene2hap.audio.actuators import inverse_db, is_flat
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB
+from scene2hap.calls import clear_attributes
 from scene2hap.errors import Scene2HapError
 from scene2hap.propagation.impact import Burst, burst_of
 from scene2hap.propagation.live import PointField, TouchedPoint
+from scene2hap.propagation.protocol import ContactNetwork, Excitation, PropagationModel
+from scene2hap.propagation.sampling import AROUND
 from scene2hap.render.bursts import MOST_PLAYING, Samples, peak_of, summed, wave_of
+from scene2hap.scene.objects import Contact
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.playback import Playback
 from scene2hap.session.scene_state import SceneState
-from scene2hap.session.struck import struck_later, struck_live
 from scene2hap.session.user_profile import UserProfile
 
 Floats = NDArray[np.float64]
@@ -47,10 +53,12 @@ LEAST_GAIN = 10 ** (-60 / 20)
 MOST_WAITING = 4
 """Impacts that a worker has yet to compute."""
 LATEST_S = 0.3
-"""After which an impact is not felt any more; assumed: what is later is taken for another one."""
+"""Latest start of an impact after its time [s]; assumed: a later one would be taken for another impact."""
 KEPT = 64
 KNOCK_M_S = 0.5
 """Of a finger that knocks; assumed."""
+
+_STRIKER, _STRIKER_KG = "\0striker", 1e-3
 
 
 @clear_attributes
@@ -111,7 +119,9 @@ class Impacts:
         self._recent: deque[Impact] = deque(maxlen=KEPT)
         self.n_reported = self.n_felt = self.n_left_out = 0
 
-    def strike(self, strike: Strike, felt: Felt, hands: tuple[str, ...], profile: UserProfile, at_frame: int) -> Impact:
+    def strike(
+        self, strike: Strike, felt: Felt, hands: tuple[str, ...], profile: UserProfile | None, at_frame: int
+    ) -> Impact:
         """Let an impact be felt by the hands that touch something."""
         self.n_reported += 1
         impact, burst = self._impact(strike, at_frame)
@@ -119,7 +129,9 @@ class Impacts:
             self._play(impact, burst, felt, hands, profile)
         return impact
 
-    def land(self, strike: Strike, felt: Felt, hands: tuple[str, ...], profile: UserProfile, at_frame: int) -> None:
+    def land(
+        self, strike: Strike, felt: Felt, hands: tuple[str, ...], profile: UserProfile | None, at_frame: int
+    ) -> None:
         """As `strike`, without a returned impact: nothing is computed for one that is left out."""
         self.n_reported += 1
         if self._is_admitted(strike, felt, at_frame):
@@ -142,7 +154,9 @@ class Impacts:
             burst,
         )
 
-    def _play(self, impact: Impact, burst: Burst, felt: Felt, hands: tuple[str, ...], profile: UserProfile) -> None:
+    def _play(
+        self, impact: Impact, burst: Burst, felt: Felt, hands: tuple[str, ...], profile: UserProfile | None
+    ) -> None:
         at_frame = impact.at_sample
         touched: list[list[TouchedPoint]] = [[(x.object_id, x.point_m) for x in felt[i]] for i in felt]
         channels, f = dict(zip(felt, (hands[i] for i in felt), strict=True)), burst.frequencies_hz
@@ -177,8 +191,8 @@ class Impacts:
         """Wait for impacts that a worker computes; false after the timeout [s]."""
         return not wait(self._waiting, timeout_s).not_done
 
-    def _levels(self, burst: Burst, hands: list[str], profile: UserProfile) -> Floats:
-        """Amplitude of each sine at each of these hands, were it at the struck point (n_hands, n) [-]."""
+    def _levels(self, burst: Burst, hands: list[str], profile: UserProfile | None) -> Floats:
+        """Amplitude of each sine at each of these hands, as if it touched the struck point (n_hands, n) [-]."""
         actuator, f = self._config.actuator, burst.frequencies_hz
         accelerations = burst.accelerations_m_s2
         peak = peak_of(self._waves(burst), accelerations, burst.decays_s, self._config.sample_rate_hz)
@@ -188,7 +202,7 @@ class Impacts:
         if not is_flat(actuator):
             boost = 10 ** (inverse_db(actuator, f) / 20)
             drives *= boost / boost.max()
-        if profile.is_neutral:
+        if profile is None or profile.is_neutral:
             return np.broadcast_to(drives, (len(hands), len(f)))
         return drives * [10 ** (profile.level_db(hand, actuator.name, f) / 20) for hand in hands]
 
@@ -198,7 +212,7 @@ class Impacts:
         return [wave_of(f, decay, rate_hz) for f, decay in components]
 
     def _is_admitted(self, strike: Strike, felt: Felt, at_frame: int) -> bool:
-        """Whether an impact may be felt, which then counts as the pair's last."""
+        """Whether an impact may be felt. If so, it is recorded as the last of its pair."""
         if not felt or self._playback.is_paused or not self._user_factor():
             return False
         pair = (strike.object_id, strike.with_object)
@@ -230,7 +244,7 @@ class Impacts:
             self.n_felt += 1
 
     def _order(self, prepared: Callable[[], Floats], sound: Callable[[Floats, int], None], at_frame: int) -> None:
-        """Have a worker prepare what arrives, and let it sound then, unless that is too late to be of that impact."""
+        """Let a worker prepare the gains and start the burst, unless it is more than `LATEST_S` late by then."""
         latest = at_frame + round(LATEST_S * self._config.sample_rate_hz)
 
         def work() -> None:
@@ -248,3 +262,54 @@ class Impacts:
         if self._worker is None:
             self._worker = ThreadPoolExecutor(1, thread_name_prefix="scene2hap impacts")
         self._waiting.append(self._worker.submit(work))
+
+
+def struck_live(
+    field: PointField, object_id: str, point_m: Point, hands: Sequence[Sequence[TouchedPoint]], frequencies_hz: Floats
+) -> Floats:
+    """Gains (n_hands, n_frequencies) [-], >= 0, from a live field."""
+    gains = np.array(field.from_point(object_id, point_m, hands, frequencies_hz))
+    return _at_least_itself(gains, object_id, hands)
+
+
+def struck_later(
+    model: PropagationModel,
+    state: SceneState,
+    object_id: str,
+    point_m: Point,
+    hands: Sequence[Sequence[TouchedPoint]],
+    frequencies_hz: Floats,
+) -> Callable[[], Floats]:
+    """A function that prepares the model and returns these gains; it may be called in any thread, and later."""
+    # An object without contacts is in no network of connected objects, so that the whole scene is prepared for it.
+    put_together = state.network([object_id] if state.graph.beside.get(object_id) else None)
+    touched = {touched_id for hand in hands for touched_id, _ in hand}
+
+    def prepared() -> Floats:
+        network = put_together(touched).network
+        strikers = [f"{_STRIKER}{i}" for i in range(len(frequencies_hz))]
+        contacts = [Contact(striker, object_id, point_m) for striker in strikers]
+        excitations = [
+            Excitation(striker, f, f, _STRIKER_KG) for striker, f in zip(strikers, frequencies_hz.tolist(), strict=True)
+        ]
+        with_them = ContactNetwork(network.bodies, (*network.contacts, *contacts), network.poses)
+        field = model.prepare(with_them, excitations, AROUND)
+        itself = field.attenuation(object_id, [point_m])[0, :, 0]
+        gains = np.zeros((len(hands), len(frequencies_hz)))
+        for row, hand in zip(gains, hands, strict=True):
+            for touched_id, touched_m in hand:
+                np.fmax(row, field.attenuation(touched_id, [touched_m])[0, :, 0], out=row)
+        passes = itself > 0
+        gains[:, passes] /= itself[passes]
+        gains[:, ~passes] = 0.0
+        return _at_least_itself(gains, object_id, hands)
+
+    return prepared
+
+
+def _at_least_itself(gains: Floats, object_id: str, hands: Sequence[Sequence[TouchedPoint]]) -> Floats:
+    """Set gain 1 at hands on the struck object whose gains are all 0, since the impact itself is always felt."""
+    for row, hand in zip(gains, hands, strict=True):
+        if not row.any() and any(touched_id == object_id for touched_id, _ in hand):
+            row[:] = 1.0
+    return gains

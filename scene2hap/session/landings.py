@@ -1,8 +1,8 @@
-"""Finds when a moved object lands: a sudden stop while it touches what it moved towards.
+"""Find landings: a moved object stops suddenly while it touches the object that it moved towards.
 
-That a contact appears is no landing: contacts reach across gaps of centimetres, since in real scenes things that rest
-hover. Neither is a hand that puts something down gently, for it slows over many frames. What was nearing another object
-for some millimetres, and from one frame to the next goes on by less than a third as far, has met it.
+A new contact alone is no landing: contacts reach across gaps of centimetres, since resting objects hover in real
+scenes. A hand that puts something down gently makes none, since it slows over many frames. An object has landed if it
+approached another one for some millimetres, and moves on by less than a third as far from one frame to the next.
 """
 
 from __future__ import annotations
@@ -153,7 +153,7 @@ class Landings:
         return found
 
     def _landing(self, object_id: str, track: _Track) -> list[Landing]:
-        """The object that it landed on, or None: of all that it touches, the one that it approached the fastest."""
+        """The landing on the object that was approached the fastest, of all that it touches; empty if there is none."""
         run = track.run()
         (first, begin_s), (before, _), (last, end_s) = run[0], run[-2], run[-1]
         best, most_m, now = None, LEAST_TRAVEL_M, self._n_updates

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
+from scene2hap.bundle.override import USER
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body, Excitation
@@ -13,11 +14,27 @@ from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.outline import Outline
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import DominantSurface
-from scene2hap.session.furniture import ASSEMBLED_LOSS, is_assembled
 from scene2hap.session.sources import LoopRow
 
 UNKNOWN_MASS_KG = 1.0
 """Mass of a source without known mass and material."""
+
+ASSEMBLED_LOSS = 0.04
+"""Loss factor of assembled furniture, 0.03 to 0.06; assumed."""
+
+_HEAD_NOUNS = (
+    "armchair bed bench bookcase bookshelf cabinet chair closet commode cot counter couch crib cupboard desk door "
+    "drawer dresser island locker nightstand rack recliner shelf shelves sideboard sofa stand stool table vanity "
+    "wardrobe workbench"
+)
+HEAD_NOUNS = frozenset(_HEAD_NOUNS.split())
+"""The last words of categories that are furniture."""
+
+
+def is_assembled(haptics: ObjectHaptics) -> bool:
+    """Whether an object is furniture whose material no person chose; a chosen material keeps its own loss."""
+    head = haptics.object_category.lower().rpartition(" ")[2]
+    return head in HEAD_NOUNS and haptics.provenance.get("material") != USER
 
 
 def body_of(haptics: ObjectHaptics | None, surface: DominantSurface | None = None) -> Plate | None:
@@ -91,7 +108,7 @@ class PlatePoses(Mapping[str, Pose]):
 
 @lru_cache(maxsize=4096)
 def _corner(surface: DominantSurface, length_m: float, width_m: float, *, has_outline: bool = False) -> Pose:
-    """A plate whose size was corrected shares its middle with the surface, or the outline, that was measured."""
+    """Pose of a plate's corner. A plate of corrected size keeps the middle of the measured surface or outline."""
     x, y = surface.length_m, surface.width_m
     if has_outline and surface.outline is not None:
         x0, y0, x1, y1 = surface.outline.box_m

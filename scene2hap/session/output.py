@@ -73,14 +73,14 @@ class Output:
             self._safety.hold(limits)
 
     def show(self, frame: HapticFrame) -> None:
-        """Hand a frame to a started sink that wants gains."""
+        """Pass a frame to a started sink that takes gains."""
         if self._safety is not None and self._show is not None:
-            # Worked out here: a sink reads it in a thread of its own, while the scene goes on to change.
+            # Computed here: a sink reads it in a thread of its own, while the scene continues to change.
             _ = frame.gains
             self._show(frame)
 
     def start(self, fill: Fill, hands: Sequence[str]) -> None:
-        """Send what `fill` gives through the safety layer to the sink; nothing if that is done already.
+        """Send the samples of `fill` through the safety layer to the sink; does nothing if it is started already.
 
         Raises: SessionError: there is no sink; DeviceError: it cannot be opened, or another session plays on it;
         ConfigError: the actuator's budget is out of bounds.

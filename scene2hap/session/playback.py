@@ -1,7 +1,7 @@
 """The mix of a session, as loops and hands come and go, paused or not.
 
-Almost always it is one mixer. Loops go to free slots of it (`slot_bank`); a new hand, or more loops than there are
-slots, get a mixer of their own, in phase with the first, and what they play is added.
+Almost always one mixer plays all. Loops go to free slots of its bank. A new hand, or more loops than there are slots,
+get a mixer of their own, in phase with the first, and the mixes are added.
 
 Threads: `render` belongs to the audio thread, everything else to the game's. The audio thread reads one plan, which is
 replaced and never changed; neither waits for the other.
@@ -9,6 +9,7 @@ replaced and never changed; neither waits for the other.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future, wait
 from dataclasses import dataclass
@@ -19,12 +20,11 @@ from numpy.typing import NDArray
 from scene2hap.devices.protocol import Block
 from scene2hap.render.bursts import Bursts, PlannedBurst
 from scene2hap.render.limiter import soft_limit
-from scene2hap.render.loop_bank import position_s
+from scene2hap.render.loop_bank import SlotBank, position_s
+from scene2hap.render.mixer import Mixer
 from scene2hap.render.passage import Course, Passage, Running
 from scene2hap.session.config import MIN_RAMP_S, SessionConfig
-from scene2hap.session.mixer_instance import MixerInstance
 from scene2hap.session.prepared_loops import PreparedLoop, find, order, prepare
-from scene2hap.session.slot_bank import SlotBank
 from scene2hap.session.sources import LoopRow
 
 SPARE_SLOTS = 16
@@ -33,6 +33,69 @@ SPARE_SLOTS = 16
 Indices = NDArray[np.intp]
 
 _MOST_ROUTES = 64
+
+
+class MixerInstance:
+    """A mixer for some hands and a bank.
+
+    Parameters: hands : a token for each output; position : the frame of the session's clock at which it may begin.
+    """
+
+    def __init__(self, config: SessionConfig, bank: SlotBank, hands: tuple[int, ...], position: int) -> None:
+        rate = config.sample_rate_hz
+        # A whole number of tactile samples, so that its loops are in phase with everyone's.
+        unit = rate // math.gcd(rate, bank.sample_rate_hz)
+        self._begin = -(-position // unit) * unit
+        self.bank = bank.shifted(self._begin * bank.sample_rate_hz // rate)
+        self.hands = hands
+        self.mixer = Mixer(
+            self.bank,
+            len(hands),
+            sample_rate_hz=rate,
+            ramp_s=max(config.control_period_s, MIN_RAMP_S),
+            skip_silent=config.skip.silent_bands,
+        )
+        self._nothing = np.zeros((len(hands), 0, config.bands.n_bands), dtype=np.float32)
+        # The target gains and their slots, and the request that they came from: an equal request is skipped.
+        self._gains, self._slots = self._nothing, list[int]()
+        self._last_request: tuple[bytes, list[int], list[int]] | None = None
+
+    def move_to(self, gains: NDArray[np.float32], slots: list[int], hands: list[int], at_frame: int) -> None:
+        """Move to gains (n_hands, n_slots, n_bands) of some slots for some of its hands, and to 0 for the rest."""
+        request = (gains.tobytes(), slots, hands)
+        if request == self._last_request:
+            return
+        if len(hands) < len(self.hands):
+            some, gains = gains, np.zeros((len(self.hands), *gains.shape[1:]), dtype=np.float32)
+            gains[hands] = some
+        self._send(gains, slots, at_frame)
+        self._last_request = request
+
+    def fade(self, slots: list[int], at_frame: int) -> None:
+        """Move to 0 for some slots alone."""
+        kept = [i for i, slot in enumerate(self._slots) if slot not in slots]
+        self._send(self._gains[:, kept], [self._slots[i] for i in kept], at_frame)
+
+    def silence(self, at_frame: int) -> None:
+        """Move to 0."""
+        self._send(self._nothing, [], at_frame)
+
+    def render(self, position: int, n_frames: int) -> Block:
+        """Samples (n_frames, n_hands) from a frame of the session's clock on, which only goes forward."""
+        behind = position - self._begin - self.mixer.position
+        if behind == 0:
+            return self.mixer.render(n_frames)
+        if behind > 0:
+            self.mixer.render(behind)
+            return self.mixer.render(n_frames)
+        n_waiting = min(n_frames, -behind)
+        silence = np.zeros((n_waiting, len(self.hands)), dtype=np.float32)
+        return np.concatenate([silence, self.mixer.render(n_frames - n_waiting)])
+
+    def _send(self, gains: NDArray[np.float32], slots: list[int], at_frame: int) -> None:
+        self.mixer.set_loops(gains, slots, at_frame - self._begin)
+        self._gains, self._slots, self._last_request = gains, slots, None
+
 
 _Route = tuple[MixerInstance, list[int] | None, list[int], list[int], Indices | None]
 """A mixer, which sources it plays and in which slots, on which of its outputs, and of which channels; None for all."""
@@ -53,7 +116,7 @@ class _Plan:
 
 @dataclass(eq=False)
 class _Place:
-    """Where a loop is; `free_at` is the frame from which on nothing of it can be left, once it was given up."""
+    """Bank and slot of a loop; `free_at` is the frame after which a loop that was given up has faded."""
 
     bank: SlotBank
     slot: int
@@ -83,7 +146,8 @@ class Playback:
         self._active: Sequence[LoopRow] = ()
         self._banks = [self._new_bank(len(rows))]
         self._mixers = [MixerInstance(config, self._banks[0], tuple(self._hands), 0)]
-        self._plan, self._bursts = self._new_plan(), Bursts()
+        self._plan = self._new_plan()
+        self._bursts: Bursts | None = None  # at the first impact
         # Twice the ramp, since gains that come too fast wait for each other.
         fade_s = 2 * max(config.control_period_s, MIN_RAMP_S) + self._mixers[0].mixer.delay_s + 0.01
         self._fade_frames = round(fade_s * config.sample_rate_hz)
@@ -112,7 +176,7 @@ class Playback:
         return position_s(len(loop.samples), loop.sample_rate_hz, self._position, self._config.sample_rate_hz)
 
     def peaks(self, rows: Sequence[LoopRow]) -> NDArray[np.float32]:
-        """Peaks (n_rows, 2, n_bands), see `peaks.peaks_of`; 0 of loops that are still being prepared."""
+        """Peaks (n_rows, 2, n_bands), see `prepared_loops.peaks_of`; 0 of loops that are still being prepared."""
         n_bands = self._config.bands.n_bands
         silent = np.zeros((2, n_bands))
         found = [silent if row in self._coming else self._ready[row].peaks for row in rows]
@@ -146,11 +210,12 @@ class Playback:
     @property
     def n_bursts(self) -> int:
         """Number of bursts that sound, or are about to."""
-        return self._bursts.n_playing
+        return 0 if self._bursts is None else self._bursts.n_playing
 
     def start_burst(self, samples: Mapping[int, NDArray[np.float32]], at_frame: int) -> None:
         """Add samples (n,) to some channels, once, from a frame on; nothing in a pause."""
         if self._paused_from is None:
+            self._bursts = self._bursts or Bursts()
             by_token = {self._hands[channel]: one for channel, one in samples.items() if channel < len(self._hands)}
             self._bursts.start(PlannedBurst(at_frame, by_token))
 
@@ -216,8 +281,10 @@ class Playback:
     def pass_over(
         self, row: LoopRow, of: LoopRow, at_frame: int, lasts_s: float, course: Course, since: Running
     ) -> Passage | None:
-        """Make a row that is to be played of another, once, on its way up or down from a frame on; None if that is
-        still being prepared."""
+        """Add a row that plays another row once while it starts or stops, from a frame on.
+
+        Returns None if the other row is still being prepared.
+        """
         ready = self._ready.get(of)
         if ready is None:
             return None
@@ -237,7 +304,7 @@ class Playback:
         return frame * self._tactile_rate_hz // self._config.sample_rate_hz
 
     def add_hand(self) -> None:
-        """One output more, the last."""
+        """Add an output, behind the others."""
         token, self._next_hand = self._next_hand, self._next_hand + 1
         self._hands.append(token)
         self._mixers += [MixerInstance(self._config, bank, (token,), self._position) for bank in self._banks]
@@ -254,7 +321,8 @@ class Playback:
         if self._paused_from is None:
             for mixer in self._mixers:
                 mixer.silence(at_frame)
-            self._bursts.fade(at_frame, self._fade_frames)
+            if self._bursts is not None:
+                self._bursts.fade(at_frame, self._fade_frames)
             self._paused_from = at_frame
 
     def resume(self) -> None:
@@ -282,8 +350,9 @@ class Playback:
             for mixer, outputs, channels in plan.mixers:
                 total[:, channels] += mixer.render(self._position, n_frames)[:, outputs]
             mix = soft_limit(total)
-        if not self._bursts.are_silent:
-            self._bursts.add_to(mix, self._position, plan.hands)
+        bursts = self._bursts
+        if bursts is not None and not bursts.are_silent:
+            bursts.add_to(mix, self._position, plan.hands)
             mix = soft_limit(mix)
         self._position += n_frames
         return mix

@@ -1,4 +1,4 @@
-"""Figure of what a hand would feel of a source all over a scene, from above. Needs the extra `plots`."""
+"""Map of the level that a hand would feel of a source on a scene, from above. Needs the extra `plots`."""
 
 from __future__ import annotations
 

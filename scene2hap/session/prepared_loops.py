@@ -1,13 +1,14 @@
 """Loops ready to be mixed: split into bands, with the peaks that `audibility` compares.
 
-That takes some 100 ms a loop, so each content is prepared once in a process, however many objects, sessions and copies
-of its samples there are. What a session is given while it plays is prepared by a worker. What has been prepared stays
-as long as its clip, and the newest `KEPT_BYTES` a while longer, for things that come and go.
+Preparing a loop takes some 100 ms, so each content is prepared once in a process, however many objects, sessions and
+copies of its samples there are. A worker prepares loops that come while a session plays. A prepared loop stays as long
+as its clip, and the newest `KEPT_BYTES` a while longer, for objects that come and go.
 """
 
 from __future__ import annotations
 
 import hashlib
+import math
 import threading
 from collections import OrderedDict
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -18,13 +19,16 @@ from weakref import WeakKeyDictionary, WeakValueDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.audio.bands import split_bands
 from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.levels import threshold_db
 from scene2hap.haptics import Bands
 from scene2hap.render.loop_bank import LoopBank
-from scene2hap.session.peaks import peaks_of
 
 KEPT_BYTES = 32 * 2**20
 """Memory of unused loops that are kept."""
+PEAKS_RATE_HZ = 8000
+"""Rate at which peaks are looked for: eight samples per wave at 1 kHz miss it by a factor of cos(pi/8) at most."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,3 +82,16 @@ def _worker() -> ThreadPoolExecutor:
 
 def _made(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop:
     return PreparedLoop(LoopBank([clip], bands, tactile_rate_hz), peaks_of(clip, bands))
+
+
+def peaks_of(clip: AudioClip, bands: Bands) -> NDArray[np.float64]:
+    """Peak of a loop in each band (2, n_bands): over the threshold of touch, then re full scale."""
+    spectrum = np.fft.rfft(clip.samples.astype(np.float64))
+    frequencies = np.fft.rfftfreq(len(clip.samples), 1 / clip.sample_rate_hz)
+    n = max(1, round(len(clip.samples) * PEAKS_RATE_HZ / clip.sample_rate_hz))
+    weights = (10 ** (-threshold_db(frequencies) / 20), np.ones(len(frequencies)))
+    weighted = [np.fft.irfft(spectrum * weight, n) * (n / len(clip.samples)) for weight in weights]
+    peaks: NDArray[np.float64] = np.array(
+        [np.abs(split_bands(samples, PEAKS_RATE_HZ, bands)).max(axis=1) for samples in weighted]
+    )
+    return peaks / math.cos(math.pi / 8)

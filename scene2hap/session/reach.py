@@ -1,8 +1,8 @@
 """Which sources can reach which objects: those connected over contacts.
 
 The groups are kept as contacts come and go. A contact that comes joins two of them. When contacts go, one searches from
-both sides of each in turn, so that the smaller part is what is walked through: a mug that is lifted off a table in a
-furnished house costs a mug, not a house. What touches many, as a floor does, is left for last.
+both sides of each in turn, so that only the smaller part is searched: a mug that is lifted off a table in a
+furnished house costs a mug, not a house. Objects with many contacts, such as a floor, come last.
 """
 
 from __future__ import annotations

@@ -100,7 +100,7 @@ class SceneState:
         return x, y, z
 
     def on_plate(self, object_id: str, point_m: tuple[float, float, float]) -> tuple[float, float] | None:
-        """A world point [m] along length and width of an object's plate, from its corner; None if it has none."""
+        """Coordinates of a world point [m] along length and width of an object's plate; None without a plate."""
         if object_id not in self.bodies:
             return None
         poses = PlatePoses(self.objects, self.bodies, self.poses, self._corners)

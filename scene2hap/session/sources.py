@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
-from scene2hap.attributes import clear_attributes
 from scene2hap.audio.gain_warning import warn_if_percent
 from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.calls import clear_attributes
 from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.needs import meets
@@ -44,7 +44,7 @@ class Level:
 
 @dataclass(frozen=True, eq=False)
 class LoopRow:
-    """One state of one source: what the mix has a row of loops for. Each is itself alone, whatever its names."""
+    """One state of one source, and a row of the mix. Rows are equal only to themselves."""
 
     source_id: str
     state: str
@@ -93,7 +93,7 @@ class Source:
 
 
 class Sources:
-    """The sources that are there now, in the order in which they came; each is on at first, in its first state."""
+    """The present sources, in the order in which they were added; each is on at first, in its first state."""
 
     def __init__(self) -> None:
         self._sources: dict[str, Source] = {}
@@ -101,6 +101,7 @@ class Sources:
         self._ids: tuple[str, ...] | None = None
         self._active_rows: tuple[LoopRow, ...] | None = None
         self._need_contacts: bool | None = None
+        self._switch_themselves: bool | None = None
         self.user = Level()
 
     def __contains__(self, object_id: object) -> bool:
@@ -129,11 +130,12 @@ class Sources:
         self._list()
 
     def get(self, object_id: str) -> Source | None:
-        """A source, None if the object is none."""
+        """A source; None if the object does not vibrate."""
         return self._sources.get(object_id)
 
     def go_on(self, source_id: str, before: Source) -> None:
-        """Let a source go on as it was before its loops were exchanged; the first state gives way to a new first."""
+        """Restore switch, level and state of a source whose loops were exchanged. A source in its first state takes the
+        new first state."""
         source = self._sources[source_id]
         source.is_on, source.level = before.is_on, before.level
         if before.state != next(iter(before.rows)) and before.state in source.rows:
@@ -159,7 +161,7 @@ class Sources:
         return [row for source in sources for row in source.rows.values()] + passing
 
     def let_pass(self, source_id: str, row: LoopRow | None) -> None:
-        """Play a row while a source starts or stops, None for that of its state again."""
+        """Play a row while a source starts or stops; None returns to the row of its state."""
         self._sources[source_id].passing = row
         self._active_rows = None
 
@@ -188,8 +190,8 @@ class Sources:
         return is_other
 
     def _list(self) -> None:
-        """Forget what is derived from the sources and their states."""
-        self._ids = self._active_rows = self._need_contacts = None
+        """Drop all values derived from the sources and their states."""
+        self._ids = self._active_rows = self._need_contacts = self._switch_themselves = None
 
     @property
     def ids(self) -> tuple[str, ...]:
@@ -204,6 +206,14 @@ class Sources:
         if self._need_contacts is None:
             self._need_contacts = any(one.needs.get(one.state) is not None for one in self._sources.values())
         return self._need_contacts
+
+    @property
+    def switch_themselves(self) -> bool:
+        """Whether any of them runs and rests in turns by itself, as by a thermostat, in any of its states."""
+        if self._switch_themselves is None:
+            states = (state for one in self._sources.values() for state in one.inferred.values())
+            self._switch_themselves = any(state.on_s is not None for state in states)
+        return self._switch_themselves
 
     def factors(
         self, neighbours: Callable[[str], Iterable[str]], category: Callable[[str], str]

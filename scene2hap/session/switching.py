@@ -1,8 +1,7 @@
-"""Sources that start and stop: they come up, die away, and some switch themselves, as a refrigerator does.
+"""Sources that start and stop, some of them by themselves, like a refrigerator.
 
-All times are those of `render`'s clock, which stands still in a pause. A source that is cut short while it starts dies
-away from the amplitude that it has, and the other way round. Where its recording shows a start or a stop, it goes along
-that.
+All times are on `render`'s clock, which stands still in a pause. A source that is switched off while it starts stops
+from its present amplitude, and the other way round. Starts and stops follow the curve of the recording, if any.
 """
 
 from __future__ import annotations
@@ -22,8 +21,11 @@ class _Passing:
 
 
 class Switching:
-    """Follows the sources of a session; those with turns of their own begin somewhere in their time on, each id always
-    at the same place, so that two refrigerators do not start together."""
+    """Starts and stops the sources of a session.
+
+    A source with turns of its own begins within its on-time, at a point that depends on its id alone, so that two
+    refrigerators do not start together.
+    """
 
     def __init__(self, sources: Sources, playback: Playback, sample_rate_hz: int) -> None:
         self._sources, self._playback, self._rate_hz = sources, playback, sample_rate_hz
@@ -84,7 +86,7 @@ class Switching:
             self._turns[source_id] = (now + round((1 - share) * lasts_s * self._rate_hz), source)
 
     def _pass(self, source_id: str, source: Source, now: int) -> None:
-        """Start to come up, or to die away."""
+        """Begin a start or a stop."""
         inferred, goes_up = source.inferred.get(source.state), source.is_running
         before = self._passing.pop(source_id, None)
         at_rest = STILL if goes_up else STEADY

@@ -141,7 +141,7 @@ class Desk:
             return prepared
 
     def _newest(self, order: Order) -> tuple[Order, int]:
-        """The one of all waiting orders to carry out, and their number: the end, else the last scene state."""
+        """The order to carry out of all that wait, and their number: the end, else the newest scene state."""
         waiting = [order]
         with contextlib.suppress(Empty):
             while True:
@@ -164,7 +164,7 @@ def put_to_work(desk: Desk, newest: Prepared) -> Thread:
 
 @atexit.register
 def _end_all() -> None:
-    """Let workers finish: one that is cut off within a sparse solver leaves Python with an error that nobody raised."""
+    """Let workers finish, since Python reports an error if it ends while a worker is in a sparse solver."""
     end_s = time.monotonic() + LAST_S
     workers = list(_WORKERS.items())
     for _, desk in workers:

@@ -12,7 +12,6 @@ PACKAGE = Path(__file__).parents[2] / "scene2hap"
 LAYERS = [
     {"errors", "printable", "quiet_logs"},
     {"checks", "compiled", "echoes"},
-    {"attributes"},
     {"calls"},
     {"file_stamp", "html_tables", "plots", "plugins", "secret", "text_files", "web"},
     {"settings"},

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
-from scene2hap.attributes import clear_attributes
+from scene2hap.calls import clear_attributes
 
 Outcome = Literal["baked", "kept", "failed"]
 

@@ -38,7 +38,7 @@ from scene2hap.errors import ConfigError
 from scene2hap.llm.chain import Inference, infer_scene
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.protocol import LLMBackend, LLMReply, LLMRequest
-from scene2hap.llm.waiting import run_waiting
+from scene2hap.llm.run_coroutine import run_waiting
 from scene2hap.llm.wrappers import identity, reports
 from scene2hap.llm.wrappers.prices import price_list
 from scene2hap.llm.wrappers.stack import Wrapper

@@ -9,9 +9,9 @@ import numpy as np
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.grouping import Group
-from scene2hap.scene.meshes import MeshPool
 from scene2hap.scene.objects import SceneObject, UpAxis
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.rigid_meshes import MeshPool
 
 _UP = {"y": np.array([0.0, 1.0, 0.0]), "z": np.array([0.0, 0.0, 1.0])}
 

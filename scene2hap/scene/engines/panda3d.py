@@ -22,9 +22,9 @@ from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.objects import ObjectMaker
 from scene2hap.scene.engines.panda3d_geoms import GeomReader
 from scene2hap.scene.grouping import Group, Grouping, group_objects, unique_ids
-from scene2hap.scene.meshes import rigid_part
 from scene2hap.scene.objects import UpAxis, with_relative_heights
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.rigid_meshes import rigid_part
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.scene.tree import AuthoredNode, Matrix
 

@@ -13,7 +13,7 @@ from kernels import both, seeds, steady
 from scene2hap.audio.clip import AudioClip
 from scene2hap.haptics import Bands
 from scene2hap.render.loop_bank import CELL, LoopBank
-from scene2hap.render.playhead import Change
+from scene2hap.render.mixer import Change
 from scene2hap.render.tactile_mix import Gains
 from scene2hap.render.upsampler import Upsampler
 
@@ -47,7 +47,7 @@ def test_gains_on_their_way(seed: int) -> None:
     rise = np.concatenate([np.zeros(CELL), np.linspace(0, 1, ramp), np.ones(CELL)]).astype(np.float32)
     n_rows = n_loops * n_bands
     products = [
-        kind(n_rows, n_rows + n_bands, n_slots, n_hands, rise) for kind in both("render.ramped_product.RampedProduct")
+        kind(n_rows, n_rows + n_bands, n_slots, n_hands, rise) for kind in both("render.tactile_mix.RampedProduct")
     ]
     held, begin = [(0, 0)], 0
     for _ in range(8):
@@ -82,7 +82,7 @@ def clips(rng: np.random.Generator, n: int) -> list[AudioClip]:
 def test_mixes_that_gains_come_to(rate_hz: int, is_skipping: bool) -> None:
     rng = np.random.default_rng(rate_hz)
     bank, incoming, playheads, mixes = LoopBank(clips(rng, 4), Bands.dominant(), 8000), [], [], []
-    for mix_kind, kind in zip(both("render.tactile_mix.TactileMix"), both("render.playhead.Playhead"), strict=True):
+    for mix_kind, kind in zip(both("render.tactile_mix.TactileMix"), both("render.mixer.Playhead"), strict=True):
         upsampler = Upsampler(8000, rate_hz, 2)
         # Few slots, so that some gains have to wait for one.
         mixes.append(mix_kind(bank, 2, 12, upsampler.cell, is_skipping=is_skipping))

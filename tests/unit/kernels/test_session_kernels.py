@@ -18,7 +18,7 @@ def test_what_is_within_its_horizon(seed: int, n: int) -> None:
     prices = rng.choice([0.0, 1.0, 2.0, math.inf], (n, 5)).tolist()
     cutoff = rng.choice([-1.0, 0.0, 1.5, math.inf], 5).tolist()
     sought = [frozenset(rng.choice(5, int(rng.integers(0, 5)), replace=False).tolist()) for _ in range(n)]
-    plain, twin = both("session.cutoff.within")
+    plain, twin = both("session.audibility.within")
     assert twin(prices, cutoff, sought) == plain(prices, cutoff, sought)
 
 
@@ -53,7 +53,7 @@ def test_what_is_worth_mixing(seed: int, n: int, m: int, has_peaks: bool, has_le
 def test_caps(seed: int, n: int) -> None:
     gains = np.random.default_rng(seed).choice([-1.0, -0.0, 0.0, 0.5, 2.0, 3.0, np.nan, np.inf], (n, 4, 5))
     told, compiled = gains.copy(), gains.copy()
-    plain, twin = both("session.touch_gains.cap")
+    plain, twin = both("session.hand_gains.cap")
     assert twin(compiled, 2.0) == plain(told, 2.0)
     np.testing.assert_array_equal(compiled, told)
 
@@ -67,6 +67,8 @@ def test_what_a_last_field_answers(seed: int, n: int, n_theirs: int) -> None:
     n_shared = int(rng.integers(0, min(n_theirs, 4) + 1))
     columns = (rng.permutation(4)[:n_shared], rng.permutation(n_theirs)[:n_shared])
     among = [None if rng.random() < 0.3 else frozenset(np.flatnonzero(rng.random(4) < 0.6).tolist()) for _ in range(n)]
-    told, compiled = (kind(answers, own, columns, among, (4, 3)) for kind in both("session.last_field.put_together"))
+    told, compiled = (
+        kind(answers, own, columns, among, (4, 3)) for kind in both("session.prepared_field.put_together")
+    )
     assert told.shape == (n, 4, 3)
     np.testing.assert_array_equal(compiled, told)

@@ -9,7 +9,7 @@ from edge_scenes import no_source
 from scene2hap import HapticBundle, HapticSession
 from scene2hap.audio.actuators import ACTUATORS
 from scene2hap.haptics import ActuatorProfile
-from scene2hap.session.actuator_check import OtherActuatorWarning
+from scene2hap.session.likely_mistakes import OtherActuatorWarning
 from scenes import RATE, table_with_two_phones
 
 

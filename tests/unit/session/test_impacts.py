@@ -12,8 +12,7 @@ from scene2hap import ExponentialPlate, HapticSession, InfinitePlate, ModalPlate
 from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.propagation.plate import Plate
 from scene2hap.render.bursts import wave_of
-from scene2hap.session.impacts import LEAST_INTERVAL_S, PEAK, Impact
-from scene2hap.session.struck import struck_later
+from scene2hap.session.impacts import LEAST_INTERVAL_S, PEAK, Impact, struck_later
 from scenes import table_with_two_phones
 
 RATE = 48_000

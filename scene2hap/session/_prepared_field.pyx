@@ -1,4 +1,4 @@
-"""The compiled twin of the kernel in `last_field`."""
+"""The compiled twin of the kernel in `prepared_field`."""
 
 import numpy as np
 

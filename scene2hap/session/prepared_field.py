@@ -1,4 +1,7 @@
-"""The last prepared field, evaluated for the present poses."""
+"""Prepared fields, evaluated for the present poses.
+
+The newest field may cover only the objects near the hands. The last field that covers all objects serves the others.
+"""
 
 from __future__ import annotations
 
@@ -10,17 +13,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
-from scene2hap.propagation.live import TouchedPoint, checked
+from scene2hap.propagation.live import LiveField, TouchedPoint, checked
 from scene2hap.propagation.protocol import PropagationField
 from scene2hap.scene.pose import Pose
 from scene2hap.session.reach import Reach
+from scene2hap.session.worker import Prepared
 
 Gains = NDArray[np.float64]
 Point = tuple[float, float, float]
 
 
 class LastField:
-    """A `LiveField` made of a field that was prepared for an earlier scene state.
+    """A `LiveField` from a field that was prepared for an earlier scene state.
 
     A touch is evaluated at the same place of the object at that time. Sources unknown to the field are silent. While
     the field is outdated, sources without a path to the touched object are silent, whatever the field says.
@@ -114,3 +118,40 @@ def _shared(ours: tuple[str, ...], theirs: tuple[str, ...]) -> tuple[NDArray[np.
     pairs = [(column[x], there) for there, x in enumerate(theirs) if x in column]
     here, there = np.array(pairs, dtype=np.intp).reshape(-1, 2).T.copy()
     return here, there
+
+
+class FieldInUse:
+    """A `LiveField` of the newest prepared fields. It reports touches, so that touched objects are prepared first.
+
+    Parameters: as_now : makes a live field of a prepared one; note : called with the touches. `use` comes first.
+    """
+
+    most = math.inf
+
+    def __init__(
+        self,
+        source_ids: tuple[str, ...],
+        as_now: Callable[[Prepared], LiveField],
+        note: Callable[[Sequence[TouchedPoint]], None],
+    ) -> None:
+        self.source_ids, self._as_now, self._note = source_ids, as_now, note
+        self._prepared: Prepared | None = None
+
+    def use(self, newest: Prepared, whole: Prepared) -> None:
+        """Continue with the newest field, which may not cover all objects, and one that covers the others."""
+        if self._prepared is not whole:
+            self._whole, self._prepared = self._as_now(whole), whole
+        self._newest = self._whole if newest is whole else self._as_now(newest)
+        self._covers = newest.covers
+
+    def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> NDArray[np.float64]:
+        """See `LiveField`."""
+        touched = [touch for hand in hands for touch in hand]
+        self._note(touched)
+        covers = self._covers
+        if covers is None or all(object_id in covers for object_id, _ in touched):
+            return self._newest.strongest(hands)
+        new = [[touch for touch in hand if touch[0] in covers] for hand in hands]
+        old = [[touch for touch in hand if touch[0] not in covers] for hand in hands]
+        gains: NDArray[np.float64] = np.fmax(self._newest.strongest(new), self._whole.strongest(old))
+        return gains

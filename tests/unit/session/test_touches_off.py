@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from scene2hap import Box, HapticSession, Pose, SceneObject, SceneSnapshot, SceneWarning, Touch, bake
-from scene2hap.session.off_surface import MOST_TRIANGLES
+from scene2hap.session.likely_mistakes import MOST_TRIANGLES
 
 TABLE = SceneObject("table", pose=Pose((0.0, 0.7, 0.0)), geometry=Box((1.6, 0.04, 0.8)))
 PHONE = SceneObject("phone", pose=Pose((0.5, 0.725, 0.2)), geometry=Box((0.08, 0.01, 0.15)))

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from scene2hap.haptics import Bands
 from scene2hap.propagation.live import TouchedPoint
-from scene2hap.session.field_in_use import FieldInUse
+from scene2hap.session.prepared_field import FieldInUse
 from scene2hap.session.scene_state import ModelInput
 from scene2hap.session.worker import Prepared, Situation
 

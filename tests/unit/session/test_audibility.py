@@ -9,12 +9,11 @@ import pytest
 from scene2hap import Bands, ExponentialPlate, HapticFrame, HapticSession, Pose, Touch
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.devices.protocol import Fill, SinkFormat, SinkStats
-from scene2hap.session.audibility import SILENT, Audibility
+from scene2hap.session.audibility import SILENT, Audibility, CutoffCost
 from scene2hap.session.config import SkipConfig
-from scene2hap.session.counts import Counts
-from scene2hap.session.cutoff import CutoffCost
+from scene2hap.session.frame import Counts
 from scene2hap.session.network import body_of, excitations_of
-from scene2hap.session.peaks import peaks_of
+from scene2hap.session.prepared_loops import peaks_of
 from scene2hap.session.sources import Sources
 from scenes import RATE, table_with_two_phones
 

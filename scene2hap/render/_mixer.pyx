@@ -1,4 +1,4 @@
-"""The compiled twin of the kernel in `playhead`."""
+"""The compiled twin of the kernel in `mixer`."""
 
 from libc.math cimport fabs
 

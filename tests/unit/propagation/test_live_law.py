@@ -9,7 +9,7 @@ import pytest
 from contact_scenes import box, scene
 from scene2hap.compiled import KERNELS
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.propagation.live_paths import LivePaths
+from scene2hap.propagation.live_law import LivePaths
 from scene2hap.propagation.paths import cheapest_arrivals
 from scene2hap.propagation.points import arrivals_at
 from scene2hap.scene.objects import Contact

@@ -1,4 +1,4 @@
-"""The compiled twin of the kernel in `touch_gains`."""
+"""The compiled twin of the kernel in `hand_gains`."""
 
 
 def cap(double[:, :, :] gains, double limit):
