@@ -14,7 +14,7 @@ def covers(const double[:, :, ::1] triangles, const double[:, :, ::1] rims, foot
 
 
 cdef bint holds(const double* corners, double u, double v) noexcept:
-    """Whether a point is in a triangle."""
+    """Return True if a point is in a triangle."""
     cdef double ax = corners[0] - u, ay = corners[1] - v, bx = corners[2] - u, by = corners[3] - v
     cdef double cx = corners[4] - u, cy = corners[5] - v
     cdef double p = ax * by - ay * bx, q = bx * cy - by * cx, r = cx * ay - cy * ax
@@ -22,7 +22,7 @@ cdef bint holds(const double* corners, double u, double v) noexcept:
 
 
 cdef bint enters(const double* ends, double u0, double v0, double u1, double v1) noexcept:
-    """Whether a segment meets a rectangle (Liang, Barsky), as `ledge._clipped`."""
+    """Return True if a segment meets a rectangle (Liang, Barsky), as `ledge._clipped`."""
     cdef double first = 0, last = 1
     return (
         trim(&first, &last, u0 - ends[0], u1 - ends[0], ends[2] - ends[0])

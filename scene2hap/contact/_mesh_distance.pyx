@@ -1,6 +1,6 @@
-"""The compiled twins of the kernels in `mesh_distance`: two `TriangleTree`s are descended at once.
+"""The compiled twins of the kernels in `mesh_distance`, which descend two `TriangleTree`s at once.
 
-The arithmetic of one pair of triangles is that of `triangles`, operation by operation: the same to the last bit.
+The arithmetic of one pair of triangles repeats that of `triangles`, operation by operation, for equal bits.
 """
 
 import numpy as np
@@ -19,7 +19,7 @@ cdef double INSET = 1e-4
 cdef double INSET_M = 1e-4
 cdef double SPREAD_M = 0.005
 cdef double TIE_M = 1e-6
-# A point this far outside an edge, in barycentric units, is outside whatever the rounding.
+# A point this far outside an edge, in barycentric units, is outside despite rounding.
 cdef double OUTSIDE = 1e-3
 cdef enum:
     MAX_POINTS = 4
@@ -31,18 +31,18 @@ cdef struct Box:
 
 
 cdef struct Face:
-    double corners[3][3]  # by corner, then by axis; of what falls, inset
+    double corners[3][3]  # by corner, then by axis; shrunk for a falling triangle
     double edges[3][3]    # from each corner to the next
     double v[3]           # from the first corner to the last; `edges[0]` is u
     double normal[3]
     double uu, uv, vv, area2, root
     bint is_level         # for `drops`
-    bint is_measured      # or else has nothing but corners
+    bint is_measured      # if False, only the corners are valid
     unsigned char features
 
 
 cdef inline double lesser(double x, double y) noexcept:
-    # C's own `fmin` is a call, since it has to look for nan.
+    # C's `fmin` is not inlined, since it must handle nan.
     return x if x < y else y
 
 
@@ -67,7 +67,7 @@ cdef inline double cut(double share) noexcept:
 
 
 cdef inline double squared_distance(const Box* a, const Box* b) noexcept:
-    """How far two boxes are apart, squared; inf for an empty one."""
+    """Return the squared distance of two boxes, inf if one is empty."""
     cdef double gap, total = 0
     cdef int axis
     for axis in range(3):
@@ -95,17 +95,17 @@ cdef struct Tree:
     const Py_ssize_t* columns  # (n_leaves,) in the shape
     const unsigned char* features  # (n_leaves,)
     Py_ssize_t n_leaves, m
-    bint is_placed             # or else in its own frame
+    bint is_placed             # if False, the tree is in the frame of the search already
     Placement at
     Role role
-    # Filled at the first visit: of a tree that is placed, boxes; of leaves, faces. NULL while the tree is not open.
+    # Filled at the first visit of a node: boxes of a placed tree, faces of leaves. NULL while the tree is not open.
     Face* faces
     Box* boxes
     char* is_known
 
 
 cdef int open_tree(Tree* tree, shape, Role role, const Placement* at) except -1:
-    """Get ready to visit the tree of a shape, placed or, by NULL, in its own frame; `close_tree` frees it."""
+    """Open the tree of a shape at a placement, or in the shape's frame if `at` is NULL; `close_tree` frees it."""
     over = shape.tree
     cdef const double[:, ::1] nodes = over[0]
     cdef const double[:, ::1] corners = over[1]
@@ -115,7 +115,7 @@ cdef int open_tree(Tree* tree, shape, Role role, const Placement* at) except -1:
     tree.m, tree.n_leaves = shape.triangles.shape[2], columns.shape[0]
     tree.nodes, tree.corners, tree.columns, tree.features = &nodes[0, 0], &corners[0, 0], &columns[0], &features[0]
     tree.role, tree.is_placed = role, at != NULL
-    # Room for all, of which a search touches little: pages of memory come with their first use.
+    # Memory for all nodes, though a search visits few: the system provides pages on first use.
     tree.faces = <Face*>malloc(tree.n_leaves * sizeof(Face))
     tree.is_known = <char*>calloc(n_nodes, 1)
     if tree.is_placed:
@@ -151,7 +151,7 @@ cdef inline void place(double* out, const double* point, const Placement* at) no
 
 
 cdef inline const Box* box_of(Tree* tree, Py_ssize_t node) noexcept:
-    """The box of a node in the frame of the search."""
+    """Return the box of a node in the frame of the search."""
     if not tree.is_placed:
         return <const Box*>(tree.nodes + 6 * node)
     if not tree.is_known[node]:
@@ -164,7 +164,7 @@ cdef inline const Box* box_of(Tree* tree, Py_ssize_t node) noexcept:
 
 
 cdef void place_box(Box* box, const double* corners, const Placement* at) noexcept:
-    """The box around a box that is turned."""
+    """Compute the AABB of a placed box."""
     cdef double middle[3]
     cdef double half[3]
     cdef double placed[3]
@@ -187,7 +187,7 @@ cdef void place_box(Box* box, const double* corners, const Placement* at) noexce
 
 
 cdef void place_face(Tree* tree, Py_ssize_t leaf, Box* box) noexcept:
-    """Place the triangle of a leaf and the box around it."""
+    """Place the triangle of a leaf and compute its AABB."""
     cdef Face* face = tree.faces + leaf
     cdef int corner, axis
     for corner in range(3):
@@ -199,7 +199,7 @@ cdef void place_face(Tree* tree, Py_ssize_t leaf, Box* box) noexcept:
 
 
 cdef inline const Face* face_of(Tree* tree, Py_ssize_t leaf) noexcept:
-    """The triangle of a leaf whose box was looked at, in the frame of the search."""
+    """Return the triangle of a leaf in the frame of the search. `box_of` must have visited the leaf before."""
     cdef Face* face = tree.faces + leaf
     if not tree.is_placed:
         if tree.is_known[tree.n_leaves - 1 + leaf]:
@@ -217,7 +217,7 @@ cdef inline const Face* face_of(Tree* tree, Py_ssize_t leaf) noexcept:
 
 
 cdef void measure_face(Face* face) noexcept:
-    """Edges, normal and products of a triangle, from its corners; its area is nan if it has none."""
+    """Compute edges, normal and products of a triangle from its corners; the area is nan if it is degenerate."""
     cdef double both, length
     cdef int corner
     cdef double* u = face.edges[0]
@@ -238,7 +238,7 @@ cdef void measure_face(Face* face) noexcept:
 
 
 cdef void shrink(Face* face) noexcept:
-    """Make a triangle a little smaller, about its middle."""
+    """Shrink a triangle a little, about its middle."""
     cdef double extent = 0, share
     cdef double inwards[3][3]
     cdef double middle
@@ -263,10 +263,10 @@ cdef struct Meetings:
     double on_q[21][3]
 
 
-cdef inline bint look(double* heights, const Face* face, const Face* other, double within) noexcept:
-    """How high another's corners are over a face, in units of its normal's length; nan for a face without area.
+cdef inline bint heights_over(double* heights, const Face* face, const Face* other, double within) noexcept:
+    """Compute the heights of another's corners over a face, in units of its normal's length; nan for a degenerate face.
 
-    Returns False, with heights of nothing, where the other surely stays farther from its plane than within.
+    Returns False, without heights, if the other is surely farther from the plane than `within`.
     """
     cdef double way[3]
     cdef double along[3]
@@ -303,11 +303,11 @@ cdef inline bint has_corner(const Face* face, int i) noexcept:
 
 
 cdef void meet(Meetings* found, const Face* p, const Face* q, double within) noexcept:
-    """The local meetings of a pair and its features that are within reach, in the order of `triangles.meetings`."""
+    """Collect the local meetings of a pair's features within reach, in the order of `triangles.meetings`."""
     cdef double over_p[3]
     cdef double over_q[3]
     found.n = 0
-    if not (look(over_q, q, p, within + ROUNDING_M) and look(over_p, p, q, within + ROUNDING_M)):
+    if not heights_over(over_q, q, p, within + ROUNDING_M) or not heights_over(over_p, p, q, within + ROUNDING_M):
         return
     meet_edges(found, p, q, within)
     meet_corners(found, p, q, over_q, within, False)
@@ -325,7 +325,7 @@ cdef inline void add(Meetings* found, double distance, const double* on_p, const
 
 
 cdef void meet_edges(Meetings* found, const Face* p, const Face* q, double within) noexcept:
-    """Nearest points of all nine pairs of edges. Most are too far apart by their boxes."""
+    """Add the nearest points of the nine pairs of edges. The edges' boxes reject most of them early."""
     cdef Box[3] of_q
     cdef Box of_p
     cdef double r[3]
@@ -374,7 +374,7 @@ cdef inline void edge_box(Box* box, const Face* one, int i) noexcept:
 cdef void meet_corners(
     Meetings* found, const Face* other, const Face* own, const double* heights, double within, bint own_is_p
 ) noexcept:
-    """The other's corners with their feet inside a face."""
+    """Add the meetings of the other's corners with the inside of a face."""
     cdef double foot[3]
     cdef double distance
     cdef int i, axis
@@ -392,7 +392,7 @@ cdef void meet_corners(
 
 
 cdef void cross_edges(Meetings* found, const Face* other, const Face* own, const double* heights) noexcept:
-    """Where the other's edges run through a face."""
+    """Add the points where the other's edges intersect a face."""
     cdef double point[3]
     cdef double start, end, s, in_plane
     cdef int i, axis
@@ -412,7 +412,7 @@ cdef void cross_edges(Meetings* found, const Face* other, const Face* own, const
 
 
 cdef bint measure_corners(double* least, double* most, const Face* p, const Face* q, double sign) noexcept:
-    """Heights of p's corners over q, where they are over it. Returns whether p may be over q at all."""
+    """Include the heights of p's corners over q. Returns False if p and q surely do not overlap in plan."""
     cdef const double* u = &q.edges[0][0]
     cdef const double* v = &q.v[0]
     cdef double w[3]
@@ -433,7 +433,7 @@ cdef bint measure_corners(double* least, double* most, const Face* p, const Face
 
 
 cdef void measure_crossings(double* least, double* most, const Face* p, const Face* q) noexcept:
-    """Heights of p's edges over q's, where they cross."""
+    """Include the heights of p's edges over q's, where they cross in plan."""
     cdef const double* d
     cdef const double* g
     cdef double r[3]
@@ -446,7 +446,7 @@ cdef void measure_crossings(double* least, double* most, const Face* p, const Fa
             less(r, q.corners[j], p.corners[i])
             area = turn(d, g)
             s, t = turn(r, g), turn(r, d)
-            # Most do not cross, which the signs show without a division.
+            # The signs reject most pairs without a division.
             if not (s * area > 0 and t * area > 0) or not area * area > PARALLEL * (dot(d, d) * dot(g, g)):
                 continue
             s, t = s / area, t / area
@@ -477,8 +477,8 @@ cdef struct Search:
     # drops
     bint guest_falls
     double bottom, reach, touch, first
-    double later          # how much more than the first another may fall that counts
-    double* each          # NULL where the first alone counts
+    double later          # how far beyond the least fall distance others are searched
+    double* each          # NULL if only the least is needed
 
 
 cdef void descend(Search* search, Py_ssize_t g, Py_ssize_t h) noexcept:
@@ -532,7 +532,7 @@ cdef void visit(Search* search, Py_ssize_t leaf_g, Py_ssize_t leaf_h) noexcept:
 
 
 cdef void compare(Search* search, const Meetings* found, Py_ssize_t i, Py_ssize_t j) noexcept:
-    """Keep the nearest meeting of all pairs; of equal ones that of the lowest columns."""
+    """Keep the nearest meeting of all pairs; ties go to the lowest columns."""
     cdef int row, nearest = 0, axis
     cdef double distance
     for row in range(1, found.n):
@@ -571,7 +571,7 @@ cdef void collect(Search* search, const Meetings* found) noexcept:
 
 
 cdef int start(Search* search, host, guest, turn, shift, double within) except -1:
-    """Begin a search, whose trees are to be closed."""
+    """Begin a search. The caller must `close` it."""
     cdef Placement at = placement_of(turn, shift)
     open_tree(&search.guest, guest, SURFACE, &at)
     open_tree(&search.host, host, SURFACE, NULL)
@@ -610,7 +610,7 @@ def closest_points(host, guest, turn, shift, double within):
 def surface_distance(host, point, double within):
     cdef Search search
     cdef Py_ssize_t column = 0
-    # Of a triangle without extent one corner and one edge.
+    # A triangle without extent has one corner and one edge to test.
     cdef unsigned char features = 0b001_001
     cdef double[9] corners
     cdef double[6] box
@@ -664,10 +664,10 @@ cdef triple(const double* point):
     return (point[0], point[1], point[2])
 
 
-# --- a few points that stand for many, as `spread.spread` ------------------------------------------------------------
+# --- farthest-point sampling, as `spread.spread` ---------------------------------------------------------------------
 
 cdef Py_ssize_t spread(Py_ssize_t* chosen, const double* ends, Py_ssize_t n) noexcept:
-    """Rows of at most MAX_POINTS of the ends (n, 6), by the points half way. Returns how many, -1 without memory."""
+    """Choose at most MAX_POINTS rows of the ends (n, 6), by their middles. Returns their number, -1 without memory."""
     cdef double* points
     cdef double* apart
     cdef double[3] place
@@ -712,8 +712,8 @@ cdef inline double apart_by(const double* x, const double* y) noexcept:
 
 
 cdef Py_ssize_t farthest(const double* points, const double* apart, const double* ends, Py_ssize_t n) noexcept:
-    """Of those that are farthest apart, up to rounding, the one with the least first coordinate, up to rounding, then
-    second, then third; then the least to the last bit."""
+    """Return the row with the largest distance `apart`. Ties, up to rounding, go to the least first coordinate, then
+    the second, then the third; then exact comparison decides."""
     cdef double[4] limits
     cdef Py_ssize_t row, best = -1
     cdef int axis
@@ -746,7 +746,7 @@ cdef inline bint is_left(
 
 
 cdef inline bint is_before(const double* points, const double* ends, Py_ssize_t row, Py_ssize_t other) noexcept:
-    """By the point half way, then by the ends."""
+    """Compare two rows by their middles, then by their ends."""
     cdef int axis
     for axis in range(3):
         if points[3 * row + axis] != points[3 * other + axis]:
@@ -783,7 +783,7 @@ def first_drop(host, guest, turn, shift, frame, limits, bint guest_falls):
 cdef double search_drops(
     host, guest, turn, shift, frame, limits, bint guest_falls, double later, double* each
 ) except? -1:
-    """The first fall; at least -touch. Other triangles' falls up to so much later go into each."""
+    """Return the least fall distance, at least -touch, inf for none. Those up to `later` above it go into `each`."""
     cdef Search search
     cdef Placement at = placement_of(turn, shift), upright = placement_of(frame, (0.0, 0.0, 0.0)), placed
     memset(&search, 0, sizeof(Search))
@@ -803,7 +803,7 @@ cdef double search_drops(
 
 
 cdef void multiply(Placement* found, const Placement* frame, const Placement* at) noexcept:
-    """A placement seen from an upright frame."""
+    """Express a placement in an upright frame."""
     cdef int i, j
     cdef const double* row
     for i in range(3):
@@ -818,8 +818,7 @@ cdef inline double most_fall(const Search* search) noexcept:
 
 
 cdef inline double fall(const Search* search, const Box* of_guest, const Box* of_host) noexcept:
-    """The least that something in one box falls before it meets something in the other; inf if surely more than what
-    counts."""
+    """Return a lower bound of the fall distance between the contents of two boxes, inf if surely too large."""
     cdef const Box* p = of_guest if search.guest_falls else of_host
     cdef const Box* q = of_host if search.guest_falls else of_guest
     if (
@@ -833,7 +832,7 @@ cdef inline double fall(const Search* search, const Box* of_guest, const Box* of
 
 
 cdef void drop_down(Search* search, Py_ssize_t g, Py_ssize_t h) noexcept:
-    """Visit the pairs of leaves below two nodes that may fall onto each other, the child that falls less first."""
+    """Visit the pairs of leaves below two nodes that may fall onto each other, the child with the least fall first."""
     cdef const Box* box_g = box_of(&search.guest, g)
     cdef const Box* box_h = box_of(&search.host, h)
     cdef bint is_leaf_g = g >= search.guest.n_leaves - 1, is_leaf_h = h >= search.host.n_leaves - 1, swap

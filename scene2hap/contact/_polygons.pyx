@@ -15,8 +15,8 @@ cdef struct Ring:
     double v[MOST]
 
 
-cdef struct Way:
-    # From a point of the first outline to one of the second.
+cdef struct Segment:
+    # From a point p of the first outline to a point q of the second.
     double pu, pv, qu, qv, length
 
 
@@ -25,7 +25,7 @@ cdef struct Corner:
 
 
 cdef Corner* corners_of(outline, Py_ssize_t room, double du, double dv) except NULL:
-    """The corners of an outline, moved, and room for so many; to be freed."""
+    """Return the corners of an outline, moved by (du, dv), in new memory for `room` corners. The caller frees it."""
     cdef Corner* found = <Corner*>PyMem_Malloc((room + 1) * sizeof(Corner))
     cdef Py_ssize_t k = 0
     cdef double u, v
@@ -93,7 +93,7 @@ def clipped(outline, double du, double dv, edges):
     cdef Corner last
     cdef double nu, nv, offset, here, before, share
     for nu, nv, offset in edges:
-        # Each corner stays, or a point before it comes to be, or both.
+        # Each corner yields at most two: itself, and an intersection before it.
         cut, m = <Corner*>PyMem_Malloc((2 * n + 1) * sizeof(Corner)), 0
         if cut is NULL:
             PyMem_Free(ring)
@@ -121,8 +121,8 @@ def clipped(outline, double du, double dv, edges):
 
 def polygon_gap(x, y, double rise_m, double within_m, double slack_m):
     cdef Ring one = ring_of(x), other = ring_of(y)
-    cdef Way ways[2 * MOST * MOST]
-    cdef Way best
+    cdef Segment segments[2 * MOST * MOST]
+    cdef Segment best
     cdef int k, n = 0
     cdef double distance
     cdef double strip = widest(&one, &other, -INFINITY, within_m)
@@ -130,21 +130,21 @@ def polygon_gap(x, y, double rise_m, double within_m, double slack_m):
         strip = widest(&other, &one, strip, within_m)
     if strip < -ROUNDING_M:
         return None
-    # Read only once another has come before it; compilers cannot know.
+    # Without initial values compilers warn, since they cannot see that a first segment always replaces these.
     best.length, best.pu, best.pv, best.qu, best.qv = INFINITY, 0.0, 0.0, 0.0, 0.0
     if strip <= within_m:
-        n = nearest(&one, &other, ways, False)
-        n += nearest(&other, &one, ways + n, True)
+        n = nearest(&one, &other, segments, False)
+        n += nearest(&other, &one, segments + n, True)
         for k in range(n):
-            if comes_before(&ways[k], &best):
-                best = ways[k]
+            if comes_before(&segments[k], &best):
+                best = segments[k]
     distance = sqrt(best.length * best.length + rise_m * rise_m)
     if distance > within_m:
         return INFINITY, (0.0, 0.0), []
     middles = []
     for k in range(n):
-        if sqrt(ways[k].length * ways[k].length + rise_m * rise_m) <= distance + slack_m:
-            middles.append(((ways[k].pu + ways[k].qu) / 2, (ways[k].pv + ways[k].qv) / 2))
+        if sqrt(segments[k].length * segments[k].length + rise_m * rise_m) <= distance + slack_m:
+            middles.append(((segments[k].pu + segments[k].qu) / 2, (segments[k].pv + segments[k].qv) / 2))
     return distance, (best.qu - best.pu, best.qv - best.pv), middles
 
 
@@ -158,21 +158,22 @@ cdef Ring ring_of(corners) except *:
     return ring
 
 
-cdef bint comes_before(const Way* way, const Way* best) noexcept:
-    """The shorter of two; of equal ones the lesser by its ends."""
-    if way.length != best.length:
-        return way.length < best.length
-    if way.pu != best.pu:
-        return way.pu < best.pu
-    if way.pv != best.pv:
-        return way.pv < best.pv
-    if way.qu != best.qu:
-        return way.qu < best.qu
-    return way.qv < best.qv
+cdef bint comes_before(const Segment* one, const Segment* best) noexcept:
+    """Return True if `one` is shorter than `best`; ties are decided by the coordinates of the ends."""
+    if one.length != best.length:
+        return one.length < best.length
+    if one.pu != best.pu:
+        return one.pu < best.pu
+    if one.pv != best.pv:
+        return one.pv < best.pv
+    if one.qu != best.qu:
+        return one.qu < best.qu
+    return one.qv < best.qv
 
 
-cdef int nearest(const Ring* corners, const Ring* ring, Way* ways, bint is_back) noexcept:
-    """For each corner and each edge of the ring, the way to the edge's point nearest to it, or back."""
+cdef int nearest(const Ring* corners, const Ring* ring, Segment* segments, bint is_back) noexcept:
+    """Fill in, for each corner and each edge of the ring, the segment to the edge's nearest point; reversed if
+    `is_back`. Returns the number of segments."""
     cdef int i, k, after, n = 0
     cdef double u, v, eu, ev, t, a, b
     for i in range(corners.n):
@@ -184,17 +185,17 @@ cdef int nearest(const Ring* corners, const Ring* ring, Way* ways, bint is_back)
             t = 0.0 if t < 0 else 1.0 if t > 1 else t
             a, b = ring.u[k] + t * eu, ring.v[k] + t * ev
             if is_back:
-                ways[n].pu, ways[n].pv, ways[n].qu, ways[n].qv = a, b, u, v
+                segments[n].pu, segments[n].pv, segments[n].qu, segments[n].qv = a, b, u, v
             else:
-                ways[n].pu, ways[n].pv, ways[n].qu, ways[n].qv = u, v, a, b
-            a, b = ways[n].qu - ways[n].pu, ways[n].qv - ways[n].pv
-            ways[n].length = sqrt(a * a + b * b)
+                segments[n].pu, segments[n].pv, segments[n].qu, segments[n].qv = u, v, a, b
+            a, b = segments[n].qu - segments[n].pu, segments[n].qv - segments[n].pv
+            segments[n].length = sqrt(a * a + b * b)
             n += 1
     return n
 
 
 cdef double widest(const Ring* ring, const Ring* other, double known, double enough) noexcept:
-    """The widest strip along an edge of a ring that the other is beyond, or the first that is more than enough."""
+    """Return the largest gap along the normals of a ring's edges, but at least `known`; the first above `enough`."""
     cdef int k, i, after
     cdef double mu = 0, mv = 0, nu, nv, offset, length, inside
     for k in range(ring.n):

@@ -4,7 +4,7 @@ from libc.math cimport INFINITY, sqrt
 
 cdef enum:
     MAX_POINTS = 4  # as in `spread`
-    MANY = 256  # twice what two outlines of eight corners give
+    MANY = 256  # twice the number of facing points of two outlines with eight corners
 
 cdef double SPREAD_M = 0.005  # as in `spread`
 cdef double TIE_M = 1e-6
@@ -62,7 +62,7 @@ cdef double greatest(const double* lengths, Py_ssize_t n) noexcept:
 
 
 cdef Py_ssize_t first(double[3][MANY] at, Py_ssize_t n_axes, const double* apart, Py_ssize_t n) noexcept:
-    """Of those that are farthest apart, up to rounding, the one with the least first coordinate, then second, ..."""
+    """Return the row with the largest distance `apart`. Ties, up to rounding, go to the least first coordinate, ..."""
     cdef bint[MANY] is_left
     cdef double limit = greatest(apart, n) - TIE_M
     cdef Py_ssize_t row, axis, found

@@ -28,18 +28,18 @@ cdef class Track:
     cdef Py_ssize_t n_edges
     cdef Wall* walls
     cdef Py_ssize_t n_walls
-    # As it is turned now: box, footprint and base face around the body's origin.
+    # At the present rotation: AABB, footprint and base face, relative to the body's position.
     cdef double low[3]
     cdef double high[3]
     cdef double a_u, a_v, half_1, half_2, reach_m
     cdef double base_face, mu, mv, radius
     cdef double pu[MOST_POINTS]
     cdef double pv[MOST_POINTS]
-    # In its own frame, along the two axes that are level while it is upright: middle and half of the box; base face.
+    # In the shape's frame, along the two axes that are level while it is upright: box middle and half edges; base face.
     cdef double box_u, box_v, half_u, half_v, own_u, own_v
     cdef double own_pu[MOST_POINTS]
     cdef double own_pv[MOST_POINTS]
-    # The outline of the base face, made when first needed: in its own frame if it is upright, to be turned by these.
+    # The outline of the base face, computed on first use; if upright, in the shape's frame, to be rotated by these.
     cdef double[:, ::1] outline
     cdef double turned_a, turned_c
 
@@ -61,22 +61,22 @@ cdef class Track:
         PyMem_Free(self.edges)
         PyMem_Free(self.walls)
 
-    def keep_in(self, lane, heights, walls):
-        cdef Wall* room
+    def keep_in(self, rectangle, heights, walls):
+        cdef Wall* larger
         cdef Py_ssize_t k
-        self.u0, self.v0, self.u1, self.v1 = lane
+        self.u0, self.v0, self.u1, self.v1 = rectangle
         self.lowest, self.highest = heights
         if len(walls) > self.n_walls:
-            room = <Wall*>PyMem_Realloc(self.walls, len(walls) * sizeof(Wall))
-            if room is NULL:
+            larger = <Wall*>PyMem_Realloc(self.walls, len(walls) * sizeof(Wall))
+            if larger is NULL:
                 raise MemoryError
-            self.walls = room
+            self.walls = larger
         self.n_walls = len(walls)
         for k in range(self.n_walls):
             self.walls[k].n_u, self.walls[k].n_v, self.walls[k].most_m, self.walls[k].is_square = walls[k]
 
     cdef stand(self, stance):
-        """Take in how the body is turned."""
+        """Copy the data of a stance."""
         cdef int k
         self.stance, self.rotation_xyzw = stance, stance.rotation_xyzw
         self.is_upright = upright(self.rotation_xyzw, self.up)
@@ -103,7 +103,7 @@ cdef class Track:
             self.turned_a, self.turned_c = 1, 0
 
     cdef bint turn(self, rotation_xyzw) except -1:
-        """Turn the body, as `Stance` does, to the last bit; false if what stands has no level faces any more."""
+        """Rotate the body, bit-identical to `Stance`. Returns False if a resting body's upward direction changes."""
         cdef double y, z, a, c, u, v, over, across
         cdef int k
         if not (self.is_upright and upright(rotation_xyzw, self.up)):
@@ -112,7 +112,7 @@ cdef class Track:
                 return False
             self.stand(turned)
             return True
-        # About the vertical, nothing changes upwards, and half of the products are 0.
+        # A rotation about the vertical changes no height, and half of its products are 0.
         a, c = turning(rotation_xyzw, self.up)
         self.turned_a, self.turned_c = a, c
         self.a_u, self.a_v = a, -c
@@ -167,7 +167,7 @@ cdef class Track:
         return (low[0], low[1], low[2]), (high[0], high[1], high[2]), places
 
     cdef bint is_behind(self, double u, double v) noexcept:
-        """Whether the body is behind all walls, the middle of its box being there."""
+        """Return True if the footprint, with its middle at (u, v), is behind all walls."""
         cdef Py_ssize_t k
         cdef double n_u, n_v, reach_m
         for k in range(self.n_walls):
@@ -181,7 +181,7 @@ cdef class Track:
         return True
 
     cdef bint is_inside(self, double u, double v) except -1:
-        """Whether the base face is surely inside of all edges where the circle around it is not."""
+        """Return True if the outline of the base face is surely inside all edges; called if its circle is not."""
         cdef Py_ssize_t i, k
         cdef double pu, pv, a = self.turned_a, c = self.turned_c
         if self.outline is None:
@@ -202,12 +202,12 @@ cdef class Track:
         return True
 
     cdef double inside(self, Py_ssize_t k, double u, double v) noexcept:
-        """How far inside of an edge a point is."""
+        """Return how far inside an edge a point is."""
         return self.edges[3 * k] * u + self.edges[3 * k + 1] * v - self.edges[3 * k + 2]
 
 
 cdef (double, double) turning(tuple rotation_xyzw, int up) except *:
-    """How much of the first level axis goes to itself, and of the second to the first, by a turn about the vertical."""
+    """Return the first row (a, c) of a rotation about the vertical, in the level plane."""
     cdef double y, z, w
     _, y, z, w = rotation_xyzw
     if up == 1:
@@ -216,7 +216,7 @@ cdef (double, double) turning(tuple rotation_xyzw, int up) except *:
 
 
 cdef bint upright(tuple rotation_xyzw, int up) except -1:
-    """Whether a rotation is one about the vertical alone."""
+    """Return True if a rotation is about the vertical."""
     cdef double x, y, z
     x, y, z, _ = rotation_xyzw
     return x == 0 and (z if up == 1 else y) == 0

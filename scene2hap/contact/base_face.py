@@ -1,9 +1,8 @@
-"""What a shape has lowest and highest for a way that is up: the base face that it stands on and the top that bears
-others.
+"""Base face and top face of a shape: its lowest and highest level face for a given direction of up.
 
-Most things stand on level faces, and their contacts follow from flat convex outlines; only the rest needs
-triangles. A base face is the lowest of a shape, level or a few corners like the feet of a stool, and a top its highest,
-so that wherever they are over each other, nothing of the two shapes is nearer.
+Most objects stand on level faces. Their contacts follow from convex outlines; only the others need triangles. A base
+face is a shape's lowest face, or its lowest corners, like the feet of a stool. A top face is its highest face. Where
+the two overlap in plan, no other parts of the two shapes are nearer.
 """
 
 from __future__ import annotations
@@ -17,22 +16,22 @@ from scene2hap.contact.vectors import Floats, Triple, along, frame_along, highes
 
 # How uneven a level face may be, as a share of the shape's size and at most (assumed).
 _UNEVEN, _UNEVEN_M = 1e-4, 2e-4
-# Corners of a thing without a level base face stand with the lowest up to so much above it (assumed: a little more than
-# the slack that patches of triangles have, since feet of models are often 1 mm uneven).
+# Without a level base face, corners up to this height above the lowest one bear as well (assumed: a little more than
+# the slack of triangle patches, since feet of models are often 1 mm uneven).
 _FEET_M = 0.0012
-# A face is no base face if it takes up less than this share of what such corners do: a vase may have a crumb of a face
-# that is lowest.
+# A level face smaller than this share of the outline of those corners is no base face: the lowest face of a vase may be
+# a tiny triangle.
 _CRUMB = 0.5
-_FEW = 24  # So few points are spread sooner in plain numbers.
-_COVER = 1e-3  # An outline is filled when its triangles' area differs by less than this share.
+_FEW = 24  # Up to this many points, plain Python is faster than numpy.
+_COVER = 1e-3  # An outline is filled if the area of its triangles differs from its own by less than this share.
 
 
 class BaseFace(NamedTuple):
-    """What a shape stands on, in its own frame [m].
+    """The base face of a shape in its own frame [m].
 
-    Up to four `points_m` stand for it; `outline_m` is its convex outline, of one corner or two if there are no more;
-    `middle_m` and `radius_m` are a ball around it; `is_filled` if it is all of its outline, as the feet of a chair are
-    not; `is_level` if it is a face, and not a few corners.
+    points_m : up to four contact points; outline_m : convex outline (support polygon), with fewer than three corners if
+    there are no more; middle_m, radius_m : a ball around it; is_filled : True if the face fills its outline, False for
+    the feet of a chair; is_level : True for a face, False for a few corners.
     """
 
     points_m: tuple[Triple, ...]
@@ -44,19 +43,19 @@ class BaseFace(NamedTuple):
 
 
 def uneven_m(size_m: float) -> float:
-    """How uneven a level face of a shape of that diagonal may be [m]."""
+    """Return how uneven a level face may be [m] in a shape whose bounding box has this diagonal."""
     return min(_UNEVEN * size_m, _UNEVEN_M)
 
 
 def base_face_of(corners: Floats, triangles: Floats, uneven: float, up: Triple) -> BaseFace:
-    """What a shape stands on when its own direction `up` points up: the lowest level face, if it is no crumb, or the
-    lowest corners.
+    """Return the base face while the shape's own direction `up` points up: its lowest level face, or its lowest corners
+    if that face is tiny.
 
     Parameters: corners (n, 3), triangles (3, 3, m) of the shape [m]; uneven : see `uneven_m`.
     """
     upwards, plane = _frame(up)
     heights = corners @ upwards
-    # Where normals or colours differ, meshes have several corners at one place.
+    # Meshes repeat a corner where normals or colours differ.
     least = heights.min()
     feet = list(dict.fromkeys(triples(corners[heights <= least + _FEET_M])))
     if len(feet) == 1:
@@ -77,20 +76,22 @@ def base_face_of(corners: Floats, triangles: Floats, uneven: float, up: Triple) 
 
 
 def top_of(triangles: Floats, uneven: float, up: Triple) -> tuple[Triple, ...] | None:
-    """The convex outline [m] of the highest level face of a shape when its own direction `up` points up, if it is one
-    with an outline that it fills."""
+    """Return the convex outline [m] of the highest level face while the shape's own direction `up` points up.
+
+    None if there is no such face, or if it does not fill its outline.
+    """
     upwards, plane = _frame(up)
     face = _lowest_face(triangles, uneven, -upwards, plane)
     return triples(face.outline_m) if face is not None and face.is_filled else None
 
 
 def across(up: Triple) -> Triple:
-    """A level direction that shows an upright turn, when the own direction `up` points up."""
+    """Return a level direction of the shape's frame, which shows its heading while its direction `up` points up."""
     return triples(_frame(up)[1].T[:1])[0]
 
 
 def _frame(up: Triple) -> tuple[Floats, Floats]:
-    """The unit vector (3,) along `up`, and two across it as columns (3, 2)."""
+    """Return the unit vector (3,) along `up`, and two perpendicular ones as columns (3, 2)."""
     frame = frame_along(up)
     return frame[2], frame[:2].T.copy()
 
@@ -120,13 +121,13 @@ def _lowest_face(triangles: Floats, uneven: float, upwards: Floats, plane: Float
 
 
 def triples(points: Floats) -> tuple[Triple, ...]:
-    """Points (n, 3) as plain numbers."""
+    """Return points (n, 3) as tuples of floats."""
     return tuple((x, y, z) for x, y, z in points.tolist())
 
 
 def outline(points: Floats) -> list[int]:
-    """Rows of the points (n, 2) on their convex outline, against the clock; none in line with its neighbours; a single
-    point is its own outline.
+    """Return the rows of the points (n, 2) on their convex hull, counter-clockwise, without collinear points. The hull
+    of a single point is that point.
 
     Source: A. M. Andrew, Another efficient algorithm for convex hulls in two dimensions (1979).
     """
@@ -144,7 +145,7 @@ def outline(points: Floats) -> list[int]:
 
 
 def polygon_area(corners: Floats) -> float:
-    """Area of a polygon (n, 2)."""
+    """Return the area of a polygon (n, 2)."""
     x, y = corners.T
     return abs(float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum())) / 2
 

@@ -1,4 +1,4 @@
-"""An object of the contact graph: a shape at a pose."""
+"""A body: the shape of a scene object at a pose."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from scene2hap.scene.pose import Pose
 
 
 class Body:
-    """A shape at a place; a thing that moves gets a new body.
+    """A shape at a pose. A moved object gets a new body, unless a certificate moves the old one in place (`put`).
 
-    `low` and `high` are a box (three numbers each [m]) that holds it; its height is exact, its sides may be wide. The
-    world's axes 0 and `v_axis` are level.
+    `low` and `high` are the corners of its AABB in the world [m]; the vertical extent is exact, the others may be too
+    wide. The world's axes 0 and `v_axis` are level.
     """
 
     __slots__ = (
@@ -46,12 +46,12 @@ class Body:
 
     @classmethod
     def of(cls, item: SceneObject, up_axis: int) -> Body:
-        """The body of an object in a scene whose axis `up_axis` (1, 2) points up."""
+        """Build the body of an object in a scene whose axis `up_axis` (1 or 2) points up."""
         return cls(item.id, shape_of(item.geometry.mesh), item.pose, up_axis)
 
     def at(self, pose: Pose) -> Body:
-        """The same thing elsewhere."""
-        # Every frame of a game comes by here, often.
+        """Return a body of the same shape at another pose."""
+        # Attributes are copied one by one, since this runs for every moved object in every frame.
         body = Body.__new__(Body)
         body.id, body.shape, body.size_m = self.id, self.shape, self.size_m
         body.up_axis, body.v_axis = self.up_axis, self.v_axis
@@ -63,12 +63,12 @@ class Body:
         return body
 
     def put(self, pose: Pose, low: Triple, high: Triple) -> None:
-        """Go elsewhere, to a box that is known already."""
+        """Move in place to a pose whose AABB is already known."""
         self.pose, self.position_m, self.low, self.high = pose, pose.position_m, low, high
 
     @property
     def stance(self) -> Stance:
-        """Its shape as it is turned; recomputed only after a turn."""
+        """The shape at the body's rotation; recomputed only after a rotation."""
         stance, rotation_xyzw = self._stance, self.pose.rotation_xyzw
         if stance.rotation_xyzw is not rotation_xyzw and stance.rotation_xyzw != rotation_xyzw:
             stance = self._stance = stance.turned(rotation_xyzw)
@@ -86,5 +86,5 @@ class Body:
 
     @property
     def rows(self) -> Rows:
-        """Its rotation, in rows."""
+        """The rotation matrix, as rows."""
         return self.stance.rows

@@ -1,6 +1,6 @@
-"""Which boxes meet: sort and sweep along the axis that separates best.
+"""Overlap of axis-aligned boxes: sort and sweep along the axis with the fewest overlaps.
 
-Used for objects and, inside a pair of objects, for triangles; memory stays bounded by handing pairs out in chunks.
+It serves objects and, within a pair of objects, triangles. Pairs are yielded in chunks, which bounds the memory.
 
 Source: C. Ericson, Real-Time Collision Detection (2005), section 7.5 (sort and sweep).
 """
@@ -14,55 +14,55 @@ import numpy as np
 
 from scene2hap.contact.vectors import Floats, Indices, Marks
 
-# Pairs that overlap along the sweep axis and are looked at together: some 10 MB.
+# Pairs that overlap along the sweep axis and are compared at once: some 10 MB.
 _CHUNK = 1 << 17
-# So few pairs that sorting costs more than comparing all with all.
+# Up to this many pairs, sorting costs more than comparing all with all.
 _FEW = 1 << 12
 
 
 class Boxes(NamedTuple):
-    """Axis-parallel boxes by their lowest and highest corners, both (3, n) [m]."""
+    """Axis-aligned boxes by their lowest and highest corners, both (3, n) [m]."""
 
     low: Floats
     high: Floats
 
     def grown(self, margin_m: float) -> Boxes:
-        """The boxes with `margin_m` added on every side."""
+        """Return the boxes with `margin_m` added on every side."""
         return Boxes(self.low - margin_m, self.high + margin_m)
 
     def swept(self, travel_m: Floats) -> Boxes:
-        """The boxes that hold these on their whole way along `travel_m` (3,)."""
+        """Return the boxes swept along the displacement `travel_m` (3,)."""
         back, on = np.minimum(travel_m, 0.0), np.maximum(travel_m, 0.0)
         return Boxes(self.low + back[:, None], self.high + on[:, None])
 
     def some(self, columns: Indices) -> Boxes:
-        """Some of the boxes."""
+        """Return the boxes of these columns."""
         return Boxes(self.low.take(columns, axis=1), self.high.take(columns, axis=1))
 
     def hull(self) -> Boxes:
-        """The one box (3, 1) around all of them; at least one there must be."""
+        """Return the one box (3, 1) around all boxes, of which there must be at least one."""
         low: Floats = np.minimum.reduce(self.low, axis=1, keepdims=True)
         high: Floats = np.maximum.reduce(self.high, axis=1, keepdims=True)
         return Boxes(low, high)
 
     def common(self, other: Boxes) -> Boxes:
-        """What lies both in one of the boxes and in its counterpart, or in the other's only one; they must meet."""
+        """Return the intersections with the boxes of `other`, column by column or with its only one; they must meet."""
         return Boxes(np.maximum(self.low, other.low), np.minimum(self.high, other.high))
 
     def meeting(self, one: Boxes, among: Marks | None = None) -> Indices:
-        """Columns of the boxes that meet the single box `one`, touching included, among those marked (n,) or all."""
+        """Return the columns of boxes that overlap the box `one`, touching included; `among` (n,) limits the search."""
         x, y, z = (self.low <= one.high) & (self.high >= one.low)
         near: Marks = x & y & z
         return np.flatnonzero(near if among is None else near & among)
 
 
 def are_few(a: Boxes, b: Boxes) -> bool:
-    """Whether comparing all with all takes less time than leaving some out first."""
+    """Return True if comparing all with all is faster than sorting."""
     return len(a.low[0]) * len(b.low[0]) <= _FEW
 
 
 def box_pairs(a: Boxes, b: Boxes) -> Iterator[tuple[Indices, Indices]]:
-    """All (i, j) with a[i] and b[j] meeting, touching included, in chunks; each pair once."""
+    """Yield all (i, j) whose boxes a[i] and b[j] overlap, touching included, in chunks; each pair once."""
     if are_few(a, b):
         meets = (a.low[..., None] <= b.high[:, None]) & (a.high[..., None] >= b.low[:, None])
         i, j = np.nonzero(meets[0] & meets[1] & meets[2])
@@ -75,7 +75,7 @@ def box_pairs(a: Boxes, b: Boxes) -> Iterator[tuple[Indices, Indices]]:
 class _Sweep:
     """The pairs that overlap along one axis, as ranges in sorted order.
 
-    Either b starts within a, or a starts within b (ties go to the latter).
+    Either b starts within a, or a starts within b. Equal starts count as the latter.
     """
 
     def __init__(self, a: Boxes, b: Boxes, axis: int) -> None:
@@ -94,7 +94,7 @@ class _Sweep:
             yield self._meeting(a, b, self.order_a[place], j)
 
     def _meeting(self, a: Boxes, b: Boxes, i: Indices, j: Indices) -> tuple[Indices, Indices]:
-        """Those of the pairs that overlap along the other axes, too."""
+        """Return the pairs that also overlap along the other axes."""
         for axis in self.others:
             meets = (a.low[axis].take(i) <= b.high[axis].take(j)) & (a.high[axis].take(i) >= b.low[axis].take(j))
             i, j = i[meets], j[meets]
@@ -102,7 +102,7 @@ class _Sweep:
 
 
 def _expanded(start: Indices, stop: Indices) -> Iterator[tuple[Indices, Indices]]:
-    """(row, place) for every place in the rows' ranges, in chunks of whole rows."""
+    """Yield (row, place) for every place in each row's range, in chunks of whole rows."""
     count = stop - start
     total = np.cumsum(count)
     row = 0

@@ -1,9 +1,9 @@
-"""Broad phase: a neighbour list for every body, wide enough to last while bodies move a little.
+"""Broad phase: a neighbour list for every body, which stays valid while bodies move a little.
 
-Every body has a fat box: its AABB, enlarged by all that the body may touch, fall onto or hang from. Bodies whose fat
-boxes overlap are neighbours. The fat box of a body that moves is drawn `SKIN_M` wider, and drawn again only once the
-body has left it (Verlet's lists). It keeps some of where the body was, so that a body that goes to and fro, or is
-lifted and put down, keeps its list. A list that is too long costs time and decides nothing.
+Every body has a fat box: its AABB, enlarged by the distances at which it can touch, fall onto or hang from others.
+Bodies whose fat boxes overlap are neighbours. A moving body gets a fat box that is `SKIN_M` wider. The box is computed
+again only when the body leaves it (Verlet lists). The new box also covers part of the old one, so that a body that
+moves back and forth, or is lifted and put down, keeps its list. Too long a list costs time but changes no result.
 
 Source: L. Verlet, Computer experiments on classical fluids I, Phys. Rev. 159 (1967) 98.
 """
@@ -19,19 +19,22 @@ from scene2hap.contact.broad import Boxes, box_pairs
 from scene2hap.contact.vectors import AABB, Triple
 
 SKIN_M = 0.06
-"""How far a thing may move before its neighbours are searched again (assumed: a hand's way in four or five frames)."""
+"""Distance an object may move before its neighbours are searched again (assumed: a hand's path in four or five frames).
+"""
 
-# As far beyond that where it was before: as much again level, and as far as one lifts a thing to look at it (assumed).
+# How much of the old box a new one keeps beyond its skin: level, and vertically (assumed: how high objects are lifted
+# to look at them).
 _MEMORY_M = (SKIN_M, 0.3)
 
-# From so many bodies at once on, sorting all is cheaper than asking for each.
+# From this many bodies on, one sort is cheaper than one query for each body.
 _MANY = 16
 
 
 class BroadPhase:
-    """Bodies by id, and the neighbours of each.
+    """The fat boxes of all bodies, and `neighbours`: the ids of each body's neighbours, by id.
 
-    Parameters: margins_m : how far a body's fat box reaches beyond it to all sides, and how much farther down [m].
+    Parameters: margins_m : returns how far a body's fat box extends beyond its AABB on all sides, and how much farther
+    down [m].
     """
 
     def __init__(self, up_axis: int, margins_m: Callable[[Body], tuple[float, float]]) -> None:
@@ -43,7 +46,7 @@ class BroadPhase:
         self.neighbours: dict[str, set[str]] = {}
 
     def room(self, object_id: str) -> AABB:
-        """The box in which a body may move and keep its list [m]."""
+        """Return the box in which a body may move without a new neighbour list [m]."""
         return self._boxes.room(self._rows[object_id])
 
     def remove(self, object_id: str) -> set[str]:
@@ -57,8 +60,10 @@ class BroadPhase:
         return neighbours
 
     def update(self, bodies: Sequence[Body]) -> dict[str, set[str]]:
-        """Insert or move bodies. Returns, for each body that left its fat box, the neighbours it lost; two that lose
-        each other are reported once."""
+        """Insert or move bodies. Returns, for each body that left its fat box, the neighbours it lost.
+
+        If two moved bodies lose each other, only one of them reports it.
+        """
         left: dict[str, set[str]] = {}
         drawn, rows, boxes = [], self._rows, self._boxes
         for body in bodies:
@@ -83,7 +88,7 @@ class BroadPhase:
         return left
 
     def _row(self, object_id: str) -> int:
-        """A row for a new body."""
+        """Reserve a row for a new body."""
         ids = self._ids
         row = self._rows[object_id] = self._free.pop() if self._free else len(ids)
         ids[row : row + 1] = [object_id]
@@ -107,10 +112,10 @@ class BroadPhase:
 
 
 class FatBoxes:
-    """For each row a room, and around that a fat box: `low` and `high`, both (3, n) [m].
+    """Fat boxes in columns of `low` and `high`, both (3, n) [m], and inside each the room for its body's AABB.
 
-    Parameters: skin_m : how much too wide the room of what has moved is drawn; memory_m : by how much more it may go on
-    to hold where the thing was before, level and upwards or downwards.
+    Parameters: skin_m : margin that the room of a moved body gets [m]; memory_m : how much of the old room the new one
+    may keep beyond that margin, level and vertically [m].
     """
 
     def __init__(self, up_axis: int, skin_m: float, memory_m: tuple[float, float]) -> None:
@@ -119,8 +124,10 @@ class FatBoxes:
         self.low, self.high = np.full((3, 64), np.inf), np.full((3, 64), -np.inf)
 
     def draw(self, row: int, low: Triple, high: Triple, side_m: float, down_m: float) -> None:
-        """Draw the room of a row around a box, which fits it at first and is too wide from then on; the fat box reaches
-        so far beyond it, and so much farther down. A new row follows the last."""
+        """Compute the room of a row around a body's AABB, and the fat box `side_m` beyond it, `down_m` farther down.
+
+        The first room of a row has no margin. A new row follows the last.
+        """
         if row == len(self._rooms):
             self._rooms += [None] * row
             self.low = np.concatenate([self.low, np.full((3, row), np.inf)], axis=1)
@@ -143,25 +150,25 @@ class FatBoxes:
         return (lows[0], lows[1], lows[2]), (highs[0], highs[1], highs[2])
 
     def clear(self, row: int) -> None:
-        """Have nothing in a row."""
+        """Empty a row, so that it overlaps nothing."""
         self._rooms[row] = None
         self.low[:, row], self.high[:, row] = np.inf, -np.inf
 
     def room(self, row: int) -> AABB:
-        """The room of a row that has one."""
+        """Return the room of a row that is in use."""
         room = self._rooms[row]
         assert room is not None
         return room
 
     def holds(self, row: int, low: Triple, high: Triple) -> bool:
-        """Whether a box is within the room of a row."""
+        """Return True if a box is within the room of a row."""
         lowest, highest = self.room(row)
         return all(a >= b for a, b in zip(low, lowest, strict=True)) and all(
             a <= b for a, b in zip(high, highest, strict=True)
         )
 
     def meeting(self, row: int) -> list[int]:
-        """The other rows whose fat boxes meet that of a row, touching included."""
+        """Return the other rows whose fat boxes overlap that of a row, touching included."""
         x, y, z = (self.low <= self.high[:, row, None]) & (self.high >= self.low[:, row, None])
         found: list[int] = np.flatnonzero(x & y & z).tolist()
         if row in found:

@@ -1,8 +1,8 @@
-"""What stays true of a body while it moves a little: a certificate, checked in every frame instead of the narrow phase.
+"""Certificates: bounds within which a moving body keeps its contacts, so that the narrow phase can be skipped.
 
-A certificate says: while the body's box stays in a box, and the body on its side of some separating planes, it stands
-on one other with all of its base face and touches nothing else, or touches nothing at all. It is a proof from poses
-alone. What is free between two that both have one is shared half and half.
+The bounds are a box and some separating planes. Within them, the body either rests on one support with its whole base
+face and touches nothing else, or it touches nothing. The proof uses poses alone. Two certified bodies share the free
+space between them in equal parts.
 
 Source: J. Basch, L. J. Guibas, J. Hershberger, Data structures for mobile data, J. Algorithms 31 (1999) 1.
 """
@@ -28,13 +28,14 @@ from scene2hap.contact.vectors import AABB, Triple
 from scene2hap.scene.pose import Pose
 
 _SURE_M = -TOUCH_M + 0.001
-"""Above this a fall is surely none of a thing that stands in another: tops and base faces may be 0.2 mm uneven each."""
+"""A body with a larger fall distance surely does not stand inside its support: base and top face may each be 0.2 mm
+uneven."""
 _SPARE = 1.001  # covers rounding
 _ONES = (1.0,) * 4
 
 
 class Resting(NamedTuple):
-    """How a body stands wholly on another: how it lies, and on which face."""
+    """The support that carries a body's whole base face, the fall distance to it, and the face that bears the body."""
 
     support: Body
     rest: Rest
@@ -43,8 +44,10 @@ class Resting(NamedTuple):
 
 
 class Extent(NamedTuple):
-    """Where a body may be: in a room if it has a certificate, else only where it is; `top_m` is the height of what it
-    surely stands on, -inf for nothing."""
+    """The region in which a body may be: `room` is its certificate's box, or its AABB if it has no certificate.
+
+    `top_m` is the height of its support's face, -inf without one. A fixed body needs no free space around it.
+    """
 
     body: Body
     room: AABB
@@ -53,16 +56,16 @@ class Extent(NamedTuple):
 
     @classmethod
     def of(cls, body: Body, *, is_fixed: bool) -> Extent:
-        """That of a body without a certificate."""
+        """The extent of a body without a certificate."""
         return cls(body, (body.low, body.high), -math.inf, is_fixed)
 
 
 class Certificate:
-    """The contacts of a body within bounds; `body` is moved in place.
+    """The contacts of one body within bounds. `step` moves `body` in place.
 
-    Parameters: planes : behind which the body stays, by the id of the body from which they divide it; pins : the ids of
-    those that must stay where they are; resting, normal : how it stands, if it does. `has_held` says whether a step was
-    within the bounds so far.
+    Parameters: planes : separating planes, by the id of the body on their other side; pins : ids of the bodies whose
+    movement ends the certificate; resting, normal : support and contact normal, None without a support. `has_held` is
+    True once a step has stayed within the bounds.
     """
 
     __slots__ = ("_normals", "_pair", "_planes", "_track", "body", "extent", "has_held", "pins")
@@ -87,7 +90,7 @@ class Certificate:
         self._bind()
 
     def keep_behind(self, planes: Mapping[str, tuple[Plane, ...]]) -> None:
-        """Replace planes, by the id of the body from which they divide this one."""
+        """Replace separating planes, given by the id of the body on their other side."""
         self._planes.update(planes)
         self._bind()
 
@@ -105,7 +108,7 @@ class Certificate:
         self._track.keep_in((low[0], low[flat], high[0], high[flat]), (lowest, highest), walls)
 
     def divides(self, other: Body, reach_m: float) -> bool:
-        """Whether another is so far beyond the wall that divides the body from it."""
+        """Return True if the single vertical plane between the two keeps `other` more than `reach_m` [m] beyond it."""
         planes = self._planes.get(other.id, ())
         if len(planes) != 1 or planes[0][2] != 0:
             return False
@@ -116,11 +119,11 @@ class Certificate:
 
     @property
     def holds(self) -> bool:
-        """Whether the body is within the bounds where it is."""
+        """Return True if the body is within the bounds at its current pose."""
         return self._track.moved(self.body.pose.position_m, self.body.pose.rotation_xyzw) is not None
 
     def step(self, pose: Pose, found: dict[Pair, Junction | None]) -> bool:
-        """Move the body and add to `found` where it touches. Returns False, with nothing done, where that is unsure."""
+        """Move the body and add its junction to `found`. Returns False, and does nothing, if the bounds are left."""
         moved = self._track.moved(pose.position_m, pose.rotation_xyzw)
         if moved is None:
             return False
@@ -133,7 +136,7 @@ class Certificate:
 
 
 def resting_on(body: Body, support: Body) -> Resting | None:
-    """How a body stands on another with all of its base face and full weight; None where that is not sure."""
+    """Return how a body rests on `support` with its whole base face and weight 1; None where that is not certain."""
     up, base_face, face, is_ledge = body.up_axis, body.stance.posed_base_face, support.stance.top_face, False
     reach_m = fall_reach_m(body.size_m)
     if body.low[up] - support.high[up] > reach_m:
@@ -157,13 +160,13 @@ def resting_on(body: Body, support: Body) -> Resting | None:
 
 
 def junction_of(body: Body, resting: Resting, normal: Triple | None) -> Junction:
-    """Where a body that stands so touches what it stands on."""
+    """Return the contact points of a resting body and its support, with weight 1."""
     points = rest_points(body, resting.support, resting.rest)
     return Junction(points, _ONES[: len(points)], (normal,) * len(points))
 
 
 def standing_planes(body: Body, resting: Resting) -> tuple[Plane, ...] | None:
-    """Where a body may be while it stands so, beyond the edges of the face; None if that is not known."""
+    """Return the planes that bound a resting body, besides the edges of the face; None if they are not known."""
     support, up, planes = resting.support, body.up_axis, tuple[Plane, ...]()
     if resting.is_ledge:
         free = free_planes(body, support, stands=True)
@@ -172,7 +175,7 @@ def standing_planes(body: Body, resting: Resting) -> tuple[Plane, ...] | None:
         planes += free
         least_m = resting.rest.top_m + _SURE_M
         if least_m <= support.low[up] + TOUCH_M and least_m < support.high[up] - TOUCH_M:
-            # As `is_over` says, at all heights of a slide: all in the support, with a bottom as low at least.
+            # At these heights `is_over` needs the body inside the support's AABB, with a bottom no lower than its own.
             floor_m = support.low[up] + max(-TOUCH_M, _SPARE * TOUCH_M - (body.high[up] - body.low[up]))
             planes += _all_in(support, floor_m)
     return planes
@@ -194,7 +197,7 @@ def _standing(body: Body, resting: Resting) -> Standing:
     support, face, up = resting.support, resting.face, body.up_axis
     u, v = support.position_m[0], support.position_m[body.v_axis]
     least_m = resting.rest.top_m + _SURE_M
-    # With a higher bottom it is over all of the support; all in it, see `_all_in`. Else the middles decide.
+    # `is_over` is sure if the bottom is clearly higher or the body inside the support (`_all_in`); else middles decide.
     is_sure = resting.is_ledge and (least_m > support.low[up] + TOUCH_M or least_m < support.high[up] - TOUCH_M)
     return Standing(
         [(nu, nv, offset + nu * u + nv * v) for nu, nv, offset in face.edges],
@@ -206,7 +209,7 @@ def _standing(body: Body, resting: Resting) -> Standing:
 
 
 class Separated(NamedTuple):
-    """Planes that divide two bodies: those that one keeps behind, and those of the other."""
+    """Separating planes of two bodies, for each of the two."""
 
     one: tuple[Plane, ...]
     other: tuple[Plane, ...]
@@ -216,9 +219,9 @@ _APART = Separated((), ())
 
 
 def separated(one: Extent, other: Extent, reach_m: float) -> Separated | None:
-    """Planes that prove two bodies too far apart to touch or hang; None if they are too near for any.
+    """Return planes that prove that two bodies neither touch nor hang from each other; None if they are too near.
 
-    Parameters: reach_m : how near the two may touch or hang from each other.
+    Parameters: reach_m : largest distance at which the two touch or hang from each other [m].
     """
     x, y = one.body, other.body
     (a, b, c), (d, e, f) = one.room
@@ -248,7 +251,7 @@ def separated(one: Extent, other: Extent, reach_m: float) -> Separated | None:
     free_m = max(beside_m, over_m)
     if free_m <= 0:
         return None
-    # One that is fixed needs nothing of what is free.
+    # A fixed body needs no share of the free distance.
     share_m = 0.0 if one.is_fixed else free_m if other.is_fixed else free_m / 2
     its_m = free_m - share_m
     if beside_m >= over_m:

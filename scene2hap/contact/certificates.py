@@ -1,4 +1,4 @@
-"""The certificates of all bodies: issued by proof, cut where others come near, ended where they do not hold."""
+"""The certificates of all bodies: issue them, shrink them where other bodies come near, and end invalid ones."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m
 from scene2hap.contact.vectors import Triple
 
 _MOST_REFUSALS = 5
-"""A body that was refused a certificate n times waits for 2^(n-1) - 1 moves; n grows to this."""
+"""After n refusals a body waits for 2^(n-1) - 1 moves before the next attempt; n grows to this."""
 
 
 class Certificates:
-    """Certificates, `of` each body that has one, by its id.
+    """Certificates by body id, in `of`.
 
-    Parameters: bodies, unsupported : all bodies, and those that nothing wholly supports, as their owner keeps them;
-    of : where certificates are kept.
+    Parameters: bodies, unsupported : all bodies, and the ids of those without full support; read here, changed by the
+    caller. of : the mapping in which certificates are stored.
     """
 
     def __init__(
@@ -33,14 +33,16 @@ class Certificates:
         of: dict[str, Certificate],
     ) -> None:
         self._bodies, self._unsupported, self._broad_phase, self.of = bodies, unsupported, broad_phase, of
-        # By the ids of those that must stay where they are: whose certificates end when they move.
+        # From the id of a pinning body to the ids of the bodies whose certificates end when it moves.
         self._pinned: dict[str, set[str]] = {}
-        # By id: refusals less certificates issued since, and moves for which the body is still to wait.
+        # By id: refusals minus certificates issued since, and moves that are left until the next attempt.
         self._refusals: dict[str, tuple[int, int]] = {}
 
     def issue(self, body: Body, resting: Resting | None, normal: Triple | None) -> bool:
-        """Give a certificate to a body that stands so, or touches nothing, if planes divide it from all others, whose
-        own then keep behind them too. Returns whether that is so."""
+        """Issue a certificate to a body that rests as given, or touches nothing, if planes separate it from all others.
+
+        The certificates of its neighbours get the same planes. Returns False, and counts a refusal, without a proof.
+        """
         x, on, top_m, pins = body.id, "", -math.inf, set[str]()
         planes: dict[str, tuple[Plane, ...]] = {}
         if resting is not None:
@@ -55,7 +57,7 @@ class Certificates:
             if z == on:
                 continue
             its_own, other = self.of.get(z), self._bodies[z]
-            # What moves without a certificate is left half of what is free as well.
+            # A body with refusals moves: half of the free space is its own, or its next move may end this certificate.
             extent = Extent.of(other, is_fixed=z not in self._refusals) if its_own is None else its_own.extent
             apart = separated(own, extent, self._reach_m(body, other, resting is None))
             if apart is not None:
@@ -81,14 +83,14 @@ class Certificates:
         return True
 
     def may_be_issued(self, x: str) -> bool:
-        """Whether a body that moves has waited long enough."""
+        """Return True if a moving body has waited long enough since its last refusal. Counts the wait down."""
         n, left = self._refusals.get(x, (0, 0))
         if left:
             self._refusals[x] = (n, left - 1)
         return not left
 
     def resting(self, body: Body, held: Collection[str]) -> Resting | None:
-        """How a body stands on one of its neighbours, if it does; on what held it before rather than on another."""
+        """Return how a body rests on one of its neighbours, None if on none. Those in `held` are tried first."""
         up, flat = body.up_axis, body.v_axis
         (u0, u1), (v0, v1) = (body.low[0], body.high[0]), (body.low[flat], body.high[flat])
         lowest = body.low[up] - fall_reach_m(body.size_m)
@@ -106,9 +108,9 @@ class Certificates:
         return None
 
     def crowd_out(self, body: Body) -> list[Body]:
-        """Divide a body that is elsewhere, or hangs now, from those around it that have certificates.
+        """Separate a body that moved, or lost its support, from the certified bodies around it.
 
-        Returns the bodies whose certificates end by that.
+        Returns the bodies whose certificates end because no plane separates them from it.
         """
         x, out = body.id, []
         extent, hangs = Extent.of(body, is_fixed=x not in self._refusals), x in self._unsupported
@@ -132,14 +134,14 @@ class Certificates:
         return out
 
     def end(self, x: str) -> bool:
-        """End the certificate of a body. Returns whether it had one."""
+        """End the certificate of a body. Returns True if it had one."""
         certificate = self.of.pop(x, None)
         if certificate is not None and not certificate.has_held:
             self._refuse(x)
         return certificate is not None
 
     def end_pinned(self, moved: Iterable[str]) -> list[str]:
-        """End those that rely on where these are. Returns the ids of the bodies that had them."""
+        """End the certificates that depend on the poses of moved bodies. Returns the ids of their bodies."""
         ended = []
         for x in moved if self._pinned else ():
             for y in self._pinned.pop(x, ()):
@@ -149,31 +151,31 @@ class Certificates:
         return ended
 
     def forget(self, x: str) -> None:
-        """Forget a body that is gone."""
+        """Forget a removed body."""
         self.of.pop(x, None)
         self._refusals.pop(x, None)
 
     def _refuse(self, x: str) -> bool:
-        """Refuse a certificate, or count one for refused that did not hold for a step."""
+        """Count a refusal, also for a certificate that ended before its first step. Always returns False."""
         n = min(self._refusals.get(x, (0, 0))[0] + 1, _MOST_REFUSALS)
         self._refusals[x] = (n, 2 ** (n - 1) - 1)
         return False
 
     def _planes_on(self, body: Body, resting: Resting) -> tuple[Plane, ...] | None:
         support = resting.support
-        # What bears has no certificate, and what is in the air may hang from what it bears.
+        # A certified body bears nothing, by its own certificate. An unsupported one may hang from a larger body on it.
         if support.id in self.of or (support.id in self._unsupported and support.size_m < body.size_m):
             return None
         return standing_planes(body, resting)
 
     def _reach_m(self, x: Body, y: Body, is_in_air: bool) -> float:
-        """Distance within which two bodies interact: the smaller hangs from the larger if nothing supports it."""
+        """Return the distance [m] within which two bodies interact; larger if the smaller may hang from the other."""
         small, hangs = (x, is_in_air) if x.size_m < y.size_m else (y, y.id in self._unsupported)
         return max(TOUCH_M, hang_reach_m(small.size_m)) if hangs else TOUCH_M
 
 
 def _free_around(body: Body, host: Body) -> tuple[Plane, ...] | None:
-    """Between which planes a body is clear of a concave host; None where that is not known."""
+    """Return planes that keep a body clear of a concave host; None where they are not known."""
     if roles(body, host)[0] is not body or not has_nothing_near(body, host):
         return None
     return free_planes(body, host, stands=False)

@@ -1,11 +1,12 @@
-"""What is built into another with play: a drawer in its carcass, a door leaf in its frame, a battery in its slot.
+"""Enclosed objects, which fit into another with play: a drawer in its carcass, a door leaf in its frame, a battery in
+its slot.
 
-The smaller of two is enclosed if most of it is inside the other's box, and if on two opposite sides of its own box it
-sees the other's surface near, outwards from its own. It is seen along a grid of rays, so that the play of a side is
-what a share of the side has at most, and not what a single corner has.
+The smaller of two bodies is enclosed if most of its box is inside the other's box, and if the other's surface is near
+on two opposite sides of it. The distance is measured along a grid of outward rays. The play of a side is the distance
+that a given share of its rays do not exceed, so that a single corner does not decide.
 
-A sofa along a wall is near it on one side; a book between others and a cup between two walls are near two things on one
-side each.
+A sofa at a wall is near the wall on one side only. A book between two others is near each of them on one side only.
+Neither is enclosed.
 """
 
 from __future__ import annotations
@@ -23,9 +24,9 @@ from scene2hap.contact.vectors import Floats, Triple
 
 
 def enclosed(a: Body, b: Body) -> tuple[float, float]:
-    """How much of a contact it is that one of two is enclosed by the other (0..1), and the greater play [m]."""
+    """Return the weight (0..1) of the contact by which one body encloses the other, and the play [m]."""
     guest, host = roles(a, b)
-    # Of what lies by more than half in the other's box, so does the middle.
+    # A box that is more than half inside another has its middle inside, too.
     (x, y, z), (u, v, w) = host.low, host.high
     p, q, r = middle_m(guest)
     if not (x <= p <= u and y <= q <= v and z <= r <= w):
@@ -42,7 +43,7 @@ def enclosed(a: Body, b: Body) -> tuple[float, float]:
 
 
 def _inside(host: Body, middle: Triple, half: Triple, least_m: float) -> float:
-    """The share of a box that is in the host's; a sheet has no thickness to be outside with."""
+    """Return the share of a box that is inside the host's; along an axis without thickness, `least_m` stands for it."""
     share = 1.0
     for c, h, a, b in zip(middle, half, host.shape.middle, host.shape.half, strict=True):
         common = min(a + b, c + h) - max(a - b, c - h)
@@ -51,9 +52,11 @@ def _inside(host: Body, middle: Triple, half: Triple, least_m: float) -> float:
 
 
 def _has_sides(host: Body, middle: Triple, half: Triple, reach_m: float) -> bool:
-    """Whether a host may have something near on opposite sides of a box: most of what is in a room is far from its
-    walls, and where all that is near is beyond one side, as the leg of a table is, one of two opposite ways leads away
-    from it."""
+    """Return True if a host may have triangles near two opposite sides of a box.
+
+    This skips the rays for most objects in a room, which are far from its walls, and for those near a single part of
+    the host, such as the leg of a table.
+    """
     centre, edge = np.array(middle)[:, None], np.array(half)[:, None]
     boxes = host.shape.boxes
     near = boxes.meeting(Boxes(centre - edge - reach_m, centre + edge + reach_m))
@@ -64,7 +67,7 @@ def _has_sides(host: Body, middle: Triple, half: Triple, reach_m: float) -> bool
 
 
 def _play_m(guest: Body, host: Body, reach_m: float) -> float:
-    """The least play with which the guest is held between two opposite sides."""
+    """Return the play [m] of the guest: the least over the axes of the larger play of two opposite sides."""
     turn = host.pose.rotation.T @ guest.pose.rotation
     shift = host.pose.to_own(np.asarray(guest.position_m))
     points = guest.shape.sides.reshape(-1, 3)

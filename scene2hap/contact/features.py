@@ -1,7 +1,7 @@
-"""Which corners and edges of a mesh's triangles are searched: each once, and none that only shows how a face was cut.
+"""The corners and edges of a mesh that the narrow phase tests: each once, and none inside a flat face.
 
-Two surfaces come near at a corner or an edge of one of them. One that several triangles share is left to the first of
-these. A diagonal of a flat face, and a corner within one, never comes nearer than the face itself.
+Two surfaces are nearest at a corner or an edge of one of them. A shared corner or edge is tested for its first triangle
+only. A diagonal of a flat face, or a corner inside it, is never nearer than the face itself.
 
 Source: S. Curtis, R. Tamstorf, D. Manocha, Fast collision detection for deformable models using representative
 triangles (I3D 2008).
@@ -20,17 +20,17 @@ from numpy.typing import NDArray
 from scene2hap.contact.vectors import Floats, Indices, Marks, cross, dot
 
 Features = NDArray[np.uint8]
-"""Of each triangle (m,): bit k for its edge from corner k to the next, bit 3 + k for its corner k."""
+"""Bits of each triangle (m,): bit k for its edge from corner k to the next, bit 3 + k for its corner k."""
 
-# How uneven a flat face may be [m]: what float32 leaves of coordinates of some metres.
+# How uneven a flat face may be [m]: the rounding of float32 for coordinates of some metres.
 _FLAT_M = 1e-6
-# Squared sine of a triangle's first angle below which its edges stay: whether a point is over it or over its
-# neighbour would be lost in rounding, which is some 2e-16 over this, in barycentric units.
+# Squared sine of a triangle's first angle below which its edges are kept. In so slender a triangle rounding (2e-16 over
+# this, in barycentric units) could place a point over neither triangle.
 _SLENDER = 1e-6
 
 
 def features_of(triangles: Floats) -> Features:
-    """The features that stand for those of all triangles (3, 3, m)."""
+    """Return the features (m,) to test for triangles (3, 3, m)."""
     n_edges = 3 * triangles.shape[2]
     if n_edges == 0:
         return np.zeros(0, dtype=np.uint8)
@@ -40,7 +40,7 @@ def features_of(triangles: Floats) -> Features:
     kept = twins.first[~_are_flat(points, twins)]
     marks = np.zeros(n_edges, dtype=np.uint8)
     marks[kept] = 1 << (kept % 3)
-    # A corner of the surface ends one of its edges.
+    # A corner counts if it is the end of a kept edge.
     is_end = np.zeros(n_edges, dtype=bool)
     is_end[corners[kept]] = is_end[corners[_next(kept)]] = True
     numbers, owners = np.unique(corners, return_index=True)
@@ -51,8 +51,11 @@ def features_of(triangles: Floats) -> Features:
 
 
 class _Twins(NamedTuple):
-    """edges : (3 m,) twins beside each other, the lowest first; begins : (n,) where each group begins;
-    group : (3 m,) of each."""
+    """Edges grouped by their two end points.
+
+    edges : (3 m,) group by group, the lowest edge first; begins : (n,) start of each group in `edges`; group : (3 m,)
+    the group of each entry of `edges`.
+    """
 
     edges: Indices
     begins: Indices
@@ -60,7 +63,7 @@ class _Twins(NamedTuple):
 
     @classmethod
     def of(cls, corners: Indices) -> _Twins:
-        """The twins of edges that start at welded corners (3 m,)."""
+        """Group the edges that start at welded corners (3 m,)."""
         ends = corners[_next(np.arange(len(corners)))]
         keys = np.minimum(corners, ends) * len(corners) + np.maximum(corners, ends)
         edges = np.argsort(keys, kind="stable")
@@ -74,7 +77,7 @@ class _Twins(NamedTuple):
 
 
 def _are_flat(points: Floats, twins: _Twins) -> Marks:
-    """Whether the triangles at each group of twins are parts of one flat face, which goes on on both sides."""
+    """Mark the groups (n,) of twins that lie inside a flat face, with triangles on both sides."""
     a, b, c = points[:, ::3], points[:, 1::3], points[:, 2::3]
     normals = cross(b - a, c - a)
     area2 = dot(normals, normals)
@@ -90,7 +93,7 @@ def _are_flat(points: Floats, twins: _Twins) -> Marks:
         & (np.minimum.reduceat(side, twins.begins) < 0)
         & ~np.logical_or.reduceat(is_slender[twins.edges // 3], twins.begins)
     )
-    # A finely cut curve bends by less than that at each edge.
+    # A finely triangulated curve bends by less than `_FLAT_M` at each edge, so whole faces are checked as well.
     face = _faces(twins, flat, len(area2))
     order = np.lexsort((-area2, face))
     largest = order[np.flatnonzero(np.diff(face[order], prepend=-1))][face]
@@ -101,7 +104,7 @@ def _are_flat(points: Floats, twins: _Twins) -> Marks:
 
 
 def _faces(twins: _Twins, flat: Marks, n_triangles: int) -> Indices:
-    """The face (m,) of each triangle: triangles are of one face that flat edges join."""
+    """Return the face number (m,) of each triangle; flat edges join triangles into faces."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
@@ -113,7 +116,7 @@ def _faces(twins: _Twins, flat: Marks, n_triangles: int) -> Indices:
 
 
 def _welded(points: Floats) -> Indices:
-    """A number (n,) of each of the points (3, n), the same for equal ones."""
+    """Return a number (n,) for each of the points (3, n), equal for equal points."""
     order = np.lexsort(points)
     is_new = (np.diff(points[:, order], axis=1) != 0).any(axis=0)
     numbers = np.empty(points.shape[1], dtype=np.intp)
@@ -122,5 +125,5 @@ def _welded(points: Floats) -> Indices:
 
 
 def _next(edges: Indices) -> Indices:
-    """The edge after each, around its triangle."""
+    """Return the next edge of the same triangle for each edge."""
     return edges + np.where(edges % 3 == 2, -2, 1)

@@ -1,8 +1,8 @@
-"""Contacts from geometry: certificates, broad phase, narrow phase, and what holds what.
+"""Contacts from geometry: certificates, broad phase, narrow phase, and the rule of support and hanging.
 
-All that is kept about a pair depends on the poses of its two objects alone, and what holds an object on its pairs
-alone, so that moving step by step ends exactly where building from nothing does. Of a body that goes by its certificate
-nothing else is kept: once that ends, the body is proven again, or looked at from nothing.
+Stored data of a pair depend on the poses of its two bodies alone, and the holders of a body on its pairs alone. So
+incremental updates give bit-identical results to rebuilding from nothing. Nothing else is stored for a certified body:
+when its certificate ends, it gets a new one or is searched from nothing.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from scene2hap.scene.pose import Pose
 
 
 class ContactFinder:
-    """The contacts between things, with tolerances that follow them as `contact.rule` does.
+    """Find contacts with the tolerances of `contact.rule`, which depend on the objects' sizes.
 
     Parameters: up_axis : 1 or 2, the world axis that points up.
     """
@@ -43,9 +43,9 @@ class ContactFinder:
     def replace(
         self, moved: Mapping[str, Pose], added: Sequence[SceneObject] = (), gone: Collection[str] = ()
     ) -> dict[Pair, Junction | None]:
-        """Take things out, in, and elsewhere.
+        """Remove, add and move objects.
 
-        Returns where the pairs touch that may have changed, None for those that do not touch.
+        Returns the junctions of all pairs that may have changed, None for pairs that do not touch.
         """
         bodies, certificates = self._bodies, self._certificates
         found: dict[Pair, Junction | None] = {}
@@ -64,7 +64,7 @@ class ContactFinder:
     def _search(
         self, placed: list[Body], added: Sequence[Body], gone: Collection[str], found: dict[Pair, Junction | None]
     ) -> None:
-        """Find the contacts of bodies without a certificate, and of all bodies that these affect."""
+        """Find the contacts of `placed` and `added` bodies, and of all bodies that these affect."""
         bodies, certificates = self._bodies, self._certificates
         dirty: set[Pair] = set()
         recheck: set[str] = set()
@@ -114,9 +114,9 @@ class ContactFinder:
         self._unsupported.discard(x)
 
     def _certify(self, body: Body, dirty: set[Pair], recheck: set[str]) -> dict[Pair, Junction | None] | None:
-        """Prove that a body stands wholly on one other and touches nothing else, or touches nothing.
+        """Issue a certificate to a body if possible. Returns its junctions, None without a certificate.
 
-        Returns where it touches, None if there is no proof.
+        Its stored pairs are dropped. Pairs and bodies that this may change go into `dirty` and `recheck`.
         """
         x, bond = body.id, None
         resting = self._certificates.resting(body, self._held.get(x, ()))
@@ -140,7 +140,7 @@ class ContactFinder:
         return {pair_of(x, resting.support.id): junction_of(body, resting, bond.normal)}
 
     def _part(self, x: str, y: str, found: dict[Pair, Junction | None], recheck: set[str]) -> None:
-        """Note that two are neighbours no more."""
+        """Drop the pair of two bodies that are no longer neighbours."""
         mine = self._body_pairs.get(x)
         body_pair = mine.pop(y, None) if mine else None
         if body_pair is not None:
@@ -199,9 +199,9 @@ class ContactFinder:
                 recheck.add(y)
 
     def _update_holders(self, x: str, dirty: set[Pair]) -> bool:
-        """Update which bodies hold a body; pairs whose bond may have changed become dirty.
+        """Update the holders of a body. Pairs whose bond may have changed become dirty.
 
-        Returns whether the body has lost its full support.
+        Returns True if the body has lost its full support.
         """
         was_unsupported = x in self._unsupported
         before, now = self._held.get(x), self._holding.holders(x)

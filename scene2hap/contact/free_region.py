@@ -1,4 +1,4 @@
-"""Boxes in which objects may move, and what another has there."""
+"""Free regions: boxes in a concave host's frame that hold nothing of the host, or one ledge of it."""
 
 from __future__ import annotations
 
@@ -14,8 +14,11 @@ _MOST_GUESTS = 256
 
 
 class FreeRegion(NamedTuple):
-    """A box (u, v, h) in a host's frame while `own` of its axes points up, and what of the host is there: nothing, or a
-    ledge of height `top_m`, which covers the rectangle `ledge`, and what is no higher."""
+    """A box `room` (u, v, h) in a host's frame, valid while the host's axis `own` points up.
+
+    The host has nothing in it if `top_m` is None. Else it has a ledge at height `top_m` [m], which covers the rectangle
+    `ledge`, and nothing above that height.
+    """
 
     own: Upright
     room: AABB
@@ -23,18 +26,18 @@ class FreeRegion(NamedTuple):
     ledge: Flat
 
     def holds(self, taken: AABB) -> bool:
-        """Whether a box is in it."""
+        """Return True if the region contains a box."""
         ((a, b, c), (d, e, f)), ((u0, v0, h0), (u1, v1, h1)) = self.room, taken
         return u0 >= a and v0 >= b and h0 >= c and u1 <= d and v1 <= e and h1 <= f
 
     def bears(self, foot: Flat) -> bool:
-        """Whether its ledge covers a rectangle."""
+        """Return True if the ledge covers a rectangle."""
         u0, v0, u1, v1 = self.ledge
         return foot[0] >= u0 and foot[1] >= v0 and foot[2] <= u1 and foot[3] <= v1
 
 
 class FreeRegions:
-    """The latest free regions of a host. They depend on the host alone, so that one drawn for a guest serves others."""
+    """The latest free regions of a host. They depend on the host alone, so that a guest can use another guest's."""
 
     __slots__ = ("_latest", "_of_guests")
 
@@ -43,11 +46,11 @@ class FreeRegions:
         self._of_guests: dict[str, FreeRegion] = {}
 
     def of(self, guest_id: str) -> FreeRegion | None:
-        """The region that a guest was in last."""
+        """Return the region that a guest used last."""
         return self._of_guests.get(guest_id)
 
     def find(self, guest_id: str, serves: Callable[[FreeRegion], bool]) -> FreeRegion | None:
-        """A region that serves a guest, which is in it from now on."""
+        """Return a region for which `serves` is True, the guest's last one first, and store it as the guest's."""
         known = self._of_guests.get(guest_id)
         if known is not None and serves(known):
             return known
@@ -58,12 +61,12 @@ class FreeRegions:
         return None
 
     def keep(self, guest_id: str, region: FreeRegion) -> None:
-        """Keep a region that was drawn for a guest."""
+        """Add a region that was computed for a guest."""
         self._latest.appendleft(region)
         self._note(guest_id, region)
 
     def _note(self, guest_id: str, region: FreeRegion) -> None:
         if len(self._of_guests) >= _MOST_GUESTS:
-            # Nobody reports guests that left; those that stay find their regions again.
+            # Guests that left are not reported. Clearing costs the others one search.
             self._of_guests.clear()
         self._of_guests[guest_id] = region

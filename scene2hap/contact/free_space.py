@@ -1,9 +1,9 @@
 """Free space of concave hosts: a box around a guest in which the host has nothing, or one ledge to stand on.
 
-Rooms are one mesh of walls and floor, floors have nooks, shelves have boards below their top. The AABB of such a host
-holds everything around it, so only triangles show where its surface is. They are searched once around a guest; the box
-found is kept with the host, in the host's frame, until the guest leaves it, wherever the host goes. It holds for any
-pose within it, so that poses alone decide the contacts.
+A room is one mesh of walls and floor; a shelf has boards below its top. The AABB of such a host contains its guests, so
+only triangles show where its surface is. They are searched once around a guest. The box found is kept in the host's
+frame until the guest leaves it, also when the host moves. It is valid for any pose inside it, so that the result
+depends on poses alone.
 
     u, v : the host's own axes that are level; h : the height over its position [m]
 """
@@ -25,17 +25,19 @@ from scene2hap.contact.stance import TopFace
 from scene2hap.contact.triangle_tree import meeting
 from scene2hap.contact.vectors import AABB, Indices, Marks
 
-_MOST_TILT_M = 1e-4  # A host may lean by so much over its whole size, which is the error of a ledge's height then.
-_AROUND_M = 0.8  # So far beyond a guest its host is searched: others who come find that region.
-_MANY_CORNERS = 8  # An outline of more is taken for a circle.
+_MOST_TILT_M = 1e-4  # Largest lean of a host over its whole size: the error of a ledge's height.
+_AROUND_M = 0.8  # The host is searched this far beyond a guest, so that later guests can use the region.
+_MANY_CORNERS = 8  # An outline with more corners is replaced by its circle.
 _ROUNDING_M = 2e-6
 _ALL = 1 << 60
 _NO_LEDGE: Flat = (math.inf, math.inf, -math.inf, -math.inf)
 
 
 def ledge_under(guest: Body, host: Body) -> FreeRegion | None:
-    """The free region that a guest has for falling, or the host for falling onto it: without anything of the host, or
-    with a ledge under all of the guest's foot. None where neither is sure."""
+    """Return the free region around a guest and the path of its fall, or of the host's fall onto it.
+
+    The region is empty, or has a ledge under the guest's whole base face. None where neither is certain.
+    """
     own = _upright(host)
     if own is None:
         return None
@@ -56,7 +58,7 @@ def ledge_under(guest: Body, host: Body) -> FreeRegion | None:
 
 
 def has_nothing_near(guest: Body, host: Body) -> bool:
-    """Whether a host has surely nothing so near to a guest that the two could touch, in whatever way."""
+    """Return True if a host has surely nothing within the distance at which the two could touch or hang."""
     own = _upright(host)
     if own is None:
         return False
@@ -75,7 +77,7 @@ def has_nothing_near(guest: Body, host: Body) -> bool:
 
 
 def top_face(host: Body, known: FreeRegion) -> TopFace:
-    """The stretch of a ledge, turned as its host is; see `stance.TopFace`."""
+    """Return the rectangle of a region's ledge as the top face of its host, turned as the host is."""
     lean = host.stance.lean
     assert known.top_m is not None
     assert lean is not None
@@ -86,8 +88,10 @@ def top_face(host: Body, known: FreeRegion) -> TopFace:
 
 
 def free_planes(guest: Body, host: Body, *, stands: bool) -> tuple[Plane, ...] | None:
-    """Between which planes of the world a guest may be if it stands on the host's ledge, or else if it is clear of it;
-    None where that is not known."""
+    """Return the planes of a guest's free region in world coordinates; None where no region is known.
+
+    Parameters: stands : True if the guest stands on the host's ledge, False if the region must be empty.
+    """
     own, lean, up = _upright(host), host.stance.lean, host.up_axis
     known = None if own is None else _known(guest, host, own)
     if own is None or lean is None or known is None or stands != (known.top_m is not None) or is_over(host, guest):
@@ -98,7 +102,7 @@ def free_planes(guest: Body, host: Body, *, stands: bool) -> tuple[Plane, ...] |
     (u0, v0, h0), (u1, v1, h1) = known.room
     x, y, h = host.position_m[0], host.position_m[host.v_axis], host.position_m[up]
     u, v = a * x + b * y, c * x + d * y
-    # Lower than this the host might be what falls.
+    # Below this height the host might be the body that falls.
     low_m = max(h + h0 + fall_reach_m(guest.size_m) + TOUCH_M + reach_m, host.low[up] - TOUCH_M + spare_m)
     return (
         wall_at(a, b, u + u1 - reach_m, is_square=True),
@@ -121,31 +125,31 @@ def _upright(host: Body) -> Upright | None:
 
 
 def _turn(host: Body, own: Upright) -> tuple[float, float, float, float]:
-    """How much of u and of v lies along the world's two level axes: a and b of u, c and d of v."""
+    """Return the components of u (a, b) and of v (c, d) along the world's two level axes."""
     first, second = host.stance.rows[0], host.stance.rows[3 - host.up_axis]
     return first[own.u], second[own.u], first[own.v], second[own.v]
 
 
 def _reach_m(guest: Body) -> float:
-    """How near to a guest the host may have nothing for it to be clear."""
+    """Return the distance [m] within which a host must have nothing for the guest to be clear of it."""
     return max(TOUCH_M, play_reach_m(guest.size_m), hang_reach_m(guest.size_m))
 
 
 def _column(guest: Body, host: Body, own: Upright) -> AABB:
-    """What a guest takes up in its host's frame and where it may fall, or the host onto it."""
+    """Return a box (u, v, h) around a guest and the path of its fall, or of the host's onto it, in the host's frame."""
     up, h = guest.up_axis, host.position_m[guest.up_axis]
     middle, half = box_in_frame(guest, host)
     mu, mv, hu, hv = middle[own.u], middle[own.v], half[own.u], half[own.v]
     inset_m = min(INSET * guest.size_m, INSET_M)
     hu, hv = max(hu - inset_m, 0.0), max(hv - inset_m, 0.0)
     low = guest.low[up] - h - fall_reach_m(guest.size_m) - TOUCH_M
-    # What a guest is sunk in a little may be over all of it.
+    # The upper surface of a host into which the guest is sunk a little may be above the guest.
     high = guest.high[up] - h + TOUCH_M + (fall_reach_m(host.size_m) if is_over(host, guest) else 0.0)
     return (mu - hu, mv - hv, low), (mu + hu, mv + hv, high)
 
 
 def _foot(guest: Body, host: Body, own: Upright) -> Flat:
-    """A rectangle around what a guest stands on; what is flush with a rim is within it."""
+    """Return a rectangle (u, v) around a guest's base face, a little smaller, so that a foot flush with a rim fits."""
     v_axis = 3 - guest.up_axis
     x, y = guest.position_m[0] - host.position_m[0], guest.position_m[v_axis] - host.position_m[v_axis]
     a, b, c, d = _turn(host, own)
@@ -166,7 +170,7 @@ def _drawn(host: Body, own: Upright, taken: AABB, foot: Flat) -> FreeRegion | No
         return FreeRegion(own, _Near(host, own, taken).cut(taken), None, _NO_LEDGE)
     ledges = host.shape.ledges(own)
     numbers, tops = ledges.number[columns], ledges.tops[columns]
-    # Sides reach as high as the ledge that they bound.
+    # The host's vertical sides reach as high as the ledge that they bound, so only level triangles name the ledge.
     number = int(numbers[tops >= tops.max() - _ROUNDING_M].max())
     if number < 0 or not ledges.covers(number, foot):
         return None
@@ -181,7 +185,7 @@ def _drawn(host: Body, own: Upright, taken: AABB, foot: Flat) -> FreeRegion | No
 
 
 def _meeting(host: Body, own: Upright, box: AABB, most: int = _ALL) -> Indices:
-    """Columns of up to `most` of the host's triangles whose boxes meet a box (u, v, h)."""
+    """Return the columns of up to `most` of the host's triangles whose boxes overlap a box (u, v, h)."""
     (u0, v0, h0), (u1, v1, h1) = box
     if own.sign < 0:
         h0, h1 = -h1, -h0
@@ -195,7 +199,7 @@ def _meeting(host: Body, own: Upright, box: AABB, most: int = _ALL) -> Indices:
 
 
 class _Near:
-    """The host's triangles around a guest: their `columns`, and the corners (3, n) of their boxes, as (u, v, h)."""
+    """The host's triangles around a guest: their `columns`, and the corners (3, n) of their boxes as (u, v, h)."""
 
     def __init__(self, host: Body, own: Upright, taken: AABB) -> None:
         (u0, v0, h0), (u1, v1, h1) = taken
@@ -209,12 +213,15 @@ class _Near:
             self.low[2], self.high[2] = -self.high[2], -self.low[2]
 
     def cut(self, taken: AABB, others: Marks | slice = slice(None)) -> AABB:
-        """A box around another, not beyond the surroundings, that meets none of the others, all of which are beside."""
+        """Return the box `taken`, enlarged within the surroundings until it meets one of the `others`.
+
+        All of the others must be outside of `taken`.
+        """
         low, high = np.array(taken)[..., None]
         sides = np.concatenate([self.low[:, others] - high, low - self.high[:, others]])
         widest = sides.argmax(axis=0)
         room = sides[widest, np.arange(len(widest))]
-        # A little less, to cover rounding.
+        # The factor covers rounding.
         least = np.array([0.999 * room[widest == side].min(initial=np.inf) for side in range(6)])
         lowest, highest = np.maximum(self._low, low[:, 0] - least[3:]), np.minimum(self._high, high[:, 0] + least[:3])
         (a, b, c), (d, e, f) = lowest.tolist(), highest.tolist()

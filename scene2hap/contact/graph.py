@@ -1,7 +1,7 @@
-"""Which objects touch, and where, as they move.
+"""The contact graph: which objects touch, and where, updated as they move.
 
-Contacts come from the scene's source where it has them (an engine), else from geometry: surfaces within a tolerance,
-which follows the objects unless one is stated (`contact.rule`).
+Contacts come from the scene if it has them (from an engine), else from geometry. Two surfaces touch within a tolerance,
+which depends on the objects (`contact.rule`) unless one is stated.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 @clear_construction
 @dataclass(frozen=True)
 class ContactChange:
-    """What an update did, as pairs (a, b) of ids with a < b.
+    """The pairs (a, b) of ids, a < b, that an update changed.
 
     `shifted` pairs are still in contact, with other points, another normal or another weight.
     """
@@ -49,8 +49,8 @@ class ContactChange:
 
 NO_CHANGE = ContactChange()
 
-_MANY_LATE = 8  # So many tables of poses wait at most before they are read.
-_LONGEST_LOG = 16  # So many versions back the changes are known.
+_MOST_TABLES = 8  # Pose tables that wait at most before their poses are copied.
+_LONGEST_LOG = 16  # Versions for which `changed_since` knows the changes.
 
 
 @clear_construction
@@ -58,18 +58,18 @@ class ContactGraph:
     """The contacts of a scene, kept up to date as its objects move.
 
     Parameters: scene : a snapshot, or the path of a scene file; tolerance_m >= 0 : gap at which any two surfaces cease
-    to touch [m]; None follows the objects, since real scenes leave gaps of 0-45 mm under things that rest. Where the
-    scene gives its contacts, these are taken as they are and the tolerance has no say.
+    to touch [m]. None: tolerances depend on the objects, since real scenes leave gaps of 0-45 mm under objects at rest.
+    The tolerance has no effect if the scene gives its contacts.
     Raises: SceneError: the tolerance is negative or not finite.
 
-    Poses alone decide what is found: moving there step by step ends in the same graph as building there. Found contacts
-    go along with a motion of the whole scene (without a stated tolerance: with those that keep it upright). Up to four
-    points stand for a pair's patch, and each bears the pair's weight: 1 up to two thirds of its tolerance, falling
-    smoothly to 0. The normal points from a to b; it is None where surfaces touch sideways or cut each other. A thing
-    wholly inside a closed other, away from its surface, does not touch it.
+    The poses alone decide the result: incremental updates give bit-identical results to building anew from the same
+    poses. Contacts move along with a motion of the whole scene; without a stated tolerance, only if it stays upright.
+    Up to four points represent a pair's contact patch, each with the pair's weight: 1 up to two thirds of the
+    tolerance, then falling smoothly to 0. The normal points from a to b. It is None where surfaces intersect or are too
+    near for a direction. An object wholly inside a closed other, away from its surface, does not touch it.
 
-    For loops that run often, `junctions` and `beside` are what the graph itself keeps, changed in place by `update` and
-    read without a copy; `contacts`, `arrays` and `graph` are made from them on first access.
+    In loops, read `junctions` and `beside`: `update` changes them in place, and access makes no copy. `contacts`,
+    `arrays` and `graph` are made from them on first access.
     """
 
     def __init__(self, scene: SceneSnapshot, *, tolerance_m: float | None = None) -> None:
@@ -79,14 +79,14 @@ class ContactGraph:
         scene = given_scene(scene)
         self._known_poses = {item.id: item.pose for item in scene.objects}
         self._poses_lent = False
-        # Tables of poses that came later than the known ones.
+        # Tables of poses that are newer than `_known_poses`.
         self._late: list[PoseTable] = []
         self._junctions: dict[Pair, Junction] = {}
         self._beside: dict[str, dict[str, Junction]] = {}
         self._version = self._topology = 0
         self._change_log: deque[list[Pair]] = deque(maxlen=_LONGEST_LOG)
         self._views: dict[str, object] = {}
-        # Whether the junctions are those of an earlier moment, and whether somebody holds them, so that they never are.
+        # Whether the junctions are outdated, and whether a caller holds them, so that they must be updated at once.
         self._is_behind = self._junctions_lent = False
         self._finder: ContactFinder | TouchFinder | None = None
         if scene.contacts is None:
@@ -119,7 +119,7 @@ class ContactGraph:
 
     @property
     def graph(self) -> networkx.Graph[str]:
-        """Object ids as nodes; edges carry their `contacts` as a list. Built again after a change."""
+        """A networkx graph: object ids as nodes, edges with a list `contacts`. Built again after a change."""
         import networkx
 
         found = self._views.get("graph")
@@ -133,34 +133,34 @@ class ContactGraph:
 
     @property
     def junctions(self) -> Mapping[Pair, Junction]:
-        """Where the pairs touch; read-only, and changed by later updates. A junction itself never changes."""
+        """The junctions by pair; read-only, and changed by later updates. A junction itself never changes."""
         self._junctions_lent = True
         return self._current_junctions()
 
     @property
     def beside(self) -> Mapping[str, Mapping[str, Junction]]:
-        """For each object that touches any: the others, and where; read-only, and changed by later updates."""
+        """For each object with contacts, its junctions by the id of the other; read-only, changed by later updates."""
         self._junctions_lent = True
         self._current_junctions()
         return self._beside
 
     @property
     def version(self) -> int:
-        """A number that is another after every update that changed a contact."""
+        """A number that changes with every update that changes a contact."""
         return self._version
 
     @property
     def topology(self) -> int:
-        """A number that is another after every update by which a pair came to touch or ceased to."""
+        """A number that changes with every update by which a pair starts or stops touching."""
         return self._topology
 
     def changed_since(self, version: int) -> list[Pair] | None:
-        """The pairs that have come to touch, ceased to or shifted since then, None if that is too long ago to know."""
+        """Return the pairs that appeared, vanished or shifted since a `version`, None if the log is too short."""
         return _latest(self._change_log, self._version - version)
 
     @property
     def poses(self) -> Mapping[str, Pose]:
-        """Where every object is; read-only, and left as it is by later updates."""
+        """The pose of every object; read-only, and not changed by later updates."""
         poses = self._poses
         self._poses_lent = True
         return MappingProxyType(poses)
@@ -169,7 +169,7 @@ class ContactGraph:
         return object_id in self._known_poses
 
     def pose(self, object_id: str) -> Pose:
-        """Where an object is. Raises: UnknownObject."""
+        """Return the pose of an object. Raises: UnknownObject."""
         poses = self._poses
         try:
             return poses[object_id]
@@ -178,7 +178,7 @@ class ContactGraph:
             raise
 
     def patch(self, a: str, b: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """The points of a pair in a's and in b's own coordinates, both (n, 3) [m], none where the two do not touch.
+        """Return the contact points of a pair in a's and in b's frame, both (n, 3) [m]; n = 0 if they do not touch.
 
         Raises: UnknownObject: an id is not in the scene.
         """
@@ -191,7 +191,7 @@ class ContactGraph:
         return pose_a.to_own(points), pose_b.to_own(points)
 
     def neighbours(self, object_id: str) -> tuple[str, ...]:
-        """The ids of all that touch an object, sorted.
+        """Return the ids of all objects that touch an object, sorted.
 
         Raises: UnknownObject: the id is not in the scene.
         """
@@ -207,13 +207,13 @@ class ContactGraph:
         removed: Sequence[str] = (),
         contacts: Sequence[Contact] | None = None,
     ) -> ContactChange:
-        """Take objects out, in, and elsewhere, in this order; only pairs that this may change are looked at.
+        """Remove, add and move objects, in this order. Only pairs that this may change are computed.
 
-        `contacts`, from an engine, replaces all there are, and from then on contacts are only given, never found. Where
-        contacts are given, those of an object that moves or goes are dropped unless the call brings new ones.
+        `contacts`, from an engine, replaces all contacts; from then on contacts are given, never found. Given contacts
+        of an object that moves or is removed are dropped, unless the call gives new ones.
 
-        Raises: UnknownObject: an id that is not in the scene. SceneError: an added id that already is, or a pose that
-        is no Pose. The graph is then as it was.
+        Raises: UnknownObject: an id that is not in the scene. SceneError: an added id that is already in the scene, or
+        a pose that is no Pose. The graph is then unchanged.
         """
         if type(moved) is not dict and not isinstance(moved, Mapping):
             given = checks.described(moved)
@@ -244,11 +244,11 @@ class ContactGraph:
         return self._replace(stale)
 
     def _take(self, table: PoseTable) -> ContactChange:
-        """An update of poses alone, which stay in their table until someone asks for them."""
+        """Update from a pose table, whose poses are copied only when they are read."""
         if not (self._late and self._late[-1].ids is table.ids):
             for x in table:
                 _demand(x, self._known_poses)
-            if len(self._late) == _MANY_LATE:
+            if len(self._late) == _MOST_TABLES:
                 _ = self._poses
             self._late.append(table)
         self._late[-1] = table
@@ -271,7 +271,7 @@ class ContactGraph:
         removed: Sequence[str],
         contacts: Sequence[Contact] | None,
     ) -> ContactChange:
-        """An update that changes more than poses."""
+        """Update objects or given contacts, besides poses."""
         poses = dict(self._poses)
         for x in removed:
             _demand(x, poses)
@@ -304,7 +304,7 @@ class ContactGraph:
     def _replace(
         self, moved: Mapping[str, Pose], added: Sequence[SceneObject] = (), gone: Collection[str] = ()
     ) -> ContactChange:
-        """Have the finder search again. Returns what changed."""
+        """Let the finder update the contacts of these objects. Returns the change."""
         finder = self._finder
         if isinstance(finder, ContactFinder):
             return self._take_over(finder.replace(moved, added, gone))
@@ -316,7 +316,7 @@ class ContactGraph:
         return self._record(*changes)
 
     def _current_junctions(self) -> dict[Pair, Junction]:
-        """The junctions, as they are now."""
+        """Return the junctions, updated if they are outdated."""
         if self._is_behind:
             self._is_behind = False
             now = cast("TouchFinder", self._finder).junctions()
@@ -327,7 +327,7 @@ class ContactGraph:
         return [pair_of(object_id, other) for other in self._beside.get(object_id, ())]
 
     def _take_over(self, found: Mapping[Pair, Junction | None]) -> ContactChange:
-        """Store where these pairs touch, None for nowhere. Returns what changed."""
+        """Store the junctions of these pairs, None for no contact. Returns the change."""
         return self._record(*self._apply(found))
 
     def _apply(self, found: Mapping[Pair, Junction | None]) -> tuple[list[Pair], list[Pair], list[Pair]]:
@@ -369,7 +369,7 @@ class ContactGraph:
 
 
 def _latest(log: deque[list[Pair]], n: int) -> list[Pair] | None:
-    """The pairs of the last n entries of a log, None if it is shorter."""
+    """Return the pairs of the last n entries of a log, None if it is shorter."""
     if not 0 <= n <= len(log):
         return None
     return log[-1] if n == 1 else [pair for entry in islice(reversed(log), n) for pair in entry]

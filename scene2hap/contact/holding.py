@@ -1,6 +1,6 @@
-"""What holds each body, and how pairs touch by that: it lies on another, hangs from it, or touches it.
+"""The holders of each body, and the junction of each pair: by support, by hanging, by touch or by enclosure.
 
-Answers are for one body or one pair, and depend on pairs alone.
+Results are for one body or one pair, and depend on pairs alone.
 """
 
 from __future__ import annotations
@@ -31,8 +31,11 @@ from scene2hap.contact.vectors import Floats, Triple
 
 
 class Bond(NamedTuple):
-    """How much two objects are in contact, the way [m] that takes the pair's `a` to its `b`, and the normal; whether
-    the faller `lies` on the other with a level base face."""
+    """One reason why two bodies are in contact.
+
+    weight : 0..1; way_m : displacement that brings the pair's `a` to its `b` [m]; normal : from a to b; lies : True if
+    the body `faller` rests on the other with a level base face.
+    """
 
     weight: float
     way_m: Triple
@@ -42,7 +45,7 @@ class Bond(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """How a pair touches: by which bond. Its points follow from `rest` or `side`, else from triangles."""
+    """The strongest bond of a pair, and the data for its contact points: `rest`, `side`, or else the triangles."""
 
     body_pair: BodyPair
     bond: Bond
@@ -51,7 +54,7 @@ class Plan(NamedTuple):
     side: Aside | None
 
     def junction(self) -> Junction | None:
-        """Where the pair touches, None if nowhere."""
+        """Return the contact points of the pair, None if there are none."""
         body_pair, bond = self.body_pair, self.bond
         if self.rest is not None:
             x, y = (body_pair.a, body_pair.b) if bond.faller == body_pair.a.id else (body_pair.b, body_pair.a)
@@ -74,7 +77,7 @@ def priority(bond: Bond) -> tuple[float, bool]:
 
 
 def direction(distance_m: float, way_m: Triple) -> Triple | None:
-    """The normal along the way between two surfaces, if that has a direction."""
+    """Return the unit vector along the displacement between two surfaces, None if they are too near for a direction."""
     if distance_m < CLEAR_M:
         return None
     x, y, z = way_m
@@ -83,10 +86,10 @@ def direction(distance_m: float, way_m: Triple) -> Triple | None:
 
 
 class Holding:
-    """Bodies, the pairs between them and what holds each of them, all by id, as their owner keeps them.
+    """Bodies, their pairs and their holders, all by id; the finder reads and changes these mappings.
 
-    Parameters: near : the neighbours of each body; certified : those that surely hang from nothing, nor others from
-    them.
+    Parameters: near : the neighbours of each body; certified : the bodies with a certificate, which neither hang from
+    others nor hold hanging ones.
     """
 
     def __init__(self, up_axis: int, near: Mapping[str, Collection[str]], certified: Container[str]) -> None:
@@ -94,11 +97,11 @@ class Holding:
         self.bodies: dict[str, Body] = {}
         self.body_pairs: dict[str, dict[str, BodyPair]] = {}
         self.held: dict[str, dict[str, Bond]] = {}
-        # Those that nothing wholly supports, so that larger things near them may bear on how they hang.
+        # Bodies without full support: larger bodies near them may hold them by hanging.
         self.unsupported: set[str] = set()
 
     def holders(self, x: str) -> dict[str, Bond]:
-        """What holds a body, by support and, as far as that is wanting, by hanging."""
+        """Return the bonds by which other bodies hold a body: by support and, where that is below 1, by hanging."""
         body = self.bodies[x]
         below, lies_on = self._below(body) if self.body_pairs[x] else ({}, ())
         bonds = {}
@@ -114,19 +117,19 @@ class Holding:
         return bonds
 
     def support(self, x: str, y: str, support: Support, *, lies: bool) -> Bond:
-        """The bond by which y supports x."""
+        """Return the bond by which y supports x."""
         sign = 1.0 if x < y else -1.0
         normal = (0.0, -sign, 0.0) if self._up_axis == 1 else (0.0, 0.0, -sign)
         way = (normal[0] * support.fall_m, normal[1] * support.fall_m, normal[2] * support.fall_m)
         return Bond(support.weight, way, normal, lies, x)
 
     def _below(self, body: Body) -> tuple[Mapping[str, Support], Collection[str]]:
-        """What supports a body, and on which of that it lies level."""
+        """Return the supports of a body, and the ids of those on which it rests with a level base face."""
         body_pairs, reach_m = self.body_pairs[body.id], fall_reach_m(body.size_m)
         rests = {y: rest for y, body_pair in body_pairs.items() if (rest := body_pair.rest(body.id)) is not None}
         unclear = [y for y, rest in rests.items() if rest is NEEDS_TRIANGLES]
         if len(unclear) == len(rests) == 1:
-            # What is met first holds it, and nothing else is to be seen by other parts of the bottom.
+            # With a single candidate its first fall distance decides; no other support could hide parts of the bottom.
             fall_m = body_pairs[unclear[0]].first_fall_m(body.id)
             share = weight(fall_m, reach_m)
             return ({unclear[0]: Support(share, fall_m)} if share > 0 else {}), ()
@@ -138,8 +141,10 @@ class Holding:
         return supports(dict(sorted(falls_m.items())), reach_m), ()
 
     def _falls(self, body: Body, onto: Iterable[str], least_m: float = math.inf) -> dict[str, Floats]:
-        """How far the triangles of a body are to fall to things below; not to what lies deeper than another, be it
-        `least_m` deep, by more than what still counts."""
+        """Return the fall distances [m] of a body's triangles, by the id of each candidate support.
+
+        Candidates are skipped if they are more than `TOUCH_M` deeper than the nearest one or than `least_m`.
+        """
         bodies, body_pairs = self.bodies, self.body_pairs[body.id]
         found: dict[str, Floats] = {}
         for y in sorted(onto, key=lambda y: (-bodies[y].highest_m, y)):
@@ -151,7 +156,7 @@ class Holding:
         return found
 
     def _hanging(self, body: Body, supported: float) -> dict[str, Bond]:
-        """What holds a body sideways, as far as nothing supports it."""
+        """Return the bonds by which larger bodies hold a hanging body, scaled by 1 - `supported`."""
         x, reach_m = body.id, hang_reach_m(body.size_m)
         ways: dict[str, tuple[float, Triple]] = {}
         bodies, size_m = self.bodies, body.size_m
@@ -166,7 +171,7 @@ class Holding:
         if not larger:
             return {}
         within_m, later_m = reach_m, hang_later_m(reach_m)
-        # The nearest first: the others hold the body only if they are hardly farther off.
+        # The nearest first: a farther body holds only within `later_m` of the nearest, which shortens its search.
         for y in sorted(larger, key=lambda y: (box_distance_m(body, bodies[y]), y)):
             way = self._apart(self._body_pair(x, y), within_m)
             if way is not None:
@@ -178,7 +183,7 @@ class Holding:
         }
 
     def _apart(self, body_pair: BodyPair, within_m: float) -> tuple[float, Triple] | None:
-        """How far two are apart and which way, if it is at most `within_m`."""
+        """Return distance and displacement [m] between two surfaces, None if they are farther apart than `within_m`."""
         side = body_pair.aside(within_m, SLACK_M)
         if side is not None:
             return (side.distance_m, side.way_m) if side.points else None
@@ -193,12 +198,12 @@ class Holding:
         return body_pair
 
     def junctions(self, pairs: Iterable[Pair]) -> dict[Pair, Junction | None]:
-        """Where these pairs touch."""
+        """Return the junction of each pair, None where it does not touch."""
         plans = {pair: self._plan(pair) for pair in pairs}
         return {pair: None if plan is None else plan.junction() for pair, plan in plans.items()}
 
     def _plan(self, pair: Pair) -> Plan | None:
-        """How a pair touches by its strongest bond: a by b, b by a, mere touch, or one is built into the other."""
+        """Return the strongest bond of a pair: a held by b, b held by a, touch, or one enclosed by the other."""
         a, b = pair
         body_pair = self.body_pairs.get(a, {}).get(b)
         if body_pair is None:

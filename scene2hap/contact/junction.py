@@ -1,4 +1,4 @@
-"""Where two objects touch: the graph's own record of a pair, and all of them as arrays."""
+"""Junctions: the contact points of a pair of objects, and those of all pairs as arrays."""
 
 from __future__ import annotations
 
@@ -16,13 +16,15 @@ Pair = tuple[str, str]
 
 
 def pair_of(x: str, y: str) -> Pair:
-    """The pair of two ids, lower one first."""
+    """Return two ids as a pair, the lower one first."""
     return (x, y) if x < y else (y, x)
 
 
 class Junction(NamedTuple):
-    """The contacts of a pair (a, b), a < b, point by point: where in the world [m], how much of a contact, the normal
-    from a to b, and the area [m2]; the last two are one for all, or one for each point where an engine gives them."""
+    """The contact points of a pair (a, b), a < b: world position [m], weight (0..1), normal from a to b and area [m2].
+
+    The points of a found contact share one normal and have no areas. An engine may give both for each point.
+    """
 
     points_m: tuple[Triple, ...]
     weights: tuple[float, ...]
@@ -30,14 +32,14 @@ class Junction(NamedTuple):
     areas_m2: tuple[float | None, ...] = ()
 
     def contacts(self, pair: Pair) -> tuple[Contact, ...]:
-        """The same, spelled out."""
+        """Return the points as `Contact` objects."""
         areas = self.areas_m2 or (None,) * len(self.points_m)
         rows = zip(self.points_m, self.normals, areas, self.weights, strict=True)
         return tuple(Contact(*pair, point, normal, area, weight) for point, normal, area, weight in rows)
 
 
 def junctions_of(contacts: Iterable[Contact]) -> dict[Pair, Junction]:
-    """Given contacts by pair with a < b, in an order that does not depend on the giver's."""
+    """Group given contacts by pair, with a < b. Points are sorted, so that the order of the input has no effect."""
     pairs: dict[Pair, list[Contact]] = {}
     for contact in contacts:
         if contact.a > contact.b:
@@ -59,10 +61,10 @@ def junctions_of(contacts: Iterable[Contact]) -> dict[Pair, Junction]:
 
 @dataclass(frozen=True, eq=False)
 class ContactArrays:
-    """All contact points of a moment, sorted by pair.
+    """All contact points of a scene at one time, sorted by pair.
 
-    `ids` : the objects' ids; `a`, `b` (n,) : rows of the two objects in `ids`; `points_m` (n, 3) world [m];
-    `weights` (n,) [-]; `normals` (n, 3) from a to b, nan where unknown.
+    ids : object ids; a, b (n,) : rows of the two objects in `ids`; points_m (n, 3) world [m]; weights (n,) [-];
+    normals (n, 3) from a to b, nan where unknown.
     """
 
     ids: tuple[str, ...]
@@ -74,7 +76,7 @@ class ContactArrays:
 
     @classmethod
     def of(cls, ids: Iterable[str], junctions: Mapping[Pair, Junction]) -> ContactArrays:
-        """The arrays of these junctions between the objects of these ids."""
+        """Build the arrays of junctions between the objects `ids`."""
         ids = tuple(ids)
         row = {object_id: i for i, object_id in enumerate(ids)}
         ordered = sorted(junctions.items())

@@ -1,8 +1,7 @@
-"""The level faces of a shape at any height: floors and tables of any outline, shelves, seats, boards with a groove.
+"""Ledges: the level faces of a shape at any height, such as floors, tables, shelves and seats of any outline.
 
-What is known of such a ledge is where it ends: an edge with triangles on one side only is on its rim, and a stretch
-that no rim enters and of which one point is covered, is covered. Where meshes are joined badly, or faces overlap, there
-is a rim more than need be, never one less.
+An edge with triangles on one side only is part of a ledge's rim. A rectangle is covered if one of its points is covered
+and no rim enters it. Badly joined meshes and overlapping faces give too many rims, never too few.
 
     h : the height along the own axis that points up [m]; u, v : the two other own axes, in their order [m]
 """
@@ -19,15 +18,15 @@ from scene2hap.contact.broad import Boxes
 from scene2hap.contact.vectors import Floats
 
 Flat = tuple[float, float, float, float]
-"""A rectangle by its least u and v and its greatest."""
+"""A rectangle: least u, least v, greatest u, greatest v."""
 
-_WELD_M = 1e-6  # Corners so near to each other are one.
-_THIN_M2 = 1e-12  # A triangle with less area covers nothing.
-_HALVINGS = 4  # So often a stretch is halved at most where slanted rims are near.
+_WELD_M = 1e-6  # Corners this near to each other are merged.
+_THIN_M2 = 1e-12  # Triangles with less area are ignored.
+_HALVINGS = 4  # Most halvings of a stretch where slanted rims are near.
 
 
 class Upright(NamedTuple):
-    """Which own axis points up (0, 1, 2), whether upwards (1) or downwards (-1), and the two others."""
+    """The vertical axis of a shape's frame (0, 1 or 2), its sign (1 if it points up, -1 down), and the two others."""
 
     axis: int
     sign: int
@@ -36,11 +35,11 @@ class Upright(NamedTuple):
 
 
 class Ledges:
-    """The level faces of triangles (3, 3, m) in their boxes, where up is along an own axis.
+    """The ledges of triangles (3, 3, m) whose vertical is an axis of their frame.
 
-    Parameters: uneven_m : how much heights may differ within a face, and how far faces are apart that are two [m].
-    `number` (m,) is the ledge that each triangle is part of, -1 for none, `tops` (m,) how high each reaches; `heights`
-    are those of the ledges, rising.
+    Parameters: boxes : those of the triangles; uneven_m : largest height difference within a ledge [m].
+    `number` (m,) is the ledge of each triangle, -1 for none; `tops` (m,) the greatest height of each triangle;
+    `heights` the heights of the ledges, ascending.
     """
 
     def __init__(self, triangles: Floats, boxes: Boxes, upright: Upright, uneven_m: float) -> None:
@@ -58,11 +57,11 @@ class Ledges:
         self._outlines: dict[int, tuple[Floats, Floats]] = {}
 
     def covers(self, number: int, foot: Flat) -> bool:
-        """Whether a ledge wholly covers a rectangle."""
+        """Return True if a ledge covers a whole rectangle."""
         return covers(*self._outline(number), foot)
 
     def stretch(self, number: int, foot: Flat, most: Flat) -> Flat:
-        """A rectangle around `foot`, which a ledge covers, no larger than `most`, that it wholly covers."""
+        """Return a rectangle that a ledge covers, which contains `foot` and lies in `most`. `foot` must be covered."""
         _, rims = self._outline(number)
         for _ in range(_HALVINGS):
             ends = _clipped(rims, most)
@@ -78,13 +77,13 @@ class Ledges:
                     min(most[2], foot[2] + least[0]),
                     min(most[3], foot[3] + least[1]),
                 )
-            # A slanted rim passes by the foot's corner: nearer to the foot it does so no more, or has a box beside it.
+            # The box of a slanted rim overlaps the foot. In a smaller rectangle the rim is shorter, and its box, too.
             u0, v0, u1, v1 = ((a + b) / 2 for a, b in zip(most, foot, strict=True))
             most = (u0, v0, u1, v1)
         return foot
 
     def _outline(self, number: int) -> tuple[Floats, Floats]:
-        """The triangles (n, 3, 2) of a ledge and the edges (k, 2, 2) on its rim."""
+        """Return the triangles (n, 3, 2) of a ledge and the edges (k, 2, 2) of its rim."""
         found = self._outlines.get(number)
         if found is None:
             triangles, rims = _outlined(self._corners[self.number == number])
@@ -112,13 +111,13 @@ def _outlined(triangles: Floats) -> tuple[Floats, Floats]:
 
 @compiled
 def covers(triangles: Floats, rims: Floats, foot: Flat) -> bool:
-    """Whether triangles (n, 3, 2) with rims (k, 2, 2) wholly cover a rectangle: its middle, and no rim enters it."""
+    """Return True if triangles (n, 3, 2) cover a rectangle: they cover its middle, and no rim (k, 2, 2) enters it."""
     middle = np.array([(foot[0] + foot[2]) / 2, (foot[1] + foot[3]) / 2])
     return _is_covered(middle, triangles) and not len(_clipped(rims, foot))
 
 
 def _is_covered(point: Floats, triangles: Floats) -> bool:
-    """Whether a point (2,) is in one of the triangles (n, 3, 2)."""
+    """Return True if a point (2,) is in one of the triangles (n, 3, 2)."""
     away = triangles - point
     (ax, bx, cx), (ay, by, cy) = away.transpose(2, 1, 0)
     turns = np.stack([ax * by - ay * bx, bx * cy - by * cx, cx * ay - cy * ax])
@@ -126,7 +125,7 @@ def _is_covered(point: Floats, triangles: Floats) -> bool:
 
 
 def _clipped(segments: Floats, flat: Flat) -> Floats:
-    """The parts (k, 2, 2) of the segments (n, 2, 2) that are in a rectangle, its edges included.
+    """Clip segments (n, 2, 2) to a rectangle, edges included. Returns the remaining parts (k, 2, 2).
 
     Source: Y.-D. Liang, B. A. Barsky, A new concept and method for line clipping, ACM Trans. Graphics 3 (1984) 1.
     """

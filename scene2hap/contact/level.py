@@ -1,7 +1,7 @@
-"""Level things: how far one is to fall onto another, how far two blocks stand apart, and where they then touch.
+"""Closed forms for bodies with level faces: fall distance, distance of two upright blocks, and contact points.
 
-The same answers that triangles give, in closed form: over each other, outlines in a plane decide; beside each other,
-the corners of one outline against the edges of the other.
+The results equal those of the triangles. Bodies above each other are compared by their convex outlines; blocks beside
+each other by the corners of one outline and the edges of the other.
 
     u, v : the world's level axes; h : the height [m]
 """
@@ -18,16 +18,16 @@ from scene2hap.contact.spread import spread_few
 from scene2hap.contact.stance import Stance
 from scene2hap.contact.vectors import Triple
 
-# Outlines lie over each other from this overlap on, as a share of the upper one's radius, and at most: equal boxes
-# side by side, whose rims coincide, do not.
+# Least overlap of two outlines, as a share of the upper one's radius, and its upper bound. Without it, equal boxes side
+# by side, whose rims coincide, would lie over each other.
 _RIM, _RIM_M = 1e-4, 1e-4
 _ROUNDING_M = 1e-9
-_SLACK_M = 1e-6  # Bounds by circles are trusted beyond this, so that they never decide otherwise than corners.
+_SLACK_M = 1e-6  # Margin of circle tests, so that rounding never makes them contradict the corners.
 
 
 class Rest(NamedTuple):
-    """How far a thing is to fall [m] to what it then lies on, at the height `top_m` [m], with all or with some of its
-    base face."""
+    """How a body may rest on a face at height `top_m` [m]: its fall distance [m], and whether the face is under its
+    whole base face."""
 
     fall_m: float
     wholly: bool
@@ -35,8 +35,10 @@ class Rest(NamedTuple):
 
 
 def rest_on(x: Body, y: Body) -> Rest | None:
-    """How x lies on y, one the base face and one the top of its object; None where outlines do not decide that, a
-    fall of inf where they are beside each other."""
+    """Return how the base face of x rests on the top face of y.
+
+    None where the outlines do not decide it; a fall distance of inf where two blocks are beside each other.
+    """
     base_face, top_face = x.stance.posed_base_face, y.stance.top_face
     if top_face is None:
         return None
@@ -70,12 +72,12 @@ def rest_on(x: Body, y: Body) -> Rest | None:
 
 
 def _beside(x: Body, y: Body) -> Rest | None:
-    # Only of blocks the outline is all.
+    # Other shapes may extend beyond the outlines of their base and top faces.
     return Rest(math.inf, False, -math.inf) if x.stance.is_block and y.stance.is_block else None
 
 
 def rest_points(x: Body, y: Body, rest: Rest) -> tuple[Triple, ...]:
-    """Points of the world half way between x's base face and y's top where they are over each other."""
+    """Return contact points in the world, half way between x's base face and y's top face where these overlap."""
     base_face = x.stance.posed_base_face
     a, v_axis = x.up_axis, x.v_axis
     px, py = x.position_m, y.position_m
@@ -96,8 +98,8 @@ def rest_points(x: Body, y: Body, rest: Rest) -> tuple[Triple, ...]:
 
 
 class Aside(NamedTuple):
-    """Two blocks beside each other: the distance [m], the way (3,) [m] from x to y there, and points half way where
-    they are at most `slack_m` farther apart."""
+    """Two blocks beside each other: their distance [m], the vector from x to y between the nearest points [m], and
+    contact points half way wherever the blocks are at most `slack_m` farther apart."""
 
     distance_m: float
     way_m: Triple

@@ -1,14 +1,14 @@
-"""Distance, contact points and drop of two posed triangle meshes.
+"""Distance, contact points and fall distances of two posed triangle meshes.
 
-Meshes are surfaces, not volumes: surfaces that cut each other have distance 0, but an object wholly inside a closed
-other one, out of reach of its surface, does not touch it, as a chair in a room does not touch the room's walls.
+Meshes are surfaces, not volumes. Intersecting surfaces have distance 0. An object wholly inside a closed other one, out
+of reach of its surface, does not touch it, as a chair in a room does not touch the room's walls.
 
-The kernels work in the frame of one of the two, the host, so that moving both rigidly changes nothing but the last
-bits. They look at pairs of triangles whose boxes are within reach, in any order: their answers are the least over all
-pairs, with ties broken by coordinates or by the triangles' columns. The compiled kernels find these pairs by
-descending two `TriangleTree`s at once, the plain ones by sorting boxes.
+The kernels work in the frame of one mesh, the host, so that a rigid motion of both changes only the last bits. They
+compare pairs of triangles whose boxes are within reach. The order has no effect: results are minima over all pairs,
+with ties broken by coordinates or by the triangles' columns. The compiled kernels find the pairs by descending two
+`TriangleTree`s at once, the plain ones by sorting boxes.
 
-    turn, shift : rotation in rows and position [m] of the guest in the host's frame
+    turn, shift : rotation matrix in rows and position [m] of the guest in the host's frame
     p, q        : a triangle of the guest, of the host
 """
 
@@ -28,55 +28,55 @@ from scene2hap.contact.triangles import clearances, heights, meetings
 from scene2hap.contact.vectors import Floats, Indices, Rows, Triple, cross, dot, rotated, transposed
 
 ROUNDING_M = 1e-9
-"""Below this a distance is rounding."""
+"""Distances below this are rounding errors."""
 
 _POINT = Shape(np.zeros((3, 3, 1)), np.zeros((1, 3)))  # a triangle without extent
 _NOT_TURNED: Rows = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-_BATCH = 4096  # Pairs of triangles in a plain kernel at once: some 10 MB.
+_BATCH = 4096  # Pairs of triangles that a plain kernel compares at once: some 10 MB.
 
 
 class Placed(Protocol):
-    """A shape at a place."""
+    """A shape at a pose."""
 
     @property
     def shape(self) -> Shape:
-        """Its triangles."""
+        """The triangles."""
 
     @property
     def rows(self) -> Rows:
-        """Its rotation, in rows."""
+        """The rotation matrix, as rows."""
 
     @property
     def position_m(self) -> Triple:
-        """Where the origin of its frame is."""
+        """The origin of the shape's frame in the world [m]."""
 
     @property
     def size_m(self) -> float:
-        """Diagonal of its own bounding box."""
+        """The diagonal of the shape's bounding box [m]."""
 
 
 class Gap(NamedTuple):
-    """The least distance of two surfaces [m], and the vector (3,) [m] from `a` to `b` there, in the world."""
+    """The least distance of two surfaces [m], and the vector (3,) from `a` to `b` between the nearest points [m]."""
 
     distance_m: float
     way_m: Triple
 
 
 class Ends(NamedTuple):
-    """A contact point: its ends on the surfaces of a and of b in the world [m]."""
+    """A contact point: its end points on the surfaces of a and of b in the world [m]."""
 
     on_a_m: Triple
     on_b_m: Triple
 
     @property
     def middle_m(self) -> Triple:
-        """The point half way between."""
+        """The point half way between the two ends [m]."""
         (a, b, c), (d, e, f) = self
         return ((a + d) / 2, (b + e) / 2, (c + f) / 2)
 
 
 class MeshPair:
-    """Two posed meshes. The larger of the two is the host; of equals, a."""
+    """Two posed meshes. The larger is the host; a, if they have the same size."""
 
     def __init__(self, a: Placed, b: Placed) -> None:
         self.guest_is_a = a.size_m < b.size_m
@@ -88,7 +88,7 @@ class MeshPair:
         self._shift = rotated(back, (x - u, y - v, z - w))
 
     def gap(self, within_m: float) -> Gap | None:
-        """The least distance, None if it is more than `within_m`."""
+        """Return the least distance, None if it is more than `within_m`."""
         found = closest_points(self.host.shape, self.guest.shape, self._turn, self._shift, max(within_m, ROUNDING_M))
         if found is None:
             return None
@@ -99,8 +99,11 @@ class MeshPair:
         return Gap(distance, rotated(self._rows, (sign * (u - x), sign * (v - y), sign * (w - z))))
 
     def patch(self, way_m: Triple, within_m: float) -> list[Ends]:
-        """Where the surfaces are at most `within_m` apart once `a` has moved by `way_m` [m] in the world: up to
-        `spread.MAX_POINTS` points far from each other, with their ends where the bodies are now."""
+        """Return the contact manifold that results when `a` moves by `way_m` [m] in the world.
+
+        These are up to `spread.MAX_POINTS` points, far from each other, at which the moved surfaces are at most
+        `within_m` apart. Their ends are given for the bodies' present poses.
+        """
         x, y, z = rotated(self._back, way_m)
         way = (x, y, z) if self.guest_is_a else (-x, -y, -z)
         found = contact_points(
@@ -110,18 +113,17 @@ class MeshPair:
         return [Ends(*pair) if self.guest_is_a else Ends(*reversed(pair)) for pair in ends]
 
     def drops(self, faller: Placed, up_axis: int, lowest_m: float, reach_m: float, touch_m: float) -> Floats | None:
-        """How far each triangle (m,) of `faller`, one of the two, may fall before it meets the other [m]; None if none
-        does within `reach_m`.
+        """Return the fall distance of each triangle (m,) of `faller`, one of the two, onto the other [m].
 
-        Only the faller's bottom falls, all within `reach_m` of `lowest_m`, the height of its lowest point, and only
-        onto triangles that are level enough to hold it. A triangle that is sunk in by up to `touch_m` falls by less
-        than nothing, and one that is sunk in deeper by nothing. A triangle that would fall `touch_m` farther than
-        another, which has come to rest by then, falls by inf.
+        None if no triangle meets the other within `reach_m`. Only triangles within `reach_m` above `lowest_m`, the
+        height of the faller's lowest point, are dropped, and only onto triangles level enough to hold them. The
+        distance is negative for a triangle that is sunk in by up to `touch_m`, 0 for one that is sunk in deeper, and
+        inf for one that is more than `touch_m` above the least, since the faller has come to rest before.
         """
         return drops(*self._falling(faller, up_axis, lowest_m, reach_m, touch_m))
 
     def first_drop_m(self, faller: Placed, up_axis: int, lowest_m: float, reach_m: float, touch_m: float) -> float:
-        """The least of these, inf if there is none."""
+        """Return the least of the distances of `drops` [m], inf if there is none."""
         return first_drop(*self._falling(faller, up_axis, lowest_m, reach_m, touch_m))
 
     def _falling(
@@ -140,9 +142,11 @@ class MeshPair:
 def closest_points(
     host: Shape, guest: Shape, turn: Rows, shift: Triple, within: float
 ) -> tuple[float, Triple, Triple] | None:
-    """The least distance of two meshes and its ends on guest and host, None beyond `within`. All [m], in the host's
-    frame. Of equal distances the pair with the lowest column of the guest, then of the host counts. Below `ROUNDING_M`
-    any pair may be given."""
+    """Return the least distance of two meshes and its end points on guest and host, None beyond `within`.
+
+    All [m], in the host's frame. Of equal distances, the pair with the lowest column of the guest, then of the host, is
+    chosen. If the distance is below `ROUNDING_M`, any pair may be chosen.
+    """
     best: tuple[float, int, int] | None = None
     ends = None
     posed = _posed(guest.triangles, turn, shift)
@@ -161,7 +165,7 @@ def closest_points(
 
 @compiled
 def surface_distance(host: Shape, point: Triple, within: float) -> float | None:
-    """How far a point of its frame is from a mesh's surface, None beyond `within`. All [m]."""
+    """Return the distance of a point in the host's frame from the host's surface, None beyond `within`. All [m]."""
     found = closest_points(host, _POINT, _NOT_TURNED, point, within)
     return None if found is None else found[0]
 
@@ -170,8 +174,8 @@ def surface_distance(host: Shape, point: Triple, within: float) -> float | None:
 def contact_points(
     host: Shape, guest: Shape, turn: Rows, shift: Triple, way: Triple, within: float
 ) -> list[tuple[Triple, Triple]]:
-    """Up to `spread.MAX_POINTS` points on guest and host that are at most `within` apart once the guest has moved by
-    `way`; the guest's are given before it has. All [m], in the host's frame."""
+    """Return up to `spread.MAX_POINTS` pairs of points on guest and host that are at most `within` apart once the guest
+    has moved by `way`. The points on the guest are given before that movement. All [m], in the host's frame."""
     x, y, z = shift
     posed = _posed(guest.triangles, turn, (x + way[0], y + way[1], z + way[2]))
     found = [np.empty((6, 0))]
@@ -190,8 +194,11 @@ def contact_points(
 def drops(
     host: Shape, guest: Shape, turn: Rows, shift: Triple, frame: Rows, limits: Triple, guest_falls: bool
 ) -> Floats | None:
-    """See `MeshPair.drops`. frame : two level axes and up, in the host's frame; limits : height of the faller's lowest
-    point over the host's position, reach and touch [m]."""
+    """Return the fall distances of `MeshPair.drops` (m,) [m].
+
+    Parameters: frame : two level axes and up, as rows in the host's frame; limits : height of the faller's lowest point
+    over the host's position, reach and touch [m].
+    """
     lowest, reach, touch = limits
     of_guest = _posed(guest.triangles, _product(frame, turn), rotated(frame, shift))
     of_host = _posed(host.triangles, frame, (0.0, 0.0, 0.0))
@@ -221,13 +228,13 @@ def drops(
 def first_drop(
     host: Shape, guest: Shape, turn: Rows, shift: Triple, frame: Rows, limits: Triple, guest_falls: bool
 ) -> float:
-    """The least of `drops` [m], inf if there is none."""
+    """Return the least of `drops` [m], inf if there is none."""
     each = drops(host, guest, turn, shift, frame, limits, guest_falls)
     return math.inf if each is None else float(each.min())
 
 
 def _near(posed: Floats, boxes: Boxes, host: Shape, within: float) -> Iterator[tuple[Indices, Indices]]:
-    """Columns (n,) of the pairs of posed guest's and host's triangles that may be within reach, in batches."""
+    """Yield the columns (n,) of pairs of the posed guest's and the host's triangles that may be within reach."""
     for i, j in box_pairs(boxes.grown(within + ROUNDING_M), host.boxes):
         for start in range(0, len(i), _BATCH):
             some = slice(start, start + _BATCH)
@@ -236,15 +243,15 @@ def _near(posed: Floats, boxes: Boxes, host: Shape, within: float) -> Iterator[t
             yield i[some][close], j[some][close]
 
 
-# Least cosine of a slope that holds an object (assumed): a wall's triangles hold nothing.
+# Least cosine of a slope that holds an object (assumed). A wall's triangles hold nothing.
 _HOLDING = 0.5
-# A falling triangle is shrunk by this share, by at most so much [m]: equal boxes on each other, whose rims coincide,
-# then surely lie over each other, and boxes exactly side by side surely do not.
+# A falling triangle is shrunk by this share, and by at most this length [m]. Then equal boxes on each other, whose rims
+# coincide, surely overlap in plan, and boxes exactly side by side surely do not.
 INSET, INSET_M = 1e-4, 1e-4
 
 
 def _is_level(triangles: Floats) -> Floats:
-    """Whether triangles (3, 3, m) in an upright frame are level enough to hold an object."""
+    """Mark the triangles (3, 3, m), in an upright frame, that are level enough to hold an object."""
     normals = cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     length = np.sqrt(dot(normals, normals))
     level: Floats = (length > 0) & (np.abs(normals[2]) >= _HOLDING * length)
@@ -261,7 +268,7 @@ def _inset(triangles: Floats) -> Floats:
 
 
 def _posed(triangles: Floats, turn: Rows, shift: Triple) -> Floats:
-    """Triangles (3, 3, m) in another frame. Sums are spelled out, as the compiled kernels take them."""
+    """Transform triangles (3, 3, m). Sums are spelled out, for bits equal to those of the compiled kernels."""
     x, y, z = triangles
     posed = np.empty(triangles.shape)
     for axis, ((a, b, c), d) in enumerate(zip(turn, shift, strict=True)):
@@ -270,17 +277,17 @@ def _posed(triangles: Floats, turn: Rows, shift: Triple) -> Floats:
 
 
 def _product(one: Rows, other: Rows) -> Rows:
-    """Matrix product."""
+    """Return the matrix product."""
     a, b, c = (rotated(transposed(other), row) for row in one)
     return (a, b, c)
 
 
 def upright_frame(up: Triple) -> Rows:
-    """An orthonormal frame in rows: two directions across `up`, and that."""
+    """Return an orthonormal frame as rows: two directions perpendicular to `up`, and `up`."""
     x, y, z = up
     length = math.sqrt(x * x + y * y + z * z)
     x, y, z = x / length, y / length, z / length
-    # Across the axis that is farthest from up.
+    # Perpendicular to the axis that is farthest from up, which keeps the length from 0.
     if abs(x) <= abs(y) and abs(x) <= abs(z):
         a, b, c = 0.0, z, -y
     elif abs(y) <= abs(z):

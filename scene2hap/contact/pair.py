@@ -1,7 +1,7 @@
 """Narrow phase of two bodies: which may rest on the other, their distance, and their contact points.
 
-Level faces are compared in closed form, concave hosts by their free regions, everything else by triangles. Each answer
-is computed when it is first needed and kept until one of the two moves.
+Level faces are compared in closed form, concave hosts by their free regions, all else by triangles. Each result is
+computed on first use and kept until one of the two moves.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from scene2hap.contact.rule import SLACK_M, TOUCH_M, fall_reach_m, is_over
 from scene2hap.contact.vectors import Floats, Triple
 
 NEEDS_TRIANGLES = Rest(math.nan, False, math.nan)
-"""Stands for a fall that only triangles decide."""
+"""Marks a fall distance that only triangles can give."""
 
 
 class BodyPair:
@@ -30,26 +30,26 @@ class BodyPair:
 
     def __init__(self, a: Body, b: Body) -> None:
         self.a, self.b = a, b
-        # How a may lie on b: None if not at all, `NEEDS_TRIANGLES` where triangles must say; and b on a.
+        # How a may rest on b: None if it cannot, `NEEDS_TRIANGLES` if only triangles can tell. Else how b on a.
         self.rest_a = _rest(a, b)
         self.rest_b = _rest(b, a) if self.rest_a is None else None
         self._meeting_made: MeshPair | None = None
         self._facts: dict[object, Any] | None = None
-        # The distance was searched so far; nearer than that it is known.
+        # The distance up to which the gap was searched; -1 before the first search.
         self._gap_within_m = -1.0
         self._gap: Gap | None = None
 
     @classmethod
     def of(cls, x: Body, y: Body) -> BodyPair:
-        """The pair of two bodies in any order."""
+        """Build the pair of two bodies, given in any order."""
         return cls(x, y) if x.id < y.id else cls(y, x)
 
     def rest(self, x: str) -> Rest | None:
-        """How x, one of the two, may lie on the other."""
+        """Return how x, one of the two ids, may rest on the other; None if it cannot."""
         return self.rest_a if x == self.a.id else self.rest_b
 
     def first_fall_m(self, x: str) -> float:
-        """How far x is to fall by its triangles, inf if it meets nothing."""
+        """Return the least fall distance of x by its triangles [m], inf if it meets nothing."""
         found: float = self._once(("first", x), lambda: self._first_fall_m(*self.falling(x)))
         return found
 
@@ -57,7 +57,7 @@ class BodyPair:
         return self._meeting.first_drop_m(*_falls_by(faller)) if is_over(faller, other) else math.inf
 
     def falls(self, x: str) -> Floats | None:
-        """How far each of its triangles is to fall; see `MeshPair.drops`."""
+        """Return the fall distance of each triangle of x [m]; see `MeshPair.drops`."""
         found: Floats | None = self._once(x, lambda: self._falls(*self.falling(x)))
         return found
 
@@ -67,11 +67,11 @@ class BodyPair:
         return self._meeting.drops(*_falls_by(faller))
 
     def falling(self, x: str) -> tuple[Body, Body]:
-        """x, and the other."""
+        """Return the body x and the other body."""
         return (self.a, self.b) if x == self.a.id else (self.b, self.a)
 
     def aside(self, within_m: float, slack_m: float) -> Aside | None:
-        """How the two are beside each other, if both are blocks; see `level.aside`."""
+        """Return how two upright blocks stand beside each other, None for other shapes; see `level.aside`."""
         if not (self.a.stance.is_block and self.b.stance.is_block):
             return None
         found: Aside | None = self._once((within_m, slack_m), lambda: aside(self.a, self.b, within_m, slack_m))
@@ -79,26 +79,26 @@ class BodyPair:
 
     @property
     def has_nothing_near(self) -> bool:
-        """Whether the two have surely nothing near each other, be the smaller amid the larger."""
+        """True if the two surely do not touch, also where the smaller is inside the AABB of the larger."""
         side = self.aside(TOUCH_M, SLACK_M)
         if side is not None:
             return not side.points
         return has_nothing_near(*roles(self.a, self.b))
 
     def gap(self, within_m: float) -> Gap | None:
-        """How far their surfaces are apart; see `MeshPair.gap`."""
+        """Return the distance of the surfaces, None beyond `within_m`; see `MeshPair.gap`."""
         if within_m > self._gap_within_m:
             self._gap_within_m, self._gap = within_m, self._meeting.gap(within_m)
         gap = self._gap
         return gap if gap is not None and gap.distance_m <= within_m else None
 
     def enclosed(self) -> tuple[float, float]:
-        """How much of a contact it is that one is built into the other, and with how much play; see `enclosure`."""
+        """Return the weight and play of a contact by enclosure; see `enclosure.enclosed`."""
         found: tuple[float, float] = self._once("enclosed", lambda: enclosed(self.a, self.b))
         return found
 
     def points(self, way_m: Triple, within_m: float) -> tuple[Triple, ...]:
-        """Points half way between their surfaces where these are at most `within_m` apart once a has gone `way_m`."""
+        """Return points half way between the surfaces where they are within `within_m` once a has moved by `way_m`."""
         key = (*way_m, within_m)
         found: tuple[Triple, ...] = self._once(key, lambda: self._points_of_triangles(way_m, within_m))
         return found
@@ -123,23 +123,23 @@ class BodyPair:
 
 
 def _falls_by(faller: Body) -> tuple[Body, int, float, float, float]:
-    """The limits of a fall; see `MeshPair.drops`."""
+    """Return the arguments of `MeshPair.drops` for a falling body."""
     return faller, faller.up_axis, faller.lowest_m, fall_reach_m(faller.size_m), TOUCH_M
 
 
 def box_distance_m(x: Body, y: Body) -> float:
-    """How far the boxes around two bodies are apart along some axis [m], at least; negative if they overlap."""
+    """Return the largest gap of two AABBs along an axis [m], negative if they overlap: a lower bound of distance."""
     (a, b, c), (d, e, f), (g, h, i), (j, k, m) = x.low, x.high, y.low, y.high
     return max(a - j, g - d, b - k, h - e, c - m, i - f)
 
 
 def apart_by(x: Body, y: Body, margin_m: float) -> bool:
-    """Whether the boxes around two bodies are farther apart than that along some axis."""
+    """Return True if two AABBs are more than `margin_m` apart along some axis."""
     return box_distance_m(x, y) > margin_m
 
 
 def _rest(x: Body, y: Body) -> Rest | None:
-    """How x may lie on y."""
+    """Return how x may rest on y: None if it cannot, `NEEDS_TRIANGLES` if only triangles can tell."""
     reach_m = fall_reach_m(x.size_m)
     up, v_axis = x.up_axis, x.v_axis
     if (
@@ -158,7 +158,7 @@ def _rest(x: Body, y: Body) -> Rest | None:
 
 
 def _rest_in_free_space(x: Body, y: Body, reach_m: float) -> Rest | None:
-    """The same where one has surroundings in the other."""
+    """Return the result of `_rest` from the free space of the larger body around the smaller one."""
     guest, host = roles(x, y)
     known = ledge_under(guest, host)
     if known is None:

@@ -1,6 +1,6 @@
-"""Convex polygons in the level plane: their edges, what of one is inside edges, and how far two are apart.
+"""Convex polygons in the level plane: edges, containment, clipping and distance.
 
-u, v : coordinates [m]; n : the normal of an edge, of length 1 and pointing inwards
+u, v : coordinates [m]; n : unit normal of an edge, pointing inwards
 """
 
 from __future__ import annotations
@@ -17,20 +17,20 @@ _ROUNDING_M = 1e-9
 
 
 PolygonGap = tuple[float, Point, list[Point]]
-"""How far two outlines are apart [m], the way from the first to the second there, and points half way between them
-where they are little farther apart."""
+"""The distance of two outlines [m], the vector from the first to the second between the nearest points [m], and points
+half way between them wherever they are about as near."""
 
 
 @compiled
 def turned_outline(corners_m: Sequence[Triple], row_u: Triple, row_v: Triple) -> tuple[Point, ...]:
-    """Corners seen from above, by the two level rows of a rotation."""
+    """Project corners onto the level plane, with the two level rows of a rotation matrix."""
     (a, b, c), (d, e, f) = row_u, row_v
     return tuple([(a * x + b * y + c * z, d * x + e * y + f * z) for x, y, z in corners_m])
 
 
 @compiled
 def edges_of(outline: Sequence[Point]) -> tuple[Triple, ...]:
-    """(n_u, n_v, offset) of each edge of a convex outline, the normal of length 1 and pointing inwards."""
+    """Return (n_u, n_v, offset) of each edge of a convex outline: inside where n_u u + n_v v >= offset."""
     mu, mv = 0.0, 0.0
     for u, v in outline:
         mu, mv = mu + u, mv + v
@@ -51,8 +51,11 @@ def edges_of(outline: Sequence[Point]) -> tuple[Triple, ...]:
 
 @compiled
 def inside_edges(outline: Sequence[Point], du: float, dv: float, edges: Sequence[Triple]) -> tuple[float, float]:
-    """How far inside all edges the corners of an outline moved by (du, dv) are [m]: the outermost corner, and the
-    innermost one at the edge that it is least inside of."""
+    """Return how far the corners of an outline, moved by (du, dv), are inside all edges [m].
+
+    The first is the least over all corners and edges, that of the outermost corner. The second is the least over the
+    edges of the innermost corner's distance; it is negative if an edge separates the outline from the polygon.
+    """
     outermost = innermost = math.inf
     for nu, nv, offset in edges:
         inside = [nu * (u + du) + nv * (v + dv) - offset for u, v in outline]
@@ -62,7 +65,7 @@ def inside_edges(outline: Sequence[Point], du: float, dv: float, edges: Sequence
 
 @compiled
 def clipped(outline: Sequence[Point], du: float, dv: float, edges: Sequence[Triple]) -> list[Point]:
-    """What of an outline moved by (du, dv) lies inside all edges.
+    """Clip an outline, moved by (du, dv), to the inside of all edges.
 
     Source: I. E. Sutherland, G. W. Hodgman, Reentrant polygon clipping, Comm. ACM 17 (1974) 32.
     """
@@ -85,11 +88,12 @@ def clipped(outline: Sequence[Point], du: float, dv: float, edges: Sequence[Trip
 def polygon_gap(
     x: Sequence[Point], y: Sequence[Point], rise_m: float, within_m: float, slack_m: float
 ) -> PolygonGap | None:
-    """Distance, direction and facing points of two disjoint convex polygons; a distance of inf and no points beyond
-    `within_m`, None where they overlap.
+    """Return distance, direction and facing points of two disjoint convex polygons; None if they overlap.
 
-    Parameters: x, y : their corners, at most 8, in a row [m]; rise_m : how much higher one is than the other, which
-    adds to every distance; slack_m : how much farther apart counts as little.
+    Beyond `within_m` the distance is inf, without points.
+
+    Parameters: x, y : corners in order, at most 8 [m]; rise_m : vertical distance between the two, which is combined
+    with every level distance; slack_m : facing points may be this much farther apart than the nearest ones.
     """
     strip = _strip_m(x, y, within_m)
     if strip < -_ROUNDING_M:
@@ -111,7 +115,7 @@ def _length(way: Point) -> float:
 
 
 def _nearest(corners: Sequence[Point], ring: Sequence[Point]) -> list[tuple[Point, Point]]:
-    """For each corner and each edge of the ring, the corner and the edge's point nearest to it."""
+    """Return, for each corner and each edge of the ring, the corner and the nearest point of the edge."""
     found = []
     for u, v in corners:
         for (u1, v1), (u2, v2) in zip(ring, [*ring[1:], ring[0]], strict=True):
@@ -122,8 +126,8 @@ def _nearest(corners: Sequence[Point], ring: Sequence[Point]) -> list[tuple[Poin
 
 
 def _strip_m(x: Sequence[Point], y: Sequence[Point], enough: float) -> float:
-    """How wide a strip along an edge of either is between two outlines, below 0 where they overlap: the widest, or the
-    first that is more than enough. No more than their distance."""
+    """Return the largest gap of two outlines along the normals of their edges [m] (separating axes), negative if they
+    overlap. It is at most their distance. The first gap above `enough` is returned at once."""
     widest = -math.inf
     for ring, other in ((x, y), (y, x)):
         for nu, nv, offset in edges_of(ring):

@@ -1,4 +1,4 @@
-"""Where short ways through space first meet triangles.
+"""Intersection of many short line segments with triangles.
 
 Source: T. Möller, B. Trumbore, Journal of Graphics Tools 2 (1997) 21.
 """
@@ -10,13 +10,15 @@ import numpy as np
 from scene2hap.contact.broad import Boxes, box_pairs
 from scene2hap.contact.vectors import Floats, cross, dot
 
-# A way through the edge that two triangles share meets at least one of them; a way along a face meets none.
+# A segment through the shared edge of two triangles must hit at least one of them; a segment along a face hits none.
 _RIM, _PARALLEL = 1e-9, 1e-12
 
 
 def first_hits(start: Floats, way: Floats, triangles: Floats, boxes: Boxes) -> Floats:
-    """How far along its way (n,), as a share of it, each first meets one of the triangles (3, 3, m) in their boxes; inf
-    if none. `start` and `way` are (3, n) [m]."""
+    """Return the first hit of each segment with the triangles (3, 3, m), as a share (n,) of its length; inf for none.
+
+    Parameters: start, way : start point and vector of each segment, (3, n) [m]; boxes : those of the triangles.
+    """
     n = start.shape[1]
     found = np.full(n, np.inf)
     end = start + way
@@ -30,7 +32,7 @@ def first_hits(start: Floats, way: Floats, triangles: Floats, boxes: Boxes) -> F
 
 
 def _shares(start: Floats, way: Floats, triangles: Floats) -> Floats:
-    """The same, way (3, n) by way, each with a triangle of its own (3, 3, n)."""
+    """Return the shares (n,) at which segments k hit triangles k (3, 3, n); inf for a miss."""
     corner = triangles[:, 0]
     u, v, w = triangles[:, 1] - corner, triangles[:, 2] - corner, start - corner
     across = cross(way, v)

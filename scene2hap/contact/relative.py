@@ -1,6 +1,6 @@
-"""Two bodies: which is the guest of which, and its own box as the other sees it.
+"""Guest and host of a pair, and the guest's box in the host's frame.
 
-In plain numbers: it is computed often, for one pair at a time, where numpy's cost per call would dominate.
+Written in plain Python, since it runs often for one pair at a time, where numpy's cost per call would dominate.
 """
 
 from __future__ import annotations
@@ -10,18 +10,18 @@ from scene2hap.contact.vectors import Triple
 
 
 def middle_m(body: Body) -> Triple:
-    """The middle of a body's own box in the world [m]."""
+    """Return the middle of a body's oriented box in the world [m]."""
     (mx, my, mz), (x, y, z), ((a, b, c), (d, e, f), (g, h, i)) = body.shape.middle, body.position_m, body.stance.rows
     return (x + a * mx + b * my + c * mz, y + d * mx + e * my + f * mz, z + g * mx + h * my + i * mz)
 
 
 def roles(x: Body, y: Body) -> tuple[Body, Body]:
-    """Guest and host: of two the smaller, and the one in which it may be; the ids decide between equals."""
+    """Return guest and host, the smaller and the larger body; ids decide between equal sizes."""
     return (x, y) if (x.size_m, y.id) < (y.size_m, x.id) else (y, x)
 
 
 def box_in_frame(guest: Body, host: Body) -> tuple[Triple, Triple]:
-    """Middle and half edges [m], along the host's axes, of a box that holds the guest's own."""
+    """Return middle and half edges [m], along the host's axes, of a box around the guest's oriented box."""
     (x, y, z), (u, v, w), (p, q, r) = middle_m(guest), host.position_m, guest.shape.half
     x, y, z = x - u, y - v, z - w
     (a, b, c), (d, e, f), (g, h, i) = guest.stance.rows

@@ -1,16 +1,17 @@
-"""The rule of contact, with all of its tuned numbers: what holds a thing up, where the scene's author left a gap.
+"""The contact rule, with all of its tuned numbers: which objects hold an object where the scene's author left a gap.
 
-In real scenes objects hover 0-60 mm above their supports, and objects that do not touch are a few millimetres apart, so
-that no single tolerance decides what touches. Surfaces nearer than `TOUCH_M` always touch. Beyond that an object must
-be held:
+In real scenes objects hover 0-60 mm above their supports, and objects that do not touch are a few millimetres apart. So
+no single tolerance decides what touches. Surfaces nearer than `TOUCH_M` always touch. Beyond that, an object must be
+held:
 
-1. *Support.* Let it fall. What its bottom meets first within `fall_reach_m` supports it, and what other parts of its
-   bottom would meet less than `TOUCH_M` later: a chair stands on the carpet's edge and on the floor, a cup on the
-   saucer and not on the table below, a trash can on the carpet and not on the floor that the carpet hides.
-2. *Hanging.* What nothing supports hangs from the nearest larger things within `hang_reach_m`: a picture from the
+1. *Support.* The object is dropped. It is supported by the first object that its bottom meets within `fall_reach_m`,
+   and by those that other parts of its bottom meet less than `TOUCH_M` later. A chair stands on the carpet's edge and
+   on the floor; a cup stands on its saucer, not on the table below; a trash can on the carpet, not on the floor under
+   it.
+2. *Hanging.* An unsupported object hangs from the nearest larger objects within `hang_reach_m`: a picture from the
    wall, a lamp from the ceiling, a handle from its leaf, a cabinet from the wall and from the cabinet beside it.
 
-All weights are smooth in the gaps and know nothing of the past: the poses alone decide.
+All weights are smooth in the gaps and depend on the present poses alone.
 """
 
 from __future__ import annotations
@@ -28,54 +29,55 @@ from scene2hap.contact.level import Rest
 from scene2hap.contact.vectors import Floats
 
 TOUCH_M = 0.004
-"""Gap at which any two surfaces cease to touch (tuned: cups with a saucer between stand 6 mm over the table)."""
+"""Gap at which any two surfaces cease to touch (tuned: cups on saucers stand 6 mm above the table)."""
 
 PATCH_SHARE = 0.25
-"""A patch holds what is this much farther apart than the nearest points, as a share of the tolerance (assumed): the
+"""How much farther apart than the nearest points a contact patch may be, as a share of the tolerance (assumed): the
 feet of a chair are never quite level."""
 SLACK_M = PATCH_SHARE * TOUCH_M
 
 CLEAR_M = 1e-4
-"""The way between surfaces nearer than this has no direction to speak of (assumed)."""
+"""Gap below which the vector between two surfaces has no reliable direction (assumed)."""
 
-# Tuned on resting things in scenes made by others: a sofa hovers 57 mm and a chair of 0.45 m 45 mm; a tablet of 0.23 m
-# hovers 37 mm. These are to weigh 1, as gaps do up to 2/3 of the reach. Small things, which hands lift, get less.
+# Tuned on objects at rest in scenes made by others: a sofa hovers 57 mm, a chair of 0.45 m 45 mm, a tablet of 0.23 m
+# 37 mm. Gaps up to 2/3 of the reach weigh 1, which includes these. Small objects, which hands lift, reach less far.
 _FALL_REACH_M, _FALL_REACH_SIZES = 0.090, 0.25
-# Tuned likewise: a television of 1.5 m hangs 49 mm off its wall, a shelf board 12 mm, a handle of 0.16 m 16 mm before
-# its leaf. Six scenes listed by hand give the same from a share of 0.05 to 0.18; from 0.2 a picture hangs on a table.
+# Tuned on the same scenes: a television of 1.5 m hangs 49 mm off its wall, a shelf board 12 mm, a handle of 0.16 m is
+# 16 mm off its leaf. Shares from 0.05 to 0.18 give the same contacts in six scenes listed by hand; from 0.2 on, a
+# picture hangs on a table.
 HANG_REACH_M, _HANG_REACH_SIZES = 0.075, 0.15
-# A grip leaves room for fingers however short it is: up to 16 mm off its leaf weigh 1. Not more than this share of its
-# size, or a crumb reaches farther than it is long; less than that of falling.
+# A handle leaves room for fingers however short it is: up to 16 mm off its leaf weigh 1. The share of its size keeps
+# the reach of a tiny object below its length, and below its fall reach.
 _GRIP_REACH_M, _GRIP_REACH_SIZES = 0.024, 0.24
-# What hangs may be held by several: a wall cabinet by the tall one that it touches and by the wall 5 mm behind it. So
-# much more of its reach than the nearest may others be away (tuned: the same six scenes; from 1/4 pairs are wrong).
+# A hanging object may have several holders: a wall cabinet hangs from the tall cabinet that it touches and from the
+# wall 5 mm behind it. This share of the reach is how much farther than the nearest a holder may be (tuned on the same
+# six scenes; from 1/4 on, some pairs are wrong).
 _HANG_SHARE = 1 / 6
 
-_HIDDEN_M = 0.002  # What lies this much below something else is hidden by it (assumed: the thinnest carpet).
+_HIDDEN_M = 0.002  # A surface this much below another is hidden by it (assumed: the thinnest carpet).
 
 
-# Play on either side at which a thing ceases to be enclosed [m], at most and as a share of its diagonal. Up to 2/3 of
-# it a thing is to weigh 1, as gaps do everywhere: 12.7 mm (and up to 0.8 mm more) beside drawers on ball-bearing rails,
-# which models often lack, 5 mm beside those on rails below them, 1-3 mm on wooden runners, 2-4 mm around leaves and
-# fronts. The smallest drawers on such rails have diagonals of 0.4 m; small things have little play in what is made for
-# them.
+# Play on either side at which an object ceases to be enclosed [m]: upper bound, and share of its diagonal. Up to 2/3 of
+# it weighs 1, which includes 12.7 mm (and up to 0.8 mm more) beside drawers on ball-bearing rails, which models often
+# lack, 5 mm beside those on rails below them, 1-3 mm on wooden runners, and 2-4 mm around leaves and fronts. The
+# smallest drawers on such rails have diagonals of 0.4 m; smaller objects have less play.
 _PLAY_M, _PLAY_SIZES = 0.0203, 0.05
 
 SIDE_SHARE = 1 / 6
-"""So much of a side is to have the play: a wooden runner, some 30-45 mm high, beside a drawer of up to 0.25 m."""
+"""Share of a side that must be within the play: a wooden runner, 30-45 mm high, beside a drawer of up to 0.25 m."""
 
 OUTSIDE_SHARE = 0.5
-"""Share of its box outside the other's at which a thing ceases to be enclosed."""
+"""Share of its box outside the other's at which an object ceases to be enclosed."""
 
 
-# Reaches are kept by size: each is looked up some thirty times a frame.
+# Size of the caches of reaches by object size, since each reach is used some thirty times a frame.
 _SIZES = 4096
 
 
 def weight(gap_m: float, tolerance_m: float) -> float:
-    """How much of a contact a gap leaves: 1 up to 2/3 of the tolerance, then half a cosine down to 0 at the tolerance.
+    """Return the weight of a gap: 1 up to 2/3 of the tolerance, then half a cosine down to 0 at the tolerance.
 
-    At tolerance 0 only a gap of 0 counts.
+    At tolerance 0, only a gap of 0 or less has weight 1.
     """
     if tolerance_m == 0.0:
         return 1.0 if gap_m <= 0.0 else 0.0
@@ -84,12 +86,12 @@ def weight(gap_m: float, tolerance_m: float) -> float:
 
 
 def weights(gaps_m: Floats, tolerance_m: float) -> Floats:
-    """The same for many gaps (...)."""
+    """Return the weight of each gap (...), as `weight` does."""
     if tolerance_m == 0.0:
         return np.where(gaps_m <= 0.0, 1.0, 0.0)
     x = 3 * gaps_m / tolerance_m - 2
     found = np.where(x < 1, 1.0, 0.0)
-    # Few are in between, and numpy's cosine may end otherwise in the last bit.
+    # Few gaps are in between, and numpy's cosine may differ in the last bit from that of `weight`.
     between = (x > 0) & (x < 1)
     found[between] = [0.5 * (1 + math.cos(math.pi * one)) for one in x[between].tolist()]
     return found
@@ -97,36 +99,36 @@ def weights(gaps_m: Floats, tolerance_m: float) -> Floats:
 
 @lru_cache(_SIZES)
 def fall_reach_m(size_m: float) -> float:
-    """How far a thing of that diagonal may hover over its support [m]."""
+    """Return how far an object with this diagonal may hover above its support [m]."""
     return min(_FALL_REACH_M, _FALL_REACH_SIZES * size_m)
 
 
 @lru_cache(_SIZES)
 def hang_reach_m(size_m: float) -> float:
-    """How far a thing of that diagonal may stand off what it hangs from [m]; less than its `fall_reach_m`."""
+    """Return how far an object with this diagonal may be from its holder when it hangs [m]; below its fall reach."""
     return min(HANG_REACH_M, max(_HANG_REACH_SIZES * size_m, min(_GRIP_REACH_M, _GRIP_REACH_SIZES * size_m)))
 
 
 @lru_cache(_SIZES)
 def play_reach_m(size_m: float) -> float:
-    """With how much play on either side a thing of that diagonal may be enclosed [m]."""
+    """Return the play on either side with which an object of this diagonal may be enclosed [m]."""
     return min(_PLAY_M, _PLAY_SIZES * size_m)
 
 
 def margins_m(body: Body) -> tuple[float, float]:
-    """How far a body may touch or hang from others, and how much farther it may fall [m]."""
+    """Return how far from others a body may touch or hang, and how much farther down it may fall [m]."""
     return max(TOUCH_M, hang_reach_m(body.size_m)), fall_reach_m(body.size_m)
 
 
 class Support(NamedTuple):
-    """How much of a contact a support is, 0..1, and how far it is to fall to it [m]."""
+    """The weight of a support, 0..1, and the fall distance to it [m]."""
 
     weight: float
     fall_m: float
 
 
 def supports(falls_m: Mapping[str, Floats], reach_m: float) -> dict[str, Support]:
-    """Which of the things below hold a thing, from how far each of its triangles (m,) is to fall to each of them."""
+    """Return the support weight of each object below, from the fall distance of each triangle (m,) to it [m]."""
     found = support_weights(list(falls_m.values()), reach_m, TOUCH_M, _HIDDEN_M) if falls_m else []
     return {name: Support(*support) for name, support in zip(falls_m, found, strict=True) if support[0] > 0}
 
@@ -135,8 +137,10 @@ def supports(falls_m: Mapping[str, Floats], reach_m: float) -> dict[str, Support
 def support_weights(
     falls_m: Sequence[Floats], reach_m: float, touch_m: float, hidden_m: float
 ) -> list[tuple[float, float]]:
-    """The weight of each support, and how far it is to fall to the nearest part that bears [m]; from how far each
-    triangle (m,) is to fall to each of them, inf where it meets nothing."""
+    """Return the weight of each support and the least fall distance to a part of it that bears [m].
+
+    Parameters: falls_m : for each support, the fall distance of each triangle (m,) [m], inf where it meets nothing.
+    """
     table = np.stack(falls_m)
     table = table[:, np.isfinite(table).any(axis=0)]
     first = table.min(axis=0)
@@ -149,8 +153,10 @@ def support_weights(
 
 
 def level_supports(rests: Mapping[str, Rest], reach_m: float) -> dict[str, Support] | None:
-    """The same for a thing with one level base face, from how it lies on what is level below; None where that depends
-    on which part of the base face sees what."""
+    """Return the support weight of each level face below a level base face, as `supports` does for triangles.
+
+    None where one face may hide parts of another, which only triangles can tell.
+    """
     first = min(rest.fall_m for rest in rests.values())
     found = {}
     for name, (fall_m, *_) in rests.items():
@@ -165,12 +171,12 @@ def level_supports(rests: Mapping[str, Rest], reach_m: float) -> dict[str, Suppo
 
 
 def hang_later_m(reach_m: float) -> float:
-    """How much farther off than the nearest a second object may be to hold a hanging one as well [m]."""
+    """Return how much farther than the nearest holder another holder of a hanging object may be [m]."""
     return max(TOUCH_M, _HANG_SHARE * reach_m)
 
 
 def hangs(gaps_m: Mapping[str, float], reach_m: float) -> dict[str, float]:
-    """Which of the larger things around hold what nothing supports, and how much of a contact each is (0..1)."""
+    """Return the weight (0..1) of each larger object that holds an unsupported one, from their gaps [m]."""
     least = min(gaps_m.values(), default=math.inf)
     later_m = hang_later_m(reach_m)
     shares = {name: weight(gap, reach_m) * weight(gap - least, later_m) for name, gap in gaps_m.items()}
@@ -178,10 +184,11 @@ def hangs(gaps_m: Mapping[str, float], reach_m: float) -> dict[str, float]:
 
 
 def is_over(x: Body, y: Body) -> bool:
-    """Whether x may rest on y; never true both ways.
+    """Return True if x may rest on y, by their AABBs; never true both ways.
 
-    A thing on another lies over all of it, give or take `TOUCH_M`, or stands in it with a higher bottom, or with one as
-    low where it is all in it, as in a room whose floor has no thickness. Things side by side on one floor are neither.
+    x is wholly above y, give or take `TOUCH_M`; or its bottom is higher than that of y; or its bottom is about as low
+    and x is wholly inside y, as in a room whose floor has no thickness. Two objects side by side on a floor are none of
+    these.
     """
     up = x.up_axis
     bottom_m, top_m, other_bottom_m, other_top_m = x.low[up], x.high[up], y.low[up], y.high[up]
@@ -198,5 +205,5 @@ def is_over(x: Body, y: Body) -> bool:
 
 
 def is_under(x: Body, top_m: float) -> bool:
-    """Whether x is surely too far below an object that lies on something of that height to touch it."""
+    """Return True if x is surely too low to touch an object that rests on a face of height `top_m` [m]."""
     return x.high[x.up_axis] < top_m - 3 * TOUCH_M

@@ -1,7 +1,8 @@
-"""Separating lines: the level direction along which two bodies are farthest apart.
+"""Separating axes in the level plane: the direction along which two footprints are farthest apart.
 
-Each body is seen from above, as the oriented rectangle of its own box and a circle around it, whichever is narrower in
-a direction. Two that a vertical plane divides share no fall, and are no nearer than that plane says.
+A footprint is the projection of a body onto the level plane: the oriented rectangle of its box or a circle, whichever
+is narrower along a direction. If a vertical plane separates two bodies, neither can fall onto the other, and the gap is
+a lower bound of their distance.
 
     u, v : the world's level axes; n : a direction in the level plane, of length 1
 
@@ -15,8 +16,11 @@ from typing import NamedTuple
 
 
 class Footprint(NamedTuple):
-    """A body seen from above, around the middle of its box: the first axis (a_u, a_v) of a rectangle, the second being
-    (-a_v, a_u), half of its edges, and the radius of a circle around it [m]."""
+    """A body projected onto the level plane, relative to the middle of its box.
+
+    (a_u, a_v) : first axis of a rectangle, the second is (-a_v, a_u); half_1, half_2 : its half edges [m]; radius : of
+    a circle around the body [m].
+    """
 
     a_u: float
     a_v: float
@@ -26,12 +30,12 @@ class Footprint(NamedTuple):
 
 
 Separation = tuple[float, float, float, float, float]
-"""The direction from one body to another, as n_u and n_v, the gap along it [m], and how far each reaches along it from
-the origin: one forwards, the other backwards [m]."""
+"""(n_u, n_v, gap, one, other): unit direction from one body to the other, their gap along it [m], and the coordinates
+of their facing ends along it [m]."""
 
 
 def reach_along(footprint: Footprint, n_u: float, n_v: float) -> float:
-    """How far a footprint reaches from its middle along a direction [m]."""
+    """Return how far a footprint extends from its middle along a direction [m]."""
     a_u, a_v, half_1, half_2, radius = footprint
     return min(radius, abs(n_u * a_u + n_v * a_v) * half_1 + abs(n_v * a_u - n_u * a_v) * half_2)
 
@@ -39,7 +43,10 @@ def reach_along(footprint: Footprint, n_u: float, n_v: float) -> float:
 def separation(
     one: Footprint, one_u: float, one_v: float, other: Footprint, other_u: float, other_v: float
 ) -> Separation:
-    """The best of the directions along the edges of both rectangles and through both middles, which are at (u, v)."""
+    """Return the separation with the largest gap, among the axes of both rectangles and the line through the middles.
+
+    Parameters: one_u, one_v, other_u, other_v : the middles of the footprints [m].
+    """
     du, dv = other_u - one_u, other_v - one_v
     away = math.sqrt(du * du + dv * dv)
     directions = [(one.a_u, one.a_v), (-one.a_v, one.a_u), (other.a_u, other.a_v), (-other.a_v, other.a_u)]

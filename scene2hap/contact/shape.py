@@ -1,5 +1,5 @@
-"""The triangles of a mesh with what is derived from them, once per mesh: boxes, features, a tree, base faces, tops and
-ledges."""
+"""Shapes: the triangles of a mesh and the data derived from them once per mesh (boxes, features, a BVH, base faces, top
+faces and ledges)."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from scene2hap.contact.triangle_tree import TriangleTree
 from scene2hap.contact.vectors import Floats, Triple, cross, dot, highest, lowest
 from scene2hap.scene.shapes import TriMesh
 
-# Directions of up that one shape keeps answers for; a tumbling object has more, and drops the old ones.
+# Directions of up whose faces a shape caches. A tumbling object has more, which clears the cache.
 _MOST_WAYS_UP = 64
-# Rays by which a side of the own box is seen, along each of its edges.
+# Rays along each edge of a side of the box.
 _N_RAYS = 8
 _Derived = TypeVar("_Derived")
 
 
 class Shape:
-    """The triangles of a mesh in its own frame (3, 3, m) [m], in the order of `contact.triangles`: axes, corners,
-    triangles; their boxes; and the corners in use (n, 3) [m]."""
+    """The geometry of a mesh in its own frame: triangles (3, 3, m) [m], by axis, corner and triangle; their boxes; and
+    the used corners (n, 3) [m]."""
 
     def __init__(self, triangles: Floats, corners: Floats) -> None:
         self.triangles = triangles
@@ -36,7 +36,7 @@ class Shape:
         self.corners = corners
         self.box: Boxes = self.boxes.hull()
         self.low, self.high = self.box.low[:, 0], self.box.high[:, 0]
-        # Of the own bounding box, which no motion changes.
+        # The diagonal of the box in the shape's own frame, since a rotation would change that of the AABB.
         self.size_m = float(np.linalg.norm(self.high - self.low))
         self._uneven_m = uneven_m(self.size_m)
         self.middle: Triple = triples((self.low + self.high)[None] / 2)[0]
@@ -53,12 +53,12 @@ class Shape:
 
     @cached_property
     def features(self) -> Features:
-        """The corners and edges of the triangles that are searched."""
+        """The corners and edges that the narrow phase tests."""
         return features_of(self.triangles)
 
     @cached_property
     def is_cuboid(self) -> bool:
-        """Whether the triangles are the six sides of the own bounding box, however cut."""
+        """True if the triangles are the six sides of the bounding box, in any triangulation."""
         edges = self.high - self.low
         if not (edges > 0).all():
             return False
@@ -76,8 +76,10 @@ class Shape:
 
     @cached_property
     def sides(self) -> Floats:
-        """What is seen of the shape from the six sides of its own box, the lower three first: points (6, 64, 3) [m] on
-        a grid, nan where nothing is."""
+        """The first points of the surface that a grid of rays hits from each side of the box, (6, 64, 3) [m].
+
+        The three lower sides come first; nan where a ray hits nothing.
+        """
         edges = self.high - self.low
         grid = (np.arange(_N_RAYS) + 0.5) / _N_RAYS
         sides = np.empty((2, 3, _N_RAYS**2, 3))
@@ -86,7 +88,7 @@ class Shape:
             share[:, (axis + 1) % 3], share[:, (axis + 2) % 3] = np.repeat(grid, _N_RAYS), np.tile(grid, _N_RAYS)
             for end in (0, 1):
                 share[:, axis] = end
-                # From a little outside, where a level side is surely met.
+                # Rays start a little outside of the box, so that they surely hit a face in the side itself.
                 way = np.where(np.arange(3) == axis, (1.02 - 2.04 * end) * edges, 0.0)[None]
                 start = self.low + share * edges - way / 102
                 hits = first_hits(start.T, np.repeat(way.T, len(start), axis=1), self.triangles, self.boxes)
@@ -94,22 +96,22 @@ class Shape:
         return sides.reshape(6, -1, 3)
 
     def base_face(self, up: Triple) -> BaseFace:
-        """What it stands on for the own direction `up`, which is rounded by the caller."""
+        """Return the base face for the shape's direction `up`, which the caller has rounded."""
         return self._known(self._soles, up, lambda: base_face_of(self.corners, self.triangles, self._uneven_m, up))
 
     def top(self, up: Triple) -> tuple[Triple, ...] | None:
-        """The outline of what bears others, likewise, if that is level and convex."""
+        """Return the outline of the top face for the direction `up`, None unless it is level and convex."""
         return self._known(self._tops, up, lambda: top_of(self.triangles, self._uneven_m, up))
 
     def radius_m(self, axis: int) -> float:
-        """How far the shape reaches from the middle of its box, away from an own axis."""
+        """Return the radius of the shape around the line through its box's middle along an axis [m]."""
         if axis not in self._radii:
             across = np.delete(self.corners - self.middle, axis, axis=1)
             self._radii[axis] = float(np.hypot(across[:, 0], across[:, 1]).max(initial=0.0))
         return self._radii[axis]
 
     def ledges(self, upright: Upright) -> Ledges:
-        """The level faces where up is along an own axis."""
+        """Return the level faces while one of the shape's axes points up or down."""
         found = self._ledges.get(upright)
         if found is None:
             found = self._ledges[upright] = Ledges(self.triangles, self.boxes, upright, self._uneven_m)
@@ -125,19 +127,19 @@ class Shape:
 
     @cached_property
     def _areas(self) -> Floats:
-        """Area (m,) of each triangle."""
+        """The area (m,) of each triangle [m2]."""
         a, b, c = self.triangles.transpose(1, 0, 2)
         normals = cross(b - a, c - a)
         areas: Floats = np.sqrt(dot(normals, normals)) / 2
         return areas
 
 
-# Instances share a mesh, and sessions come and go over one scene: a shape lives as long as some body uses it.
+# Copies of an object and sessions over one scene share a shape, which lives as long as a body uses it.
 _shapes: WeakValueDictionary[str, Shape] = WeakValueDictionary()
 
 
 def shape_of(mesh: TriMesh) -> Shape:
-    """The shape of a mesh, made once for equal meshes."""
+    """Return the shape of a mesh; equal meshes share one."""
     shape = _shapes.get(mesh.digest)
     if shape is None:
         triangles = np.ascontiguousarray(mesh.vertices_m[mesh.faces].transpose(2, 1, 0))
@@ -147,6 +149,6 @@ def shape_of(mesh: TriMesh) -> Shape:
 
 
 def boxes_of(triangles: Floats) -> Boxes:
-    """The bounding boxes of triangles (3, 3, m)."""
+    """Return the bounding boxes of triangles (3, 3, m)."""
     corners = triangles.transpose(1, 0, 2)
     return Boxes(lowest(corners), highest(corners))

@@ -1,6 +1,6 @@
-"""A few points that stand for many, far from each other: farthest-point sampling.
+"""Farthest-point sampling: reduce many contact points to a few that are far from each other.
 
-First the point farthest from the middle of all, then ever the one farthest from those taken.
+The first is the point farthest from the middle of all. Each further one is the farthest from those chosen before.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ from scene2hap.compiled import compiled
 from scene2hap.contact.vectors import Floats, Indices, Marks, dot
 
 MAX_POINTS = 4
-"""Contact points of one pair: the corners of a patch, few enough for a dense solve over a scene (assumed)."""
+"""Most contact points of one pair: the corners of a patch, few enough for a dense solve over a scene (assumed)."""
 
-_SPREAD_M = 0.005  # Points of a pair nearer than this are one (assumed: the width of a chair's foot).
-_TIE_M = 1e-6  # Lengths this near are equal, so that rounding does not choose between the corners of a square.
-# Weighs coordinates so that no two corners of a plain shape are equally far along it.
+_SPREAD_M = 0.005  # Points of a pair nearer than this count as one (assumed: the width of a chair's foot).
+_TIE_M = 1e-6  # Lengths this near count as equal, so that rounding does not choose between the corners of a square.
+# A skew direction, along which no two corners of a simple shape have equal coordinates, to break ties.
 _ASKEW = (0.6180339887, 0.2879190313)
 
 
 def spread(points: Floats) -> list[int]:
-    """Columns of at most `MAX_POINTS` of the points (3, n) [m], far from each other."""
+    """Return the columns of at most `MAX_POINTS` of the points (3, n) [m] that are far from each other."""
     if not points.size:
         return []
     chosen = [_first(points, _apart(points, points.mean(axis=1)))]
@@ -35,7 +35,7 @@ def spread(points: Floats) -> list[int]:
 
 
 def _apart(points: Floats, place: Floats) -> Floats:
-    """How far points (3, n) are from a place (3,)."""
+    """Return the distances (n,) of points (3, n) from a place (3,)."""
     away = points - place[:, None]
     squares = dot(away, away)
     return np.sqrt(squares, out=squares)
@@ -43,7 +43,7 @@ def _apart(points: Floats, place: Floats) -> Floats:
 
 @compiled
 def spread_few(points: Sequence[tuple[float, ...]]) -> list[int]:
-    """The same for a handful of points, in space or in a plane, without numpy's cost per call."""
+    """Return the rows of the chosen points, as `spread`, for a few points in 2-D or 3-D, without numpy's call costs."""
     n = len(points)
     middle = [sum(ends) / n for ends in zip(*points, strict=True)]
     apart = [_distance(p, middle) for p in points]
@@ -60,7 +60,7 @@ def _distance(one: Sequence[float], other: Sequence[float]) -> float:
 
 
 def _first(points: Floats, apart: Floats) -> int:
-    """Of the points that are farthest apart, up to rounding, the one with the least x, then y, then z, likewise."""
+    """Return the column with the largest distance `apart`. Ties, up to rounding, go to the least x, then y, then z."""
     columns = np.flatnonzero(apart >= apart.max() - _TIE_M)
     if len(columns) == 1:
         return int(columns[0])
@@ -74,9 +74,9 @@ def _first_of_few(points: Sequence[tuple[float, ...]], apart: Sequence[float]) -
 
 
 def _least(names: Sequence[int], axes: Sequence[Sequence[float]]) -> int:
-    """The name with the least of the first coordinates, up to rounding, then of the second, and so on.
+    """Return the name with the least first coordinate, up to rounding, then the least second, and so on.
 
-    Exact ties are decided to the last bit, so that the result does not depend on the order of the names.
+    Points that remain tied are compared exactly, so that the result does not depend on their order.
     """
     left = list(range(len(names)))
     for values in axes:
@@ -86,10 +86,10 @@ def _least(names: Sequence[int], axes: Sequence[Sequence[float]]) -> int:
 
 
 def spread_each(points: Floats, counts: Marks) -> tuple[Indices, Marks]:
-    """The same for many sets at once: points (3, k, n) [m], of which those count that are marked (k, n).
+    """Choose points in n sets at once, from points (3, k, n) [m] of which `counts` (k, n) marks the valid ones.
 
-    Rows (`MAX_POINTS`, n) of the points taken, and which of these rows are any. The middle is that of the box around
-    the points, since a sum would depend on how many sets there are.
+    Returns the chosen rows (`MAX_POINTS`, n), and marks which of them are valid. The middle is that of the AABB of the
+    points, since numpy's sum would depend on the number of sets.
     """
     columns, every = np.arange(points.shape[2]), points.reshape(3, -1)
     low, high = np.where(counts, points, np.inf).min(axis=1), np.where(counts, points, -np.inf).max(axis=1)
@@ -97,7 +97,7 @@ def spread_each(points: Floats, counts: Marks) -> tuple[Indices, Marks]:
     middle = np.where(some, low, 0.0) / 2 + np.where(some, high, 0.0) / 2
     key = points[0] + _ASKEW[0] * points[1] + _ASKEW[1] * points[2]
     rows, kept = np.zeros((MAX_POINTS, len(columns)), dtype=np.intp), np.zeros((MAX_POINTS, len(columns)), dtype=bool)
-    # What does not count is nearer than everything.
+    # Invalid points get a distance below all others.
     apart = np.where(counts, _distances(points, middle), -1.0)
     farthest, more = apart.max(axis=0), some
     for k in range(MAX_POINTS):

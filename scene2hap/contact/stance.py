@@ -1,7 +1,7 @@
-"""A shape turned, but not yet placed: all that a slide leaves as it is.
+"""Stance: a rotated shape without a position. It is reused while a body moves without rotation.
 
-In plain numbers, since a frame of a game moves a few things, and numpy's cost per call would be most of the time. The
-level plane has coordinates (u, v), the world's two axes that are not up.
+Written in plain Python, since a frame moves a few objects only, and numpy's cost per call would dominate. The level
+plane has coordinates (u, v), along the two world axes that are not up.
 """
 
 from __future__ import annotations
@@ -18,17 +18,17 @@ from scene2hap.contact.separation import Footprint
 from scene2hap.contact.shape import Shape
 from scene2hap.contact.vectors import Triple
 
-# Digits of the upward direction by which level faces are known: a game's rounding makes no difference, nor does an
-# engine's trembling by less than 3 thousandths of a degree.
+# Digits to which the upward direction is rounded before level faces are searched. Rounding in a game, or jitter of an
+# engine below 0.003 degrees, then changes nothing.
 _DIGITS = 4
 _UP = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-_MOST_LEAN = 1e-3  # [rad]; more than this is no rounding.
-_UPRIGHT = 1 - 1e-12  # An own axis this near to upright: the own box has the true height.
+_MOST_LEAN = 1e-3  # [rad]; a larger tilt is no rounding error.
+_UPRIGHT = 1 - 1e-12  # Cosine above which an axis of the shape is vertical, so that its box has the true height.
 
 
 class PosedBaseFace(NamedTuple):
-    """A base face, turned [m]: points that stand for it, its least height, a circle around it, and whether its outline
-    is full."""
+    """A rotated base face, relative to the body's position [m]: contact points, height, a circle around it, and whether
+    it fills its outline."""
 
     points: tuple[Point, ...]
     height: float
@@ -38,8 +38,10 @@ class PosedBaseFace(NamedTuple):
 
 
 class TopFace(NamedTuple):
-    """A top, turned [m]: its outline, its height, (n_u, n_v, offset) of each edge, inside where n u >= offset, and the
-    middle and radius of a circle around it."""
+    """A rotated top face, relative to the body's position [m].
+
+    edges : (n_u, n_v, offset) of each edge, inside where n_u u + n_v v >= offset; middle, radius : a circle around it.
+    """
 
     outline: tuple[Point, ...]
     height: float
@@ -49,14 +51,14 @@ class TopFace(NamedTuple):
 
 
 class Lean(NamedTuple):
-    """Which own axis points up, and how far from upright it is [rad]."""
+    """The vertical axis of a shape's frame, and its tilt from the vertical [rad]."""
 
     own: Upright
     tilt: float
 
 
 class Stance:
-    """A shape with a rotation. `low` and `high` are a box around it, relative to its position [m]."""
+    """A shape with a rotation. `low` and `high` are the corners of its AABB, relative to its position [m]."""
 
     __slots__ = (
         "_base_edges",
@@ -120,12 +122,12 @@ class Stance:
         return (low[0], low[1], least), (high[0], high[1], most)
 
     def turned(self, rotation_xyzw: tuple[float, float, float, float]) -> Stance:
-        """The same shape turned otherwise; the same as made from nothing."""
+        """Return the shape with another rotation; bit-identical to a new `Stance`."""
         x, y, z, w = rotation_xyzw
         before = self.rotation_xyzw
         if self.up_axis != 1 or x != 0.0 or z != 0.0 or before[0] != 0.0 or before[2] != 0.0:
             return Stance(self.shape, rotation_xyzw, self.up_axis)
-        # About the vertical, nothing changes upwards, and half of the products are 0.
+        # A rotation about the vertical changes no height, and half of its products are 0.
         turned = Stance.__new__(Stance)
         turned.rotation_xyzw, turned.shape, turned.way_up, turned.is_block = (
             rotation_xyzw,
@@ -150,7 +152,7 @@ class Stance:
 
     @property
     def posed_base_face(self) -> PosedBaseFace:
-        """What it stands on."""
+        """The base face at this rotation."""
         if self._posed_base_face is None:
             base_face = self.shape.base_face(self.way_up)
             (a, b, c), (d, e, f), (g, h, i) = self.rows[0], self.rows[self.v_axis], self.rows[self.up_axis]
@@ -163,7 +165,7 @@ class Stance:
 
     @property
     def base_outline(self) -> tuple[Point, ...]:
-        """The outline of what it stands on."""
+        """The outline of the base face (support polygon), relative to the position [m]."""
         if not self._outline:
             outline_m = self.shape.base_face(self.way_up).outline_m
             self._outline = turned_outline(outline_m, self.rows[0], self.rows[self.v_axis])
@@ -171,14 +173,14 @@ class Stance:
 
     @property
     def base_edges(self) -> tuple[Triple, ...]:
-        """The edges of that outline, as a `TopFace` has them."""
+        """The edges of `base_outline`, in the form of `TopFace.edges`."""
         if self._base_edges is None:
             self._base_edges = edges_of(self.base_outline)
         return self._base_edges
 
     @property
     def top_face(self) -> TopFace | None:
-        """What it bears others with, if that is level and convex."""
+        """The top face at this rotation, None unless it is level and convex."""
         if self._top_face is None and (top_m := self.shape.top(self.way_up)) is not None:
             corners = [self._turned(corner) for corner in top_m]
             outline = tuple([(u, v) for u, v, _ in corners])
@@ -190,14 +192,14 @@ class Stance:
 
     @property
     def lean(self) -> Lean | None:
-        """How the own axis that points up leans, None where all do."""
+        """The tilt of the vertical axis of the shape's frame, None if no axis is near the vertical."""
         if self._lean is False:
             self._lean = _lean(self.rows[self.up_axis])
         return self._lean
 
     @property
     def footprint(self) -> Footprint:
-        """It, seen from above: its own box if that stands upright, else the box along the world's axes."""
+        """The projection onto the level plane: of the oriented box if it stands upright, else of the AABB."""
         if self._footprint is None:
             lean, (low, high) = self.lean, (self.low, self.high)
             if lean is None:
@@ -217,14 +219,14 @@ class Stance:
 
     @property
     def heading(self) -> Point:
-        """A way in the level plane that turns along with the shape, of length 1."""
+        """A unit vector in the level plane that rotates with the shape."""
         if self._heading is None:
             u, v, _ = self._turned(across(self.way_up))
             self._heading = (u, v)
         return self._heading
 
     def _turned(self, point: Triple) -> Triple:
-        """(u, v, height) of a point of the own frame."""
+        """Return (u, v, height) of a point of the shape's frame, relative to the position."""
         x, y, z = point
         (a, b, c), (d, e, f), (g, h, i) = self.rows[0], self.rows[self.v_axis], self.rows[self.up_axis]
         return (a * x + b * y + c * z, d * x + e * y + f * z, g * x + h * y + i * z)

@@ -1,4 +1,4 @@
-"""Where a body that moves within bounds is then, and where it stands: the arithmetic of a certificate."""
+"""The arithmetic of a certificate: test a new pose against its bounds, and compute AABB and contact points there."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from scene2hap.contact.vectors import Triple
 Rotation = tuple[float, float, float, float]
 
 MOST_CORNERS = 8
-"""An outline of more is taken for the circle around it, as `free_space` does."""
+"""An outline with more corners is replaced by the circle around it, as in `free_space`."""
 SURELY_M = 1e-9
-"""How far inside of all edges a base face is to be, that `rest_on` surely says so too."""
+"""How far inside all edges a base face must be, so that `rest_on` surely finds it inside as well."""
 
 
 class Standing(NamedTuple):
-    """What a body stands on with all of its base face.
+    """The face that carries a body's whole base face, and the bounds of its rest. All in the world [m].
 
-    edges : inside of which its base face is, (n_u, n_v, offset); top_m : how high these are; least_m, most_m : between
-    which the body may be to fall there; middle_m : twice the height of its middle is above this. All in the world [m].
+    edges : (n_u, n_v, offset) of the face; top_m : its height; least_m, most_m : bounds of the fall distance;
+    middle_m : lower bound of the sum of the body's lowest and highest height.
     """
 
     edges: Sequence[Triple]
@@ -35,29 +35,27 @@ class Standing(NamedTuple):
 
 
 Wall = tuple[float, float, float, bool]
-"""(n_u, n_v, most_m, is_square): a body reaches no farther than that along the direction, seen from above; with the
-rectangle of its footprint, or with whichever of rectangle and circle is narrower."""
+"""(n_u, n_v, most_m, is_square): a vertical `planes.Plane`, without its zero component."""
 
 Moved = tuple[Triple, Triple, tuple[Triple, ...]]
-"""The box of a body that moved, low and high [m], and where it touches what it stands on."""
+"""The AABB of a moved body, low and high [m], and its contact points with the support."""
 
 
 @compiled
 class Track:
-    """A body that moves, turned as it was last, within bounds that it is to be given first; it stands on something, or
-    is in the air."""
+    """A certified body, at its last rotation, on a support or in the air. `keep_in` must set its bounds first."""
 
     def __init__(self, stance: Stance, standing: Standing | None) -> None:
         self.stance = stance
         self._standing = standing
         self._bounds: tuple[Flat, tuple[float, float], Sequence[Wall]]
 
-    def keep_in(self, lane: Flat, heights: tuple[float, float], walls: Sequence[Wall]) -> None:
-        """Keep the body's box in a rectangle of the level plane and between two heights, and the body behind walls."""
-        self._bounds = (lane, heights, walls)
+    def keep_in(self, rectangle: Flat, heights: tuple[float, float], walls: Sequence[Wall]) -> None:
+        """Set the bounds: a level rectangle and two heights for the AABB, and vertical planes for the footprint."""
+        self._bounds = (rectangle, heights, walls)
 
     def moved(self, position_m: Triple, rotation_xyzw: Rotation) -> Moved | None:
-        """The body there, None if that is not surely within bounds."""
+        """Return AABB and contact points at a pose, None unless it is surely within the bounds."""
         stance, standing = self.stance, self._standing
         if rotation_xyzw != stance.rotation_xyzw:
             turned = stance.turned(rotation_xyzw)
@@ -88,13 +86,13 @@ class Track:
             return None
         cu, cv = cu + u, cv + v
         if any(nu * cu + nv * cv - offset < radius for nu, nv, offset in edges):
-            # The circle around the base face is over an edge; the base face itself need not be.
+            # The circle around the base face crosses an edge, but the base face itself may be inside.
             if len(stance.base_outline) > MOST_CORNERS:
                 return None
             for pu, pv in stance.base_outline:
                 if any(nu * (u + pu) + nv * (v + pv) - offset < SURELY_M for nu, nv, offset in edges):
                     return None
-        # As in `rest_points`, to the last bit.
+        # The same operations as in `rest_points`, for equal bits.
         height = (h + base_face + top_m) / 2
         if up == 1:
             places = tuple([(u + pu, height, v + pv) for pu, pv in points])

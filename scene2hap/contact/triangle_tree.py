@@ -23,9 +23,12 @@ _MORTON_BITS = 16
 
 
 class TriangleTree(NamedTuple):
-    """nodes : (2 n_leaves - 1, 6) lowest and highest corners [m]; corners : (n_leaves, 9) the triangle of each leaf,
-    three corners of three coordinates [m]; columns : (n_leaves,) its column in the shape, -1 for an empty leaf;
-    features : (n_leaves,) which of its corners and edges are searched, see `features`."""
+    """The arrays of a tree.
+
+    nodes : (2 n_leaves - 1, 6) lowest and highest corners [m]; corners : (n_leaves, 9) the triangle of each leaf, three
+    corners of three coordinates [m]; columns : (n_leaves,) its column in the shape, -1 for an empty leaf; features :
+    (n_leaves,) its corners and edges that are tested, see `features`.
+    """
 
     nodes: Floats
     corners: Floats
@@ -34,7 +37,7 @@ class TriangleTree(NamedTuple):
 
     @classmethod
     def over(cls, triangles: Floats, boxes: Boxes, features: Features) -> TriangleTree:
-        """Build the tree over triangles (3, 3, m) in their boxes, of which these features are searched."""
+        """Build the tree over triangles (3, 3, m) with their boxes and features."""
         columns = _leaves(boxes)
         n_leaves, is_full = len(columns), columns >= 0
         corners = np.zeros((n_leaves, 9))
@@ -57,14 +60,14 @@ class TriangleTree(NamedTuple):
 
 @compiled
 def meeting(tree: TriangleTree, low: Triple, high: Triple, most: int) -> Indices:
-    """Columns of up to `most` of the triangles whose boxes meet a box [m], touching included, in rising order."""
+    """Return the columns of up to `most` triangles whose boxes overlap a box [m], touching included, ascending."""
     leaves = tree.nodes[len(tree.columns) - 1 :]
     meets = ((leaves[:, :3] <= high) & (leaves[:, 3:] >= low)).all(axis=1)
     return np.sort(tree.columns[meets])[:most]
 
 
 def _leaves(boxes: Boxes) -> Indices:
-    """The column of each leaf's triangle, -1 for an empty leaf."""
+    """Return the column of each leaf's triangle, -1 for an empty leaf."""
     order = _along_morton_curve(boxes)
     n_leaves = 1
     while n_leaves < len(order):

@@ -1,8 +1,9 @@
-"""How near two triangles come, for many pairs at once.
+"""Distances of triangles, for many pairs at once.
 
-The nearest points of two triangles lie on a vertex of one and the inside of the other, on two edges, or where an edge
-of one runs through the other. All such meetings are returned, since the corners of a patch where faces lie on each
-other are among them, and a single nearest point would hide them. Of meshes only their `features` meet.
+The nearest points of two triangles are a vertex and a point inside the other face, points on two edges, or the point
+where an edge intersects the other triangle. All of these local meetings are returned. Where faces lie on each other,
+they include the corners of the contact patch, which a single nearest point would miss. Only the `features` of meshes
+are tested.
 
 Source: C. Ericson, Real-Time Collision Detection (2005), section 5.1.9 (segments), 5.1.10 (triangles), 3.4 (barycentric
 coordinates). Differs: a vertex is only measured against the inside of a face; its edges are left to the segments.
@@ -21,9 +22,9 @@ import numpy as np
 from scene2hap.contact.features import Features
 from scene2hap.contact.vectors import Floats, Marks, cross, dot, highest, lowest
 
-# Squared sine below which edges are parallel and corners in line: the rest of their answer would be rounding noise.
+# Squared sine below which edges count as parallel and corners as collinear, since the result would be rounding noise.
 _PARALLEL = 1e-12
-# Points this little outside a triangle (in barycentric units) are inside, so that a corner on a shared edge counts.
+# Points this little outside a triangle (in barycentric units) count as inside, or a corner on a shared edge is missed.
 _RIM = 1e-9
 _IN_PLANE_M = 1e-9
 _N_MEETINGS = 21
@@ -31,7 +32,7 @@ _BITS = (1 << np.arange(6)).astype(np.uint8)
 
 
 class Meetings(NamedTuple):
-    """Where triangles come near: distance (m, n) [m], inf where they do not, and both ends (3, m, n) [m]."""
+    """The m local meetings of n pairs: distance (m, n) [m], inf for none, and both end points (3, m, n) [m]."""
 
     distance: Floats
     on_p: Floats
@@ -39,8 +40,10 @@ class Meetings(NamedTuple):
 
 
 def meetings(p: Floats, q: Floats, of_p: Features, of_q: Features) -> Meetings:
-    """The 21 local meetings of each pair (3, 3, n) and of their features (n,): nine of edges, six of vertices with
-    faces, six of edges through faces."""
+    """Return the 21 local meetings of each pair (3, 3, n), limited to their features (n,).
+
+    Nine are of two edges, six of a vertex and a face, six of an edge that intersects a face.
+    """
     n = p.shape[2]
     every = Meetings(np.empty((_N_MEETINGS, n)), np.empty((3, _N_MEETINGS, n)), np.empty((3, _N_MEETINGS, n)))
     _fill(every, 0, _edges_with_edges(p, q))
@@ -58,15 +61,19 @@ def meetings(p: Floats, q: Floats, of_p: Features, of_q: Features) -> Meetings:
 
 
 def clearances(p: Floats, q: Floats) -> Floats:
-    """How far (n,) [m] one of each pair (3, 3, n) stays on one side of the other's plane, 0 if neither does."""
+    """Return a lower bound (n,) [m] of the distance of each pair (3, 3, n), by the triangles' planes.
+
+    It is 0 if each triangle intersects the other's plane.
+    """
     return np.maximum(_Faces.of(q, p).clear_of_plane(), _Faces.of(p, q).clear_of_plane())
 
 
 def heights(p: Floats, q: Floats) -> tuple[Floats, Floats]:
-    """Least and greatest height (n,) [m] of p over q (3, 3, n) along the third axis, at points over each other.
+    """Return the least and greatest height (n,) [m] of p over q (3, 3, n) along the third axis, where they overlap in
+    plan; (inf, -inf) if they do not.
 
-    (inf, -inf) where no vertical line meets both. The height is linear over the common shadow, so that its extremes lie
-    on the shadow's corners: vertices of either triangle or crossings of edges.
+    The height is linear over the common projection, so its extremes are at the corners of the projection: vertices of
+    either triangle or crossings of edges.
     """
     n = p.shape[2]
     found = np.empty((15, n))
@@ -78,10 +85,10 @@ def heights(p: Floats, q: Floats) -> tuple[Floats, Floats]:
 
 
 class _Faces(NamedTuple):
-    """The planes of triangles, and how high others' corners are over them; nan for a face without area.
+    """The planes of triangles, and the heights of other triangles' corners over them; nan for a face without area.
 
     origin, u, v, normal : (3, n); dots : (3, n) of u u, u v and v v; area2 : (n,) square of the normal's length;
-    corners : (3, 3, n) of the others; height : (3, n) [-].
+    corners : (3, 3, n) of the other triangles; height : (3, n) [-].
     """
 
     origin: Floats
@@ -95,7 +102,7 @@ class _Faces(NamedTuple):
 
     @classmethod
     def of(cls, faces: Floats, corners: Floats) -> _Faces:
-        """Planes of faces (3, 3, n), and heights of the corners of others over them."""
+        """Compute the planes of faces (3, 3, n), and the heights over them of the corners (3, 3, n) of others."""
         origin = faces[:, 0]
         u, v = faces[:, 1] - origin, faces[:, 2] - origin
         normal = cross(u, v)
@@ -109,21 +116,21 @@ class _Faces(NamedTuple):
         return cls(origin, u, v, normal, dots, area2, corners, height)
 
     def clear_of_plane(self) -> Floats:
-        """How far (n,) [m] the others stay on one side, 0 if they do not."""
+        """Return the distance (n,) [m] of the other triangle from the plane, 0 if it intersects the plane."""
         one_sided = np.maximum(lowest(self.height), -highest(self.height)) * np.sqrt(self.area2)
         clear: Floats = np.fmax(one_sided, 0.0)
         return clear
 
     def meet_vertices(self) -> Meetings:
-        """The others' corners, and their feet inside the faces."""
+        """Return the meetings of the others' corners with the inside of the faces."""
         feet = self.corners - self.height * self.normal[:, None]
         distance = np.where(self._inside(self.corners), np.abs(self.height) * np.sqrt(self.area2), np.inf)
         return Meetings(distance, self.corners, feet)
 
     def meet_edges(self) -> Meetings:
-        """Where the others' edges run through the faces."""
+        """Return the points where the others' edges intersect the faces."""
         start, end = self.height, _next(self.height, 0)
-        # An edge within rounding of the plane crosses it anywhere or nowhere; its vertices give that reliably.
+        # An edge in the plane, up to rounding, has no reliable crossing. Its vertices give the meeting instead.
         in_plane = _IN_PLANE_M / np.sqrt(self.area2)
         crosses = (start * end < 0) & (np.abs(start) > in_plane) & (np.abs(end) > in_plane)
         s = start / np.where(crosses, start - end, 1.0)
@@ -135,7 +142,7 @@ class _Faces(NamedTuple):
         return Meetings(distance, points, points)
 
     def _inside(self, points: Floats) -> Marks:
-        """Whether points (3, m, n) are inside their faces, as seen along the normal."""
+        """Mark the points (3, m, n) that are inside their faces when projected along the normal."""
         uu, uv, vv = self.dots
         w = points - self.origin[:, None]
         wu, wv = dot(w, self.u[:, None]), dot(w, self.v[:, None])
@@ -146,7 +153,7 @@ class _Faces(NamedTuple):
 
 
 def _present(features: Features) -> tuple[Marks, Marks]:
-    """Which edges and which corners (3, n) are among the features (n,)."""
+    """Return marks (3, n) of the edges, and of the corners, that are among the features (n,)."""
     present = (features & _BITS[:, None]) != 0
     return present[:3], present[3:]
 
@@ -157,12 +164,12 @@ def _fill(every: Meetings, first: int, some: Meetings) -> None:
 
 
 def _next(corners: Floats, axis: int) -> Floats:
-    """The corner after each."""
+    """Return the next corner for each corner."""
     return corners.take([1, 2, 0], axis=axis)
 
 
 def _edges_with_edges(p: Floats, q: Floats) -> Meetings:
-    """Nearest points of all nine pairs of edges; on parallel edges, those at the start of p's edge if it faces q's."""
+    """Return the nearest points of all nine pairs of edges; on parallel edges, at the start of p's edge if possible."""
     d, g = (_next(p, 1) - p)[:, :, None], (_next(q, 1) - q)[:, None]
     start_p, start_q = p[:, :, None], q[:, None]
     r = start_p - start_q
@@ -173,7 +180,7 @@ def _edges_with_edges(p: Floats, q: Floats) -> Meetings:
     skew = sine2 > _PARALLEL * ae
     s = np.where(skew, _cut((b * f - c * e) / np.where(skew, sine2, 1.0)), 0.0)
     t = _cut((b * s + f) / np.where(e > 0, e, 1.0))
-    # For the t kept inside q's edge the best s is known; where t was not cut this gives s back.
+    # Where t was clamped, or the edges are parallel, s must follow t.
     s = np.where(skew & (t > 0) & (t < 1), s, _cut((b * t - c) / np.where(a > 0, a, 1.0)))
     on_p, on_q = s * d, t * g
     on_p += start_p
@@ -184,13 +191,13 @@ def _edges_with_edges(p: Floats, q: Floats) -> Meetings:
 
 
 def _cut(shares: Floats) -> Floats:
-    """Shares, which are changed, between 0 and 1."""
+    """Clamp shares to 0..1 in place."""
     np.maximum(shares, 0.0, out=shares)
     return np.minimum(shares, 1.0, out=shares)
 
 
 def _over(p: Floats, q: Floats) -> Floats:
-    """Height (3, n) of p's vertices over q along the third axis, nan beside q."""
+    """Return the heights (3, n) of p's vertices over q along the third axis, nan outside of q."""
     origin = q[:, 0]
     u, v, w = q[:, 1] - origin, q[:, 2] - origin, p - origin[:, None]
     area, span2 = _turn(u, v), dot(u, u) * dot(v, v)
@@ -201,7 +208,7 @@ def _over(p: Floats, q: Floats) -> Floats:
 
 
 def _over_crossings(p: Floats, q: Floats) -> Floats:
-    """Height (9, n) of p's edges over q's along the third axis where they cross, nan where they do not."""
+    """Return the heights (9, n) of p's edges over q's along the third axis where they cross in plan, nan elsewhere."""
     d, g = (_next(p, 1) - p)[:, :, None], (_next(q, 1) - q)[:, None]
     r = q[:, None] - p[:, :, None]
     area, span2 = _turn(d, g), dot(d, d) * dot(g, g)
@@ -213,6 +220,6 @@ def _over_crossings(p: Floats, q: Floats) -> Floats:
 
 
 def _turn(x: Floats, y: Floats) -> Floats:
-    """Of two vectors across the third axis, how much of a turn leads from one to the other."""
+    """Return the third component of the cross product."""
     turn: Floats = x[0] * y[1] - x[1] * y[0]
     return turn

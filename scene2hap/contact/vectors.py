@@ -1,7 +1,7 @@
-"""Vectors with their axes first, (3, ...), so that numpy runs along many of them and not along three coordinates.
+"""Vectors with the axes first, (3, ...), so that numpy's inner loops run over many vectors, not over three coordinates.
 
-Sums are spelled out, since numpy's own take another order when there is but one vector: an answer, to the last bit,
-must not depend on what else is computed with it.
+Sums are spelled out, since numpy adds in another order for a single vector. The bits of a result must not depend on
+what else is computed in the same call.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ Marks = NDArray[np.bool_]
 Triple = tuple[float, float, float]
 Rows = tuple[Triple, Triple, Triple]
 AABB = tuple[Triple, Triple]
-"""Lowest and highest corners of a box along the axes [m]."""
+"""Lowest and highest corner of an axis-aligned box [m]."""
 
 
 def dot(x: Floats, y: Floats) -> Floats:
-    """Sum over the first axis, of length 3."""
+    """Return the dot products over the first axis, of length 3."""
     products = x * y
     summed: Floats = products[0]
     summed += products[1]
@@ -30,7 +30,7 @@ def dot(x: Floats, y: Floats) -> Floats:
 
 
 def cross(x: Floats, y: Floats) -> Floats:
-    """The vectors across both."""
+    """Return the cross products over the first axis, of length 3."""
     (a, b, c), (d, e, f) = x, y
     across = np.empty(np.broadcast_shapes(x.shape, y.shape))
     np.subtract(b * f, c * e, out=across[0])
@@ -40,7 +40,7 @@ def cross(x: Floats, y: Floats) -> Floats:
 
 
 def along(way: Floats, points: Floats) -> Floats:
-    """How far points (3, ...) lie along one way (3,)."""
+    """Return the dot products of points (3, ...) with one vector (3,)."""
     x, y, z = way.tolist()
     lengths: Floats = x * points[0]
     lengths += y * points[1]
@@ -49,22 +49,22 @@ def along(way: Floats, points: Floats) -> Floats:
 
 
 def lowest(rows: Floats) -> Floats:
-    """The least of three rows (3, ...); numpy itself is slow along short axes."""
+    """Return the minimum of three rows (3, ...); numpy's own reduction is slow along short axes."""
     found: Floats = np.minimum(np.minimum(rows[0], rows[1]), rows[2])
     return found
 
 
 def highest(rows: Floats) -> Floats:
-    """The greatest of three."""
+    """Return the maximum of three rows (3, ...)."""
     found: Floats = np.maximum(np.maximum(rows[0], rows[1]), rows[2])
     return found
 
 
 def frame_along(up: Triple) -> Floats:
-    """An orthonormal frame (3, 3) in rows: two directions across `up`, and that."""
+    """Return an orthonormal frame (3, 3) as rows: two directions perpendicular to `up`, and `up`."""
     length = math.hypot(*up)
     x, y, z = (edge / length for edge in up)
-    # Across the axis that is farthest from up; spelled out, since numpy takes longer to multiply six numbers.
+    # Perpendicular to the axis that is farthest from up. Spelled out, since numpy is slow for six numbers.
     axis = min(range(3), key=lambda k: abs((x, y, z)[k]))
     a, b, c = ((0.0, z, -y), (-z, 0.0, x), (y, -x, 0.0))[axis]
     length = math.hypot(a, b, c)
@@ -73,22 +73,22 @@ def frame_along(up: Triple) -> Floats:
 
 
 def turned(turn: Floats, points: Floats) -> Floats:
-    """All points turned by one matrix (3, 3).
+    """Return points (3, ...) times one matrix (3, 3).
 
-    This is BLAS, which may round in another way for another number of points; not where the matrix swaps axes alone.
+    BLAS may round differently for another number of points, unless the matrix only swaps axes.
     """
     found: Floats = (turn @ points.reshape(3, -1)).reshape(points.shape)
     return found
 
 
 def rotated(rows: Rows, point: Triple) -> Triple:
-    """A matrix in rows, in plain numbers, times a vector."""
+    """Return a matrix, given as rows, times a vector."""
     (a, b, c), (d, e, f), (g, h, i) = rows
     x, y, z = point
     return (a * x + b * y + c * z, d * x + e * y + f * z, g * x + h * y + i * z)
 
 
 def transposed(rows: Rows) -> Rows:
-    """The transpose of a matrix in rows."""
+    """Return the transpose of a matrix, given as rows."""
     (a, b, c), (d, e, f), (g, h, i) = rows
     return ((a, d, g), (b, e, h), (c, f, i))

@@ -1,1 +1,1 @@
-"""Contacts within one stated tolerance, all pairs in one sweep of numpy."""
+"""Contacts within one stated tolerance, all pairs at once in numpy."""

@@ -1,13 +1,13 @@
-"""Where cuboids touch: up to four points for each of many pairs.
+"""Contact manifolds of cuboids: up to four points for each of many pairs.
 
-What one's face shares with the other's where they are near or sunk in a little, and where faces share nothing the
-nearest corners and edges; of what is sunk in deeper, the corners of the curve along which the surfaces cut each other.
-The points are chosen in the frame of one of the two, so that they go along with any motion of both.
+Near or slightly penetrating cuboids touch in the overlap of their nearest faces, or, without an overlap, at the nearest
+corners and edges. Deeper ones touch at the corners of the curve in which their surfaces intersect. The points are
+chosen in the host's frame, so that they move along with any motion of both.
 
 Sources: D. Gregorius, The separating axis test between convex polyhedra, Game Developers Conference (2013), for the
 faces; for the clipping of an edge by planes, M. Cyrus, J. Beck, Computers & Graphics 3 (1978) 23.
 
-    k     : the axis of the face that is looked from; p, q, h : across it, and over it [m]
+    k     : the axis normal to the reference face; p, q, h : coordinates in that face, and height over it [m]
     turn, shift, a, b : see `cuboids`
 """
 
@@ -33,13 +33,13 @@ from scene2hap.contact.stated_tolerance.cuboids import (
 )
 from scene2hap.contact.vectors import Floats, Indices, Marks, dot
 
-# Faces this much less far apart than others are as good, so that rounding does not choose; and rims this near count.
+# Gaps this close count as equal, so that rounding does not choose a face; and points this near a rim count as inside.
 _TIE, _RIM_M, _RIM = 1e-6, 1e-9, 1e-9
-# The corners of a rectangle and its sides' middles, in half edges, against the clock.
+# The corners of a rectangle in half edges, counter-clockwise.
 _RING = np.array([[1.0, -1.0, -1.0, 1.0], [1.0, 1.0, -1.0, -1.0]])[..., None]
 _ENDS = np.array([-1.0, 1.0])[:, None, None]
-# Rows of a table of `Pairs`, with the shift as seen from the guest below it, in which a pair is seen from face k of the
-# host (0-2) or the guest (3-5), axis k last; and rows (u, v, w) of the other's axes (p, q, h) by which of them is w.
+# Rows of `Pairs.table`, extended by the shift in the guest's frame, that express a pair relative to face k of the host
+# (0-2) or of the guest (3-5), axis k last; and rows (u, v, w) of the other's axes (p, q, h), by which of them is w.
 _ORDERS = [[1, 2, 0], [2, 0, 1], [0, 1, 2]]
 _SEEN_ROWS = np.array(
     [[3 * p + q for p in ps for q in range(3)] + [m + p for m in (9, 12) for p in ps] + [15, 16, 17] for ps in _ORDERS]
@@ -52,17 +52,17 @@ _WAY_ROWS = np.array([[3 * p + q for q in qs for p in range(3)] for qs in _ORDER
 
 
 class Spots(NamedTuple):
-    """Points of each pair (3, k, n) [m], in the host's frame if not said otherwise, and which of them count (k, n)."""
+    """Points of each pair (3, k, n) [m], in the host's frame unless stated otherwise; marks (k, n) of valid ones."""
 
     points_m: Floats
     counts: Marks
 
     def packed(self) -> Spots:
-        """The same in as few rows as they need."""
+        """Return the valid points in as few rows as possible."""
         k, n = self.counts.shape
         if not k:
             return self
-        # Along one axis, numpy counts and takes faster than along two.
+        # numpy counts and takes faster along one axis than along two.
         n_each = np.count_nonzero(self.counts, axis=0)
         counts = np.arange(n_each.max(initial=0))[:, None] < n_each
         rows = np.zeros((n, len(counts)), dtype=np.intp)
@@ -70,17 +70,17 @@ class Spots(NamedTuple):
         return Spots(self.taken(rows.T), counts)
 
     def taken(self, rows: Indices) -> Floats:
-        """The points (3, m, n) of each pair in rows (m, n) of its own."""
+        """Return the points (3, m, n) in rows (m, n) of each pair."""
         n = rows.shape[1]
         points: Floats = self.points_m.reshape(3, -1).take(rows * n + np.arange(n), axis=1)
         return points
 
 
 def patches(pairs: Pairs, gaps: Gaps, reach_m: Floats, sunk_m: float) -> Spots:
-    """Up to four points of each pair, half way between the surfaces.
+    """Return up to four contact points of each pair, half way between the surfaces.
 
-    They are where the surfaces are at most `reach_m` (n,) apart, which is no less than their distance. Pairs sunk in by
-    less than `sunk_m` touch as if their faces were not.
+    Parameters: reach_m : (n,) largest distance of the surfaces at a contact point, at least the distance of the pair
+    [m]; sunk_m : pairs with less penetration than this touch by their faces, as if they did not intersect [m].
     """
     inside = gaps.inner.min(axis=0) > -FLUSH_M
     ways: tuple[tuple[Marks, Callable[[Pairs, Gaps, Floats], Spots]], ...] = (
@@ -103,7 +103,10 @@ def patches(pairs: Pairs, gaps: Gaps, reach_m: Floats, sunk_m: float) -> Spots:
 
 
 def _beside(parts: Sequence[tuple[Indices, Spots]], n: int) -> Spots:
-    """The spots of n pairs from those of several sets of them, given with their rows; each row has some in one set."""
+    """Merge the points of several sets of pairs, given with their rows, into one array for n pairs.
+
+    Each pair has valid points in one set at most.
+    """
     most = max((len(part.counts) for _, part in parts), default=1)
     every = Spots(np.zeros((3, most, n)), np.zeros((most, n), dtype=bool))
     for rows, (points, counts) in parts:
@@ -118,10 +121,10 @@ def _beside(parts: Sequence[tuple[Indices, Spots]], n: int) -> Spots:
 
 
 def _face_spots(pairs: Pairs, gaps: Gaps, reach_m: Floats) -> Spots:
-    """The corners of what the nearest faces share, seen from one along its normal."""
+    """Return the corners of the overlap of the nearest faces, projected along the normal of one."""
     from_guest = gaps.on_guest.max(axis=0) > gaps.on_host.max(axis=0) + _TIE
     k = nearest_axis(-np.where(from_guest, gaps.on_guest, gaps.on_host))
-    # Of the other way round, all but the shift is in the same table.
+    # The table has all data relative to the guest, too, except for the shift.
     table = np.concatenate([pairs.table, -dot(pairs.turn, pairs.shift[:, None])])
     seen = picked(table, _SEEN_ROWS.take(k + 3 * from_guest, axis=1))
     turn, shift, a, b = seen[:9].reshape(3, 3, -1), seen[9:12], seen[12:15], seen[15:]
@@ -141,8 +144,10 @@ def _face_spots(pairs: Pairs, gaps: Gaps, reach_m: Floats) -> Spots:
 
 
 def _shared(middle: Floats, u: Floats, v: Floats, half: Floats) -> Spots:
-    """The corners, as (p, q, h), of a parallelogram, given by its middle and half sides (3, n), cut to a rectangle of
-    half edges `half` about the origin: up to eight of 24."""
+    """Clip a parallelogram, given by its middle and half sides (3, n), to a rectangle with half edges `half`.
+
+    Returns the corners (p, q, h) of the result: up to eight valid ones of 24.
+    """
     n = middle.shape[1]
     found = Spots(np.empty((3, 24, n)), np.empty((24, n), dtype=bool))
     points, counts = found
@@ -159,7 +164,7 @@ def _shared(middle: Floats, u: Floats, v: Floats, half: Floats) -> Spots:
     start, along = np.empty((2, 3, 4, n))
     start[:, 0], start[:, 1], start[:, 2], start[:, 3] = middle - v, middle + v, middle - u, middle + u
     along[:, :2], along[:, 2:] = u[:, None], v[:, None]
-    # A side along a line meets it nowhere: there the share is no number, and nothing that follows counts.
+    # A side parallel to a line has no crossing: the share is inf or nan, and the comparisons below are False.
     share = (_ENDS * half[:2, None, None] - start[:2, None]) / along[:2, None]
     other = start[1::-1, None] + share * along[1::-1, None]
     meets = (np.abs(share) <= 1) & (np.abs(other) <= half[1::-1, None, None])
@@ -171,18 +176,18 @@ def _shared(middle: Floats, u: Floats, v: Floats, half: Floats) -> Spots:
 
 
 def _cut_spots(pairs: Pairs, gaps: Gaps, reach_m: Floats) -> Spots:
-    """Where edges of either run through faces of the other."""
+    """Return the points where edges of either cuboid intersect faces of the other."""
     back = _crossings(pairs.swapped())
     return _joined([_crossings(pairs), Spots(pairs.to_host(back.points_m), back.counts)]).packed()
 
 
 def _crossings(pairs: Pairs) -> Spots:
-    """Where the guest's edges run through the host's faces."""
+    """Return the points where the guest's edges intersect the host's faces."""
     start = pairs.to_host(MIDDLES[..., None] * pairs.b[:, None])
     along, length, half = pairs.turn[:, AXES], pairs.b[AXES], pairs.a[:, None]
     with np.errstate(divide="ignore", invalid="ignore"):
         one, other = (-half - start) / along, (half - start) / along
-    # 0 / 0 where an edge lies in the plane of a face: it is between the planes all along.
+    # 0 / 0 where an edge lies in the plane of a face: the whole edge is between the two planes.
     one, other = np.where(np.isnan(one), -other, one), np.where(np.isnan(other), -one, other)
     enters, leaves = np.minimum(one, other).max(axis=0), np.maximum(one, other).min(axis=0)
     parts = []
@@ -193,7 +198,7 @@ def _crossings(pairs: Pairs) -> Spots:
 
 
 def _inner_spots(pairs: Pairs, gaps: Gaps, reach_m: Floats) -> Spots:
-    """The corners of a guest inside its host that are nearest to a face."""
+    """Return the corners of a guest inside its host that are nearest to a face."""
     columns, corners = np.arange(len(gaps.distance_m)), pairs.guest_corners()
     k = nearest_axis(gaps.inner)
     side = np.where(pairs.shift[k, columns] < 0, -1.0, 1.0)
@@ -204,7 +209,7 @@ def _inner_spots(pairs: Pairs, gaps: Gaps, reach_m: Floats) -> Spots:
 
 
 def _end_spots(pairs: Pairs, gaps: Gaps, reach_m: Floats) -> Spots:
-    """The nearest corners and edges."""
+    """Return the meetings of the nearest corners and edges."""
     known = gaps.ends if (gaps.kept >= 0).all() else None
     ends = known.rows(gaps.kept) if known is not None else _ends(pairs, gaps.edges)
     near = ends.distance_m <= np.maximum(reach_m, ends.distance_m.min(axis=0))
@@ -214,7 +219,7 @@ def _end_spots(pairs: Pairs, gaps: Gaps, reach_m: Floats) -> Spots:
 def _ends(pairs: Pairs, edges: Indices) -> Ends:
     ends, unsure = ends_of(pairs, edges)
     if unsure.any():
-        # For some, all edges; for the others more that do not count.
+        # Unsure pairs get all edges; the others get invalid rows.
         every = all_ends(pairs)
         every.distance_m[16:, ~unsure] = np.inf
         ends = ends.joined(Ends(*(part[..., 16:, :] for part in every)))

@@ -1,8 +1,8 @@
-"""Cuboids, many pairs at once: how far their surfaces are apart.
+"""Distances of cuboids, for many pairs at once.
 
-Everything is in the frame of the first of a pair, the host, and the pairs are the last axis of all arrays. Sums
-are spelled out, since numpy's own take another order when there is but one pair: a pair's answer, to the last bit, must
-not depend on which others are computed with it.
+All data are in the frame of the first cuboid of a pair, the host. The pairs are the last axis of all arrays. Sums are
+spelled out, since numpy adds in another order for a single pair. The bits of a pair's result must not depend on the
+other pairs.
 
 Sources: S. Gottschalk, M. C. Lin, D. Manocha, OBBTree, SIGGRAPH (1996) 171 (15 axes); C. Ericson, Real-Time Collision
 Detection (2005), sections 4.4.1 and 5.1.9.
@@ -29,11 +29,11 @@ MIDDLES = np.zeros((3, 12))
 for _edge in range(12):
     _axis = _edge // 4
     MIDDLES[NEXT[_axis], _edge], MIDDLES[LAST[_axis], _edge] = 1.0 - (_edge & 1) * 2.0, 1.0 - (_edge & 2)
-# Squared sine below which two edges are parallel: corners then give the same.
+# Squared sine below which two edges are parallel; the corners then give the same distance.
 _PARALLEL = 1e-12
-# Cosine below which a normal of two edges may be one of a face as well, of which any edge could be meant.
+# Cosine below which the common normal of two edges may be a face normal as well, so that several edges may be nearest.
 _ASKEW = 1e-6
-# For each pair of axes, 3 i + j, the rows of a table of `Pairs` with i first of the host's axes and j of the guest's.
+# For each pair of axes, 3 i + j, the rows of `Pairs.table` in the order with the host's axis i and the guest's j first.
 _ORDERS = [[k, (k + 1) % 3, (k + 2) % 3] for k in range(3)]
 _EDGE_ROWS = np.array(
     [
@@ -47,25 +47,24 @@ _EDGE_ROWS = np.array(
         for columns in _ORDERS
     ]
 ).T
-# The rows with the next or the last axis in place of each: of the host's, of the guest's, of shift and half edges.
+# The rows of `Pairs.table` with the axes rotated by one or two: of the host, of the guest, of shift and half edges.
 _TURN = np.arange(9).reshape(3, 3)
 _CROSS_ROWS = np.concatenate(
     [_TURN[NEXT].ravel(), _TURN[LAST].ravel(), _TURN[:, NEXT].ravel(), _TURN[:, LAST].ravel()]
     + [first + axes for first in (9, 12, 15) for axes in (NEXT, LAST)]
 )
-# Of `_EDGE_ROWS`, the half edges across i and across j.
+# The rows of `_EDGE_ROWS` with the half edges perpendicular to i and to j.
 _ACROSS = np.array([13, 14, 16, 17])
 FLUSH_M = 1e-9
-"""What is inside another but for rounding is inside."""
-# A corner as near as the faces' planes are apart has no nearer rival.
+"""A cuboid that is outside of another by no more than this rounding error counts as inside."""
+# If a corner is as near as the separating faces, up to this, no other feature is nearer.
 _SETTLED_M = 1e-12
-# Where edges part a pair this much better than faces, they may be where it meets (a guess that costs time where it is
-# wrong, and decides nothing).
+# If edges separate a pair by this much more than faces, it probably meets at edges (a wrong guess costs time only).
 _SURELY_M = 1e-3
 
 
 class Pairs:
-    """Pairs of cuboids; see the table above. All is one array (18, n), since numpy's cost is per call."""
+    """Pairs of cuboids, by the letters in the module's docstring, in one array (18, n), to save numpy calls."""
 
     __slots__ = ("a", "b", "shift", "table", "turn")
 
@@ -75,39 +74,39 @@ class Pairs:
 
     @classmethod
     def of(cls, turn: Floats, shift: Floats, a: Floats, b: Floats) -> Pairs:
-        """From the parts."""
+        """Build the table from its parts."""
         return cls(np.concatenate([turn.reshape(9, -1), shift, a, b]))
 
     def rows(self, rows: Indices) -> Pairs:
-        """Some of the pairs."""
+        """Return some of the pairs."""
         return self if len(rows) == self.table.shape[1] else Pairs(self.table.take(rows, axis=1))
 
     def swapped(self) -> Pairs:
-        """Guests as hosts."""
+        """Return the pairs with guest and host exchanged."""
         return Pairs.of(self.turn.transpose(1, 0, 2), -dot(self.turn, self.shift[:, None]), self.b, self.a)
 
     def to_host(self, points: Floats) -> Floats:
-        """Points (3, k, n) of the guest's frame in the host's."""
+        """Transform points (3, k, n) from the guest's frame to the host's."""
         return self.shift[:, None] + times(self.turn, points)
 
     def guest_corners(self) -> Floats:
-        """(3, 8, n) [m]."""
+        """Return the guest's corners (3, 8, n) in the host's frame [m]."""
         return _corners(self.turn, self.shift, self.b)
 
 
 class Ends(NamedTuple):
-    """Places where the surfaces come near: distance (k, n) [m], inf for none, and the ends (3, k, n) [m]."""
+    """k local meetings of n pairs: distance (k, n) [m], inf for none, and the end points (3, k, n) [m]."""
 
     distance_m: Floats
     on_host: Floats
     on_guest: Floats
 
     def rows(self, rows: Indices) -> Ends:
-        """Those of some of the pairs."""
+        """Return the meetings of some pairs."""
         return Ends(*(part.take(rows, axis=-1) for part in self))
 
     def joined(self, more: Ends) -> Ends:
-        """These and more of the same pairs."""
+        """Return these and more meetings of the same pairs."""
         return Ends(
             np.concatenate([self.distance_m, more.distance_m]),
             np.concatenate([self.on_host, more.on_host], axis=1),
@@ -116,12 +115,12 @@ class Ends(NamedTuple):
 
 
 class Gaps:
-    """How far pairs are apart, again one array (15, n).
+    """Distances of n pairs, in one array (15, n).
 
-    `distance_m` (n,) of the surfaces, 0 where they cut each other, and `way_m` (3, n) there, from host to guest;
-    `least_m` (n,), how far planes between the two are apart at most, negative by how deep they are sunk in; `edges`
-    (n,), as `edge_clearance` gives it; `on_host`, `on_guest` and `inner` (3, n), as `clearance` gives them. Of some
-    pairs the `ends` are known already: `kept` (n,) is their column there, -1 for none.
+    distance_m : (n,) of the surfaces, 0 where they intersect; way_m : (3, n) vector from host to guest there; least_m :
+    (n,) largest gap along a separating axis, negative by the penetration depth; edges : (n,) from `edge_clearance`;
+    on_host, on_guest, inner : (3, n) from `clearance`; ends : meetings of the pairs for which they are known; kept :
+    (n,) column of each pair there, -1 for none.
     """
 
     __slots__ = ("distance_m", "ends", "inner", "kept", "least_m", "on_guest", "on_host", "table", "way_m")
@@ -133,26 +132,26 @@ class Gaps:
 
     @property
     def edges(self) -> Indices:
-        """See above."""
+        """The pair of edges with the largest gap (n,), as `edge_clearance` returns it."""
         edges: Indices = self.table[2].astype(np.intp)
         return edges
 
     def rows(self, rows: Indices) -> Gaps:
-        """Those of some of the pairs."""
+        """Return the distances of some pairs."""
         if len(rows) == self.table.shape[1]:
             return self
         return Gaps(self.table.take(rows, axis=1), self.kept.take(rows), self.ends)
 
 
 def picked(table: Floats, rows: Indices) -> Floats:
-    """Of each column of a table (m, n) its own rows (k, n); numpy's own way, an index per axis, is slower."""
+    """Take rows (k, n) of each column of a table (m, n); numpy's indexing by two arrays is slower."""
     n = table.shape[1]
     found: Floats = table.ravel().take(rows * n + np.arange(n))
     return found
 
 
 def times(turn: Floats, points: Floats) -> Floats:
-    """Turned points (3, k, n)."""
+    """Rotate points (3, k, n)."""
     turned: Floats = (
         turn[:, 0, None] * points[None, 0] + turn[:, 1, None] * points[None, 1] + turn[:, 2, None] * points[None, 2]
     )
@@ -160,8 +159,11 @@ def times(turn: Floats, points: Floats) -> Floats:
 
 
 def clearance(pairs: Pairs) -> Floats:
-    """How far pairs are apart along the axes of faces (9, n) [m], negative where they overlap: three of the host, three
-    of the guest; and how deep all of the guest is inside the host along the host's, negative where not all of it is."""
+    """Return the gaps of pairs along their face normals (9, n) [m].
+
+    Rows 0-2 : along the host's normals, negative where the two overlap; 3-5 : along the guest's; 6-8 : how deep the
+    whole guest is inside the host along the host's normals, negative where part of it is outside.
+    """
     turn, shift, a, b = pairs.turn, pairs.shift, pairs.a, pairs.b
     reach = np.abs(turn)
     wide = reach[:, 0] * b[0] + reach[:, 1] * b[1] + reach[:, 2] * b[2]
@@ -174,8 +176,8 @@ def clearance(pairs: Pairs) -> Floats:
 
 
 def edge_clearance(pairs: Pairs) -> tuple[Floats, Indices]:
-    """How far pairs are apart along the nine normals of two edges (n,) [m], the most of them, and of which edges it is:
-    three times the host's axis and the guest's."""
+    """Return the largest gap (n,) [m] of pairs along the nine common normals of two edges, and its pair of edges (n,):
+    3 i + j for the host's axis i and the guest's axis j."""
     table, n = pairs.table.take(_CROSS_ROWS, axis=0), pairs.table.shape[1]
     turns, reaches = table[:36].reshape(4, 3, 3, n), np.abs(table[:36]).reshape(4, 3, 3, n)
     on_next, on_last = turns[:2]
@@ -196,7 +198,7 @@ def edge_clearance(pairs: Pairs) -> tuple[Floats, Indices]:
 
 
 def gaps(pairs: Pairs, within_m: float) -> tuple[Indices, Gaps]:
-    """The rows of pairs whose surfaces are at most `within_m` apart, and how far they are."""
+    """Return the rows of pairs whose surfaces are at most `within_m` apart, and their distances."""
     clear = clearance(pairs)
     flat, inner = clear[:6].max(axis=0), clear[6:].min(axis=0)
     rows = np.flatnonzero((flat <= within_m) & (inner <= within_m))
@@ -211,7 +213,7 @@ def gaps(pairs: Pairs, within_m: float) -> tuple[Indices, Gaps]:
     if len(inside):
         distance[inside] = np.maximum(inner[inside], 0.0)
         way[:, inside] = _way_inside(pairs.shift[:, inside], found.inner[:, inside])
-    # Of those that cut each other with edges first, the ends are needed as well.
+    # Pairs that intersect with their edges first need the end points as well.
     needed = np.flatnonzero((least <= within_m) & ((least > 0) | (of_edges > flat + _SURELY_M)))
     if len(needed):
         apart = least[needed] > 0
@@ -226,20 +228,22 @@ def gaps(pairs: Pairs, within_m: float) -> tuple[Indices, Gaps]:
 
 
 def ends_of(pairs: Pairs, edges: Indices) -> tuple[Ends, Marks]:
-    """Where each corner of either, and of the edges those two that could be, are nearest; and for which pairs (n,) only
-    `all_ends` finds which edges these are."""
+    """Return the meetings of all corners and of the two edges that may be nearest.
+
+    Also marks the pairs (n,) for which only `all_ends` finds the nearest edges.
+    """
     of_edges, unsure = _edge_ends(pairs, edges)
     return _corner_ends(pairs).joined(of_edges), unsure
 
 
 def all_ends(pairs: Pairs) -> Ends:
-    """All places where a corner of either or an edge of both could be the nearest."""
+    """Return the meetings of all corners and of all pairs of edges."""
     return _corner_ends(pairs).joined(_all_edge_ends(pairs))
 
 
 def _apart(pairs: Pairs, flat_m: Floats, edges: Indices) -> tuple[Floats, Floats, Indices, Ends | None]:
-    """Distances (n,) and ways (3, n) of pairs that are apart; and of those rows of which all had to be looked at, the
-    ends."""
+    """Return distances (n,) and vectors (3, n) of pairs that are apart; and the rows for which corners did not decide,
+    with their meetings."""
     corners = _corner_ends(pairs)
     distance, way = _nearest(corners)
     open_ = np.flatnonzero(distance > flat_m + _SETTLED_M)
@@ -267,7 +271,7 @@ def _nearest(ends: Ends) -> tuple[Floats, Floats]:
 
 
 def _corners(turn: Floats, shift: Floats, half: Floats) -> Floats:
-    """The corners (3, 8, n), in the order of `SIGNS`, of cuboids with these axes, middles and half edges."""
+    """Return the corners (3, 8, n), in the order of `SIGNS`, of cuboids with these axes, middles and half edges."""
     x, y, z = (turn * half).transpose(1, 0, 2)[..., None, :] * _BOTH
     across = x[:, :, None] + y[:, None]
     corners = across[:, :, :, None] + z[:, None, None]
@@ -276,7 +280,7 @@ def _corners(turn: Floats, shift: Floats, half: Floats) -> Floats:
 
 
 def _corner_ends(pairs: Pairs) -> Ends:
-    """Each corner and the other's nearest point, 16 in all; corners inside the other have distance 0."""
+    """Return the meetings of all 16 corners with the other cuboid; corners inside it have distance 0."""
     turn, shift, a, b = pairs.turn, pairs.shift, pairs.a, pairs.b
     on_host, on_guest = np.empty((2, 3, 16, shift.shape[1]))
     on_guest[:, :8] = _corners(turn, shift, b)
@@ -288,10 +292,10 @@ def _corner_ends(pairs: Pairs) -> Ends:
 
 
 def _edge_ends(pairs: Pairs, edges: Indices) -> tuple[Ends, Marks]:
-    """The two edges of these axes that face each other, where their nearest points are not their ends; and for which
-    pairs (n,) there are others that face each other as well.
+    """Return the meeting of the two edges along these axes that face each other, unless their ends are nearest.
 
-    Of two that are nearest each other along edges, these are the ones: their common normal parts the two farthest.
+    Also marks the pairs (n,) that have other facing edges. If the nearest points lie on edges, they lie on these: their
+    common normal separates the two cuboids by the largest gap.
     """
     rows = _EDGE_ROWS.take(edges, axis=1)
     table = picked(pairs.table, rows)
@@ -321,7 +325,7 @@ def _edge_ends(pairs: Pairs, edges: Indices) -> tuple[Ends, Marks]:
 
 
 def _all_edge_ends(pairs: Pairs) -> Ends:
-    """The 144 pairs of edges, where their nearest points are not their ends."""
+    """Return the meetings of all 144 pairs of edges, except where their ends are nearest."""
     turn, shift, a, b = pairs.turn, pairs.shift, pairs.a, pairs.b
     n = shift.shape[1]
     host = (MIDDLES[..., None] * a[:, None])[:, :, None]
@@ -345,7 +349,7 @@ def _all_edge_ends(pairs: Pairs) -> Ends:
 
 
 def _way_inside(shift: Floats, depth: Floats) -> Floats:
-    """From the host's face that is nearest to a guest inside it, to the guest (3, n)."""
+    """Return the vectors (3, n) from the host's nearest face to a guest inside it."""
     axis, columns = nearest_axis(depth), np.arange(shift.shape[1])
     way = np.zeros_like(shift)
     way[axis, columns] = np.where(shift[axis, columns] < 0, 1.0, -1.0) * depth[axis, columns]
@@ -353,7 +357,7 @@ def _way_inside(shift: Floats, depth: Floats) -> Floats:
 
 
 def nearest_axis(lengths: Floats) -> Indices:
-    """The axis (n,) of the least of lengths (3, n), the first of those within a micrometre."""
+    """Return the axis (n,) of the least of lengths (3, n); the first of those within a micrometre of it."""
     first: Indices = (lengths <= lengths.min(axis=0) + 1e-6).argmax(axis=0)
     return first
 

@@ -1,8 +1,8 @@
-"""Contacts at a stated tolerance: any two surfaces within it touch, whatever lies on what.
+"""Contacts at a stated tolerance: any two surfaces within it touch, without a rule of support or hanging.
 
-All that is known of things is kept in columns of arrays, and a frame goes through numpy in one sweep however many
-things move: boxes, pairs of boxes that meet, cuboids (`cuboids`), points (`cuboid_patch`). Only what is no cuboid goes
-through its triangles, pair by pair.
+All data of objects are in columns of arrays. An update takes a fixed number of numpy steps for any number of moved
+objects: AABBs, overlapping pairs, distances (`cuboids`) and contact points (`cuboid_patch`). Only pairs with an object
+that is no cuboid are compared by triangles, one by one.
 """
 
 from __future__ import annotations
@@ -26,17 +26,17 @@ from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.pose_table import PoseTable
 
-# The products of a quaternion's components (x, y, z, w): the squares, then what its rotation has beside the diagonal.
+# The products of a quaternion's components (x, y, z, w): the squares, then the terms of the off-diagonal entries.
 _LEFT, _RIGHT = np.array([[0, 1, 2, 0, 0, 0, 1, 0, 1, 2, 1, 2, 0, 1, 0], [0, 1, 2, 1, 2, 1, 2, 2, 2, 3, 3, 3, 3, 3, 3]])
 _DIAGONAL = np.array([[1, 0, 0], [2, 2, 1]])
 _BESIDE = np.array([1, 2, 3, 5, 6, 7])
 _SIGNS = np.array([-1.0, 1.0, 1.0, -1.0, -1.0, 1.0])[:, None]
-# Up to so many pairs of boxes, comparing all is cheaper than sorting.
+# Up to this many pairs of boxes, comparing all is cheaper than sorting.
 _FEW = 1 << 18
 
 
 class Placed(NamedTuple):
-    """A shape at a place."""
+    """A shape at a pose, for `MeshPair`."""
 
     shape: Shape
     rows: Rows
@@ -45,9 +45,9 @@ class Placed(NamedTuple):
 
 
 class TouchFinder:
-    """The contacts between things.
+    """Find contacts within one tolerance.
 
-    Parameters: tolerance_m : gap at which any two cease to touch [m].
+    Parameters: tolerance_m : gap at which any two surfaces cease to touch [m].
     """
 
     def __init__(self, tolerance_m: float) -> None:
@@ -58,8 +58,8 @@ class TouchFinder:
         self._column: dict[str, int] = {}
         self._free: list[int] = []
         self._columns_of: tuple[tuple[str, ...], Indices] = ((), np.empty(0, dtype=np.intp))
-        # Positions and rotations as given; turned axes (9), middles (3) and half edges (3); boxes around; size and rank
-        # of the id.
+        # Poses as given; box middles in the shapes' frames; oriented boxes in the world: axes (9), middles (3) and half
+        # edges (3); AABBs; size, and rank of the id.
         self._position, self._rotation = np.zeros((3, 0)), np.zeros((4, 0))
         self._own_middle, self._place = np.zeros((3, 0)), np.zeros((15, 0))
         self._low, self._high = np.zeros((3, 0)), np.zeros((3, 0))
@@ -69,12 +69,12 @@ class TouchFinder:
         self._names = PairNames(self._ids.__getitem__)
 
     def junctions(self) -> dict[Pair, Junction]:
-        """Where things touch, pair by pair."""
+        """Return the junctions by pair."""
         touches = self._touches
         return dict(zip(self._names.of(touches.codes.tolist()), touches.junctions(), strict=True))
 
     def arrays(self, ids: tuple[str, ...]) -> ContactArrays:
-        """The same point by point, sorted by pair, in rows of these ids."""
+        """Return all contact points as arrays, sorted by pair, for objects in the order of `ids`."""
         row = np.zeros(len(self._ids), dtype=np.intp)
         row[[self._column[x] for x in ids]] = np.arange(len(ids))
         first, second = self._touches.columns()
@@ -94,7 +94,7 @@ class TouchFinder:
     def replace(
         self, moved: Mapping[str, Pose], added: Sequence[SceneObject] = (), gone: Iterable[str] = ()
     ) -> tuple[list[Pair], list[Pair], list[Pair]]:
-        """Take things out, in, and elsewhere; the pairs that have come to touch, ceased to, and touch otherwise."""
+        """Remove, add and move objects. Returns the pairs that appeared, vanished, and shifted."""
         left = [self._column.pop(x) for x in gone]
         if left:
             self._low[:, left], self._high[:, left] = np.inf, -np.inf
@@ -115,7 +115,7 @@ class TouchFinder:
         return changes
 
     def _enter(self, item: SceneObject) -> int:
-        """A column for a new thing."""
+        """Reserve and fill a column for a new object."""
         column = self._free.pop() if self._free else len(self._ids)
         if column == len(self._ids):
             self._ids.append(item.id)
@@ -143,7 +143,7 @@ class TouchFinder:
             self._rank[self._column[x]] = rank
 
     def _move(self, moved: Mapping[str, Pose]) -> Indices:
-        """Take in poses; the columns of what is elsewhere than before."""
+        """Store poses. Returns the columns of objects whose pose changed."""
         if isinstance(moved, PoseTable):
             if self._columns_of[0] is not moved.ids:
                 self._columns_of = (moved.ids, np.array([self._column[x] for x in moved], dtype=np.intp))
@@ -172,11 +172,11 @@ class TouchFinder:
         self._low[:, columns], self._high[:, columns] = middle - wide, middle + wide
 
     def _look(self, columns: Indices, left: Sequence[int]) -> Difference:
-        """The pairs of all that moved or left."""
+        """Update the contacts of all objects that moved or were removed. Returns the difference."""
         stirred = np.zeros(len(self._ids), dtype=bool)
         stirred[columns] = True
         i, j = self._meeting(columns, stirred)
-        # The larger of two is the host; of equals the one with the lower id.
+        # The larger of two is the host; of equal sizes, the one with the lower id.
         swap = (self._size[i] < self._size[j]) | ((self._size[i] == self._size[j]) & (self._rank[i] > self._rank[j]))
         host, guest = np.where(swap, j, i), np.where(swap, i, j)
         blocks = self._is_cuboid[host] & self._is_cuboid[guest]
@@ -195,7 +195,7 @@ class TouchFinder:
         return difference(before, now)
 
     def _meeting(self, columns: Indices, stirred: Marks) -> tuple[Indices, Indices]:
-        """Columns of the pairs whose boxes meet and of which the first moved, each pair once."""
+        """Return the columns of pairs whose AABBs overlap within the tolerance; the first moved; each pair once."""
         n, within_m = len(self._ids), self._within_m
         low, high = self._low[:, columns] - within_m, self._high[:, columns] + within_m
         if n * len(columns) <= _FEW:
@@ -204,7 +204,7 @@ class TouchFinder:
                 if axis:
                     meets &= low[axis, :, None] <= self._high[axis, :n]
                 meets &= high[axis, :, None] >= self._low[axis, :n]
-            # Faster than asking numpy for both, or for a division.
+            # Faster than `np.nonzero`, or than a division.
             i = np.repeat(np.arange(len(columns)), np.count_nonzero(meets, axis=1))
             j = np.flatnonzero(meets) - i * n
         else:
@@ -216,7 +216,7 @@ class TouchFinder:
         return i[once], j[once]
 
     def _of_cuboids(self, host: Indices, guest: Indices) -> Touches:
-        """Where cuboids touch."""
+        """Return the contacts of pairs of cuboids."""
         one, other = self._place.take(host, axis=1), self._place.take(guest, axis=1)
         axes = one[:9].reshape(3, 3, -1)
         turn = dot(axes[:, :, None], other[:9].reshape(3, 3, -1)[:, None])
@@ -237,14 +237,14 @@ class TouchFinder:
         points = one[9:12, None] + times(axes, spots.points_m)
         in_order = self._rank[host] < self._rank[guest]
         first, second = np.where(in_order, host, guest), np.where(in_order, guest, host)
-        # `way_m` may differ from the gap where two faces are as near.
+        # The length of `way_m` may differ from the gap where two faces are equally near.
         lengths = np.sqrt(dot(near.way_m, near.way_m))
         away = np.where(gap_m < CLEAR_M, 0.0, np.where(in_order, 1.0, -1.0)) / np.where(lengths > 0, lengths, 1.0)
         normals = times(axes, (near.way_m * away)[:, None])[:, 0]
         return Touches.of(first, second, points, spots.counts, (shares, normals))
 
     def _of_triangles(self, host: Indices, guest: Indices) -> Touches:
-        """Where things touch of which one at least is no cuboid."""
+        """Return the contacts of pairs of which at least one is no cuboid."""
         found = Touches.none()
         for x, y in zip(host.tolist(), guest.tolist(), strict=True):
             a, b = (x, y) if self._rank[x] < self._rank[y] else (y, x)
@@ -259,7 +259,7 @@ class TouchFinder:
         return found
 
     def _of_two(self, a: Placed, b: Placed) -> Junction | None:
-        """Where the triangles of two things touch."""
+        """Return the junction of two objects by their triangles, None without contact."""
         pair = MeshPair(a, b)
         gap = pair.gap(self._tolerance_m)
         share = 0.0 if gap is None else weight(gap.distance_m, self._tolerance_m)

@@ -1,4 +1,4 @@
-"""Where things touch, as columns of numbers: kept so while nobody asks for the pairs one by one."""
+"""Contacts as arrays, so that junctions and pairs of ids are made only when they are read."""
 
 from __future__ import annotations
 
@@ -17,9 +17,12 @@ _LOW = (1 << _BITS) - 1
 
 
 class Touches(NamedTuple):
-    """Pairs of columns (n,), each as one number, ascending: that of the thing with the lower id above `_BITS`; points
-    (n, 4, 3) world [m], of which the first `counts` (n,) are any, the others 0; weights (n,) [-]; normals (n, 3) from
-    the lower id to the other, 0 where unknown."""
+    """The contacts of n pairs of objects, sorted by code.
+
+    codes : (n,) two columns of the finder in one number, that of the lower id above `_BITS`; points_m : (n, 4, 3) world
+    [m], of which the first `counts` (n,) are valid, the others 0; weights : (n,) [-]; normals : (n, 3) from the lower
+    id to the other, 0 where unknown.
+    """
 
     codes: NDArray[np.int64]
     points_m: Floats
@@ -29,7 +32,7 @@ class Touches(NamedTuple):
 
     @classmethod
     def none(cls) -> Touches:
-        """No pair."""
+        """Return contacts of no pair."""
         return cls(
             np.empty(0, dtype=np.int64),
             np.empty((0, MAX_POINTS, 3)),
@@ -42,13 +45,13 @@ class Touches(NamedTuple):
     def of(
         cls, first: Indices, second: Indices, points_m: Floats, counts: Marks, more: tuple[Floats, Floats]
     ) -> Touches:
-        """Of pairs in any order, with points (3, 4, n), those that count (4, n), and (weights, normals (3, n))."""
+        """Build from pairs in any order: points (3, 4, n), marks (4, n) of valid ones, (weights, normals (3, n))."""
         codes = (first.astype(np.int64) << _BITS) | second
         points = np.where(counts, points_m, 0.0).transpose(2, 1, 0)
         return cls(codes, points, counts.sum(axis=0), more[0], more[1].T).rows(np.argsort(codes))
 
     def rows(self, rows: Indices | Marks) -> Touches:
-        """Some of them."""
+        """Return the contacts of some pairs."""
         if rows.dtype == np.bool_:
             rows = np.flatnonzero(rows)
         codes, points, counts, weights, normals = self
@@ -61,7 +64,7 @@ class Touches(NamedTuple):
         )
 
     def with_more(self, more: Touches) -> Touches:
-        """These and others."""
+        """Return these contacts and those of other pairs."""
         if not len(self.codes) or not len(more.codes):
             return self if len(self.codes) else more
         codes, points, counts, weights, normals = (np.concatenate(columns) for columns in zip(self, more, strict=True))
@@ -71,11 +74,11 @@ class Touches(NamedTuple):
         return joined.rows(np.argsort(joined.codes))
 
     def columns(self) -> tuple[Indices, Indices]:
-        """The columns of either side."""
+        """Return the columns of the two objects of each pair."""
         return self.codes >> _BITS, self.codes & _LOW
 
     def junctions(self) -> list[Junction]:
-        """The same one by one."""
+        """Return the contacts as junctions, one for each pair."""
         found = []
         for points, n, share, (x, y, z) in zip(
             self.points_m.tolist(), self.counts.tolist(), self.weights.tolist(), self.normals.tolist(), strict=True
@@ -86,7 +89,7 @@ class Touches(NamedTuple):
 
 
 class Difference(NamedTuple):
-    """Codes of pairs that came, went, and are elsewhere or otherwise than before."""
+    """The codes of pairs that appeared, vanished, or changed their points, weight or normal."""
 
     appeared: list[int]
     vanished: list[int]
@@ -94,7 +97,7 @@ class Difference(NamedTuple):
 
 
 def difference(before: Touches, now: Touches) -> Difference:
-    """What has changed."""
+    """Compare two sets of contacts."""
     if len(before.codes) == len(now.codes) and (before.codes == now.codes).all():
         return Difference([], [], now.codes[~_same(before, now)].tolist())
     place = np.searchsorted(before.codes, now.codes)
@@ -109,25 +112,25 @@ def difference(before: Touches, now: Touches) -> Difference:
 
 
 def _same(then: Touches, now: Touches) -> Marks:
-    """Which of the same pairs touch as before."""
+    """Mark the pairs with unchanged contacts; both arguments hold the same pairs."""
     same: Marks = (then.points_m == now.points_m).all(axis=(1, 2)) & (then.normals == now.normals).all(axis=1)
     same &= (then.counts == now.counts) & (then.weights == now.weights)
     return same
 
 
 class PairNames:
-    """Pairs of ids by code; each made once."""
+    """A cache of pairs of ids by code."""
 
     def __init__(self, id_of: Callable[[int], str]) -> None:
         self._id_of = id_of
         self._known: dict[int, Pair] = {}
 
     def forget(self) -> None:
-        """A column has come to be another thing's."""
+        """Clear the cache, because a column now belongs to another object."""
         self._known.clear()
 
     def of(self, codes: Sequence[int]) -> list[Pair]:
-        """The pairs of these codes."""
+        """Return the pairs of these codes."""
         known = self._known
         try:
             return [known[code] for code in codes]
