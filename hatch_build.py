@@ -54,7 +54,9 @@ class CompiledKernels(BuildHookInterface):  # type: ignore[type-arg]  # hatchlin
             return
         if version == "editable":
             for name, path in built.items():
-                shutil.copy2(path, source / name)
+                # A module that a running program has loaded is replaced, never written over: that would crash it.
+                shutil.copy2(path, source / f"{name}.new")
+                os.replace(source / f"{name}.new", source / name)
         else:
             build_data["force_include"] |= {str(path): name for name, path in built.items()}
             build_data["pure_python"], build_data["infer_tag"] = False, True
