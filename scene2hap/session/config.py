@@ -12,8 +12,8 @@ from scene2hap.audio.actuators import actuator_profile
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import ActuatorProfile, Bands
 from scene2hap.propagation import MODELS
+from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.exponential_plate import ExponentialPlate
-from scene2hap.propagation.sampling import AROUND
 from scene2hap.settings import Settings
 
 MIN_RAMP_S = 0.010

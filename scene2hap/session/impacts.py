@@ -26,10 +26,10 @@ from scene2hap.audio.actuators import inverse_db, is_flat
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB
 from scene2hap.calls import clear_attributes
 from scene2hap.errors import Scene2HapError
+from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.impact import Burst, burst_of
 from scene2hap.propagation.live import PointField, TouchedPoint
 from scene2hap.propagation.protocol import ContactNetwork, Excitation, PropagationModel
-from scene2hap.propagation.sampling import AROUND
 from scene2hap.render.bursts import MOST_PLAYING, Samples, peak_of, summed, wave_of
 from scene2hap.scene.objects import Contact
 from scene2hap.session.config import SessionConfig
