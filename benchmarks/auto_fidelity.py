@@ -28,19 +28,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, Plate, Pose, PropagationField, materials
-from scene2hap.propagation import (
-    bending_lattice,
-    infinite_plate,
-    lattice_body,
-    lattice_modes,
-    modal_body,
-    modes,
-    rigid,
-)
+from scene2hap.propagation import infinite_plate, modal_body, modes
 from scene2hap.propagation.auto import AutoFidelity, AutoField
 from scene2hap.propagation.auto_rungs import FINENESS, FLOOR_DB, MODAL_DB, Situation, body_of
-from scene2hap.propagation.contact_stiffness import ContactLaw
-from scene2hap.propagation.substructuring import CoupledField, assemble
+from scene2hap.propagation.coupled import rigid
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.substructuring import CoupledField, assemble
+from scene2hap.propagation.lattice import bending_lattice, lattice_body, lattice_modes
 
 REPORTED, CALIBRATING = 0, 100_000
 """First seeds of the draws that are reported and of those that bounds come from."""

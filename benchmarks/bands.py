@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, ModalPlate, Plate, Pose, PropagationModel, materials
+from scene2hap.propagation.bands.sampling import AROUND, Sampling
 from scene2hap.propagation.domain import ThinPlateWarning
-from scene2hap.propagation.sampling import AROUND, Sampling
 
 MATERIALS = ("oak", "plywood", "steel", "glass", "particle board", "granite")
 MODULUS = 0.3

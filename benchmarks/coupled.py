@@ -40,10 +40,10 @@ from scene2hap import (
     RigidBody,
     materials,
 )
-from scene2hap.propagation.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupling import Joint
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.coupling import Joint
+from scene2hap.propagation.coupled.joints import joints_of
 from scene2hap.propagation.domain import ThinPlateWarning
-from scene2hap.propagation.joints import joints_of
 
 FREQUENCIES_HZ = np.geomspace(40.0, 800.0, 60)
 LOSS, N_POINTS, SEED = 0.02, 12, 3

@@ -21,9 +21,9 @@ from numpy.typing import NDArray
 
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, ModalPlate, Plate, Pose, materials
 from scene2hap.demo import kitchen_path
-from scene2hap.propagation.hand import HANDS
+from scene2hap.propagation.bands.sampling import AROUND
+from scene2hap.propagation.coupled.hand import HANDS
 from scene2hap.propagation.infinite_plate import point_mobility_s_kg
-from scene2hap.propagation.sampling import AROUND
 
 PLATES = {
     "steel, 0.8 mm": (0.5, 0.3, 0.0008, "steel"),

@@ -37,10 +37,10 @@ from scene2hap import (
 )
 from scene2hap.bundle import BundleWarning
 from scene2hap.demo import kitchen_path
+from scene2hap.propagation.coupled.substructuring import prepare_coupled
 from scene2hap.propagation.domain import ThinPlateWarning
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 from scene2hap.propagation.protocol import ContactNetwork
-from scene2hap.propagation.substructuring import prepare_coupled
 from scene2hap.session import HapticSession
 from scene2hap.session.network import excitations_of
 from scene2hap.session.scene_state import SceneState

@@ -28,10 +28,10 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 from plate_fe import fe_receptance_within, outline_mesh, refined_at
 from scene2hap import ModalPlate, Outline, Plate, materials
-from scene2hap.propagation.bending_lattice import axes_of, bending_lattice
 from scene2hap.propagation.domain import ThinPlateWarning
-from scene2hap.propagation.lattice_body import lattice_body
-from scene2hap.propagation.lattice_modes import _modes_up_to
+from scene2hap.propagation.lattice.bending_lattice import axes_of, bending_lattice
+from scene2hap.propagation.lattice.lattice_body import lattice_body
+from scene2hap.propagation.lattice.lattice_modes import _modes_up_to
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 
 FREQUENCIES_HZ = np.geomspace(20.0, 400.0, 60)

@@ -33,8 +33,8 @@ from busy_room import BusyRoom, busy_room, floor_room, furnished_room, shelf_roo
 from scene2hap import Bands, HapticSession, Plate, Pose, Touch
 from scene2hap.contact.broad_phase import BroadPhase
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.propagation.band_rms import BandRms
-from scene2hap.propagation.live_law import LiveLaw, LivePaths
+from scene2hap.propagation.bands.band_rms import BandRms
+from scene2hap.propagation.paths.live_law import LiveLaw, LivePaths
 from scene2hap.session.audibility import Audibility
 from scene2hap.session.playback import Playback
 

@@ -227,11 +227,12 @@ def print_tree(before: Source, after: Source) -> None:
         for a, b in sorted(drawn.edges):
             print(f"    {a} --> {b}")
         print("```\n")
-    for title, source in (("before", before), ("after", after)):
-        print(f"Modules of `contact` {title}; each row imports rows below it, and braces hold a circle.\n\n```")
-        for row in reversed(source.levels("contact")):
-            print("  ".join(row))
-        print("```\n")
+    for room in ("contact", "session"):
+        for title, source in (("before", before), ("after", after)):
+            print(f"Modules of `{room}` {title}; each row imports rows below it, and braces hold a circle.\n\n```")
+            for row in reversed(source.levels(room)):
+                print("  ".join(row))
+            print("```\n")
 
 
 def main() -> None:

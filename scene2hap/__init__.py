@@ -34,7 +34,7 @@ _HOME = {
     "scene2hap.propagation.infinite_plate": ("InfinitePlate",),
     "scene2hap.propagation.modal_plate": ("ModalPlate",),
     "scene2hap.propagation.auto": ("AutoFidelity",),
-    "scene2hap.propagation.hand": ("Hand",),
+    "scene2hap.propagation.coupled.hand": ("Hand",),
     "scene2hap.propagation.modes": ("plate_modes",),
     "scene2hap.propagation.mass_spring_damper": ("MassSpringDamper",),
     "scene2hap.propagation.controls": ("FullPropagation", "NoPropagation"),
@@ -220,8 +220,8 @@ if TYPE_CHECKING:
     from scene2hap.propagation.auto import AutoFidelity as AutoFidelity
     from scene2hap.propagation.controls import FullPropagation as FullPropagation
     from scene2hap.propagation.controls import NoPropagation as NoPropagation
+    from scene2hap.propagation.coupled.hand import Hand as Hand
     from scene2hap.propagation.exponential_plate import ExponentialPlate as ExponentialPlate
-    from scene2hap.propagation.hand import Hand as Hand
     from scene2hap.propagation.infinite_plate import InfinitePlate as InfinitePlate
     from scene2hap.propagation.mass_spring_damper import MassSpringDamper as MassSpringDamper
     from scene2hap.propagation.modal_plate import ModalPlate as ModalPlate

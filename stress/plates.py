@@ -55,8 +55,9 @@ from scene2hap import (
     Plate,
 )
 from scene2hap.errors import Scene2HapError
-from scene2hap.propagation import bending_lattice, lattice_body, lattice_modes, modal_body, modes
+from scene2hap.propagation import modal_body, modes
 from scene2hap.propagation.domain import SlowPlateWarning, ThinPlateWarning
+from scene2hap.propagation.lattice import bending_lattice, lattice_body, lattice_modes
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 from scene2hap.propagation.modes import first_bending_hz, n_rigid_motions
 

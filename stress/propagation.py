@@ -47,10 +47,10 @@ from scene2hap import (
     plate_modes,
 )
 from scene2hap.errors import Scene2HapError
-from scene2hap.propagation.bending_lattice import bending_lattice
 from scene2hap.propagation.domain import SlowPlateWarning, ThinPlateWarning
+from scene2hap.propagation.lattice.bending_lattice import bending_lattice
+from scene2hap.propagation.lattice.stepping import ExactStepper, NewmarkStepper, State, Stepper, viscous_difference_db
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
-from scene2hap.propagation.stepping import ExactStepper, NewmarkStepper, State, Stepper, viscous_difference_db
 
 MODELS = {
     "exponential": ExponentialPlate(),

@@ -226,4 +226,4 @@ def error_message(error: Exception) -> dict[str, Any]:
     if isinstance(error, Scene2HapError):
         return {"type": "error", "error": type(error).__name__, "message": str(error)}
     _log.error("a fault of the bridge", exc_info=error)
-    return {"type": "error", "error": "InternalError", "message": "the bridge failed at this; its log tells more."}
+    return {"type": "error", "error": "InternalError", "message": "the bridge failed at this; its log has the details."}

@@ -124,7 +124,7 @@ class Jobs:
                 self._keep(job, folder, answer)
                 self._tells[job](answer)
             else:
-                status = f"it ended with status {process.returncode}, and the server's log tells more"
+                status = f"it ended with status {process.returncode}, and the server's log has the details"
                 kind, message = last.get("error", ("BridgeError", f"the bake failed: {status}."))
                 self._tells[job]({"type": "error", "error": kind, "message": message, "job": job})
         except (OSError, ValueError) as cause:

@@ -1,9 +1,9 @@
-"""The account of a bake, in a file beside the bundle: calls, tokens, cost, and what was skipped.
+"""The account of a bake, in a file beside the bundle: calls, tokens, cost, and skipped questions.
 
-    kitchen.bundle/                what a bake made
-    kitchen.bundle.account.json    what it took
+    kitchen.bundle/                the bundle
+    kitchen.bundle.account.json    its account
 
-Not within the bundle: equal inputs make bundles that are equal byte for byte, and what a bake costs depends on the
+Not within the bundle: equal inputs make bundles that are equal byte for byte, and the cost of a bake depends on the
 answers that a cache had. It is of the last `scene2hap bake` into that place; `rebake` does not change it.
 """
 

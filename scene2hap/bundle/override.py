@@ -43,7 +43,7 @@ class Override:
 
     vibrates : whether the object vibrates by itself.
     gain_db : its level at the hand against the inferred one [dB].
-    mass_kg : what the whole object weighs [kg].
+    mass_kg : mass of the whole object [kg].
     feet : the material on which it stands on others, or a name in the table.
     material : its material, or a name in the table.
     clip : the sound that its vibration is made from, in every state, or the path of its file, which may also be a
@@ -121,7 +121,7 @@ class Override:
         provenance = dict(haptics.provenance)
         if self.material is not None:
             provenance |= {"material": USER, "material_category": USER}
-            # A sheet of unknown material was left without a thickness by earlier versions; what spreads needs one.
+            # Earlier versions left a sheet of unknown material without a thickness, which propagation needs.
             size_m = with_thickness(haptics.estimated_size_m)
             haptics = replace(
                 haptics, material=self.material, material_category=self.material.name, estimated_size_m=size_m

@@ -1,14 +1,14 @@
 """Replace a bundle's folder as a whole: build it beside its place, then move it there in one step.
 
 The draft stands beside the place as `.NAME.scene2hap-RANDOM-INODE.new`. The system exchanges the two folders in one
-step (`exchange`), and what was the old bundle is then removed under the draft's name. Where there is no such step, the
+step (`exchange`), and the old bundle is then removed under the draft's name. Where there is no such step, the
 old one is first moved to a name that ends in `.old`, and the draft then to its place. A process that dies between these
 two leaves nothing at the place, and both beside it: the next load or save puts the new one there (`recover`).
 
 The inode stays with a folder wherever it is moved. So a folder under a draft's name is a draft, which may be removed,
-if it has the inode in that name; else it is an old bundle, in which somebody may have other files. Who works on a
-folder holds a lock on it, which the system lets go when the process dies: what is not locked was left behind, and is
-removed by the next save.
+if it has the inode in that name; else it is an old bundle, which may hold files of others. A process that works on a
+folder holds a lock on it, which the system releases when the process dies. A folder that is not locked was left behind;
+the next save removes it.
 """
 
 from __future__ import annotations

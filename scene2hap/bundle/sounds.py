@@ -93,7 +93,7 @@ class SoundReader:
 
 
 def file_stem(text: str) -> str:
-    """A file name for any id; a short digest keeps apart what the plain letters would merge."""
+    """A file name for any id; a short digest distinguishes ids that are alike in plain letters."""
     plain = re.sub(r"[^A-Za-z0-9_-]+", "-", text).strip("-")[:60]
     return plain if plain == text else f"{plain or 'x'}-{_digest(text)}"
 

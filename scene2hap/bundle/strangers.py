@@ -1,9 +1,9 @@
 """Files of others in a bundle's folder: a thesis, notes, a repository. They outlive every bundle there.
 
-A new bundle is built beside the old one and takes its place as a whole folder. Before that, what is not ours is linked
-into the new folder, so that it is at its place at every moment. Afterwards the old folder is emptied file by file:
-ours is removed, and so is what the new folder has, to the last bit; all else, as what an editor saved meanwhile, is
-moved over.
+A new bundle is built beside the old one and takes its place as a whole folder. Before that, files of others are linked
+into the new folder, so that they are at their place at every moment. Afterwards the old folder is emptied file by file:
+the bundle's own files are removed, and so are files that the new folder has bit for bit. All others, such as a file
+that an editor saved meanwhile, are moved over.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def _empty(source: Path, target: Path, prefix: str, ours: frozenset[str]) -> Non
             place = _folder_for(target / entry.name)
             place.mkdir(exist_ok=True)  # one that was made meanwhile
             _empty(entry, place, f"{name}/", ours)
-        # The account of what is ours goes last, lest a second attempt took everything for somebody's.
+        # The list of our own files goes last, lest a second attempt took all files for those of others.
         elif name not in ours:
             _hand_on(entry, target / entry.name)
         elif name != MANIFEST:
@@ -110,7 +110,7 @@ def _free(path: Path) -> Iterator[Path]:
 
 
 def _names(path: Path) -> Iterator[Path]:
-    """The path, and names beside it for what cannot have it: `notes-kept.txt`, `notes-kept-2.txt`, ..."""
+    """The path, and names beside it if it is taken: `notes-kept.txt`, `notes-kept-2.txt`, ..."""
     yield path
     yield path.with_name(f"{path.stem}-kept{path.suffix}")
     for number in count(2):

@@ -34,7 +34,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--token", help=f"what clients must say; better in {TOKEN_VARIABLE}, which nobody else sees")
     parser.add_argument("--root", metavar="FOLDER", help="folder whose scenes and bundles clients may read and write")
     parser.add_argument("--origin", action="append", metavar="URL", help="a web page that may connect, beside loopback")
-    parser.add_argument("--sink", metavar="KIND", help="what plays, such as soundcard: a kind, or JSON with one")
+    parser.add_argument(
+        "--sink", metavar="KIND", help="sink of the bridge, such as soundcard: a kind, or JSON with one"
+    )
     parser.add_argument("--udp", action="store_true", help="take frames as datagrams too, on the same port")
     parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with tables [bridge], [bake] and [session]")
     parser.add_argument("--check", metavar="COMMAND", help="check a client that this command starts, and end")

@@ -38,7 +38,7 @@ from scene2hap.propagation import MODELS
 from scene2hap.render.safety import SafetyLayer
 from scene2hap.scene.capture import RENDERERS
 
-HELP = "what this machine has, what is missing, and a test sweep"
+HELP = "features and extras of this machine, missing ones, and a test sweep"
 
 RATE_HZ = 48000
 SWEEP_HZ = (40.0, 400.0)

@@ -24,7 +24,7 @@ from scene2hap.cli.console import Console
 from scene2hap.errors import BundleError
 from scene2hap.haptics import SourceState
 
-HELP = "bundle -> who said what of each object, and why; or a page to look at"
+HELP = "bundle -> the decisions on each object with their sources and reasons, as a table or a page"
 
 _PICTURE_PX = 256
 

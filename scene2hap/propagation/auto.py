@@ -26,15 +26,15 @@ from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.auto_level import peak_level_db
 from scene2hap.propagation.auto_rungs import Choice, Situation, body_of
-from scene2hap.propagation.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupling import ElasticBody, Joint
+from scene2hap.propagation.bands.sampling import AROUND, SPACING
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.coupling import ElasticBody, Joint
+from scene2hap.propagation.coupled.hand import Hand, checked_hand
+from scene2hap.propagation.coupled.substructuring import Assembly, CoupledField, assemble, checked_law
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, off_zero, warn_if_thick
-from scene2hap.propagation.hand import Hand, checked_hand
 from scene2hap.propagation.modes import n_rigid_motions, points_on
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
-from scene2hap.propagation.sampling import AROUND, SPACING
-from scene2hap.propagation.substructuring import Assembly, CoupledField, assemble, checked_law
 
 SAMPLING_SHARE = 0.2
 

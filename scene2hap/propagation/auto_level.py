@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.haptics import Bands
-from scene2hap.propagation.coupling import Joint
+from scene2hap.propagation.coupled.coupling import Joint
 from scene2hap.propagation.modes import first_bending_hz, n_rigid_motions
 from scene2hap.propagation.plate import Plate
 

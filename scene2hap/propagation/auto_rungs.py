@@ -22,14 +22,14 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from scene2hap.propagation.coupling import ElasticBody
+from scene2hap.propagation.coupled.coupling import ElasticBody
+from scene2hap.propagation.coupled.rigid import RigidMotion
 from scene2hap.propagation.infinite_plate import InfiniteBody
-from scene2hap.propagation.lattice_modes import lowest_frequencies_hz
+from scene2hap.propagation.lattice.lattice_modes import lowest_frequencies_hz
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 from scene2hap.propagation.modal_body import modal_body
 from scene2hap.propagation.modes import FINE, Fineness, first_bending_hz
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.rigid import RigidMotion
 
 FLOOR_DB = -40.0
 """Gains below this are as good as none: errors are counted from here, re the source."""

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.calls import clear_construction
 from scene2hap.haptics import Bands
-from scene2hap.propagation.paths import cheapest_arrivals
+from scene2hap.propagation.paths.prepared_paths import cheapest_arrivals
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.protocol import ContactNetwork, Excitation, require_input
 

@@ -23,10 +23,10 @@ from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
-from scene2hap.propagation.band_rms import BandRms, band_rms
+from scene2hap.propagation.bands.band_rms import BandRms, band_rms
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_thin
-from scene2hap.propagation.live_law import GammaAt, GammaOver, LiveLaw, LivePaths
-from scene2hap.propagation.paths import Arrivals, cheapest_arrivals
+from scene2hap.propagation.paths.live_law import GammaAt, GammaOver, LiveLaw, LivePaths
+from scene2hap.propagation.paths.prepared_paths import Arrivals, cheapest_arrivals
 from scene2hap.propagation.plate import Plate, require_plate
 from scene2hap.propagation.points import arrivals_at, as_points
 from scene2hap.propagation.protocol import Body, ContactNetwork, Excitation, require_input

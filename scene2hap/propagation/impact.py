@@ -28,10 +28,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.materials import Material
-from scene2hap.propagation.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.rigid import COMPACT_THICKNESS
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body
-from scene2hap.propagation.rigid import COMPACT_THICKNESS
 
 Floats = NDArray[np.float64]
 

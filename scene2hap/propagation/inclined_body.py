@@ -20,10 +20,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.coupling import ElasticBody
+from scene2hap.propagation.coupled.coupling import ElasticBody
+from scene2hap.propagation.coupled.response_basis import AnyFloat, HasResponseBasis, ResponseBasis, real_times
 from scene2hap.propagation.in_plane import InPlaneModes, in_plane_modes
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.response_basis import AnyFloat, HasResponseBasis, ResponseBasis, real_times
 
 _ASIDE = 1e-6  # A direction with no more than this along the normal bends nothing.
 

@@ -25,14 +25,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.calls import clear_construction
 from scene2hap.haptics import Bands
-from scene2hap.propagation.contact_stiffness import ContactLaw
+from scene2hap.propagation.bands.sampling import AROUND
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.hand import Hand, checked_hand
+from scene2hap.propagation.coupled.substructuring import CoupledField, checked_law, prepare_coupled
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, warn_if_thick
-from scene2hap.propagation.hand import Hand, checked_hand
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
-from scene2hap.propagation.sampling import AROUND
-from scene2hap.propagation.substructuring import CoupledField, checked_law, prepare_coupled
 
 NEAREST_KR = 1e-4
 """Below this kr both terms of Pi grow without bound and their difference is 1 to 1e-8: it is then set to 1."""

@@ -26,9 +26,12 @@ from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.haptics import Bands
-from scene2hap.propagation.bending_lattice import LONGEST
-from scene2hap.propagation.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupling import ElasticBody
+from scene2hap.propagation.bands.sampling import AROUND
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.coupling import ElasticBody
+from scene2hap.propagation.coupled.hand import Hand, checked_hand
+from scene2hap.propagation.coupled.split_body import SplitBody
+from scene2hap.propagation.coupled.substructuring import CoupledField, checked_law, prepare_coupled
 from scene2hap.propagation.domain import (
     THIN_WAVELENGTHS,
     OutsideDomain,
@@ -37,23 +40,20 @@ from scene2hap.propagation.domain import (
     off_zero,
     warn_if_thick,
 )
-from scene2hap.propagation.hand import Hand, checked_hand
 from scene2hap.propagation.infinite_plate import InfiniteBody
-from scene2hap.propagation.lattice_body import lattice_body
-from scene2hap.propagation.lattice_modes import (
+from scene2hap.propagation.lattice.bending_lattice import LONGEST
+from scene2hap.propagation.lattice.lattice_body import lattice_body
+from scene2hap.propagation.lattice.lattice_modes import (
     LatticeModes,
     is_too_much,
     lattice_modes,
     lowest_frequencies_hz,
     n_modes_up_to,
 )
+from scene2hap.propagation.lattice.stepping import ExactStepper, NewmarkStepper, State, Stepper
 from scene2hap.propagation.modes import n_rigid_motions, points_on
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
-from scene2hap.propagation.sampling import AROUND
-from scene2hap.propagation.split_body import SplitBody
-from scene2hap.propagation.stepping import ExactStepper, NewmarkStepper, State, Stepper
-from scene2hap.propagation.substructuring import CoupledField, checked_law, prepare_coupled
 
 CELLS_PER_WAVE = 4.0
 """Fewest cells in a bending wavelength; with four, the lattice turns it 0.7 % too fast."""

@@ -9,13 +9,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.byte_bounded_lru import ByteBoundedLru
+from scene2hap.propagation.coupled.byte_bounded_lru import ByteBoundedLru
+from scene2hap.propagation.coupled.response_basis import AnyFloat
+from scene2hap.propagation.coupled.split_body import SplitBody
 from scene2hap.propagation.infinite_plate import InfiniteBody
 from scene2hap.propagation.modes import FINE, MARGIN, QUICK_BLOCK, Fineness, largest_block
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.plate_terms import ContractedShapes, ForcedPlate, PlateTerms
-from scene2hap.propagation.response_basis import AnyFloat
-from scene2hap.propagation.split_body import SplitBody
 
 MOST_REMEMBERED = 65_536
 """Complex numbers of a receptance among contacts that is remembered, 1 MB: things that stay where they are need not be

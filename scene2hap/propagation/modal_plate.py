@@ -23,8 +23,11 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap.calls import clear_construction
 from scene2hap.errors import ModelDomainError
 from scene2hap.haptics import Bands
-from scene2hap.propagation.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupling import ElasticBody
+from scene2hap.propagation.bands.sampling import AROUND
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.coupling import ElasticBody
+from scene2hap.propagation.coupled.hand import Hand, checked_hand
+from scene2hap.propagation.coupled.substructuring import CoupledField, checked_law, prepare_coupled
 from scene2hap.propagation.domain import (
     THIN_WAVELENGTHS,
     OutsideDomain,
@@ -33,15 +36,12 @@ from scene2hap.propagation.domain import (
     off_zero,
     warn_if_thick,
 )
-from scene2hap.propagation.hand import Hand, checked_hand
 from scene2hap.propagation.modal_body import modal_body
 from scene2hap.propagation.modes import MARGIN, n_rigid_motions, plate_modes, points_on
 from scene2hap.propagation.near_field import NearField
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
 from scene2hap.propagation.ritz import products
-from scene2hap.propagation.sampling import AROUND
-from scene2hap.propagation.substructuring import CoupledField, checked_law, prepare_coupled
 
 
 @clear_construction

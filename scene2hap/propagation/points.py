@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.compiled import compiled
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.paths import Arrivals
+from scene2hap.propagation.paths.prepared_paths import Arrivals
 from scene2hap.scene.pose import Pose
 
 

@@ -42,6 +42,6 @@ cdef double turned_down(double x, double *u, double threshold, double release) n
 
 
 cdef double limited(double x, double threshold) noexcept:
-    """What becomes of a sample beyond the threshold."""
+    """A sample beyond the threshold, limited."""
     cdef double rest = 1 - threshold
     return copysign(threshold + rest * tanh((fabs(x) - threshold) / rest), x)

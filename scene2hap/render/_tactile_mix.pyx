@@ -170,7 +170,7 @@ cdef class TactileMix:
                     is_more = True
                     break
             if is_more:
-                # What comes before this sample keeps to the old product; see the plain twin.
+                # Samples before this one keep the old product; see the plain twin.
                 self.compute()
                 self.first = tick - self.begin
             first_new = len(self.loops)

@@ -10,7 +10,7 @@ the last guard, of sums of mixes and of samples that rounding leaves beyond t:
     y = x                                       |x| <= t
     y = sign(x) (t + (1 - t) tanh((|x| - t) / (1 - t)))     |x| > t
 
-Both act sample by sample, so that the size of blocks does not matter, and run at the session's rate, after the mix was
+Both act sample by sample, independent of the size of blocks, and run at the session's rate, after the mix was
 resampled, so that nothing can overshoot behind them.
 """
 

@@ -77,7 +77,7 @@ def read(loops: Sequence[StoredLoop | None], begin: int, out: Block) -> None:
 class LoopBank:
     """Loops at one tactile rate, in a fixed order; a row is one band of one loop.
 
-    Parameters: loops : of any rates; bands : what each is split into; sample_rate_hz : the tactile rate.
+    Parameters: loops : of any rates; bands : into which each is split; sample_rate_hz : the tactile rate.
     """
 
     def __init__(self, loops: Sequence[AudioClip], bands: Bands, sample_rate_hz: int) -> None:

@@ -3,15 +3,15 @@
     loops (tactile rate) ── gains ──► mix (tactile rate) ──► upsampler ──► soft limiter ──► hands (session's rate)
 
 The clock counts frames at the session's rate. A change of gains may be stamped with any frame and begins with the next
-tactile sample, so at most one tactile sample later. What is felt lags the clock by the constant `delay_s`.
+tactile sample, so at most one tactile sample later. Samples lag the clock by the constant `delay_s`.
 
 A stepped gain would put sidebands into the tactile band, so every change is spread over a raised cosine; changes that
 overlap add up (`scene2hap.render.tactile_mix`). See Kaaresoja 2014 and Okamoto 2009 for the time budget.
 
-Threads: `set_gains` (game) appends to a deque and `render` (audio) pops from it; neither waits for the other, and what
-is set again for the same frame takes the place of what waits, so that nothing piles up if nobody renders. `render`
-does not give the interpreter lock away in its midst for 20 bands or fewer, so that a game's Python cannot cut in.
-`Playhead` is the part of the audio thread: it takes the gains that are due, cell by cell.
+Threads: `set_gains` (game) appends to a deque and `render` (audio) pops from it; neither waits for the other. Gains
+that are set twice for one frame replace those that wait, so that nothing piles up if nobody renders. `render` does not
+release the interpreter lock for 20 bands or fewer, so that a game's Python cannot interrupt it. `Playhead` is the part
+of the audio thread: it takes the gains that are due, cell by cell.
 """
 
 from __future__ import annotations

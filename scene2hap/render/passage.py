@@ -3,11 +3,11 @@
     u(t) = integral of s           s speed re full, 0..1           a amplitude re full, 0..1
 
 Assumed: a motor's speed nears its end as s = x (2 - x), and coasts down as s = (1 - x)^2, x being the share of the
-time; its amplitude is a = s^2, the force of an unbalance. What does not spin keeps its pitch, and its amplitude goes
-along half a cosine. Recorded: a is that of the recording, and so is s where the recording tells it, else s = sqrt(a) of
-what spins. A passage ends, or begins, in step with the loop itself, so that one goes over into the other without a
-seam. One that begins under way goes on from the amplitude that is felt; where the curve has another speed there, the
-difference fades over the rest of the passage.
+time; its amplitude is a = s^2, the force of an unbalance. A source that does not spin keeps its pitch, and its
+amplitude follows half a cosine. Recorded: a is that of the recording, and so is s where the recording shows it; else
+s = sqrt(a) for a source that spins. A passage begins or ends in step with the loop itself, so that the change between
+them is seamless. A passage that begins during another one continues from the present amplitude; where the curve has
+another speed there, the difference fades over the rest of the passage.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ STEADY, STILL = Running(1.0, 1.0), Running(0.0, 0.0)
 
 
 class Course(NamedTuple):
-    """The way of a passage: up or down, of what spins or not, along a recorded curve or, for None, an assumed one."""
+    """The course of a passage: up or down, spinning or not, along a recorded curve or, for None, an assumed one."""
 
     goes_up: bool
     spins: bool
@@ -68,7 +68,7 @@ class Course(NamedTuple):
         return np.asarray(np.sin(np.pi / 2 * (x if self.goes_up else 1 - x)) ** 2)
 
     def share(self, running: Running) -> float:
-        """The share of the time at which it has the amplitude of what runs already [-]."""
+        """The share of the time at which the course has the present amplitude [-]."""
         a = self.amplitude(_GRID)
         up = np.maximum.accumulate(a if self.goes_up else a[::-1])
         if not up[0] < running.amplitude < up[-1]:

@@ -2,7 +2,7 @@
 
     repair -> clip -> gate -> DC block, low-pass -> gate -> peak guard -> power guard -> slew guard
 
-1. What is not finite becomes 0, and what exceeds full scale is clipped to it.
+1. Samples that are not finite become 0, and those beyond full scale are clipped to it.
 2. A first-order high-pass at 4.6 Hz: a constant heats a coil and moves nothing. -0.22 dB at 20 Hz.
 3. A second-order Butterworth low-pass at the actuator's f_max: -0.26 dB at half of it.
 4. The gate fades in at the start, and out when the session stops or its game falls silent (the watchdog).
@@ -158,7 +158,7 @@ class SafetyLayer:
         x = self._repair(np.asarray(block, dtype=np.float64)) * gate
         if len(x):
             filtered, self._state = self._filter(self._sos, x, axis=0, zi=self._state)
-            # Where the state has died away, what is left of it only costs time (denormal numbers).
+            # Once the state has decayed, the rest only costs time (denormal numbers).
             self._state[np.abs(self._state) < INAUDIBLE**2] = 0.0
             x = np.where(np.abs(filtered) < INAUDIBLE, 0.0, filtered)
         x = self._peak.pass_through(x * gate)

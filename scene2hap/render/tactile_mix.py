@@ -213,7 +213,7 @@ class TactileMix:
         if gains.heard != self._held[-1].gains.heard:
             is_more = not all(map(self._users.__getitem__, gains.heard))
             if is_more:
-                # With more rows a product may round in another way; what comes before this sample keeps to the old one.
+                # With more rows a product may round in another way; samples before this one keep the old product.
                 self.compute()
                 self._from = tick - self._begin
             first_new = len(self._loops)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scene2hap.bundle import HapticBundle
 from scene2hap.propagation.controls import FullPropagation, NoPropagation
 from scene2hap.propagation.exponential_plate import REFERENCE_HZ, ExponentialPlate
-from scene2hap.propagation.paths import Arrivals, cheapest_arrivals
+from scene2hap.propagation.paths.prepared_paths import Arrivals, cheapest_arrivals
 from scene2hap.report.patches import Patch
 from scene2hap.scene.objects import Contact
 from scene2hap.session.network import body_of
@@ -64,7 +64,7 @@ def paths_of(
 class _Search:
     """Cheapest paths over contacts, by the number of contacts crossed.
 
-    A contact has two sides, numbered 2 i on its object a and 2 i + 1 on b, as in `propagation.paths`.
+    A contact has two sides, numbered 2 i on its object a and 2 i + 1 on b, as in `propagation.paths.prepared_paths`.
     """
 
     def __init__(self, bundle: HapticBundle, law: ExponentialPlate, contacts: Sequence[Contact]) -> None:

@@ -144,7 +144,9 @@ def _read(path: Path, assets_root: Path) -> AuthoredScene:
 
 def _from_json(path: Path, up_axis: UpAxis | None, unit_m: float | None, group: Grouping) -> SceneSnapshot:
     if unit_m not in (None, 1.0) or not (isinstance(group, str) and group == "authored") or up_axis is not None:
-        raise SceneError("a scene in JSON tells its own axis, metres and objects; leave up_axis, unit_m and group out.")
+        raise SceneError(
+            "a scene in JSON states its own axis, metres and objects; leave up_axis, unit_m and group out."
+        )
     try:
         text = read_bytes(path).decode("utf-8")
     except UnicodeDecodeError as cause:

@@ -2,8 +2,8 @@
 
 The loop is weighted by the threshold T(f), so that a vibration at the threshold has a peak of 1 whatever its frequency,
 and split into bands; p_b is the peak of band b over the whole loop. At band gains g_b no moment of it exceeds
-sum_b g_b p_b, in thresholds. A source is left out where that is below 10^(-10/20) / n for n sources, so that all that
-is left out of a hand stays, together and at every moment, 10 dB below what is felt.
+sum_b g_b p_b, in thresholds. A source is left out where that is below 10^(-10/20) / n for n sources. The sum of all
+sources left out at a hand thus stays 10 dB below the threshold at every moment.
 
 Bands of which less than -140 dB re full scale is left at their gain are left out as well.
 
@@ -41,7 +41,7 @@ _PRICES = np.concatenate([[0.0], np.geomspace(1e-4, 100.0, 240)])
 class Audibility:
     """Decides which bands of some sources are strong enough to be mixed.
 
-    Parameters: peaks : (n_sources, 2, n_bands), see `prepared_loops.peaks_of`; skip : what to leave out.
+    Parameters: peaks : (n_sources, 2, n_bands), see `prepared_loops.peaks_of`; skip : the switches of the pruning.
     """
 
     def __init__(self, peaks: NDArray[np.float32], skip: SkipConfig, counts: Counts) -> None:

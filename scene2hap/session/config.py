@@ -12,8 +12,8 @@ from scene2hap.audio.actuators import actuator_profile
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import ActuatorProfile, Bands
 from scene2hap.propagation import MODELS
+from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.exponential_plate import ExponentialPlate
-from scene2hap.propagation.sampling import AROUND
 from scene2hap.settings import Settings
 
 MIN_RAMP_S = 0.010
@@ -73,13 +73,13 @@ class SessionConfig(Settings):
     prepare : "background": a worker prepares the model while the last field plays on, and `update` never waits;
         "blocking": `update` waits, so that output depends on input alone. A model with a live field, as
         `ExponentialPlate`, needs neither.
-    gain_limit_db : cap on what one source may gain at a hand by propagation, None for no cap.
+    gain_limit_db : upper bound of the gain of one source at a hand by propagation, None for none.
     sample_rate_hz : rate of the samples that `render` and sinks get.
     tactile_rate_hz : rate at which loops are mixed, or the sample rate where that is lower; the mixed hands are
         resampled once. At least 2.5 times the highest band edge.
     control_period_s : usual time between updates; gain changes are spread over it, and over at least 10 ms.
     watchdog_s : time without an update after which a sink with a clock of its own fades to zero.
-    actuator : what the safety layer holds the output to; an ActuatorProfile, or as `audio.actuators` reads it.
+    actuator : its limits are those of the safety layer; an ActuatorProfile, or as `audio.actuators` reads it.
     skip : a SkipConfig or its settings, or true or false for all or nothing.
     impacts : whether objects that are moved are felt when they land on others; `HapticSession.strike` works anyway.
     """

@@ -55,10 +55,10 @@ class PathStep:
 class FeltSource:
     """A source that is felt at a hand.
 
-    Parameters: state, on : what it is doing, and the object on which it is felt; gain_db : what arrives of it there, in
-    the band that arrives best; level_db : its volume and the user's; band : that band; steps : from the source to the
-    touched object, empty where the law knows no way (over an object of unknown material, say) and for the physical
-    models; carriers : for these, the contacts through which it comes into the touched object, the strongest first.
+    Parameters: state, on : its state, and the touched object; gain_db : its gain there, in its strongest band; level_db
+    : its volume and the user's; band : that band; steps : from the source to the touched object, empty where the law
+    has no path (over an object of unknown material, say) and for the physical models; carriers : for these, the
+    contacts through which it comes into the touched object, the strongest first.
     """
 
     source_id: str

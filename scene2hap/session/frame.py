@@ -36,7 +36,7 @@ Gains = NDArray[np.float32]
 class HapticFrame:
     """The result of one update: gains of all hands.
 
-    Parameters: gains : (n_hands, n_sources, n_bands) float32 [-], or what works them out.
+    Parameters: gains : (n_hands, n_sources, n_bands) float32 [-], or a function that computes them.
     """
 
     __slots__ = ("_gains", "_work_out", "hands", "sources")

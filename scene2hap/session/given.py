@@ -24,7 +24,7 @@ MAX_RENDERED_FRAMES = 1 << 24
 """Frames of one call; assumed: minutes, while a sink takes milliseconds at a time."""
 
 MAX_AHEAD_S = 3600
-"""How far an update may lie ahead of what was rendered; assumed: further, it is a time in other units."""
+"""Bound of `at_sample` ahead of the rendered samples [s]; assumed: beyond, it is a time in other units."""
 
 _TOUCH = "Touch(hand, object_id, point_m)"
 
@@ -68,7 +68,7 @@ def given_touches(touches: object) -> list[Touch]:
         _refuse_touches(touches)
     try:
         found = list(touches)  # type: ignore[call-overload]  # if it cannot, see below
-    except Exception:  # a type of somebody else's, whose `__iter__` raises what it likes
+    except Exception:  # an object of another type may raise any error
         _refuse_touches(touches)
     return [_given_touch(one) for one in found]
 
@@ -114,7 +114,7 @@ def given_contacts(contacts: object) -> Sequence[Contact]:
     """Contacts of an engine. Raises: SessionError: they are something else."""
     found: tuple[Any, ...] = (contacts,)
     if not isinstance(contacts, str | Mapping | Contact):
-        with contextlib.suppress(Exception):  # a type of somebody else's, whose `__iter__` raises what it likes
+        with contextlib.suppress(Exception):  # an object of another type may raise any error
             found = tuple(contacts)  # type: ignore[arg-type]  # if it cannot, an error is raised below
     if isinstance(contacts, Contact) or not all(isinstance(one, Contact) for one in found):
         wrong = next((one for one in found if not isinstance(one, Contact)), contacts)

@@ -75,15 +75,15 @@ if TYPE_CHECKING:
 class HapticSession:
     """A session: plays the vibration of a scene at the hands that touch it.
 
-    Parameters: scene : objects and where they are now; bundle : what was baked for them; config : a SessionConfig, its
-    settings, or the path of a TOML or JSON file with a table `session`; hands : names of the outputs; sink : where
+    Parameters: scene : objects and their present poses; bundle : the bundle baked for them; config : a SessionConfig,
+    its settings, or the path of a TOML or JSON file with a table `session`; hands : names of the outputs; sink : where
     `start` sends the mix, None to call `render` oneself; user : levels and limits of the person who plays: a
     UserProfile, its settings, or the path of a saved one.
     Scene and bundle may be paths, which are read here (`load_scene`, `HapticBundle.load`), and come in either order. A
     bundle alone, `HapticSession(bundle)` or `HapticSession("kitchen.bundle")`, is played on the scene that it was baked
     for.
     Raises: ConfigError; SceneError, BundleError: no scene or bundle, or files that cannot be read; UnknownObject: the
-    bundle speaks of an object that the scene does not have. Warns: OtherActuatorWarning: the bundle's loops were made
+    bundle has an object that the scene does not have. Warns: OtherActuatorWarning: the bundle's loops were made
     for another actuator than the configured one.
     """
 
@@ -220,7 +220,7 @@ class HapticSession:
         something at the last update, as strongly as the model lets it arrive there.
 
         Parameters: speed_m_s : at which they meet, or impulse_n_s : that they exchange; 0.5 m/s without either, a
-        knock; with_object : what strikes, None for a finger. Objects that are moved strike by themselves when they
+        knock; with_object : the striking object, None for a finger. Objects that move strike by themselves when they
         land, unless `SessionConfig.impacts` is false.
         Raises: UnknownObject; SessionError: a speed or impulse that is not above 0, or both.
         """
@@ -236,10 +236,10 @@ class HapticSession:
         haptics: ObjectHaptics | None = None,
         loops: Mapping[str, HapticLoop] | None = None,
     ) -> None:
-        """Put an object into the scene, which vibrates if it has loops, by the name of each state.
+        """Add an object to the scene. It vibrates if it has loops, by the name of each state.
 
-        Without both, what the bundle says of its id holds, so that what was removed may come back as it was. Loops of
-        new content are prepared by a worker, and fade in with the first `update` after that.
+        Without haptics and loops, those of the bundle for its id are used, so that a removed object comes back as it
+        was. A worker prepares loops of new content; they fade in with the first `update` after that.
         Raises: SceneError: its id is taken; SessionError: a loop is none.
         Warns: SceneWarning: it will neither vibrate nor carry vibration.
         """
@@ -465,8 +465,8 @@ class HapticSession:
         """
         if self._output.is_started:
             raise SessionError(
-                "the sink of this session renders; what you take with `render` it would miss. Use the sink's own "
-                "samples, such as `sink.pull`, or a session without a sink."
+                "the sink of this session renders, and would miss the samples that you take with `render`. Use the "
+                "sink's own samples, such as `sink.pull`, or a session without a sink."
             )
         return self._rendered(n_frames)
 
@@ -615,7 +615,7 @@ class HapticSession:
             by_hand = self._grouped(touches)
         except UnknownObject:
             raise
-        except Exception:  # whatever is no list of touches raises what it likes
+        except Exception:  # an object of another type may raise any error
             by_hand = self._grouped(given_touches(touches))
         for hand in by_hand:
             if hand not in self.hands:

@@ -26,10 +26,10 @@ from scene2hap.audio.actuators import inverse_db, is_flat
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB
 from scene2hap.calls import clear_attributes
 from scene2hap.errors import Scene2HapError
+from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.impact import Burst, burst_of
 from scene2hap.propagation.live import PointField, TouchedPoint
 from scene2hap.propagation.protocol import ContactNetwork, Excitation, PropagationModel
-from scene2hap.propagation.sampling import AROUND
 from scene2hap.render.bursts import MOST_PLAYING, Samples, peak_of, summed, wave_of
 from scene2hap.scene.objects import Contact
 from scene2hap.session.config import SessionConfig
@@ -66,7 +66,7 @@ _STRIKER, _STRIKER_KG = "\0striker", 1e-3
 class Impact:
     """An impact that was felt, or not.
 
-    Parameters: object_id : what was struck, at point_m [m], world; with_object : what struck it, None if nobody said;
+    Parameters: object_id : the struck object, at point_m [m], world; with_object : the striking one, None if unknown;
     speed_m_s : of their meeting, None if an impulse was given; frequency_hz : of its strongest component; at_sample :
     when, on the clock of `render`; felt : the largest sample that it adds at each hand [-], hands that feel nothing
     left out. Models without a live field fill that in once a worker has prepared them.
@@ -250,7 +250,7 @@ class Impacts:
         def work() -> None:
             try:
                 gains = prepared()
-            except Scene2HapError:  # the field in use fails in the same way, and says so
+            except Scene2HapError:  # the field in use fails in the same way, and warns
                 self.n_left_out += 1
             else:
                 begin = self._playback.position

@@ -50,7 +50,7 @@ def body_of(haptics: ObjectHaptics | None, surface: DominantSurface | None = Non
     length_m, width_m, thickness_m = haptics.estimated_size_m
     if surface is None or surface.outline is None:
         return Plate(length_m, width_m, thickness_m, material, object_mass_kg=haptics.mass_kg, feet=haptics.feet)
-    # What was corrected of the rectangle's size holds for the outline as well.
+    # A correction of the rectangle's size holds for the outline as well.
     scale = length_m / surface.length_m, width_m / surface.width_m
     outline = _scaled(surface.outline, scale)
     return Plate.of_outline(outline, thickness_m, material, object_mass_kg=haptics.mass_kg, feet=haptics.feet)
@@ -62,7 +62,7 @@ def _scaled(outline: Outline, scale: tuple[float, float]) -> Outline:
 
 
 Corners = dict[str, tuple[Pose, SceneObject, Body, Pose]]
-"""By object: where it was, what it was and was made of, and where the corner of its plate was then."""
+"""By object: its pose, object and body when the corner of its plate was computed, and the pose of that corner."""
 
 
 class PlatePoses(Mapping[str, Pose]):

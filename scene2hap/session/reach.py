@@ -52,7 +52,7 @@ class _Search:
 class Reach:
     """Connected components of the contact graph, and the sources in each, kept up to date incrementally.
 
-    Parameters: beside : what each object touches, with whatever weight, since that may change; read again by `follow`;
+    Parameters: beside : the neighbours of each object, at any weight, since weights change; read again by `follow`;
     carriers : ids of all that may pass vibration on, sources included.
     """
 

@@ -13,9 +13,9 @@ from scene2hap.propagation import MODELS, modes
 from scene2hap.propagation.auto import AutoFidelity
 from scene2hap.propagation.auto_level import peak_level_db
 from scene2hap.propagation.auto_rungs import FLOOR_DB, RUNGS, Situation
-from scene2hap.propagation.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.substructuring import assemble
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
-from scene2hap.propagation.substructuring import assemble
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 

@@ -9,8 +9,8 @@ import pytest
 from numpy.typing import NDArray
 
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, ModalPlate, Plate, Pose, materials
+from scene2hap.propagation.bands.sampling import Sampling
 from scene2hap.propagation.protocol import CarryingField, ExpectantField
-from scene2hap.propagation.sampling import Sampling
 
 EXACT, HALF = Bands.dominant(), Bands.dominant(octaves=0.5)
 POINTS = np.array([[0.2, 0.6, 0.0], [0.9, 0.1, 0.0], [1.1, 0.65, 0.0], [0.55, 0.32, 0.0]])

@@ -8,8 +8,8 @@ from dataclasses import replace
 import pytest
 
 from scene2hap import Contact, ContactNetwork, Plate, materials
-from scene2hap.propagation.contact_stiffness import ContactLaw
-from scene2hap.propagation.joints import joints_of
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.joints import joints_of
 
 TABLE = Plate(1.2, 0.7, 0.02, materials.lookup("oak"), object_mass_kg=25.0)
 OVEN = Plate(0.5, 0.4, 0.3, materials.lookup("steel"), object_mass_kg=14.0)

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.coupling import Joint, couple
+from scene2hap.propagation.coupled.coupling import Joint, couple
 
 FREQUENCIES_HZ = np.geomspace(10.0, 1000.0, 25)
 LOSS = 0.02

@@ -25,12 +25,12 @@ from scene2hap import (
     RigidBody,
     materials,
 )
-from scene2hap.propagation.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupling import couple
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.coupling import couple
+from scene2hap.propagation.coupled.joints import joints_of
+from scene2hap.propagation.coupled.rigid import RigidMotion
+from scene2hap.propagation.coupled.substructuring import prepare_coupled
 from scene2hap.propagation.domain import ThinPlateWarning
-from scene2hap.propagation.joints import joints_of
-from scene2hap.propagation.rigid import RigidMotion
-from scene2hap.propagation.substructuring import prepare_coupled
 
 OAK, STEEL, GLASS = (materials.lookup(name) for name in ("oak", "steel", "glass"))
 TABLE = Plate(1.2, 0.7, 0.025, OAK)

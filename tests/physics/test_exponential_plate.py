@@ -20,7 +20,7 @@ from scene2hap import (
     materials,
 )
 from scene2hap.errors import ConfigError, ModelDomainError
-from scene2hap.propagation.band_rms import band_rms
+from scene2hap.propagation.bands.band_rms import band_rms
 
 getcontext().prec = 50
 PI = Decimal("3.1415926535897932384626433832795028841971693993751")

@@ -22,8 +22,8 @@ from scene2hap import (
     materials,
 )
 from scene2hap.errors import ConfigError
-from scene2hap.propagation.coupling import Joint, couple
-from scene2hap.propagation.hand import FINGERTIP, PALM
+from scene2hap.propagation.coupled.coupling import Joint, couple
+from scene2hap.propagation.coupled.hand import FINGERTIP, PALM
 
 OAK, STEEL = materials.lookup("oak"), materials.lookup("steel")
 FREQUENCIES_HZ = np.geomspace(10.0, 1000.0, 41)

@@ -24,14 +24,14 @@ from scene2hap import (
     Pose,
     materials,
 )
-from scene2hap.propagation.band_shapes import CLOSE, band_gains
-from scene2hap.propagation.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupling import inclined_in
+from scene2hap.propagation.bands.band_shapes import CLOSE, band_gains
+from scene2hap.propagation.bands.sampling import Sampling
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.coupling import inclined_in
+from scene2hap.propagation.coupled.joints import joints_of
+from scene2hap.propagation.coupled.solved_object import contracted
 from scene2hap.propagation.in_plane import InPlaneModes
 from scene2hap.propagation.inclined_body import InclinedShapes, inclined
-from scene2hap.propagation.joints import joints_of
-from scene2hap.propagation.sampling import Sampling
-from scene2hap.propagation.solved_object import contracted
 
 OAK, STEEL = materials.lookup("oak"), materials.lookup("steel")
 UPRIGHT = (0.5**0.5, 0.0, 0.0, 0.5**0.5)

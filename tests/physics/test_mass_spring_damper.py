@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from scene2hap import InfinitePlate, Material, ModalPlate, Plate, materials, plate_modes
 from scene2hap.errors import ConfigError, ModelDomainError
-from scene2hap.propagation.bending_lattice import bending_lattice
 from scene2hap.propagation.domain import ThinPlateWarning
+from scene2hap.propagation.lattice.bending_lattice import bending_lattice
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 
 MATERIAL = Material("test", 2500.0, 70e9, 0.3, loss_factor=0.02)

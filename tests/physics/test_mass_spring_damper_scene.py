@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, ModalPlate, Plate, RigidBody, materials
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation import MODELS
-from scene2hap.propagation.bending_lattice import bending_lattice
-from scene2hap.propagation.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.lattice.bending_lattice import bending_lattice
+from scene2hap.propagation.lattice.stepping import NewmarkStepper, State
 from scene2hap.propagation.mass_spring_damper import CoarsenedWarning, MassSpringDamper
-from scene2hap.propagation.stepping import NewmarkStepper, State
 
 TABLE = Plate(1.2, 0.7, 0.025, replace(materials.lookup("oak"), loss_factor=0.03))
 TRAY = Plate(0.5, 0.4, 0.006, replace(materials.lookup("glass"), loss_factor=0.02))

@@ -25,7 +25,7 @@ from scene2hap import (
     RigidBody,
 )
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.bending_lattice import bending_lattice
+from scene2hap.propagation.lattice.bending_lattice import bending_lattice
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 
 MATERIAL = Material("test", 2500.0, 70e9, 0.33, loss_factor=0.02)

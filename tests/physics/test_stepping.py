@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from scene2hap import Material, Plate
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.bending_lattice import bending_lattice
-from scene2hap.propagation.stepping import (
+from scene2hap.propagation.lattice.bending_lattice import bending_lattice
+from scene2hap.propagation.lattice.stepping import (
     ExactStepper,
     NewmarkStepper,
     State,

@@ -80,8 +80,8 @@ class BatchFolder:
                 row = BatchRow(**{**fields, "requests": tuple(fields["requests"]), "faults": tuple(fields["faults"])})
             except (OSError, ValueError, TypeError, KeyError) as cause:
                 raise ConfigError(
-                    f"{path} cannot be read: {cause}. It tells which questions are paid for; restore it from a backup, "
-                    "or move the folder away to ask everything again."
+                    f"{path} cannot be read: {cause}. It lists the questions that are paid for; restore it from a "
+                    "backup, or move the folder away to send all questions again."
                 ) from cause
             found.append(row)
         return found

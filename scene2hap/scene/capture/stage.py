@@ -122,7 +122,7 @@ def _actor(item: SceneObject, origin: Vector, inset_m: float, palette: PaletteBu
         looks = Appearance((neutral(item.instance_key or item.id),), np.zeros(len(mesh.faces), np.int32))
     if len(looks.face_material) != len(mesh.faces):
         raise SceneError(
-            f"the appearance of {item.id!r} tells {len(looks.face_material)} faces, its mesh has {len(mesh.faces)}; "
+            f"the appearance of {item.id!r} has {len(looks.face_material)} faces, its mesh has {len(mesh.faces)}; "
             "give one material number per face."
         )
     rows = np.array([palette.add(material) for material in looks.materials], np.int32)

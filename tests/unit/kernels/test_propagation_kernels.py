@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from kernels import both, seeds, steady
 from scene2hap.contact.junction import Junction
-from scene2hap.propagation.elimination import Element, dense
-from scene2hap.propagation.elimination_order import pattern_of
+from scene2hap.propagation.coupled.elimination import Element, dense
+from scene2hap.propagation.coupled.elimination_order import pattern_of
 from scene2hap.propagation.near_field import table
 from scene2hap.scene.pose import Pose
 
@@ -45,7 +45,7 @@ def test_cheapest_paths_over_contacts_that_come_and_go_and_move(seed: int, max_h
 
     for _ in range(12):
         change()
-    kinds = both("propagation.contact_paths.ContactPaths")
+    kinds = both("propagation.paths.contact_paths.ContactPaths")
     networks = [kind(prices, rows, crossing, max_hops) for kind in kinds]
     for step in range(10):
         pairs = [change() for _ in range(rng.integers(0, 4))] if step else None
@@ -65,7 +65,9 @@ def test_cheapest_paths_over_contacts_that_come_and_go_and_move(seed: int, max_h
 @steady
 @given(lengths=st.lists(st.one_of(st.just(0.0), st.just(math.inf), st.floats(1e-6, 1e3)), max_size=9))
 def test_gains_of_bands(lengths: list[float]) -> None:
-    plain, compiled = (kind(np.geomspace(10.0, 80.0, 21))(lengths) for kind in both("propagation.band_rms.BandRms"))
+    plain, compiled = (
+        kind(np.geomspace(10.0, 80.0, 21))(lengths) for kind in both("propagation.bands.band_rms.BandRms")
+    )
     np.testing.assert_allclose(compiled, plain, rtol=1e-10, atol=1e-300)
 
 
@@ -121,7 +123,7 @@ def test_lengths_in_bands(seed: int, n_own: list[int], n: int) -> None:
     values, mixing = (rng.normal(size=size).astype(np.float32) for size in ((2, 3), (3, sum(n_own))))
     told, compiled = (
         kind(lambda _: values, mixing, factors)(np.empty((2, 2)))
-        for kind in both("propagation.band_shapes.BandLengths")
+        for kind in both("propagation.bands.band_shapes.BandLengths")
     )
     np.testing.assert_allclose(compiled, told, rtol=1e-4, atol=1e-4)
 
@@ -134,7 +136,7 @@ def test_what_an_object_is_asked(seed: int, n: int, own: int) -> None:
     arriving = rng.uniform(0, 1, (n, len(columns), 3))
     told, compiled = (
         kind(lambda points: points[:, :2], lambda _: arriving, columns, (5, 3), own)(np.zeros((n, 3)))
-        for kind in both("propagation.object_response.ObjectResponse")
+        for kind in both("propagation.coupled.object_response.ObjectResponse")
     )
     np.testing.assert_array_equal(compiled, told)
 
@@ -144,7 +146,7 @@ def test_what_an_object_is_asked(seed: int, n: int, own: int) -> None:
 def test_sizes_of_complex_numbers(seed: int, n: int, m: int) -> None:
     pairs = np.random.default_rng(seed).normal(size=(n, 2 * m))
     told, compiled = (
-        kind(lambda _: pairs)(np.empty((n, 2))) for kind in both("propagation.object_response.Magnitudes")
+        kind(lambda _: pairs)(np.empty((n, 2))) for kind in both("propagation.coupled.object_response.Magnitudes")
     )
     np.testing.assert_allclose(compiled, told, rtol=1e-14)
 
@@ -206,7 +208,7 @@ def test_a_compiled_factorisation_solves_what_the_plain_one_leaves_to_dense_syst
     diagonal = 9.0 + rng.normal(size=(6, 6)) + 0j
     free, pattern = rng.normal(size=(6, 2)), pattern_of(tuple(map(tuple, rows)))
     forces = np.full((6, 2, 6), np.nan, dtype=np.complex128)
-    plain, twin = both("propagation.elimination.factored")
+    plain, twin = both("propagation.coupled.elimination.factored")
     assert not plain(elements, diagonal, free, pattern, 1e4, forces).any()
     assert twin(elements, diagonal, free, pattern, 1e4, forces).all()
     np.testing.assert_allclose(forces, dense(elements, diagonal, free, np.arange(6)), rtol=1e-12)

@@ -3,7 +3,7 @@ import pytest
 from scipy.integrate import quad
 
 from scene2hap.haptics import Bands
-from scene2hap.propagation.band_rms import BandRms, band_rms
+from scene2hap.propagation.bands.band_rms import BandRms, band_rms
 
 BANDS = Bands.third_octaves(10, 1000)
 GAINS = BandRms(BANDS.edges_hz)

@@ -6,7 +6,7 @@ from scipy.linalg import eigh
 from scipy.sparse import csr_array, diags_array, kron
 from scipy.sparse.linalg import splu
 
-from scene2hap.propagation.block_lanczos import largest
+from scene2hap.propagation.lattice.block_lanczos import largest
 
 Floats = np.ndarray
 

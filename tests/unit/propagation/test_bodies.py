@@ -22,14 +22,14 @@ from scene2hap import (
     plate_modes,
 )
 from scene2hap.errors import ConfigError, ModelDomainError
-from scene2hap.propagation import byte_bounded_lru
-from scene2hap.propagation.byte_bounded_lru import ByteBoundedLru
-from scene2hap.propagation.contact_stiffness import ContactLaw
+from scene2hap.propagation.bands.sampling import Sampling
+from scene2hap.propagation.coupled import byte_bounded_lru
+from scene2hap.propagation.coupled.byte_bounded_lru import ByteBoundedLru
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.rigid import is_compact
+from scene2hap.propagation.coupled.split_body import SplitBody
 from scene2hap.propagation.modal_body import ModalBody
 from scene2hap.propagation.modes import first_bending_hz
-from scene2hap.propagation.rigid import is_compact
-from scene2hap.propagation.sampling import Sampling
-from scene2hap.propagation.split_body import SplitBody
 
 OAK, STEEL, CERAMIC = (materials.lookup(name) for name in ("oak", "steel", "ceramic"))
 

@@ -8,11 +8,11 @@ import pytest
 
 from scene2hap import materials
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation import lattice_modes
-from scene2hap.propagation.lattice_body import LatticeBody
+from scene2hap.propagation.coupled.split_body import SplitBody
+from scene2hap.propagation.lattice import lattice_modes
+from scene2hap.propagation.lattice.lattice_body import LatticeBody
 from scene2hap.propagation.mass_spring_damper import CoarsenedWarning, MassSpringDamper, _warn_coarsened
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.split_body import SplitBody
 
 # Values typical of felt, chosen for its softness; 1.5 m x 1 m x 10 mm.
 FELT = dataclasses.replace(materials.lookup("fabric"), name="felt", youngs_modulus_pa=4e6, density_kg_m3=150.0)

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from scene2hap.propagation import elimination
-from scene2hap.propagation.elimination import Element, solve
-from scene2hap.propagation.elimination_order import merged_fronts, pattern_of
+from scene2hap.propagation.coupled import elimination
+from scene2hap.propagation.coupled.elimination import Element, solve
+from scene2hap.propagation.coupled.elimination_order import merged_fronts, pattern_of
 
 N_F = 40
 

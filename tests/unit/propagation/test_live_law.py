@@ -9,8 +9,8 @@ import pytest
 from contact_scenes import box, scene
 from scene2hap.compiled import KERNELS
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.propagation.live_law import LivePaths
-from scene2hap.propagation.paths import cheapest_arrivals
+from scene2hap.propagation.paths.live_law import LivePaths
+from scene2hap.propagation.paths.prepared_paths import cheapest_arrivals
 from scene2hap.propagation.points import arrivals_at
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
@@ -162,7 +162,7 @@ def test_no_way_crosses_more_contacts_than_it_may(limits: list[float] | None) ->
         assert paths.costs("x4", (0, 0, 0), limits) == [math.inf]
 
 
-PlainPaths, _ = KERNELS["scene2hap.propagation.contact_paths.ContactPaths"]
+PlainPaths, _ = KERNELS["scene2hap.propagation.paths.contact_paths.ContactPaths"]
 
 
 class Noted(PlainPaths):  # type: ignore[misc, valid-type]

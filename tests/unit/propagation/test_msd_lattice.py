@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from scene2hap import Material, Plate
-from scene2hap.propagation.bending_lattice import LONGEST, bending_lattice, cells_of
-from scene2hap.propagation.lattice import Lattice
-from scene2hap.propagation.lattice_modes import lattice_modes, lowest_frequencies_hz, n_modes_below
+from scene2hap.propagation.lattice.bending_lattice import LONGEST, bending_lattice, cells_of
+from scene2hap.propagation.lattice.lattice import Lattice
+from scene2hap.propagation.lattice.lattice_modes import lattice_modes, lowest_frequencies_hz, n_modes_below
 
 MATERIAL = Material("test", 2500.0, 70e9, 0.3)
 Floats = NDArray[np.float64]

@@ -24,9 +24,9 @@ from scene2hap import (
     Touch,
     materials,
 )
+from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.protocol import CarryingField, ExpectantField
 from scene2hap.propagation.reference import FeltNear
-from scene2hap.propagation.sampling import AROUND
 from scenes import RATE, table_with_two_phones
 
 OAK = materials.lookup("oak")

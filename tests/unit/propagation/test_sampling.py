@@ -4,7 +4,7 @@ import pytest
 
 from scene2hap import Bands
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.sampling import Sampling
+from scene2hap.propagation.bands.sampling import Sampling
 
 
 @pytest.mark.parametrize("loss_factor", [0.0, 1e-9])

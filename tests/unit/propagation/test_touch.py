@@ -10,16 +10,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, Material, ModalPlate, Plate, Pose, materials
-from scene2hap.propagation import modal_body, solved_object
-from scene2hap.propagation.band_shapes import CLOSE, band_gains
-from scene2hap.propagation.lattice_body import lattice_body
+from scene2hap.propagation import modal_body
+from scene2hap.propagation.bands.band_shapes import CLOSE, band_gains
+from scene2hap.propagation.bands.octaves import OctaveSums
+from scene2hap.propagation.bands.sampling import Sampling
+from scene2hap.propagation.coupled import solved_object
+from scene2hap.propagation.coupled.rigid import RigidMotion
+from scene2hap.propagation.coupled.solved_object import contracted, pieces
+from scene2hap.propagation.coupled.split_body import SplitBody
+from scene2hap.propagation.lattice.lattice_body import lattice_body
 from scene2hap.propagation.modal_body import ModalBody
-from scene2hap.propagation.octaves import OctaveSums
 from scene2hap.propagation.protocol import ExpectantField
-from scene2hap.propagation.rigid import RigidMotion
-from scene2hap.propagation.sampling import Sampling
-from scene2hap.propagation.solved_object import contracted, pieces
-from scene2hap.propagation.split_body import SplitBody
 
 STEEL = Plate(0.65, 0.42, 0.002, materials.lookup("steel"))
 RUG = Plate(2.0, 1.5, 0.01, Material("rug", 300.0, 2e6, 0.3, 0.3), "CFFF")

@@ -223,7 +223,7 @@ def test_a_captured_scene_can_be_sent_to_another_process() -> None:
 def test_looks_that_do_not_fit_are_refused_when_a_picture_is_taken() -> None:
     looks = Appearance((FaceMaterial(),), np.zeros(5, np.int32))
     shot = captured(scene(replace(box("cup", (1, 1, 1), (0, 0, 0)), appearance=looks)))
-    with pytest.raises(SceneError, match="appearance of 'cup' tells 5 faces, its mesh has 12"):
+    with pytest.raises(SceneError, match="appearance of 'cup' has 5 faces, its mesh has 12"):
         _ = images_of(shot)[0]
 
 

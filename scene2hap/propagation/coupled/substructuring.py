@@ -22,21 +22,21 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
-from scene2hap.propagation.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupling import ElasticBody, Joint, couple, inclined_in
+from scene2hap.propagation.bands.sampling import Sampling
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.coupling import ElasticBody, Joint, couple, inclined_in
+from scene2hap.propagation.coupled.hand import Hand
+from scene2hap.propagation.coupled.hand_load import HandLoad
+from scene2hap.propagation.coupled.joints import joints_of, legs_of, source_groups
+from scene2hap.propagation.coupled.legged_body import legged
+from scene2hap.propagation.coupled.object_response import ObjectResponse
+from scene2hap.propagation.coupled.rigid import RigidMotion, is_compact
+from scene2hap.propagation.coupled.solved_object import SolvedObject
 from scene2hap.propagation.domain import OutsideDomain, check_choice, check_thin
-from scene2hap.propagation.hand import Hand
-from scene2hap.propagation.hand_load import HandLoad
 from scene2hap.propagation.inclined_body import InclinedBody, inclined
-from scene2hap.propagation.joints import joints_of, legs_of, source_groups
-from scene2hap.propagation.legged_body import legged
-from scene2hap.propagation.object_response import ObjectResponse
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.protocol import Carrier, ContactNetwork, Excitation, require_input
-from scene2hap.propagation.rigid import RigidMotion, is_compact
-from scene2hap.propagation.sampling import Sampling
-from scene2hap.propagation.solved_object import SolvedObject
 from scene2hap.scene.pose import Pose
 
 

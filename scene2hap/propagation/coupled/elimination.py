@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
-from scene2hap.propagation.elimination_order import Pattern, pattern_of
+from scene2hap.propagation.coupled.elimination_order import Pattern, pattern_of
 
 Complex: TypeAlias = NDArray[np.complex128]
 Floats: TypeAlias = NDArray[np.float64]

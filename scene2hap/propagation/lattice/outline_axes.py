@@ -11,7 +11,7 @@ import itertools
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.spline_axis import SplineAxis
+from scene2hap.propagation.lattice.spline_axis import SplineAxis
 from scene2hap.scene.outline import Outline
 
 FINER = 2.0

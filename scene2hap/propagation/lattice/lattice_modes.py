@@ -25,10 +25,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.bending_lattice import MOST_NODES, bending_lattice, n_nodes_of
-from scene2hap.propagation.block_lanczos import largest
 from scene2hap.propagation.domain import warn_if_slow
-from scene2hap.propagation.lattice import Lattice
+from scene2hap.propagation.lattice.bending_lattice import MOST_NODES, bending_lattice, n_nodes_of
+from scene2hap.propagation.lattice.block_lanczos import largest
+from scene2hap.propagation.lattice.lattice import Lattice
 from scene2hap.propagation.modes import n_rigid_motions
 from scene2hap.propagation.plate import Plate
 

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from scene2hap import checks
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.elimination import Element, solve
+from scene2hap.propagation.coupled.elimination import Element, solve
 
 
 class ElasticBody(Protocol):

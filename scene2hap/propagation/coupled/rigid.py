@@ -15,9 +15,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.propagation.coupled.response_basis import AnyFloat, real_times
 from scene2hap.propagation.modes import first_bending_hz
 from scene2hap.propagation.plate import Plate, RigidBody
-from scene2hap.propagation.response_basis import AnyFloat, real_times
 
 COMPACT_THICKNESS = 1 / 5
 """Part of the shorter side above which a thickness makes a body compact; thin-plate theory is far gone by then."""

@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.lattice import Lattice
+from scene2hap.propagation.lattice.lattice import Lattice
+from scene2hap.propagation.lattice.spline_axis import SplineAxis
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.spline_axis import SplineAxis
 from scene2hap.scene.outline import Outline
 
 if TYPE_CHECKING:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.lattice import Lattice
+from scene2hap.propagation.lattice.lattice import Lattice
+from scene2hap.propagation.lattice.spline_axis import SplineAxis
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.spline_axis import SplineAxis
 
 
 def rectangle_lattice(plate: Plate, axes: tuple[SplineAxis, SplineAxis]) -> Lattice:

@@ -18,10 +18,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.coupling import ElasticBody, JointForces
-from scene2hap.propagation.hand import Hand
+from scene2hap.propagation.bands.sampling import Sampling
+from scene2hap.propagation.coupled.coupling import ElasticBody, JointForces
+from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.inclined_body import InclinedBody
-from scene2hap.propagation.sampling import Sampling
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -21,9 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
-from scene2hap.propagation.object_response import Gains
-from scene2hap.propagation.response_basis import ResponseBasis
-from scene2hap.propagation.sampling import Band, Sampling
+from scene2hap.propagation.bands.sampling import Band, Sampling
+from scene2hap.propagation.coupled.object_response import Gains
+from scene2hap.propagation.coupled.response_basis import ResponseBasis
 
 CLOSE = 1e-3
 """Part of each source's motion in a band, over the whole body, that may be missed: 60 dB below."""

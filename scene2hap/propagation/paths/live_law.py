@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.contact.junction import Junction
-from scene2hap.propagation.band_rms import BandRms
-from scene2hap.propagation.contact_paths import ContactPaths, Triple
+from scene2hap.propagation.bands.band_rms import BandRms
 from scene2hap.propagation.live import Prices, TouchedPoint
+from scene2hap.propagation.paths.contact_paths import ContactPaths, Triple
 
 if TYPE_CHECKING:
     from scene2hap.contact.graph import ContactGraph

@@ -10,8 +10,8 @@ from functools import cache, lru_cache
 import numpy as np
 
 from scene2hap.materials import Material
-from scene2hap.propagation.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupling import NORMAL, Along, Joint
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.coupling import NORMAL, Along, Joint
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body, ContactNetwork
 from scene2hap.scene.objects import Contact

@@ -8,12 +8,12 @@ from functools import lru_cache
 import numpy as np
 
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.lattice import Lattice
-from scene2hap.propagation.outline_axes import outline_axes
-from scene2hap.propagation.outline_lattice import outline_lattice
+from scene2hap.propagation.lattice.lattice import Lattice
+from scene2hap.propagation.lattice.outline_axes import outline_axes
+from scene2hap.propagation.lattice.outline_lattice import outline_lattice
+from scene2hap.propagation.lattice.rectangle_lattice import rectangle_lattice
+from scene2hap.propagation.lattice.spline_axis import SplineAxis
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.rectangle_lattice import rectangle_lattice
-from scene2hap.propagation.spline_axis import SplineAxis
 
 LONGEST = 16
 """Cells along the longer side, in resolutions: on plates more slender than that they are longer than wide."""

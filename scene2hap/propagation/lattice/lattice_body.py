@@ -15,11 +15,11 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.byte_bounded_lru import ByteBoundedLru
-from scene2hap.propagation.lattice import Lattice
-from scene2hap.propagation.lattice_modes import TERMS, lattice_modes
+from scene2hap.propagation.coupled.byte_bounded_lru import ByteBoundedLru
+from scene2hap.propagation.coupled.response_basis import AnyFloat, real_times
+from scene2hap.propagation.lattice.lattice import Lattice
+from scene2hap.propagation.lattice.lattice_modes import TERMS, lattice_modes
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.response_basis import AnyFloat, real_times
 
 
 @lru_cache(maxsize=32)

@@ -20,13 +20,13 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.band_shapes import band_gains
-from scene2hap.propagation.coupling import ElasticBody, Joint
-from scene2hap.propagation.hand_load import HandLoad, LoadedGains
+from scene2hap.propagation.bands.band_shapes import band_gains
+from scene2hap.propagation.bands.sampling import Sampling
+from scene2hap.propagation.coupled.coupling import ElasticBody, Joint
+from scene2hap.propagation.coupled.hand_load import HandLoad, LoadedGains
+from scene2hap.propagation.coupled.object_response import Gains, Magnitudes
+from scene2hap.propagation.coupled.response_basis import HasResponseBasis
 from scene2hap.propagation.inclined_body import FeltInSpace, InclinedBody
-from scene2hap.propagation.object_response import Gains, Magnitudes
-from scene2hap.propagation.response_basis import HasResponseBasis
-from scene2hap.propagation.sampling import Sampling
 
 MOST_CONTRACTED = 64
 """Sources that are contracted: an object keeps up to some 100 kB for each. More are summed at every touch."""

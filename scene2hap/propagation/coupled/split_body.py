@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.coupling import ElasticBody
+from scene2hap.propagation.coupled.coupling import ElasticBody
+from scene2hap.propagation.coupled.solved_object import Pairs, contracted
 from scene2hap.propagation.infinite_plate import InfiniteBody
-from scene2hap.propagation.solved_object import Pairs, contracted
 
 
 @dataclass(frozen=True, eq=False)
