@@ -96,7 +96,7 @@ class BroadPhase:
 
     def _neighbours(self, ids: Sequence[str]) -> dict[str, set[str]]:
         if len(ids) < _MANY:
-            return {x: self._meeting(x) for x in ids}
+            return {x: self._overlapping(x) for x in ids}
         found: dict[str, set[str]] = {x: set() for x in ids}
         rows, every = np.array([self._rows[x] for x in ids]), np.array(list(self._rows.values()))
         boxes = Boxes(self._boxes.low, self._boxes.high)
@@ -106,7 +106,7 @@ class BroadPhase:
                     found[self._ids[x]].add(self._ids[y])
         return found
 
-    def _meeting(self, object_id: str) -> set[str]:
+    def _overlapping(self, object_id: str) -> set[str]:
         ids = self._ids
         return {ids[row] for row in self._boxes.meeting(self._rows[object_id])}
 

@@ -87,14 +87,14 @@ class Certificate:
             standing = _standing(body, resting)
         self._track = Track(body.stance, standing)
         self.has_held = False
-        self._bind()
+        self._set_bounds()
 
     def keep_behind(self, planes: Mapping[str, tuple[Plane, ...]]) -> None:
         """Replace separating planes, given by the id of the body on their other side."""
         self._planes.update(planes)
-        self._bind()
+        self._set_bounds()
 
-    def _bind(self) -> None:
+    def _set_bounds(self) -> None:
         (low, high), up, flat = self.extent.room, self.body.up_axis, self.body.v_axis
         lowest, highest, walls = low[up], high[up], []
         for several in self._planes.values():

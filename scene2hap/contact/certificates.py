@@ -107,7 +107,7 @@ class Certificates:
                 return resting
         return None
 
-    def crowd_out(self, body: Body) -> list[Body]:
+    def separate_from_neighbours(self, body: Body) -> list[Body]:
         """Separate a body that moved, or lost its support, from the certified bodies around it.
 
         Returns the bodies whose certificates end because no plane separates them from it.

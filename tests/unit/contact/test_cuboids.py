@@ -85,7 +85,7 @@ def test_distances_of_cuboids_apart_are_those_of_bounded_least_squares(seed: int
 @pytest.mark.parametrize("plain", [False, True])
 @given(seed=SEEDS)
 @settings(derandomize=True, deadline=None, max_examples=4)
-def test_a_pair_is_told_the_same_alone_to_the_last_bit(plain: bool, seed: int) -> None:
+def test_a_pair_has_the_same_bits_alone_and_among_others(plain: bool, seed: int) -> None:
     every = pairs_of(cases(seed, 25, plain))
     rows, found = gaps(every, 0.1)
     spots = patches(every.rows(rows), found, found.distance_m + SLACK_M, SUNK_M)
@@ -102,7 +102,7 @@ def test_a_pair_is_told_the_same_alone_to_the_last_bit(plain: bool, seed: int) -
 @pytest.mark.parametrize("plain", [False, True])
 @given(seed=SEEDS)
 @settings(derandomize=True, deadline=None, max_examples=4)
-def test_ends_that_are_kept_give_the_points_that_looking_anew_does(plain: bool, seed: int) -> None:
+def test_stored_ends_give_the_same_points_as_computed_ones(plain: bool, seed: int) -> None:
     every = pairs_of(cases(seed, 40, plain))
     rows, found = gaps(every, 0.1)
     # One at a time, so that each has all its ends known or none.

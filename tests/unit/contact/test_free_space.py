@@ -40,14 +40,14 @@ SIZES = st.sampled_from([(0.1, 0.1, 0.1), (0.3, 0.2, 0.1), (0.5, 0.02, 0.5)])
 
 @given(PLACES, TURNS, TURNS, SIZES, st.tuples(*[st.floats(-0.05, 0.05)] * 2))
 @settings(derandomize=True, deadline=None, max_examples=400)
-def test_what_is_told_is_what_triangles_tell(
+def test_free_space_agrees_with_triangles(
     at: tuple[float, float, float],
     turn: float,
     turn_of_all: float,
     size: tuple[float, float, float],
     step: tuple[float, float],
 ) -> None:
-    """At a place, and at another near it where what is known of the first may still hold."""
+    """Compare at a place, and at another near it where the first free region may still hold."""
     all_of_it = Pose((0.3, 0.1, -0.2), turned(turn_of_all))
     host = Body.of(replace(HOUSE, pose=all_of_it), 1)
     for dx, dz in ((0.0, 0.0), step):
@@ -69,7 +69,7 @@ def test_what_is_told_is_what_triangles_tell(
             assert meeting.gap(hang_reach_m(guest.size_m)) is None
 
 
-def test_most_of_a_room_is_told_without_triangles(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_most_of_a_room_needs_no_triangles(monkeypatch: pytest.MonkeyPatch) -> None:
     met: list[object] = []
     made = MeshPair.__init__
 
@@ -91,7 +91,7 @@ def test_most_of_a_room_is_told_without_triangles(monkeypatch: pytest.MonkeyPatc
     assert not met
 
 
-def test_a_thing_between_boards_stands_on_the_lower() -> None:
+def test_an_object_between_boards_stands_on_the_lower() -> None:
     graph = ContactGraph(scene(SHELF, box("pot", (0.1, 0.1, 0.1), (0.1, 0.463, 0.0))))
     (points, _), junction = graph.patch("pot", "shelf"), graph.junctions["pot", "shelf"]
     assert junction.weights[0] == 1.0
@@ -122,7 +122,7 @@ def test_what_is_sunk_in_a_ledge_is_in_contact_as_triangles_tell(depth_m: float)
         assert junction.normals[0] == pytest.approx(other.normals[0])
 
 
-def test_where_a_step_is_in_the_way_nothing_is_told() -> None:
+def test_a_step_in_the_floor_gives_no_free_region() -> None:
     host = Body.of(HOUSE, 1)
     on_podium = Body.of(box("a", (0.2, 0.1, 0.2), (-1.1, 0.17, -1.1)), 1)
     beside = Body.of(box("b", (0.2, 0.1, 0.2), (-0.55, 0.05, -1.1)), 1)
@@ -137,10 +137,10 @@ def test_where_a_step_is_in_the_way_nothing_is_told() -> None:
     assert not has_nothing_near(on_podium, host)
 
 
-def test_what_is_known_of_a_floor_serves_whoever_comes(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_free_region_of_a_floor_serves_other_guests(monkeypatch: pytest.MonkeyPatch) -> None:
     host = Body.of(HOUSE, 1)
     first = ledge_under(Body.of(box("first", (0.1, 0.1, 0.1), (0.0, 0.05, 0.9)), 1), host)
-    monkeypatch.setattr(free_space, "_drawn", lambda *_: pytest.fail("searched again"))
+    monkeypatch.setattr(free_space, "_computed_region", lambda *_: pytest.fail("searched again"))
     for n, x in enumerate((0.1, 0.2, -0.1)):
         guest = Body.of(box(f"copy_{n}", (0.1, 0.1, 0.1), (x, 0.05, 0.9)), 1)
         assert ledge_under(guest, host) is first
@@ -159,7 +159,7 @@ def test_many_guests_keep_few_regions() -> None:
     assert regions.of("copy_0") is None
 
 
-def test_a_leaning_host_tells_nothing() -> None:
+def test_a_leaning_host_has_no_free_region() -> None:
     leaning = Body.of(house((0.05, 0.0, 0.0, 1.0)), 1)
     guest = Body.of(box("a", (0.2, 0.1, 0.2), (0.0, 1.0, 0.0)), 1)
     assert ledge_under(guest, leaning) is None

@@ -108,7 +108,7 @@ def test_a_tip_touches_at_one_point() -> None:
     assert on_a[0] == pytest.approx(on_b[0], abs=2e-4)
 
 
-def test_a_way_moves_a_to_its_place_and_points_are_told_for_where_it_is() -> None:
+def test_patch_displaces_a_and_returns_points_at_its_present_pose() -> None:
     floating, table = box("a", (0.2, 0.2, 0.2), (0, 0.13, 0)), box("b", (1, 0.1, 1), (0, -0.05, 0))
     assert patch_of(floating, table).shape == (2, 0, 3)
     on_a, on_b = patch_of(floating, table, way=(0, -0.03, 0))

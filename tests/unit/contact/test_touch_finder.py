@@ -25,7 +25,7 @@ def heap(seed: int) -> tuple[np.ndarray, np.ndarray]:
     return rng.uniform(0.0, 0.6, (len(IDS), 3)), turns / np.linalg.norm(turns, axis=1, keepdims=True)
 
 
-def test_a_table_of_poses_leads_where_poses_and_building_from_nothing_do() -> None:
+def test_a_pose_table_gives_the_same_contacts_as_poses_and_a_new_graph() -> None:
     others = [floor(), chair((0.0, 0.0, 0.0))]
     by_table, by_pose, fresh = (
         ContactGraph(scene(*others, *boxes_at(*heap(seed))), tolerance_m=0.02) for seed in (0, 0, 1)
