@@ -45,7 +45,7 @@ def plain_line(text: object, longest: int = 200) -> str:
 
 
 def is_long_enough(clip: AudioClip) -> bool:
-    """Whether a clip outlasts the selection's lower bound once its silent ends are cut."""
+    """Return True if a clip outlasts the selection's lower bound once its silent ends are cut."""
     return len(trim_silence(clip.samples, clip.sample_rate_hz)) > MIN_DURATION_S * clip.sample_rate_hz
 
 

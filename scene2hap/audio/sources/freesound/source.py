@@ -140,7 +140,7 @@ class Freesound:
         return [sound for sound in sounds if self._may_use(sound)]
 
     def _may_use(self, sound: Sound) -> bool:
-        """Whether a result has an allowed licence and duration. Checked again instead of trusting the service's
+        """Return True if a result has an allowed licence and duration. Checked again instead of trusting the service's
         filter."""
         return (
             bool(sound.preview)
