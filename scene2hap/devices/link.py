@@ -148,7 +148,7 @@ class LiveSink:
         self._fill = None
 
     def wait_connected(self, timeout_s: float) -> bool:
-        """Whether the device plays, waiting at most so long [s] for it."""
+        """Return True if the device plays, waiting at most so long [s] for it."""
         return self._playing.wait(timeout_s)
 
     @property

@@ -74,7 +74,7 @@ def find_card(device: str | int | None) -> Card:
 
 
 def accepts(card: Card, n_channels: int, rate_hz: int) -> bool:
-    """Whether the device plays so many channels at that rate; one that is busy or gone says no to everything."""
+    """Return True if the device plays so many channels at that rate; one that is busy or gone says no to everything."""
     with _LOCK:
         sd = _sounddevice()
         try:
@@ -120,7 +120,7 @@ def open_recording(
 
 
 def is_active(stream: Any) -> bool:
-    """Whether a stream still requests samples."""
+    """Return True if a stream still requests samples."""
     try:
         return bool(stream.active)
     except _sounddevice().PortAudioError:

@@ -109,7 +109,7 @@ class Track:
 
     @property
     def is_loop(self) -> bool:
-        """Whether it is played for ever."""
+        """True if it is played for ever."""
         return all(one.is_loop for one in self.channels.values())
 
     @property

@@ -136,7 +136,7 @@ def require_willing(said: Said, about: str) -> None:
 
 
 def is_withheld(reply: HttpReply) -> bool:
-    """Whether a filter kept the question from the model."""
+    """Return True if a filter kept the question from the model."""
     error = server_error(reply)
     return reply.status == 400 and not FILTERED_REQUEST.isdisjoint({error.code, error.type})
 

@@ -186,7 +186,7 @@ class OpenAIBackend:
         return chat.read_chat(reply, self.model)
 
     def learns(self, reply: HttpReply, sent: Mapping[str, Any] | None = None) -> bool:
-        """Whether a reply blames a parameter that need not be sent; then it is not from now on.
+        """Return True if a reply blames a parameter that need not be sent; then it is not from now on.
 
         One that is not in `sent`, if that is known, is no longer sent already.
         """

@@ -112,7 +112,7 @@ class Questions:
         return answer, f"{reply.model}, prompt {self._prompts.version}{kept_as}"
 
     def has_wish(self, subject: str) -> bool:
-        """Whether the user wishes something of this object alone."""
+        """Return True if the user wishes something of this object alone."""
         return bool(self._wishes.get(subject))
 
     def _wish(self, subject: str) -> str:

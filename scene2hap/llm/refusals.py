@@ -34,7 +34,7 @@ _EXCUSES = frozenset({"refusal", "error", "message", "reason", "response", "answ
 
 
 def is_filtered(finish_reason: str) -> bool:
-    """Whether an answer ended since a filter withheld it."""
+    """Return True if an answer ended since a filter withheld it."""
     return finish_reason.lower() in FILTERED
 
 

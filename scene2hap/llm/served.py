@@ -45,7 +45,7 @@ async def ollama_models(endpoint: Endpoint) -> tuple[Served, ...]:
 
 
 async def ollama_sees(endpoint: Endpoint, model: str) -> bool | None:
-    """Whether Ollama counts "vision" among a model's capabilities; None if it does not report it.
+    """Return True if Ollama counts "vision" among a model's capabilities; None if it does not report it.
 
     Raises: BackendUnavailable: the server does not answer.
     """

@@ -44,7 +44,7 @@ class FaceMaterial:
 
     @property
     def has_texture(self) -> bool:
-        """Whether a texture was given; nothing is decoded for it."""
+        """True if a texture was given; nothing is decoded for it."""
         return self._texture is not None
 
     def untextured(self) -> FaceMaterial:

@@ -80,7 +80,7 @@ def findings(scene: SceneData) -> Iterator[Finding]:
 
 
 def _begin_with_w(scene: SceneData) -> bool:
-    """Whether all rotations would be turns about the vertical if w came first, and are none as they are."""
+    """Return True if all rotations would be turns about the vertical if w came first, and are none as they are."""
     rotations = np.array([item.pose.rotation_xyzw for item in scene.objects])
     # (w, x, y, z) of a turn about y is (c, 0, s, 0), about z (c, 0, 0, s): read as (x, y, z, w) it tips things over.
     none = (1, 3) if scene.up_axis == "y" else (1, 2)

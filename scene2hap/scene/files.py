@@ -13,7 +13,7 @@ HABITAT_SUFFIX = ".scene_instance.json"
 
 
 def is_habitat(path: Path) -> bool:
-    """Whether a file is a Habitat scene, by its name."""
+    """Return True if a file is a Habitat scene, by its name."""
     return path.name.lower().endswith(HABITAT_SUFFIX)
 
 

@@ -86,7 +86,7 @@ class _Reader:
         return AuthoredNode(name, _matrix(row, place), pieces, children)
 
     def _only_scales(self, row: Json, node: AuthoredNode) -> bool:
-        """Whether a node only turns stored whole numbers into lengths.
+        """Return True if a node only turns stored whole numbers into lengths.
 
         gltfpack moves a quantised mesh into such a node below the one that the author gave it. Were it a node like
         others, a door below a cupboard would be another object than in the file that was packed.

@@ -158,7 +158,7 @@ def _is_part(child: AuthoredNode, node: AuthoredNode) -> bool:
 
 
 def _continues(name: str, start: str) -> bool:
-    """Whether `name` is `start` and more: `Table_mat_0`, `Table.001`, `tableTop`, not `Tablet` after `Table`."""
+    """Return True if `name` is `start` and more: `Table_mat_0`, `Table.001`, `tableTop`, not `Tablet` after `Table`."""
     return name.startswith(start) and not name[len(start) :][:1].islower()
 
 

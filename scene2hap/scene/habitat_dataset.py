@@ -121,7 +121,7 @@ class Dataset:
         return self._templates[kind, name]
 
     def has(self, file: Path) -> bool:
-        """Whether there is such a file inside the root."""
+        """Return True if there is such a file inside the root."""
         return _is_file(file) and _resolved(file).is_relative_to(_resolved(self.root))
 
     def count(self, file: Path) -> None:

@@ -31,7 +31,7 @@ class Window(NamedTuple):
 
     @property
     def is_all(self) -> bool:
-        """Whether nothing is fixed to the plate's edge."""
+        """True if nothing is fixed to the plate's edge."""
         return self.last - self.first == self.n
 
     def bounds_m(self, segments: Floats, along: int, low_m: float, high_m: float) -> tuple[float, float]:

@@ -94,7 +94,7 @@ class Credit:
 
 
 def is_newer(sequence: int, than: int) -> bool:
-    """Whether a 16-bit sequence number comes after another one, across the wrap."""
+    """Return True if a 16-bit sequence number comes after another one, across the wrap."""
     return 0 < (sequence - than) % 2**16 < 2**15
 
 

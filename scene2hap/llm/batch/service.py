@@ -38,7 +38,7 @@ class BatchStatus:
 
     @property
     def has_ended(self) -> bool:
-        """Whether nothing more will come."""
+        """True if nothing more will come."""
         return self.status in _ENDED
 
 

@@ -157,7 +157,7 @@ class _Aim:
 
 
 def _segment_meets(low: Floats, high: Floats, start: Floats, end: Floats) -> bool:
-    """Whether the straight way from start to end passes through a box (slab method)."""
+    """Return True if the straight way from start to end passes through a box (slab method)."""
     way = end - start
     with np.errstate(divide="ignore", invalid="ignore"):
         to_low, to_high = (low - start) / way, (high - start) / way

@@ -81,7 +81,7 @@ def read_in_child(path: Path, assets_root: Path) -> AuthoredScene:
 
 
 def can_start_python() -> bool:
-    """Whether `sys.executable` is a Python interpreter, not a program that Python is built into."""
+    """Return True if `sys.executable` is a Python interpreter, not a program that Python is built into."""
     is_frozen = getattr(sys, "frozen", False)
     return not is_frozen and bool(sys.executable) and Path(sys.executable).stem.lower().startswith(("python", "pypy"))
 
