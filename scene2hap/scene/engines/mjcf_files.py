@@ -1,4 +1,4 @@
-"""Which files an MJCF file makes MuJoCo read, found out and bounded before MuJoCo sees any.
+"""Find and bound the files that an MJCF file makes MuJoCo read, before MuJoCo opens any.
 
 MuJoCo opens whatever an MJCF file names, `../../x` and absolute paths included, and builds as many copies as it asks
 for. So the include graph is read here first. Where a name may mean several files, since MuJoCo's versions differ in
@@ -271,7 +271,7 @@ class _Reader:
                     self.model.read(found, self.open_copies[-1], self.depth + 1)
 
     def _counted(self, tag: str, attributes: Mapping[str, str], place: str, around: int) -> int:
-        """How many copies are made of what stands in this element."""
+        """Return the number of copies that are made of the content of this element."""
         if tag in _COPIES:
             around *= _product(attributes.get(_COPIES[tag], ""))
             if around > MAX_COPIES:

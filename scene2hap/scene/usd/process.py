@@ -29,7 +29,7 @@ MEMORY_BYTES, MEMORY_PER_BYTE = 1 << 30, 40
 # Each thread of usd-core counts its stack as memory, and a large machine has hundreds.
 _THREADS = "PXR_WORK_THREAD_LIMIT"
 TIMED_OUT = "Timeout ("
-"""How the word begins that the child leaves when its time is over."""
+"""Start of the message that the child leaves when its time is over."""
 
 
 class Request(NamedTuple):
