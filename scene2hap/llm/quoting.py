@@ -1,7 +1,7 @@
 """Texts and numbers of a scene as they stand in prompts and messages: quoted, cut and rounded.
 
-Names come from scene files that strangers wrote, and answers from models that read these names. In a prompt both are
-data: a JSON string on one line, so that nothing in it can pass for a line of the prompt.
+Names come from untrusted scene files, and answers from models that read these names. In a prompt both are data: a JSON
+string on one line, so that nothing in it can look like a line of the prompt.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def as_data(fact: Any) -> str:
     if isinstance(fact, str):
         return _quoted(fact)
     if isinstance(fact, float):
-        # What is thinner than a millimetre keeps a tenth of one: 0 would say that it has no thickness.
+        # Lengths below a millimetre keep one more digit, since 0 would mean that there is no thickness.
         return json.dumps((round(fact, 3) or round(fact, 4)) + 0.0)
     if isinstance(fact, Mapping):
         return "{" + ", ".join(f"{_quoted(str(key))}: {as_data(value)}" for key, value in fact.items()) + "}"
@@ -50,7 +50,7 @@ def clean(name: str) -> str:
 
 
 def shown(text: str) -> str:
-    """A text for a message: cut as a name is, quoted as Python does."""
+    """Return a text for a message: cut like a name, quoted as Python does."""
     left = len(text) - LONGEST_NAME
     return repr(text[:LONGEST_NAME]) + (f" (cut, {left} characters more)" if left > 0 else "")
 
