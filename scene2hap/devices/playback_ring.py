@@ -36,7 +36,7 @@ class PlaybackRing:
         """Times at which samples ran out while playing."""
 
     def restart(self) -> None:
-        """Be as new, for another stream; the count of gaps goes on."""
+        """Reset the ring for another stream, except for the count of gaps."""
         self._written = self._read = self._place = 0
         self._is_dry = self.closing = False
 

@@ -1,8 +1,8 @@
-"""A serial port that never blocks for long, with errors of our own.
+"""A serial port that never blocks for long, with errors of `scene2hap.errors`.
 
-What drivers do: a full port raises after the write timeout, at times without reason, and a timeout of 0 spins (pyserial
-3.5 on POSIX); a port that was pulled out raises SerialException, OSError or termios.error, depending on the call;
-closing one with bytes that nobody takes can wait for half a minute, unless they are thrown away first.
+Behaviour of drivers: a full port raises after the write timeout, at times without reason, and a timeout of 0 spins
+(pyserial 3.5 on POSIX). A disconnected port raises SerialException, OSError or termios.error, depending on the call.
+Closing a port with unsent bytes can take half a minute, unless they are discarded first.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ class SerialPort:
             raise DeviceLost(f"{self.name} has gone: {_reason(cause)}. Plug it in again.") from cause
 
     def write(self, data: bytes) -> None:
-        """Hand bytes to the driver, or give up after 50 ms; the protocol finds out what arrived. Raises: DeviceLost."""
+        """Pass bytes to the driver, or give up after 50 ms; the protocol detects losses. Raises: DeviceLost."""
         import serial
 
         try:
@@ -72,7 +72,7 @@ class SerialPort:
             raise DeviceLost(f"{self.name} has gone: {_reason(cause)}. Plug it in again.") from cause
 
     def close(self) -> None:
-        """Throw away what was not sent, and close; never raises."""
+        """Discard unsent bytes, and close; never raises."""
         with contextlib.suppress(*self._lost):
             self._port.reset_output_buffer()
         with contextlib.suppress(*self._lost):

@@ -1,4 +1,4 @@
-"""Consistent overhead byte stuffing: any bytes, without a zero among them.
+"""Consistent overhead byte stuffing: encode any bytes without zeros.
 
 Source: Cheshire and Baker, Consistent Overhead Byte Stuffing, IEEE/ACM Transactions on Networking 7(2), 1999.
 """
@@ -10,7 +10,7 @@ LONGEST_RUN = 254
 
 
 def encode(data: bytes) -> bytes:
-    """The bytes without zeros, without a delimiter."""
+    """Encode bytes without zeros; no delimiter is added."""
     out = bytearray()
     runs = data.split(b"\0")
     for number, run in enumerate(runs):
