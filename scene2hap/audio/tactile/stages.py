@@ -35,7 +35,7 @@ class Stage(Protocol):
         ...
 
     def rest(self) -> Signal:
-        """What was held back."""
+        """Return the samples that were held back."""
         ...
 
 
@@ -61,7 +61,7 @@ class StageStream:
         return _joined([self._through(x[at : at + _CACHED].astype(np.float64), 0) for at in range(0, len(x), _CACHED)])
 
     def finish(self) -> Samples:
-        """What is still held back."""
+        """Return the samples that are still held back."""
         return _joined([self._through(stage.rest(), i + 1) for i, stage in enumerate(self.stages)])
 
     def _through(self, x: Signal, first: int) -> Samples:

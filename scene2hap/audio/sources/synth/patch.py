@@ -51,7 +51,7 @@ class Patch:
     rhythm: Rhythm | None = None
 
     def size_factor(self, longest_m: float) -> float:
-        """What multiplies frequencies for a machine of that size [m]; 1 where the size is unknown (0)."""
+        """Return the factor on frequencies for a machine of this size [m]; 1 if the size is unknown (0)."""
         if self.reference_m is None or longest_m <= 0.0:
             return 1.0
         return float(np.clip((self.reference_m / longest_m) ** SIZE_POWER, *SIZE_FACTOR_BOUNDS))
