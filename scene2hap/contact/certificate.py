@@ -44,13 +44,13 @@ class Resting(NamedTuple):
 
 
 class Extent(NamedTuple):
-    """The region in which a body may be: `room` is its certificate's box, or its AABB if it has no certificate.
+    """The region in which a body may be: `box` is that of its certificate, or its AABB if it has no certificate.
 
     `top_m` is the height of its support's face, -inf without one. A fixed body needs no free space around it.
     """
 
     body: Body
-    room: AABB
+    box: AABB
     top_m: float
     is_fixed: bool
 
@@ -95,7 +95,7 @@ class Certificate:
         self._set_bounds()
 
     def _set_bounds(self) -> None:
-        (low, high), up, flat = self.extent.room, self.body.up_axis, self.body.v_axis
+        (low, high), up, flat = self.extent.box, self.body.up_axis, self.body.v_axis
         lowest, highest, walls = low[up], high[up], []
         for several in self._planes.values():
             for n_u, n_v, n_h, most_m, is_square in several:
@@ -224,8 +224,8 @@ def separated(one: Extent, other: Extent, reach_m: float) -> Separated | None:
     Parameters: reach_m : largest distance at which the two touch or hang from each other [m].
     """
     x, y = one.body, other.body
-    (a, b, c), (d, e, f) = one.room
-    (g, h, i), (j, k, m) = other.room
+    (a, b, c), (d, e, f) = one.box
+    (g, h, i), (j, k, m) = other.box
     reach_m *= _SPARE
     far_m = max(reach_m, _SPARE * fall_reach_m(max(x.size_m, y.size_m)))
     if g - d > far_m or a - j > far_m or h - e > far_m or b - k > far_m or i - f > far_m or c - m > far_m:

@@ -52,7 +52,7 @@ class Certificates:
                 return self._refuse(x)
             planes[on] = known
             pins.add(on)
-        own, theirs = Extent(body, self._broad_phase.room(x), top_m, False), []
+        own, theirs = Extent(body, self._broad_phase.inner_box(x), top_m, False), []
         for z in self._broad_phase.neighbours[x]:
             if z == on:
                 continue

@@ -99,7 +99,7 @@ def free_planes(guest: Body, host: Body, *, stands: bool) -> tuple[Plane, ...] |
     a, b, c, d = _turn(host, own)
     spare_m = _ROUNDING_M + lean.tilt * host.size_m
     reach_m = spare_m if stands else spare_m + _reach_m(guest)
-    (u0, v0, h0), (u1, v1, h1) = known.room
+    (u0, v0, h0), (u1, v1, h1) = known.box
     x, y, h = host.position_m[0], host.position_m[host.v_axis], host.position_m[up]
     u, v = a * x + b * y, c * x + d * y
     # Below this height the host might be the body that falls.
@@ -179,9 +179,9 @@ def _computed_region(host: Body, own: Upright, taken: AABB, foot: Flat) -> FreeR
         return None
     near = _Surroundings(host, own, taken)
     higher = (ledges.number[near.columns] != number) & (near.high[2] > top_m + _ROUNDING_M)
-    room = (u0, v0, _), (u1, v1, _) = near.cut(taken, higher)
+    box = (u0, v0, _), (u1, v1, _) = near.cut(taken, higher)
     most = (min(u0, foot[0]), min(v0, foot[1]), max(u1, foot[2]), max(v1, foot[3]))
-    return FreeRegion(own, room, top_m, ledges.stretch(number, foot, most))
+    return FreeRegion(own, box, top_m, ledges.stretch(number, foot, most))
 
 
 def _triangles_in(host: Body, own: Upright, box: AABB, most: int = _ALL) -> Indices:
@@ -220,9 +220,9 @@ class _Surroundings:
         low, high = np.array(taken)[..., None]
         sides = np.concatenate([self.low[:, others] - high, low - self.high[:, others]])
         widest = sides.argmax(axis=0)
-        room = sides[widest, np.arange(len(widest))]
+        gaps = sides[widest, np.arange(len(widest))]
         # The factor covers rounding.
-        least = np.array([0.999 * room[widest == side].min(initial=np.inf) for side in range(6)])
+        least = np.array([0.999 * gaps[widest == side].min(initial=np.inf) for side in range(6)])
         lowest, highest = np.maximum(self._low, low[:, 0] - least[3:]), np.minimum(self._high, high[:, 0] + least[:3])
         (a, b, c), (d, e, f) = lowest.tolist(), highest.tolist()
         return (a, b, c), (d, e, f)

@@ -62,11 +62,12 @@ class ContactGraph:
     The tolerance has no effect if the scene gives its contacts.
     Raises: SceneError: the tolerance is negative or not finite.
 
-    The poses alone decide the result: incremental updates give bit-identical results to building anew from the same
+    The poses alone decide the result: incremental updates give bit-identical results to rebuilding from the same
     poses. Contacts move along with a motion of the whole scene; without a stated tolerance, only if it stays upright.
     Up to four points represent a pair's contact patch, each with the pair's weight: 1 up to two thirds of the
-    tolerance, then falling smoothly to 0. The normal points from a to b. It is None where surfaces intersect or are too
-    near for a direction. An object wholly inside a closed other, away from its surface, does not touch it.
+    tolerance, then falling smoothly to 0. The normal points from a to b. It is None for an enclosed object, and for
+    surfaces beside each other that intersect or nearly touch. An object wholly inside a closed other, away from its
+    surface, does not touch it.
 
     In loops, read `junctions` and `beside`: `update` changes them in place, and access makes no copy. `contacts`,
     `arrays` and `graph` are made from them on first access.

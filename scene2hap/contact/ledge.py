@@ -68,9 +68,9 @@ class Ledges:
             low, high = ends.min(axis=1), ends.max(axis=1)
             sides = np.stack([low - foot[2:], foot[:2] - high], axis=1).reshape(-1, 4)
             widest = sides.argmax(axis=1)
-            room = sides[np.arange(len(sides)), widest]
-            if (room > 0).all():
-                least = [room[widest == side].min(initial=np.inf) * 0.999 for side in range(4)]
+            gaps = sides[np.arange(len(sides)), widest]
+            if (gaps > 0).all():
+                least = [gaps[widest == side].min(initial=np.inf) * 0.999 for side in range(4)]
                 return (
                     max(most[0], foot[0] - least[2]),
                     max(most[1], foot[1] - least[3]),

@@ -1,4 +1,4 @@
-"""Certificates end where building from nothing does, and spare the narrow phase where they should."""
+"""Certificates give the same contacts as a new graph, and skip the narrow phase where they should."""
 
 import math
 from collections.abc import Callable
@@ -82,7 +82,7 @@ def test_landing(others: list[SceneObject], moved: dict[str, Pose], is_certified
     ("gap_m", "is_certified"),
     [pytest.param(0.2, True, id="far from the wall"), pytest.param(0.006, False, id="on the wall")],
 )
-def test_what_is_lifted_needs_no_narrow_phase_unless_it_may_hang(
+def test_a_lifted_body_needs_no_narrow_phase_unless_it_may_hang(
     gap_m: float, is_certified: bool, looked_at: Looked
 ) -> None:
     wall = box("wall", (2.0, 3.0, 0.1), (0.0, 1.5, -0.55))
@@ -98,7 +98,7 @@ def test_what_is_lifted_needs_no_narrow_phase_unless_it_may_hang(
 
 @pytest.mark.parametrize("apart_m", [0.3, 0.24, 0.12])
 def test_a_step_needs_no_narrow_phase_while_others_pass_by(apart_m: float, looked_at: Looked) -> None:
-    """A crate is pushed to and fro; two cups pass by, one of them lifted and put down again."""
+    """A crate is pushed back and forth; two cups pass by, one of them lifted and put down again."""
     table = on_floor("table", (2.0, 0.7, 1.0), 0, 0)
     objects = [floor(), table, box("crate", (0.1, 0.1, 0.1), (-0.4, 0.75, 0.0)), CUP, replace(CUP, id="other cup")]
     graph = ContactGraph(scene(*objects))

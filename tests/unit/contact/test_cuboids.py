@@ -1,4 +1,4 @@
-"""Cuboids many at a time, against their triangles one pair at a time, and against quadratic programs."""
+"""Many cuboids at once, against their triangles one pair at a time, and against quadratic programs."""
 
 import math
 
@@ -24,7 +24,7 @@ SEEDS = st.integers(0, 10**6)
 
 
 def cases(seed: int, n: int, plain: bool) -> list[Case]:
-    """Edges of host and guest [m], and where the guest is in the host's frame; `plain`: in tenths and right angles."""
+    """Edges of host and guest [m], and the guest's pose in the host's frame; `plain`: in tenths and right angles."""
     rng = np.random.default_rng(seed)
     found = []
     for _ in range(n):
@@ -176,7 +176,7 @@ def test_a_post_through_a_plate_touches_where_it_runs_through() -> None:
     assert {(abs(x), abs(y), abs(z)) for x, y, z in found} == {(0.05, 0.01, 0.05)}
 
 
-def test_what_is_near_a_side_inside_another_touches_that_side() -> None:
+def test_a_cuboid_near_a_side_inside_another_touches_that_side() -> None:
     case = (np.array([1.0, 1.0, 1.0]), np.array([0.2, 0.2, 0.2]), Pose((0.399, 0.1, 0.0)))
     _, found = gaps(pairs_of([case]), 0.05)
     assert found.distance_m[0] == pytest.approx(0.001)

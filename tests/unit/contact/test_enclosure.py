@@ -1,4 +1,4 @@
-"""What is built into another with play, and what only stands near it."""
+"""Objects enclosed by another with play, and objects that only stand near it."""
 
 import math
 
@@ -31,7 +31,7 @@ def drawer(at_m: Triple = (0, 0, 0)) -> SceneObject:
 
 
 def graph_of(play_m: float, at_m: Triple = (0, 0, 0)) -> ContactGraph:
-    """The drawer lies on a board, lest it hang, and is in the carcass."""
+    """The drawer is in the carcass, and lies on a board, so that it does not hang."""
     board = box("board", (0.3, 0.02, 1.4), (0, -0.07, 0.5))
     return ContactGraph(scene(carcass(play_m), drawer(at_m), board))
 

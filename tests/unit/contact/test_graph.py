@@ -42,7 +42,7 @@ def test_graph_neighbours_and_poses_tell_the_same() -> None:
     assert graph.poses["cup"] == CUP.pose
 
 
-def test_contacts_are_sorted_by_pair_whatever_the_order_of_objects() -> None:
+def test_contacts_are_sorted_by_pair_for_any_order_of_objects() -> None:
     objects = [floor(), TABLE, CUP, box("plate", (0.2, 0.01, 0.2), (-0.2, 0.706, 0.0))]
     forward, backward = ContactGraph(scene(*objects)), ContactGraph(scene(*reversed(objects)))
     assert forward.contacts == backward.contacts
@@ -128,7 +128,7 @@ def test_a_change_of_weight_alone_is_a_shift() -> None:
     )
 
 
-def test_what_does_not_move_is_not_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_bodies_at_rest_are_not_searched(monkeypatch: pytest.MonkeyPatch) -> None:
     from scene2hap.contact import finder
     from scene2hap.contact.mesh_distance import MeshPair
 

@@ -1,4 +1,4 @@
-"""Where a ledge ends, against outlines that are known."""
+"""Rims of ledges, against known outlines."""
 
 import math
 

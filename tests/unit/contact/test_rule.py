@@ -1,4 +1,4 @@
-"""Who holds whom, in scenes whose answer anybody would give."""
+"""Holders of objects, in scenes with an obvious answer."""
 
 import numpy as np
 import pytest
@@ -98,7 +98,7 @@ def test_a_chair_half_on_the_carpet_stands_on_both() -> None:
     assert found(floor(), carpet, chair((0, 0.025, 0))) == expected
 
 
-def test_a_refrigerator_that_floats_stands_on_the_floor_whatever_it_touches_beside() -> None:
+def test_a_floating_refrigerator_stands_on_the_floor_despite_contacts_beside() -> None:
     wall = on_floor("wall", (3, 3, 0.2), 0, -1.1)
     counter = on_floor("counter", (1, 0.9, 0.6), 0.95, -0.7)
     fridge = on_floor("fridge", (0.901, 1.8, 0.7), 0, -0.651, gap_m=0.012)  # 1 mm deep in wall and counter
@@ -197,7 +197,7 @@ def test_a_knob_hangs_before_its_leaf_if_it_is_no_farther_off_than_a_quarter_of_
     assert (("knob", "leaf") in weights_of(leaf, knob)) == hangs
 
 
-def test_what_is_farther_off_a_leaf_than_handles_are_does_not_hang_on_it() -> None:
+def test_an_object_farther_from_a_leaf_than_handles_does_not_hang_on_it() -> None:
     leaf = box("leaf", (0.6, 0.7, 0.018), (0, 0.5, 0))
     handle = box("handle", (0.012, 0.16, 0.012), (0.25, 0.5, 0.009 + 0.026 + 0.006))
     assert weights_of(leaf, handle) == {}
@@ -219,7 +219,7 @@ def test_a_wall_cabinet_does_not_hang_on_what_is_much_farther_off_than_its_wall(
     assert ("cabinet", "tall") not in weights_of(floor(), wall, tall, cabinet)
 
 
-def test_what_stands_near_a_wall_does_not_hang_on_it() -> None:
+def test_an_object_standing_near_a_wall_does_not_hang_on_it() -> None:
     wall = on_floor("wall", (3, 3, 0.2), 0, 0)
     assert found(floor(), wall, on_floor("desk", (1, 0.7, 0.6), 0, 0.412)) == {("floor", "wall"), ("desk", "floor")}
 
