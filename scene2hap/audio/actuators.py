@@ -33,7 +33,7 @@ ACTUATORS: Mapping[str, ActuatorProfile] = {
     profile.name: profile
     for profile in (
         ActuatorProfile(),
-        # Nominal 160 Hz in two independent open builds; no data sheet was to be had, so that Q and band are assumed.
+        # Nominal 160 Hz in two independent open builds. No data sheet is available, so Q and band are assumed.
         ActuatorProfile("drake_hf", 40.0, 800.0, 160.0, 3.0),
         # A moving coil on a soft suspension; assumed typical.
         ActuatorProfile("voice_coil", 30.0, 1000.0, 70.0, 0.8),

@@ -36,7 +36,7 @@ HIGHEST_PEAK_DB = -6.5
 from the sound it is cut from."""
 FAINTEST_DB = -14.0
 """Level relative to the strongest component below which a component does not identify the source. With -24 dB, most
-steady recordings at hand were felt at a component 14-21 dB below their strongest one."""
+steady test recordings were felt at a component 14-21 dB below their strongest one."""
 FAINTEST_BELOW_WHINE_DB = -40.0
 """The bound `FAINTEST_DB` if the strongest component is too high to be felt: it admits a hum under a whine, but not a
 recording's noise."""
@@ -137,7 +137,7 @@ def reachable_hz(
     """Return how far a source may be moved: lowest and highest frequency [Hz], and the gain that fits all of them [dB].
 
     Both lie within `octaves` of where it is felt. Frequencies at which its level cannot be reached are left out, unless
-    it cannot be reached at its own either.
+    the shortfall is no larger than at its own.
     """
     own_hz = anchor.felt_hz
     f: NDArray[np.float64] = own_hz * 2.0 ** np.linspace(-octaves, octaves, _GRID)

@@ -51,7 +51,7 @@ class SinkEvent:
     """An event of a sink that a game may show to its player.
 
     kind : "connected" (first or again), "unavailable" (cannot be reached, tried again later), "stalled" (takes no
-    samples), "resumed" (takes them again), "lost" (was there, is gone) or "fault" (the mix could not be had).
+    samples), "resumed" (takes them again), "lost" (was there, is gone) or "fault" (the mix could not be rendered).
     message : a sentence with what to do next; at_s : when [s], on the clock of `time.monotonic`.
     """
 

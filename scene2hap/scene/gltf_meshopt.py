@@ -13,7 +13,7 @@ from scene2hap.scene.gltf_container import GltfFile, Json, natural
 
 MESHOPT = ("KHR_meshopt_compression", "EXT_meshopt_compression")
 _INDEX_BYTES = (2, 4)
-# Numbers by which a decoded byte raises the budget of stored values: as many as accessors read from it (assumed).
+# Decoded bytes that count as one stored byte, where accessors are bounded by the stored bytes (assumed).
 _STORED_PER_DECODED = 2
 
 

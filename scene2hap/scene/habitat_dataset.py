@@ -129,7 +129,7 @@ class Dataset:
         try:
             self._n_bytes += file.stat().st_size
         except (OSError, ValueError):
-            return  # whoever reads it says so
+            return  # reading it reports the error
         self.files.append(file)
         limits.at_most("the size of all files of the dataset in bytes", self._n_bytes, "MAX_DATASET_BYTES")
 

@@ -110,7 +110,7 @@ class Palette:
 
 
 def light(normals: Floats, forward: NDArray[np.float64], up: NDArray[np.float64]) -> Floats:
-    """Return the brightness of faces with unit normals (n, 3), looking along `forward`: 0..1, before clipping at 0."""
+    """Return the brightness (n,) of faces with unit normals (n, 3), looking along `forward`, 0..1."""
     along = normals @ forward.astype(np.float32)
     upward = -np.sign(along) * (normals @ up.astype(np.float32))
     brightness: Floats = np.clip(AMBIENT + HEADLIGHT * np.abs(along) + SKYLIGHT * upward, 0.0, 1.0)

@@ -88,7 +88,7 @@ class Service:
             raise
 
     def preview(self, sound: Sound) -> bytes:
-        """The encoded preview. Raises: BackendUnavailable: it cannot be had."""
+        """Return the encoded preview. Raises: BackendUnavailable: it cannot be downloaded."""
         reply = web.get(sound.preview, web.Limits(self.timeout_s, MAX_PREVIEW_BYTES), transport=self.transport)
         if reply.status != 200:
             raise BackendUnavailable(
