@@ -30,7 +30,7 @@ MAX_FILE_SAMPLES = 1 << 26
 """Most samples of all channels together (assumed: ten minutes of stereo at 48 kHz, decoded in a second or two). A
 megabyte of FLAC may hold hours of silence at 655 kHz."""
 MAX_CHANNELS = 64
-"""As many as seventh-order ambisonics; each channel is converted by a stream of its own, which takes memory."""
+"""Most channels: those of seventh-order ambisonics; each has a conversion stream of its own, which takes memory."""
 
 _BLOCK_FRAMES = 1 << 18
 

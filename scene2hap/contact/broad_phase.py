@@ -96,6 +96,7 @@ class BroadPhase:
         return row
 
     def _neighbours(self, ids: Sequence[str]) -> dict[str, set[str]]:
+        """Return the neighbours of bodies, by id."""
         if len(ids) < _MANY:
             return {x: self._overlapping(x) for x in ids}
         found: dict[str, set[str]] = {x: set() for x in ids}
@@ -142,6 +143,7 @@ class FatBoxes:
         self.low[self._up_axis, row] -= down_m
 
     def _wider(self, low: Triple, high: Triple, before: AABB) -> AABB:
+        """Return a box with the skin as margin, extended into the old box as far as `memory_m` allows."""
         lows, highs = [0.0] * 3, [0.0] * 3
         for k in range(3):
             near = self._skin_m

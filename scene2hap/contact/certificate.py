@@ -95,6 +95,7 @@ class Certificate:
         self._set_bounds()
 
     def _set_bounds(self) -> None:
+        """Give the track the box, narrowed by level planes, and the vertical planes."""
         (low, high), up, flat = self.extent.box, self.body.up_axis, self.body.v_axis
         lowest, highest, walls = low[up], high[up], []
         for several in self._planes.values():
@@ -182,6 +183,7 @@ def standing_planes(body: Body, resting: Resting) -> tuple[Plane, ...] | None:
 
 
 def _all_in(support: Body, floor_m: float) -> tuple[Plane, ...]:
+    """Return the planes that keep a body inside a support's AABB, with its bottom above `floor_m`."""
     low, high, flat, up = support.low, support.high, support.v_axis, support.up_axis
     return (
         wall_at(1.0, 0.0, high[0], is_square=True),
@@ -194,6 +196,7 @@ def _all_in(support: Body, floor_m: float) -> tuple[Plane, ...]:
 
 
 def _standing(body: Body, resting: Resting) -> Standing:
+    """Return the face of a support in world coordinates, and the bounds of a body's rest on it."""
     support, face, up = resting.support, resting.face, body.up_axis
     u, v = support.position_m[0], support.position_m[body.v_axis]
     least_m = resting.rest.top_m + _SURE_M

@@ -103,6 +103,7 @@ class ContactFinder:
                 found.update(junctions)
 
     def _remove(self, x: str, found: dict[Pair, Junction | None], recheck: set[str]) -> None:
+        """Remove a body with all its pairs."""
         del self._bodies[x]
         self._certificates.forget(x)
         for y in self._broad_phase.remove(x):

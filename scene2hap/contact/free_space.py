@@ -165,6 +165,7 @@ def _foot(guest: Body, host: Body, own: Upright) -> Flat:
 
 
 def _computed_region(host: Body, own: Upright, taken: AABB, foot: Flat) -> FreeRegion | None:
+    """Search the host's triangles. Returns None unless `taken` is empty or has one ledge under `foot`."""
     columns = _triangles_in(host, own, taken)
     if not len(columns):
         return FreeRegion(own, _Surroundings(host, own, taken).cut(taken), None, _NO_LEDGE)

@@ -257,6 +257,7 @@ class ContactGraph:
 
     @property
     def _poses(self) -> dict[str, Pose]:
+        """The poses of all objects, with those of newer tables."""
         if self._newer_tables:
             if self._poses_shared:
                 self._known_poses, self._poses_shared = dict(self._known_poses), False
@@ -332,6 +333,7 @@ class ContactGraph:
         return self._record(*self._apply(found))
 
     def _apply(self, found: Mapping[Pair, Junction | None]) -> tuple[list[Pair], list[Pair], list[Pair]]:
+        """Store junctions by pair. Returns the pairs that appeared, vanished and shifted."""
         appeared: list[Pair] = []
         vanished: list[Pair] = []
         shifted: list[Pair] = []
@@ -358,6 +360,7 @@ class ContactGraph:
         return appeared, vanished, shifted
 
     def _record(self, appeared: list[Pair], vanished: list[Pair], shifted: list[Pair]) -> ContactChange:
+        """Advance the versions, and log the change."""
         if self._views:
             self._views.clear()
         if not (appeared or vanished or shifted):

@@ -92,6 +92,7 @@ class Ledges:
 
 
 def _outlined(triangles: Floats) -> tuple[Floats, Floats]:
+    """Return the triangles (n, 3, 2) with area, and the edges (k, 2, 2) with triangles on one side only."""
     (u, v), (p, q) = ((triangles[:, k] - triangles[:, 0]).T for k in (1, 2))
     triangles = triangles[np.abs(u * q - v * p) > _THIN_M2]
     if not len(triangles):

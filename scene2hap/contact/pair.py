@@ -107,6 +107,7 @@ class BodyPair:
         return tuple([ends.middle_m for ends in self._mesh_pair.patch(way_m, within_m)])
 
     def _cached(self, key: object, find: Callable[[], object]) -> Any:
+        """Return the result for a key, computed on first use."""
         facts = self._results
         if facts is None:
             facts = self._results = {}

@@ -32,11 +32,11 @@ POLL_S = 0.005
 """Longest wait inside a line, and so the time that `stop` may take."""
 
 STALL_S = 0.5
-"""A device that wants no samples for so long is reported as stalled, and the mix goes on without it; before, the mix
-waits, so that a hiccup costs no sample (on a busy machine 0.3 s were seen between two ends of a pseudo-terminal)."""
+"""Time without requests after which a device is reported as stalled, and the mix continues without it [s]. Before, the
+mix waits, so that a short stall loses no sample (0.3 s were seen on a pseudo-terminal of a busy machine)."""
 
 GIVE_UP_S = 1.5
-"""... and after so long it is closed and opened again."""
+"""Time without requests after which a device is closed and opened again [s]."""
 
 FIRST_RETRY_S, LAST_RETRY_S = 0.1, 2.0
 """The pause between attempts, doubled each time until the device has played."""
@@ -75,7 +75,7 @@ class Line(Protocol):
         ...
 
     def send(self, block: Block) -> None:
-        """Hand over as many frames as were wanted."""
+        """Pass the requested number of frames to the device."""
         ...
 
     def disconnect(self) -> None:
@@ -149,7 +149,7 @@ class LiveSink:
         self._fill = None
 
     def wait_connected(self, timeout_s: float) -> bool:
-        """Return True if the device plays, waiting at most so long [s] for it."""
+        """Wait at most `timeout_s` [s] for the device. Returns True if it plays."""
         return self._playing.wait(timeout_s)
 
     @property

@@ -51,7 +51,7 @@ class SerialPort:
             self._port.set_low_latency_mode(True)
 
     def read(self, timeout_s: float) -> bytes:
-        """Read the bytes that have arrived; wait at most so long [s] for a first byte. Raises: DeviceLost."""
+        """Read the bytes that have arrived; wait at most `timeout_s` for a first byte. Raises: DeviceLost."""
         try:
             self._port.timeout = timeout_s
             return self._port.read(max(1, self._port.in_waiting))

@@ -14,7 +14,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validat
 from scene2hap.haptics import LONGEST_PASSAGE_S, LONGEST_TURN_S
 
 MOST_WORDS_IN_SENTENCE = 15
-"""As in the paper, section "Vibration Describer"."""
+"""Bounds of the paper, section "Vibration Describer"."""
 
 _VIBRATE = re.compile(r"vibrat", re.IGNORECASE)
 

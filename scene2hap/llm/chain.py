@@ -160,7 +160,7 @@ class _Chain:
         standing_for = copies(self._scene, self._graph) if self._settings.share_copies else {}
         groups: dict[tuple[str, bool], list[SceneObject]] = {}
         for item in wanted:
-            # What a user wishes of one object is no answer for its copies, nor theirs one for it.
+            # A user prompt for one object does not hold for its copies, nor their answer for it.
             is_alone = self._questions.has_wish(item.id)
             first = item.id if is_alone else standing_for.get(item.id, item.id)
             groups.setdefault((first, is_alone), []).append(item)

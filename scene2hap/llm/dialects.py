@@ -18,7 +18,7 @@ from scene2hap.llm.schema import local_schema
 
 Rung = Literal["json_schema", "json_object", "prompt"]
 LADDER: tuple[Rung, ...] = ("json_schema", "json_object", "prompt")
-"""How strictly the request prescribes the form of the answer, strictest first; the prompt alone comes last."""
+"""Ways to prescribe the form of the answer in a request, strictest first; the prompt alone comes last."""
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from typing import Any
 LONGEST_NAME = 200
 """Characters of an authored name; assumed, longer than any meaningful one."""
 LONGEST_TEXT = 600
-"""Characters of one text in a prompt: as many as the longest text of an answer may have (`llm.answers`)."""
+"""Most characters of one text in a prompt: the length of the longest text of an answer (`llm.answers`)."""
 MOST_ITEMS = 1000
 """Items of one list; assumed, four times the objects of the largest shared scene."""
 
@@ -27,7 +27,7 @@ IS_DATA = (
 def as_data(fact: Any) -> str:
     """A fact as JSON on one line: texts and lists cut with a note of how much, lengths [m] to the millimetre.
 
-    What cannot be printed (line breaks, escapes, marks that turn the direction of writing, lone surrogates) is escaped.
+    Unprintable characters (line breaks, escapes, marks of writing direction, lone surrogates) are escaped.
     """
     if isinstance(fact, str):
         return _quoted(fact)
@@ -44,7 +44,7 @@ def as_data(fact: Any) -> str:
 
 
 def clean(name: str) -> str:
-    """An authored name as a fact: what cannot be printed becomes a space, and what is too long ends in an ellipsis."""
+    """Return an authored name as a fact: unprintable characters become spaces, and a long name ends in an ellipsis."""
     name = name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 1]}\u2026"
     return "".join(char if char.isprintable() else " " for char in name)
 

@@ -24,8 +24,8 @@ _FLOATS_M = 0.25
 _SUNK_M = 0.1
 """An object whose top is this far below the floor's top is sunk in it (assumed: the thickness of a floor)."""
 _RESTS_M = 0.06  # Largest gap below an object at rest, about that of the contact rule.
-# The up axis is doubted if this share of objects rests along the other axis, and this many times as many (tuned: five
-# scenes by others have 0.59-0.83 along the right axis, 1.7 to 2.7 times as many as along the wrong one).
+# The up axis is doubted if this share of objects rests along the other axis, and if they exceed those along it by this
+# factor (tuned: five scenes by others have 0.59-0.83 along the right axis, 1.7 to 2.7 times those along the wrong one).
 _MOST_RESTING, _MORE_RESTING = 0.5, 1.5
 _FEW = 4  # Fewer objects show neither the up axis nor the order of quaternions.
 _TWO = 2  # This many objects exactly upside down show a w of 1 that comes first.

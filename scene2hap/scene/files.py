@@ -37,7 +37,7 @@ def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
             raise SceneError(f"{refusal} Copy it there, or give assets_root={holding_both(path, assets_root)}.")
     except SceneError:
         raise
-    # What a broken address, a zero byte and a ring of links raise.
+    # Raised by a broken address, a zero byte and a ring of links.
     except (ValueError, OSError, RuntimeError) as cause:
         raise SceneError(f"{place} wants {uri!r}, which is no usable file name: {cause}.") from cause
     return path

@@ -33,7 +33,7 @@ from scene2hap.scene.collection import Member, split
 from scene2hap.scene.tree import AuthoredNode, Matrix, Piece
 
 Grouping = Literal["authored", "leaf"] | int | Mapping[str, str]
-"""How nodes become objects.
+"""The rule by which nodes become objects.
 
 "authored": the rule above. "leaf": every node with a mesh is an object. An int from 1: every node at that depth below
 the scene is one object with all that hangs below it (the scene's own nodes have depth 1); meshes above stand alone. A

@@ -1,4 +1,4 @@
-"""Habitat datasets: which model file a template's name stands for, and how that model is scaled and turned.
+"""Habitat datasets: the model file of a template's name, and the scale and rotation of that model.
 
 A scene names templates, such as `frl_apartment_chair_01` or a hash. They are found, in this order, as
 
@@ -82,7 +82,7 @@ class Template:
 
 @dataclass(frozen=True, eq=False)
 class _Source:
-    """Where a template is written: in a file, or in the dataset file as `attributes` on top of another template."""
+    """The definition of a template: a file, or `attributes` in the dataset file that change another template."""
 
     file: Path | None = None
     attributes: Json = field(default_factory=dict)

@@ -31,7 +31,7 @@ _AT_ORIGIN = Pose()
 class Contact:
     """A contact point of two objects, given by an engine or found from geometry. A pair may have several.
 
-    Parameters: point_m : world [m]; normal : unit, from `a` to `b`; area_m2 of the patch that the point stands for;
+    Parameters: point_m : world [m]; normal : unit, from `a` to `b`; area_m2 of the patch that the point represents;
     weight : how much of a contact it is, 1 touching to 0 gone [-].
     """
 
@@ -71,7 +71,7 @@ class SceneObject:
     such as a mesh of the package trimesh, becomes a TriMesh. `surface` is measured if it is not given, with y up;
     `SceneSnapshot.build` measures it for the scene's own up axis. `instance_key` is equal for objects of equal mesh and
     materials. `relative_height_m` is the height of the lowest point above the lowest point of the whole scene.
-    `mass_kg` is what an engine or an author says that it weighs [kg], None if nobody does.
+    `mass_kg` is the mass from an engine or an author [kg], None if unknown.
     `appearance` is for pictures alone, None where unknown; `images` are those of `capture_images`.
     """
 

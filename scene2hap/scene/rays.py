@@ -152,7 +152,7 @@ def _next(is_wanted: NDArray[np.bool_], start: Ints) -> Ints:
 
 
 def share_open(hits: Hits) -> float:
-    """Part of the rays that do not leave as many faces as they enter [-]."""
+    """Return the share of rays whose numbers of entered and left faces differ [-]."""
     return float(np.mean(np.add.reduceat(hits.side, hits.starts) != 0)) if len(hits.ray) else 0.0
 
 

@@ -23,8 +23,8 @@ class Piece:
     """Triangles of one material, in the frame of the node that draws them.
 
     Parameters: key : equal for pieces that were read from the same place in the file, so for instances;
-    vertices : (n, 3) float64 in the file's unit, all of them used and finite; faces : (m, 3) int32; material : what the
-    file calls its material; appearance : the looks of its m faces, None where unknown; is_made : whether the file holds
+    vertices : (n, 3) float64 in the file's unit, all of them used and finite; faces : (m, 3) int32; material : its
+    name in the file; appearance : the looks of its m faces, None where unknown; is_made : whether the file holds
     a few numbers for it, such as a radius, and no vertices.
     """
 

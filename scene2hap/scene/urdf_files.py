@@ -35,7 +35,7 @@ class UrdfFiles:
                     outside = outside or path
                 elif path.is_file():
                     return path
-        # What a name that is too long, one with a zero byte, and a ring of links raise.
+        # Raised by a too long name, a zero byte and a ring of links.
         except (ValueError, OSError, RuntimeError) as cause:
             if isinstance(cause, SceneError):
                 raise

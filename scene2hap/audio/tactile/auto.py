@@ -85,7 +85,7 @@ class _Roughened:
         self._envelope = SosStage(butter(2, rough_hz / _SLOWER, fs=sample_rate_hz, output="sos"))
 
     def run(self, x: Signal) -> Signal:
-        """Return as many samples."""
+        """Return the modulated bed."""
         low = self._band.run(x)
         envelope = np.maximum(self._envelope.run(np.abs(low)) * (0.5 * np.pi), _NOTHING)
         return np.asarray(self._bed.run(x) * (1.0 + DEPTH * np.clip(low / envelope, -1.0, 1.0)))

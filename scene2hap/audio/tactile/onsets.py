@@ -134,7 +134,7 @@ class _Rise:
         self.mean = self.loudest = 0.0
 
     def follow(self, energy: float, n_known: int) -> None:
-        """Take in a step, after so many."""
+        """Update mean and maximum with the energy of a step, after `n_known` steps."""
         if n_known < _WARM:
             self.mean += (energy - self.mean) / (n_known + 1)
         else:

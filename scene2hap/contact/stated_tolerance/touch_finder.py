@@ -159,6 +159,7 @@ class TouchFinder:
         return columns
 
     def _update_boxes(self, columns: Indices) -> None:
+        """Compute axes, middles and AABBs of the objects in these columns."""
         q = self._rotation.take(columns, axis=1)
         products = q.take(_LEFT, axis=0) * q.take(_RIGHT, axis=0)
         place = np.empty((12, len(columns)))

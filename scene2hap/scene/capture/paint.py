@@ -28,7 +28,7 @@ AMBIENT, HEADLIGHT, SKYLIGHT = 0.40, 0.50, 0.10
 
 # Textures are shrunk to this edge, which is what a picture of 512 pixels can show, and what memory is spent on.
 _TEXTURE_PX = 512
-# What shows through glass, which is drawn as a pale surface: it must be seen, and what lies behind it seldom matters.
+# Brightness that shows through glass, instead of the objects behind it: glass must be visible as a pale surface.
 _BEHIND_GLASS = 0.85
 
 

@@ -100,7 +100,7 @@ class Composition:
                 size += sum(max((sizes.get(each, 0) for each in one), default=0) for one in prim.variants)
                 sizes[key] = min(size, _MANY)
             else:
-                # What leads back here counts nothing: usd-core refuses such arcs.
+                # Arcs that lead back here do not count: usd-core refuses them.
                 sizes[key] = 0
                 to_do.append((key, True))
                 below = (*prim.children, *(each for one in prim.variants for each in one), *arcs)

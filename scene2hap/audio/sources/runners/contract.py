@@ -140,7 +140,7 @@ def tones(request: Request, arguments: argparse.Namespace) -> tuple[int, Takes]:
 
 
 def check(origin: dict[str, str], packages: Sequence[str]) -> int:
-    """Play a request through with tones and print, as JSON, what came of it and which packages are missing."""
+    """Serve a request with tones, and print the result and missing packages as JSON."""
     missing = [name for name in packages if importlib.util.find_spec(name) is None]
     with tempfile.TemporaryDirectory() as folder:
         request = os.path.join(folder, "request.json")

@@ -20,7 +20,7 @@ SIZE_FACTOR_BOUNDS = (0.75, 4.0 / 3.0)
 
 @dataclass(frozen=True)
 class Rhythm:
-    """A load that comes and goes: so many times a second, by a share of the amplitude, with a wavering rate.
+    """A periodic load: its rate [Hz], its depth as a share of the amplitude, and the irregularity of the rate.
 
     Rates are those of what turns or is worked on; depths are assumed, below 5 dB of range for what is steady.
     """
