@@ -120,7 +120,7 @@ class Certificate:
 
     @property
     def holds(self) -> bool:
-        """Return True if the body is within the bounds at its current pose."""
+        """True if the body is within the bounds at its current pose."""
         return self._track.moved(self.body.pose.position_m, self.body.pose.rotation_xyzw) is not None
 
     def step(self, pose: Pose, found: dict[Pair, Junction | None]) -> bool:

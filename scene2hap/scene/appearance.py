@@ -103,7 +103,7 @@ class Appearance:
 
     @property
     def turned(self) -> Appearance:
-        """Return the looks for the same faces with their corners in reverse order."""
+        """The looks for the same faces with their corners in reverse order."""
         return self if self.uv is None else Appearance(self.materials, self.face_material, self.uv[:, ::-1])
 
 

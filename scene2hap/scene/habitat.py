@@ -303,7 +303,7 @@ def _column(scale: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _is_com(row: Json, place: str, default: bool | None) -> bool | None:
-    """Return True if a translation is that of the centre of mass."""
+    """Return True if a translation is that of the centre of mass; `default` if the row does not say."""
     given = row.get("translation_origin", "default")
     known = _ORIGINS.get(given.lower(), "") if isinstance(given, str) else ""
     if isinstance(known, str):

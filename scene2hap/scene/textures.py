@@ -76,7 +76,7 @@ class EncodedTexture:
 
     @property
     def opaque(self) -> EncodedTexture:
-        """Return the image without its opacity."""
+        """The image without its opacity."""
         return replace(self, has_alpha=False)
 
     @cached_property
