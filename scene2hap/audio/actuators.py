@@ -4,8 +4,8 @@ A resonant actuator answers as a resonator of one degree of freedom, 0 dB at its
 
     |R(f)| = 1 / sqrt(1 + Q^2 (f / f_0 - f_0 / f)^2)
 
-A measured response (points, or a CSV file) is interpolated over the logarithm of frequency and scaled to 0 dB at its
-best. The inverse is bounded: what an actuator hardly renders would eat the head-room of all that it renders well.
+A measured response (points, or a CSV file) is interpolated over the logarithm of frequency and scaled to a maximum of
+0 dB. The inverse is bounded: otherwise frequencies that an actuator hardly renders would use up the head-room.
 Symbols: f_0 [Hz] resonance, Q [-] quality factor.
 """
 
@@ -27,13 +27,13 @@ from scene2hap.haptics import ActuatorProfile
 from scene2hap.text_files import read_small_text
 
 MAX_BOOST_DB = 12.0
-"""How far a weak answer is lifted [dB]; assumed: a factor of four in amplitude."""
+"""Largest gain of the inverse [dB] (assumed: a factor of four in amplitude)."""
 
 ACTUATORS: Mapping[str, ActuatorProfile] = {
     profile.name: profile
     for profile in (
         ActuatorProfile(),
-        # Nominal 160 Hz in two independent open builds; no data sheet was to be had, so that Q and band are assumed.
+        # Nominal 160 Hz in two independent open builds. No data sheet is available, so Q and band are assumed.
         ActuatorProfile("drake_hf", 40.0, 800.0, 160.0, 3.0),
         # A moving coil on a soft suspension; assumed typical.
         ActuatorProfile("voice_coil", 30.0, 1000.0, 70.0, 0.8),
@@ -41,11 +41,11 @@ ACTUATORS: Mapping[str, ActuatorProfile] = {
         ActuatorProfile("lra", 130.0, 230.0, 175.0, 12.0),
     )
 }
-"""The profiles known by name."""
+"""The built-in profiles by name."""
 
 
 def actuator_profile(spec: object) -> ActuatorProfile:
-    """A profile from configuration: a name, the path of a CSV file, a mapping of its fields, or one ready made.
+    """Return a profile from configuration: a name, the path of a CSV file, a mapping of its fields, or an instance.
 
     Raises: ConfigError: no such name or file, or fields that are out of bounds.
     """
@@ -64,7 +64,7 @@ def actuator_profile(spec: object) -> ActuatorProfile:
 
 
 def read_response_csv(path: str | Path) -> ActuatorProfile:
-    """The profile of a measured actuator: rows of frequency [Hz] and level [dB]; a first row of words is skipped.
+    """Read the profile of a measured actuator: rows of frequency [Hz] and level [dB], with an optional heading.
 
     Raises: ConfigError: the file cannot be read, or a row is not two finite numbers with rising frequencies.
     """
@@ -86,27 +86,27 @@ def read_response_csv(path: str | Path) -> ActuatorProfile:
 
 
 def response_db(profile: ActuatorProfile, frequencies_hz: ArrayLike) -> NDArray[np.float64]:
-    """How strongly the actuator answers, of the shape of `frequencies_hz` [dB], 0 where it does best."""
+    """Return the response of the actuator, in the shape of `frequencies_hz` [dB], 0 at its best."""
     f = np.maximum(np.asarray(frequencies_hz, dtype=np.float64), np.finfo(float).tiny)
     if profile.response_db:
         points = np.array(profile.response_db)
         return np.asarray(np.interp(np.log(f), np.log(points[:, 0]), points[:, 1]) - points[:, 1].max())
     if profile.resonance_hz is None or profile.q is None:
         return np.zeros_like(f)
-    # Below the range of touch the answer would fall for ever; a floor keeps its logarithm finite.
+    # Near 0 Hz the response of a resonator goes to 0; a floor keeps its logarithm finite.
     r = np.maximum(f / profile.resonance_hz, 1e-3)
     return np.asarray(-10.0 * np.log10(1.0 + (profile.q * (r - 1.0 / r)) ** 2))
 
 
 def is_flat(profile: ActuatorProfile) -> bool:
-    """Whether it answers alike at all frequencies, so that nothing is to be made up for."""
+    """Return True if the response is the same at all frequencies, so that no equalization is needed."""
     return not profile.response_db and (profile.resonance_hz is None or profile.q is None)
 
 
 def inverse_db(
     profile: ActuatorProfile, frequencies_hz: ArrayLike, max_boost_db: float = MAX_BOOST_DB
 ) -> NDArray[np.float64]:
-    """What makes up for the response, 0..`max_boost_db` [dB]; 0 outside the actuator's band, which it cannot render."""
+    """Return the gain that compensates the response, 0..`max_boost_db` [dB]; 0 outside the actuator's band."""
     limit = checks.number("max_boost_db", max_boost_db, "dB", at_least=0.0, error=ConfigError)
     f = np.asarray(frequencies_hz, dtype=np.float64)
     usable = (f >= profile.min_frequency_hz) & (f <= profile.max_frequency_hz)
@@ -116,7 +116,7 @@ def inverse_db(
 def equalize_loop(
     loop_samples: Samples, sample_rate_hz: float, profile: ActuatorProfile, max_boost_db: float = MAX_BOOST_DB
 ) -> Samples:
-    """A loop (n_samples,) through the inverse of the actuator, equally long and not scaled; without delay or start-up.
+    """Filter a loop (n_samples,) by the inverse of the actuator, without delay or transient, and without scaling.
 
     A loop is periodic, so that weighting its Fourier coefficients is exact.
     """

@@ -1,8 +1,8 @@
 """Measures of a sound: silent ends, dynamic range, spectral flatness, dominant frequency.
 
-Pure functions of samples (n,) in any scale and their rate. All of them look at the samples without their offset, which
-is neither heard nor felt and would count as a loud, perfectly steady tone: spectra without the mean; levels without the
-median, since a few strokes in digital silence have a mean, and without that the silence would be a steady level.
+Pure functions of samples (n,) in any scale and their rate. The offset, which is neither heard nor felt, is removed
+first, or it would count as a loud, steady tone. Spectra are without the mean; levels without the median, since a few
+strokes in digital silence have a mean, whose removal would turn the silence into a steady level.
 """
 
 from __future__ import annotations
@@ -33,25 +33,24 @@ SLOW_HZ = 30.0
 LEVEL_FLOOR_DB = -60.0
 
 FLATNESS_BAND_HZ = (20.0, 7000.0)
-"""What codecs and sample rates from 16 kHz up leave alone; a low-passed file would otherwise pass for a tonal one."""
+"""Range that codecs, and sample rates from 16 kHz on, preserve; otherwise a low-passed file would count as tonal."""
 FLATNESS_FRAME_S = 0.125
 FLATNESS_FLOOR_DB = -60.0
-"""Bins are lifted to this far below the mean of their frame [dB]: what lies deeper is masked, and is where codecs
-write zeros."""
+"""Floor of bins relative to the mean of their frame [dB]: weaker ones are masked, and codecs replace them by zeros."""
 
 TACTILE_RANGE_HZ = (10.0, 1000.0)
-"""What touch perceives as vibration, and what the bands cover."""
+"""Range that touch perceives as vibration, and that the bands cover."""
 
 
 def trim_silence(samples: ArrayLike, sample_rate_hz: float) -> Samples:
-    """The samples without their silent ends (see `sounding_span`); empty where everything is silent."""
+    """Return the samples without their silent ends (see `sounding_span`); empty if all is silent."""
     original = np.asarray(samples, dtype=np.float32)
     first, end = sounding_span(original, sample_rate_hz)
     return original[first:end].copy()
 
 
 def sounding_span(samples: ArrayLike, sample_rate_hz: float) -> tuple[int, int]:
-    """First sample that is not silence, and the one behind the last, on a grid of 10 ms; (0, 0) where all is silent.
+    """Return the span [first, end) of samples that are not silence, on a grid of 10 ms; (0, 0) if all is silent.
 
     Silent are frames whose RMS lies `TRIM_DB` below that of the loudest frame.
     """
@@ -68,7 +67,7 @@ def sounding_span(samples: ArrayLike, sample_rate_hz: float) -> tuple[int, int]:
 
 
 def dynamic_range_db(samples: ArrayLike, sample_rate_hz: float, *, dominant_hz: float | None = None) -> float:
-    """How much the level of a sound varies: 95th minus 10th percentile of its short-time RMS level [dB].
+    """Return the dynamic range of a sound: 95th minus 10th percentile of its short-time RMS level [dB].
 
     Frames of 50 ms (100 ms below `SLOW_HZ`), overlapping by half. Frames more than 60 dB below the loudest are gated:
     they count as 60 dB below it in the low percentile, since dropping them would call clicks with silence between them
@@ -91,7 +90,7 @@ def dynamic_range_db(samples: ArrayLike, sample_rate_hz: float, *, dominant_hz: 
 def spectral_flatness(
     samples: ArrayLike, sample_rate_hz: float, *, band_hz: tuple[float, float] = FLATNESS_BAND_HZ
 ) -> float:
-    """How noisy a sound is, from 0 (a pure tone) to 0.56 = exp(-Euler's gamma) (white noise) [-].
+    """Return the spectral flatness, from 0 (a pure tone) to 0.56 = exp(-Euler's gamma) (white noise) [-].
 
     The geometric over the arithmetic mean of the power spectrum within `band_hz`, averaged over Hann-windowed frames.
     Frames last 125 ms at any rate and the band is the same for all, which gives each sound the same bins: as if all
@@ -124,7 +123,7 @@ def spectral_flatness(
 def dominant_frequency_hz(
     samples: ArrayLike, sample_rate_hz: float, *, range_hz: tuple[float, float] = TACTILE_RANGE_HZ
 ) -> float:
-    """The frequency of the strongest peak of a sound's spectrum within `range_hz` [Hz].
+    """Return the frequency of the strongest peak of a sound's spectrum within `range_hz` [Hz].
 
     Hann-windowed Fourier transform of the whole sound, zero-padded to twice its length, and a parabola through the
     logarithms of the three bins around the peak; for a tone in noise the error is below 0.1 Hz from 0.25 s on. Only
@@ -137,7 +136,7 @@ def dominant_frequency_hz(
 def dominant_frequencies_hz(
     samples: ArrayLike, sample_rate_hz: float, *ranges_hz: tuple[float, float]
 ) -> tuple[float, ...]:
-    """`dominant_frequency_hz` of several ranges at the price of one [Hz]. Raises: AudioError: as there."""
+    """Return `dominant_frequency_hz` for several ranges, from one spectrum [Hz]. Raises: AudioError: as there."""
     x, rate = _sounding(samples, sample_rate_hz)
     for low, high in ranges_hz:
         checks.number("range_hz[0]", low, "Hz", above=0.0, below=min(high, rate / 2), error=AudioError)
@@ -156,7 +155,7 @@ def dominant_frequencies_hz(
 
 
 def peak_frequency_hz(magnitude: ArrayLike, bin_hz: float, range_hz: tuple[float, float]) -> float | None:
-    """The frequency of the highest peak of a magnitude spectrum (n_bins,), bins `bin_hz` apart from 0 Hz on [Hz].
+    """Return the frequency of the highest peak of a magnitude spectrum (n_bins,), with bins every `bin_hz` from 0 Hz.
 
     A parabola through the logarithms of the three bins around the peak; None where the range holds no bin.
     """
@@ -175,7 +174,7 @@ def peak_frequency_hz(magnitude: ArrayLike, bin_hz: float, range_hz: tuple[float
 
 
 def _checked(samples: ArrayLike, sample_rate_hz: float) -> tuple[Signal, float]:
-    """Float64 samples without their mean, and the rate."""
+    """Return the samples as float64 without their mean, and the rate."""
     rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=AudioError)
     x = np.asarray(samples, dtype=np.float64)
     if x.ndim != 1 or x.size == 0:
@@ -191,6 +190,6 @@ def _sounding(samples: ArrayLike, sample_rate_hz: float) -> tuple[Signal, float]
 
 
 def _frames(x: Signal, size: int) -> Signal:
-    """Overlapping frames (n_frames, size), half a frame apart; the whole signal where it is shorter than one."""
+    """Return frames (n_frames, size) that overlap by half; the whole signal if it is shorter than one."""
     size = min(max(size, 2), len(x))
     return sliding_window_view(x, size)[:: max(1, size // 2)]

@@ -1,18 +1,18 @@
-"""The frequency that stands for a source: where its own spectrum is strong and touch can be reached.
+"""The anchor of a source: the strong component of its spectrum by which it is felt.
 
-A sound's strongest component may lie so low, or be so uneven, that no drive below full scale makes it felt at the
-level that its intensity asks for. The anchor is the strongest one that can. Components are lines, which stand out of
-the noise around them; a sound without lines has its strongest bands of noise instead. If no component within 14 dB of
-the strongest can be felt at that level:
+A sound's strongest component may be so low, or so irregular, that no drive below full scale brings it to the planned
+sensation level. The anchor is the strongest component that can reach it. Components are lines, which exceed the noise
+around them; a sound without lines has its strongest bands of noise instead. If no component within 14 dB of the
+strongest can reach the level:
 
-- the actuator does not render the strongest: its band is moved as a whole to where the actuator is felt best;
-- the strongest is slower than 60 Hz: its band is moved as well, and its rate is kept as roughness;
-- the strongest is higher than that and would be felt better there by more than 6 dB, as a beep of 900 Hz: it is moved;
-- else the component that comes nearest to the level is felt as itself, weaker than asked.
+- the actuator does not render the strongest: its band is shifted to the frequency at which the actuator is felt best;
+- the strongest is below 60 Hz: its band is shifted there as well, and its rate is kept as roughness;
+- the strongest is higher, and would be felt more than 6 dB better there, as a beep of 900 Hz: it is shifted;
+- else the component that comes nearest to the level keeps its frequency and is weaker than planned.
 
-What a component needs is known before anything is converted: a band around it, of the shape that the adaptive
-converter keeps, B(f) = 1 / (1 + Q^2 (f / f_0 - f_0 / f)^2), has a sensation level and a peak; the drive of a sine that
-is felt as strongly, and what the peak exceeds it by ("crest"), must stay below the head-room of a loop together.
+The drive of a component is computed before any conversion. A band around it, of the shape that the adaptive converter
+keeps, B(f) = 1 / (1 + Q^2 (f / f_0 - f_0 / f)^2), has a sensation level and a peak. The drive of a sine that is felt as
+strongly, plus the band's peak relative to that sine ("crest"), must fit into the head-room of a loop.
 """
 
 from __future__ import annotations
@@ -32,33 +32,36 @@ from scene2hap.haptics import ActuatorProfile
 BAND_Q = 2.0
 """Quality of each of two band-passes in series around the anchor [-]; see `tactile.adaptive`."""
 HIGHEST_PEAK_DB = -6.5
-"""Below full scale less the head-room of loops (6 dB) by what a loop differs from the sound it is cut from [dB]."""
+"""Highest peak of a band [dB re full scale]: the head-room of loops (6 dB), and 0.5 dB for the difference of a loop
+from the sound it is cut from."""
 FAINTEST_DB = -14.0
-"""Components this far below the strongest are not what the source is known by; better it is felt weaker. At 24 dB, most
-steady recordings at hand were felt as something 14-21 dB below what they sound like."""
+"""Level relative to the strongest component below which a component does not identify the source. With -24 dB, most
+steady test recordings were felt at a component 14-21 dB below their strongest one."""
 FAINTEST_BELOW_WHINE_DB = -40.0
-"""The same below what is too high to be felt: a hum is felt as itself under a whine, a recording's noise is not."""
+"""The bound `FAINTEST_DB` if the strongest component is too high to be felt: it admits a hum under a whine, but not a
+recording's noise."""
 MISSED_DB = 3.0
-"""A component that misses its level by more cannot be felt as asked; about what is felt as a difference."""
+"""Largest error of a component's level [dB]: about the least difference that is felt."""
 CARRIED_DB = 6.0
-"""What is too high is moved down if it is felt better by more there. Touch is 4 dB less keen at 350 Hz than at 250 and
-19 at 500, and feels nothing of 900. What is too low keeps its frequency, by which an engine is known."""
+"""A component that is too high is shifted down if it is felt better by more than this there [dB]. Touch is 4 dB less
+sensitive at 350 Hz than at 250, 19 dB at 500, and feels nothing at 900. A component that is too low keeps its
+frequency, by which an engine is recognized."""
 ROUGH_HZ = (20.0, 60.0)
-"""Rates of modulation that are felt as roughness, not one by one and not as another tone."""
+"""Modulation rates that are felt as roughness, not as single pulses and not as another tone."""
 RANGE_HZ = (20.0, 1000.0)
 _HIGHEST_HZ = 10_000.0
 _CARRIERS_HZ = np.geomspace(100.0, 300.0, 65)
-"""Where a burst of 8 ms still has a frequency, and touch is keen."""
+"""Possible carriers [Hz]: a burst of 8 ms still has a frequency, and touch is sensitive."""
 _OTHER_RATIO = 1.25
 _GRID = 81
 
 
 @dataclass(frozen=True)
 class Anchor:
-    """A source's own frequency [Hz], and what its band's peak exceeds that of an equally felt sine by [dB].
+    """A source's own frequency [Hz], and the peak of its band relative to that of an equally felt sine [dB].
 
-    rough_hz : the strongest component of the sound, where that is too low to be felt as itself and is to be kept as
-    roughness, else None [Hz]; carrier_hz : where the band is felt that cannot be felt where it is, else None [Hz].
+    rough_hz : the strongest component of the sound, if it is too low for a tone and is kept as roughness, else None
+    [Hz]; carrier_hz : the frequency to which the band is shifted, if it cannot be felt at its own, else None [Hz].
     """
 
     frequency_hz: float
@@ -68,12 +71,12 @@ class Anchor:
 
     @property
     def felt_hz(self) -> float:
-        """Where it is felt before sources are moved apart [Hz]."""
+        """The frequency at which it is felt, before sources are moved apart [Hz]."""
         return self.carrier_hz or self.frequency_hz
 
 
 def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile) -> Anchor | None:
-    """The anchor of a whole sound (n_samples,) that is to be felt at a sensation level; None where there is none."""
+    """Return the anchor of a whole sound (n_samples,) for a planned sensation level; None without one."""
     x = np.asarray(samples, dtype=np.float64)
     magnitude = magnitudes(x)
     heard = components(magnitude, sample_rate_hz, (RANGE_HZ[0], min(_HIGHEST_HZ, 0.45 * sample_rate_hz)), -300.0)
@@ -95,7 +98,7 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
     found, missed_db = needs.first_met(candidates)
     is_whine = heard[0].hz > RANGE_HZ[1]
     if found is not None and is_whine and needs.above_db(found.frequency_hz, heard[0].hz) < FAINTEST_BELOW_WHINE_DB:
-        found, strongest = None, heard[0]  # of a hiss, what is left at its lower end
+        found, strongest = None, heard[0]  # a hiss: only its lower end is in range
     if found is None or missed_db > MISSED_DB:
         carried = needs.carried(strongest.hz)
         is_slow = strongest.is_line and strongest.hz <= ROUGH_HZ[1]
@@ -107,7 +110,7 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
 
 
 def band_of(clip: AudioClip, anchor: Anchor) -> NDArray[np.float64]:
-    """What the adaptive converter keeps of a clip around its anchor (n_samples,)."""
+    """Return the band (n_samples,) of a clip that the adaptive converter keeps around its anchor."""
     x = clip.samples.astype(np.float64)
     spectrum = scipy.fft.rfft(x - x.mean())
     spectrum *= _band(scipy.fft.rfftfreq(len(x), 1.0 / clip.sample_rate_hz), anchor.frequency_hz)
@@ -115,13 +118,13 @@ def band_of(clip: AudioClip, anchor: Anchor) -> NDArray[np.float64]:
 
 
 def rendered_hz(sample_rate_hz: float, actuator: ActuatorProfile) -> tuple[float, float]:
-    """The range of what is both felt and rendered [Hz]."""
+    """Return the range of frequencies that are both felt and rendered [Hz]."""
     low = max(RANGE_HZ[0], actuator.min_frequency_hz)
     return low, min(RANGE_HZ[1], actuator.max_frequency_hz, 0.45 * sample_rate_hz)
 
 
 def best_carrier_hz(actuator: ActuatorProfile) -> float:
-    """Where the actuator is felt best, of what also carries a short burst [Hz]."""
+    """Return the frequency at which the actuator is felt best, among those that suit short bursts [Hz]."""
     f = _CARRIERS_HZ
     inside = f[(f >= actuator.min_frequency_hz) & (f <= actuator.max_frequency_hz)]
     among = inside if inside.size else f
@@ -131,9 +134,10 @@ def best_carrier_hz(actuator: ActuatorProfile) -> float:
 def reachable_hz(
     anchor: Anchor, level_db: float, actuator: ActuatorProfile, octaves: float
 ) -> tuple[float, float, float]:
-    """How far a source may be moved: lowest and highest frequency [Hz], and how much louder it may be all the way [dB].
+    """Return how far a source may be moved: lowest and highest frequency [Hz], and the gain that fits all of them [dB].
 
-    Both lie within `octaves` of where it is felt; further than its level can be reached only if that was so before.
+    Both lie within `octaves` of where it is felt. Frequencies at which its level cannot be reached are left out, unless
+    the shortfall is no larger than at its own.
     """
     own_hz = anchor.felt_hz
     f: NDArray[np.float64] = own_hz * 2.0 ** np.linspace(-octaves, octaves, _GRID)
@@ -150,7 +154,7 @@ def reachable_hz(
 
 
 class _Needs:
-    """What bands of a sound need to be felt at a level."""
+    """The drive that bands of a sound need for a sensation level."""
 
     def __init__(self, x: Signal, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile) -> None:
         self._n, self._rate_hz, self._level_db, self._actuator = len(x), sample_rate_hz, level_db, actuator
@@ -158,7 +162,7 @@ class _Needs:
         self._f = scipy.fft.rfftfreq(len(x), 1.0 / sample_rate_hz)
 
     def first_met(self, candidates_hz: list[float]) -> tuple[Anchor | None, float]:
-        """The first that can be felt at the level, or the one that comes nearest, and what it misses [dB]."""
+        """Return the first candidate that reaches the level, or the one that comes nearest, and its error [dB]."""
         best: tuple[Anchor | None, float] = None, np.inf
         for own_hz in candidates_hz:
             band, peak = self._band(own_hz)
@@ -173,30 +177,30 @@ class _Needs:
         return best
 
     def carried(self, own_hz: float) -> Anchor:
-        """A band that is to be moved to where the actuator is felt best; its crest stays."""
+        """Return the anchor of a band that is shifted to the best frequency of the actuator; its crest stays."""
         band, peak = self._band(own_hz)
         rms = float(np.sqrt(2.0 * np.sum(np.abs(band) ** 2)) / self._n)
         crest_db = 20.0 * float(np.log10(peak / (np.sqrt(2.0) * rms)))
         return Anchor(own_hz, crest_db, carrier_hz=best_carrier_hz(self._actuator))
 
     def missed_db(self, anchor: Anchor) -> float:
-        """What an anchor's band misses where it is felt [dB]."""
+        """Return how far an anchor's band stays below the level where it is felt [dB]."""
         drive = float(drive_db(anchor.felt_hz, self._level_db, self._actuator))
         return max(0.0, drive + anchor.crest_db - HIGHEST_PEAK_DB)
 
     def above_db(self, one_hz: float, other_hz: float) -> float:
-        """By how much more energy a band has than another [dB]."""
+        """Return the energy of a band relative to another [dB]."""
         one, other = (float(np.sum(np.abs(self._band(hz)[0]) ** 2)) for hz in (one_hz, other_hz))
         return 10.0 * float(np.log10(max(one, 1e-300) / max(other, 1e-300)))
 
     def _band(self, own_hz: float) -> tuple[NDArray[np.complex128], float]:
-        """The spectrum of a band, and its peak."""
+        """Return the spectrum of a band, and its peak."""
         band = self._spectrum * _band(self._f, own_hz)
         return band, float(np.abs(scipy.fft.irfft(band, self._n)).max())
 
 
 def _rough_hz(strongest: Component, found: Anchor, magnitude: Signal, sample_rate_hz: float) -> float | None:
-    """The strongest component, if that is another one than is felt, and slow enough to be felt as roughness of it."""
+    """Return the strongest component if it is not the anchor, and is slow enough to be felt as its roughness."""
     low, high = ROUGH_HZ
     if not strongest.is_line or not low <= strongest.hz <= high or found.felt_hz < strongest.hz * _OTHER_RATIO:
         return None

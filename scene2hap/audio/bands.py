@@ -1,7 +1,7 @@
-"""A loop split into frequency bands that add up to it exactly.
+"""Split a loop into frequency bands that add up to it exactly.
 
-A loop is periodic, so its Fourier coefficients describe it completely, and weighting them is a filter without delay,
-start-up or end. Each inner edge gets one rising step S_j(f), a raised cosine in log f; band j is S_j - S_(j+1) with
+A loop is periodic, so its Fourier coefficients describe it completely, and weighting them is a filter without delay and
+without transients. Each inner edge has one rising step S_j(f), a raised cosine in log f; band j is S_j - S_(j+1) with
 S_0 = 1 and S_N = 0, so the sum over all bands telescopes to one at every frequency. A step spans half of the narrower
 band on each side: a band's centre belongs to that band alone, and nothing leaks further than the neighbour.
 """
@@ -19,10 +19,10 @@ from scene2hap.haptics import Bands
 
 
 def split_bands(loop_samples: ArrayLike, sample_rate_hz: float, bands: Bands) -> NDArray[np.float32]:
-    """The part of a loop (n_samples,) in each band, (n_bands, n_samples), without delay between them.
+    """Return the part of a loop (n_samples,) in each band, (n_bands, n_samples), without delay between them.
 
-    The lowest band reaches down to 0 Hz and the highest up to half the rate, so that nothing is lost; for
-    `Bands.dominant()` the loop itself is the one band.
+    The lowest band extends to 0 Hz and the highest to half the rate, so that the sum is complete. For
+    `Bands.dominant()`, the loop itself is the only band.
     Raises: AudioError: the loop is empty, not one channel, or not finite.
     """
     rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=AudioError)
@@ -38,10 +38,9 @@ def split_bands(loop_samples: ArrayLike, sample_rate_hz: float, bands: Bands) ->
 
 
 def band_weights(frequencies_hz: ArrayLike, bands: Bands) -> NDArray[np.float64]:
-    """The share of each band in each frequency, (n_bands, n_frequencies), 0..1 [-]; each column adds up to 1.
+    """Return the share of each band at each frequency, (n_bands, n_frequencies), 0..1 [-]; each column adds up to 1.
 
-    Real weights are a filter without phase. A loop whose bands play at gains g_j sounds like the loop through the one
-    filter sum_j g_j weights[j].
+    Real weights are a zero-phase filter. Bands with gains g_j add up to the loop filtered by sum_j g_j weights[j].
     """
     f = np.atleast_1d(np.asarray(frequencies_hz, dtype=np.float64))
     if bands.n_bands == 1:

@@ -1,4 +1,4 @@
-"""A sound in memory, with where it came from."""
+"""Sounds in memory, with their credits."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Samples = NDArray[np.float32]
 @clear_construction
 @dataclass(frozen=True)
 class Credit:
-    """Whom a sound is owed to; written next to the haptics.
+    """The author, licence and origin of a sound; written next to the haptics.
 
     `query` is the search, `origin` the kind of source that answered ("freesound", "library", ...).
     """
@@ -35,7 +35,7 @@ class Credit:
 
 
 MAX_SAMPLE_RATE_HZ = 1_000_000
-"""Assumed: no recorder samples faster; filters and seams are as long as their times at the clip's rate."""
+"""Highest sample rate [Hz] (assumed: no recorder samples faster). It bounds the lengths of filters and seams."""
 
 
 @clear_construction
@@ -43,8 +43,7 @@ MAX_SAMPLE_RATE_HZ = 1_000_000
 class AudioClip:
     """A mono sound: float32 samples (n_samples,), nominally in [-1, 1].
 
-    `is_vibration` marks one that is to be felt as it is, as a hand-made haptic clip: it is looped whole, and converters
-    leave it alone.
+    `is_vibration` marks a vibration signal, such as a hand-made haptic clip: it is looped whole and not converted.
     Raises: AudioError: no samples, a value that is not finite, or a sample rate outside of 1 to
     `MAX_SAMPLE_RATE_HZ`.
     """
@@ -57,7 +56,7 @@ class AudioClip:
     def __post_init__(self) -> None:
         most_hz = MAX_SAMPLE_RATE_HZ
         rate = checks.number("sample_rate_hz", self.sample_rate_hz, "Hz", at_least=1, at_most=most_hz, error=AudioError)
-        # Samples of another clip are shared: one recording may serve many sources.
+        # Frozen samples are shared, not copied: one recording may serve many sources.
         samples = self.samples if _is_frozen(self.samples) else _as_float32(self.samples)
         if samples.ndim != 1:
             raise AudioError(f"samples has shape {samples.shape}; a clip is mono, (n_samples,). Mix channels first.")
@@ -89,7 +88,7 @@ class AudioClip:
 
 
 def _is_frozen(samples: object) -> bool:
-    """Whether an array owns its samples, so that nobody can change them by another name, and refuses writing."""
+    """Return True if an array is read-only and owns its samples, so that no other array can change them."""
     return (
         isinstance(samples, np.ndarray)
         and samples.dtype == np.float32
@@ -99,7 +98,7 @@ def _is_frozen(samples: object) -> bool:
 
 
 def _as_float32(samples: object) -> Samples:
-    """A copy. Raises: AudioError: it is no table of numbers; what is too large becomes infinite."""
+    """Return a copy as float32; too large values become infinite. Raises: AudioError: they are not numbers."""
     if isinstance(samples, np.ndarray) and type(samples) is np.ndarray and samples.dtype.kind == "f":
         table = samples
     else:

@@ -1,4 +1,4 @@
-"""What a spectrum consists of: lines, which stand out of the noise around them, and bands of noise."""
+"""The components of a spectrum: lines, which exceed the noise around them, and bands of noise."""
 
 from __future__ import annotations
 
@@ -11,18 +11,17 @@ from numpy.typing import NDArray
 Signal = NDArray[np.float64]
 
 LINE_DB = 12.0
-"""By which a line is higher than the median of what is around it. The highest of 500 bins of noise exceeds its median
-by 9.5 dB."""
+"""Least height of a line above the median of its surroundings [dB]. The highest of 500 bins of noise exceeds their
+median by 9.5 dB."""
 _AROUND = 2.0 ** (1.0 / 3.0)
 _LOBES = 8.0
-"""Widths of the window's main lobe around a component that are looked at, if that is more."""
+"""Least extent of these surroundings, in widths of the window's main lobe."""
 _APART = 2.0 ** (1.0 / 6.0)
 _MOST = 8
 
 
 class Component(NamedTuple):
-    """A peak of a spectrum: frequency [Hz], height of the spectrum there [dB], and how far that is above the median of
-    what is around it [dB]."""
+    """A peak of a spectrum: frequency [Hz], level [dB], and height above the median of its surroundings [dB]."""
 
     hz: float
     level_db: float
@@ -30,12 +29,12 @@ class Component(NamedTuple):
 
     @property
     def is_line(self) -> bool:
-        """Whether it is more than a peak of noise."""
+        """True if it is a line, not a peak of noise."""
         return self.above_noise_db >= LINE_DB
 
 
 def magnitudes(x: Signal) -> Signal:
-    """Magnitudes under a Hann window, of a sound (n,) padded to an even number of twice its length and more."""
+    """Return the magnitude spectrum of a sound (n,), Hann-windowed and padded to an even length of at least 2 n."""
     n = 2 * scipy.fft.next_fast_len(len(x), real=True)
     found: Signal = np.abs(scipy.fft.rfft((x - x.mean()) * np.hanning(len(x) + 2)[1:-1], n))
     return found
@@ -44,10 +43,10 @@ def magnitudes(x: Signal) -> Signal:
 def components(
     magnitude: Signal, sample_rate_hz: float, range_hz: tuple[float, float], faintest_db: float
 ) -> list[Component]:
-    """The peaks of a spectrum from `magnitudes` within a range, strongest first, at most eight.
+    """Return the peaks of a spectrum from `magnitudes` within a range, strongest first, at most eight.
 
-    None is within a sixth of an octave of a stronger one, or more than `faintest_db` (negative) below the strongest.
-    Parabola through the logarithms of the three bins around a peak.
+    Peaks within a sixth of an octave of a stronger one are left out, and those more than -`faintest_db` below the
+    strongest. Frequencies are those of parabolas through the logarithms of three bins.
     """
     n = 2 * (len(magnitude) - 1)
     low, high = range_hz
@@ -76,7 +75,7 @@ def components(
 def strongest_bands_hz(
     magnitude: Signal, sample_rate_hz: float, range_hz: tuple[float, float], faintest_db: float
 ) -> list[float]:
-    """Middles of the third octaves within a range, strongest first, none further below that than `faintest_db` [Hz]."""
+    """Return the centres of the third octaves within a range [Hz], strongest first, down to `faintest_db` below it."""
     n = 2 * (len(magnitude) - 1)
     low, high = range_hz
     middles = 10 ** (np.arange(np.ceil(10 * np.log10(low)), np.floor(10 * np.log10(high)) + 1) / 10)

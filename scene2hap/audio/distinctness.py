@@ -1,12 +1,12 @@
 """Perceptual distance of two sources in just noticeable differences (JND).
 
     by frequency   |ln(f_1 / f_2)| / ln(1 + W)      W = 0.22 [-]
-    by envelope    the same for the rates at which both rise and fall, if both do
+    by envelope    the same formula for the rates of both envelopes, if both vary
     by level       |L_1 - L_2| / 2.5 dB             L [dB] sensation levels
 
-Published Weber fractions of frequency are 0.18 to 0.25, of which the middle is taken, and level JNDs 2.2 to 2.5 dB, of
-which the larger (Israr, Tan and Reed 2006). For the rate of an envelope the same fraction is assumed. Levels fall with
-distance, frequency and rate do not, hence the two ways to be distinct.
+Published Weber fractions of frequency are 0.18 to 0.25, of which the middle is used; level JNDs are 2.2 to 2.5 dB, of
+which the larger is used (Israr, Tan and Reed 2006). For the rate of an envelope the Weber fraction of frequency is
+assumed. Levels fall with distance, frequency and rate do not; hence the two criteria.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ from scene2hap.haptics import ActuatorProfile
 
 FREQUENCY_WEBER = 0.22
 WIDEST_WEBER = 0.25
-"""The largest published fraction: everybody distinguishes two sources that far apart."""
+"""The largest published Weber fraction: everybody can distinguish two sources with this difference."""
 LEVEL_JND_DB = 2.5
 FAR_DB = 12.0
-"""The attenuation at which sources shall still differ [dB]."""
+"""Attenuation at which sources shall still be distinct [dB]."""
 
 _RATE_HZ = (0.5, 60.0)
 _LEAST_DEPTH = 0.2
@@ -48,7 +48,7 @@ class Feel:
 
 @dataclass(frozen=True)
 class Difference:
-    """Two sources, and by how many JNDs they differ."""
+    """The differences of two sources in JNDs."""
 
     first: str
     second: str
@@ -59,17 +59,17 @@ class Difference:
 
     @property
     def without_level(self) -> float:
-        """The larger of the differences that distance leaves alone."""
+        """The larger of the differences in frequency and rate, which do not depend on distance."""
         return max(self.by_frequency, self.by_envelope)
 
     @property
     def is_distinct(self) -> bool:
-        """2 JND in frequency or envelope rate, or 1 there and 2 in level."""
+        """True for 2 JND in frequency or envelope rate, or for 1 JND there and 2 in level."""
         return self.without_level >= 2.0 or (self.without_level >= 1.0 and self.by_level >= 2.0)
 
     @property
     def far_away(self) -> float:
-        """What is left without level after 12 dB of attenuation; nothing, if one of the two is not felt any more."""
+        """The difference without level after 12 dB of attenuation; 0 if one of the two is no longer felt."""
         return self.without_level if self.fainter_db > FAR_DB else 0.0
 
 
@@ -88,7 +88,7 @@ def feel_of(loop_samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorPr
 
 
 def difference(first: str, one: Feel, second: str, other: Feel) -> Difference:
-    """By how much two sources differ."""
+    """Return the differences of two sources."""
     by_envelope = 0.0
     if one.envelope_hz is not None and other.envelope_hz is not None:
         by_envelope = frequency_jnds(one.envelope_hz, other.envelope_hz)
@@ -98,25 +98,25 @@ def difference(first: str, one: Feel, second: str, other: Feel) -> Difference:
 
 
 def distinctness(feels: Mapping[str, Feel]) -> tuple[Difference, ...]:
-    """Every pair of sources by name, least distinct first."""
+    """Return the differences of all pairs of sources, the least distinct first."""
     pairs = [difference(a, feels[a], b, feels[b]) for a, b in combinations(feels, 2)]
     return tuple(sorted(pairs, key=lambda pair: (pair.is_distinct, pair.without_level)))
 
 
 def frequency_jnds(one_hz: float, other_hz: float) -> float:
-    """How many JNDs lie between two frequencies [-]."""
+    """Return the number of JNDs between two frequencies [-]."""
     a = checks.number("one_hz", one_hz, "Hz", above=0.0, error=AudioError)
     b = checks.number("other_hz", other_hz, "Hz", above=0.0, error=AudioError)
     return abs(math.log(a / b)) / math.log1p(FREQUENCY_WEBER)
 
 
 def rhythm_hz(samples: ArrayLike, sample_rate_hz: float) -> float | None:
-    """The rate at which a sound (n_samples,) surely rises and falls [Hz], whatever loop is cut from it; else None."""
+    """Return the envelope rate of a sound (n_samples,) [Hz], None unless any loop cut from it has that rate."""
     return _envelope_rate_hz(np.asarray(samples, dtype=np.float64), sample_rate_hz, _SURE_DEPTH)
 
 
 def _envelope_rate_hz(x: np.ndarray, sample_rate_hz: float, least_depth: float) -> float | None:
-    """The strongest rate in the Hilbert envelope of a loop; None where that hardly moves."""
+    """Return the strongest rate in the Hilbert envelope of a loop [Hz], None if the envelope hardly varies."""
     spectrum = np.fft.fft(x)
     spectrum[0] = 0.0
     spectrum[(len(x) + 1) // 2 :] = 0.0

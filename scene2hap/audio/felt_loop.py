@@ -21,9 +21,11 @@ _PEAK = 10 ** (-TACTILE_HEADROOM_DB / 20)
 
 @dataclass(frozen=True, eq=False)
 class SourceClip:
-    """The chosen sound of one state of one source, its intensity 0..1, and the group within which sources may feel
-    alike: objects of one kind, and so the states of one object. One that is to `keep` its place is not moved,
-    and the others keep clear of it; so with one that is to be felt at `pitch_hz`, which is moved there."""
+    """The chosen sound of one state of one source, with its intensity 0..1.
+
+    group : sources of one group may feel alike: the states of an object, objects of one kind; keep : do not move its
+    frequency; pitch_hz : the frequency to which it is moved, None for none. Other sources keep clear of both.
+    """
 
     clip: AudioClip
     intensity: float
@@ -34,7 +36,7 @@ class SourceClip:
 
 @dataclass(frozen=True)
 class Plan:
-    """How one source is converted, and at which sensation level it is to be felt [dB]."""
+    """The conversion of one source, and its planned sensation level [dB]."""
 
     context: ConversionContext
     level_db: float
@@ -47,9 +49,9 @@ def plan_scene(
     limits: SpreadLimits | None = None,
     standing: Sequence[tuple[HapticLoop, str]] = (),
 ) -> tuple[Plan, ...]:
-    """A plan for each source. Sources are moved apart within the limits if the converter follows targets.
+    """Return a plan for each source. Sources are moved apart within the limits if the converter follows targets.
 
-    Parameters: standing : loops that stay as they are, and their groups; the sources keep clear of them too.
+    Parameters: standing : loops that do not change, with their groups; the sources keep clear of them, too.
     Raises: AudioError: an intensity outside 0..1.
     """
     levels = [sensation_level_db(source.intensity) for source in sources]
@@ -92,7 +94,7 @@ def plan_scene(
 
 
 def _anchors(sources: Sequence[SourceClip], levels: Sequence[float], actuator: ActuatorProfile) -> list[Anchor | None]:
-    """The anchor of each source; sources that share a clip and a level are looked at once."""
+    """Return the anchor of each source; sources that share a clip and a level are analysed once."""
     known: dict[tuple[int, float], Anchor | None] = {}
     for source, level in zip(sources, levels, strict=True):
         key = id(source.clip), level
@@ -111,9 +113,9 @@ def _standing_voice(loop: HapticLoop, group: str, actuator: ActuatorProfile) -> 
 def felt_loop(
     clip: AudioClip, converter: TactileConverter, plan: Plan, max_boost_db: float = MAX_BOOST_DB
 ) -> HapticLoop:
-    """The pair of loops of a source, the tactile one equalized for the actuator and at its planned level.
+    """Make the loops of a source, the tactile one equalized for the actuator and at its planned level.
 
-    The level is a bound from above only: no peak exceeds full scale less `TACTILE_HEADROOM_DB`.
+    The level is lower if a peak would exceed full scale less `TACTILE_HEADROOM_DB`.
     Raises: AudioError: the clip is too short or silent, or its conversion is.
     """
     actuator, rate = plan.context.actuator, clip.sample_rate_hz

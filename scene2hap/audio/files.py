@@ -1,4 +1,4 @@
-"""Reading sound files of any kind, and writing those of a bundle."""
+"""Read sound files, and write those of a bundle."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ MAX_FILE_S = 600.0
 damaged header may promise a thousand hours."""
 
 MAX_FILE_SAMPLES = 1 << 26
-"""Samples of all channels together; assumed: ten minutes of stereo at 48 kHz, and what is decoded in a second or two. A
+"""Most samples of all channels together (assumed: ten minutes of stereo at 48 kHz, decoded in a second or two). A
 megabyte of FLAC may hold hours of silence at 655 kHz."""
 MAX_CHANNELS = 64
-"""As many as seventh-order ambisonics; each channel is converted by a stream of its own, which takes memory."""
+"""Most channels: those of seventh-order ambisonics; each has a conversion stream of its own, which takes memory."""
 
 _BLOCK_FRAMES = 1 << 18
 
@@ -78,7 +78,7 @@ def _require_bounded(path: Path, file: soundfile.SoundFile) -> None:
 
 @contextmanager
 def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
-    """A sound file to read from, of at most `MAX_FILE_SAMPLES` and `MAX_CHANNELS`.
+    """Open a sound file of at most `MAX_FILE_SAMPLES` and `MAX_CHANNELS` for reading.
 
     Raises: AudioError: it is absent, no sound, larger than that, or cut short, now or while it is read.
     """
@@ -108,7 +108,7 @@ def require_finite(path: Path, channels: np.ndarray[tuple[int, ...], np.dtype[np
 
 @contextmanager
 def written_whole(path: Path) -> Iterator[Path]:
-    """A path beside `path` to write to; it takes that place when the block ends well, and is removed when it does not.
+    """Yield a temporary path to write to. It replaces `path` when the block ends, and is removed on error.
 
     Raises: AudioError: the file cannot be written.
     """
@@ -125,7 +125,7 @@ def written_whole(path: Path) -> Iterator[Path]:
 
 
 def _is_cut_short(path: Path) -> bool:
-    """Whether a RIFF file ends before its stated length, which libsndfile passes over in silence.
+    """Return True if a RIFF file ends before its stated length, which libsndfile does not report.
 
     Programs that write into a pipe leave 0 or the largest number there.
     """
@@ -147,7 +147,7 @@ def write_wav(path: str | Path, samples: ArrayLike, sample_rate_hz: int, subtype
 
 
 def write_flac(path: str | Path, samples: ArrayLike, sample_rate_hz: int) -> None:
-    """Write samples as `write_wav` does, at 24 bits, in the lossless format that takes less room.
+    """Write samples as a lossless FLAC file of 24 bits, which is smaller; otherwise as `write_wav`.
 
     Raises: AudioError: as there, or a sample rate that FLAC cannot hold (`fits_flac`).
     """
@@ -157,7 +157,7 @@ def write_flac(path: str | Path, samples: ArrayLike, sample_rate_hz: int) -> Non
 
 
 def fits_flac(sample_rate_hz: int) -> bool:
-    """Whether a frame of FLAC can hold that rate: 16 bits for hertz, or for tens of hertz."""
+    """Return True if a FLAC frame can store this rate: 16 bits for hertz, or for tens of hertz."""
     return sample_rate_hz < 2**16 or (sample_rate_hz % 10 == 0 and sample_rate_hz < 10 * 2**16)
 
 
@@ -174,27 +174,27 @@ def _write(path: Path, samples: ArrayLike, sample_rate_hz: int, subtype: PcmSubt
 
 
 def as_stored(clip: AudioClip) -> AudioClip:
-    """The clip as `write_wav` and `read_clip` give it back, scaled down first if it goes beyond full scale."""
+    """Return the clip as it is after `write_wav` and `read_clip`, scaled down first if it exceeds full scale."""
     peak = float(np.abs(clip.samples).max())
     samples = clip.samples / peak if peak > 1.0 else clip.samples
     return replace(clip, samples=(_steps(samples, 24) / 2.0**23).astype(np.float32))
 
 
 def sound_digest(clip: AudioClip) -> str:
-    """A name for what is heard in a clip: equal for clips that `write_wav` writes alike, whatever their credits."""
+    """Return a digest of a clip's samples: equal for clips that `write_wav` writes alike; credits have no effect."""
     samples = _steps(clip.samples, 24)
     return hashlib.sha256(f"{clip.sample_rate_hz} Hz ".encode() + samples.astype("<i4").tobytes()).hexdigest()[:32]
 
 
 def _steps(samples: ArrayLike, bits: int) -> np.ndarray[tuple[int, ...], np.dtype[np.int64]]:
-    """Samples in integer steps of 2^-(bits-1); +1 loses one."""
+    """Return samples in integer steps of 2^-(bits-1); +1 loses one step."""
     full_scale = 2.0 ** (bits - 1)
     steps = np.rint(np.asarray(samples, dtype=np.float64) * full_scale)
     return np.asarray(np.minimum(steps, full_scale - 1), dtype=np.int64)
 
 
 def _quantised(path: Path, samples: ArrayLike, bits: int) -> np.ndarray[tuple[int, ...], np.dtype[np.int32]]:
-    """Integers of `bits` bits in the upper bits of int32, where the encoder looks for them."""
+    """Return integers of `bits` bits in the upper bits of int32, where the encoder reads them."""
     values = np.asarray(samples, dtype=np.float64)
     if values.ndim not in (1, 2) or values.size == 0:
         raise AudioError(f"{path}: samples has shape {values.shape}; it must be (n,) or (n, channels) with n > 0.")

@@ -18,11 +18,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Sensation:
-    """How a tactile loop is felt by whoever touches the source.
+    """How a tactile loop is felt by a hand on the source.
 
-    Parameters: level_db : over the threshold of touch, of `asked_level_db`, which the actuator or head-room may forbid
-    [dB]; own_hz : the component of the sound that stands for the source, None where there is none; target_hz : where
-    that is felt [Hz]; rough_hz : the component that is felt as roughness and not as a tone, None where there is none.
+    Parameters: level_db : sensation level over the threshold of touch [dB]; asked_level_db : the planned level, which
+    the actuator or the head-room may not allow [dB]; own_hz : the component that identifies the source, None without
+    one [Hz]; target_hz : the frequency at which that is felt [Hz]; rough_hz : the component that is felt as roughness,
+    None without one [Hz].
     """
 
     level_db: float
@@ -47,24 +48,24 @@ class Sensation:
 
     @property
     def is_moved(self) -> bool:
-        """Whether it is felt elsewhere than it sounds, by a hertz or more."""
+        """True if it is felt at least 1 Hz away from its frequency in the sound."""
         return self.own_hz is not None and self.target_hz is not None and abs(self.own_hz - self.target_hz) >= 1.0
 
 
 NOTICED_DB = 3.0
-"""A level that is missed by more is worth saying: about what is felt as a difference."""
+"""Level error above which the text mentions it: about the least difference that is felt."""
 
 
 @clear_construction
 @dataclass(frozen=True, eq=False)
 class HapticLoop:
-    """An audible and a tactile loop with the same seam, length and rate, so that they stay in step for ever.
+    """An audible and a tactile loop with the same seam, length and rate, so that they stay synchronous.
 
-    `frequency_raw_hz` is the peak of the audible loop's spectrum, which the paper puts into its attenuation law;
+    `frequency_raw_hz` is the peak of the audible loop's spectrum, which the paper uses in its attenuation law;
     `frequency_tactile_hz` is the peak of the tactile one, after conversion.
-    `source` is the sound before it was cut, None for a person's own clip, which the bundle keeps anyway, or
-    if unknown; `fingerprint` has a digest of each input of the loops, empty if unknown; `felt` is None if unknown.
-    `start_up` and `wind_down` are what the recording shows of the machine's start and stop, None for nothing.
+    `source` is the sound before it was cut, None if unknown or for a person's own clip, which the bundle stores;
+    `fingerprint` has a digest of each input of the loops, empty if unknown; `felt` is None if unknown.
+    `start_up` and `wind_down` are the machine's start and stop in the recording, None if it has none.
     Raises: AudioError: lengths or rates differ, or a frequency is not positive.
     """
 

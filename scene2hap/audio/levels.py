@@ -2,13 +2,13 @@
 
 T(f) = A / lg(b)^2 * lg(f / 550 + b)^2 - e      [dB re full scale], b = 6/11, A = 50, e = 45, at most 0
 
-is the least drive that is felt. A vibration of several components is felt by the energy of all of them, each over its
-own threshold (Pacinian corpuscles integrate; there are no critical bands to speak of):
+is the least drive that is felt. A vibration of several components is felt by their summed energy, each relative to its
+own threshold (Pacinian corpuscles integrate, practically without critical bands):
 
 L = 10 lg sum_k (a_k / 10^(T(f_k) / 20))^2      a_k [-] amplitude of the component at f_k, re full scale
 
-Source: the psychohaptic model of the MPEG haptics reference software (ISO/IEC 23090-31). That full scale lies 45 dB
-over the threshold at 250 Hz is its convention, and is what any level here rests on.
+Source: the psychohaptic model of the MPEG haptics reference software (ISO/IEC 23090-31). All levels here depend on its
+convention that full scale is 45 dB over the threshold at 250 Hz.
 """
 
 from __future__ import annotations
@@ -28,33 +28,33 @@ from scene2hap.haptics import ActuatorProfile
 FULL_LEVEL_DB = 31.0
 """Sensation level of a source of intensity 1. Assumed: what fits below full scale, with head-room, from 140 Hz on."""
 LEVEL_PER_DECADE_DB = 17.0
-"""How much a tenth of the intensity is felt weaker [dB]. Felt strength grows with amplitude to the power 0.89
-(Verrillo 1970), which would ask for 22; touch has 45 dB where hearing has 100, so that some compression is usual (2:1
-after Merchel and Altinsoy). 17 leaves the scale's faintest example, a refrigerator's hum of 0.1, at 14 dB, which is
-still felt 12 dB further away; and leaves two level JNDs between a ringing phone (0.5) and a washing machine (1)."""
+"""Level difference for a factor of ten in intensity [dB]. Felt strength grows with amplitude to the power 0.89
+(Verrillo 1970), which would give 22. Touch has a range of 45 dB, hearing 100, so that compression is usual (2:1 after
+Merchel and Altinsoy). 17 puts the faintest example of the scale, a refrigerator's hum of 0.1, at 14 dB, which is still
+felt after 12 dB of attenuation. It leaves two level JNDs between a ringing phone (0.5) and a washing machine (1)."""
 TACTILE_HEADROOM_DB = 6.0
 """Peak of the tactile loop of a source of full intensity, below full scale [dB]: two such sources add up to full scale
 (within 0.02 dB)."""
 TACTILE_RANGE_HZ = (10.0, 1000.0)
 FAINTEST_PEAK_DB = -60.0
-"""Of a sound, below which it is taken for the noise of a recording, which is not to be felt [dB re full scale]."""
+"""Peak of a sound below which it counts as the noise of a recording, which shall not be felt [dB re full scale]."""
 
 LEFT_PEAK_DB = -40.0
-"""Of a vibration against its sound: what is below this and below `FAINTEST_PEAK_DB` is the noise of the recording, of
-which a converter left nothing else; assumed."""
+"""Peak of a vibration relative to its sound [dB]. If it is below this, and below `FAINTEST_PEAK_DB`, the converter has
+left only the noise of the recording (assumed)."""
 
 _NOTHING_DB = -120.0
 """Below this there are only errors of rounding."""
 
 
 def is_noise(sound_peak: float, touch_peak: float) -> bool:
-    """Whether a sound, or what a converter left of it, is but the noise of its recording; from both peaks [-]."""
+    """Return True if the peaks [-] show that a sound, or its vibration, is only the noise of a recording."""
     faintest = 10 ** (FAINTEST_PEAK_DB / 20)
     return sound_peak < faintest or touch_peak < min(faintest, sound_peak * 10 ** (LEFT_PEAK_DB / 20))
 
 
 def sensation_level_db(intensity: float) -> float:
-    """How far above the threshold a source of that intensity is to be felt, by whoever touches it [dB].
+    """Return the sensation level at which a source of this intensity shall be felt by a hand on it [dB].
 
     Raises: AudioError: the intensity is not within 0..1, or is 0, which has no level.
     """
@@ -63,7 +63,7 @@ def sensation_level_db(intensity: float) -> float:
 
 
 def drive_db(frequencies_hz: ArrayLike, level_db: float, actuator: ActuatorProfile) -> NDArray[np.float64]:
-    """Amplitude that a sine needs on that actuator to be felt at a sensation level [dB re full scale]."""
+    """Return the amplitude that a sine needs on an actuator for a sensation level [dB re full scale]."""
     return threshold_db(frequencies_hz) + level_db - response_db(actuator, frequencies_hz)
 
 
@@ -79,7 +79,7 @@ def felt_spectrum(
 
 
 def felt_level_db(samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorProfile | None = None) -> float:
-    """Sensation level of a loop (n_samples,) [dB]; minus infinity where there is nothing to feel."""
+    """Return the sensation level of a loop (n_samples,) [dB]; minus infinity if nothing is felt."""
     return _level_db(felt_spectrum(samples, sample_rate_hz, actuator)[1])
 
 
@@ -109,9 +109,9 @@ def _level_db(felt: NDArray[np.float64]) -> float:
 def at_level(
     samples: Samples, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile, peak: float
 ) -> Samples:
-    """A loop (n_samples,) scaled to a sensation level, or as far towards it as its peak may grow.
+    """Scale a loop (n_samples,) to a sensation level, or to a peak of `peak` if that is less.
 
-    Raises: AudioError: there is nothing to feel in it.
+    Raises: AudioError: nothing in it is felt.
     """
     now_db = felt_level_db(samples, sample_rate_hz, actuator)
     if now_db < _NOTHING_DB:

@@ -21,10 +21,10 @@ Floats = NDArray[np.float64]
 Samples = NDArray[np.float32]
 
 RANGE_DB = 60.0
-"""How far below the loudest place colours and spectra go; full scale lies 45 dB over the threshold of touch."""
+"""Dynamic range of colours and spectra below their maximum [dB]; full scale is 45 dB over the threshold of touch."""
 FELT_HZ = (10.0, 1000.0)
 _COLUMNS = 1500
-"""Of a waveform or spectrum: more than a page can show, and few enough to draw at once."""
+"""Points of a waveform or spectrum: more than a page can show, and few enough to draw fast."""
 _FRAMES, _ROWS = 300, 160
 _WINDOW_S = 0.1
 
@@ -96,7 +96,7 @@ def draw_loop(
 
 
 def draw_waveform(axes: Axes, samples: Samples, sample_rate_hz: int, colour: str) -> None:
-    """Draw samples (n_samples,) over time; of a long sound the lowest and highest sample of each column."""
+    """Draw samples (n_samples,) over time; for a long sound, the lowest and highest sample of each column."""
     x = np.asarray(samples, dtype=np.float64)
     n_columns = min(len(x), _COLUMNS)
     starts = np.linspace(0, len(x), n_columns + 1).astype(np.intp)[:-1]
@@ -138,7 +138,7 @@ def component_levels_db(samples: Samples, sample_rate_hz: int) -> tuple[Floats, 
 
 
 def _strongest(frequency_hz: Floats, level_db: Floats, low_hz: float, high_hz: float) -> tuple[Floats, Floats]:
-    """The strongest component of each of some `_COLUMNS` columns on a logarithmic axis."""
+    """Return the strongest component in each of about `_COLUMNS` columns of a logarithmic axis."""
     inside = (frequency_hz >= low_hz) & (frequency_hz <= high_hz)
     f, level = frequency_hz[inside], level_db[inside]
     if len(f) <= _COLUMNS:

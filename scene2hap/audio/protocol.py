@@ -17,23 +17,23 @@ from scene2hap.plugins import Members, lacking
 
 @runtime_checkable
 class AudioSource(Protocol):
-    """Finds or makes sounds for a description."""
+    """A source that finds or generates sounds for a description."""
 
     def find(self, description: VibrationDescription) -> list[AudioClip]:
-        """Candidates, best first; empty where it has none. Raises: BackendUnavailable, AudioError."""
+        """Return candidates, best first; an empty list if there are none. Raises: BackendUnavailable, AudioError."""
         ...
 
 
 @clear_construction
 @dataclass(frozen=True)
 class ConversionContext:
-    """The scene, as far as a converter needs it.
+    """The data of a scene that a converter needs.
 
-    actuator : what it converts for; intensity : of the source, 0..1; neighbours_hz : dominant frequencies of the
-    scene's other sources [Hz]; unused if `target_hz` is given, which takes them into account.
-    own_hz : the source's own dominant frequency where somebody has looked at the whole sound, None to find out while
-    it plays; target_hz : where that frequency is to be felt, None to leave that to the converter; rough_hz : a stronger
-    component of the sound that is too low to be felt as itself, None if there is none.
+    actuator : the profile to convert for; intensity : of the source, 0..1; neighbours_hz : dominant frequencies of the
+    scene's other sources [Hz]; unused with a `target_hz`, which takes them into account.
+    own_hz : the source's dominant frequency, from an analysis of the whole sound; None to track it while it plays;
+    target_hz : the frequency at which it is felt, None if the converter may choose; rough_hz : a stronger component
+    that is too low to be felt as a tone, None without one. All [Hz].
     """
 
     actuator: ActuatorProfile = field(default_factory=ActuatorProfile)
@@ -52,23 +52,23 @@ class ConversionContext:
 
 
 class TactileStream(Protocol):
-    """A conversion under way; carries state from block to block, so that block size never matters."""
+    """A running conversion. It keeps its state between blocks, so that the block size has no effect on the result."""
 
     def process(self, block: Samples) -> Samples:
-        """The next samples (n,) float32 in [-1, 1]. Raises: AudioError: a sample is not finite, or not one channel."""
+        """Return the next samples (n,) float32 in [-1, 1]. Raises: AudioError: not finite, or not one channel."""
         ...
 
     def finish(self) -> Samples:
-        """What is still held back, (m,) float32; empty for filters without latency."""
+        """Return the samples (m,) float32 that the latency has held back; empty for filters without latency."""
         ...
 
 
 @runtime_checkable
 class TactileConverter(Protocol):
-    """Turns sound into a vibrotactile signal. One that moves a source to `target_hz` says `follows_target = True`."""
+    """Converts sound to a vibrotactile signal. Set `follows_target = True` if it moves a source to `target_hz`."""
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> TactileStream:
-        """A fresh conversion at that rate. Several may run at once, in threads of their own."""
+        """Start a conversion at a sample rate. Several may run at once, each in its own thread."""
         ...
 
 
@@ -76,7 +76,7 @@ _STREAM: Members = {"process": ("block",), "finish": ()}
 
 
 def opened_stream(converter: TactileConverter, sample_rate_hz: int, context: ConversionContext) -> TactileStream:
-    """A fresh conversion. Raises: AudioError: what the converter gave is none."""
+    """Start a conversion. Raises: AudioError: the converter did not return a `TactileStream`."""
     stream = converter.stream(sample_rate_hz, context)
     if problem := lacking(stream, _STREAM):
         raise AudioError(f"{type(converter).__name__}.stream gave no TactileStream: {problem}")
@@ -84,7 +84,7 @@ def opened_stream(converter: TactileConverter, sample_rate_hz: int, context: Con
 
 
 def one_channel(converter: TactileConverter, block: Samples) -> Samples:
-    """What a converter's stream gave, as float32 (n,). Raises: AudioError: it is no row of samples."""
+    """Return a block from a converter's stream as float32 (n,). Raises: AudioError: it has another shape or type."""
     try:
         found: Samples | None = np.asarray(block, dtype=np.float32)
     except (TypeError, ValueError):

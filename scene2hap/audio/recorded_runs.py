@@ -1,7 +1,7 @@
-"""The start and the stop of a machine at the ends of a recording, and the steady running between them.
+"""The start and the stop of a machine in a recording, and the steady running between them.
 
-A recording that begins with a machine coming up from quiet shows how long that takes, how its strength grows, and how
-its pitch rises. Its loop is cut from the steady part alone. A stop is a start read backwards.
+If a recording begins with the start of a machine, it shows its duration, and the course of amplitude and pitch. The
+loop is cut from the steady part alone. A stop is analysed as a reversed start.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from scene2hap.errors import AudioError
 
 
 class RecordedRuns(NamedTuple):
-    """The curves of a start and of a stop, None where there is none, and steady running: samples [first, end)."""
+    """The curves of start and stop, None if there is none, and the samples [first, end) of steady running."""
 
     start_up: RunCurve | None
     wind_down: RunCurve | None
@@ -30,8 +30,8 @@ class RecordedRuns(NamedTuple):
 def recorded_runs(samples: ArrayLike, sample_rate_hz: float) -> RecordedRuns:
     """Look for a start and a stop in a recording (n,).
 
-    A start rises by 12 dB or more to a steady level that lasts a second, from the room's level on, within 0.2 to 10 s,
-    and without falling; anything else is none. Raises: AudioError: the samples are not one channel, (n,), n >= 1.
+    A start rises from the room's level by at least 12 dB, within 0.2 to 10 s and without falling, to a level that is
+    steady for at least one second. Raises: AudioError: the samples are not one channel, (n,), n >= 1.
     """
     rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=AudioError)
     x = np.asarray(samples, dtype=np.float64)

@@ -1,4 +1,4 @@
-"""How a machine comes up or dies away in a recording: its amplitude and its speed over time, re steady running."""
+"""The start or the stop of a machine in a recording: amplitude and speed over time, relative to steady running."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from scene2hap.haptics import LONGEST_PASSAGE_S
 
 MOST_POINTS = 1000
 _HIGHEST_SPEED = 4.0
-"""No machine spins up past a multiple of its steady speed; a larger number is an error of the file."""
+"""Largest relative speed [-]; a larger number is an error of the file."""
 
 
 @clear_construction
 @dataclass(frozen=True)
 class RunCurve:
-    """A start or a stop, in the order in which it happens: a start rises to 1, a stop falls from 1.
+    """A start, which rises to 1, or a stop, which falls from 1.
 
     Parameters:
-    lasts_s : how long it takes, above 0, at most 30 [s].
-    amplitude : of the vibration re steady running, at equal steps from the begin to the end, at least two, 0..1 [-].
-    speed : pitch re steady running at the same instants, 0..4 [-]; empty where the recording does not tell.
-    inferred_s : what was inferred in its place, and holds again once there is another recording, 0..30 [s].
+    lasts_s : duration, above 0, at most 30 [s].
+    amplitude : of the vibration, relative to steady running, at two or more equally spaced times, 0..1 [-].
+    speed : pitch relative to steady running at the same times, 0..4 [-]; empty if the recording does not show it.
+    inferred_s : the inferred duration that this one replaces, and that applies again with another recording, 0..30 [s].
     Raises: AudioError: a number out of bounds, or a different number of points.
     """
 
@@ -54,22 +54,23 @@ class RunCurve:
 
     @property
     def keeps_pitch(self) -> bool:
-        """Whether the recording shows that the pitch stays as in steady running."""
+        """True if the recording shows that the pitch stays constant."""
         return bool(self.speed) and all(one == 1.0 for one in self.speed)
 
     def instead_of(self, time_s: float, before: RunCurve | None) -> RunCurve:
-        """This curve in the place of an inferred time [s], or of another recording's `before` that was in force."""
+        """Return this curve with the duration it replaces: `time_s`, or the one that the former curve `before`
+        replaced."""
         if before is not None and replace(before, inferred_s=self.inferred_s) == self:
             return before
         was_recorded = before is not None and time_s == before.lasts_s
         return replace(self, inferred_s=before.inferred_s if before is not None and was_recorded else time_s)
 
     def amplitude_at(self, x: ArrayLike) -> NDArray[np.float64]:
-        """Amplitude (n,) [-] at shares x (n,) of the time, 0..1."""
+        """Return the amplitude (n,) [-] at shares x (n,) of the duration, 0..1."""
         return _between(self.amplitude, x)
 
     def speed_at(self, x: ArrayLike) -> NDArray[np.float64] | None:
-        """Speed (n,) [-] at shares x (n,) of the time, 0..1; None where it is unknown."""
+        """Return the speed (n,) [-] at shares x (n,) of the duration, 0..1; None if it is unknown."""
         return _between(self.speed, x) if self.speed else None
 
 

@@ -2,12 +2,12 @@
 
     P(t) = S a(x)^2 + N,   a(x) = (1 - (1 - x)^p)^q,   x = (t - t_0) / T within 0..1
 
-P [-] is the power in the felt band, S that of steady running, N that of the room. The family has the usual rises as
-members or near ones: linear (p = q = 1), half a cosine (1.5, 1.6), a motor that nears its speed with the force of an
-unbalance (2, 2), and a coast-down read backwards (1, 4). The fit finds t_0 and T although a room's noise hides the
-begin, and a rise that nears its end slowly has no corner there. It is made on the power as it is measured, in bins of
-10 ms under a window of 90 ms, so that the window does not lengthen a short rise. What the recording has beside the
-family, such as a bend, is put on top of the fit by its residual.
+P [-] is the power in the felt band, S that of steady running, N that of the room. The family includes the usual rises,
+or near approximations: linear (p = q = 1), half a cosine (1.5, 1.6), a motor that approaches its speed with the force
+of an unbalance (2, 2), and a reversed coast-down (1, 4). The fit finds t_0 and T even where the room's noise hides the
+beginning and the end has no corner. It uses the same bins of 10 ms and window of 90 ms as the measured power, so that
+the window does not lengthen a short rise. Deviations of the recording from the family, such as a bend, are added to the
+fit as a residual.
 """
 
 from __future__ import annotations
@@ -27,34 +27,35 @@ Signal = NDArray[np.float64]
 FELT_HZ = (10.0, 1000.0)
 BIN_S = 0.010
 LEAST_RISE_DB = 12.0
-"""Between the room's level and steady running [dB]: what was turned up a little is no machine that starts."""
+"""Least rise from the room's level to steady running [dB]: a sound that was turned up a little is no start."""
 SHORTEST_S, LONGEST_S = 0.2, 10.0
-"""A cut file is faded over some 50 ms, and what takes longer than the latter is a change of load, not a start."""
+"""Duration of a start [s]. Cut files are faded over some 50 ms; a slower rise is a change of load."""
 MIN_STEADY_S = 1.0
-"""Of steady running, from which a loop can be cut."""
+"""Least steady running from which a loop can be cut [s]."""
 MOST_SPREAD_DB = 6.0
-"""Of the level of steady running over 100 ms, from its 2nd to its 98th percentile [dB]. Recorded hums, a fan and a
-washing machine have 1.2 to 3.5, pink noise 3.4, revved chainsaws 8.7 and 19, ticks, rings and speech above 50."""
+"""Largest range of the level of steady running over 100 ms, from its 2nd to its 98th percentile [dB]. Recorded hums, a
+fan and a washing machine have 1.2 to 3.5, pink noise 3.4, revved chainsaws 8.7 and 19, ticks and speech above 50."""
 MOST_RESIDUAL_DB = 2.5
-"""Of the fit, rms over the rise [dB]; a rise that falls in between, or comes in steps, does not fit; assumed."""
+"""Largest rms residual of the fit over the rise [dB] (assumed); it excludes rises with steps or dips."""
 
 _WINDOW = np.hanning(11)[1:-1] / np.hanning(11)[1:-1].sum()
 _SHORT, _LONG = 10, 50
-"""Bins over which a level is averaged: to see single notes and strokes, and to see past them."""
+"""Bins over which a level is averaged: few resolve single notes and strokes, many smooth them."""
 _USUAL_PERCENTILE = 75.0
-"""Of the level, which is that of steady running where a start and a stop take up to three quarters of a recording."""
+"""Percentile of the level that estimates steady running, even if start and stop take three quarters of a recording."""
 _NEAR_DB = 3.0
 _QUIET_DB = 6.0
-"""Above its quietest before the rise, to which a room's level may go [dB]; whatever is 12 dB below the machine may."""
+"""How far the room's level may vary above its minimum before the rise [dB]; levels 12 dB below the machine always
+may."""
 _FLOOR = 1e-6
-"""Of the power of steady running; silence in a file has no level."""
+"""Floor of the power, as a share of that of steady running, since digital silence has no level."""
 _SHAPES = ((1.0, 1.0), (2.0, 2.0), (1.0, 3.0), (1.5, 1.0))
-"""Exponents p, q from which the fit is searched."""
+"""Exponents p, q at which the search for the fit begins."""
 _LEAST_EXPONENTS, _MOST_EXPONENTS, _MOST_OF_SPEED = (0.8, 0.8), (2.2, 5.0), (2.2, 2.2)
 _BEFORE = 0.2
-"""Of the recording, by which a rise may have begun before it."""
+"""Share of the recording by which a rise may have begun before it."""
 _SPEED_ERROR = 0.008
-"""Of a speed that was followed [-]; weighs as much in the fit as 1 dB of a level. The track has steps of 0.01."""
+"""Error of a tracked speed [-] that weighs as much in the fit as 1 dB of a level. The track has steps of 0.01."""
 _POINTS_PER_S, _FEWEST_POINTS = 20, 17
 
 
@@ -67,8 +68,8 @@ class Steady(NamedTuple):
 
 
 class Rise(NamedTuple):
-    """A rise: when it begins and ends [s] since the recording's begin, its amplitude (n_points,) [-] between, and its
-    speed at the same instants (n_points,) [-], None where it was not followed."""
+    """A rise: begin and end [s] in the recording, amplitude (n_points,) [-] between them, and speed at the same times
+    (n_points,) [-], None if it was not tracked."""
 
     begin_s: float
     end_s: float
@@ -77,8 +78,8 @@ class Rise(NamedTuple):
 
 
 def felt_power(samples: Signal, sample_rate_hz: float) -> Signal:
-    """The power of a recording (n,) in the felt band, in whole bins of `BIN_S`, (n_bins,) [-]; empty where it is too
-    short, or sampled too slowly, to have any."""
+    """Return the power (n_bins,) [-] of a recording (n,) in the felt band, in whole bins of `BIN_S`; empty if it is too
+    short, or its sample rate too low."""
     size, high = round(BIN_S * sample_rate_hz), min(FELT_HZ[1], 0.45 * sample_rate_hz)
     n_bins = len(samples) // max(1, size)
     if size < 1 or high < 2 * FELT_HZ[0] or n_bins * BIN_S < MIN_STEADY_S + SHORTEST_S:
@@ -89,7 +90,7 @@ def felt_power(samples: Signal, sample_rate_hz: float) -> Signal:
 
 
 def steady_part(power: Signal) -> Steady | None:
-    """From the first bin near the usual level to the last one; None where it is short, or its level not steady."""
+    """Return the bins from the first near the usual level to the last; None if they are few or not steady."""
     if not power.size or power.max() <= 0.0:
         return None
     slow, level = _db(_smoothed(power, _LONG)), _db(_smoothed(power, _SHORT))
@@ -104,9 +105,9 @@ def steady_part(power: Signal) -> Steady | None:
 
 
 def find_rise(power: Signal, steady: Steady, track: SpeedTrack | None = None) -> Rise | None:
-    """The rise at the begin of a recording of that power (n_bins,); None where there is none.
+    """Return the rise at the beginning of a recording with this power (n_bins,), None if there is none.
 
-    Parameters: track : its speed, which tells the begin where the level is lost in the room's noise.
+    Parameters: track : the tracked speed, which shows the beginning where the room's noise hides the level.
     """
     level = _smoothed(power, _SHORT)
     if steady.first < 2:
@@ -137,8 +138,8 @@ def find_rise(power: Signal, steady: Steady, track: SpeedTrack | None = None) ->
 
 
 class _Fit:
-    """Begin and length of a rise [bins], levels of steady running and of the room [dB], exponents of the amplitude, and
-    of the speed if it was followed."""
+    """Least-squares fit of a rise: begin and length [bins], levels of steady running and of the room [dB], exponents of
+    the amplitude, and of the speed if it was tracked."""
 
     def __init__(self, relative: Signal, track: SpeedTrack | None) -> None:
         self._n = len(relative)
@@ -148,7 +149,7 @@ class _Fit:
         self._speed = np.zeros(0) if track is None else track.speed
 
     def best(self, quiet: int, steady: int, noise: float) -> Signal:
-        """The best fit; the search begins at several shapes."""
+        """Return the best fit of searches that begin at several shapes."""
         length, noise_db, n_pairs = max(2.0, 1.2 * (steady - quiet)), float(_db(noise)), 1 + bool(self._speed.size)
         low = [-_BEFORE * self._n, 2.0, -3.0, noise_db - 10.0, *_LEAST_EXPONENTS * n_pairs]
         high = [self._n, 2.0 * self._n, 3.0, noise_db + 10.0, *_MOST_EXPONENTS, *_MOST_OF_SPEED][: 4 + 2 * n_pairs]
@@ -163,14 +164,14 @@ class _Fit:
         return np.asarray(min(fits, key=lambda one: one.cost).x)
 
     def residual_db(self, found: Signal) -> Signal:
-        """What is measured above the fit (n_bins,) [dB]."""
+        """Return measured minus fitted level (n_bins,) [dB]."""
         t0, length, lift, noise_db, p, q = found[:6]
         a = _rising((self._at - t0) / length, p, q)
         power = np.convolve(10 ** (lift / 10) * a**2 + 10 ** (noise_db / 10), _WINDOW, "same") / self._edge
         return np.asarray(self._level_db - _db(power + _FLOOR))
 
     def speed(self, found: Signal, x: Signal) -> Signal:
-        """The speed at shares x (n,) of the rise: as followed, and below that as fitted [-]."""
+        """Return the speed [-] at shares x (n,) of the rise: as tracked, and before the track as fitted."""
         t0, length = found[:2]
         fitted = _rising(x, *found[6:8])
         off = self._speed - _rising((self._speed_at - t0) / length, *found[6:8])
@@ -189,7 +190,7 @@ def _rising(x: Signal, p: float, q: float) -> Signal:
 
 
 def _pinned(values: Signal) -> Signal:
-    """From 0 to 1, never falling."""
+    """Return the values made monotonic, from 0 to 1."""
     rising = np.clip(np.maximum.accumulate(values), 0.0, 1.0)
     rising[0], rising[-1] = 0.0, 1.0
     return np.asarray(rising)
@@ -200,7 +201,7 @@ def _rms(values: Signal) -> float:
 
 
 def _smoothed(values: Signal, n: int) -> Signal:
-    """Running mean over n bins, of fewer at the ends."""
+    """Return the running mean over n bins, over fewer at the ends."""
     n = min(n, len(values))
     return np.asarray(np.convolve(values, np.ones(n), "same") / np.convolve(np.ones(len(values)), np.ones(n), "same"))
 

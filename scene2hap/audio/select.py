@@ -1,11 +1,11 @@
-"""Choice of a sound among candidates.
+"""Choose a sound among candidates.
 
 The rule of the paper (Implementation, "Audio Retrieval/Generation"): cut silent ends; keep what is longer than 2.5 s;
 drop what has a dynamic range above 5 dB, since it would not loop, raising that limit by 5 dB until something is left;
 of the rest take the lowest spectral flatness, since harmonic sounds please more than noisy ones; normalise its peak.
 
-A start or a stop at its ends is no part of the loop: range and flatness are those of the steady part, and so is the
-winner.
+A machine's start and stop at the ends are no part of the loop: range and flatness are measured on the steady part, and
+only that is returned.
 """
 
 from __future__ import annotations
@@ -25,19 +25,19 @@ from scene2hap.errors import AudioError
 MIN_DURATION_S = 2.5
 DYNAMIC_RANGE_STEP_DB = 5.0
 FADE_S = 0.005
-"""Length of the fade at an end that was cut off [s], which may lie in the middle of a noise 40 dB down."""
+"""Length of the fade at a cut [s], which may be in the middle of noise 40 dB below the peak."""
 HEARD_RANGE_HZ = (10.0, 20_000.0)
 
 _NYQUIST_MARGIN = 0.45
-"""Flatness is compared below this share of the lowest rate among the candidates, clear of resamplers' slopes."""
+"""Share of the lowest rate among the candidates below which flatness is compared, to avoid resamplers' slopes."""
 
 
 @dataclass(frozen=True)
 class Candidate:
     """Scores and verdict of one candidate.
 
-    `origin` is where it came from, `duration_s` its length without silent ends; the figures are None where it was too
-    short to be measured. Dominant frequencies are the highest peak of all that is heard, and of what touch can feel.
+    `origin` is its source, `duration_s` its length without silent ends; the scores are None if it was too short.
+    Dominant frequencies are the highest peak in the audible range, and in the range of touch.
     `is_chosen` and `verdict` state the outcome and its reason.
     """
 
@@ -72,11 +72,11 @@ COLUMNS = ("", "sound", "origin", ">s", ">range dB", ">flatness", ">peak Hz", ">
 
 @dataclass(frozen=True, eq=False)
 class Choice:
-    """The winner, ready for use, and a row for every candidate in the order given; as text, a table of them.
+    """The winner, and a row for every candidate in the order given; as text, a table of them.
 
-    The winner has no silent ends, is faded over 5 ms where something was cut off, and has a peak of 1. `start_up` and
-    `wind_down` are what was cut off of a machine's start and stop, None for nothing.
-    `dynamic_range_limit_db` is what the limit had to be raised to, `flatness_band_hz` where flatness was compared.
+    The winner has no silent ends, is faded over 5 ms at cuts, and has a peak of 1. `start_up` and `wind_down` are the
+    curves of a machine's start and stop that were cut off, None for none.
+    `dynamic_range_limit_db` is the raised limit, `flatness_band_hz` the band in which flatness was compared.
     """
 
     winner: AudioClip
@@ -100,12 +100,12 @@ class Choice:
 
 
 def select_clip(clips: Sequence[AudioClip]) -> AudioClip:
-    """The candidate that loops and pleases best, ready for use. Raises: AudioError: see `explain_choice`."""
+    """Return the best candidate by the rule above, cut and normalised. Raises: AudioError: see `explain_choice`."""
     return explain_choice(clips).winner
 
 
 def explain_choice(clips: Sequence[AudioClip]) -> Choice:
-    """Choose as `select_clip` does, and give the reasons. Of equal candidates the steadier wins, then the earlier.
+    """Choose a candidate, and give the reasons. Of equal candidates the steadier wins, then the earlier.
 
     Raises: AudioError: there are no candidates, or none is longer than `MIN_DURATION_S` without its silent ends.
     """
@@ -170,7 +170,7 @@ class _Scores:
 def _verdict(
     duration_s: float, score: _Scores | None, limit_db: float, best: _Scores, chosen: RecordedRuns | None
 ) -> str:
-    """The outcome and its reason; `chosen` are the runs of the best candidate, None for any other."""
+    """Return the outcome and its reason; `chosen` are the runs of the best candidate, None for any other."""
     if duration_s == 0.0:
         return "silent"
     if score is None:
@@ -185,7 +185,7 @@ def _verdict(
 
 
 def _ready(clip: AudioClip, first: int, end: int) -> AudioClip:
-    """The stretch from `first` to `end`, faded where it was cut, with a peak of 1."""
+    """Return the samples from `first` to `end`, faded at cuts, with a peak of 1."""
     samples = clip.samples[first:end].copy()
     n_fade = min(round(FADE_S * clip.sample_rate_hz), len(samples) // 2)
     rising = (0.5 - 0.5 * np.cos(np.pi * np.arange(n_fade) / max(1, n_fade))).astype(np.float32)

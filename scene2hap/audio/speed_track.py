@@ -1,10 +1,10 @@
-"""Speed of a machine over time re steady running, from how its lines move together in a recording.
+"""Speed of a machine over time, relative to steady running, from the common motion of its spectral lines.
 
-A machine's lines lie at fixed multiples of its speed: those at f_i in steady running are at r f_i while it runs at r of
-that speed. The score of a speed r in a frame is the mean, over the lines, of how far the spectrum at r f_i rises above
-the ground around it, less that of the whole spectrum [dB]. The track is the path of the highest sum of scores (Viterbi)
-that ends at r = 1. It climbs by no more than three times the mean rate and hardly falls: harmonics coincide at half the
-speed too, to which a track must not jump. Mains hum that stays is one line of many.
+A machine's lines are at fixed multiples of its speed: a line at f_i in steady running is at r f_i at the relative speed
+r. The score of r in a frame is the mean height of the spectrum at r f_i above the noise floor, less that of the whole
+spectrum [dB]. The track is the path with the highest sum of scores (Viterbi) that ends at r = 1. It rises by at most
+three times the mean rate and hardly falls, since it must not jump to half the speed, where harmonics coincide as well.
+Constant mains hum is one line of many.
 """
 
 from __future__ import annotations
@@ -23,53 +23,54 @@ Signal = NDArray[np.float64]
 
 LINES_HZ = (20.0, 1000.0)
 FAINTEST_LINE_DB = -30.0
-"""Re the strongest line [dB]."""
+"""Level of the faintest line used, relative to the strongest [dB]."""
 CLEAR_DB, BY_CHANCE_DB = 4.0, 4.0
-"""A frame tells the speed above CLEAR_DB + BY_CHANCE_DB / n for n lines [dB]. In white noise the best path has at most
-6.9 for one line, 5.1 for two, and 2.8 for eight, over 30 draws."""
+"""A frame shows the speed if its score exceeds CLEAR_DB + BY_CHANCE_DB / n for n lines [dB]. In white noise the best
+path scores at most 6.9 for one line, 5.1 for two, and 2.8 for eight, over 30 draws."""
 STEADY_WITHIN = 0.03
-"""Median difference from full speed below which the pitch stays [-]."""
+"""Median difference from full speed below which the pitch counts as constant [-]."""
 LEAST_SHARE = 0.4
-"""Of a rise over which the speed must be told, or it is unknown [-]."""
+"""Least share of a rise in which frames must show the speed; otherwise it is unknown [-]."""
 SHORTEST_S = 0.5
-"""Of a rise whose pitch moves; in a shorter one lines move further within a frame than they are apart."""
+"""Shortest rise with a moving pitch [s]; in a shorter one, lines move further within a frame than their distance."""
 
 _HOP_S = 0.02
 _FRAME_S, _FRAMES_PER_RISE = (0.128, 0.256), 12
-"""Frames are so many to a rise, within bounds: in a longer one a line moves on, a shorter one blurs lines into one."""
+"""Bounds of the frame length [s], and frames per rise. Lines move within longer frames; shorter ones merge them."""
 _STEP = 0.01
 _SPEEDS = np.arange(0.15, 1.1 + _STEP / 2, _STEP)
 _FULL, _NEAR_FULL = int(np.argmin(np.abs(_SPEEDS - 1.0))), 3
 _STEEPEST = 3.0
-"""Times the mean rate. A motor that nears its speed as x (2 - x) begins with twice the mean rate."""
+"""Steepest rise of a track, in mean rates. A motor with the speed x (2 - x) begins with twice the mean rate."""
 _FALLS = 1
-"""Steps per frame that a track may fall, for the grid's sake."""
+"""Steps of the grid that a track may fall in a frame, to allow for rounding to the grid."""
 _HIGHEST_DB = 40.0
 _PADDING = 4
 _BLOCK, _GROUND_PERCENTILE = 16, 25.0
-"""The ground is this percentile over so many bins of an unpadded spectrum: below the lines where they lie densely."""
+"""The noise floor is this percentile over this many bins of an unpadded spectrum, to stay below dense lines."""
 _LOBE = 2.0
-"""Half the main lobe of a Hann window [bins]; a lower line cannot be told from the spectrum's own end."""
+"""Half the main lobe of a Hann window [bins]; a lower line would merge with the end of the spectrum."""
 
 
 class SpeedTrack(NamedTuple):
-    """Times (n,) [s] at which a recording tells the speed, and the speed re steady running (n,) [-]."""
+    """Times (n,) [s] of frames that show the speed, and the speed relative to steady running (n,) [-]."""
 
     at_s: Signal
     speed: Signal
 
     @property
     def is_constant(self) -> bool:
-        """Whether the machine keeps its pitch all along."""
+        """True if the pitch stays constant."""
         return bool(np.median(np.abs(self.speed - 1.0)) <= STEADY_WITHIN)
 
 
 def track_speed(
     samples: Signal, sample_rate_hz: float, rise_s: tuple[float, float], steady_s: tuple[float, float]
 ) -> SpeedTrack | None:
-    """The speed over a rise of a recording (n,), from the begins and ends of the rise and of steady running [s].
+    """Track the speed over a rise in a recording (n,).
 
-    None where steady running has no lines, or they are not followed over enough of the rise.
+    Parameters: rise_s, steady_s : begin and end of the rise and of steady running [s].
+    Returns: None if steady running has no lines, or if too few frames of the rise show the speed.
     """
     begin, end = (round(time_s * sample_rate_hz) for time_s in steady_s)
     range_hz = LINES_HZ[0], min(LINES_HZ[1], 0.45 * sample_rate_hz)
@@ -96,13 +97,13 @@ def track_speed(
 
 
 def _centres(x: Signal, at: NDArray[np.intp], size: int) -> Signal:
-    """Where the energy of each windowed frame lies (n_frames,) [samples]: late in it while a machine grows louder."""
+    """Return the centre of energy of each windowed frame (n_frames,) [samples], which is late while the level rises."""
     energy = (sliding_window_view(x, size)[at] * np.hanning(size + 2)[1:-1]) ** 2 + 1e-30
     return np.asarray(energy @ np.arange(size) / energy.sum(axis=1))
 
 
 def _scores(x: Signal, at: NDArray[np.intp], size: int, rate: float, lines_hz: Signal) -> Signal:
-    """By frame and speed (n_frames, n_speeds) [dB]."""
+    """Return the score of each frame and speed (n_frames, n_speeds) [dB]."""
     n = scipy.fft.next_fast_len(_PADDING * size, real=True)
     frames = sliding_window_view(x, size)[at]
     window = np.hanning(size + 2)[1:-1]
@@ -118,7 +119,7 @@ def _scores(x: Signal, at: NDArray[np.intp], size: int, rate: float, lines_hz: S
 
 
 def _ground_db(level_db: Signal, width: int) -> Signal:
-    """The ground of spectra (n_frames, n_bins), along lines between the middles of blocks [dB]."""
+    """Return the noise floor of spectra (n_frames, n_bins) [dB], interpolated between the middles of blocks."""
     n_frames, n = level_db.shape
     n_blocks = max(1, n // width)
     blocks = level_db[:, : n_blocks * width].reshape(n_frames, n_blocks, -1) if n >= width else level_db[:, None]
@@ -131,8 +132,8 @@ def _ground_db(level_db: Signal, width: int) -> Signal:
 
 
 def _best_path(score: Signal, steps: int) -> tuple[Signal, Signal]:
-    """Speed and score by frame (n_frames,) of the best path that ends near full speed, and climbs at most so many steps
-    of the grid a frame."""
+    """Return speed and score of each frame (n_frames,) on the best path that ends near full speed, and rises by at most
+    `steps` of the grid per frame."""
     n_frames, n = score.shape
     speeds = np.arange(n)
     best = np.where(np.abs(speeds - _FULL) <= _NEAR_FULL, score[-1], -np.inf)

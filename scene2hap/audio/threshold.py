@@ -11,6 +11,6 @@ _A, _B, _E = 50.0, 6.0 / 11.0, 45.0
 
 
 def threshold_db(frequencies_hz: ArrayLike) -> NDArray[np.float64]:
-    """T(f): the least drive that is felt, of the shape of `frequencies_hz` [dB re full scale]; least at 250 Hz."""
+    """Return T(f), the least drive that is felt [dB re full scale], in the shape of `frequencies_hz`."""
     f = np.asarray(frequencies_hz, dtype=np.float64)
     return np.minimum(0.0, _A / math.log10(_B) ** 2 * np.log10(f / 550.0 + _B) ** 2 - _E)

@@ -1,4 +1,4 @@
-"""The anchor of a sound that goes on, for streams of which nobody has seen the whole."""
+"""The anchor of a live stream, tracked while it plays."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from scene2hap.audio.levels import drive_db
 from scene2hap.haptics import ActuatorProfile
 
 STAYS_DB = 3.0
-"""An anchor that was followed stays while it is no weaker than the best by more; about what is felt as a difference."""
+"""An anchor stays while it is at most this much weaker than the best one: about the least difference that is felt."""
 LOST_DB = 12.0
-"""An anchor that falls so far behind the best within one stretch belonged to another sound; assumed."""
+"""An anchor that is this much weaker than the best one within a stretch belonged to another sound (assumed)."""
 _SAME = 1.06
-"""Between looks a component moves less than this; a faster one is another component."""
+"""Largest frequency ratio of one component in successive stretches; a larger one means another component."""
 _NEW_SHARE = 0.3
-"""Of the newest stretch in the averaged spectrum; assumed: two looks make half of it."""
+"""Weight of the newest stretch in the averaged spectrum (assumed: two stretches make half of it)."""
 
 
 class TrackedAnchor:
-    """The anchor of a sound that goes on, looked at in stretches of one length and taken for steady, which is quicker.
+    """The anchor of a live sound, from stretches of equal length. The sound is assumed steady, which is faster.
 
-    Spectra are averaged from look to look, and an anchor stays while its component is within `STAYS_DB` of the best: a
-    machine with two harmonics alike does not hop between them.
+    Spectra are averaged over stretches. An anchor stays while its component is within `STAYS_DB` of the best, so that
+    it does not jump between two harmonics of similar strength.
 
-    Parameters: sample_rate_hz : of the stretches; level_db : over the threshold, at which the sound is to be felt.
+    Parameters: sample_rate_hz : of the stretches; level_db : planned sensation level of the sound [dB].
     """
 
     def __init__(self, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile) -> None:
@@ -37,7 +37,7 @@ class TrackedAnchor:
         self.own_hz: float | None = None
 
     def look(self, stretch: NDArray[np.float64]) -> float | None:
-        """The anchor after another stretch (n_samples,); None while there is nothing [Hz]."""
+        """Analyse another stretch (n_samples,). Returns the anchor [Hz], None while there is no sound."""
         magnitude = magnitudes(stretch)
         self._power = self._averaged(magnitude)
         found = components(np.sqrt(self._power), self._rate_hz, rendered_hz(self._rate_hz, self._actuator), FAINTEST_DB)
@@ -56,7 +56,7 @@ class TrackedAnchor:
         return self.own_hz
 
     def _averaged(self, magnitude: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Power by bins, of this stretch and those before; of this one alone if the anchor is lost in it."""
+        """Return the power by bins, averaged over stretches; that of this stretch alone if it has lost the anchor."""
         power = magnitude**2
         before, own_hz = self._power, self.own_hz
         if before is None or own_hz is None or len(before) != len(power):
@@ -69,7 +69,7 @@ class TrackedAnchor:
         return _NEW_SHARE * power + (1.0 - _NEW_SHARE) * before
 
     def share(self, passes: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> float:
-        """The power that a filter of this gain over frequency [Hz] lets through, of the stretches so far [-]."""
+        """Return the averaged power [-] that a filter with this gain over frequency [Hz] passes."""
         if self._power is None:
             return 0.0
         f = np.arange(len(self._power)) * self._rate_hz / (2 * (len(self._power) - 1))

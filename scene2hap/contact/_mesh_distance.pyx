@@ -459,7 +459,7 @@ cdef void measure_crossings(double* least, double* most, const Face* p, const Fa
 
 cdef struct Points:
     double* at  # (n, 6) ends on guest and host
-    Py_ssize_t n, room
+    Py_ssize_t n, capacity
 
 
 cdef struct Search:
@@ -525,7 +525,7 @@ cdef inline double reach2(const Search* search) noexcept:
 cdef void visit(Search* search, Py_ssize_t leaf_g, Py_ssize_t leaf_h) noexcept:
     cdef Meetings found
     meet(&found, face_of(&search.guest, leaf_g), face_of(&search.host, leaf_h), search.best)
-    if found.n and search.points.room:
+    if found.n and search.points.capacity:
         collect(search, &found)
     elif found.n:
         compare(search, &found, search.guest.columns[leaf_g], search.host.columns[leaf_h])
@@ -558,12 +558,12 @@ cdef void collect(Search* search, const Meetings* found) noexcept:
     for row in range(found.n):
         if found.distance[row] > search.within:
             continue
-        if search.points.n == search.points.room:
-            larger = <double*>realloc(search.points.at, 12 * search.points.room * sizeof(double))
+        if search.points.n == search.points.capacity:
+            larger = <double*>realloc(search.points.at, 12 * search.points.capacity * sizeof(double))
             if larger == NULL:
                 search.is_full = True
                 return
-            search.points.at, search.points.room = larger, 2 * search.points.room
+            search.points.at, search.points.capacity = larger, 2 * search.points.capacity
         at = search.points.at + 6 * search.points.n
         search.points.n += 1
         for axis in range(3):
@@ -577,7 +577,7 @@ cdef int start(Search* search, host, guest, turn, shift, double within) except -
     open_tree(&search.host, host, SURFACE, NULL)
     search.within = search.best = within
     search.best_guest, search.is_full = -1, False
-    search.points.at, search.points.n, search.points.room = NULL, 0, 0
+    search.points.at, search.points.n, search.points.capacity = NULL, 0, 0
     return 0
 
 
@@ -646,7 +646,7 @@ def contact_points(host, guest, turn, shift, way, double within):
         start(&search, host, guest, turn, (x + u, y + v, z + w), within)
         search.way[0], search.way[1], search.way[2] = u, v, w
         search.points.at = <double*>malloc(6 * 64 * sizeof(double))
-        search.points.room = 64
+        search.points.capacity = 64
         if search.points.at == NULL:
             raise MemoryError
         find(&search)

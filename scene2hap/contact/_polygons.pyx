@@ -24,9 +24,9 @@ cdef struct Corner:
     double u, v
 
 
-cdef Corner* corners_of(outline, Py_ssize_t room, double du, double dv) except NULL:
-    """Return the corners of an outline, moved by (du, dv), in new memory for `room` corners. The caller frees it."""
-    cdef Corner* found = <Corner*>PyMem_Malloc((room + 1) * sizeof(Corner))
+cdef Corner* corners_of(outline, Py_ssize_t capacity, double du, double dv) except NULL:
+    """Return the corners of an outline, moved by (du, dv), in memory for `capacity` of them; the caller frees it."""
+    cdef Corner* found = <Corner*>PyMem_Malloc((capacity + 1) * sizeof(Corner))
     cdef Py_ssize_t k = 0
     cdef double u, v
     if found is NULL:

@@ -14,7 +14,7 @@ cdef inline double weight(double gap, double tolerance) noexcept:
 
 def support_weights(list falls_m, double reach, double touch, double hidden):
     cdef Py_ssize_t n = len(falls_m), m = len(falls_m[0]), i, j
-    cdef double least = INFINITY, first, share, most, nearest
+    cdef double least = INFINITY, share, most, nearest
     cdef const double[::1] row
     cdef double* firsts = <double*>malloc(max(m, 1) * sizeof(double))
     if firsts == NULL:

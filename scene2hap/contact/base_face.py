@@ -105,6 +105,7 @@ class _Face(NamedTuple):
 
 
 def _lowest_face(triangles: Floats, uneven: float, upwards: Floats, plane: Floats) -> _Face | None:
+    """Return the lowest level face, None if it has no area."""
     heights = along(upwards, triangles)
     level = triangles[..., highest(heights) <= heights.min() + uneven]
     a, b, c = np.stack([along(way, level) for way in plane.T], axis=1)

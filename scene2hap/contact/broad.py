@@ -89,11 +89,11 @@ class _Sweep:
 
     def pairs(self, a: Boxes, b: Boxes) -> Iterator[tuple[Indices, Indices]]:
         for i, place in _expanded(*self.b_in_a):
-            yield self._meeting(a, b, i, self.order_b[place])
+            yield self._overlapping(a, b, i, self.order_b[place])
         for j, place in _expanded(*self.a_in_b):
-            yield self._meeting(a, b, self.order_a[place], j)
+            yield self._overlapping(a, b, self.order_a[place], j)
 
-    def _meeting(self, a: Boxes, b: Boxes, i: Indices, j: Indices) -> tuple[Indices, Indices]:
+    def _overlapping(self, a: Boxes, b: Boxes, i: Indices, j: Indices) -> tuple[Indices, Indices]:
         """Return the pairs that also overlap along the other axes."""
         for axis in self.others:
             meets = (a.low[axis].take(i) <= b.high[axis].take(j)) & (a.high[axis].take(i) >= b.low[axis].take(j))

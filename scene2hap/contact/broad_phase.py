@@ -1,9 +1,10 @@
 """Broad phase: a neighbour list for every body, which stays valid while bodies move a little.
 
-Every body has a fat box: its AABB, enlarged by the distances at which it can touch, fall onto or hang from others.
-Bodies whose fat boxes overlap are neighbours. A moving body gets a fat box that is `SKIN_M` wider. The box is computed
-again only when the body leaves it (Verlet lists). The new box also covers part of the old one, so that a body that
-moves back and forth, or is lifted and put down, keeps its list. Too long a list costs time but changes no result.
+Every body has an inner box around its AABB, and a fat box: the inner box, enlarged by the distances at which the body
+can touch, fall onto or hang from others. Bodies whose fat boxes overlap are neighbours. The inner box of a moving body
+is `SKIN_M` wider than its AABB. Both boxes are computed again only when the AABB leaves the inner box (Verlet lists).
+The new boxes also cover part of the old ones, so that a body that moves back and forth, or is lifted and put down,
+keeps its list. Too long a list costs time but changes no result.
 
 Source: L. Verlet, Computer experiments on classical fluids I, Phys. Rev. 159 (1967) 98.
 """
@@ -33,8 +34,8 @@ _MANY = 16
 class BroadPhase:
     """The fat boxes of all bodies, and `neighbours`: the ids of each body's neighbours, by id.
 
-    Parameters: margins_m : returns how far a body's fat box extends beyond its AABB on all sides, and how much farther
-    down [m].
+    Parameters: margins_m : returns how far a body's fat box extends beyond its inner box on all sides, and how much
+    farther down [m].
     """
 
     def __init__(self, up_axis: int, margins_m: Callable[[Body], tuple[float, float]]) -> None:
@@ -45,9 +46,9 @@ class BroadPhase:
         self._free: list[int] = []
         self.neighbours: dict[str, set[str]] = {}
 
-    def room(self, object_id: str) -> AABB:
+    def inner_box(self, object_id: str) -> AABB:
         """Return the box in which a body may move without a new neighbour list [m]."""
-        return self._boxes.room(self._rows[object_id])
+        return self._boxes.inner_box(self._rows[object_id])
 
     def remove(self, object_id: str) -> set[str]:
         """Remove a body. Returns its neighbours."""
@@ -60,7 +61,7 @@ class BroadPhase:
         return neighbours
 
     def update(self, bodies: Sequence[Body]) -> dict[str, set[str]]:
-        """Insert or move bodies. Returns, for each body that left its fat box, the neighbours it lost.
+        """Insert or move bodies. Returns, for each body that left its inner box, the neighbours it lost.
 
         If two moved bodies lose each other, only one of them reports it.
         """
@@ -95,8 +96,9 @@ class BroadPhase:
         return row
 
     def _neighbours(self, ids: Sequence[str]) -> dict[str, set[str]]:
+        """Return the neighbours of bodies, by id."""
         if len(ids) < _MANY:
-            return {x: self._meeting(x) for x in ids}
+            return {x: self._overlapping(x) for x in ids}
         found: dict[str, set[str]] = {x: set() for x in ids}
         rows, every = np.array([self._rows[x] for x in ids]), np.array(list(self._rows.values()))
         boxes = Boxes(self._boxes.low, self._boxes.high)
@@ -106,41 +108,42 @@ class BroadPhase:
                     found[self._ids[x]].add(self._ids[y])
         return found
 
-    def _meeting(self, object_id: str) -> set[str]:
+    def _overlapping(self, object_id: str) -> set[str]:
         ids = self._ids
         return {ids[row] for row in self._boxes.meeting(self._rows[object_id])}
 
 
 class FatBoxes:
-    """Fat boxes in columns of `low` and `high`, both (3, n) [m], and inside each the room for its body's AABB.
+    """Fat boxes in columns of `low` and `high`, both (3, n) [m], and the inner box of each.
 
-    Parameters: skin_m : margin that the room of a moved body gets [m]; memory_m : how much of the old room the new one
-    may keep beyond that margin, level and vertically [m].
+    Parameters: skin_m : margin of a moved body's inner box around its AABB [m]; memory_m : how much of the old inner
+    box a new one may keep beyond that margin, level and vertically [m].
     """
 
     def __init__(self, up_axis: int, skin_m: float, memory_m: tuple[float, float]) -> None:
         self._up_axis, self._skin_m, self._memory_m = up_axis, skin_m, memory_m
-        self._rooms: list[AABB | None] = [None] * 64
+        self._inner_boxes: list[AABB | None] = [None] * 64
         self.low, self.high = np.full((3, 64), np.inf), np.full((3, 64), -np.inf)
 
     def draw(self, row: int, low: Triple, high: Triple, side_m: float, down_m: float) -> None:
-        """Compute the room of a row around a body's AABB, and the fat box `side_m` beyond it, `down_m` farther down.
+        """Compute inner box and fat box of a row from an AABB; the latter extends `side_m` farther, down `down_m` more.
 
-        The first room of a row has no margin. A new row follows the last.
+        The first inner box of a row has no margin. A new row follows the last.
         """
-        if row == len(self._rooms):
-            self._rooms += [None] * row
+        if row == len(self._inner_boxes):
+            self._inner_boxes += [None] * row
             self.low = np.concatenate([self.low, np.full((3, row), np.inf)], axis=1)
             self.high = np.concatenate([self.high, np.full((3, row), -np.inf)], axis=1)
-        before = self._rooms[row]
+        before = self._inner_boxes[row]
         if before is not None:
             low, high = self._wider(low, high, before)
-        self._rooms[row] = (low, high)
+        self._inner_boxes[row] = (low, high)
         self.low[:, row] = [x - side_m for x in low]
         self.high[:, row] = [x + side_m for x in high]
         self.low[self._up_axis, row] -= down_m
 
     def _wider(self, low: Triple, high: Triple, before: AABB) -> AABB:
+        """Return a box with the skin as margin, extended into the old box as far as `memory_m` allows."""
         lows, highs = [0.0] * 3, [0.0] * 3
         for k in range(3):
             near = self._skin_m
@@ -151,18 +154,18 @@ class FatBoxes:
 
     def clear(self, row: int) -> None:
         """Empty a row, so that it overlaps nothing."""
-        self._rooms[row] = None
+        self._inner_boxes[row] = None
         self.low[:, row], self.high[:, row] = np.inf, -np.inf
 
-    def room(self, row: int) -> AABB:
-        """Return the room of a row that is in use."""
-        room = self._rooms[row]
-        assert room is not None
-        return room
+    def inner_box(self, row: int) -> AABB:
+        """Return the inner box of a row that is in use."""
+        found = self._inner_boxes[row]
+        assert found is not None
+        return found
 
     def holds(self, row: int, low: Triple, high: Triple) -> bool:
-        """Return True if a box is within the room of a row."""
-        lowest, highest = self.room(row)
+        """Return True if a box is within the inner box of a row."""
+        lowest, highest = self.inner_box(row)
         return all(a >= b for a, b in zip(low, lowest, strict=True)) and all(
             a <= b for a, b in zip(high, highest, strict=True)
         )

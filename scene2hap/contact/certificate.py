@@ -44,13 +44,13 @@ class Resting(NamedTuple):
 
 
 class Extent(NamedTuple):
-    """The region in which a body may be: `room` is its certificate's box, or its AABB if it has no certificate.
+    """The region in which a body may be: `box` is that of its certificate, or its AABB if it has no certificate.
 
     `top_m` is the height of its support's face, -inf without one. A fixed body needs no free space around it.
     """
 
     body: Body
-    room: AABB
+    box: AABB
     top_m: float
     is_fixed: bool
 
@@ -87,15 +87,16 @@ class Certificate:
             standing = _standing(body, resting)
         self._track = Track(body.stance, standing)
         self.has_held = False
-        self._bind()
+        self._set_bounds()
 
     def keep_behind(self, planes: Mapping[str, tuple[Plane, ...]]) -> None:
         """Replace separating planes, given by the id of the body on their other side."""
         self._planes.update(planes)
-        self._bind()
+        self._set_bounds()
 
-    def _bind(self) -> None:
-        (low, high), up, flat = self.extent.room, self.body.up_axis, self.body.v_axis
+    def _set_bounds(self) -> None:
+        """Give the track the box, narrowed by level planes, and the vertical planes."""
+        (low, high), up, flat = self.extent.box, self.body.up_axis, self.body.v_axis
         lowest, highest, walls = low[up], high[up], []
         for several in self._planes.values():
             for n_u, n_v, n_h, most_m, is_square in several:
@@ -119,7 +120,7 @@ class Certificate:
 
     @property
     def holds(self) -> bool:
-        """Return True if the body is within the bounds at its current pose."""
+        """True if the body is within the bounds at its current pose."""
         return self._track.moved(self.body.pose.position_m, self.body.pose.rotation_xyzw) is not None
 
     def step(self, pose: Pose, found: dict[Pair, Junction | None]) -> bool:
@@ -182,6 +183,7 @@ def standing_planes(body: Body, resting: Resting) -> tuple[Plane, ...] | None:
 
 
 def _all_in(support: Body, floor_m: float) -> tuple[Plane, ...]:
+    """Return the planes that keep a body inside a support's AABB, with its bottom above `floor_m`."""
     low, high, flat, up = support.low, support.high, support.v_axis, support.up_axis
     return (
         wall_at(1.0, 0.0, high[0], is_square=True),
@@ -194,6 +196,7 @@ def _all_in(support: Body, floor_m: float) -> tuple[Plane, ...]:
 
 
 def _standing(body: Body, resting: Resting) -> Standing:
+    """Return the face of a support in world coordinates, and the bounds of a body's rest on it."""
     support, face, up = resting.support, resting.face, body.up_axis
     u, v = support.position_m[0], support.position_m[body.v_axis]
     least_m = resting.rest.top_m + _SURE_M
@@ -224,8 +227,8 @@ def separated(one: Extent, other: Extent, reach_m: float) -> Separated | None:
     Parameters: reach_m : largest distance at which the two touch or hang from each other [m].
     """
     x, y = one.body, other.body
-    (a, b, c), (d, e, f) = one.room
-    (g, h, i), (j, k, m) = other.room
+    (a, b, c), (d, e, f) = one.box
+    (g, h, i), (j, k, m) = other.box
     reach_m *= _SPARE
     far_m = max(reach_m, _SPARE * fall_reach_m(max(x.size_m, y.size_m)))
     if g - d > far_m or a - j > far_m or h - e > far_m or b - k > far_m or i - f > far_m or c - m > far_m:

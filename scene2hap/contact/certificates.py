@@ -52,7 +52,7 @@ class Certificates:
                 return self._refuse(x)
             planes[on] = known
             pins.add(on)
-        own, theirs = Extent(body, self._broad_phase.room(x), top_m, False), []
+        own, theirs = Extent(body, self._broad_phase.inner_box(x), top_m, False), []
         for z in self._broad_phase.neighbours[x]:
             if z == on:
                 continue
@@ -107,7 +107,7 @@ class Certificates:
                 return resting
         return None
 
-    def crowd_out(self, body: Body) -> list[Body]:
+    def separate_from_neighbours(self, body: Body) -> list[Body]:
         """Separate a body that moved, or lost its support, from the certified bodies around it.
 
         Returns the bodies whose certificates end because no plane separates them from it.

@@ -43,7 +43,7 @@ def enclosed(a: Body, b: Body) -> tuple[float, float]:
 
 
 def _inside(host: Body, middle: Triple, half: Triple, least_m: float) -> float:
-    """Return the share of a box that is inside the host's; along an axis without thickness, `least_m` stands for it."""
+    """Return the share of a box that is inside the host's; `least_m` is added to edges, for sheets of no thickness."""
     share = 1.0
     for c, h, a, b in zip(middle, half, host.shape.middle, host.shape.half, strict=True):
         common = min(a + b, c + h) - max(a - b, c - h)

@@ -74,7 +74,7 @@ class ContactFinder:
             bodies[body.id] = body
         for x, others in self._broad_phase.update([*placed, *added]).items():
             for y in others:
-                self._part(x, y, found, recheck)
+                self._drop_pair(x, y, found, recheck)
         proven = {}
         pending = [*added]
         for body in placed:
@@ -86,16 +86,16 @@ class ContactFinder:
         while pending or recheck:
             for body in pending:
                 certificates.end(body.id)
-                pending += certificates.crowd_out(body)
+                pending += certificates.separate_from_neighbours(body)
             seen: set[str] = set()
             for body in pending:
-                self._look_around(body, seen, dirty, recheck)
+                self._pair_with_neighbours(body, seen, dirty, recheck)
                 seen.add(body.id)
             pending = []
             recheck.update(seen)
             for x in recheck:
                 if x in bodies and x not in certificates.of and self._update_holders(x, dirty):
-                    pending += certificates.crowd_out(bodies[x])
+                    pending += certificates.separate_from_neighbours(bodies[x])
             recheck = set()
         found.update(self._holding.junctions(dirty))
         for x, junctions in proven.items():
@@ -103,10 +103,11 @@ class ContactFinder:
                 found.update(junctions)
 
     def _remove(self, x: str, found: dict[Pair, Junction | None], recheck: set[str]) -> None:
+        """Remove a body with all its pairs."""
         del self._bodies[x]
         self._certificates.forget(x)
         for y in self._broad_phase.remove(x):
-            self._part(x, y, found, recheck)
+            self._drop_pair(x, y, found, recheck)
         self._body_pairs.pop(x, None)
         held = self._held.pop(x, None)
         for y in held or ():
@@ -139,7 +140,7 @@ class ContactFinder:
         self._held[x] = {resting.support.id: bond}
         return {pair_of(x, resting.support.id): junction_of(body, resting, bond.normal)}
 
-    def _part(self, x: str, y: str, found: dict[Pair, Junction | None], recheck: set[str]) -> None:
+    def _drop_pair(self, x: str, y: str, found: dict[Pair, Junction | None], recheck: set[str]) -> None:
         """Drop the pair of two bodies that are no longer neighbours."""
         mine = self._body_pairs.get(x)
         body_pair = mine.pop(y, None) if mine else None
@@ -149,7 +150,7 @@ class ContactFinder:
             if body_pair.rest(y) is not None or y in self._unsupported:
                 recheck.add(y)
 
-    def _look_around(self, body: Body, seen: set[str], dirty: set[Pair], recheck: set[str]) -> None:
+    def _pair_with_neighbours(self, body: Body, seen: set[str], dirty: set[Pair], recheck: set[str]) -> None:
         """Pair a body that moved with the bodies now near enough to touch it."""
         x, bodies, unsupported, certificates, within_m = (
             body.id,

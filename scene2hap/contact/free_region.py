@@ -14,20 +14,20 @@ _MOST_GUESTS = 256
 
 
 class FreeRegion(NamedTuple):
-    """A box `room` (u, v, h) in a host's frame, valid while the host's axis `own` points up.
+    """A `box` (u, v, h) in a host's frame, valid while the host's axis `own` points up.
 
     The host has nothing in it if `top_m` is None. Else it has a ledge at height `top_m` [m], which covers the rectangle
     `ledge`, and nothing above that height.
     """
 
     own: Upright
-    room: AABB
+    box: AABB
     top_m: float | None
     ledge: Flat
 
     def holds(self, taken: AABB) -> bool:
         """Return True if the region contains a box."""
-        ((a, b, c), (d, e, f)), ((u0, v0, h0), (u1, v1, h1)) = self.room, taken
+        ((a, b, c), (d, e, f)), ((u0, v0, h0), (u1, v1, h1)) = self.box, taken
         return u0 >= a and v0 >= b and h0 >= c and u1 <= d and v1 <= e and h1 <= f
 
     def bears(self, foot: Flat) -> bool:

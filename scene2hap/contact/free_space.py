@@ -51,7 +51,7 @@ def ledge_under(guest: Body, host: Body) -> FreeRegion | None:
 
     found = host.free_regions.find(guest.id, serves)
     if found is None:
-        found = _drawn(host, own, taken, foot)
+        found = _computed_region(host, own, taken, foot)
         if found is not None:
             host.free_regions.keep(guest.id, found)
     return found
@@ -70,9 +70,9 @@ def has_nothing_near(guest: Body, host: Body) -> bool:
         return known.own == own and known.top_m is None and known.holds(taken)
 
     if host.free_regions.find(guest.id, serves) is None:
-        if len(_meeting(host, own, taken, most=1)):
+        if len(_triangles_in(host, own, taken, most=1)):
             return False
-        host.free_regions.keep(guest.id, FreeRegion(own, _Near(host, own, taken).cut(taken), None, _NO_LEDGE))
+        host.free_regions.keep(guest.id, FreeRegion(own, _Surroundings(host, own, taken).cut(taken), None, _NO_LEDGE))
     return True
 
 
@@ -93,13 +93,13 @@ def free_planes(guest: Body, host: Body, *, stands: bool) -> tuple[Plane, ...] |
     Parameters: stands : True if the guest stands on the host's ledge, False if the region must be empty.
     """
     own, lean, up = _upright(host), host.stance.lean, host.up_axis
-    known = None if own is None else _known(guest, host, own)
+    known = None if own is None else _region_of(guest, host, own)
     if own is None or lean is None or known is None or stands != (known.top_m is not None) or is_over(host, guest):
         return None
     a, b, c, d = _turn(host, own)
     spare_m = _ROUNDING_M + lean.tilt * host.size_m
     reach_m = spare_m if stands else spare_m + _reach_m(guest)
-    (u0, v0, h0), (u1, v1, h1) = known.room
+    (u0, v0, h0), (u1, v1, h1) = known.box
     x, y, h = host.position_m[0], host.position_m[host.v_axis], host.position_m[up]
     u, v = a * x + b * y, c * x + d * y
     # Below this height the host might be the body that falls.
@@ -114,7 +114,7 @@ def free_planes(guest: Body, host: Body, *, stands: bool) -> tuple[Plane, ...] |
     )
 
 
-def _known(guest: Body, host: Body, own: Upright) -> FreeRegion | None:
+def _region_of(guest: Body, host: Body, own: Upright) -> FreeRegion | None:
     known = host.free_regions.of(guest.id)
     return known if known is not None and known.own == own else None
 
@@ -164,10 +164,11 @@ def _foot(guest: Body, host: Body, own: Upright) -> Flat:
     return (u0 + hu, v0 + hv, u1 - hu, v1 - hv)
 
 
-def _drawn(host: Body, own: Upright, taken: AABB, foot: Flat) -> FreeRegion | None:
-    columns = _meeting(host, own, taken)
+def _computed_region(host: Body, own: Upright, taken: AABB, foot: Flat) -> FreeRegion | None:
+    """Search the host's triangles. Returns None unless `taken` is empty or has one ledge under `foot`."""
+    columns = _triangles_in(host, own, taken)
     if not len(columns):
-        return FreeRegion(own, _Near(host, own, taken).cut(taken), None, _NO_LEDGE)
+        return FreeRegion(own, _Surroundings(host, own, taken).cut(taken), None, _NO_LEDGE)
     ledges = host.shape.ledges(own)
     numbers, tops = ledges.number[columns], ledges.tops[columns]
     # The host's vertical sides reach as high as the ledge that they bound, so only level triangles name the ledge.
@@ -177,14 +178,14 @@ def _drawn(host: Body, own: Upright, taken: AABB, foot: Flat) -> FreeRegion | No
     top_m = ledges.heights[number]
     if ((numbers != number) & (tops > top_m + _ROUNDING_M)).any():
         return None
-    near = _Near(host, own, taken)
+    near = _Surroundings(host, own, taken)
     higher = (ledges.number[near.columns] != number) & (near.high[2] > top_m + _ROUNDING_M)
-    room = (u0, v0, _), (u1, v1, _) = near.cut(taken, higher)
+    box = (u0, v0, _), (u1, v1, _) = near.cut(taken, higher)
     most = (min(u0, foot[0]), min(v0, foot[1]), max(u1, foot[2]), max(v1, foot[3]))
-    return FreeRegion(own, room, top_m, ledges.stretch(number, foot, most))
+    return FreeRegion(own, box, top_m, ledges.stretch(number, foot, most))
 
 
-def _meeting(host: Body, own: Upright, box: AABB, most: int = _ALL) -> Indices:
+def _triangles_in(host: Body, own: Upright, box: AABB, most: int = _ALL) -> Indices:
     """Return the columns of up to `most` of the host's triangles whose boxes overlap a box (u, v, h)."""
     (u0, v0, h0), (u1, v1, h1) = box
     if own.sign < 0:
@@ -198,7 +199,7 @@ def _meeting(host: Body, own: Upright, box: AABB, most: int = _ALL) -> Indices:
     return meeting(host.shape.tree, low, high, most)
 
 
-class _Near:
+class _Surroundings:
     """The host's triangles around a guest: their `columns`, and the corners (3, n) of their boxes as (u, v, h)."""
 
     def __init__(self, host: Body, own: Upright, taken: AABB) -> None:
@@ -206,7 +207,7 @@ class _Near:
         d = _AROUND_M
         around = (u0 - d, v0 - d, h0 - d), (u1 + d, v1 + d, h1 + d)
         self._low, self._high = np.array(around)
-        self.columns = _meeting(host, own, around)
+        self.columns = _triangles_in(host, own, around)
         near, order = host.shape.boxes.some(self.columns), [own.u, own.v, own.axis]
         self.low, self.high = near.low[order], near.high[order]
         if own.sign < 0:
@@ -220,9 +221,9 @@ class _Near:
         low, high = np.array(taken)[..., None]
         sides = np.concatenate([self.low[:, others] - high, low - self.high[:, others]])
         widest = sides.argmax(axis=0)
-        room = sides[widest, np.arange(len(widest))]
+        gaps = sides[widest, np.arange(len(widest))]
         # The factor covers rounding.
-        least = np.array([0.999 * room[widest == side].min(initial=np.inf) for side in range(6)])
+        least = np.array([0.999 * gaps[widest == side].min(initial=np.inf) for side in range(6)])
         lowest, highest = np.maximum(self._low, low[:, 0] - least[3:]), np.minimum(self._high, high[:, 0] + least[:3])
         (a, b, c), (d, e, f) = lowest.tolist(), highest.tolist()
         return (a, b, c), (d, e, f)

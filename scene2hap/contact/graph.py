@@ -62,11 +62,12 @@ class ContactGraph:
     The tolerance has no effect if the scene gives its contacts.
     Raises: SceneError: the tolerance is negative or not finite.
 
-    The poses alone decide the result: incremental updates give bit-identical results to building anew from the same
+    The poses alone decide the result: incremental updates give bit-identical results to rebuilding from the same
     poses. Contacts move along with a motion of the whole scene; without a stated tolerance, only if it stays upright.
     Up to four points represent a pair's contact patch, each with the pair's weight: 1 up to two thirds of the
-    tolerance, then falling smoothly to 0. The normal points from a to b. It is None where surfaces intersect or are too
-    near for a direction. An object wholly inside a closed other, away from its surface, does not touch it.
+    tolerance, then falling smoothly to 0. The normal points from a to b. It is None for an enclosed object, and for
+    surfaces beside each other that intersect or nearly touch. An object wholly inside a closed other, away from its
+    surface, does not touch it.
 
     In loops, read `junctions` and `beside`: `update` changes them in place, and access makes no copy. `contacts`,
     `arrays` and `graph` are made from them on first access.
@@ -78,23 +79,23 @@ class ContactGraph:
             tolerance_m = checks.number("tolerance_m", tolerance_m, "m", at_least=0.0, error=SceneError, hint=hint)
         scene = given_scene(scene)
         self._known_poses = {item.id: item.pose for item in scene.objects}
-        self._poses_lent = False
+        self._poses_shared = False
         # Tables of poses that are newer than `_known_poses`.
-        self._late: list[PoseTable] = []
+        self._newer_tables: list[PoseTable] = []
         self._junctions: dict[Pair, Junction] = {}
         self._beside: dict[str, dict[str, Junction]] = {}
         self._version = self._topology = 0
         self._change_log: deque[list[Pair]] = deque(maxlen=_LONGEST_LOG)
         self._views: dict[str, object] = {}
         # Whether the junctions are outdated, and whether a caller holds them, so that they must be updated at once.
-        self._is_behind = self._junctions_lent = False
+        self._is_outdated = self._junctions_shared = False
         self._finder: ContactFinder | TouchFinder | None = None
         if scene.contacts is None:
             up_axis = {"y": 1, "z": 2}[scene.up_axis]
             self._finder = ContactFinder(up_axis) if tolerance_m is None else TouchFinder(tolerance_m)
             self._replace({}, scene.objects)
         else:
-            self._take_over(junctions_of(scene.contacts))
+            self._store(junctions_of(scene.contacts))
 
     @property
     def contacts(self) -> tuple[Contact, ...]:
@@ -134,13 +135,13 @@ class ContactGraph:
     @property
     def junctions(self) -> Mapping[Pair, Junction]:
         """The junctions by pair; read-only, and changed by later updates. A junction itself never changes."""
-        self._junctions_lent = True
+        self._junctions_shared = True
         return self._current_junctions()
 
     @property
     def beside(self) -> Mapping[str, Mapping[str, Junction]]:
         """For each object with contacts, its junctions by the id of the other; read-only, changed by later updates."""
-        self._junctions_lent = True
+        self._junctions_shared = True
         self._current_junctions()
         return self._beside
 
@@ -156,13 +157,13 @@ class ContactGraph:
 
     def changed_since(self, version: int) -> list[Pair] | None:
         """Return the pairs that appeared, vanished or shifted since a `version`, None if the log is too short."""
-        return _latest(self._change_log, self._version - version)
+        return _last_entries(self._change_log, self._version - version)
 
     @property
     def poses(self) -> Mapping[str, Pose]:
         """The pose of every object; read-only, and not changed by later updates."""
         poses = self._poses
-        self._poses_lent = True
+        self._poses_shared = True
         return MappingProxyType(poses)
 
     def __contains__(self, object_id: object) -> bool:
@@ -174,7 +175,7 @@ class ContactGraph:
         try:
             return poses[object_id]
         except (KeyError, TypeError):
-            _demand(object_id, poses)
+            _require_known(object_id, poses)
             raise
 
     def patch(self, a: str, b: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -195,7 +196,7 @@ class ContactGraph:
 
         Raises: UnknownObject: the id is not in the scene.
         """
-        _demand(object_id, self._known_poses)
+        _require_known(object_id, self._known_poses)
         self._current_junctions()
         return tuple(sorted(self._beside.get(object_id, ())))
 
@@ -223,45 +224,46 @@ class ContactGraph:
                 raise SceneError("added and removed must be lists, as added=[SceneObject(...)] and removed=['mug'].")
             return self._rebuild(moved, added, removed, contacts)
         if isinstance(moved, PoseTable) and isinstance(self._finder, TouchFinder):
-            return self._take(moved)
+            return self._update_from_table(moved)
         stale = {}
         poses = self._poses
         for x, pose in moved.items():
             if x not in poses:
-                _demand(x, poses)
+                _require_known(x, poses)
             if not isinstance(pose, Pose):
-                _demand_pose(x, pose)
+                _require_pose(x, pose)
             here = poses[x]
             if here is not pose and (here.position_m != pose.position_m or here.rotation_xyzw != pose.rotation_xyzw):
                 stale[x] = pose
         if not stale:
             return NO_CHANGE
-        if self._poses_lent:
-            self._known_poses, self._poses_lent = dict(poses), False
+        if self._poses_shared:
+            self._known_poses, self._poses_shared = dict(poses), False
         self._known_poses.update(stale)
         if self._finder is None:
-            return self._take_over({pair: None for x in stale for pair in self._pairs_of(x)})
+            return self._store({pair: None for x in stale for pair in self._pairs_of(x)})
         return self._replace(stale)
 
-    def _take(self, table: PoseTable) -> ContactChange:
+    def _update_from_table(self, table: PoseTable) -> ContactChange:
         """Update from a pose table, whose poses are copied only when they are read."""
-        if not (self._late and self._late[-1].ids is table.ids):
+        if not (self._newer_tables and self._newer_tables[-1].ids is table.ids):
             for x in table:
-                _demand(x, self._known_poses)
-            if len(self._late) == _MOST_TABLES:
+                _require_known(x, self._known_poses)
+            if len(self._newer_tables) == _MOST_TABLES:
                 _ = self._poses
-            self._late.append(table)
-        self._late[-1] = table
+            self._newer_tables.append(table)
+        self._newer_tables[-1] = table
         return self._replace(table)
 
     @property
     def _poses(self) -> dict[str, Pose]:
-        if self._late:
-            if self._poses_lent:
-                self._known_poses, self._poses_lent = dict(self._known_poses), False
-            for table in self._late:
+        """The poses of all objects, with those of newer tables."""
+        if self._newer_tables:
+            if self._poses_shared:
+                self._known_poses, self._poses_shared = dict(self._known_poses), False
+            for table in self._newer_tables:
                 self._known_poses.update(table)
-            self._late.clear()
+            self._newer_tables.clear()
         return self._known_poses
 
     def _rebuild(
@@ -274,28 +276,28 @@ class ContactGraph:
         """Update objects or given contacts, besides poses."""
         poses = dict(self._poses)
         for x in removed:
-            _demand(x, poses)
+            _require_known(x, poses)
             del poses[x]
         for item in added:
             if item.id in poses:
                 raise SceneError(f"object id {item.id!r} is already in the scene; remove it first or use another id.")
             poses[item.id] = item.pose
         for x, pose in moved.items():
-            _demand(x, poses)
-            _demand_pose(x, pose)
+            _require_known(x, poses)
+            _require_pose(x, pose)
             poses[x] = pose
         for contact in contacts or ():
-            _demand(contact.a, poses)
-            _demand(contact.b, poses)
+            _require_known(contact.a, poses)
+            _require_known(contact.b, poses)
 
-        before, self._known_poses, self._poses_lent = self._poses, poses, False
+        before, self._known_poses, self._poses_shared = self._poses, poses, False
         if contacts is not None:
             self._current_junctions()
             self._finder = None
-            return self._take_over({**dict.fromkeys(self._junctions), **junctions_of(contacts)})
+            return self._store({**dict.fromkeys(self._junctions), **junctions_of(contacts)})
         stale = {x for x in moved if x in before and poses[x] != before[x]} | {*removed, *(item.id for item in added)}
         if self._finder is None:
-            return self._take_over({pair: None for x in stale for pair in self._pairs_of(x)})
+            return self._store({pair: None for x in stale for pair in self._pairs_of(x)})
         new = {item.id for item in added}
         elsewhere = {x: poses[x] for x in stale & poses.keys() if x not in new}
         items = [replace(item, pose=moved[item.id]) if item.id in moved else item for item in added]
@@ -307,18 +309,18 @@ class ContactGraph:
         """Let the finder update the contacts of these objects. Returns the change."""
         finder = self._finder
         if isinstance(finder, ContactFinder):
-            return self._take_over(finder.replace(moved, added, gone))
+            return self._store(finder.replace(moved, added, gone))
         assert finder is not None
         changes = finder.replace(moved, added, gone)
-        self._is_behind = True
-        if self._junctions_lent:
+        self._is_outdated = True
+        if self._junctions_shared:
             self._current_junctions()
         return self._record(*changes)
 
     def _current_junctions(self) -> dict[Pair, Junction]:
         """Return the junctions, updated if they are outdated."""
-        if self._is_behind:
-            self._is_behind = False
+        if self._is_outdated:
+            self._is_outdated = False
             now = cast("TouchFinder", self._finder).junctions()
             self._apply({**dict.fromkeys(self._junctions), **now})
         return self._junctions
@@ -326,11 +328,12 @@ class ContactGraph:
     def _pairs_of(self, object_id: str) -> list[Pair]:
         return [pair_of(object_id, other) for other in self._beside.get(object_id, ())]
 
-    def _take_over(self, found: Mapping[Pair, Junction | None]) -> ContactChange:
+    def _store(self, found: Mapping[Pair, Junction | None]) -> ContactChange:
         """Store the junctions of these pairs, None for no contact. Returns the change."""
         return self._record(*self._apply(found))
 
     def _apply(self, found: Mapping[Pair, Junction | None]) -> tuple[list[Pair], list[Pair], list[Pair]]:
+        """Store junctions by pair. Returns the pairs that appeared, vanished and shifted."""
         appeared: list[Pair] = []
         vanished: list[Pair] = []
         shifted: list[Pair] = []
@@ -357,6 +360,7 @@ class ContactGraph:
         return appeared, vanished, shifted
 
     def _record(self, appeared: list[Pair], vanished: list[Pair], shifted: list[Pair]) -> ContactChange:
+        """Advance the versions, and log the change."""
         if self._views:
             self._views.clear()
         if not (appeared or vanished or shifted):
@@ -368,18 +372,18 @@ class ContactGraph:
         return ContactChange(frozenset(appeared), frozenset(vanished), frozenset(shifted))
 
 
-def _latest(log: deque[list[Pair]], n: int) -> list[Pair] | None:
+def _last_entries(log: deque[list[Pair]], n: int) -> list[Pair] | None:
     """Return the pairs of the last n entries of a log, None if it is shorter."""
     if not 0 <= n <= len(log):
         return None
     return log[-1] if n == 1 else [pair for entry in islice(reversed(log), n) for pair in entry]
 
 
-def _demand(object_id: str, known: Mapping[str, object]) -> None:
+def _require_known(object_id: str, known: Mapping[str, object]) -> None:
     if not isinstance(object_id, str) or object_id not in known:
         raise UnknownObject(unknown_object(object_id, known))
 
 
-def _demand_pose(object_id: str, pose: object) -> None:
+def _require_pose(object_id: str, pose: object) -> None:
     if not isinstance(pose, Pose):
         raise SceneError(f"the pose of {object_id!r} is {checks.represented(pose)}; it must be a Pose.")

@@ -68,9 +68,9 @@ class Ledges:
             low, high = ends.min(axis=1), ends.max(axis=1)
             sides = np.stack([low - foot[2:], foot[:2] - high], axis=1).reshape(-1, 4)
             widest = sides.argmax(axis=1)
-            room = sides[np.arange(len(sides)), widest]
-            if (room > 0).all():
-                least = [room[widest == side].min(initial=np.inf) * 0.999 for side in range(4)]
+            gaps = sides[np.arange(len(sides)), widest]
+            if (gaps > 0).all():
+                least = [gaps[widest == side].min(initial=np.inf) * 0.999 for side in range(4)]
                 return (
                     max(most[0], foot[0] - least[2]),
                     max(most[1], foot[1] - least[3]),
@@ -92,6 +92,7 @@ class Ledges:
 
 
 def _outlined(triangles: Floats) -> tuple[Floats, Floats]:
+    """Return the triangles (n, 3, 2) with area, and the edges (k, 2, 2) with triangles on one side only."""
     (u, v), (p, q) = ((triangles[:, k] - triangles[:, 0]).T for k in (1, 2))
     triangles = triangles[np.abs(u * q - v * p) > _THIN_M2]
     if not len(triangles):

@@ -110,7 +110,7 @@ _FAR = Aside(math.inf, (0.0, 0.0, 0.0), ())
 
 
 def aside(x: Body, y: Body, within_m: float, slack_m: float) -> Aside | None:
-    """How two blocks are apart, a distance of inf if by more than `within_m`; None where one is over the other."""
+    """Return how two blocks stand beside each other; distance inf beyond `within_m`, None if one is above the other."""
     a, v_axis = x.up_axis, x.v_axis
     below, above = max(x.low[a], y.low[a]), min(x.high[a], y.high[a])
     upright = max(below - above, 0.0)

@@ -26,15 +26,15 @@ NEEDS_TRIANGLES = Rest(math.nan, False, math.nan)
 class BodyPair:
     """Narrow-phase answers for two posed bodies, computed once and kept until either moves; `a` has the lower id."""
 
-    __slots__ = ("_facts", "_gap", "_gap_within_m", "_meeting_made", "a", "b", "rest_a", "rest_b")
+    __slots__ = ("_gap", "_gap_within_m", "_mesh_pair_made", "_results", "a", "b", "rest_a", "rest_b")
 
     def __init__(self, a: Body, b: Body) -> None:
         self.a, self.b = a, b
         # How a may rest on b: None if it cannot, `NEEDS_TRIANGLES` if only triangles can tell. Else how b on a.
         self.rest_a = _rest(a, b)
         self.rest_b = _rest(b, a) if self.rest_a is None else None
-        self._meeting_made: MeshPair | None = None
-        self._facts: dict[object, Any] | None = None
+        self._mesh_pair_made: MeshPair | None = None
+        self._results: dict[object, Any] | None = None
         # The distance up to which the gap was searched; -1 before the first search.
         self._gap_within_m = -1.0
         self._gap: Gap | None = None
@@ -50,21 +50,21 @@ class BodyPair:
 
     def first_fall_m(self, x: str) -> float:
         """Return the least fall distance of x by its triangles [m], inf if it meets nothing."""
-        found: float = self._once(("first", x), lambda: self._first_fall_m(*self.falling(x)))
+        found: float = self._cached(("first", x), lambda: self._first_fall_m(*self.falling(x)))
         return found
 
     def _first_fall_m(self, faller: Body, other: Body) -> float:
-        return self._meeting.first_drop_m(*_falls_by(faller)) if is_over(faller, other) else math.inf
+        return self._mesh_pair.first_drop_m(*_falls_by(faller)) if is_over(faller, other) else math.inf
 
     def falls(self, x: str) -> Floats | None:
         """Return the fall distance of each triangle of x [m]; see `MeshPair.drops`."""
-        found: Floats | None = self._once(x, lambda: self._falls(*self.falling(x)))
+        found: Floats | None = self._cached(x, lambda: self._falls(*self.falling(x)))
         return found
 
     def _falls(self, faller: Body, other: Body) -> Floats | None:
         if not is_over(faller, other):
             return None
-        return self._meeting.drops(*_falls_by(faller))
+        return self._mesh_pair.drops(*_falls_by(faller))
 
     def falling(self, x: str) -> tuple[Body, Body]:
         """Return the body x and the other body."""
@@ -74,7 +74,7 @@ class BodyPair:
         """Return how two upright blocks stand beside each other, None for other shapes; see `level.aside`."""
         if not (self.a.stance.is_block and self.b.stance.is_block):
             return None
-        found: Aside | None = self._once((within_m, slack_m), lambda: aside(self.a, self.b, within_m, slack_m))
+        found: Aside | None = self._cached((within_m, slack_m), lambda: aside(self.a, self.b, within_m, slack_m))
         return found
 
     @property
@@ -88,37 +88,38 @@ class BodyPair:
     def gap(self, within_m: float) -> Gap | None:
         """Return the distance of the surfaces, None beyond `within_m`; see `MeshPair.gap`."""
         if within_m > self._gap_within_m:
-            self._gap_within_m, self._gap = within_m, self._meeting.gap(within_m)
+            self._gap_within_m, self._gap = within_m, self._mesh_pair.gap(within_m)
         gap = self._gap
         return gap if gap is not None and gap.distance_m <= within_m else None
 
     def enclosed(self) -> tuple[float, float]:
         """Return the weight and play of a contact by enclosure; see `enclosure.enclosed`."""
-        found: tuple[float, float] = self._once("enclosed", lambda: enclosed(self.a, self.b))
+        found: tuple[float, float] = self._cached("enclosed", lambda: enclosed(self.a, self.b))
         return found
 
     def points(self, way_m: Triple, within_m: float) -> tuple[Triple, ...]:
         """Return points half way between the surfaces where they are within `within_m` once a has moved by `way_m`."""
         key = (*way_m, within_m)
-        found: tuple[Triple, ...] = self._once(key, lambda: self._points_of_triangles(way_m, within_m))
+        found: tuple[Triple, ...] = self._cached(key, lambda: self._points_of_triangles(way_m, within_m))
         return found
 
     def _points_of_triangles(self, way_m: Triple, within_m: float) -> tuple[Triple, ...]:
-        return tuple([ends.middle_m for ends in self._meeting.patch(way_m, within_m)])
+        return tuple([ends.middle_m for ends in self._mesh_pair.patch(way_m, within_m)])
 
-    def _once(self, key: object, find: Callable[[], object]) -> Any:
-        facts = self._facts
+    def _cached(self, key: object, find: Callable[[], object]) -> Any:
+        """Return the result for a key, computed on first use."""
+        facts = self._results
         if facts is None:
-            facts = self._facts = {}
+            facts = self._results = {}
         if key not in facts:
             facts[key] = find()
         return facts[key]
 
     @property
-    def _meeting(self) -> MeshPair:
-        made = self._meeting_made
+    def _mesh_pair(self) -> MeshPair:
+        made = self._mesh_pair_made
         if made is None:
-            made = self._meeting_made = MeshPair(self.a, self.b)
+            made = self._mesh_pair_made = MeshPair(self.a, self.b)
         return made
 
 

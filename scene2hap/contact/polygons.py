@@ -18,7 +18,7 @@ _ROUNDING_M = 1e-9
 
 PolygonGap = tuple[float, Point, list[Point]]
 """The distance of two outlines [m], the vector from the first to the second between the nearest points [m], and points
-half way between them wherever they are about as near."""
+half way between them at all places that are about as near."""
 
 
 @compiled

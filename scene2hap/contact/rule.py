@@ -202,8 +202,3 @@ def is_over(x: Body, y: Body) -> bool:
     if up == 1:
         return a >= g and d <= j and c >= i and f <= m
     return a >= g and d <= j and b >= h and e <= k
-
-
-def is_under(x: Body, top_m: float) -> bool:
-    """Return True if x is surely too low to touch an object that rests on a face of height `top_m` [m]."""
-    return x.high[x.up_axis] < top_m - 3 * TOUCH_M

@@ -41,7 +41,7 @@ class Shape:
         self._uneven_m = uneven_m(self.size_m)
         self.middle: Triple = triples((self.low + self.high)[None] / 2)[0]
         self.half: Triple = triples((self.high - self.low)[None] / 2)[0]
-        self._soles: dict[Triple, BaseFace] = {}
+        self._base_faces: dict[Triple, BaseFace] = {}
         self._tops: dict[Triple, tuple[Triple, ...] | None] = {}
         self._ledges: dict[Upright, Ledges] = {}
         self._radii: dict[int, float] = {}
@@ -97,11 +97,13 @@ class Shape:
 
     def base_face(self, up: Triple) -> BaseFace:
         """Return the base face for the shape's direction `up`, which the caller has rounded."""
-        return self._known(self._soles, up, lambda: base_face_of(self.corners, self.triangles, self._uneven_m, up))
+        return self._cached(
+            self._base_faces, up, lambda: base_face_of(self.corners, self.triangles, self._uneven_m, up)
+        )
 
     def top(self, up: Triple) -> tuple[Triple, ...] | None:
         """Return the outline of the top face for the direction `up`, None unless it is level and convex."""
-        return self._known(self._tops, up, lambda: top_of(self.triangles, self._uneven_m, up))
+        return self._cached(self._tops, up, lambda: top_of(self.triangles, self._uneven_m, up))
 
     def radius_m(self, axis: int) -> float:
         """Return the radius of the shape around the line through its box's middle along an axis [m]."""
@@ -118,7 +120,7 @@ class Shape:
         return found
 
     @staticmethod
-    def _known(known: dict[Triple, _Derived], up: Triple, derive: Callable[[], _Derived]) -> _Derived:
+    def _cached(known: dict[Triple, _Derived], up: Triple, derive: Callable[[], _Derived]) -> _Derived:
         if up not in known:
             if len(known) >= _MOST_WAYS_UP:
                 known.clear()

@@ -72,15 +72,6 @@ def frame_along(up: Triple) -> Floats:
     return np.array([[a, b, c], [y * c - z * b, z * a - x * c, x * b - y * a], [x, y, z]])
 
 
-def turned(turn: Floats, points: Floats) -> Floats:
-    """Return points (3, ...) times one matrix (3, 3).
-
-    BLAS may round differently for another number of points, unless the matrix only swaps axes.
-    """
-    found: Floats = (turn @ points.reshape(3, -1)).reshape(points.shape)
-    return found
-
-
 def rotated(rows: Rows, point: Triple) -> Triple:
     """Return a matrix, given as rows, times a vector."""
     (a, b, c), (d, e, f), (g, h, i) = rows

@@ -1,4 +1,4 @@
-"""Actuators: where the mix goes."""
+"""Actuator sinks: outputs of the mix."""
 
 from scene2hap.plugins import PluginGroup
 

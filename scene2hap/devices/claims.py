@@ -1,7 +1,7 @@
 """Exclusive use of a sink, file or port within this process.
 
-A file that two sinks write, or a sink that two sessions play on, loses the first one's samples without an error. What
-is held is known by a key; it is free again when it is given back, and when its holder is gone.
+If two sinks write one file, or two sessions play on one sink, samples of the first are lost without an error. A claim
+has a key. It ends when it is given back, or when its holder no longer exists.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ _HELD: WeakValueDictionary[Hashable, object] = WeakValueDictionary()
 
 
 def claim(key: Hashable, holder: object, refusal: str) -> None:
-    """Hold what is known by a key, until `give_back`; claimed again by its holder, it stays held.
+    """Claim a key until `give_back`; its holder may claim it again.
 
-    Raises: DeviceError: another one holds it, in the words of `refusal`.
+    Raises: DeviceError: another holder has it; `refusal` is the message.
     """
     with _LOCK:
         if _HELD.get(key, holder) is not holder:
@@ -31,14 +31,14 @@ def claim(key: Hashable, holder: object, refusal: str) -> None:
 
 
 def give_back(key: Hashable, holder: object) -> None:
-    """Let others hold it; nothing if somebody else does."""
+    """Release a key; no effect if another holder has it."""
     with _LOCK:
         if _HELD.get(key) is holder:
             del _HELD[key]
 
 
 def claim_sink(sink: ActuatorSink, holder: object) -> None:
-    """Hold a sink with all that it hands the mix on to, or nothing of it.
+    """Claim a sink and all sinks behind it, or none of them.
 
     Raises: DeviceError: another session plays on one of them.
     """
@@ -56,13 +56,13 @@ def claim_sink(sink: ActuatorSink, holder: object) -> None:
 
 
 def give_back_sink(sink: ActuatorSink, holder: object) -> None:
-    """Let others hold a sink, and all that it hands the mix on to."""
+    """Release a sink and all sinks behind it."""
     for part in parts_of(sink):
         give_back(("sink", id(part)), holder)
 
 
 def parts_of(sink: ActuatorSink) -> list[ActuatorSink]:
-    """A sink, and all that it hands the mix on to, such as those of a TeeSink."""
+    """Return a sink and all sinks behind it, such as those of a TeeSink."""
     parts: tuple[ActuatorSink, ...] = getattr(sink, "sinks", ())
     return [sink, *(x for part in parts for x in parts_of(part))]
 

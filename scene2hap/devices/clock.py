@@ -1,4 +1,4 @@
-"""Which sinks have a clock of their own."""
+"""Sinks with a clock of their own."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from scene2hap.devices.protocol import ActuatorSink
 
 
 def has_clock(sink: ActuatorSink) -> bool:
-    """Whether a sink takes blocks in its own time; one that waits to be pulled does not, nor do several such together.
+    """Return True if a sink requests blocks by its own clock; False for one that is pulled, or a group of such sinks.
 
     Only with a clock can a watchdog notice that a game is late.
     """

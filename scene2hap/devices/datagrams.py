@@ -1,4 +1,4 @@
-"""Datagrams to one address, that never wait, with errors of our own."""
+"""Non-blocking UDP datagrams to one address, with errors of `scene2hap.errors`."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ _FULL = (errno.EAGAIN, errno.EWOULDBLOCK, errno.ENOBUFS)
 class Datagrams:
     """A socket to host and port.
 
-    UDP has no handshake, but a machine where nobody listens on the port mostly says so, once something was sent: so the
-    socket is probed with a first datagram. Silence from a network that drops such answers counts as somebody there.
+    UDP has no handshake, but most machines report a closed port after a datagram. So the socket is probed with a first
+    datagram. If no report comes, as in networks that drop them, a listener is assumed.
     """
 
     def __init__(self, host: str, port: int) -> None:
@@ -30,7 +30,7 @@ class Datagrams:
         self.not_sent = 0
 
     def connect(self, probe: bytes, carry_on: CarryOn) -> None:
-        """Find the address and knock. Raises: DeviceNotFound: no such host, or nobody listens there."""
+        """Resolve the address and probe it. Raises: DeviceNotFound: no such host, or nobody listens there."""
         try:
             family, kind, protocol, _, address = socket.getaddrinfo(self._host, self._port, type=socket.SOCK_DGRAM)[0]
             self._socket = socket.socket(family, kind, protocol)
@@ -48,7 +48,7 @@ class Datagrams:
                 time.sleep(0.005)
 
     def send(self, data: bytes) -> None:
-        """Send, or count as not sent where the machine's queue is full. Raises: DeviceLost."""
+        """Send a datagram, or count it as not sent if the system's queue is full. Raises: DeviceLost."""
         if self._socket is None:
             raise DeviceLost(f"{self._place} is not open.")
         try:
@@ -61,7 +61,7 @@ class Datagrams:
             self.not_sent += 1
 
     def close(self, *farewell: bytes) -> None:
-        """Say farewell and close; never raises, may be called twice."""
+        """Send the datagrams `farewell` and close; never raises, may be called twice."""
         for data in farewell:
             with contextlib.suppress(DeviceError):
                 self.send(data)

@@ -1,9 +1,9 @@
-"""Sinks with a device behind them: a thread that takes the mix at the device's pace, and outlives the device.
+"""Sinks with a device: a thread that requests the mix at the device's rate, and reconnects after failures.
 
-A device is a `Line`: five methods that a sound card, a serial port or a socket can each fill in a page. `LiveSink` does
-the rest. Whatever goes wrong with a device is a state and not an exception: the thread reports a `SinkEvent`, goes on
-taking the mix at the wall clock's pace and drops it (so that the session's clock, ramps and queues never stand still),
-tries again after 0.1 s, 0.2 s, ... 2 s, and fades in over 50 ms when the device is back.
+A device is a `Line`: five methods, about a page of code for a sound card, a serial port or a socket. `LiveSink` does
+the rest. A failure of the device is a state, not an exception. The thread reports a `SinkEvent`, continues to request
+the mix by the wall clock and drops it, so that the session's clock, ramps and queues never stop. It tries again after
+0.1 s, 0.2 s, ... 2 s, and fades in over 50 ms when the device is back.
 
     unavailable ─┬─► connected ─┬─► stalled ─► resumed        (the kinds of SinkEvent)
        ▲         │              └─► lost ─┐
@@ -32,11 +32,11 @@ POLL_S = 0.005
 """Longest wait inside a line, and so the time that `stop` may take."""
 
 STALL_S = 0.5
-"""A device that wants no samples for so long is reported as stalled, and the mix goes on without it; before, the mix
-waits, so that a hiccup costs no sample (on a busy machine 0.3 s were seen between two ends of a pseudo-terminal)."""
+"""Time without requests after which a device is reported as stalled, and the mix continues without it [s]. Before, the
+mix waits, so that a short stall loses no sample (0.3 s were seen on a pseudo-terminal of a busy machine)."""
 
 GIVE_UP_S = 1.5
-"""... and after so long it is closed and opened again."""
+"""Time without requests after which a device is closed and opened again [s]."""
 
 FIRST_RETRY_S, LAST_RETRY_S = 0.1, 2.0
 """The pause between attempts, doubled each time until the device has played."""
@@ -46,7 +46,8 @@ _IDLE_BLOCK_S = 0.02
 _JOIN_S = 5.0
 
 CarryOn = Callable[[], bool]
-"""To be called every few milliseconds by a line that waits; False means: give up, the sink is being stopped."""
+"""A waiting line calls this every few milliseconds; False means that the sink is being stopped and the line must give
+up."""
 
 
 class Line(Protocol):
@@ -74,22 +75,22 @@ class Line(Protocol):
         ...
 
     def send(self, block: Block) -> None:
-        """Hand over as many frames as were wanted."""
+        """Pass the requested number of frames to the device."""
         ...
 
     def disconnect(self) -> None:
-        """Silence the device if it is there, and let go of it; never raises, may be called twice."""
+        """Silence the device if it is present, and release it; never raises, may be called twice."""
         ...
 
 
 class LiveSink:
     """An ActuatorSink on a line.
 
-    `open`, `start` and `stats` return at once, whatever the device does; `stop` waits for the thread, which is a few
-    milliseconds. Errors of the device come as events; only misuse raises.
+    `open`, `start` and `stats` return at once, in any state of the device; `stop` waits a few milliseconds for the
+    thread. Errors of the device are events; only misuse raises.
 
-    Parameters: line : the way to the device; name : what to call it in events; on_event : an EventCallback or None,
-    may be set at any time; key : what a device is known by that takes one sink at a time, None for any number.
+    Parameters: line : connection to the device; name : its name in events; on_event : an EventCallback or None, may be
+    set at any time; key : identifies a device that serves one sink at a time, None for any number.
     """
 
     def __init__(self, line: Line, name: str, *, on_event: EventCallback | None = None, key: Hashable = None) -> None:
@@ -108,7 +109,7 @@ class LiveSink:
         self._idle = Pace(1)
 
     def open(self, format: SinkFormat) -> None:
-        """Get ready and reset the counters; the device itself is reached by `start`, and may be missing.
+        """Prepare the sink and reset the counters; `start` connects to the device, which may be missing.
 
         Raises: DeviceError: another sink of this program plays on it.
         """
@@ -120,7 +121,7 @@ class LiveSink:
         self._frames = self._dropped = self._faults = self._connects = 0
 
     def start(self, fill: Fill) -> None:
-        """Take blocks from `fill`, on a thread of the sink's own. Raises: DeviceError: not open."""
+        """Request blocks from `fill`, on the sink's own thread. Raises: DeviceError: not open."""
         if self._format is None:
             raise DeviceError(f"{self._name} is not open; call open(SinkFormat(...)) before start.")
         self.stop()
@@ -148,7 +149,7 @@ class LiveSink:
         self._fill = None
 
     def wait_connected(self, timeout_s: float) -> bool:
-        """Whether the device plays, waiting at most so long [s] for it."""
+        """Wait at most `timeout_s` [s] for the device. Returns True if it plays."""
         return self._playing.wait(timeout_s)
 
     @property
@@ -261,7 +262,7 @@ class LiveSink:
             if block.shape != (n_frames, n_channels):
                 raise DeviceError(f"the mix has shape {block.shape}; it must be {(n_frames, n_channels)}")
             return block
-        except Exception as cause:  # silence is better for a hand than a thread that died on a note
+        except Exception as cause:  # a fault of the mix gives silence, and must not end the thread
             self._faults += 1
             self._report_once("fault", f"{self._name} plays silence: {type(cause).__name__}: {cause}.")
             return np.zeros((n_frames, n_channels), dtype=np.float32)

@@ -1,13 +1,14 @@
 """Latency from the request for a signal to its recording at an input: by a cable, or a sound server's monitor.
 
-A sink reports the latency that its driver states; a loop-back measures it, with all that the driver does not know.
+A sink reports the latency that its driver states; a loop-back measures the whole latency, with parts that the driver
+does not know.
 
     with Recording(find_input(None), 48000, 2) as recording:
         ...                                     # play the pattern, and note when its first samples are requested
     arrival(recording.take(), requested_at_s, pattern).latency_s
 
-A frame's time is that at which a block with it was handed over. Drivers report the time at the converter too, but not
-reliably: PulseAudio behind ALSA puts it up to 15 ms after the block that holds the frame had been handed over.
+The time of a frame is that at which the driver delivered its block. Drivers also report the time at the converter, but
+not reliably: PulseAudio behind ALSA reports times up to 15 ms after the delivery of the block.
 """
 
 from __future__ import annotations
@@ -26,13 +27,13 @@ from scene2hap.devices.portaudio import Card
 from scene2hap.errors import DeviceError, DeviceNotFound
 
 FOUND_FROM = 0.3
-"""Least correlation of a pattern that was found [-]; all else may then be 10 dB louder.
+"""Least correlation of a found pattern [-]; other sounds may then be 10 dB louder.
 
 The sweep of `scene2hap doctor` (2 s, 40 to 400 Hz) reaches 0.12 in noise of its own band and 0.06 in mains hum.
 """
 
 LONGEST_S = 1.0
-"""Later arrivals are not looked for."""
+"""Latest arrival that is searched for [s]."""
 
 BLOCK_FRAMES = 256
 
@@ -40,12 +41,12 @@ _LOOP_BACKS = re.compile(r"loop.?back|monitor|stereo.?mix", re.IGNORECASE)
 _NEAR_S = 0.25
 
 _SILENT = 1e-9
-"""Energy, against the loudest stretch, below which there is nothing but rounding."""
+"""Energy relative to the loudest stretch below which there are only rounding errors."""
 
 
 @dataclass(frozen=True)
 class Match:
-    """Where a pattern fits a recording best: its first frame, the correlation [-1, 1], and how much louder it is."""
+    """The best match of a pattern in a recording: first frame, correlation [-1, 1], and gain of the recording."""
 
     frame: int
     correlation: float
@@ -56,9 +57,9 @@ class Match:
 class Take:
     """A recording from an input.
 
-    `samples` (n_frames, n_channels) float32; when each block was handed over [s, on `time.monotonic`], and how many
-    frames had been heard by then, both (n_blocks,); `block_s`, what the driver hands over at a time; `gaps`, how often
-    it said that frames were lost.
+    `samples` (n_frames, n_channels) float32; the delivery times of blocks [s, on `time.monotonic`] and the number of
+    frames received by then, both (n_blocks,); `block_s`, the length of a block; `gaps`, how often the driver reported
+    lost frames.
     """
 
     device: str
@@ -70,31 +71,31 @@ class Take:
     gaps: int = 0
 
     def time_of(self, frame: int) -> float:
-        """When a frame was there [s, monotonic], at the latest; it may have been a block earlier."""
+        """Return the latest time at which a frame had arrived [s, monotonic]; it may have arrived one block earlier."""
         near = _near((self.n_heard - frame) / self.rate_hz)
-        # Blocks are handed over late, never early, so that the earliest that any of them allows is the best guess.
+        # Blocks are delivered late, never early, so the earliest time that any of them allows is the best estimate.
         return float(np.min((self.handed_over_s - (self.n_heard - frame) / self.rate_hz)[near]))
 
     def frame_at(self, time_s: float) -> int:
-        """The frame that was there at a moment [s, monotonic]; the first or the last where none was."""
+        """Return the frame that arrived at a time [s, monotonic]; the first or the last outside of the recording."""
         near = _near(self.handed_over_s - time_s)
         frame = math.floor(np.max((self.n_heard - (self.handed_over_s - time_s) * self.rate_hz)[near]))
         return min(max(frame, 0), len(self.samples))
 
 
 def _near(apart_s: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Blocks that give the time: nearby ones, since frames may be lost in between, and the nearest in any case."""
+    """Mark the blocks that give the time of a frame: the nearest and nearby ones, since farther ones may have gaps."""
     apart_s = np.abs(apart_s)
     return np.asarray(apart_s <= max(_NEAR_S, float(apart_s.min())))
 
 
 @dataclass(frozen=True)
 class Arrival:
-    """When a pattern came back after its request, or that it did not.
+    """The arrival of a pattern at an input after its request.
 
-    `latency_s` is None where nothing correlates by `FOUND_FROM`; it may be too long by `uncertainty_s`, a recorded
-    block. `channel` is the input's, from 1; `gain_db` that from pattern to input; `correlation` in [-1, 1], negative
-    where a cable or the input turns the signal round.
+    `latency_s` is None if no correlation reaches `FOUND_FROM`; it may be too long by `uncertainty_s`, a recorded block.
+    `channel` is the input's, from 1; `gain_db` is from pattern to input; `correlation` in [-1, 1] is negative if a
+    cable or the input inverts the signal.
     """
 
     latency_s: float | None
@@ -105,7 +106,7 @@ class Arrival:
 
 
 def find(heard: NDArray[np.floating], pattern: NDArray[np.floating]) -> Match:
-    """Look for a pattern in a recording, whatever its level and polarity.
+    """Search a pattern in a recording, at any level and polarity.
 
     r[k] = sum_i x[k + i] p[i] / (|p| sqrt(sum_i x[k + i]^2)), at the k of the largest |r|
 
@@ -140,9 +141,9 @@ def arrival(take: Take, requested_at_s: float, pattern: NDArray[np.floating]) ->
 
 
 def find_input(device: str | int | None) -> Card:
-    """The input of an index, or the one whose name is or contains `device`; None for what looks like a loop-back.
+    """Return the input with an index, or the one whose name is or contains `device`; None for a probable loop-back.
 
-    Where nothing does, None is the system's own choice: a sound server may have made a monitor of it.
+    If no input looks like one, None gives the system's default, which may be the monitor of a sound server.
     Raises: DeviceNotFound; MissingExtra; DeviceError: there is no PortAudio.
     """
     portaudio.restart_if_idle()
@@ -155,7 +156,7 @@ def find_input(device: str | int | None) -> Card:
 
 
 class Recording:
-    """Listens to an input from entering its context to leaving it.
+    """A context manager that records an input.
 
     Parameters: card : from `find_input`; rate_hz : wanted, else the card's own is taken; n_channels : wanted, at most
     as many as the card has.
@@ -183,7 +184,7 @@ class Recording:
         portaudio.close_stream(stream, drain=False)
 
     def take(self) -> Take:
-        """The recording so far. Raises: DeviceError: it is empty, without even silence."""
+        """Return the recording so far. Raises: DeviceError: no block has arrived."""
         blocks = list(self._blocks)
         if not blocks:
             raise DeviceError(f"input {self._card.name!r} gave no samples; try another with --loop-back INPUT.")

@@ -20,19 +20,19 @@ class MemorySink(Pulled):
         self._blocks: list[Block] = []
 
     def open(self, format: SinkFormat) -> None:
-        """Forget what was kept, and get ready."""
+        """Prepare the sink, and discard stored samples."""
         self._format = format
         self._blocks = []
         self._whole = WholeFrames(format.sample_rate_hz)
 
     def start(self, fill: Fill) -> None:
-        """Take blocks from `fill` from now on."""
+        """Set `fill` as the source of blocks."""
         if self._format is None:
             raise DeviceError("MemorySink is not open; call open(SinkFormat(...)) before start.")
         self._fill = fill
 
     def pull(self, n_frames: int) -> Block:
-        """Take and keep the next frames; they are returned too."""
+        """Request, store and return the next frames."""
         if self._fill is None:
             raise DeviceError("MemorySink is not started; start the session that it belongs to first.")
         block = self._fill(n_frames)
@@ -40,20 +40,20 @@ class MemorySink(Pulled):
         return block
 
     def stop(self) -> None:
-        """Take no more blocks; what was kept stays."""
+        """Request no more blocks; stored samples stay."""
         self._fill = None
 
     def close(self) -> None:
-        """Stop; what was kept stays."""
+        """Stop; stored samples stay."""
         self.stop()
 
     @property
     def samples(self) -> Block:
-        """All that was taken (n_frames, n_channels) float32."""
+        """All stored samples (n_frames, n_channels) float32."""
         channels = len(self._format.channels) if self._format else 0
         return np.concatenate([np.zeros((0, channels), dtype=np.float32), *self._blocks])
 
     @property
     def stats(self) -> SinkStats:
-        """Frames kept so far."""
+        """The number of frames stored so far."""
         return SinkStats(frames=sum(len(block) for block in self._blocks))

@@ -41,7 +41,7 @@ class GainFrame(Protocol):
 
 
 class OscLine:
-    """Messages instead of samples, which are taken at the wall clock's pace and thrown away.
+    """Sends gains as messages. Samples are requested by the wall clock and discarded.
 
     `latest` is the newest frame of gains; any thread may set it.
     """
@@ -60,7 +60,7 @@ class OscLine:
 
     @property
     def underruns(self) -> int:
-        """Datagrams that the machine would not queue."""
+        """The number of datagrams that the system did not queue."""
         return self._datagrams.not_sent
 
     def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
@@ -82,11 +82,11 @@ class OscLine:
         return self._block_frames if self._pace.due(time.monotonic()) >= self._block_frames else 0
 
     def send(self, block: Block) -> None:
-        """Let the samples go: the receiver makes its own."""
+        """Discard the samples: the receiver plays its own."""
         self._pace.take(len(block))
 
     def disconnect(self) -> None:
-        """Send gain 0 for everything that still plays."""
+        """Send gain 0 for all clips that still play."""
         loud = [key for key, gain in self._sent_gains.items() if gain]
         self._datagrams.close(*(encode("/scene2hap/gain", 0.0, clip, hand) for clip, hand in loud))
         self._sent_gains.clear()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 class Pace:
-    """Counts frames at a rate from a moment on; after a pause of more than `max_lag_s` [s] it forgets the rest."""
+    """Counts frames at a rate from a start time; after a pause of more than `max_lag_s` [s] the excess is dropped."""
 
     def __init__(self, rate_hz: float, max_lag_s: float = 0.5) -> None:
         self._rate_hz = rate_hz
@@ -22,7 +22,7 @@ class Pace:
         due = int((now_s - self._since_s) * self._rate_hz) - self._taken
         most = int(self._max_lag_s * self._rate_hz)
         if due > most:
-            # A machine that slept must not make up for the night.
+            # After a machine has slept, the missed frames must not all come due at once.
             self._taken += due - most
             return most
         return due

@@ -36,7 +36,7 @@ class PlaybackRing:
         """Times at which samples ran out while playing."""
 
     def restart(self) -> None:
-        """Be as new, for another stream; the count of gaps goes on."""
+        """Reset the ring for another stream, except for the count of gaps."""
         self._written = self._read = self._place = 0
         self._is_dry = self.closing = False
 
@@ -101,7 +101,7 @@ class PlaybackRing:
         self._place += n
 
     def _fade_out(self, signal: Block, out: Block) -> None:
-        """Write `signal` (as many frames as `out`, or one that is held) with the gate falling."""
+        """Write `signal` (the frames of `out`, or one frame that is held), faded out by the gate."""
         n = min(len(out), self._place)
         begin = self._top - self._place + 1
         np.multiply(signal[:n], self._fall[begin : begin + n], out=out[:n])

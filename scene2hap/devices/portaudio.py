@@ -1,4 +1,4 @@
-"""PortAudio through the package sounddevice: finding devices, and its errors in words of our own.
+"""PortAudio through the package sounddevice: search for devices, and translation of its errors.
 
 PortAudio knows the devices that were there when it was started, so one that was plugged in later needs a new start.
 That would end every stream, so it is done only while none of ours is open. Its calls are not safe to make from two
@@ -57,7 +57,7 @@ def default_input() -> int:
 
 
 def find_card(device: str | int | None) -> Card:
-    """The device of an index, or the one whose name is or contains `device`; None for the system's own choice.
+    """Return the device with an index, or the one whose name is or contains `device`; None for the system's default.
 
     Raises: DeviceNotFound; DeviceError: there is no PortAudio.
     """
@@ -74,7 +74,7 @@ def find_card(device: str | int | None) -> Card:
 
 
 def accepts(card: Card, n_channels: int, rate_hz: int) -> bool:
-    """Whether the device plays so many channels at that rate; one that is busy or gone says no to everything."""
+    """Return True if the device plays this many channels at this rate; False for a busy or missing device."""
     with _LOCK:
         sd = _sounddevice()
         try:
@@ -120,7 +120,7 @@ def open_recording(
 
 
 def is_active(stream: Any) -> bool:
-    """Whether a stream still requests samples."""
+    """Return True if a stream still requests samples."""
     try:
         return bool(stream.active)
     except _sounddevice().PortAudioError:
@@ -128,7 +128,7 @@ def is_active(stream: Any) -> bool:
 
 
 def close_stream(stream: Any, *, drain: bool) -> None:
-    """Give a stream back, after what it holds has been played if `drain`."""
+    """Close a stream, after its buffered samples have been played if `drain`."""
     global _open_streams
     with _LOCK:
         try:
@@ -176,7 +176,7 @@ def _devices(channels: str) -> list[Card]:
 
 
 def _started(stream: Any) -> Any:
-    """Counted, so that a search for devices does not restart PortAudio while a stream is open."""
+    """Start and count a stream, so that a search for devices does not restart PortAudio while it is open."""
     global _open_streams
     try:
         stream.start()

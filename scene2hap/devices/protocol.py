@@ -48,10 +48,10 @@ class SinkStats:
 @clear_construction
 @dataclass(frozen=True)
 class SinkEvent:
-    """An event of a sink that a game may want to show to its player.
+    """An event of a sink that a game may show to its player.
 
     kind : "connected" (first or again), "unavailable" (cannot be reached, tried again later), "stalled" (takes no
-    samples), "resumed" (takes them again), "lost" (was there, is gone) or "fault" (the mix could not be had).
+    samples), "resumed" (takes them again), "lost" (was there, is gone) or "fault" (the mix could not be rendered).
     message : a sentence with what to do next; at_s : when [s], on the clock of `time.monotonic`.
     """
 
@@ -66,27 +66,27 @@ EventCallback = Callable[[SinkEvent], None]
 
 @runtime_checkable
 class ActuatorSink(Protocol):
-    """Takes the mix to hands, or to a file. `stop` and `close` may be called twice.
+    """Plays the mix on actuators, or writes it to a file. `stop` and `close` may be called twice.
 
-    A sink may have more, which is looked up by name: `on_event`, an `EventCallback` or None that may be set at any
-    time (sinks with a device behind them: see `scene2hap.devices.link`); `abort()`, to be called instead of `stop` and
-    `close` when a run has failed; `show(frame)`, which is handed every HapticFrame, for devices that want gains.
+    Optional members are looked up by name: `on_event`, an `EventCallback` or None that may be set at any time (sinks
+    with a device: see `scene2hap.devices.link`); `abort()`, called instead of `stop` and `close` when a run has failed;
+    `show(frame)`, called with every HapticFrame, for devices that play gains.
     """
 
     def open(self, format: SinkFormat) -> None:
-        """Get ready. Raises: DeviceError."""
+        """Prepare the sink for this format. Raises: DeviceError."""
         ...
 
     def start(self, fill: Fill) -> None:
-        """Begin to take blocks. A device pulls them in its own time; a file or memory takes them by `pull`."""
+        """Begin to request blocks. A device requests them by its own clock; a file or memory sink by `pull`."""
         ...
 
     def stop(self) -> None:
-        """Take no more blocks."""
+        """Request no more blocks."""
         ...
 
     def close(self) -> None:
-        """Give the device back; a file is complete from here on."""
+        """Release the device; a file is complete from then on."""
         ...
 
     @property

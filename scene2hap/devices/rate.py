@@ -1,11 +1,11 @@
-"""From the session's sample rate to a device's, block by block.
+"""Streaming conversion of the sample rate, from the session's to a device's.
 
     y[m] = sum_j h[p + j up] x[q - j]        q = m down // up,  p = m down mod up,  up / down = f_out / f_in
 
-h is a Kaiser-windowed low-pass at rate up f_in, cut into `up` phases once; the inputs that the next outputs reach back
-to are kept, so that any block size gives the same signal without a seam. Ready-made streaming converters hold back more
-than touch can wait for (soxr 1.1 from 48 to 4 kHz: 36 ms at its medium quality, 222 ms at its high one); a filter that
-need only spare the tactile band holds back 2.6 ms.
+h is a Kaiser-windowed low-pass at rate up f_in, split into `up` phases once. The inputs that the next outputs need are
+kept, so that the block size has no effect on the signal. Available streaming converters have too much latency for touch
+(soxr 1.1 from 48 to 4 kHz: 36 ms at medium quality, 222 ms at high quality). A filter that must preserve only the
+tactile band has 2.6 ms.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from numpy.typing import NDArray
 from scene2hap.devices.protocol import Block
 
 TACTILE_EDGE_HZ = 1000.0
-"""Nothing above is felt, so the filter may begin to fall here."""
+"""Upper end of the pass band [Hz]: nothing above it is felt."""
 
 STOP_BAND_DB = 80.0
-"""Attenuation of what would alias, well below the 55 dB of range that touch has."""
+"""Attenuation of aliasing frequencies [dB], well beyond the 55 dB range of touch."""
 
 
 class RateConverter:
-    """A streaming converter for n_channels; with equal rates it hands samples through untouched.
+    """A streaming converter for n_channels; with equal rates it returns samples unchanged.
 
     It passes 0 to min(1 kHz, 0.6 Nyquist) and stops what lies above the lower Nyquist frequency by 80 dB.
     """

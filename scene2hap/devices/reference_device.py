@@ -36,10 +36,10 @@ Samples = np.ndarray[tuple[int, int], np.dtype[np.int16]]
 
 
 class ReferenceDevice:
-    """A serial amplifier without wires: bytes in, bytes out, and a clock that the caller turns.
+    """A simulated serial amplifier: bytes in, bytes out, and a clock that the caller advances.
 
-    Parameters: sample_rate_hz, channels : what it plays; queue_frames : of its queue; on_samples : is handed what was
-    accepted; on_output : is handed what was played, silence included. Both get (n_frames, n_channels) int16.
+    Parameters: sample_rate_hz, channels : its format; queue_frames : length of its queue; on_samples : called with
+    accepted samples; on_output : called with played samples, silence included. Both get (n_frames, n_channels) int16.
     """
 
     def __init__(
@@ -84,7 +84,7 @@ class ReferenceDevice:
                 self._accept(frame, now_s)
 
     def advance(self, now_s: float) -> None:
-        """Play until now; mute when the host is silent; send the host the present position."""
+        """Play up to the present; mute if the host is silent; send the present position to the host."""
         if now_s - self._fed_s > WATCHDOG_S:
             self._mute()
         if self._clock_s == -np.inf:
@@ -144,7 +144,7 @@ class ReferenceDevice:
         self._outgoing += to_wire(credit.to_frame(self._echo_us))
 
     def _mute(self) -> None:
-        """Drop what is queued: samples that are late are worse than none."""
+        """Drop queued samples: late samples are worse than none."""
         self.muted = True
         self._queue.clear()
         self._queued = 0
@@ -208,7 +208,7 @@ class PseudoTerminal:
             os.write(self._master, data)
 
     def close(self) -> None:
-        """Pull the plug; may be called twice."""
+        """Disconnect; may be called twice."""
         for end in (self._master, self._slave):
             with contextlib.suppress(OSError):
                 os.close(end)

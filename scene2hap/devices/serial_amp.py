@@ -19,10 +19,11 @@ from scene2hap.errors import ConfigError, DeviceError, DeviceLost, DeviceTimeout
 
 HELLO_EVERY_S = 0.1
 ANSWER_S = 2.5
-"""Boards of the Arduino family restart when their port is opened, and need some 2 s until they listen."""
+"""Longest wait for an answer to the greeting [s]: boards of the Arduino family restart when their port is opened, and
+need some 2 s until they listen."""
 
 PROBE_S = 0.05
-"""Without room and without news for so long, an empty PCM frame is sent: its CREDIT shows which others were lost."""
+"""Time without free space and without CREDIT after which an empty PCM frame is sent; its CREDIT shows lost frames."""
 
 _BITS_PER_BYTE = 10
 _FRAME_OVERHEAD = 19
@@ -98,7 +99,7 @@ class SerialLine:
         return device.sample_rate_hz
 
     def wanted(self, timeout_s: float) -> int:
-        """One block where the device has room for it within the buffer wished for."""
+        """Return the frames of one block if the device has space for it within the configured buffer."""
         if self._room < self._block_frames:
             self._listen(timeout_s)
             if self._in_flight and time.monotonic() - self._news_s > PROBE_S:
@@ -122,10 +123,10 @@ class SerialLine:
         try:
             farewell = to_wire(message(FrameType.MUTE))
             port.write(farewell)
-            # Closing throws away what was not sent, so the frame needs its time on the wire.
+            # Closing discards unsent bytes, so wait for the time that the frame needs on the wire.
             time.sleep(0.001 + len(farewell) * _BITS_PER_BYTE / self._baud_rate)
         except DeviceError:
-            pass  # a device that has gone mutes itself, by its watchdog
+            pass  # a disconnected device mutes itself by its watchdog
         port.close()
 
     def _greet(self, port: SerialPort, n_channels: int, carry_on: CarryOn) -> DeviceFormat | None:
@@ -166,7 +167,7 @@ class SerialLine:
             )
 
     def _listen(self, timeout_s: float) -> None:
-        """Take in credits; only the newest counts."""
+        """Read credits; only the newest counts."""
         if self._port is None:
             raise DeviceLost(f"{self._name} is not open.")
         newest: tuple[Credit, int] | None = None

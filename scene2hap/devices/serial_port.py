@@ -1,8 +1,8 @@
-"""A serial port that never blocks for long, with errors of our own.
+"""A serial port that never blocks for long, with errors of `scene2hap.errors`.
 
-What drivers do: a full port raises after the write timeout, at times without reason, and a timeout of 0 spins (pyserial
-3.5 on POSIX); a port that was pulled out raises SerialException, OSError or termios.error, depending on the call;
-closing one with bytes that nobody takes can wait for half a minute, unless they are thrown away first.
+Behaviour of drivers: a full port raises after the write timeout, at times without reason, and a timeout of 0 spins
+(pyserial 3.5 on POSIX). A disconnected port raises SerialException, OSError or termios.error, depending on the call.
+Closing a port with unsent bytes can take half a minute, unless they are discarded first.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class SerialPort:
             self._port.set_low_latency_mode(True)
 
     def read(self, timeout_s: float) -> bytes:
-        """Read the bytes that have arrived; wait at most so long [s] for a first byte. Raises: DeviceLost."""
+        """Read the bytes that have arrived; wait at most `timeout_s` for a first byte. Raises: DeviceLost."""
         try:
             self._port.timeout = timeout_s
             return self._port.read(max(1, self._port.in_waiting))
@@ -59,7 +59,7 @@ class SerialPort:
             raise DeviceLost(f"{self.name} has gone: {_reason(cause)}. Plug it in again.") from cause
 
     def write(self, data: bytes) -> None:
-        """Hand bytes to the driver, or give up after 50 ms; the protocol finds out what arrived. Raises: DeviceLost."""
+        """Pass bytes to the driver, or give up after 50 ms; the protocol detects losses. Raises: DeviceLost."""
         import serial
 
         try:
@@ -72,7 +72,7 @@ class SerialPort:
             raise DeviceLost(f"{self.name} has gone: {_reason(cause)}. Plug it in again.") from cause
 
     def close(self) -> None:
-        """Throw away what was not sent, and close; never raises."""
+        """Discard unsent bytes, and close; never raises."""
         with contextlib.suppress(*self._lost):
             self._port.reset_output_buffer()
         with contextlib.suppress(*self._lost):

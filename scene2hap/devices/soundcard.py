@@ -1,12 +1,12 @@
-"""Sound cards, and all that shows up as one: head-phone outputs, game pads, audio amplifiers on USB.
+"""Sound cards, and devices that appear as one: head-phone outputs, game pads, audio amplifiers on USB.
 
-Samples are rendered ahead into a ring by the sink's thread, and the sound card's callback only copies from there; what
-the session does, and Python's own pauses, are hidden by what lies ahead:
+The sink's thread renders samples ahead into a ring, and the sound card's callback only copies from it. The buffered
+samples bridge work of the session and pauses of Python:
 
     session ──► ring (`latency` + 12 ms) ──► PortAudio's buffer (`latency`) ──► actuator
 
-The ring is as long as the buffer since Python may stop all its threads at once, the callback among them, as when it
-collects garbage (60 ms were seen). Once that is over, the driver requests all that was played meanwhile at once.
+The ring is as long as the buffer, since Python may stop all its threads at once, including the callback, as in garbage
+collection (60 ms were seen). After such a pause the driver requests at once all frames that were played meanwhile.
 Losing the device is a state, handled by `scene2hap.devices.link`.
 """
 
@@ -39,7 +39,7 @@ CHUNK_S = 0.005
 """Frames are rendered in blocks of about this; gains, and the watchdog, can only act between two."""
 
 CATCHING_UP = 1.05
-"""How much faster than it is played the ring is filled again after a burst."""
+"""Rate at which the ring is refilled after a burst, relative to the playback rate."""
 
 BLOCK_FRAMES = 256
 FADE_S = 0.005
@@ -49,7 +49,7 @@ _LONGEST_FADE_S = 0.5
 
 @dataclass(frozen=True)
 class SoundCardStats(SinkStats):
-    """As every sink's; `load` is the share of its time that the callback needs [-], and `device` what is played on."""
+    """Statistics of a sink, plus `load`, the share of its time that the callback needs [-], and the `device`."""
 
     load: float = 0.0
     device: str = ""
@@ -89,7 +89,7 @@ class SoundCardSink(LiveSink):
         super().__init__(self._card_line, name, on_event=on_event)
 
     def open(self, format: SinkFormat) -> None:
-        """Get ready. Raises: ConfigError: a hand without a channel."""
+        """Prepare the sink. Raises: ConfigError: a hand without a channel."""
         self._card_line.columns(format)
         super().open(format)
         # A program that ends without `close` still fades out, and before PortAudio is taken down.

@@ -1,8 +1,8 @@
 """Several sinks at once.
 
-Devices have clocks of their own, so the mix is put on a tape that each reads at its own pace. Whoever is furthest has
-the session render on; who falls more than 0.1 s behind (a slower clock, a device that was away) jumps to the head, with
-a cross-fade. Sinks without a clock, such as WavSink, are given every block once, in order.
+Devices have clocks of their own, so the mix is stored on a tape that each reads at its own rate. The fastest reader
+makes the session render. A reader more than 0.1 s behind (a slower clock, a device that was disconnected) jumps to the
+head, with a cross-fade. Sinks without a clock, such as WavSink, get every block once, in order.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ MAX_LAG_S = 0.1
 
 @clear_calls
 class TeeSink(Pulled):
-    """Hands one mix to several sinks: objects, kinds, or mappings with a `kind`.
+    """Passes one mix to several sinks: objects, kinds, or mappings with a `kind`.
 
-    `stats` adds them up, is connected if any is, and has the largest latency; `sinks` gives access to each. With only
-    sinks that have no clock, `pull` takes from the session, as theirs does.
-    Raises: ConfigError: no sink, or something that is none.
+    `stats` has their sums, the largest latency, and is connected if any sink is; `sinks` gives access to each. If no
+    sink has a clock, `pull` requests frames from the session, as the sinks' own `pull` does.
+    Raises: ConfigError: no sink, or an object that is no sink.
     """
 
     def __init__(
@@ -95,14 +95,14 @@ class TeeSink(Pulled):
         self._format = None
 
     def abort(self) -> None:
-        """Stop all, and leave no file behind where a sink can do that."""
+        """Stop all, and let sinks that support it delete their files."""
         self.stop()
         for sink in self.sinks:
             getattr(sink, "abort", sink.close)()
         self._format = None
 
     def show(self, frame: object) -> None:
-        """Hand the gains of an update to those who want them."""
+        """Pass the gains of an update to the sinks that play gains."""
         for sink in self.sinks:
             if show := getattr(sink, "show", None):
                 show(frame)
@@ -128,9 +128,9 @@ class TeeSink(Pulled):
 
 
 class _Tape:
-    """The newest part of the mix, rendered on by whoever reads past its head.
+    """The newest part of the mix; a reader that reaches its head renders more.
 
-    Readers are sinks' own threads, never a sound card's callback, so that a lock is in order.
+    Readers are sinks' own threads, never a sound card's callback, so that a lock is allowed.
     """
 
     def __init__(self, fill: Fill, format: SinkFormat, recorders: Sequence[ActuatorSink]) -> None:
@@ -163,7 +163,7 @@ class _Tape:
 
 
 class _Reader:
-    """One device's place on the tape."""
+    """The position of one device on the tape."""
 
     def __init__(self, tape: _Tape, format: SinkFormat) -> None:
         self._tape = tape

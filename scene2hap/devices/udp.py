@@ -1,4 +1,4 @@
-"""The mix over a network: PCM in datagrams, or the gains as OSC messages; docs/udp.md is for the receiving side."""
+"""The mix over a network: PCM in datagrams, or the gains as OSC messages; docs/udp.md describes the receiving side."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from scene2hap.devices.protocol import Block, EventCallback, SinkFormat
 from scene2hap.errors import ConfigError
 
 ANNOUNCE_S = 1.0
-"""A receiver that starts late learns rate and channels after at most so long."""
+"""Interval of announcements [s], from which a receiver that starts late learns rate and channels."""
 
 _SAMPLES = {"int16": SampleFormat.INT16, "float32": SampleFormat.FLOAT32}
 
@@ -61,7 +61,7 @@ class UdpSink(LiveSink):
     def show(self, frame: GainFrame) -> None:
         """Take in the gains of one update; the game's thread never waits here. Nothing to do for PCM."""
         if self._osc is not None:
-            # Worked out here and now: the other thread would ask while the scene changes.
+            # Computed here: the sink's thread would read the scene while it changes.
             _ = frame.gains
             self._osc.latest = frame
 
@@ -99,14 +99,14 @@ class PcmLine:
         return self._rate_hz
 
     def wanted(self, timeout_s: float) -> int:
-        """A block whenever the clock has come so far."""
+        """Return the frames of one block whenever one is due."""
         wait_s = self._pace.wait_s(self._block_frames, time.monotonic())
         if wait_s > 0:
             time.sleep(min(wait_s, timeout_s))
         return self._block_frames if self._pace.due(time.monotonic()) >= self._block_frames else 0
 
     def send(self, block: Block) -> None:
-        """One PCM datagram, and now and then the announcement."""
+        """Send one PCM datagram, and the announcement at its interval."""
         now = time.monotonic()
         self._pace.take(len(block))
         self._sequence = (self._sequence + 1) % 2**16

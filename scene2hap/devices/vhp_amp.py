@@ -1,7 +1,7 @@
 """VHP boards of google/audio-to-tactile as a sink: twelve channels at 2 kHz over a serial port.
 
-The boards ask for each block of 4 ms, and that is all they say. What they need to be spared stands in
-docs/serial-protocol.md; none of it was tried on a board by us, but against boards that the tests play.
+The boards request each block of 4 ms, and send nothing else. docs/serial-protocol.md lists their limits. The code was
+tested with simulated boards only.
 """
 
 from __future__ import annotations
@@ -102,7 +102,7 @@ class VhpLine:
         self._write(block)
 
     def disconnect(self) -> None:
-        """Leave the board at rest: it would repeat what it got last for ever."""
+        """Leave the board at rest: otherwise it would repeat its last block for ever."""
         port = self._port
         if port is None:
             return
@@ -114,7 +114,7 @@ class VhpLine:
             if not self._slim:
                 off = vhp.Message(vhp.MessageType.DISABLE_AMPLIFIERS, recipient=vhp.Recipient.SLEEVE)
                 port.write(vhp.packet(off))
-            # Closing throws away what was not sent: 132 bytes are 1.3 ms at 1 Mbaud.
+            # Closing discards unsent bytes: 132 bytes take 1.3 ms at 1 Mbaud.
             time.sleep(0.004)
         except DeviceError:
             pass  # it has gone

@@ -20,8 +20,8 @@ from scene2hap.errors import ConfigError, DeviceError
 class WavSink(Pulled):
     """Writes the mix as 24-bit PCM. It has no clock of its own: `pull` requests the next frames.
 
-    The file appears under its name when the sink is closed, whole; a run that dies leaves none. Integer PCM rather
-    than float, whose header carries a time stamp, so that equal runs give equal files.
+    The file appears under its name when the sink is closed; a run that fails leaves none. Samples are integers, since
+    the header of a float file has a time stamp, so that equal runs give equal files.
     Raises: ConfigError: no path, or one that ends as another kind of file does.
     """
 
@@ -61,13 +61,13 @@ class WavSink(Pulled):
             raise DeviceError(f"{self.path} cannot be written: {cause}.") from cause
 
     def start(self, fill: Fill) -> None:
-        """Take blocks from `fill` from now on."""
+        """Set `fill` as the source of blocks."""
         if self._file is None:
             raise DeviceError(f"WavSink {self.path} is not open; call open(SinkFormat(...)) before start.")
         self._fill = fill
 
     def pull(self, n_frames: int) -> Block:
-        """Take and write the next frames; they are returned too."""
+        """Request, write and return the next frames."""
         if self._fill is None or self._file is None:
             raise DeviceError(f"WavSink {self.path} is not started; start the session that it belongs to first.")
         block = self._fill(n_frames)

@@ -13,7 +13,7 @@ MAX_S = 3600.0
 
 
 class WholeFrames:
-    """Turns times [s] into numbers of frames, and carries what is left over to the next, at most half a frame."""
+    """Converts times [s] to numbers of frames, and carries the remainder, at most half a frame, to the next."""
 
     def __init__(self, rate_hz: int, error: type[Scene2HapError] = SessionError) -> None:
         self._rate_hz, self._error = rate_hz, error

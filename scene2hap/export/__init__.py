@@ -1,4 +1,4 @@
-"""Exports: a bundle, or what hands feel of it over time, in the formats of platforms and programs."""
+"""Exports: a bundle, or the vibration at the hands over time, in the formats of other platforms and programs."""
 
 from scene2hap.export.exporting import export_bundle as export_bundle
 from scene2hap.export.exporting import export_clip as export_clip

@@ -23,7 +23,7 @@ _SILENT = 1e-5
 @clear_construction
 @dataclass(frozen=True)
 class CurveSettings:
-    """How closely curves follow a signal, and with how many points.
+    """Accuracy of curves, and their number of points.
 
     Parameters:
     range_hz : frequencies that 0 and 1 stand for on the actuator [Hz]; what lies outside is moved to the nearer end.

@@ -25,7 +25,7 @@ STEP_S = 0.005
 SMOOTHED_S = 0.025
 """Width of the window over which power is smoothed, at half its height [s]: as far apart as 40 points a second."""
 FLOOR_DB = -40.0
-"""Below the peak: what is weaker counts as that, since nobody feels it beside the rest."""
+"""Floor of amplitudes relative to the peak [dB]; weaker vibration is not felt beside the rest."""
 
 _SHARPENING_STEPS = 5
 _PADDING_S = 0.1

@@ -1,4 +1,4 @@
-"""How near an export comes to the signal that it was made from."""
+"""Errors of an export: differences between the played file and its original signal."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Played = HapticClip | Channel
 
 @dataclass(frozen=True)
 class Fidelity:
-    """Differences between an export, played by its format's rule, and its signal.
+    """Differences between an export, played by the rule of its format, and the original signal.
 
     Parameters: median_db, p95_db : of amplitude over time, median and 95th percentile [dB]; median_jnd, p95_jnd : of
     frequency, in just noticeable differences, None where the format has no frequency; amplitude_points,
@@ -43,7 +43,7 @@ class Fidelity:
 def fidelity(channel: Channel, played: Played) -> Fidelity:
     """Compare a channel with the signal that a player makes of its export.
 
-    Moments at which the channel is more than 40 dB below its peak do not count: nobody feels them.
+    Times at which the channel is more than 40 dB below its peak are ignored: they are not felt.
     """
     envelope = channel.envelope
     samples = played_samples(played)

@@ -1,4 +1,4 @@
-"""The manifest of an export: what an engine needs to place its files in the scene.
+"""The manifest of an export: the data that an engine needs to place its files in the scene.
 
 `manifest.json` in the folder, by the schema in docs/manifest.schema.json.
 """
@@ -58,7 +58,7 @@ class SourceEntry(_Part):
 
 
 class ObjectEntry(_Part):
-    """An object of the scene: where it is, in world metres, and what is known of it."""
+    """An object of the scene: its pose in the world [m], and its inferred properties."""
 
     id: str
     name: str
@@ -71,7 +71,7 @@ class ObjectEntry(_Part):
 
 
 class PathEntry(_Part):
-    """The gain of a source where it comes into an object through a contact (scene at rest, first states)."""
+    """The gain of a source at a contact through which it enters an object (scene at rest, first states)."""
 
     source: str
     object_id: str

@@ -1,4 +1,4 @@
-"""How much of each source arrives at each contact of a scene at rest, for engines that place vibration themselves."""
+"""Gains of each source at each contact of a scene at rest, for engines that propagate vibration themselves."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from scene2hap.session.network import PlatePoses, body_of, excitations_of
 from scene2hap.session.sources import LoopRow
 
 LEAST_GAIN = 1e-3
-"""Smaller gains are left out: 60 dB below the source nothing is felt [-]."""
+"""Least gain that is exported [-]: 60 dB below the source nothing is felt."""
 
 
 @dataclass(frozen=True)
@@ -24,9 +24,9 @@ class ContactPath:
     """The vibration of a source that enters an object at one contact.
 
     Parameters: source, object_id, by : the source, the object, and the object on the other side of the contact;
-    point_m : the contact [m], world; gain : amplitude there over that of the source [-]; decay_per_m : by the paper's
-    law, how fast it falls on the object with the distance from there, as exp(-decay_per_m * distance_m) [1/m]; None for
-    other models and for objects without a plate.
+    point_m : the contact [m], world; gain : amplitude there over that of the source [-]; decay_per_m : decay on the
+    object with the distance from there, exp(-decay_per_m * distance_m), by the paper's law [1/m]; None for other models
+    and for objects without a plate.
     """
 
     source: str
@@ -38,7 +38,7 @@ class ContactPath:
 
 
 def contact_paths(bundle: HapticBundle, model: PropagationModel | None = None) -> tuple[ContactPath, ...]:
-    """The gain of each source, in its first state, on both sides of every contact, strongest first by source.
+    """Return the gain of each source, in its first state, on both sides of every contact, strongest first by source.
 
     Parameters: model : of propagation; the paper's law if None.
     """

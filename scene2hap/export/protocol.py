@@ -1,4 +1,4 @@
-"""The interface of exporters, and how one is chosen."""
+"""The interface of exporters, and the registry of their kinds."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from scene2hap.plugins import PluginGroup
 class Exported:
     """The files of one track in one format.
 
-    Parameters: files : content by name; played : what a player makes of them, by channel, from which the error of the
-    export is measured; empty if unknown.
+    Parameters: files : content by name; played : the signal that a player makes of them, by channel, from which the
+    error of the export is measured; empty if unknown.
     """
 
     files: Mapping[str, bytes]
@@ -29,7 +29,7 @@ class Exporter(Protocol):
     """Writes tracks in one format. Configuration belongs to the constructor."""
 
     def export(self, track: Track) -> Exported:
-        """The files of a track, their names beginning with that of the track. Raises: ExportError."""
+        """Return the files of a track; their names begin with that of the track. Raises: ExportError."""
         ...
 
 
@@ -60,7 +60,7 @@ def file_name(track: Track, channel: str, suffix: str) -> str:
 
 
 def json_bytes(document: Any) -> bytes:
-    """A JSON document as a file holds it; numbers that JSON cannot hold are an error of ours, not of the reader."""
+    """Encode a JSON document. Numbers that JSON cannot represent raise here, not in the reader."""
     return (json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode()
 
 

@@ -54,7 +54,7 @@ class ExportReport:
         return "\n".join(map(str, self.rows))
 
     def to_data(self) -> dict[str, Any]:
-        """The same as plain data, for JSON."""
+        """Return the report as plain data, for JSON."""
         return {"folder": self.folder, "files": [asdict(row) for row in self.rows]}
 
     def __str__(self) -> str:

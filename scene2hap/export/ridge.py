@@ -1,8 +1,8 @@
 """The frequency of a signal over time: a ridge of its short-time spectrum.
 
-Of all ways through the spectrum the one with the most level in decibels is taken, where a change of frequency costs
-`JUMP_DB` an octave (dynamic programming; Carmona, Hwang and Torresani 1999, with another penalty). So a hum keeps
-its pitch in the presence of noise, and a glide is followed.
+The ridge is the path through the spectrum with the highest sum of levels in decibels, where a change of frequency costs
+`JUMP_DB` per octave (dynamic programming; Carmona, Hwang and Torresani 1999, with another penalty). So a hum keeps its
+pitch in noise, and a glissando is followed.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ STEP_S = 0.025
 RANGE_HZ = (20.0, 1000.0)
 PER_OCTAVE = 24
 JUMP_DB = 60.0
-"""Cost of a change by an octave [dB]; assumed, by trying it on recordings: hums in noise stay where they are."""
+"""Cost of a change by an octave [dB] (tuned on recordings: hums in noise keep their pitch)."""
 _FLOOR_DB = -60.0
 
 

@@ -22,7 +22,7 @@ def manifest_schema() -> dict[str, Any]:
 
 
 def _plain(schema: Any) -> Any:
-    """The schema without titles, and with constants said as every version of pydantic says them."""
+    """Return the schema without titles, and with constants in a form that does not depend on pydantic's version."""
     if isinstance(schema, list):
         return [_plain(item) for item in schema]
     if not isinstance(schema, dict):

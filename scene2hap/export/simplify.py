@@ -1,7 +1,8 @@
-"""Few points for a curve: those that a straight line between their neighbours would miss by most.
+"""Simplify a curve to few points, those with the largest distance from straight lines between their neighbours.
 
-The order is that of Ramer (1972) and Douglas and Peucker (1973): a line from end to end, then again and again the point
-that is missed by most. The worst of the whole curve comes first, so that a bound on points keeps the most important.
+The order is that of Ramer (1972) and Douglas and Peucker (1973): begin with a line from end to end, then repeatedly add
+the point with the largest error. The largest of the whole curve comes first, so that a bound on points keeps the most
+important ones.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ def simplified(
     per_second: float,
     kept: Iterable[int] = (),
 ) -> NDArray[np.intp]:
-    """Indices of the points of a curve (n,) between which straight lines miss it by no more than a tolerance.
+    """Return the indices of points of a curve (n,) between which straight lines stay within a tolerance of it.
 
     Parameters: measure : from values to what is compared, such as decibels; per_second : the most points in each second
     from the beginning on, and as many in proportion in the last part of one; the ends and those to be `kept` count.

@@ -28,7 +28,7 @@ MAX_TRACK_S = 600.0
 class Channel:
     """One actuator's signal (n_samples,) in [-1, 1], played once or, as a loop, for ever.
 
-    `clip` has its curves where a person drew them.
+    `clip` has its curves if a person drew them.
     Raises: ExportError: no samples, one that is not finite or beyond 1, or more than `MAX_TRACK_S`.
     """
 
@@ -68,7 +68,7 @@ class Channel:
         return self._resampled[sample_rate_hz]
 
     def resampled(self, sample_rate_hz: float) -> Channel:
-        """The same at another rate [Hz]; itself where that is its own."""
+        """Return the channel at another rate [Hz]; itself if that is its own rate."""
         if sample_rate_hz == self.sample_rate_hz:
             return self
         return Channel(self.at_rate(sample_rate_hz), sample_rate_hz, self.is_loop)
@@ -109,7 +109,7 @@ class Track:
 
     @property
     def is_loop(self) -> bool:
-        """Whether it is played for ever."""
+        """True if it is played for ever."""
         return all(one.is_loop for one in self.channels.values())
 
     @property

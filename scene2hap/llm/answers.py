@@ -1,8 +1,7 @@
-"""The shape of each component's answer. Units stand in the field names, bounds are checked here.
+"""The schema of each component's answer. Field names carry units, and bounds are checked here.
 
-Flat and with every field required, since strict structured output allows no more; a field that came later has a
-default, for answers of before. Types are strict:
-"2700 kg/m^3" is no number and `true` is not 1.
+Schemas are flat with every field required, since strict structured output allows no more. A field of a later version
+has a default, for older answers. Types are strict: "2700 kg/m^3" is no number and `true` is not 1.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validat
 from scene2hap.haptics import LONGEST_PASSAGE_S, LONGEST_TURN_S
 
 MOST_WORDS_IN_SENTENCE = 15
-"""As in the paper, section "Vibration Describer"."""
+"""Bounds of the paper, section "Vibration Describer"."""
 
 _VIBRATE = re.compile(r"vibrat", re.IGNORECASE)
 

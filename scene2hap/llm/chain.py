@@ -1,7 +1,7 @@
 """Four components in a chain, from scene to haptic properties.
 
 Scene Analyzer -> for each object: Object Analyzer -> Material Property Estimator, and for each state of a vibrating
-object the Vibration Describer. Copies are analysed once, a material is estimated once, and what does not vibrate is not
+object the Vibration Describer. Copies are analysed once, a material is estimated once, and only vibrating objects are
 described. All independent calls run at the same time.
 
 Source: Jingu, AliAbbasi et al., Scene2Hap, CHI 2026, section "LLM Workflow and Components".
@@ -47,7 +47,7 @@ UNKNOWN = frozenset({"", "unknown", "undefined"})
 Progress = Callable[[str, int, int], None]
 """Called with (the step, how many are done, of how many)."""
 
-# What one question may end in without an end to all the others.
+# Errors that end one question, but not all others.
 _SPOILED = (BadAnswer, BackendUnavailable)
 
 
@@ -76,8 +76,8 @@ async def infer_scene(
     If the scene has images (`capture_images`), the backend sees them. A known `scene_category` saves the question for
     it. `wishes` are user prompts for single objects, by id.
 
-    An object that could not be answered becomes "unknown" and silent, with its error in the report and in its
-    provenance. What would meet every further call is raised, once the calls under way are over.
+    An object without an answer becomes "unknown" and silent, with its error in the report and in its provenance. An
+    error that would affect every further call is raised once running calls have ended.
     Raises: BackendError and its children, with the object of the request: no object could be answered, the
     backend is away or refuses, a budget is used up, a recording lacks the answer. ConfigError. UnknownObject.
     """
@@ -114,7 +114,7 @@ def infer_haptics(
     user_prompt: str = "",
     config: InferenceConfig | Mapping[str, Any] | None = None,
 ) -> dict[str, ObjectHaptics]:
-    """The haptics of each object by id; `infer_scene` for callers that run an event loop.
+    """Return the haptics of each object by id; with a running event loop, use `infer_scene`.
 
     Parameters: scene : a snapshot or the path of a scene file; backend : a backend, its kind, or a mapping with a kind.
     """
@@ -156,11 +156,11 @@ class _Chain:
         return self._questions.report
 
     async def infer(self, wanted: list[SceneObject], tell: Progress) -> dict[str, ObjectHaptics]:
-        """The haptics of each wanted object, in order."""
+        """Return the haptics of each wanted object, in order."""
         standing_for = copies(self._scene, self._graph) if self._settings.share_copies else {}
         groups: dict[tuple[str, bool], list[SceneObject]] = {}
         for item in wanted:
-            # What a user wishes of one object is no answer for its copies, nor theirs one for it.
+            # A user prompt for one object does not hold for its copies, nor their answer for it.
             is_alone = self._questions.has_wish(item.id)
             first = item.id if is_alone else standing_for.get(item.id, item.id)
             groups.setdefault((first, is_alone), []).append(item)
@@ -180,7 +180,7 @@ class _Chain:
             tell(item.id, done, len(wanted))
             return analysis
 
-        # What is likely to vibrate has the longer way to go, so it goes first.
+        # Objects that are likely to vibrate need more calls, so they go first.
         order = sorted(firsts, key=lambda object_id: not _seems_to_vibrate(self._scene.object(object_id)))
         found = await asyncio.gather(*(analyse(self._scene.object(object_id)) for object_id in order))
         analyses = dict(zip(order, found, strict=True))
@@ -209,7 +209,7 @@ class _Chain:
         return _Analysis(answer, analyst, states, describers)
 
     def _shown(self, item: SceneObject) -> tuple[dict[str, Any], Sequence[bytes]]:
-        """The facts and pictures that the Object Analyzer gets of an object."""
+        """Return the facts and pictures of an object for the Object Analyzer."""
         length, width, thickness = item.size_m
         whole_length, whole_width, whole_height = item.whole_size_m(self._scene.up_axis)
         facts = {

@@ -22,8 +22,7 @@ class BackendWarning(UserWarning):
 
 
 class UnusableAnswer(BadAnswer):
-    """A bad answer that was paid for: `model` wrote it, `usage` counts its tokens where they are known, in the
-    service's tier `service_tier`."""
+    """A bad answer that was billed: written by `model`, with `usage` tokens if known, in tier `service_tier`."""
 
     def __init__(
         self,
@@ -41,12 +40,12 @@ class UnusableAnswer(BadAnswer):
 
 
 class RefusedAnswer(UnusableAnswer, AnswerRefused):
-    """A refusal that was paid for."""
+    """A refusal that was billed."""
 
 
 @dataclass(frozen=True)
 class Said:
-    """A model's message before any check. `thoughts` is where some servers put the answer by mistake."""
+    """A model's message before any check. Some servers put the answer into `thoughts` by mistake."""
 
     content: str
     model: str
@@ -60,7 +59,7 @@ class Said:
 def user_message(request: LLMRequest, text: str, detail: str) -> dict[str, Any]:
     """One message with the text and then the pictures, in their order, as data URLs.
 
-    `detail` is what OpenAI bills a picture by; most local servers have no use for it, what stands behind one may.
+    `detail` decides what OpenAI bills for a picture; most local servers ignore it, but may pass it on to a service.
     """
     parts: list[dict[str, Any]] = [{"type": "text", "text": text}]
     for png in request.images:
@@ -75,7 +74,7 @@ def as_base64(png: bytes) -> str:
 
 
 def json_schema_format(request: LLMRequest, schema: Mapping[str, Any]) -> dict[str, Any]:
-    """The `response_format` that holds a model to a schema; the nested form, the only one that llama.cpp reads."""
+    """Return the `response_format` that forces a schema, in the nested form, the only one that llama.cpp reads."""
     return {"type": "json_schema", "json_schema": {"name": request.component, "strict": True, "schema": schema}}
 
 
@@ -107,9 +106,9 @@ def read_chat(reply: HttpReply, model: str) -> Said:
 
 
 def require_whole(said: Said, about: str) -> None:
-    """Reject an answer that must not be parsed, whatever its content looks like.
+    """Reject an answer that must not be parsed, even if its content looks valid.
 
-    Raises: UnusableAnswer: cut short, with what there is of the answer; RefusedAnswer: filtered or refused.
+    Raises: UnusableAnswer: cut short, with the partial answer; RefusedAnswer: filtered or refused.
     """
     if said.finish_reason == "length":
         raise unusable(
@@ -136,13 +135,13 @@ def require_willing(said: Said, about: str) -> None:
 
 
 def is_withheld(reply: HttpReply) -> bool:
-    """Whether a filter kept the question from the model."""
+    """Return True if a filter kept the question from the model."""
     error = server_error(reply)
     return reply.status == 400 and not FILTERED_REQUEST.isdisjoint({error.code, error.type})
 
 
 def unusable(said: Said, message: str, raw_text: str) -> UnusableAnswer:
-    """The error for what a model said, with what it cost."""
+    """Return the error for a model's message, with its model, usage and tier."""
     return UnusableAnswer(message, raw_text, **_paid(said))
 
 

@@ -1,7 +1,7 @@
 """The two languages of local servers: chat completions as OpenAI has them, and Ollama's own chat.
 
-Ollama gets its own: its /v1 makes a message of each picture, drops the first of them where they do not fit,
-and has no option for the size of the context.
+Ollama has its own dialect: its /v1 makes a message of each picture, drops the first ones if they do not fit the
+context, and has no option for the size of the context.
 """
 
 from __future__ import annotations
@@ -18,15 +18,15 @@ from scene2hap.llm.schema import local_schema
 
 Rung = Literal["json_schema", "json_object", "prompt"]
 LADDER: tuple[Rung, ...] = ("json_schema", "json_object", "prompt")
-"""How strictly the request prescribes the form of the answer, strictest first; the prompt alone comes last."""
+"""Ways to prescribe the form of the answer in a request, strictest first; the prompt alone comes last."""
 
 
 @dataclass(frozen=True)
 class Decoding:
-    """How a local server shall write: what decides its answers besides the request. None is not sent.
+    """Settings of a local server that affect its answers, besides the request. None is not sent.
 
-    `detail` is said of each picture where the dialect can; "auto" is what servers take it for where it is not said.
-    `extra` is sent as it is: fields of the body, or of `options` for Ollama.
+    `detail` is sent with each picture if the dialect allows it; "auto" is the servers' default. `extra` is sent
+    unchanged: fields of the body, or of `options` for Ollama.
     """
 
     max_tokens: int
@@ -40,7 +40,7 @@ class Decoding:
 
 
 class Dialect(Protocol):
-    """How a question is put to a server, and its answer read."""
+    """Format of the requests and replies of a server."""
 
     path: str
 
@@ -83,7 +83,7 @@ class ChatCompletions:
         return body
 
     def read(self, reply: HttpReply, model: str) -> chat.Said:
-        """As `chat.read_chat`."""
+        """Read a reply with `chat.read_chat`."""
         return chat.read_chat(reply, model)
 
 

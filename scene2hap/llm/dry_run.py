@@ -1,7 +1,7 @@
 """Count the questions of an inference and estimate its cost, without a model.
 
-The chain itself runs against a stand-in that counts; the lexicon finds from the authored names what may vibrate and of
-how many materials things are. No picture is taken. Answers that a cache already keeps are counted as if they were not.
+The chain runs with a counting stand-in for the model. The lexicon estimates from the authored names which objects may
+vibrate, and the number of materials. No picture is rendered. Cached answers are counted as if they were not cached.
 """
 
 from __future__ import annotations
@@ -60,11 +60,11 @@ _PATCHES = (
 _PATCH_PX, _TILE_PX, _SHORT_SIDE_PX = 32, 512, 768
 
 _PICTURE_PX = 512
-"""As `scene.capture` takes pictures if nothing else is wished."""
+"""The defaults of `scene.capture`."""
 
 
 def image_tokens(model: str, size_px: int, detail: str) -> int | None:
-    """Tokens of one square picture; None where it is not known of the model.
+    """Return the tokens of one square picture; None if they are unknown for the model.
 
     Source: OpenAI, "Images and vision", section "Calculating costs".
     """
@@ -132,10 +132,10 @@ async def dry_run(
     prices: Mapping[str, Price | Given] | None = None,
     service_tier: str = "",
 ) -> DryRun:
-    """Count what `infer_scene` would ask of `model` for a scene, and what that would cost.
+    """Count the questions that `infer_scene` would send to `model` for a scene, and estimate their cost.
 
-    `size_px` is the edge of its pictures, `detail` what they are sent with; `prices` override the dated list;
-    `service_tier` is what the service bills, "" for its standard tier.
+    `size_px` is the edge of its pictures, `detail` their detail; `prices` override the dated list; `service_tier` is
+    the billed tier, "" for the standard one.
     Raises: ConfigError.
     """
     counter = _Counter()
@@ -178,9 +178,9 @@ def _text_tokens(request: LLMRequest) -> int:
 
 @dataclass
 class _Counter:
-    """Stands in for a model: counts, and lets the lexicon answer.
+    """Replaces a model: counts requests, and lets the lexicon answer them.
 
-    What the lexicon does not know counts with a material of its own, as most things of a real scene do not.
+    An object that the lexicon does not know counts as one with its own material, which most real objects do not have.
     """
 
     calls: Counter[Component] = field(default_factory=Counter)

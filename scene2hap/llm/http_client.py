@@ -1,8 +1,8 @@
-"""The one place that speaks HTTP: JSON or a file goes out, a reply or an error of ours comes back.
+"""The HTTP client of the backends: send JSON or a file, return a reply or raise one of our errors.
 
-What the key opens stays closed: it is revealed on one line, straight into the header; whatever a server says is
-searched for it before anyone else reads it, and no traceback that leaves here holds the header in a local variable.
-The exchange itself, bounded in bytes and seconds, is `scene2hap.web`'s.
+The key is protected: a single line reveals it, directly into the header. Every reply is searched for the key before
+other code reads it, and no traceback from here has the header in a local variable. `scene2hap.web` does the exchange,
+bounded in bytes and seconds.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ if TYPE_CHECKING:
 _LOG = logging.getLogger(__name__)
 
 MAX_REPLY_BYTES = 4 << 20
-"""Of one reply, unpacked; assumed: a hundred times the longest answer with its thoughts, and any list of models."""
+"""Size of one unpacked reply (assumed: a hundred times the longest answer with its thoughts, or any list of models)."""
 
 MAX_FILE_BYTES = 512 << 20
-"""Of one file of answers; assumed: ten times what the largest batch of ours comes to."""
+"""Size of one file of answers (assumed: ten times that of our largest batch)."""
 FILE_TIMEOUT_S = 900.0
-"""For a file of two hundred megabytes; assumed: a line of two megabits a second."""
+"""Time for a file of two hundred megabytes [s] (assumed: a connection of two megabits per second)."""
 
 _HEADERS_READ = ("x-should-retry", "x-request-id", *retry_after.HEADERS)
 

@@ -38,7 +38,7 @@ _LONGEST_SHOWN = 500
 
 @dataclass(frozen=True)
 class ServerError:
-    """The body of an error, in whichever of the usual forms: fields that are not there are ""."""
+    """The body of an error, in any of the usual forms; missing fields are ""."""
 
     message: str = ""
     type: str = ""
@@ -60,7 +60,7 @@ def server_error(reply: HttpReply) -> ServerError:
 
 
 def failure(reply: HttpReply, *, now_s: float | None = None) -> BackendUnavailable:
-    """The error to raise for a reply without success; `now_s` [s since 1970] is what a date is counted from."""
+    """Return the error to raise for a failed reply; dates in it are relative to `now_s` [s since 1970]."""
     error = server_error(reply)
     wait_s = stated_wait_s(reply.headers, time.time() if now_s is None else now_s)
     if wait_s is None and reply.status == 429:

@@ -19,7 +19,7 @@ class HttpReply:
 
     @property
     def ok(self) -> bool:
-        """Whether the status is a success."""
+        """True if the status is a success."""
         return 200 <= self.status < 300
 
     def json(self) -> Any:

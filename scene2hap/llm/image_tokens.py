@@ -1,4 +1,4 @@
-"""Whether a model saw its pictures, estimated from the token count that its server reports."""
+"""Detect pictures that a model did not see, from the token count that its server reports."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from scene2hap.llm.protocol import LLMRequest
 _CHARACTERS_PER_TOKEN = 4.0
 """Assumed: usual for English."""
 _LEAST_PER_IMAGE = 256
-"""Tokens; assumed: what Gemma 3 makes of one picture, most models make more."""
+"""Least tokens of one picture (assumed: those of Gemma 3; most models need more)."""
 _FAR_BELOW = 0.5
 _FAR_ABOVE = 2.0
 
@@ -20,9 +20,9 @@ eight tiles of 768 x 2,048 px (gpt-4o-mini). Source: OpenAI, "Images and vision"
 
 
 class LostImages:
-    """Warns once where far fewer tokens were read than the prompt and its pictures make.
+    """Warns once if far fewer tokens were read than the prompt and its pictures have.
 
-    Ollama drops what does not fit its context and says so in its debug log alone.
+    Ollama drops messages that do not fit its context, and reports it in its debug log alone.
     """
 
     def __init__(self) -> None:
@@ -45,7 +45,7 @@ class LostImages:
 
 
 class ImagesAsText:
-    """Warns once where far more tokens were billed than pictures can make, as when their base64 is read as text."""
+    """Warns once if far more tokens were billed than pictures can have, as when their base64 is read as text."""
 
     def __init__(self, detail: str) -> None:
         self._most_per_image = MOST_PER_IMAGE[detail]

@@ -1,4 +1,4 @@
-"""The JSON object in what a model wrote around it: thoughts, code fences, prose before and after."""
+"""Find the JSON object in a model's text, among thoughts, code fences and prose."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ _MARK = re.compile(r'[\\"{}]')
 
 
 def first_object(text: str) -> str | None:
-    """The first JSON object in a text, exactly as written; None where there is none that ends.
+    """Return the first JSON object in a text, exactly as written; None if none is complete.
 
-    Braces within strings do not count, and what follows the object does not matter. Of several candidates the first
-    that is JSON wins over an earlier one that only has its braces in balance. Thoughts are searched last: a model may
-    draft there what it answers otherwise afterwards.
+    Braces within strings do not count, and text after the object is ignored. The first candidate that is valid JSON
+    wins over an earlier one with balanced braces only. Thoughts are searched last, since they may hold a draft that
+    differs from the answer.
     """
     if _is_object(text):
         return text.strip()
@@ -29,7 +29,7 @@ def first_object(text: str) -> str | None:
 
 
 def _without_thoughts(text: str) -> str:
-    """The text outside thoughts, after the last end of one that some chat templates open themselves."""
+    """Return the text outside thoughts, also if only their end is in it: some chat templates open them themselves."""
     said, begin, thinks = list[str](), 0, False
     for mark in _THOUGHT.finditer(text):
         is_end = bool(mark[1])
@@ -45,7 +45,7 @@ def _without_thoughts(text: str) -> str:
 
 
 def _balanced(text: str) -> Iterator[str]:
-    """Stretches from a brace that can begin an object to the one that closes it."""
+    """Yield the parts of a text from a brace that can begin an object to the brace that closes it."""
     position = 0
     while opening := _OPENING.search(text, position):
         end = _closing(text, opening.start())

@@ -1,7 +1,7 @@
 """LocalBackend: answers of a model on one's own machine or network.
 
-Local servers promise structured output and keep the promise by halves: the fields of the answer are therefore in the
-prompt as well, a rejected form is requested less strictly, and the answer is searched for within the reply.
+Local servers implement structured output incompletely. So the prompt lists the fields of the answer as well, a rejected
+form is requested less strictly, and the answer is searched for within the reply.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 _FORM_REJECTED = frozenset({400, 422, 501})
 _OURS = frozenset({"model", "messages", "images", "response_format", "format", "stream", "max_tokens", "num_predict"})
-"""Fields that `extra` may not set: the backend would no longer know its own request."""
+"""Fields that `extra` may not set, since the backend sets them itself."""
 
 
 @clear_construction
@@ -137,7 +137,7 @@ class LocalBackend:
             if reply.status not in _FORM_REJECTED or chat.is_withheld(reply):
                 break
         if reply.ok:
-            # Only success teaches: a request that no rung can save (too long a prompt) says nothing about the form.
+            # Only success is stored: a request that fails in every form (too long a prompt) says nothing about forms.
             self._rung = max(self._rung, rung)
         return self._dialect.read(reply, self.model or "")
 
@@ -149,9 +149,9 @@ class LocalBackend:
         return await (served.ollama_models if self._is_ollama else served.openai_models)(self._endpoint)
 
     async def _check_eyes(self) -> None:
-        """Ask the server, once, whether the model sees; silence is no answer.
+        """Check once whether the server reports that the model reads pictures; no report counts as unknown.
 
-        Raises: BackendUnavailable: it says that the model does not.
+        Raises: BackendUnavailable: it reports that the model does not.
         """
         sees: bool | None = None
         try:

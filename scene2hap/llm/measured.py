@@ -10,7 +10,7 @@ from scene2hap.scene import sizes
 
 
 def surface_size(answer: ObjectAnswer, measured_m: Sequence[float]) -> tuple[sizes.Size, tuple[str, ...]]:
-    """Length, width and thickness [m] of a surface, and what is doubtful: an edge out of bounds is taken as measured.
+    """Return length, width and thickness [m] of a surface, and doubts; an edge out of bounds is taken as measured.
 
     A thickness that was not measured either is assumed.
     """
@@ -19,7 +19,7 @@ def surface_size(answer: ObjectAnswer, measured_m: Sequence[float]) -> tuple[siz
     if not wrong:
         return stated, ()
     known = sizes.with_thickness(measured_m)
-    # Length and width belong together: one of each would be a plate that nobody measured or meant.
+    # Length and width are replaced together: a mix of stated and measured edges would be a third, wrong plate.
     replaced = {*wrong, *(("length", "width") if {"length", "width"} & {*wrong} else ())}
     length, width, thickness = (
         other if edge in replaced else one for edge, one, other in zip(EDGES, stated, known, strict=True)
@@ -29,5 +29,5 @@ def surface_size(answer: ObjectAnswer, measured_m: Sequence[float]) -> tuple[siz
 
 
 def size_without_answer(measured_m: Sequence[float]) -> sizes.Size:
-    """The size [m] of a surface of which no answer could be had: as measured, with a thickness."""
+    """Return the size [m] of a surface without an answer: as measured, with an assumed thickness if it has none."""
     return sizes.with_thickness(measured_m)

@@ -35,14 +35,14 @@ _GIVES_WAY = {
     "service_tier": None,
     "max_tokens": "max_completion_tokens",
 }
-"""Parameters that some models reject, and under which other name they take them. Models that always reason take
+"""Parameters that some models reject, and the other name under which they accept them. Models that always reason accept
 neither temperature nor top_p; some are not offered in the flex tier."""
 
 TIMEOUT_S, FLEX_TIMEOUT_S = 120.0, 900.0
-"""Of one answer; the latter as OpenAI's guide "Flex processing" advises."""
+"""Longest wait for one answer [s]; the second value, for the flex tier, is that of OpenAI's guide "Flex processing"."""
 
 _NO_CAPACITY = "resource_unavailable"
-"""The code of status 429 where a cheaper tier has no capacity now; such a call is not billed."""
+"""The code of status 429 if a cheaper tier has no capacity; such a call is not billed."""
 
 
 @clear_construction
@@ -169,9 +169,9 @@ class OpenAIBackend:
         }
 
     async def _ask(self, body: dict[str, Any]) -> chat.Said:
-        """Post, and once for each parameter that the model turns out not to take, post again without it.
+        """Post the request, and repeat it once without each parameter that the model rejects.
 
-        So too without the tier, for this answer alone, where the tier has no capacity.
+        If the tier has no capacity, this request alone is repeated without it.
         """
         while True:
             sent = self._adapted(body)
@@ -186,9 +186,9 @@ class OpenAIBackend:
         return chat.read_chat(reply, self.model)
 
     def learns(self, reply: HttpReply, sent: Mapping[str, Any] | None = None) -> bool:
-        """Whether a reply blames a parameter that need not be sent; then it is not from now on.
+        """Return True if a reply blames a parameter that need not be sent; then it is not from now on.
 
-        One that is not in `sent`, if that is known, is no longer sent already.
+        A parameter that is not in `sent`, if that is known, has been dropped before.
         """
         blamed = server_error(reply).param if reply.status == 400 else ""
         if blamed not in _GIVES_WAY or (sent is not None and blamed not in sent):

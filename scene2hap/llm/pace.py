@@ -15,13 +15,13 @@ from scene2hap.llm.retry_after import LONGEST_WAIT_S, reset_wait_s
 
 
 class Pace:
-    """When the next request may go, by what the server last said."""
+    """The time at which the next request may be sent, from the server's last reply."""
 
     def __init__(self) -> None:
         self._open_at_s = 0.0
 
     async def wait(self) -> None:
-        """Return when the server takes requests again."""
+        """Wait until the server accepts requests."""
         while (left_s := self._open_at_s - time.monotonic()) > 0.0:
             await asyncio.sleep(left_s)
 

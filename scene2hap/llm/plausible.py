@@ -18,8 +18,8 @@ from scene2hap.scene import sizes
 EDGES = ("length", "width", "thickness")
 _WHOLE = ("length", "width", "height")
 
-# Factors beyond the range that sources give, assumed: a slip of units is a thousand or a million, and the kinds of one
-# word ("wood", "foam") differ by less. Loss factors of built things are far above those of the bare material.
+# Factors beyond the published range (assumed): a wrong unit gives a factor of a thousand or a million, and materials of
+# one word ("wood", "foam") differ by less. Loss factors of assembled objects are far above those of the bare material.
 _DENSITY_FAR, _MODULUS_FAR, _LOSS_FAR = 3.0, 10.0, 100.0
 _POISSON_FAR = 0.2
 _ANY_SOLID_KG_M3 = (5.0, 25000.0)
@@ -27,11 +27,11 @@ _ANY_SOLID_KG_M3 = (5.0, 25000.0)
 
 _UNITS = {"density_kg_m3": "kg/m3", "youngs_modulus_gpa": "GPa", "poisson_ratio": "-", "damping_ratio": "-"}
 _SLIPS = {"density_kg_m3": "g/cm3? Give kg/m3", "youngs_modulus_gpa": "pascal or megapascal? Give gigapascal"}
-_SLIP = 30.0  # times beyond the bound, from which a number was meant in another unit
+_SLIP = 30.0  # factor beyond a bound from which the number was probably meant in another unit
 
 
 def implausible(component: Component, answer: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]:
-    """Find values that no such object or material has. Returns a text for the model by field of the answer.
+    """Find implausible values for the object or material. Returns a text for the model by field of the answer.
 
     Empty if the request has no facts to compare with.
     """
@@ -108,7 +108,7 @@ def _mass(answer: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]
 
 
 def _plain(value: float) -> str:
-    """Three digits without an exponent where it is short: 2610, not 2.61e+03."""
+    """Format a number with three digits, without an exponent if that is short: 2610, not 2.61e+03."""
     return f"{float(f'{value:.3g}'):g}"
 
 

@@ -24,8 +24,8 @@ AnswerType = TypeVar("AnswerType", bound=Answer)
 class Questions:
     """Sends questions to a backend, at most `concurrency` at once, and keeps the account.
 
-    An error that would meet every further question (a budget that is used up, a key that is refused, a recording that
-    does not fit) stops all: running calls end, so that their answers are kept, and no other begins.
+    An error that would affect every further question (an exhausted budget, a refused key, a recording that does not
+    fit) stops all: running calls end, so that their answers are kept, and no other begins.
     """
 
     def __init__(
@@ -48,7 +48,7 @@ class Questions:
         self._wishes = wishes or {}
 
     async def _completed(self, request: LLMRequest) -> LLMReply:
-        """The backend's reply. Raises: ConfigError: what it gave is none, as every further question would meet."""
+        """Return the backend's reply. Raises: ConfigError: it is no `LLMReply`, as it would be for every question."""
         by, awaited = f"{type(self._backend).__name__}.complete", self._backend.complete(request)
         if not inspect.isawaitable(awaited):
             raise ConfigError(
@@ -112,7 +112,7 @@ class Questions:
         return answer, f"{reply.model}, prompt {self._prompts.version}{kept_as}"
 
     def has_wish(self, subject: str) -> bool:
-        """Whether the user wishes something of this object alone."""
+        """Return True if the user wishes something of this object alone."""
         return bool(self._wishes.get(subject))
 
     def _wish(self, subject: str) -> str:

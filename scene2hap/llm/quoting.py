@@ -1,7 +1,7 @@
 """Texts and numbers of a scene as they stand in prompts and messages: quoted, cut and rounded.
 
-Names come from scene files that strangers wrote, and answers from models that read these names. In a prompt both are
-data: a JSON string on one line, so that nothing in it can pass for a line of the prompt.
+Names come from untrusted scene files, and answers from models that read these names. In a prompt both are data: a JSON
+string on one line, so that nothing in it can look like a line of the prompt.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any
 LONGEST_NAME = 200
 """Characters of an authored name; assumed, longer than any meaningful one."""
 LONGEST_TEXT = 600
-"""Characters of one text in a prompt: as many as the longest text of an answer may have (`llm.answers`)."""
+"""Most characters of one text in a prompt: the length of the longest text of an answer (`llm.answers`)."""
 MOST_ITEMS = 1000
 """Items of one list; assumed, four times the objects of the largest shared scene."""
 
@@ -27,12 +27,12 @@ IS_DATA = (
 def as_data(fact: Any) -> str:
     """A fact as JSON on one line: texts and lists cut with a note of how much, lengths [m] to the millimetre.
 
-    What cannot be printed (line breaks, escapes, marks that turn the direction of writing, lone surrogates) is escaped.
+    Unprintable characters (line breaks, escapes, marks of writing direction, lone surrogates) are escaped.
     """
     if isinstance(fact, str):
         return _quoted(fact)
     if isinstance(fact, float):
-        # What is thinner than a millimetre keeps a tenth of one: 0 would say that it has no thickness.
+        # Lengths below a millimetre keep one more digit, since 0 would mean that there is no thickness.
         return json.dumps((round(fact, 3) or round(fact, 4)) + 0.0)
     if isinstance(fact, Mapping):
         return "{" + ", ".join(f"{_quoted(str(key))}: {as_data(value)}" for key, value in fact.items()) + "}"
@@ -44,13 +44,13 @@ def as_data(fact: Any) -> str:
 
 
 def clean(name: str) -> str:
-    """An authored name as a fact: what cannot be printed becomes a space, and what is too long ends in an ellipsis."""
+    """Return an authored name as a fact: unprintable characters become spaces, and a long name ends in an ellipsis."""
     name = name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 1]}\u2026"
     return "".join(char if char.isprintable() else " " for char in name)
 
 
 def shown(text: str) -> str:
-    """A text for a message: cut as a name is, quoted as Python does."""
+    """Return a text for a message: cut like a name, quoted as Python does."""
     left = len(text) - LONGEST_NAME
     return repr(text[:LONGEST_NAME]) + (f" (cut, {left} characters more)" if left > 0 else "")
 

@@ -1,6 +1,7 @@
 """Detection of refusals: a model that declines to answer, in any of its forms.
 
-To hand one back as a fault of form costs the same call with all its pictures again, and is refused again.
+If a refusal were repaired as a fault of form, the same call would be paid again with all its pictures, and refused
+again.
 """
 
 from __future__ import annotations
@@ -28,20 +29,20 @@ _REFUSAL = re.compile(
     re.IGNORECASE,
 )
 _LOOKED_AT = 300
-"""Characters at the beginning of a text; assumed, a refusal opens with itself."""
+"""Characters at the beginning of a text that are searched (assumed: a text begins with its refusal)."""
 _EXCUSES = frozenset({"refusal", "error", "message", "reason", "response", "answer"})
 """The fields of an object that holds no answer but a refusal."""
 
 
 def is_filtered(finish_reason: str) -> bool:
-    """Whether an answer ended since a filter withheld it."""
+    """Return True if an answer ended because a filter withheld it."""
     return finish_reason.lower() in FILTERED
 
 
 def refusal_in(text: str) -> str | None:
     """Find the refusal in a model's message, None where it does not refuse.
 
-    A text with a JSON object is an answer, whatever is said around it, but for an object of excuses alone.
+    A text with a JSON object is an answer, also with prose around it, unless the object holds only an excuse.
     """
     found = first_object(text)
     if found is None:

@@ -1,7 +1,7 @@
-"""Recorded answers: a model's replies kept as JSON lines, so that an inference can be run again without it.
+"""Recorded answers: a model's replies as JSON lines, so that an inference can be repeated without the model.
 
-Each line is one answer with the facts that it answers to. Only what is listed in `_Entry` is ever written: no header,
-no key, no address, and of pictures only their digest within the key.
+Each line is one answer with the facts of its question. Only the fields of `_Entry` are written: no header, no key, no
+address, and of pictures only their digest within the key.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from scene2hap.llm.request_key import canonical, part_names, plain, request_key
 from scene2hap.text_files import read_small
 
 MAX_RECORDING_BYTES = 1 << 28
-"""Of a file of answers; assumed: those of some 50,000 objects."""
+"""Size of a file of answers (assumed: those of some 50,000 objects)."""
 
 
 class _Entry(BaseModel):

@@ -1,4 +1,4 @@
-"""Keys of requests: made of everything that affects the answer, and of nothing else."""
+"""Keys of requests: digests of everything that affects the answer, and of nothing else."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from scene2hap.llm.protocol import LLMRequest
 
 
 def request_key(request: LLMRequest) -> str:
-    """A name for everything in a request that decides its answer: "v1:" and a SHA-256.
+    """Return the digest of all parts of a request that affect its answer: "v1:" and a SHA-256.
 
     Subject and prompt version are left out: the same question about another object has the same answer, and so has a
     new version with the same words.
@@ -30,7 +30,7 @@ def request_key(request: LLMRequest) -> str:
 
 
 def canonical(value: Any) -> str:
-    """The one JSON text of a value: sorted keys, no spaces, whole floats as integers (1.0 and 1 are one number)."""
+    """Return the canonical JSON of a value: sorted keys, no spaces, whole floats as integers (1.0 becomes 1)."""
     try:
         text = json.dumps(plain(value), sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
         text.encode()

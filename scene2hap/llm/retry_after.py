@@ -40,10 +40,10 @@ def stated_wait_s(headers: Mapping[str, str], now_s: float) -> float | None:
 
 
 def reset_wait_s(headers: Mapping[str, str]) -> float | None:
-    """Until the limits that are used up are full again [s]; None where none is.
+    """Return the time until all exhausted limits are full again [s]; None if none is exhausted.
 
-    A limit refills evenly and is full after `reset`: whoever waits that long loses nothing against one who asks at
-    once for each bit that has come back.
+    A limit refills evenly and is full after `reset`. Waiting that long loses nothing against using each part of the
+    limit as it returns.
     """
     waits = [
         _duration_s(headers.get(f"x-ratelimit-reset-{unit}"))

@@ -14,7 +14,7 @@ Result = TypeVar("Result")
 def run_waiting(awaited: Coroutine[Any, Any, Result], instead: str) -> Result:
     """Run a coroutine and return its result; `instead` names the function to await where an event loop runs.
 
-    Raises: CallError: an event loop runs in this thread, as in a notebook, and would stand still meanwhile.
+    Raises: CallError: an event loop runs in this thread, as in a notebook, and would be blocked.
     """
     try:
         asyncio.get_running_loop()

@@ -29,7 +29,7 @@ _MOST_PROPERTIES = 5000
 _MOST_LEVELS = 10
 _MOST_CHOICES = 1000
 _MOST_CHARACTERS = 120_000
-"""Of names, choices and constants together. Source: OpenAI, Structured outputs, "Limitations"."""
+"""Most characters of all names, choices and constants. Source: OpenAI, Structured outputs, "Limitations"."""
 
 _TYPES = {
     "string": "text",
@@ -42,10 +42,10 @@ _TYPES = {
 
 
 def strict_schema(schema: Schema) -> dict[str, Any]:
-    """The schema as OpenAI's strict mode wants it; the same for the same input.
+    """Return the schema for OpenAI's strict mode; equal input gives equal schemas.
 
-    Objects are closed and all their properties required; titles, defaults, lengths and patterns that look around go.
-    Bounds are said in the description as well, since what a decoder does not enforce the model can still read.
+    Objects are closed and all their properties required; titles, defaults, lengths and patterns with look-around are
+    removed. Descriptions state bounds as well, so that the model reads those that a decoder does not enforce.
     Raises: ConfigError: the root is not an object, a keyword has no strict form, or the schema is too large.
     Source: OpenAI, Structured outputs, "Supported schemas".
     """

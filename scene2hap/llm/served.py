@@ -12,7 +12,7 @@ from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.http_client import Endpoint
 
 PROBE_TIMEOUT_S = 5.0
-"""Assumed: a list of models is no work."""
+"""Longest wait for a list of models [s] (assumed: it takes a server no work)."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ async def openai_models(endpoint: Endpoint) -> tuple[Served, ...]:
 
 
 async def ollama_models(endpoint: Endpoint) -> tuple[Served, ...]:
-    """The models that Ollama has, newer versions with what they can.
+    """Return the models of Ollama, with their capabilities from newer versions.
 
     Raises: BackendUnavailable: the server does not answer.
     """
@@ -45,7 +45,7 @@ async def ollama_models(endpoint: Endpoint) -> tuple[Served, ...]:
 
 
 async def ollama_sees(endpoint: Endpoint, model: str) -> bool | None:
-    """Whether Ollama counts "vision" among a model's capabilities; None if it does not report it.
+    """Return True if Ollama counts "vision" among a model's capabilities; None if it does not report it.
 
     Raises: BackendUnavailable: the server does not answer.
     """

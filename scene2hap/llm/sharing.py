@@ -1,4 +1,4 @@
-"""Calls that can be saved: copies of answered objects, and objects that no vibration reaches."""
+"""Calls that can be skipped: copies of answered objects, and objects that no vibration reaches."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from scene2hap.scene.snapshot import SceneSnapshot
 _DIGITS = 4
 """Tenths of a millimetre."""
 _BELOW = 0.5
-"""Least cosine between a contact's normal and straight down for what lies there to be a support."""
+"""Least cosine between a contact's normal and straight down at a support."""
 
 
 def copies(scene: SceneSnapshot, graph: ContactGraph) -> dict[str, str]:
-    """For each object the one that stands for it: the first, in scene order, of one kind and relation to its support.
+    """Return, for each object, its representative: the first in scene order with equal kind and equal support.
 
-    Objects of one kind are copies of one thing (`scene.likeness`). Relation to the support is the kind of what the
-    object stands on: six handles on six equal drawers are one, a pan on the stove and a pan on the table are two. An
-    object that stands on nothing is distinguished by all objects that touch it.
+    Objects of one kind are copies (`scene.likeness`). Supports are compared by kind: six handles on six equal drawers
+    have one representative, a pan on the stove and a pan on the table have two. An unsupported object is distinguished
+    by all objects that touch it.
     """
     kinds = {item.id: copy_key(item) for item in scene.objects}
     supports = _supports(scene, graph.contacts)
@@ -37,7 +37,7 @@ def copies(scene: SceneSnapshot, graph: ContactGraph) -> dict[str, str]:
 def of_any_scene(facts: Mapping[str, Any], name: str) -> dict[str, Any]:
     """The facts about an object without those of the scene around it, so that they are equal for equal objects.
 
-    Lengths are rounded to what a prompt shows: turned in space, one mesh measures differently in the last digits.
+    Lengths are rounded as in a prompt, since those of a rotated mesh differ in the last digits.
     """
     lengths = {key: round(value, _DIGITS) for key, value in facts.items() if isinstance(value, float)}
     words = " ".join(name_words(name))
@@ -51,7 +51,7 @@ def of_any_scene(facts: Mapping[str, Any], name: str) -> dict[str, Any]:
 
 
 def reachable(sources: Iterable[str], graph: ContactGraph) -> frozenset[str]:
-    """The sources and all that is connected with one of them over any number of contacts."""
+    """Return the sources and all objects that are connected with one over any number of contacts."""
     reached, frontier = set[str](), list(sources)
     while frontier:
         object_id = frontier.pop()

@@ -37,10 +37,10 @@ def from_table(word: str) -> Estimate | None:
 
 
 def from_model(word: str, answer: MaterialAnswer, provenance: str) -> Estimate:
-    """A model's constants; one that its material cannot have is replaced by the table's, and flagged. None is rescaled.
+    """Return a model's constants; an implausible one is replaced by the table's, and flagged. None is rescaled.
 
-    A slip of units (2.7 for g/cm3, megapascal for gigapascal) shows so. Where no row of the table speaks of the
-    material, the constant is flagged and stays, since nothing better is known.
+    This finds wrong units (2.7 for g/cm3, megapascal for gigapascal). If the table has no row for the material, the
+    constant is flagged and stays, since nothing better is known.
     """
     modulus_pa = answer.youngs_modulus_gpa * 1e9
     material = Material(word, answer.density_kg_m3, modulus_pa, answer.poisson_ratio, answer.loss_factor)

@@ -30,7 +30,7 @@ _STEEPEST_GPA = 1300.0
 
 @dataclass(frozen=True)
 class Fault:
-    """Why a reply is no answer. `needs_images` is false where only numbers are wrong: their words say enough.
+    """The reason why a reply is invalid. `needs_images` is False if only numbers are wrong, which need no pictures.
 
     A minor fault is worth another question, but not the loss of the answer.
     """
@@ -87,7 +87,7 @@ def _in_words(problem: ErrorDetails) -> str:
 
 
 def _unit_hint(place: str, value: object) -> str:
-    # The commonest slip: tables give moduli in pascal. Never rescaled here, since 1400 may be a typing error as well.
+    # The most frequent mistake: tables give moduli in pascal. Not rescaled, since 1400 may be a typing error as well.
     if place == "youngs_modulus_gpa" and isinstance(value, float | int) and value > _STEEPEST_GPA:
         return " (pascal or megapascal? give gigapascal)"
     return ""

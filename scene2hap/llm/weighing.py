@@ -10,7 +10,7 @@ LEAST_DENSITY_KG_M3, MOST_DENSITY_KG_M3 = 0.5, 25_000.0
 
 
 def mass_fault(mass_kg: float, whole_m: Sequence[float]) -> str:
-    """Why an object of such a size cannot weigh so much, "" if it can.
+    """Return why an object of this size cannot have this mass, "" if it can.
 
     Parameters: mass_kg [kg]; whole_m : edges of the box around the object [m]; one of 0 is no box to judge by.
     """
@@ -25,7 +25,7 @@ def mass_fault(mass_kg: float, whole_m: Sequence[float]) -> str:
 
 
 def bounded_mass_kg(mass_kg: float, whole_m: Sequence[float], density_kg_m3: float) -> float:
-    """A usual mass, or that of the whole box if it were solid, whichever is less: a shelf board is no whole shelf.
+    """Return the lesser of a usual mass and the mass of the solid box, since a shelf board is no whole shelf.
 
     Parameters: density_kg_m3 : of the object's material. A box without volume bounds nothing.
     """

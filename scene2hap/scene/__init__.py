@@ -1,1 +1,1 @@
-"""Scenes: typed snapshots, and how they are read from files and engines."""
+"""Scenes: typed snapshots, and readers of files and engines."""

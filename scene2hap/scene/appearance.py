@@ -1,4 +1,4 @@
-"""How an object looks: materials and textures of its faces, for pictures alone.
+"""Looks of an object: materials and textures of its faces, used for pictures alone.
 
 Nothing here is part of a scene's JSON or of its equality: a snapshot that lost its looks is still the same scene.
 """
@@ -44,15 +44,15 @@ class FaceMaterial:
 
     @property
     def has_texture(self) -> bool:
-        """Whether a texture was given; nothing is decoded for it."""
+        """True if a texture was given; nothing is decoded for it."""
         return self._texture is not None
 
     def untextured(self) -> FaceMaterial:
-        """Its colour alone."""
+        """Return the material without its texture."""
         return FaceMaterial(self.color_rgba, name=self.name)
 
     def tinted(self, color_rgba: Rgba) -> FaceMaterial:
-        """The same texture, if any, in the product of both colours."""
+        """Return the material with its colour multiplied by another."""
         r, g, b, a = (own * tint for own, tint in zip(self.color_rgba, color_rgba, strict=True))
         return FaceMaterial((r, g, b, a), self._texture, self.name)
 
@@ -103,12 +103,12 @@ class Appearance:
 
     @property
     def turned(self) -> Appearance:
-        """The looks of the same faces with their corners in the opposite order."""
+        """The looks for the same faces with their corners in reverse order."""
         return self if self.uv is None else Appearance(self.materials, self.face_material, self.uv[:, ::-1])
 
 
 def joined(looks: Sequence[Appearance | None], n_faces: Sequence[int]) -> Appearance | None:
-    """The looks of meshes that become one, in their order; what has none is grey. None if nothing has any."""
+    """Join the looks of meshes that become one, in their order; a mesh without looks is grey. None if none has any."""
     if all(look is None for look in looks):
         return None
     unknown = FaceMaterial()

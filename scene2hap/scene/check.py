@@ -1,8 +1,8 @@
-"""Find likely mistakes in a scene: units, quaternions that begin with w, the up axis, things that float or are
-sunk in the floor.
+"""Find likely mistakes in a scene: units, quaternions that begin with w, the up axis, objects that float or are sunk in
+the floor.
 
-Each finding is a sentence with the value, the bound and what to do. Boxes around objects decide, so that a scene is
-checked in milliseconds; all bounds are wide, since a wrong alarm costs more than a missed one.
+Each finding is a sentence with the value, the bound and what to do. The checks use AABBs, so that a scene takes
+milliseconds. All bounds are wide, since a false alarm costs more than a missed one.
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ from scene2hap.scene.units import implausible
 Kind = Literal["units", "quaternions", "up-axis", "floating", "sunk"]
 
 _FLOATS_M = 0.25
-"""An object farther than this from all others, and over the lowest, floats (assumed: things rest within 0.06 m)."""
+"""An object farther than this from all others, and above the lowest, floats (assumed: objects rest within 0.06 m)."""
 _SUNK_M = 0.1
 """An object whose top is this far below the floor's top is sunk in it (assumed: the thickness of a floor)."""
-_RESTS_M = 0.06  # As far over what it rests on as the rule of contact allows at most, about.
-# The up axis is doubted where at least this share of objects rests along the other, and so many times as many (tuned:
-# five scenes by others have 0.59-0.83 along the right axis, 1.7 to 2.7 times as many as along the wrong one).
+_RESTS_M = 0.06  # Largest gap below an object at rest, about that of the contact rule.
+# The up axis is doubted if this share of objects rests along the other axis, and if they exceed those along it by this
+# factor (tuned: five scenes by others have 0.59-0.83 along the right axis, 1.7 to 2.7 times those along the wrong one).
 _MOST_RESTING, _MORE_RESTING = 0.5, 1.5
-_FEW = 4  # Fewer objects are no judge of the up axis, nor of how quaternions are written.
-_TWO = 2  # All upside down, to the last digit: a w of 1 that comes first.
-_MOSTLY_W = 0.8  # The w of a turn by 74 degrees; most things are turned by less (assumed). Exports tip all by 90.
+_FEW = 4  # Fewer objects show neither the up axis nor the order of quaternions.
+_TWO = 2  # This many objects exactly upside down show a w of 1 that comes first.
+_MOSTLY_W = 0.8  # The w of a rotation by 74 degrees; most objects are rotated by less (assumed). Exports tip all by 90.
 _FLOOR_SHARE, _FLOOR_FLATNESS = 0.5, 0.2  # A floor takes up this share of the scene, and is this flat (assumed).
 _NONE = 1e-6
 _MOST_NAMED = 5
@@ -37,7 +37,7 @@ _BATCH = 256
 
 
 class Finding(NamedTuple):
-    """One thing that is almost surely wrong: its kind, the ids of the objects that show it, and a sentence."""
+    """A probable mistake: its kind, the ids of the objects that show it, and a sentence."""
 
     kind: Kind
     object_ids: tuple[str, ...]
@@ -80,7 +80,7 @@ def findings(scene: SceneData) -> Iterator[Finding]:
 
 
 def _begin_with_w(scene: SceneData) -> bool:
-    """Whether all rotations would be turns about the vertical if w came first, and are none as they are."""
+    """Return True if all rotations would be turns about the vertical if w came first, and are none as they are."""
     rotations = np.array([item.pose.rotation_xyzw for item in scene.objects])
     # (w, x, y, z) of a turn about y is (c, 0, s, 0), about z (c, 0, 0, s): read as (x, y, z, w) it tips things over.
     none = (1, 3) if scene.up_axis == "y" else (1, 2)
@@ -91,7 +91,7 @@ def _begin_with_w(scene: SceneData) -> bool:
 
 
 def _resting_share(boxes: NDArray[np.float64], up: int) -> float:
-    """The share of boxes (n, 2, 3) that stand on the lowest height or close over another box."""
+    """Return the share of boxes (n, 2, 3) that stand on the lowest height or just above another box."""
     low, high = boxes[:, 0], boxes[:, 1]
     level = [axis for axis in range(3) if axis != up]
     rests = low[:, up] - low[:, up].min() <= _RESTS_M
@@ -103,7 +103,7 @@ def _resting_share(boxes: NDArray[np.float64], up: int) -> float:
 
 
 def _batches(n_rows: int) -> Iterator[slice]:
-    """All rows, in slices: the boxes of thousands of objects against all would take a gigabyte."""
+    """Yield all rows in slices, since comparing thousands of boxes with all at once would take a gigabyte."""
     for start in range(0, n_rows, _BATCH):
         yield slice(start, start + _BATCH)
 
@@ -131,7 +131,7 @@ def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iter
 
 
 def _floor(boxes: NDArray[np.float64], up: int) -> tuple[int, NDArray[np.bool_]] | None:
-    """The row of the lowest floor, and which boxes are over or under it; None if there is no floor."""
+    """Return the row of the lowest floor, and marks of the boxes over or under it; None without a floor."""
     low, high = boxes[:, 0], boxes[:, 1]
     level = [axis for axis in range(3) if axis != up]
     whole = np.ptp(boxes.reshape(-1, 3)[:, level], axis=0).prod()
@@ -148,7 +148,7 @@ def _floor(boxes: NDArray[np.float64], up: int) -> tuple[int, NDArray[np.bool_]]
 
 
 def _room(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator[Finding]:
-    """A room of which nothing stands on the floor, or of which most is let into it."""
+    """Find a room in which nothing stands on the floor, or in which most objects are sunk into it."""
     found = _floor(boxes, up)
     if found is None or found[1].sum() < _FEW:
         return

@@ -74,7 +74,7 @@ def split(group_name: str, members: Sequence[Member]) -> list[list[Member]]:
 
 
 def has_own_noun(name: str, group_name: str) -> bool:
-    """Whether a name, without its group's, ends in a noun that names no part; see the module."""
+    """Return True if a name, without its group's, ends in a noun that names no part; see the module."""
     rest = name[len(group_name) :] if name.startswith(group_name) else name
     words = [word.lower() for word in re.findall(r"[A-Z]?[^\W\d_A-Z]+|[A-Z]+(?![^\W\d_A-Z])", rest)]
     nouns = [word for word in words if len(word) > 2 and word not in _OTHER_WORDS]
@@ -82,7 +82,7 @@ def has_own_noun(name: str, group_name: str) -> bool:
 
 
 def _stand_apart(members: Sequence[Member], items: Sequence[Member]) -> bool:
-    """Whether the items fall into two sets at least whose boxes are apart."""
+    """Return True if the items fall into two sets at least whose boxes are apart."""
     lows, highs = _boxes(members)
     reach = _APART * float(np.linalg.norm(highs.max(axis=0) - lows.min(axis=0)))
     lows, highs = _boxes(items)

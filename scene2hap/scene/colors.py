@@ -1,4 +1,4 @@
-"""Colours that a file gives to vertices or faces, as few materials.
+"""Colours of vertices or faces, reduced to few materials.
 
 Source: IEC 61966-2-1:1999, the sRGB transfer function.
 """
@@ -18,15 +18,15 @@ _STEPS, _FEW = (255, 31, 15, 7), 256
 
 
 def srgb(linear: ArrayLike) -> Floats:
-    """Linear light 0..1 as sRGB 0..1; what lies beyond is clipped."""
+    """Convert linear light 0..1 to sRGB 0..1; values beyond are clipped."""
     light = np.clip(np.asarray(linear, dtype=np.float64), 0.0, 1.0)
-    # Rounded, so that white is one and not a bit less.
+    # Rounded, so that white is exactly 1.
     curve: Floats = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
     return curve.round(9)
 
 
 def painted(colors: NDArray[np.floating], base: FaceMaterial, uv: NDArray[np.float32] | None = None) -> Appearance:
-    """The looks of m faces in `colors` (m, 3 or 4), sRGB 0..1, times the base material."""
+    """Return the looks of m faces in `colors` (m, 3 or 4), sRGB 0..1, times the base material."""
     rgba = np.ones((len(colors), 4))
     rgba[:, : colors.shape[1]] = np.clip(np.nan_to_num(colors), 0.0, 1.0)
     for steps in _STEPS:

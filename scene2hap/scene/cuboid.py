@@ -1,4 +1,4 @@
-"""Boxes along their own axes, measured without rays: rooms of cubes are read a dozen times as fast."""
+"""Meshes that are boxes, measured without rays: rooms of cubes are read a dozen times as fast."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from scene2hap.scene.shapes import TriMesh
 Floats = NDArray[np.float64]
 
 _FACES = 12
-# A corner stands in its place within this part of the longest edge.
+# Tolerance of a corner's position, as a part of the longest edge.
 _SAME_PLACE = 1e-9
 _SIDES = np.array([1, 2, 4])
 _IS_SIDE = np.isin(np.arange(8), _SIDES)

@@ -40,7 +40,7 @@ Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
 RAYS_PER_SIDE = 32
-"""Rays along each side of the bounding box: what is no box is measured to about 1/32 of it (tuned: 5 ms an object)."""
+"""Rays along each side of the bounding box, which gives a resolution of about 1/32 of it (tuned: 5 ms an object)."""
 
 # All of these are tuned on real scenes, and none is critical to a factor of two.
 _SAME_DEPTH = 1e-6  # surfaces closer than this part of the object are one
@@ -62,20 +62,20 @@ _SEEN = 0.1  # ... its outline covers what rays see level within this share of i
 _LIKE = 0.5, 1.5  # ... its outline has an area of between these times that of the rectangle of medians
 _SAME_DIRECTION_RAD = np.deg2rad(1.0)
 _SIDES_TRIED = 12
-# What a mesh takes however few triangles it has, and each of these, in tests of a ray against a triangle (measured: 1.5
-# ms, 1 us and 0.1 us).
+# Fixed cost of a mesh, and cost of each triangle, in units of one test of a ray against a triangle (measured: 1.5 ms,
+# 1 us and 0.1 us).
 _WORK_OF_A_MESH, _WORK_OF_A_FACE = 15_000, 10
 
 
 class _Side(NamedTuple):
-    """A mesh along one axis: what it hides [m2], a frame with that axis as w, and the hits of rays along it."""
+    """A mesh seen along one axis: its projected area [m2], a frame with that axis as w, and the hits of rays on it."""
 
     area_m2: float
     own_to_plate: Floats
     hits: Hits
 
     def level_area_m2(self, size_m: float) -> float:
-        """How much of that area is met at one level, give or take half the plate's thickness; all of a sheet."""
+        """Return the part of that area at one level, within half the plate's thickness; all of it for a sheet [m2]."""
         solids = first_solids(self.hits, _SAME_DEPTH * size_m)
         thickness = (solids.top - solids.bottom)[np.isfinite(solids.bottom)]
         if len(thickness) < _PAIRED_SHARE * len(solids.top):
@@ -135,11 +135,11 @@ def _side_plate(side: _Side, points: Floats, faces: Ints, flags: tuple[SurfaceFl
 def _lying_plate(
     side: _Side, largest: _Side, standing: DominantSurface, points: Floats, faces: Ints
 ) -> DominantSurface | None:
-    """The plate across the most upright axis where the side that hides most is none: a chair's seat.
+    """Return the plate normal to the most upright axis if the side with most area is no plate, such as a chair's seat.
 
-    A chair hides more from the front, where legs, rungs and back stand beside and behind each other, than from above.
-    What is level in front fills too little of its own rectangle. From above there is one thin flat plate, and it is
-    not what the whole stands on, as a cup's bottom is.
+    A chair has more area from the front, where legs, rungs and back stand beside and behind each other, than from
+    above. But the level part in front fills too little of its rectangle. From above there is one thin flat plate, which
+    is not the bottom on which the whole object stands, as that of a cup.
     """
     size_m = float(np.ptp(points, axis=1).max())
     is_plate = largest.level_area_m2(size_m) >= _FILLED_PLATE * standing.length_m * standing.width_m
@@ -196,7 +196,7 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
         flags = (*flags, "zero-thickness")
     spans = spans or _spans(outline(triangles), at_least=_FILLED_OUTLINE * cell * len(paired))
     if spans is None:
-        # An L, a ring with gaps, a heap: no rectangle of medians covers it, the one around it does.
+        # An L, a ring with gaps or a heap has no rectangle of medians, so the one around it is used.
         spans = (high - low)[:2], (high + low)[:2] / 2
         flags = flags if "box-fallback" in flags else (*flags, "box-fallback")
     (u_m, v_m), (u_mid, v_mid) = spans
@@ -204,7 +204,7 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
 
 
 def _seen_outline(triangles: Floats, middle: float, level_area_m2: float) -> Outline | None:
-    """The cut at a height if it covers what rays see level, with its holes or without those that are hollows within."""
+    """Return the cut at a height if it covers the level area that rays see, with its holes or without inner hollows."""
     outline = section_outline(triangles, middle)
     if outline is None:
         return None
@@ -216,8 +216,8 @@ def _seen_outline(triangles: Floats, middle: float, level_area_m2: float) -> Out
 
 
 def _open_top(tops: Floats, ray: Ints, low: Floats, high: Floats) -> float:
-    """Where an open mesh is as high as a plate: at its top, or where most rays and most of its edge meet it, so that
-    burners and knobs that stand on a hob are no part of the sheet whose rim reaches down."""
+    """Return the height of the plate of an open mesh: its top, or the height at which most rays and most of its edge
+    meet it. So burners and knobs on a hob are no part of the sheet whose rim extends down."""
     height, top, n = float(high[2] - low[2]), float(np.median(tops)), RAYS_PER_SIDE
     level = np.abs(tops - top) <= _SAME_LEVEL * height
     at_edge = (np.minimum(ray // n, ray % n) == 0) | (np.maximum(ray // n, ray % n) == n - 1)
@@ -333,7 +333,7 @@ def _fitted_frames(triangles: Floats) -> Iterator[Floats]:
     if len(across):
         seconds = (level @ _largest_direction(normals[:, across], area[across]))[:, None]
     else:
-        # A sheet: no face shows which way it lies, but one of its edges may.
+        # The face of a sheet does not show its rotation, but one of its edges may.
         sides = level @ (np.roll(triangles, -1, axis=1) - triangles).reshape(3, -1)
         longest = sides[:, np.argsort(-np.hypot(*sides), kind="stable")[:_SIDES_TRIED]]
         seconds = np.column_stack((np.linalg.eigh(level @ spread @ level.T)[1], longest[:, longest.any(axis=0)]))
@@ -342,7 +342,7 @@ def _fitted_frames(triangles: Floats) -> Iterator[Floats]:
 
 
 def _surface_spread(triangles: Floats, area: Floats) -> Floats:
-    """Second moments (3, 3) of the surface about its centre: the same however finely it is cut into triangles.
+    """Return the second moments (3, 3) of the surface about its centre, independent of its triangulation.
 
     integral of x x^T over a triangle = A/12 (a a^T + b b^T + c c^T + s s^T), s = a + b + c.
     """

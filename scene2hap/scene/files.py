@@ -1,4 +1,4 @@
-"""The files that a scene may read: itself, and files beside it."""
+"""The files that a scene may read: its own, and files beside it inside the assets root."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ HABITAT_SUFFIX = ".scene_instance.json"
 
 
 def is_habitat(path: Path) -> bool:
-    """Whether a file is a Habitat scene, by its name."""
+    """Return True if a file is a Habitat scene, by its name."""
     return path.name.lower().endswith(HABITAT_SUFFIX)
 
 
@@ -37,14 +37,14 @@ def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
             raise SceneError(f"{refusal} Copy it there, or give assets_root={holding_both(path, assets_root)}.")
     except SceneError:
         raise
-    # What a broken address, a zero byte and a ring of links raise.
+    # Raised by a broken address, a zero byte and a ring of links.
     except (ValueError, OSError, RuntimeError) as cause:
         raise SceneError(f"{place} wants {uri!r}, which is no usable file name: {cause}.") from cause
     return path
 
 
 def holding_both(path: Path, assets_root: Path) -> str:
-    """The nearest folder that holds both; a whole disk is never proposed."""
+    """Return the nearest folder that holds both; never the root of a disk."""
     roots = set(assets_root.resolve().parents)
     nearest = next((folder for folder in path.parents if folder in roots and folder != Path(folder.anchor)), None)
     return "<a folder that holds both>" if nearest is None else repr(str(nearest))
@@ -64,7 +64,7 @@ def read_bytes(path: Path) -> bytes:
 
 
 def check_file(path: Path) -> None:
-    """Check a file that is to be read, without reading it. Raises: as `read_bytes`, unless it is unreadable."""
+    """Check a file without reading it. Raises: as `read_bytes`, except if it is unreadable."""
     try:
         if not path.exists():
             near = checks.near_files(path) or "Check the path, or export the scene with all its files."

@@ -1,4 +1,4 @@
-"""A scene from above: the object on top at each place of a grid, and its height there."""
+"""A scene from above: the topmost object at each place of a grid, and its height there."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class TopView:
         low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
         cell = max(float((high - low)[:2].max()) / n_cells, 1e-9)
         n_columns, n_rows = (int(n) for n in np.maximum(1, np.ceil((high - low)[:2] / cell - 1e-9)))
-        # Cells that stick out do so by the same on both sides.
+        # The grid extends beyond the scene by the same length on both sides.
         corner = (low + high)[:2] / 2 - cell * np.array([n_columns, n_rows]) / 2
         top = np.full(n_rows * n_columns, NOTHING, dtype=np.intp)
         height = np.full(n_rows * n_columns, -np.inf)

@@ -1,4 +1,4 @@
-"""Pictures of a scene that others rendered, such as a game engine or Blender, in the place of `capture_images`.
+"""Pictures of a scene from another renderer, such as a game engine or Blender, instead of `capture_images`.
 
     pictures = GivenPictures({("phone", "isolated", "front"): png, (None, "scene", "above"): jpeg})
     pictures = GivenPictures.load("kitchen")  # a folder with pictures.json
@@ -61,7 +61,7 @@ PictureKey = tuple[str | None, Kind, str]
 
 @dataclass(frozen=True)
 class GivenShot(Shot):
-    """A picture that somebody took from an angle with a name."""
+    """A picture from a named angle."""
 
     view: str = ""
 
@@ -113,7 +113,7 @@ class GivenPictures:
 
     @property
     def shots(self) -> tuple[Shot, ...]:
-        """All that is shown, in the order in which it was given."""
+        """All pictures, in the order in which they were given."""
         return tuple(self._files)
 
     def image(self, shot: Shot) -> bytes:
@@ -133,7 +133,7 @@ class GivenPictures:
         return shown
 
     def attach_to(self, scene: SceneSnapshot | str | os.PathLike[str]) -> SceneSnapshot:
-        """The same scene with these pictures, for `bake`. An object that is in none of them keeps what it has.
+        """Return the scene with these pictures, for `bake`. An object without one keeps the pictures it has.
 
         An object without any pictures is shown by the isolated ones of an object of the same `instance_key`.
         Raises: UnknownObject: a picture of an object that the scene does not have.
@@ -200,7 +200,7 @@ def check_picture(file: object, name: str = "the picture") -> tuple[int, int]:
 
 
 def _shot(key: Any) -> GivenShot:
-    """The shot of a key as somebody wrote it. Raises: SceneError: it names nothing."""
+    """Return the shot of a key from a caller or a file. Raises: SceneError: it names nothing."""
     if not isinstance(key, tuple) or len(key) != 3:
         raise SceneError(f"a picture's key is {checks.represented(key)}; it must be (object id, kind, view).")
     subject, kind, view = key
@@ -252,7 +252,7 @@ def _content(file: bytes | Path, name: str) -> bytes:
 
 
 def _as_shown(file: bytes, name: str) -> bytes:
-    """A checked file as a model gets it. Raises: SceneFormatError: its pixels cannot be decoded."""
+    """Return a checked file as it is sent to a model. Raises: SceneFormatError: its pixels cannot be decoded."""
     from PIL import Image
 
     try:

@@ -86,7 +86,7 @@ class _Reader:
         return AuthoredNode(name, _matrix(row, place), pieces, children)
 
     def _only_scales(self, row: Json, node: AuthoredNode) -> bool:
-        """Whether a node only turns stored whole numbers into lengths.
+        """Return True if a node only turns stored whole numbers into lengths.
 
         gltfpack moves a quantised mesh into such a node below the one that the author gave it. Were it a node like
         others, a door below a cupboard would be another object than in the file that was packed.
@@ -97,7 +97,7 @@ class _Reader:
         return all(map(self._is_quantised, primitives)) and bool((np.diag(node.matrix) > 0).all())
 
     def _is_quantised(self, primitive: Json) -> bool:
-        """Whether positions are whole numbers; False for a row that is broken, as that of lines may be unnoticed."""
+        """Return True if positions are whole numbers; False for a broken row, since rows of lines are not checked."""
         attributes, rows = primitive.get("attributes"), self._file.table("accessors")
         number = attributes.get("POSITION") if isinstance(attributes, dict) else None
         return isinstance(number, int) and 0 <= number < len(rows) and rows[number].get("componentType") != _FLOAT

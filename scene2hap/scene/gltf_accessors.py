@@ -38,7 +38,7 @@ def vectors(file: GltfFile, number: object, types: tuple[str, ...], what: str) -
 
 
 def unpacked(values: NDArray[np.generic]) -> NDArray[np.float64]:
-    """Whole numbers as parts of the largest one of their type; other numbers as they are."""
+    """Convert whole numbers to fractions of the largest of their type; return other numbers unchanged."""
     result = values.astype(np.float64)
     if values.dtype.kind not in "iu":
         return result
@@ -65,7 +65,7 @@ def _values(file: GltfFile, number: object, place: str) -> tuple[NDArray[np.gene
     count = natural(row.get("count"), f"{place}.count", at_least=1)
     limits.at_most(f"{place}.count", count, "MAX_TRIANGLES")
     dtype = _dtype(row, place)
-    # What is stored is only looked at so far; what is not is counted before there is any.
+    # Stored values are a view and cost nothing; zeros are counted against the budget before they are allocated.
     stored = _strided(file, row, count, columns, dtype, place) if "bufferView" in row else None
     file.values.spend(count * columns, place)
     values = np.zeros((count, columns), dtype) if stored is None else stored

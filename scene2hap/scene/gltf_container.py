@@ -1,7 +1,7 @@
-"""The shell of a glTF 2.0 file: chunks of a GLB, the JSON header, and the bytes of its buffers.
+"""The container of a glTF 2.0 file: chunks of a GLB, the JSON header, and the bytes of its buffers.
 
-Nothing here trusts the file. Every length is held against the bytes that are there, and a buffer outside the file is
-read only from inside `assets_root`.
+The file is untrusted. Every length is compared with the bytes present, and a buffer outside the file is read only from
+inside `assets_root`.
 
 Source: glTF 2.0 specification (Khronos, 2.0.1), sections 3.6 and 4.4.
 """

@@ -115,7 +115,7 @@ def _number(data: bytes, at: int) -> tuple[int, int]:
 
 
 def _behind_metadata(data: bytes, at: int) -> int:
-    """Where the element of metadata that begins at a byte ends: names with values, then names with elements."""
+    """Return the end of the metadata element that begins at a byte: names with values, then names with elements."""
     n_values, at = _number(data, at)
     for _ in range(n_values):
         length, at = _number(data, at + 1 + data[at])

@@ -1,6 +1,6 @@
 """Materials of a glTF file: base colour, or the diffuse colour of older files, and the texture that it multiplies.
 
-What is wrong with a material costs its texture, never the scene. Samplers are not read: textures repeat.
+A broken material loses its texture; the scene is read all the same. Samplers are not read: textures repeat.
 
 Source: glTF 2.0 specification, section 3.9; extensions KHR_materials_pbrSpecularGlossiness, KHR_texture_transform,
 EXT_texture_webp.
@@ -28,7 +28,7 @@ Affine = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Paint:
-    """A material, and which set of texture coordinates it wants under which transform."""
+    """A material, its set of texture coordinates, and their transform."""
 
     material: FaceMaterial
     uv_set: int = 0

@@ -13,7 +13,7 @@ from scene2hap.scene.gltf_container import GltfFile, Json, natural
 
 MESHOPT = ("KHR_meshopt_compression", "EXT_meshopt_compression")
 _INDEX_BYTES = (2, 4)
-# What a decoded byte adds to what is stored: as many numbers as an accessor reads once (assumed).
+# Decoded bytes that count as one stored byte, where accessors are bounded by the stored bytes (assumed).
 _STORED_PER_DECODED = 2
 
 
@@ -35,7 +35,7 @@ def decoded_view(file: GltfFile, number: int, row: Json, place: str) -> memoryvi
     key = (MESHOPT, number)
     if key not in file.unpacked:
         data = file.unpacked[key] = _decoded(file, row, place)
-        # Accessors are held against what is stored; decoded once, the view was within a budget of its own.
+        # Accessors are bounded by the stored bytes. The decoded view counts as stored, since its own budget bounds it.
         for budget in (file.values, file.triangles):
             budget.stored += len(data) // _STORED_PER_DECODED
     known: memoryview = file.unpacked[key]

@@ -33,7 +33,7 @@ from scene2hap.scene.collection import Member, split
 from scene2hap.scene.tree import AuthoredNode, Matrix, Piece
 
 Grouping = Literal["authored", "leaf"] | int | Mapping[str, str]
-"""How nodes become objects.
+"""The rule by which nodes become objects.
 
 "authored": the rule above. "leaf": every node with a mesh is an object. An int from 1: every node at that depth below
 the scene is one object with all that hangs below it (the scene's own nodes have depth 1); meshes above stand alone. A
@@ -158,7 +158,7 @@ def _is_part(child: AuthoredNode, node: AuthoredNode) -> bool:
 
 
 def _continues(name: str, start: str) -> bool:
-    """Whether `name` is `start` and more: `Table_mat_0`, `Table.001`, `tableTop`, not `Tablet` after `Table`."""
+    """Return True if `name` is `start` and more: `Table_mat_0`, `Table.001`, `tableTop`, not `Tablet` after `Table`."""
     return name.startswith(start) and not name[len(start) :][:1].islower()
 
 

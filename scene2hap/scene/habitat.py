@@ -303,7 +303,7 @@ def _column(scale: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _is_com(row: Json, place: str, default: bool | None) -> bool | None:
-    """Whether a translation is that of the centre of mass."""
+    """Return True if a translation is that of the centre of mass; `default` if the row does not say."""
     given = row.get("translation_origin", "default")
     known = _ORIGINS.get(given.lower(), "") if isinstance(given, str) else ""
     if isinstance(known, str):
@@ -382,7 +382,7 @@ def _links_kg(model: _Model) -> float | None:
 
 
 def _is_bent(pose: object) -> bool:
-    """Whether any joint, in a list or in a table by name, does not begin at 0."""
+    """Return True if any joint, in a list or in a table by name, does not begin at 0."""
     values = list(pose.values()) if isinstance(pose, dict) else pose
     return isinstance(values, list) and any(value not in (0, None) for value in values)
 

@@ -1,4 +1,4 @@
-"""Habitat datasets: which model file a template's name stands for, and how that model is scaled and turned.
+"""Habitat datasets: the model file of a template's name, and the scale and rotation of that model.
 
 A scene names templates, such as `frl_apartment_chair_01` or a hash. They are found, in this order, as
 
@@ -82,7 +82,7 @@ class Template:
 
 @dataclass(frozen=True, eq=False)
 class _Source:
-    """Where a template is written: in a file, or in the dataset file as `attributes` on top of another template."""
+    """The definition of a template: a file, or `attributes` in the dataset file that change another template."""
 
     file: Path | None = None
     attributes: Json = field(default_factory=dict)
@@ -121,7 +121,7 @@ class Dataset:
         return self._templates[kind, name]
 
     def has(self, file: Path) -> bool:
-        """Whether there is such a file inside the root."""
+        """Return True if there is such a file inside the root."""
         return _is_file(file) and _resolved(file).is_relative_to(_resolved(self.root))
 
     def count(self, file: Path) -> None:
@@ -129,7 +129,7 @@ class Dataset:
         try:
             self._n_bytes += file.stat().st_size
         except (OSError, ValueError):
-            return  # whoever reads it says so
+            return  # reading it reports the error
         self.files.append(file)
         limits.at_most("the size of all files of the dataset in bytes", self._n_bytes, "MAX_DATASET_BYTES")
 

@@ -1,4 +1,4 @@
-"""Pictures of a scene as the rest of the library sees them: PNG files that are taken when somebody reads them."""
+"""Pictures of a scene: PNG files that are rendered when they are first read."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Shot:
 
 
 class ImageSource(Protocol):
-    """Takes pictures; safe to call from several threads, and keeps what it took."""
+    """Renders and caches pictures. Calls from several threads are safe."""
 
     def image(self, shot: Shot) -> bytes:
         """The picture as a PNG file."""
@@ -32,7 +32,7 @@ class ImageSource(Protocol):
 
 
 class ImageSet(Sequence[bytes]):
-    """Pictures of one thing from several angles, each taken when it is first read.
+    """Pictures of one object or scene from several angles, each rendered when it is first read.
 
     `shots` gives the angles without taking a picture.
     """
@@ -66,5 +66,5 @@ class ObjectImages:
 
     @property
     def together(self) -> ImageSet:
-        """All of them, isolated first, as the prompts speak of them."""
+        """All pictures, isolated ones first, in the order of the prompts."""
         return ImageSet(self.isolated.source, (*self.isolated.shots, *self.context.shots))

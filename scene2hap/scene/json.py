@@ -1,8 +1,8 @@
 """A scene as JSON, for engines that are not written in Python and for bundles.
 
-Geometry stands once in a table, since instances share it; an object names its row, or brings its geometry along. What
-an engine cannot tell of an object, its dominant surface and its height, is measured. docs/scene-json.md is for those
-who write such files.
+Geometry is stored once in a table, since instances share it; an object names its row, or contains its geometry. The
+dominant surface and the height of an object are measured if the file does not have them. docs/scene-json.md describes
+the format for authors of exporters.
 """
 
 from __future__ import annotations
@@ -103,7 +103,7 @@ def from_document(document: dict[str, Any]) -> SceneData:
 
 
 def geometry_key(geometry: Geometry) -> str:
-    """The row that a geometry stands in."""
+    """Return the name of a geometry's row."""
     if geometry.kind == "mesh":
         return f"mesh-{geometry.digest}"
     return "box-" + "x".join(f"{edge!r}" for edge in geometry.size_m)
@@ -126,7 +126,7 @@ def _without_nulls(row: Any) -> Any:
 
 
 def _require_plausible_thickness(item: SceneObject) -> None:
-    """Hold a stated thickness against the geometry, which bounds it: no slab is many times thicker than its mesh."""
+    """Compare a stated thickness with the geometry: no slab is many times thicker than its mesh."""
     normal = np.abs(item.surface.pose.rotation[:, 2])
     extent_m = float(normal @ np.ptp(_bounds_m(item.geometry), axis=0))
     bound_m = sizes.thickest_m((item.surface.length_m, item.surface.width_m, extent_m))
@@ -146,7 +146,7 @@ def _bounds_m(geometry: Geometry) -> NDArray[np.float64]:
 
 
 def _measured(scene: SceneData, rows: Sequence[dict[str, Any]]) -> SceneData:
-    """The scene with what its rows leave out."""
+    """Return the scene with surfaces and heights measured where its rows lack them."""
     # Imported by need: what this library wrote is never measured again.
     from scene2hap.scene.surfaces import Surfaces
 

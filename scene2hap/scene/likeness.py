@@ -1,4 +1,4 @@
-"""Which objects count as copies of each other."""
+"""Keys of objects that count as copies of each other."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _PER_MM = 1000.0
 
 
 def copy_key(item: SceneObject) -> Hashable:
-    """Equal for objects that are copies of one thing, so that one answer holds for all of them.
+    """Return a key that is equal for copies, so that one inference serves all of them.
 
-    That is equal mesh and looks (`instance_key`), equal words in the name, equal names of materials, and equal size to
-    the millimetre. An object without `instance_key` has no copies.
+    Copies have equal mesh and looks (`instance_key`), equal words in the name, equal names of materials, and equal size
+    to the millimetre. An object without `instance_key` has no copies.
     """
     if not item.instance_key:
         return ("id", item.id)
@@ -29,10 +29,10 @@ def copy_key(item: SceneObject) -> Hashable:
 
 
 def name_words(name: str) -> tuple[str, ...]:
-    """The words of an authored name in lower case: ("wooden", "table") of "woodenTable.012".
+    """Return the words of an authored name in lower case: ("wooden", "table") of "woodenTable.012".
 
-    Running numbers are left out, and left and right, which number things as well.
-    What is behind the first 1,000 characters is taken as it stands.
+    Running numbers are left out, as are "left" and "right", which also number objects. Text after the first 1,000
+    characters is not split.
     """
     found = (word.lower() for word in _WORD.findall(_HASH.sub(" ", name[:_LONGEST_NAME])))
     words = tuple(word for word in found if word not in _SIDES)

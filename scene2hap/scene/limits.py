@@ -42,11 +42,10 @@ def at_most(what: str, value: int, limit: str) -> None:
 
 @dataclass
 class Budget:
-    """How much of something one file may come to in all, however many rows it is spread over.
+    """A bound on the total that all rows of one file may request.
 
-    A row that is within its limit costs a few bytes and may want megabytes; so the whole is held against the bytes
-    that the file has (or another measure of what is stored), `per_stored` for each and `free` for none, before
-    anything is allocated.
+    A row within its own limit takes a few bytes and may request megabytes. So the total is compared with the bytes of
+    the file (or another measure of its content) before anything is allocated: `free`, plus `per_stored` for each byte.
     """
 
     what: str
@@ -58,7 +57,7 @@ class Budget:
     advice: str = "Split or simplify the scene, or export it again without shared or empty data."
 
     def spend(self, amount: int, place: str) -> None:
-        """Count `amount` that `place` wants. Raises: SceneError: it is more than the file may have."""
+        """Count an `amount` that `place` requests. Raises: SceneError: the total exceeds the bound."""
         self.spent += amount
         allowed = self.free + int(self.per_stored * self.stored)
         if self.spent > allowed:

@@ -155,7 +155,7 @@ def _pair(words: list[str], default: float) -> tuple[float, float]:
 
 
 def _numbers(text: str, n: int) -> tuple[float, ...] | None:
-    """The first n numbers of a text; None if it does not begin with as many finite ones."""
+    """Return the first n numbers of a text; None if it does not begin with n finite numbers."""
     try:
         values = tuple(map(float, text.split(None, n)[:n]))
     except ValueError:

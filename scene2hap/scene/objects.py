@@ -29,9 +29,9 @@ _AT_ORIGIN = Pose()
 @clear_construction
 @dataclass(frozen=True)
 class Contact:
-    """Where two objects touch: given by an engine, or found from geometry. A pair may have several.
+    """A contact point of two objects, given by an engine or found from geometry. A pair may have several.
 
-    Parameters: point_m : world [m]; normal : unit, from `a` to `b`; area_m2 of the patch that the point stands for;
+    Parameters: point_m : world [m]; normal : unit, from `a` to `b`; area_m2 of the patch that the point represents;
     weight : how much of a contact it is, 1 touching to 0 gone [-].
     """
 
@@ -71,7 +71,7 @@ class SceneObject:
     such as a mesh of the package trimesh, becomes a TriMesh. `surface` is measured if it is not given, with y up;
     `SceneSnapshot.build` measures it for the scene's own up axis. `instance_key` is equal for objects of equal mesh and
     materials. `relative_height_m` is the height of the lowest point above the lowest point of the whole scene.
-    `mass_kg` is what an engine or an author says that it weighs [kg], None if nobody does.
+    `mass_kg` is the mass from an engine or an author [kg], None if unknown.
     `appearance` is for pictures alone, None where unknown; `images` are those of `capture_images`.
     """
 
@@ -141,7 +141,7 @@ class SceneObject:
     def whole_size_m(self, up_axis: UpAxis) -> tuple[float, float, float]:
         """Longer and shorter side and height [m] of the object's box along its own axes.
 
-        Height is along the axis that stands most upright, so that a thing turned about it keeps its size.
+        Height is along the axis nearest to the vertical, so that an object rotated about it keeps its size.
         """
         edges = np.ptp(self.geometry.mesh.vertices_m, axis=0)
         upright = int(np.abs(self.pose.rotation[{"y": 1, "z": 2}[up_axis]]).argmax())
@@ -167,7 +167,7 @@ class SceneObject:
 
 
 def measured_surface(geometry: Geometry, pose: Pose, up_axis: UpAxis) -> DominantSurface:
-    """The dominant surface of a thing that stands so, see `scene.dominant_surface`; equal meshes are measured once."""
+    """Return the dominant surface of an object at this rotation (`scene.dominant_surface`), once for equal meshes."""
     up = pose.rotation[{"y": 1, "z": 2}[up_axis]].round(6)
     return _measured(geometry, tuple(up.tolist()))
 

@@ -85,7 +85,7 @@ class Outline:
         return x1 - x0, y1 - y0
 
     def distance_m(self, points_m: Floats) -> Floats:
-        """How far points (n, 2) lie beside it, 0 within (n,) [m]."""
+        """Return the distances (n,) of points (n, 2) from the area [m], 0 inside."""
         starts, ends = self._edges
         way = ends - starts
         off = points_m[:, None] - starts
@@ -95,12 +95,12 @@ class Outline:
         return distance
 
     def placed(self, scale: tuple[float, float], shift_m: tuple[float, float]) -> Outline:
-        """The same, each coordinate times its scale and then shifted [m]."""
+        """Return the outline with each coordinate scaled and then shifted [m]."""
         (a, b), (c, d) = scale, shift_m
         return Outline(tuple(tuple((a * x + c, b * y + d) for x, y in ring) for ring in self.rings_m))
 
     def holds(self, points_m: Floats) -> NDArray[np.bool_]:
-        """Which of the points (n, 2) lie within."""
+        """Mark the points (n, 2) that lie within."""
         starts, ends = self._edges
         (xa, ya), (xb, yb) = starts.T, ends.T
         x, y = points_m[:, :1], points_m[:, 1:]
@@ -112,7 +112,7 @@ class Outline:
 
     @cached_property
     def _edges(self) -> tuple[Floats, Floats]:
-        """Where they start and end (n_edges, 2) each [m]."""
+        """The start and end points of all edges, (n_edges, 2) each [m]."""
         ends = [np.roll(np.array(ring), -1, axis=0) for ring in self.rings_m]
         return np.concatenate(self.rings_m), np.concatenate(ends)
 

@@ -1,8 +1,8 @@
-"""Where a plate ends and what is fixed to its edge begins: a television's stand, a radio's handle, a bookcase's feet.
+"""The boundary between a plate and parts fixed to its edge: a television's stand, a radio's handle, a bookcase's feet.
 
-Seen along the plate's normal, such a thing fills less than half as much of its rows as the plate fills of its own, at
-least right beside the plate, and it is not level with the plate. An arm of an L-shaped top and the wall beside a
-doorway are level with theirs, and belong to it; a disc narrows by and by, and has no such edge.
+Seen along the plate's normal, the rows of such a part are filled less than half as much as those of the plate, at least
+right beside it, and the part is not level with the plate. The arm of an L-shaped top and the wall beside a doorway are
+level with their plate and belong to it. A disc narrows gradually and has no such boundary.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class Window(NamedTuple):
 
     @property
     def is_all(self) -> bool:
-        """Whether nothing is fixed to the plate's edge."""
+        """True if nothing is fixed to the plate's edge."""
         return self.last - self.first == self.n
 
     def bounds_m(self, segments: Floats, along: int, low_m: float, high_m: float) -> tuple[float, float]:
@@ -71,7 +71,7 @@ def _window(n_seen: NDArray[np.int64], n_level: NDArray[np.int64]) -> Window:
 
 
 def _edge_m(segments: Floats, along: int, near_m: float, cell_m: float) -> float:
-    """Where the longest of the segments (2, 2, k) across a coordinate, within a cell of a place, stands on it [m]."""
+    """Return the coordinate [m] of the longest of the segments (2, 2, k) across it, within a cell of a place."""
     places, lengths = segments[along], np.abs(np.diff(segments[1 - along], axis=0)[0])
     lengths = np.where((np.abs(places - near_m) <= cell_m).all(axis=0), lengths, 0.0)
     if not lengths.max(initial=0.0) > 0:

@@ -29,7 +29,7 @@ def draw_values(axes: Axes, view: TopView, values: NDArray[np.float64], **option
     )  # fmt: skip
     names = ["xyz"[axis] for axis in view.level]
     axes.set(xlabel=f"{names[0]} [m]", ylabel=f"{names[1]} [m]", xlim=(left, right), ylim=(lower, upper))
-    if names[1] == "z":  # seen from above, z comes towards whoever looks with x to the right and y up
+    if names[1] == "z":  # with y up and x to the right, z points down in a view from above
         axes.invert_yaxis()
     axes.set_aspect("equal")
     return image

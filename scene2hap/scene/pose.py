@@ -1,4 +1,4 @@
-"""Where a thing is: translation and unit quaternion in glTF order, without scale."""
+"""Poses: translation and unit quaternion in glTF order, without scale."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _FAR_FROM_UNIT = 0.1
 # Radians that are a whole number of these are degrees.
 _DEGREES = 15.0
 _LAST_ROW = 1e-6
-_LEAST_SLANT = 1e-9  # a target straighter above than this leaves no side
+_LEAST_SLANT = 1e-9  # below this sine, a target is straight above or below, and no heading is defined
 
 
 @clear_construction
@@ -112,7 +112,7 @@ class Pose:
 
     @classmethod
     def from_yaw(cls, position_m: Sequence[float], yaw_rad: float, *, up_axis: Literal["y", "z"] = "y") -> Pose:
-        """The pose of a thing that is turned about the vertical, counter-clockwise seen from above."""
+        """Return the pose of an object rotated about the vertical, counter-clockwise seen from above."""
         half = checks.number("yaw_rad", yaw_rad, "rad", error=SceneError) / 2
         _warn_of_degrees("yaw_rad", yaw_rad)
         return cls(_given(position_m), _about(_axis(up_axis, "up_axis", "yz"), half))
@@ -148,10 +148,10 @@ class Pose:
     def look_at(
         cls, position_m: Sequence[float], target_m: Sequence[float], *, up_axis: Literal["y", "z"] = "y"
     ) -> Pose:
-        """The pose of a thing whose front points at a target and whose upper side points up as far as it can.
+        """Return the pose of an object whose front points at a target, with its upper side as far up as possible.
 
         The front is the own axis z where y points up, as in glTF, and x where z points up, as in ROS (REP 103).
-        Raises: SceneError: the target is where the thing is, or straight above or below it.
+        Raises: SceneError: the target is at the object's position, or straight above or below it.
         """
         up = _axis(up_axis, "up_axis", "yz")
         at, target = (
@@ -218,7 +218,7 @@ def _axis(value: object, name: str, letters: str) -> int:
 
 
 def _about(axis: int, half_rad: float) -> tuple[float, float, float, float]:
-    """The quaternion of a turn by twice an angle."""
+    """Return the quaternion of a rotation by twice an angle."""
     found = [0.0, 0.0, 0.0, math.cos(half_rad)]
     found[axis] = math.sin(half_rad)
     return (found[0], found[1], found[2], found[3])

@@ -1,4 +1,4 @@
-"""Poses of many things as arrays, as engines have them."""
+"""Poses of many objects as arrays, as engines store them."""
 
 from __future__ import annotations
 

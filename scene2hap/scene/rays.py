@@ -1,7 +1,7 @@
-"""Parallel rays against triangles: where a grid of rays enters and leaves a mesh, and how wide a section of it is.
+"""Parallel rays against triangles: the points where a grid of rays enters and leaves a mesh, and widths of sections.
 
-The mesh is given in a frame whose third axis is the direction of the rays, so that casting becomes drawing: each
-triangle is rasterised onto the grid once, and a sort along every ray replaces a search tree.
+The mesh is given in a frame whose third axis is the direction of the rays. So casting is rasterisation: each triangle
+is drawn onto the grid once, and a sort along every ray replaces a search tree.
 
 Letters: u, v across the rays and w along them [m]; n rays per side [-]. Triangles are held as arrays (3, 3, m) of
 coordinate, corner and triangle, so that arithmetic runs along the triangles.
@@ -34,7 +34,7 @@ _EDGE_ON = 1e-12
 
 @dataclass(frozen=True)
 class Hits:
-    """Where rays meet triangles, sorted by ray and then by falling w.
+    """The hits of rays on triangles, sorted by ray and then by falling w.
 
     Parameters: ray : (n_hits,) number of the ray; w : (n_hits,) [m]; side : (n_hits,) +1 where the triangle faces
     against the ray as seen from above, -1 where it faces along it.
@@ -146,13 +146,13 @@ def first_solids(hits: Hits, tolerance: float) -> Solids:
 
 
 def _next(is_wanted: NDArray[np.bool_], start: Ints) -> Ints:
-    """The first place from each `start` on that is wanted; the length of `is_wanted` if none follows."""
+    """Return the first wanted place from each `start` on; the length of `is_wanted` if none follows."""
     places = np.append(np.flatnonzero(is_wanted), len(is_wanted))
     return places[np.searchsorted(places, start)]
 
 
 def share_open(hits: Hits) -> float:
-    """Part of the rays that do not leave as many faces as they enter [-]."""
+    """Return the share of rays whose numbers of entered and left faces differ [-]."""
     return float(np.mean(np.add.reduceat(hits.side, hits.starts) != 0)) if len(hits.ray) else 0.0
 
 

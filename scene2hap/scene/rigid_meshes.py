@@ -33,7 +33,7 @@ _SAME_VERTEX_M = 1.5e-9
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """An object's mesh in its own frame, where that frame stands, and what is equal for its copies."""
+    """An object's mesh in its own frame, the pose of that frame, and the key that its copies share."""
 
     pose: Pose
     mesh: TriMesh
@@ -43,7 +43,7 @@ class Placed:
 
 @dataclass(eq=False)
 class MeshPool:
-    """Bakes groups, and gives groups that bake to the same mesh one and the same TriMesh; copies share their looks.
+    """Bakes groups into meshes. Groups with equal results share one TriMesh; copies share their looks.
 
     `surfaces` measures the meshes, and counts each vertex that the file stores.
     """
@@ -157,8 +157,8 @@ class _Copies:
 def rigid_part(matrix: Matrix) -> Matrix:
     """The rotation and translation of an affine matrix, without scale, shear and mirroring.
 
-    L = Q P with Q orthogonal and P symmetric (polar decomposition); a mirroring Q gives up its x axis, so that what
-    stood upright still does.
+    L = Q P with Q orthogonal and P symmetric (polar decomposition). A mirroring Q has its x axis flipped, so that an
+    upright object stays upright.
     """
     left, _, right = np.linalg.svd(matrix[:3, :3])
     rotation = left @ right

@@ -69,7 +69,7 @@ _MEASURED = ("surface", "relative_height_m")
 
 
 class _Generator(GenerateJsonSchema):
-    """Pydantic's own, which refuses types that have no JSON."""
+    """Pydantic's generator, which refuses types that have no JSON."""
 
     def handle_invalid_for_json_schema(self, schema: Any, error_info: str) -> _Json:
         return {_PYTHON_ONLY: True} if schema["type"] == "is-instance" else {}
@@ -115,7 +115,7 @@ def scene_schema() -> _Json:
 
 
 def _plain(schema: Any) -> Any:
-    """The schema without what only lives in Python, and without titles and docstrings, which speak of Python."""
+    """Return the schema without fields that exist in Python alone, and without titles and docstrings."""
     if isinstance(schema, list):
         return [_plain(item) for item in schema]
     if not isinstance(schema, dict):

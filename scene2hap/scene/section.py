@@ -1,4 +1,4 @@
-"""The outline of a cut through a mesh: the rings in which its triangles cross a plane."""
+"""Section of a mesh: the rings in which its triangles cross a plane."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def section_outline(triangles_m: Floats, level_m: float) -> Outline | None:
 
 
 def _segments(triangles_m: Floats, level_m: float) -> tuple[Floats, Floats]:
-    """Where triangles that cross the plane do so, from (n, 2) to (n, 2)."""
+    """Return the segments in which triangles cross the plane, from (n, 2) to (n, 2)."""
     above = triangles_m[2] > level_m
     crossing = np.flatnonzero(above.any(axis=0) & ~above.all(axis=0))
     corner, side = triangles_m[:, :, crossing], above[:, crossing]

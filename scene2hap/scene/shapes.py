@@ -19,8 +19,8 @@ from scene2hap.scene.outline import Outline
 from scene2hap.scene.pose import Pose
 
 SurfaceFlag = Literal["open-mesh", "zero-thickness", "box-fallback"]
-"""Why the measured dominant surface wants a second look: the mesh has a boundary; it has no thickness (a floor of two
-triangles); its shape has no rectangle of medians (an L, a curtain), so that the box around it was taken."""
+"""Reasons to review a measured dominant surface: the mesh has a boundary; it has no thickness (a floor of two
+triangles); its shape has no rectangle of medians (an L, a curtain), so that its bounding box was used."""
 
 _JsonArray = (PlainValidator(lambda value: value), PlainSerializer(lambda array: array.tolist()))
 if TYPE_CHECKING:
@@ -117,7 +117,7 @@ Geometry = Box | TriMesh
 
 
 def geometry_of(value: object, owner: str) -> Geometry:
-    """A Box or TriMesh as it is; a TriMesh of a pair of vertices and faces, or of an object that has both.
+    """Return a Box or TriMesh unchanged, or a TriMesh of a pair of vertices and faces, or of an object with both.
 
     Raises: SceneError: it is something else; the message names the owner.
     """
@@ -139,10 +139,10 @@ class DominantSurface:
     """The plate of an object, such as the top of a table, and where it lies in the object's own frame.
 
     `pose` puts the plate's corner frame into the object's own frame: its origin is a corner of the plate's mid-plane,
-    x runs along the length, y along the width, z along the thickness (the plate's normal). `flags` say why a
-    measured value wants a second look; an engine or a person who states it leaves them empty. `outline` is what a
-    surface covers that is no rectangle, from the same corner along length and width, beyond which it may reach: they
-    are then those of a rectangle like it.
+    x runs along the length, y along the width, z along the thickness (the plate's normal). `flags` are reasons to
+    review a measured value; they are empty for a stated one. `outline` is the area of a surface that is no rectangle,
+    from the same corner along length and width. It may extend beyond these, which are then those of an equivalent
+    rectangle.
     Raises: SceneError: a size that is negative, or no thickness without the flag that says so.
     """
 

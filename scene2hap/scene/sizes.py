@@ -1,7 +1,7 @@
 """Bounds of a stated plate size, relative to the measured one.
 
-A model may correct sizes that a mesh lacks: the thickness of a floor of two triangles, a table modelled as a solid
-block. It cannot know better than the mesh how far the table reaches.
+A language model may correct sizes that a mesh lacks: the thickness of a floor of two triangles, or of a table modelled
+as a solid block. Length and width of the mesh are more reliable than its estimate.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ Size = tuple[float, float, float]
 
 
 def faults(stated_m: Sequence[float], measured_m: Sequence[float]) -> dict[str, str]:
-    """Errors of a stated length, width and thickness [m], by field: the value and the bounds that it breaks.
+    """Return the errors of a stated length, width and thickness [m], by field: the value and the violated bounds.
 
     Length and width may change places. An edge that was measured as 0 has only an upper bound, that of the other one.
     """
@@ -46,7 +46,7 @@ def faults(stated_m: Sequence[float], measured_m: Sequence[float]) -> dict[str, 
 
 
 def thickest_m(measured_m: Sequence[float]) -> float:
-    """The largest thickness that may be stated of a surface that was measured so [m]."""
+    """Return the largest thickness that may be stated for a measured surface [m]."""
     return max(FACTOR * measured_m[2], min(_THICKEST_M, _THICK_SHARE * min(measured_m[:2])), THINNEST_M)
 
 

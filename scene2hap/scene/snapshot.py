@@ -1,4 +1,4 @@
-"""A scene as typed, frozen data: what inference reads and what playing starts from.
+"""A scene as typed, frozen data: the input of inference and of playback.
 
 Metres, right-handed. An object's mesh and its dominant surface are in the object's own frame; its pose places that
 frame in the world. Scale and mirroring are baked into the mesh, so a pose is always rigid.
@@ -52,7 +52,7 @@ _MOST_OBJECTS, _MOST_CONTACTS = 10_000_000, 100_000_000  # as an endless generat
 @clear_calls
 @dataclass(frozen=True)
 class SceneSnapshot(SceneData):
-    """All that is read out of a scene at one moment.
+    """The state of a scene at one time.
 
     `contacts` is None where the source of the scene has none; they are then found from geometry. `images` are
     of the whole scene, None until `capture_images`.
@@ -172,5 +172,5 @@ class SceneSnapshot(SceneData):
 
     @classmethod
     def of(cls, data: SceneData) -> SceneSnapshot:
-        """The scene that plain data describe; raises as the constructor does."""
+        """Build the scene from plain data. Raises: as the constructor."""
         return cls(data.name, data.up_axis, data.objects, data.contacts)

@@ -19,7 +19,7 @@ _PER_VERTEX = 100.0
 
 @dataclass(eq=False)
 class Surfaces:
-    """Measures meshes. `work` counts what that takes; whoever reads a file adds the vertices that it stores."""
+    """Measures meshes. `work` is the budget of that; the reader of a file raises it by the file's vertices."""
 
     work: limits.Budget = field(
         default_factory=lambda: limits.Budget(
@@ -33,9 +33,9 @@ class Surfaces:
     _measured: dict[tuple[object, ...], DominantSurface] = field(default_factory=dict)
 
     def of(self, mesh: TriMesh, up: NDArray[np.float64], place: str, *, turns: bool = False) -> DominantSurface:
-        """The surface of a mesh whose object has `up` (3,) above it; see `dominant_surface`.
+        """Return the surface of a mesh, given the direction of up (3,) in its frame; see `dominant_surface`.
 
-        Copies take that of the first. With `turns`, copies that stand otherwise are measured for themselves.
+        Copies share the surface of the first. With `turns`, copies with another up direction are measured separately.
         Raises: SceneError: measuring all shapes of the scene takes too long; the message names `place`.
         """
         key = (mesh.digest, *(np.round(up, 6).tolist() if turns else ()))

@@ -33,11 +33,11 @@ class TextureFiles:
         return tuple(self._refused.values())
 
     def refuse(self, name: str, reason: str) -> None:
-        """Keep the reason why something of that name is not used; the first one counts."""
+        """Store the reason why a file of this name is not used; the first reason counts."""
         self._refused.setdefault(name, reason)
 
     def from_file(self, uri: str, place: str, *, keeps_alpha: bool = True) -> EncodedTexture | None:
-        """The image that `place` means by `uri`, percent-encoded and relative to the scene; None if it is refused."""
+        """Return the image at `uri`, percent-encoded and relative to the scene, named at `place`; None if refused."""
         if uri in self._refused:
             return None
         if uri not in self._paths:
@@ -55,7 +55,7 @@ class TextureFiles:
         return self.named(first, lambda: read_bytes(path), keeps_alpha)
 
     def named(self, name: str, read: Callable[[], bytes], keeps_alpha: bool) -> EncodedTexture | None:
-        """The image that `read` gives the bytes of, once for each name; None if it raises, or if it is no image."""
+        """Return the image whose bytes `read` returns, once for each name; None if it raises, or is no image."""
         if name in self._refused:
             return None
         if name not in self._by_name:

@@ -1,4 +1,4 @@
-"""Textures as their files hold them: checked when a scene is read, decoded when a picture first needs them."""
+"""Textures as image files: checked when a scene is read, decoded when a picture first needs them."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ class EncodedTexture:
 
     @property
     def opaque(self) -> EncodedTexture:
-        """The same image, whose opacity does not count."""
+        """The image without its opacity."""
         return replace(self, has_alpha=False)
 
     @cached_property

@@ -1,4 +1,4 @@
-"""The authored scene of any file format: nodes, transforms and meshes."""
+"""The authored scene graph of any file format: nodes, transforms and meshes."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ class Piece:
     """Triangles of one material, in the frame of the node that draws them.
 
     Parameters: key : equal for pieces that were read from the same place in the file, so for instances;
-    vertices : (n, 3) float64 in the file's unit, all of them used and finite; faces : (m, 3) int32; material : what the
-    file calls its material; appearance : the looks of its m faces, None where unknown; is_made : whether the file holds
+    vertices : (n, 3) float64 in the file's unit, all of them used and finite; faces : (m, 3) int32; material : its
+    name in the file; appearance : the looks of its m faces, None where unknown; is_made : whether the file holds
     a few numbers for it, such as a radius, and no vertices.
     """
 
@@ -69,7 +69,7 @@ class Piece:
 def _used(corners: NDArray[np.integer], n_points: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """The vertices that corners use, in order, and the corners as places among these.
 
-    Takes no longer than the corners want: files share one table of vertices among thousands of pieces.
+    The time grows with the corners, not with the table: thousands of pieces may share one table of vertices.
     """
     if corners.size < n_points // 8:
         used, renumbered = np.unique(corners, return_inverse=True)
@@ -112,7 +112,7 @@ class AuthoredNode:
 class AuthoredScene:
     """The nodes that stand at the top of a scene, with what the file says about axes and units.
 
-    `unit_m` is None where the format leaves the unit open, or where files are known to say metres and mean others.
+    `unit_m` is None if the format does not define the unit, or if its files are often wrong about it.
     `left_out` names, in a sentence each, the textures that could not be used.
     """
 

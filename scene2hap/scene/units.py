@@ -1,8 +1,8 @@
-"""Check that a scene's sizes can be metres; else a warning with the likely unit.
+"""Check that a scene's sizes can be metres; otherwise warn with the likely unit.
 
-glTF says metres and is often wrong (centimetres, toy scale). Known sizes decide where names give them away. Otherwise
-only a scene is doubted that is far too wide or high and whose objects are too large as well, or one that is too small:
-a park is 200 m wide, and its benches are not.
+glTF prescribes metres, but files often use centimetres or toy scale. If names identify objects, their usual sizes
+decide. Otherwise the check warns if scene and objects are both far too large, or if the scene is too small: a park is
+200 m wide, but its benches are not.
 """
 
 from __future__ import annotations
@@ -47,21 +47,21 @@ class _Voice(NamedTuple):
 
 
 def warn_if_implausible(snapshot: SceneData, unit_m: float = 1.0, *, stacklevel: int = 4) -> None:
-    """Issue a UnitWarning if the scene, read at `unit_m` metres per unit, has sizes that such things do not have."""
+    """Issue a UnitWarning if sizes of the scene, read at `unit_m` metres per unit, are implausible."""
     found = implausible(snapshot, unit_m)
     if found is not None:
         warnings.warn(found, UnitWarning, stacklevel=stacklevel)
 
 
 def implausible(snapshot: SceneData, unit_m: float = 1.0) -> str | None:
-    """Why the sizes of a scene, read at `unit_m` metres per unit, cannot be metres; None where they may be."""
+    """Return why the sizes of a scene, read at `unit_m` metres per unit, cannot be metres; None if they can."""
     up = {"y": 1, "z": 2}[snapshot.up_axis]
     bounds = np.array([item.bounds_m for item in snapshot.objects])
     low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
     extents = np.ptp(bounds, axis=1)
     voices = _voices(snapshot.objects, bounds[:, 1, up] - low[up], extents)
     by_name = _by_names(voices) if voices else None
-    # One name may mislead (a worktop called `Table`), so the whole scene is heard before it.
+    # One name may mislead (a worktop called `Table`), so the whole scene is evaluated first.
     found = by_name if len(voices) > 1 else _by_size(high - low, up, extents.max(axis=1)) or by_name
     if found is None:
         return None
@@ -91,7 +91,7 @@ def _voices(
     voices: dict[str, list[_Voice]] = {}
     for known, name, top, shape, edge in named:
         measured = top if known.is_top else edge
-        # Boxes stand in for things while a game is prototyped: a cube, or one size for things of two kinds.
+        # Prototypes of games use placeholder boxes: a cube, or one size for objects of two kinds.
         stands_in = len(kinds_of_shape[shape]) > 1 or (not known.is_top and len(set(shape)) == 1)
         if measured > 0 and not stands_in:
             middle = float(np.sqrt(known.low_m * known.high_m))
@@ -110,7 +110,7 @@ def _middle(voices: Sequence[_Voice]) -> Sequence[_Voice]:
 
 def _by_names(voices: Sequence[_Voice]) -> tuple[float, str] | None:
     ordered = sorted(np.log([voice.excess for voice in voices]))
-    # Of two halves that differ, the one that finds the sizes plausible is believed.
+    # If two halves of the evidence differ, the one with plausible sizes counts.
     excess = min(ordered[(len(ordered) - 1) // 2], ordered[len(ordered) // 2], key=abs)
     kinds = {voice.usual.kind for voice in voices}
     if abs(excess) <= np.log(_DOUBT_ONE if len(kinds) == 1 else _DOUBT_SEVERAL):

@@ -137,7 +137,7 @@ class _Reader:
     # -- where links are ---------------------------------------------------------------------------------------------
 
     def _frames(self, links: dict[str, Element]) -> dict[str, Matrix]:
-        """Where the frame of each link is, with all joints at 0."""
+        """Return the world transform of each link's frame, with all joints at 0."""
         above: dict[str, tuple[str, Matrix]] = {}
         for name, row in self._named("joint").items():
             place = f"joint {name!r}"

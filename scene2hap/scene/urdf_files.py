@@ -23,7 +23,7 @@ class UrdfFiles:
     compiler: Element | None
 
     def find(self, name: str, place: str) -> Path:
-        """The file that is meant.
+        """Return the path of a named file.
 
         Raises: SceneError: there is none, or it lies outside the root.
         """
@@ -35,7 +35,7 @@ class UrdfFiles:
                     outside = outside or path
                 elif path.is_file():
                     return path
-        # What a name that is too long, one with a zero byte, and a ring of links raise.
+        # Raised by a too long name, a zero byte and a ring of links.
         except (ValueError, OSError, RuntimeError) as cause:
             if isinstance(cause, SceneError):
                 raise
@@ -51,7 +51,7 @@ class UrdfFiles:
         )
 
     def _candidates(self, name: str, place: str) -> Iterator[Path]:
-        """Where a name may lead: beside the file, into the folder for MuJoCo, or into a package around the file."""
+        """Yield the paths that a name may mean: beside the file, in MuJoCo's folder, or in a package around it."""
         folder = self.path.resolve().parent
         scheme, is_address, rest = name.partition("://")
         if not is_address:

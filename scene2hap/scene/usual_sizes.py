@@ -73,7 +73,7 @@ _LONGEST_M: tuple[tuple[str, float, float], ...] = (
     (r"(wooden |euro )?pallet", 1.0, 1.3),
 )
 
-# What exporters, kits and engines write around the noun.
+# Words that exporters, kits and engines add to the noun.
 _AROUND = (
     r"(?:sm|sk|mesh|geo|prop|props|obj|object|model|prefab|lod|left|right|front|back|clone|copy|old|new|big|small|"
     r"large|low|high|poly|base|main|group|grp|node|root|var|variant|wooden|metal|modern|black|white|red|blue|green)"

@@ -1,4 +1,4 @@
-"""Sound into touch offline: whole clips for baking, files of any length for everyone else."""
+"""Offline conversion of sound to vibration: whole clips for baking, and files of any length."""
 
 from scene2hap.audio.conversion.batch import Failure, convert_files
 from scene2hap.audio.conversion.clips import convert_clip

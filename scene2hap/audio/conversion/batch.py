@@ -16,12 +16,12 @@ from scene2hap.audio.tactile import DEFAULT_CONVERTER
 from scene2hap.errors import AudioError, Scene2HapError
 
 Progress = Callable[[str, int, int], None]
-"""Told (file, how many are done, of how many)."""
+"""Called with (file, number of files done, number of all files)."""
 
 
 @dataclass(frozen=True)
 class Failure:
-    """A file that was not converted, and why."""
+    """A file that was not converted, and the reason."""
 
     source: Path
     reason: str
@@ -46,15 +46,15 @@ def convert_files(
     intensity: float = 1.0,
     **settings: Any,
 ) -> list[Conversion | Failure]:
-    """Convert files, and folders with all that is in them, in the order given.
+    """Convert files, and all files in folders, in the order given.
 
     Parameters:
-    output : a file, where there is one source that is no folder and this ends in a suffix of `FORMATS`; otherwise a
-        folder, in which files keep their name, and their place below the folder that was given, with `suffix`.
-    pictures : draw a PNG beside each; workers : processes, as many as there are processors where None; a script that
-        uses several needs ``if __name__ == "__main__":``; the rest : as for `convert`.
+    output : a file, if there is one source, which is no folder, and this ends in a suffix of `FORMATS`; otherwise a
+        folder. In it, files keep their name and their path below the given folder, with `suffix`.
+    pictures : draw a PNG beside each; workers : number of processes, None for one per processor; a script that uses
+        several needs ``if __name__ == "__main__":``; the rest : as for `convert`.
     Raises: ConfigError: settings that cannot work. AudioError: there is nothing to convert, or the output is one file
-    for many. What concerns one file is a `Failure`.
+    for many. Problems of a single file are returned as a `Failure`.
     """
     settled(converter, actuator, intensity)
     settings |= {"converter": converter, "actuator": actuator, "intensity": intensity}
@@ -79,7 +79,7 @@ def _outcomes(
         for index, job in jobs.items():
             yield index, _convert(job, pictures, settings)
         return
-    # A fresh interpreter each: forking a process that has threads (a progress bar) can lock up.
+    # Each worker is a new interpreter: forking a process with threads (a progress bar) can deadlock.
     pool = ProcessPoolExecutor(n_workers, mp_context=multiprocessing.get_context("spawn"))
     try:
         running = {pool.submit(_convert, job, pictures, settings): index for index, job in jobs.items()}
@@ -111,7 +111,7 @@ def _convert(job: _Job, pictures: bool, settings: dict[str, Any]) -> Conversion 
 
 
 def _planned(sources: Sequence[Path], output: Path, suffix: str) -> tuple[dict[int, _Job], dict[int, Failure]]:
-    """What becomes of each file, and which cannot become anything."""
+    """Return the job of each file, and the failures of files that cannot be converted."""
     if suffix not in FORMATS:
         raise AudioError(f"suffix is {suffix!r}; it must be one of {', '.join(FORMATS)}.")
     names_a_file = output.suffix.lower() in FORMATS and not output.is_dir()
@@ -133,7 +133,7 @@ def _planned(sources: Sequence[Path], output: Path, suffix: str) -> tuple[dict[i
 
 
 def _found(sources: Sequence[Path], output: Path) -> Iterator[tuple[Path, Path]]:
-    """Every file with its place in the output folder; what lies in the output folder itself was made before."""
+    """Yield every file and its path in the output folder. Files in the output folder are skipped as earlier results."""
     for source in sources:
         if not source.is_dir():
             yield source, Path(source.name)

@@ -1,4 +1,4 @@
-"""A whole clip through a converter, as if the sound had been going on before."""
+"""Conversion of a whole clip, with a pre-roll, as if the sound had started earlier."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from scene2hap.audio.protocol import ConversionContext, TactileConverter, one_ch
 from scene2hap.errors import AudioError
 
 PRE_ROLL_S = 1.0
-"""How much is played in before the clip; long enough for a band-pass of Q = 100 at 250 Hz to settle to -68 dB."""
+"""Length of the pre-roll before the clip [s]: a band-pass with Q = 100 at 250 Hz settles to -68 dB in it."""
 
 
 def convert_clip(clip: AudioClip, converter: TactileConverter, context: ConversionContext) -> AudioClip:
-    """The tactile counterpart of a clip: equally long, same rate and credit, not scaled.
+    """Convert a clip to its tactile counterpart: same length, rate and credit, not scaled.
 
-    The beginning of the clip, mirrored in time, is played in first, so that filters are settled when it starts; its
-    offset, which is no sound, is not.
+    The beginning of the clip, mirrored in time and without its offset, is converted first, so that filters have settled
+    when the clip starts.
     Raises: AudioError: the converter returns more or fewer samples than it was given.
     """
     n_before = min(round(PRE_ROLL_S * clip.sample_rate_hz), len(clip.samples) - 1)

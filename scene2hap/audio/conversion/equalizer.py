@@ -10,16 +10,16 @@ from scene2hap.audio.clip import Samples
 from scene2hap.haptics import ActuatorProfile
 
 _LENGTH_S = 0.25
-"""Of the filter: it tells 4 Hz apart, a quarter of the band of the sharpest actuator known by name."""
+"""Length of the filter [s]: its resolution of 4 Hz is a quarter of the bandwidth of the sharpest built-in actuator."""
 
 Floats = NDArray[np.float64]
 
 
 class Equalizer:
-    """A `TactileStream` that makes up for an actuator's response, without delay and not scaled.
+    """A `TactileStream` that compensates an actuator's response, without delay and not scaled.
 
-    The filter has minimum phase: it never sounds before what it answers to. Blocks are convolved by overlap-save at
-    places that depend on the sample's number alone, so that how the sound was cut does not matter.
+    The filter has minimum phase, so that it has no pre-ringing. Blocks are convolved by overlap-save at places that
+    depend on the sample number alone, so that the block size has no effect on the result.
     Source: A. V. Oppenheim, R. W. Schafer, Discrete-Time Signal Processing, 3rd ed., sections 8.7 and 13.6.
     """
 
@@ -33,7 +33,7 @@ class Equalizer:
         self._n_waiting = 0
 
     def process(self, block: Samples) -> Samples:
-        """As many samples as complete the next blocks of its own."""
+        """Return the samples that complete the filter's next internal blocks."""
         self._waiting.append(np.asarray(block, dtype=np.float64))
         self._n_waiting += len(block)
         found = []
@@ -45,7 +45,7 @@ class Equalizer:
         return np.concatenate(found) if found else np.empty(0, dtype=np.float32)
 
     def finish(self) -> Samples:
-        """The rest."""
+        """Return the remaining samples."""
         waiting = np.concatenate([*self._waiting, np.zeros(self._hop - self._n_waiting)])
         return self._filtered(waiting)[: self._n_waiting]
 
@@ -57,7 +57,7 @@ class Equalizer:
 
 
 def _minimum_phase(actuator: ActuatorProfile, sample_rate_hz: int, n: int, size: int) -> Floats:
-    """The impulse response (n,), from the cepstrum of the gain with its later half folded onto the earlier."""
+    """Return the impulse response (n,), from the gain's cepstrum with its second half folded onto the first."""
     gain = inverse_db(actuator, np.fft.rfftfreq(size, 1.0 / sample_rate_hz)) * (np.log(10.0) / 20.0)
     cepstrum = np.fft.irfft(gain, size)
     cepstrum[1 : size // 2] *= 2.0

@@ -19,11 +19,11 @@ Block = NDArray[np.float32]
 
 
 class FeltLevel:
-    """Hears a vibration, for an actuator, and tells how far over the threshold of touch it is on the whole.
+    """Measures the sensation level of a vibration on an actuator, over its whole length.
 
-    The mean power of pieces of a second each stands for the components of `levels`. Before and after the sound there is
-    silence. Pieces overlap, and the slopes of their windows are sines, whose squares add up to 1: every sample counts
-    the same, also the first of a knock. Source: J. P. Princen, A. B. Bradley, IEEE Trans. ASSP 34 (1986) 1153.
+    The mean power of pieces of one second replaces the components of `levels`. The sound is preceded and followed by
+    silence. Pieces overlap with sine windows, whose squares add up to 1, so that every sample has the same weight, also
+    the first of a knock. Source: J. P. Princen, A. B. Bradley, IEEE Trans. ASSP 34 (1986) 1153.
     """
 
     def __init__(self, sample_rate_hz: int, channels: int, actuator: ActuatorProfile) -> None:
@@ -57,7 +57,7 @@ class FeltLevel:
                 self._filled = self._overlap
 
     def level_db(self) -> float:
-        """Of the channel that is felt most [dB], minus infinity for silence."""
+        """Return the sensation level of the strongest channel [dB], minus infinity for silence."""
         rest = self._segment.copy()
         rest[:, self._filled :] = 0.0
         energy = self._energy + self._heard(rest)
@@ -67,8 +67,8 @@ class FeltLevel:
         return 10.0 * math.log10(most) if most > 0.0 else -math.inf
 
     def _heard(self, piece: Block) -> NDArray[np.float64]:
-        """Of each channel of a piece (channels, n), the squares of its components' amplitudes over their thresholds,
-        summed over time [samples]."""
+        """Return, for each channel of a piece (channels, n), the squared ratios of its components' amplitudes to their
+        thresholds, summed over components and multiplied by time [samples]."""
         spectrum = scipy.fft.rfft(piece * self._window, axis=1)[:, self._inside]
         power = spectrum.real.astype(np.float64) ** 2 + spectrum.imag.astype(np.float64) ** 2
         # Both sides of the spectrum, and the square of an amplitude is twice its mean power (Parseval).

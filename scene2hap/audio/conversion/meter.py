@@ -13,15 +13,15 @@ Block = NDArray[np.float32]
 
 HEARD_RANGE_HZ = (10.0, 20_000.0)
 SEGMENT_S = 2.5
-"""Length of the pieces whose power spectra are averaged; peaks are found to 0.02 Hz in as much."""
+"""Length of the pieces whose power spectra are averaged [s]; peaks are then accurate to 0.02 Hz."""
 MOST_SEGMENTS = 4
-"""Of a longer sound this many pieces are looked at, spread evenly from its beginning to its end."""
+"""Most pieces that are analysed, spread evenly over the sound."""
 
 
 class Meter:
-    """Listens to blocks of any size.
+    """Measures a stream in blocks of any size.
 
-    Parameters: n_frames : how many are expected; n_columns : points of the envelope over as many, 0 for none.
+    Parameters: n_frames : expected number; n_columns : points of the envelope over these frames, 0 for no envelope.
     """
 
     def __init__(self, sample_rate_hz: int, channels: int, *, n_frames: int = 0, n_columns: int = 0) -> None:
@@ -40,10 +40,10 @@ class Meter:
         self._is_measured = False
 
     def hear(self, block: Block) -> None:
-        """Take in the next frames; one that is not finite makes the peak so."""
+        """Measure the next frames. A sample that is not finite makes the peak not finite."""
         if len(block) == 0:
             return
-        # Not max(): Python's ignores what is not a number.
+        # Not Python's max(), which ignores nan.
         self.peak = float(np.max([self.peak, block.max(), -block.min()]))
         if len(self.envelope):
             self._trace(block)
@@ -77,7 +77,7 @@ class Meter:
         return analysis.peak_frequency_hz(np.sqrt(self._power), bin_hz, (HEARD_RANGE_HZ[0], high))
 
     def _skip(self, at: int, end: int) -> int:
-        """Where in the block the next segment begins or goes on; `end` where it does not."""
+        """Return where in the block the next segment begins or continues; `end` if it does not."""
         if not self._starts:
             return end
         return at if self._filled else min(end, max(at, self._starts[0] - self.n_frames))
@@ -88,7 +88,7 @@ class Meter:
         self._is_measured = True
 
     def _trace(self, block: Block) -> None:
-        """Put the largest absolute sample of each column's frames into the envelope."""
+        """Update the envelope with the largest absolute sample of each column's frames."""
         places = (self.n_frames + np.arange(len(block))) * len(self.envelope) // self.n_expected
         places = np.minimum(places, len(self.envelope) - 1)
         first = np.flatnonzero(np.diff(places, prepend=-1))

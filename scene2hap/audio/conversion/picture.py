@@ -1,4 +1,4 @@
-"""Picture of a conversion: spectrograms before and after on one scale, both envelopes, and what is felt of it."""
+"""Picture of a conversion: spectrograms before and after on one scale, both envelopes, and the threshold of touch."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Font = ImageFont.FreeTypeFont | ImageFont.ImageFont
 WIDTH, LANE, ENVELOPE, MARGIN, TOP = 900, 240, 110, 80, 44
 LOWEST_HZ, HIGHEST_HZ = 10.0, 20_000.0
 DEPTH_DB = 80.0
-"""From the loudest place of both sounds, and from full scale, down to what is drawn."""
+"""Dynamic range of the picture [dB], below the loudest place of both sounds and below full scale."""
 WINDOW_S = 0.1
 BLOCK_FRAMES = 65_536
 _INK, _GRID, _FELT = "#22313f", "#d5dbe1", "#00a0a0"
@@ -41,11 +41,11 @@ def draw_conversion(
 ) -> None:
     """Draw sound and touch of a file one above the other, and save it as PNG.
 
-    Both spectrograms share one scale. What is strongest in the touch has a line, and so has, in its envelope, the least
-    drive of that frequency that is felt on the actuator. `sensation` is written above the touch.
+    Both spectrograms share one scale. A line marks the dominant frequency of the vibration, and a line in its envelope
+    the threshold of touch at that frequency on the actuator. `sensation` is written above the vibration.
 
-    `felt` is the converted file; `meters` heard both and hold their envelopes (n_columns,). Each of `WIDTH` columns of
-    a spectrogram is one window at its place in the file, so that memory does not grow with length.
+    `felt` is the converted file; `meters` have measured both and hold their envelopes (n_columns,). Each of the `WIDTH`
+    columns of a spectrogram is one window of the file, so that memory does not grow with its length.
     """
     height = TOP + 2 * (LANE + ENVELOPE + 46) + 30
     image = Image.new("RGB", (MARGIN + WIDTH + 20, height), "white")
@@ -118,12 +118,12 @@ def _frequency_axis(draw: ImageDraw.ImageDraw, top: int, highest_hz: float, font
 
 
 def _row(hz: float, highest_hz: float) -> float:
-    """Where a frequency is in a spectrogram, from its top."""
+    """Return the row of a frequency in a spectrogram, from its top."""
     return float((LANE - 1) * np.log(highest_hz / hz) / np.log(highest_hz / LOWEST_HZ))
 
 
 def _depth(level_db: float) -> float:
-    """Where a level [dB re full scale] is in an envelope, from its top."""
+    """Return the height of a level [dB re full scale] in an envelope, from its top."""
     return float(np.clip(-level_db / DEPTH_DB, 0.0, 1.0) * (ENVELOPE - 8) + 4)
 
 

@@ -1,8 +1,8 @@
-"""One sound file through a converter, block by block: memory does not grow with its length.
+"""Conversion of one sound file, block by block, so that memory does not grow with its length.
 
-The converter hears the sound without its offset. What it makes is then equalized for the actuator and brought to the
-level of its source, as the loops of a scene are (`felt_loop`). The level is known at the end only, so that the
-vibration waits on the disk until then.
+The converter gets the sound without its offset. Its output is equalized for the actuator and scaled to the level of the
+source, as the loops of a scene are (`felt_loop`). The level is known at the end only, so the vibration is stored in a
+temporary file until then.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ FORMATS = {
     ".ogg": ("OGG", "VORBIS"),
     ".mp3": ("MP3", "MPEG_LAYER_III"),
 }
-"""Format and coding of what is written, by suffix; any of them is read."""
+"""Format and coding of output files, by suffix; input files may have any of them."""
 
 BLOCK_FRAMES = 65_536
 _FULL_SCALE = 2.0**23
@@ -59,22 +59,22 @@ _NOTHING_DB = -120.0
 """Below this level there are only errors of rounding."""
 _OFFSET_FRAMES = 65_536
 _LOOK_S = 10.0
-"""So much of a file is looked at for its own frequency, before it is converted."""
+"""Length of the part of a file that is analysed for its own frequency, before the conversion [s]."""
 _SLOWEST_HZ = 1.0
-"""What is slower than this is an offset; touch begins at 10 Hz, where it takes 0.04 dB."""
+"""Cut-off below which a component counts as offset; its removal costs 0.04 dB at 10 Hz, where touch begins."""
 _LARGEST_WAV_BYTES = 0xFFFF_0000
-"""Lengths in a WAV header have 32 bits; what may not fit becomes RF64 (EBU Tech 3306), which most programs read."""
+"""Lengths in a WAV header have 32 bits. Longer files become RF64 (EBU Tech 3306), which most programs read."""
 
 
 @dataclass(frozen=True)
 class Conversion:
     """Result of converting a file. Peaks are absolute samples [re full scale], before clipping.
 
-    `n_clipped` samples were beyond full scale and were written as full scale. `level_db` is how far over the threshold
-    of touch the vibration is on the whole [dB], of `asked_level_db`, which head-room may forbid. It is None for
-    silence, for `raw`, and where the sound, or what the converter leaves of it, is the noise of a recording
-    (`levels.is_noise`), which is not lifted. A dominant frequency is that of the mean power spectrum of all channels,
-    10 Hz to 20 kHz; None for silence. `picture` is None where none was drawn.
+    `n_clipped` samples were beyond full scale and were written as full scale. `level_db` is the sensation level of the
+    vibration [dB]; the head-room may keep it below `asked_level_db`. It is None for silence, for `raw`, and if sound or
+    vibration are only the noise of a recording (`levels.is_noise`), which is not amplified. Dominant frequencies are
+    those of the mean power spectrum of all channels, 10 Hz to 20 kHz; None for silence. `picture` is None if none was
+    drawn.
     """
 
     source: Path
@@ -105,17 +105,17 @@ def convert(
     picture: str | Path | None = None,
     raw: bool = False,
 ) -> Conversion:
-    """Turn a sound file into a tactile one, equally long and at the same rate; written whole or not at all.
+    """Convert a sound file to a tactile one of the same length and rate; written whole or not at all.
 
     Parameters:
     source : WAV, FLAC, Ogg or MP3, of at most `audio.files.MAX_FILE_SAMPLES`.
     output : its suffix (`FORMATS`) chooses the format.
-    converter : a kind, a mapping with a `kind` and its settings, or one ready made; each channel gets its own stream.
-    actuator : a profile, its name, or a CSV file of its response, which is made up for; intensity : of the source, 0..1
-    [-], which sets the level that is felt (`sensation_level_db`).
+    converter : a kind, a mapping with a `kind` and its settings, or an instance; each channel gets its own stream.
+    actuator : a profile, its name, or a CSV file of its response, which is compensated; intensity : of the source, 0..1
+    [-], which sets the sensation level (`sensation_level_db`).
     mono : mix the channels by their mean first; overwrite : replace files that exist.
-    picture : a PNG to draw: spectrograms before and after, and both envelopes; raw : the converter alone, which
-    hears the sound as it is, and is neither equalized nor scaled.
+    picture : a PNG to draw: spectrograms before and after, and both envelopes; raw : apply the converter alone, without
+    removal of the offset, equalization and scaling.
     Raises: ConfigError: settings that cannot work. AudioError: `source` cannot be read or holds a sample that is not
     finite, `output` exists or cannot be written, or the converter changes the length.
     """
@@ -163,7 +163,8 @@ def convert(
 
 
 def _looked_at(file: soundfile.SoundFile, context: ConversionContext) -> ConversionContext:
-    """The context with the source's own frequency, from the middle of the file; else a converter tracks it."""
+    """Return the context with the source's own frequency, found in the middle of the file; unchanged if none is found,
+    so that the converter tracks it."""
     n = round(_LOOK_S * file.samplerate)
     file.seek(max(0, int(file.frames) - n) // 2)
     heard = file.read(n, dtype="float32", always_2d=True).mean(axis=1, dtype=np.float64)
@@ -177,7 +178,7 @@ def _looked_at(file: soundfile.SoundFile, context: ConversionContext) -> Convers
 
 
 def settled(converter: object, actuator: object, intensity: float) -> tuple[TactileConverter, ConversionContext]:
-    """The converter and its context. Raises: ConfigError: settings that cannot work."""
+    """Return the converter and its context. Raises: ConfigError: settings that cannot work."""
     built = CONVERTERS.build(converter)
     if not isinstance(built, TactileConverter):
         raise ConfigError(f"converter is {built!r}; it has no stream. Name a kind: {', '.join(CONVERTERS.kinds())}.")
@@ -186,7 +187,7 @@ def settled(converter: object, actuator: object, intensity: float) -> tuple[Tact
 
 
 class _Felt:
-    """A conversion under way: a stream per channel, and a meter on either side."""
+    """A running conversion: a stream for each channel, a meter for the sound and one for the vibration."""
 
     def __init__(
         self,
@@ -213,7 +214,7 @@ class _Felt:
         ]
 
     def blocks(self, source: Path, file: soundfile.SoundFile) -> Iterator[Block]:
-        """The converted file (n, channels), as the converter makes it."""
+        """Yield the output of the converter in blocks (n, channels)."""
         stated, n_read = int(file.frames), 0
         rests = [] if self._raw else [_Rest(self.rate, offset) for offset in self._offsets(file)]
         while len(block := file.read(BLOCK_FRAMES, dtype="float32", always_2d=True)):
@@ -239,7 +240,7 @@ class _Felt:
             )
 
     def _offsets(self, file: soundfile.SoundFile) -> list[float]:
-        """Of each channel, over the beginning of the file."""
+        """Return the offset of each channel at the beginning of the file."""
         head = file.read(_OFFSET_FRAMES, dtype="float32", always_2d=True)
         file.seek(0)
         if not len(head) or not np.isfinite(head).all():  # converting it will say so
@@ -255,13 +256,13 @@ class _Felt:
         return np.stack(channels, axis=1).astype(np.float32, copy=False)
 
     def hear_after(self, block: Block) -> None:
-        """Meter what is written."""
+        """Measure a block of the output."""
         self.after.hear(block)
         if self.after.peak > 1.0:
             self._n_clipped += int(np.count_nonzero(np.abs(block) > 1.0))
 
     def sensation(self, context: ConversionContext) -> Sensation | None:
-        """How the vibration is felt, and where; None for what was not brought to a level."""
+        """Return how the vibration is felt, None if it was not scaled to a level."""
         if self.level_db is None:
             return None
         own_hz, target_hz = context.own_hz, context.target_hz or context.own_hz
@@ -270,12 +271,12 @@ class _Felt:
 
     @property
     def n_clipped(self) -> int:
-        """Samples that were cut to full scale, by a stream that counts them or afterwards."""
+        """The number of samples that were clipped to full scale, by the streams or on writing."""
         return self._n_clipped + sum(getattr(stream, "n_clipped", 0) for stream in self._streams)
 
 
 class _Rest:
-    """The offset of a recording, which is no sound: what it is at first, followed slowly from there."""
+    """Removes the offset of a recording: a high-pass that starts at the offset of the beginning."""
 
     def __init__(self, sample_rate_hz: int, at_first: float) -> None:
         share = 1.0 / (1.0 + 2.0 * math.pi * _SLOWEST_HZ / sample_rate_hz)
@@ -283,14 +284,17 @@ class _Rest:
         self._state = lfilter_zi(*self._filter) * at_first
 
     def taken_out(self, samples: NDArray[np.float32]) -> NDArray[np.float32]:
-        """The next samples (n,) without it."""
+        """Return the next samples (n,) without the offset."""
         found, self._state = lfilter(*self._filter, samples, zi=self._state)
         without: NDArray[np.float32] = found.astype(np.float32)
         return without
 
 
 def _at_level(blocks: Iterator[Block], felt: _Felt, context: ConversionContext, held: IO[bytes]) -> Iterator[Block]:
-    """The blocks, equalized, at the level of their source or as near below as their peaks allow; kept in a file."""
+    """Yield the blocks, equalized and scaled to the level of their source, or to the peak limit if that is lower.
+
+    All blocks go through the temporary file `held`, since the gain follows from the whole sound.
+    """
     heard = FeltLevel(felt.rate, felt.channels, context.actuator)
     for block in blocks if is_flat(context.actuator) else _equalized(blocks, felt, context):
         heard.hear(block)
@@ -313,7 +317,7 @@ def _equalized(blocks: Iterator[Block], felt: _Felt, context: ConversionContext)
 
 
 def _steps(block: Block, *, is_beyond: bool) -> NDArray[np.int32]:
-    """24-bit integers in the upper bits of int32, on the scale of `files.write_wav`; beyond full scale, full scale."""
+    """Return 24-bit integers in the upper bits of int32, on the scale of `files.write_wav`; clipped if `is_beyond`."""
     scaled = block * np.float32(_FULL_SCALE)
     np.rint(scaled, out=scaled)
     if is_beyond:

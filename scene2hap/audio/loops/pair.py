@@ -1,4 +1,4 @@
-"""A clip as a loop to hear and a loop to feel, cut by one seam."""
+"""The audible and the tactile loop of a clip, cut by one seam."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ AUDIBLE_PEAK_DBFS = -1.0
 """Peak of every audible loop [dB re 1]; the usual margin for players that resample."""
 
 _RUN_UP_S = 2.0
-"""Assumed: filters that touch can tell settle within a tenth of this."""
+"""Run-up of converters [s] (assumed: their transients decay to imperceptibility within a tenth of this)."""
 
 AUDIBLE_RANGE_HZ = (20.0, 20_000.0)
 
 
 def middle_of(clip: AudioClip) -> AudioClip:
-    """The middle of a clip, as much as a loop of the greatest length needs with a run-up for converters before it.
+    """Return the middle of a clip, long enough for the longest loop and a run-up for converters on either side.
 
-    The seam is looked for in the middle anyway, so that what is cut off is never heard.
+    The seam search uses the middle alone, so the rest of the clip would never be heard.
     """
     n = round((MAX_LOOP_S + CROSSFADE_S + 2.0 * _RUN_UP_S) * clip.sample_rate_hz)
     if len(clip.samples) <= n:
@@ -41,7 +41,7 @@ def middle_of(clip: AudioClip) -> AudioClip:
 
 
 def make_loop(clip: AudioClip) -> AudioClip:
-    """A clip as an endless loop, at its own level. Raises: AudioError: shorter than `MIN_CLIP_S`."""
+    """Return a clip as an endless loop, at its own level. Raises: AudioError: shorter than `MIN_CLIP_S`."""
     return replace(clip, samples=apply_seam(clip.samples, find_seam(clip.samples, clip.sample_rate_hz)))
 
 
@@ -51,15 +51,15 @@ def loop_pair(
     context: ConversionContext,
     finish: Callable[[Samples], Samples] | None = None,
 ) -> HapticLoop:
-    """The audible and the tactile loop of a clip, cut at the same place.
+    """Make the audible and the tactile loop of a clip, cut at the same place.
 
-    The whole clip is converted before it is cut, so that a converter's start-up lies outside the loop. The seam suits
-    both signals; each is faded by the law that suits it. The audible loop peaks at `AUDIBLE_PEAK_DBFS`, the tactile one
-    at `context.intensity` times full scale less `TACTILE_HEADROOM_DB`; if the converter leaves only the noise of the
-    recording (`levels.is_noise`), this is not lifted. A clip that is a vibration already is looped whole, and
-    converted only to move it.
+    The whole clip is converted before it is cut, so that a converter's transient lies outside the loop. The seam is
+    chosen for both signals; each has its own fade law. The audible loop peaks at `AUDIBLE_PEAK_DBFS`, the tactile one
+    at `context.intensity` times full scale less `TACTILE_HEADROOM_DB`. If the converter leaves only the recording's
+    noise (`levels.is_noise`), it is not amplified. A clip that is a vibration already is looped whole, and converted
+    only if its frequency moves.
 
-    Parameters: finish : what is done to the tactile loop last, such as equalizing it for an actuator.
+    Parameters: finish : last step for the tactile loop, such as equalizing it for an actuator.
     Raises: AudioError: the clip is shorter than `MIN_CLIP_S` or silent, or its conversion is.
     """
     intensity = checks.number("intensity", context.intensity, "-", above=0.0, at_most=1.0, error=AudioError)

@@ -2,13 +2,13 @@
 
     y = (w_in a + w_out b) / sqrt(w_in^2 + w_out^2 + 2 r w_in w_out),     r = <a, b> / (|a| |b|)
 
-Stretches that are alike (r = 1) keep their level under a linear fade, w_in + w_out = 1, unrelated ones (r = 0) under an
-equal-power one, w_in^2 + w_out^2 = 1; the root is 1 in both cases, and between them it takes away what is left of the
-dip or the bump, up to 1.2 dB.
+Equal stretches (r = 1) keep their level under a linear fade, w_in + w_out = 1, uncorrelated ones (r = 0) under an
+equal-power fade, w_in^2 + w_out^2 = 1. The root is 1 in both cases. Between them it removes the remaining dip or bump
+of up to 1.2 dB.
 
-A sound that has become softer or louder by T dB from one stretch to the other is tilted back along the loop, by a gain
-of T (i / L - 1/2) dB at sample i of L, so that both stretches are equally loud. Levels are medians over 20 ms, which a
-tick in one of the stretches leaves alone, and up to 1 dB nothing is tilted: a tone keeps its amplitude exactly.
+If the level changes by T dB from one stretch to the other, a gain of T (i / L - 1/2) dB at sample i of L tilts the loop
+back, so that both stretches are equally loud. Levels are medians over 20 ms, which a single tick does not change. Up to
+1 dB nothing is tilted, so that a tone keeps its amplitude exactly.
 Source: M. Fink, M. Holters, U. Zölzer, "Signal-matched power-complementary cross-fading and dry-wet mixing", DAFx 2016.
 """
 
@@ -29,20 +29,19 @@ FadeLaw = Literal["linear", "equal-power"]
 _ALIKE = 0.5
 """Correlation above which a fade is linear."""
 _LEVEL_PARTS = 10
-"""Parts of a stretch of which the median level counts: 20 ms of 200."""
+"""Parts of a stretch over which the level's median is taken: 20 ms of 200."""
 _LEVEL_FREE_DB, _MOST_TILTED_DB = 1.0, 12.0
-"""Differences that are not tilted away, since nobody notices them, and the most that is."""
+"""Level differences that are imperceptible and stay, and the largest one that is tilted."""
 _MOST_OPPOSED = -0.5
-"""Stretches more opposed than this are not brought to full power: the gain would lift what does not cancel by 3 dB."""
+"""Least correlation for the constant-power gain; below it the gain would lift the remainder by more than 3 dB."""
 
 
 @dataclass(frozen=True)
 class Seam:
-    """Where a loop is cut and how it is closed: first sample, length and crossfade length [samples], and fade law.
+    """The cut of a loop and its cross-fade: first sample, length and crossfade length [samples], and fade law.
 
-    `correlation` -1..1 [-] is that of the stretches faded into each other; None stands for 1 where the law is linear
-    and 0 where it is equal-power, to which each law is made. `tilt_db` is what the end of the loop is lifted by against
-    its beginning [dB].
+    `correlation` -1..1 [-] is that of the two cross-faded stretches; None means 1 for the linear law and 0 for the
+    equal-power law. `tilt_db` is the gain of the loop's end relative to its beginning [dB].
     """
 
     start: int
@@ -61,11 +60,11 @@ class Seam:
 
     @property
     def n_samples_needed(self) -> int:
-        """Least number of samples of a signal for this seam."""
+        """The least number of samples of a signal for this seam."""
         return self.start + self.length + self.crossfade
 
     def fitted(self, samples: ArrayLike) -> Seam:
-        """The same place with the law, correlation and tilt of another signal (n,), cut in step with the first."""
+        """Return a seam at the same place, with the law, correlation and tilt that suit another signal (n,)."""
         x = _signal(samples, self)
         a, b = _stretches(x - x.mean(), self)
         energy = float(np.sqrt((a @ a) * (b @ b)))
@@ -75,7 +74,7 @@ class Seam:
 
 
 def apply_seam(samples: ArrayLike, seam: Seam) -> Samples:
-    """The loop (seam.length,) that a seam cuts from a signal (n,). Raises: AudioError: it is too short for the seam."""
+    """Cut the loop (seam.length,) from a signal (n,). Raises: AudioError: it is too short for the seam."""
     x = _tilted(_signal(samples, seam), seam)
     loop = x[seam.start : seam.start + seam.length].copy()
     ahead, behind = _stretches(x, seam)
@@ -85,7 +84,7 @@ def apply_seam(samples: ArrayLike, seam: Seam) -> Samples:
 
 
 def _tilt_db(ahead: NDArray[np.float64], behind: NDArray[np.float64]) -> float:
-    """By how much the stretch ahead is louder than the one behind, 0 where that is not noticed [dB]."""
+    """Return how much louder the stretch ahead is than the one behind [dB], 0 if the difference is imperceptible."""
     n = len(ahead) // _LEVEL_PARTS
     if n < 1:
         return 0.0
@@ -116,7 +115,7 @@ def _weights(seam: Seam) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def _stretches(x: NDArray[np.float64], seam: Seam) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The samples that begin the loop, and as many behind its end."""
+    """Return the samples that begin the loop, and as many that follow its end."""
     end = seam.start + seam.length
     return x[seam.start : seam.start + seam.crossfade], x[end : end + seam.crossfade]
 

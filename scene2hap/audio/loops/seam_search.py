@@ -1,13 +1,13 @@
-"""Search for the place where a sound continues as it began: the seam of a loop.
+"""Search for the seam of a loop: the place where a sound continues as it began.
 
-Likeness of two stretches with spectra A and B is 2 Re sum(W A* B) / (sum(W |A|^2) + sum(W |B|^2)): 1 where they are
-equal, less where shape *or level* differ, averaged over all the signals that share the seam. W is the sound's own mean
-power spectrum: a hum under hiss is heard and felt as a hum, and unless it counts more than its hiss, chance likeness of
-the hiss decides and the hum wraps out of phase. The search takes two steps:
+The similarity of two stretches with spectra A and B is 2 Re sum(W A* B) / (sum(W |A|^2) + sum(W |B|^2)), averaged over
+all signals that share the seam. It is 1 if they are equal, less if shape *or level* differ. W is the sound's mean power
+spectrum. Without this weight, chance similarity of hiss would decide, and a hum under it would wrap out of phase. The
+search takes two steps:
 
-1. coarsely, at 8 kHz, for twelve starts and every length from half to all of what is left behind them;
-2. at the full rate, around those lengths where the coarse curve, a cosine through each of its peaks, promises most at
-   a whole number of samples.
+1. coarse, at 8 kHz: twelve starts, and every length from half to all of the sound behind them;
+2. at the full rate: those lengths for which a cosine through a peak of the coarse curve is highest at a whole number
+   of samples.
 """
 
 from __future__ import annotations
@@ -27,32 +27,33 @@ Signal = NDArray[np.float64]
 
 MIN_CLIP_S = 0.1
 MAX_LOOP_S = 10.0
-"""Longer sounds give a loop from their middle; assumed: nobody notices the return after ten seconds."""
+"""Longest loop [s], cut from the middle of a longer sound (assumed: a repetition after 10 s is not noticed)."""
 CROSSFADE_S = 0.2
-"""Length of the fade and of the stretches that are compared; at most an eighth of the clip. Assumed: four cycles at
-20 Hz."""
+"""Length of the fade and of the compared stretches [s]; at most an eighth of the clip (assumed: four cycles at
+20 Hz)."""
 
 _SHORTEST_SHARE = 0.5
 _EDGE_S = 0.02
 _EDGE_SHARE = 0.02
-"""What is left out at either end, of the sound at most this share: there filters settle and recordings are faded."""
+"""Largest share of the sound that is skipped at either end, where filters settle and recordings are faded."""
 _N_STARTS = 12
 _FEWEST_SAMPLES = 16
 _COARSE_HZ = 8000.0
 _N_REFINED = 96
-"""Of a tone of 1 kHz at 16 kHz one length in twenty wraps within half a degree; there must be some among these."""
+"""Candidates of the second step. For a tone of 1 kHz at 16 kHz one length in twenty wraps within half a degree; the
+candidates must include some of these."""
 _AS_GOOD = 3e-5
-"""Seams whose likeness is this close to the best are as good, and the longest of them wins: a tone out of phase by 0.44
-degrees differs by as much."""
+"""Differences of similarity that count as equal; then the longest loop wins. A phase error of 0.44 degrees in a tone
+gives this difference."""
 _LONG_SHARES, _WORTH_LENGTH = (0.8, 0.65), 0.5
-"""A loop that takes so much of the clip is preferred if it lacks at most half more in likeness than the best one: of
-noise all seams are alike, and what returns later is noticed later. A rhythm has few seams, long or not."""
+"""A loop longer than this share of the clip is preferred if its dissimilarity exceeds the best one's by at most half.
+In noise all seams are alike, and a longer loop is noticed later. A rhythm has few seams, long or not."""
 _SILENT = 1e-9
-"""Of the whole energy; below, likeness would be a ratio of rounding errors."""
+"""Share of the whole energy below which the similarity would be a ratio of rounding errors."""
 
 
 def find_seam(samples: ArrayLike, sample_rate_hz: float, *others: ArrayLike) -> Seam:
-    """The best place to close a sound (n,) into a loop; `others` are signals of the same length that shall share it.
+    """Return the best seam of a sound (n,); `others` are signals of the same length that share it.
 
     The law of the fade follows from the first signal; `Seam.fitted` gives that of the others. Work is bounded by
     `MAX_LOOP_S`, however long the sound.
@@ -86,7 +87,7 @@ def find_seam(samples: ArrayLike, sample_rate_hz: float, *others: ArrayLike) -> 
 
 
 def _mean_power(x: Signal, width: int) -> Signal:
-    """Mean power spectrum of stretches of `width` samples, (width // 2 + 1,), without the offset; largest value 1."""
+    """Return the mean power spectrum (width // 2 + 1,) of stretches of `width` samples, without offset, maximum 1."""
     frames = sliding_window_view(x, width)[:: max(1, width // 2)]
     power = np.mean(np.abs(scipy.fft.rfft(frames * np.hanning(width + 2)[1:-1], axis=1)) ** 2, axis=0)
     power[0] = 0.0
@@ -94,7 +95,7 @@ def _mean_power(x: Signal, width: int) -> Signal:
 
 
 def _promising(signals: Sequence[Signal], weights: Sequence[Signal], fade: int, ratio: float) -> NDArray[np.int64]:
-    """Starts and lengths (n, 2) worth a closer look [samples], best first."""
+    """Return starts and lengths (n, 2) [samples] for the second step, best first."""
     size = scipy.fft.next_fast_len(len(signals[0]), real=True)
     coarse_size = scipy.fft.next_fast_len(max(_FEWEST_SAMPLES, round(ratio * size)), real=True)
     scale = size / coarse_size
@@ -104,7 +105,7 @@ def _promising(signals: Sequence[Signal], weights: Sequence[Signal], fade: int, 
     likeness = np.zeros((_N_STARTS, n - width + 1))
     for x, weight in zip(signals, weights, strict=True):
         spectrum = scipy.fft.rfft(x, size)
-        # A filter without phase, the root of the weights, stands for them; it blurs the ends, which `_refined` mends.
+        # A zero-phase filter with the root of the weights replaces them here. It blurs the ends; `_refined` is exact.
         root = np.interp(np.linspace(0, 1, len(spectrum)), np.linspace(0, 1, len(weight)), np.sqrt(weight))
         plain, strong = (scipy.fft.irfft(part, coarse_size)[:n] for part in (spectrum, spectrum * root))
         likeness = likeness + _likeness(strong, plain, width, starts) / len(signals)
@@ -116,7 +117,7 @@ def _promising(signals: Sequence[Signal], weights: Sequence[Signal], fade: int, 
         heights, lengths = _at_whole_samples(curve, peaks, shortest, scale)
         found.append(np.stack([heights, np.full(len(peaks), round(start * scale)), lengths], axis=1))
     rows = np.concatenate(found)
-    # Of equal promise the longer first: what returns later is noticed later.
+    # Of equal similarity the longer first: a longer loop is noticed later.
     order = np.lexsort((-rows[:, 2], -np.round(rows[:, 0] / _AS_GOOD)))
     length, longest = rows[order, 2], len(signals[0]) - fade
     chosen = [order[length >= share * longest][:_N_REFINED] for share in (*_LONG_SHARES, 0.0)]
@@ -124,8 +125,8 @@ def _promising(signals: Sequence[Signal], weights: Sequence[Signal], fade: int, 
 
 
 def _likeness(x: Signal, plain: Signal, width: int, starts: NDArray[np.int64]) -> Signal:
-    """How alike the stretches of x (n,) at `starts` are to all others, (n_starts, n - width + 1); 0 where `plain` is
-    silent in both."""
+    """Return the similarity (n_starts, n - width + 1) of the stretches of x (n,) at `starts` to all others; 0 where
+    `plain` is silent in both."""
     size = scipy.fft.next_fast_len(len(x) + width, real=True)
     stretches = scipy.fft.rfft(x[starts[:, None] + np.arange(width)], size, axis=1)
     products = scipy.fft.irfft(stretches.conj() * scipy.fft.rfft(x, size), size, axis=1)[:, : len(x) - width + 1]
@@ -136,19 +137,19 @@ def _likeness(x: Signal, plain: Signal, width: int, starts: NDArray[np.int64]) -
 
 
 def _moving_energy(x: Signal, width: int) -> Signal:
-    """Energy of every stretch of `width` samples, (n - width + 1,)."""
+    """Return the energy (n - width + 1,) of every stretch of `width` samples."""
     squares = np.cumsum(np.concatenate([[0.0], x**2]))
     return np.asarray(squares[width:] - squares[:-width])
 
 
 def _peaks(curve: Signal) -> NDArray[np.int64]:
-    """Indices of the local maxima of a curve, ends included."""
+    """Return the indices of the local maxima of a curve, ends included."""
     padded = np.concatenate([[-np.inf], curve, [-np.inf]])
     return np.flatnonzero((padded[1:-1] >= padded[:-2]) & (padded[1:-1] > padded[2:]))
 
 
 def _at_whole_samples(curve: Signal, peaks: NDArray[np.int64], first: int, scale: float) -> tuple[Signal, Signal]:
-    """For each peak the best whole number of samples at the full rate, and what a cosine promises there."""
+    """Return, for each peak, the best whole number of samples at the full rate, and the cosine's value there."""
     inner = np.clip(peaks, 1, max(1, len(curve) - 2))
     left, centre, right = (curve[np.clip(inner + step, 0, len(curve) - 1)] for step in (-1, 0, 1))
     centre = np.maximum(centre, 1e-9)
@@ -162,7 +163,7 @@ def _at_whole_samples(curve: Signal, peaks: NDArray[np.int64], first: int, scale
 def _refined(
     signals: Sequence[Signal], weights: Sequence[Signal], fade: int, candidates: NDArray[np.int64]
 ) -> list[tuple[float, int, int]]:
-    """Likeness, length and start of each candidate."""
+    """Return similarity, length and start of each candidate."""
     starts, lengths = np.unique(candidates, axis=0).T
     lengths = np.clip(lengths, fade, len(signals[0]) - fade - starts)
     likeness = np.mean([_exactly(x, w, fade, starts, lengths) for x, w in zip(signals, weights, strict=True)], axis=0)
@@ -170,7 +171,7 @@ def _refined(
 
 
 def _exactly(x: Signal, weights: Signal, width: int, starts: NDArray[np.int64], lengths: NDArray[np.int64]) -> Signal:
-    """Likeness of the stretches at `starts` and of those `lengths` behind them, (n,)."""
+    """Return the similarity (n,) of the stretches at `starts` and of those `lengths` behind them."""
     stretches = sliding_window_view(x, width)
     places, of_start = np.unique(starts, return_inverse=True)
     ahead = scipy.fft.rfft(stretches[places], axis=1)
@@ -189,7 +190,7 @@ def _power(spectra: NDArray[np.complex128], weights: Signal) -> Signal:
 
 
 def _centred(samples: ArrayLike) -> Signal:
-    """Without its mean: an offset correlates with itself everywhere and would drown the search."""
+    """Return the samples without their mean: an offset correlates with itself everywhere and would mask all else."""
     x = np.asarray(samples, dtype=np.float64)
     if x.ndim != 1 or x.size == 0:
         raise AudioError(f"samples has shape {x.shape}; a loop is cut from one channel, (n,).")

@@ -1,4 +1,4 @@
-"""A hand-made clip as a loop: all of it, closed where its last cycle ends."""
+"""The loop of a hand-made clip: the whole clip, closed at the end of its last cycle."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ import numpy as np
 from scene2hap.audio.clip import Samples
 
 _LAST_CYCLE_S = 0.025
-"""Where the end of the last cycle is looked for; assumed: nobody feels a clip as shorter by one cycle at 40 Hz."""
+"""Stretch at the end in which the last cycle may end [s] (assumed: the loss of one cycle at 40 Hz is not felt)."""
 _FADE_S = 0.005
 _AT_REST = 1e-3
-"""Of the peak: below, the clip has ended by itself."""
+"""Share of the peak below which the clip is at rest at its end."""
 
 
 def whole_loop(samples: Samples, sample_rate_hz: float) -> Samples:
-    """The clip (n,) without the rest of its last cycle, so that its beginning continues it; (m,), m <= n.
+    """Cut a clip (n,) at the end of its last whole cycle, so that its beginning continues it; (m,), m <= n.
 
-    A clip begins at a rising zero, as one that was synthesized from curves does. One that ends at rest is left alone,
-    and one without such a zero near its end is faded out.
+    The clip must begin at a rising zero crossing, as one synthesized from curves does. A clip that ends at rest is
+    unchanged. A clip without a rising zero crossing near its end is faded out.
     """
     n_last = min(len(samples) // 2, round(_LAST_CYCLE_S * sample_rate_hz))
     tail = samples[len(samples) - n_last :]
@@ -25,7 +25,7 @@ def whole_loop(samples: Samples, sample_rate_hz: float) -> Samples:
         return samples
     rising = np.flatnonzero((tail[:-1] <= 0.0) & (tail[1:] > 0.0))
     if rising.size:
-        # The zero lies between two samples; the one nearer to it is where the clip begins again.
+        # The zero crossing lies between two samples. The loop ends at the nearer one.
         k = int(rising[-1])
         return samples[: len(samples) - n_last + k + int(tail[k + 1] < -tail[k])].copy()
     faded = samples.copy()

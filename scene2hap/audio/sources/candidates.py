@@ -6,7 +6,7 @@ from scene2hap import checks
 from scene2hap.errors import ConfigError
 
 MAX_CANDIDATES = 5
-"""As many as the paper retrieves, and as many as it generates."""
+"""Most candidates: the number that the paper retrieves, and that it generates."""
 
 
 def how_many(name: str, value: object) -> int:

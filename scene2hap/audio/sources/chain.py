@@ -29,7 +29,7 @@ class SourceWarning(UserWarning):
 
 
 def _clips(found: object) -> list[AudioClip]:
-    """What a source found. Raises: AudioError: it is no list of clips."""
+    """Check the result of a source. Raises: AudioError: it is no list of clips."""
     if not isinstance(found, list | tuple) or not all(isinstance(clip, AudioClip) for clip in found):
         raise AudioError(f"find gave {checks.described(found)}; it must give a list of AudioClip, which may be empty.")
     return list(found)
@@ -51,7 +51,7 @@ def gather(
         try:
             clips = _clips(source.find(description))
         except Exception as cause:
-            # Guests raise what they like; a broken source must not end a bake that another one can finish.
+            # Plug-ins may raise anything; a broken source must not end a bake that another source can finish.
             reason = str(cause) if isinstance(cause, Scene2HapError) else f"{type(cause).__name__}: {cause}"
             fates.append(f"{name} failed: {reason}")
             _LOG.info("%s: no sound from %s: %s", subject, name, reason)

@@ -1,7 +1,7 @@
 """On-disk cache of results of services, so that no request is sent or paid for twice.
 
-Every file is written whole or not at all, and read back as carefully as if a stranger had written it: what does not
-hold counts as absent.
+Every file is written whole or not at all, and validated as untrusted data when it is read: an invalid file counts as
+absent.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from scene2hap.audio.select import MIN_DURATION_S
 from scene2hap.errors import AudioError, ConfigError
 
 MAX_CLIP_S = 60.0
-"""Longest sound that a service may hand over [s]; assumed: a loop takes ten."""
+"""Longest sound from a service [s] (assumed: a loop takes ten)."""
 MAX_CHANNELS = 8
 SAMPLE_RATES_HZ = (4_000, 192_000)
 
@@ -33,24 +33,24 @@ _MAX_JSON_BYTES = 4_000_000
 
 
 def digest(document: Any) -> str:
-    """A name for what a result depends on: equal JSON, equal name."""
+    """Return a digest of the inputs of a result; equal JSON gives equal digests."""
     text = json.dumps(document, sort_keys=True, separators=(",", ":"), ensure_ascii=True, allow_nan=False)
     return hashlib.sha256(text.encode()).hexdigest()[:40]
 
 
 def plain_line(text: object, longest: int = 200) -> str:
-    """A stranger's text as one line that a credits file can hold: no line breaks, no control characters."""
+    """Return untrusted text as one line for a credits file, without line breaks and control characters."""
     kept = "".join(c if c.isprintable() else " " for c in str(text))
     return re.sub(r"\s+", " ", kept).strip()[:longest]
 
 
 def is_long_enough(clip: AudioClip) -> bool:
-    """Whether a clip outlasts the selection's lower bound once its silent ends are cut."""
+    """Return True if a clip without its silent ends is longer than the selection's lower bound."""
     return len(trim_silence(clip.samples, clip.sample_rate_hz)) > MIN_DURATION_S * clip.sample_rate_hz
 
 
 def read_checked(path: Path, credit: Credit) -> AudioClip:
-    """A stranger's sound file, refused by its header if decoding it could fill the memory. Raises: AudioError."""
+    """Read an untrusted sound file; refuse it by its header if decoding could fill the memory. Raises: AudioError."""
     try:
         info = soundfile.info(path)
     except (soundfile.SoundFileError, TypeError, OSError) as cause:
@@ -69,7 +69,7 @@ def read_checked(path: Path, credit: Credit) -> AudioClip:
 
 
 class Store:
-    """Documents and sounds by name, below one folder, which is made when something is first kept."""
+    """Documents and sounds by name, below one folder, which is created on the first write."""
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
         self.folder = Path(folder)

@@ -1,4 +1,4 @@
-"""Words as sound sources compare them: "Washing machines" and "washer" are one thing, "humming" and "hum" another.
+"""Stems of words, which sound sources compare: "Washing machines" equals "washer", "humming" equals "hum".
 
 Stems are keys, not English: both sides of a comparison go through `stems`, so it does not matter that "machine"
 becomes "machin".

@@ -1,10 +1,10 @@
-"""Moving a scene's sources apart in frequency and level, as little as possible, so that hands can distinguish them.
+"""Move a scene's sources apart in frequency and level, as little as possible, so that hands can distinguish them.
 
-Two sources are apart when they differ by two JNDs of frequency, or by one and two of level (`distinctness`). The order
-of levels is kept, and nobody is moved to where the actuator cannot bring its level. They are placed by the widest
-published JND of frequency if there is room, else by the middle one, by which distinctness is measured. Where that takes
-too much room as well, those that differ in rhythm may share a frequency. A crowded scene comes out as distinct as the
-limits let it.
+Two sources are distinct if they differ by two JNDs of frequency, or by one of frequency and two of level
+(`distinctness`). The order of levels is kept, and no source moves to a frequency at which the actuator cannot reach its
+level. The distances use the widest published JND of frequency if they fit, else the middle one, by which distinctness
+is measured. If these do not fit either, sources that differ in rhythm may share a frequency. In a scene with too many
+sources, the result is as distinct as the limits allow.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ __all__ = ["Placement", "SpreadLimits", "Voice", "spread"]
 
 _ENOUGH_OCT = 1e-4
 _EXACT_PAIRS = 28
-"""Up to so many pairs (eight voices in one another's way) are placed exactly, within a second or two."""
+"""Up to this many pairs (eight conflicting voices) are placed exactly, within a second or two."""
 
 
 @dataclass(frozen=True)
 class Placement:
-    """Where a source is to be felt: frequency [Hz] and sensation level [dB]."""
+    """The planned frequency [Hz] and sensation level [dB] of a source."""
 
     target_hz: float
     level_db: float
@@ -36,7 +36,7 @@ class Placement:
 def spread(
     voices: Sequence[Voice], actuator: ActuatorProfile | None = None, limits: SpreadLimits | None = None
 ) -> tuple[Placement, ...]:
-    """Placements of a scene's sources, in their order; the same for the same input on every run."""
+    """Return the placements of a scene's sources, in their order; equal input gives equal results."""
     limits = limits or SpreadLimits()
     stay = {voice: Placement(voice.own_hz, voice.level_db) for voice in voices}
     if len(stay) < 2 or limits.octaves == limits.level_db == 0.0:

@@ -1,7 +1,7 @@
-"""Moving few sources apart, each as little as possible: a mixed-integer linear programme.
+"""Move few sources apart, each as little as possible, by a mixed-integer linear programme.
 
-For voice i, x_i [oct] is the logarithm of its frequency and l_i [dB] its level; for every pair two binaries say which
-lies higher (o) and whether level helps (m), and a slack s [oct] what is missing:
+For voice i, x_i [oct] is the logarithm of its frequency and l_i [dB] its level. Every pair has two binaries, which
+voice is higher (o) and whether their levels differ (m), and a slack s [oct], the missing distance:
 
     minimise  sum_i |x_i - x_i0| / X + |l_i - l_i0| / Y + W sum_ij s_ij
     x_j - x_i >= d (2 - m) - s - M (1 - o)       d [oct] one JND of frequency: two of them, or one and two of level
@@ -9,8 +9,8 @@ lies higher (o) and whether level helps (m), and a slack s [oct] what is missing
     l_i - l_j >= 2 J - M' (1 - m)                i the stronger of the two; J [dB] one JND of level
     l_i >= l_j + least gap                       the order of intensities
 
-W is so large that no room is left unused while a pair is short of it. Exact, and slow beyond some thirty pairs: the
-binaries double the work with each.
+W is so large that slack remains only where the limits force it. The solution is exact, and slow beyond some thirty
+pairs, since each pair doubles the work.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from scene2hap.audio.spreading.room import LEVEL_STEP_DB, Array, Outcome, Room
 
 _SLACK_WEIGHT = 1000.0
 _NODES = 1000
-"""Branches of the search; a limit that, unlike time, gives every machine the same answer."""
+"""Most branches of the search. Unlike a time limit, it gives the same result on every machine."""
 
 
 class Programme:

@@ -19,12 +19,11 @@ from scene2hap.settings import Settings
 Array = NDArray[np.float64]
 
 _MARGIN = 1.01
-"""Aims a hundredth further than asked, and stops as far short of the limits: what is measured afterwards is a loop of
-few cycles."""
+"""Margin of one per cent on distances and limits, since distinctness is later measured on loops of few cycles."""
 LEVEL_STEP_DB = LEVEL_JND_DB * _MARGIN
 _ORDER_GAP_DB = 0.5
 _OTHER_RHYTHM = 2.2
-"""JNDs between two rhythms from which on these tell voices apart: two, and what a loop of few cycles may miss."""
+"""JNDs between two rhythms that make voices distinct: two, plus the error of a loop of few cycles."""
 
 
 class SpreadLimits(Settings):
@@ -42,10 +41,12 @@ class SpreadLimits(Settings):
 
 @dataclass(frozen=True)
 class Voice:
-    """A source before it is moved: its own frequency [Hz], the sensation level that its intensity asks for [dB], and a
-    group; voices of one group need not differ (the states of an object, objects of one kind). `crest_db` is what its
-    peaks exceed a sine's by. One that `is_placed` already stays where it is. `rhythm_hz` is the rate at which it rises
-    and falls, None if it hardly does."""
+    """A source before it is moved: own frequency [Hz], planned sensation level [dB], and group.
+
+    Voices of one group need not differ (the states of an object, objects of one kind). `crest_db` is its peak relative
+    to that of an equally strong sine. A voice that `is_placed` does not move. `rhythm_hz` is the rate of its envelope,
+    None if that hardly varies.
+    """
 
     own_hz: float
     level_db: float
@@ -85,7 +86,7 @@ class Room:
         *,
         counts_rhythm: bool = False,
     ) -> Room:
-        """The room that actuator, levels and limits leave, and a Weber fraction of frequency to measure it by."""
+        """Build the bounds from actuator, levels and limits, for a Weber fraction of frequency."""
         octaves = limits.octaves / _MARGIN
         reach = [reachable_hz(Anchor(v.own_hz, v.crest_db), v.level_db, actuator, octaves) for v in voices]
         low, high, louder = np.array(reach, dtype=np.float64).T
@@ -107,12 +108,12 @@ class Room:
 
     @cached_property
     def pairs(self) -> list[tuple[int, int]]:
-        """Pairs that shall differ and that moves could bring within two JNDs of each other."""
+        """The pairs that must differ and that could come within two JNDs of each other."""
         return [pair for pair in combinations(range(len(self.voices)), 2) if self._may_meet(*pair)]
 
     @cached_property
     def order(self) -> list[tuple[int, int, float]]:
-        """(stronger, weaker, least gap [dB]) of every pair that may be moved and is not of one level."""
+        """(stronger, weaker, least gap [dB]) of every pair that may move and has different levels."""
         pairs = combinations([i for i, voice in enumerate(self.voices) if not voice.is_placed], 2)
         ranked = [(i, j) if self.l0[i] >= self.l0[j] else (j, i) for i, j in pairs]
         gaps = [(i, j, min(float(self.l0[i] - self.l0[j]), _ORDER_GAP_DB)) for i, j in ranked]
@@ -136,7 +137,7 @@ def _differ_in_rhythm(one: Voice, other: Voice) -> bool:
 
 @dataclass(frozen=True)
 class Outcome:
-    """Where voices were placed: frequency x (n,) [oct, re 1 Hz] and level (n,) [dB]."""
+    """The placed voices: frequency x (n,) [oct, re 1 Hz] and level (n,) [dB]."""
 
     room: Room
     x: Array
@@ -144,20 +145,20 @@ class Outcome:
 
     @property
     def shortage_oct(self) -> float:
-        """What all pairs together lack [oct]."""
+        """The missing distance of all pairs together [oct]."""
         one, other = np.array(self.room.pairs, dtype=np.int64).reshape(-1, 2).T
         octaves, levels = np.abs(self.x[one] - self.x[other]), np.abs(self.level_db[one] - self.level_db[other])
         return float(shortage_oct(octaves, levels, self.room.jnd_oct).sum())
 
     @property
     def moves(self) -> float:
-        """All moves together, each as a share of its limit [-]."""
+        """The sum of all moves, each as a share of its limit [-]."""
         by_x = np.abs(self.x - self.room.x0) / self.room.octaves
         return float((by_x + np.abs(self.level_db - self.room.l0) / self.room.level_db).sum())
 
 
 def shortage_oct(octaves: Array, level_db: Array, jnd_oct: float) -> Array:
-    """What pairs lack to be two JNDs apart in frequency, or one there and two in level [oct]."""
+    """Return the distance that pairs miss to two JNDs in frequency, or to one in frequency and two in level [oct]."""
     by_frequency = np.maximum(0.0, 2.0 * jnd_oct - octaves)
     missing_level = np.maximum(0.0, 2.0 - level_db / LEVEL_STEP_DB) * jnd_oct
     return np.minimum(by_frequency, np.maximum(np.maximum(0.0, jnd_oct - octaves), missing_level))

@@ -1,15 +1,15 @@
-"""A band that follows the source: around its own frequency, moved clear of the scene's other sources.
+"""Adaptive converter: a band around the source's own frequency, moved clear of the scene's other sources.
 
-A fixed band-pass gives every source the same few hundred hertz, and what was different sounds feels alike. Here:
+A fixed band-pass leaves the same few hundred hertz of every source, so that different sounds feel alike. This one:
 
-1. find the source's own frequency: the strongest component that this actuator can make felt at the source's level
-   (`anchor`). Told in the context where the whole sound was looked at; else tracked while it plays, over and over;
-2. keep a band around it: two trapezoidal state-variable band-passes in series (12 dB per octave), narrow enough for the
-   own frequency to dominate, wide enough (f / Q at -6 dB) for the beats and unevenness that make a machine itself;
-3. move that band as a whole to the target given by `spreading`, else found here:
-   the nearest place within a third of an octave that is clear of the neighbours.
+1. finds the source's own frequency: the strongest component that this actuator can render at the source's level
+   (`anchor`). The context gives it if the whole sound was analysed; else it is tracked while the sound plays;
+2. keeps a band around it: two trapezoidal state-variable band-passes in series (12 dB per octave), narrow enough for
+   the own frequency to dominate, wide enough (f / Q at -6 dB) for the beats and irregularities typical of a machine;
+3. moves that band as a whole to the target given by `spreading`, or to the nearest frequency within a third of an
+   octave that is clear of the neighbours.
 
-A band that has moved is faded over, so that a source whose pitch changes does not click.
+A band that moves is cross-faded, so that a source whose pitch changes does not click.
 Source: the band-pass is the paper's; that it should follow the sound is its own outlook (signals "felt too similar").
 """
 
@@ -36,16 +36,16 @@ second, and for longer the longer it has not changed."""
 _LOOK_RATE_HZ = 8000
 _FADE_S = 0.05
 _MOVED = 0.25 * FREQUENCY_WEBER
-"""A quarter of a JND: smaller changes of the own frequency are followed by the band's width alone."""
+"""Least change of the own frequency that moves the band: a quarter of a JND; the band's width covers smaller ones."""
 _HIGHEST = 0.45
 _WIDE_Q = 0.5**0.5
-"""Of the paper's band-pass, see `svf_bandpass`."""
+"""Q of the paper's band-pass, see `svf_bandpass`."""
 _MOST_GAIN = 4.0
-"""A band takes over at most so much louder or softer [-]."""
+"""Largest gain, or attenuation, of a new band [-]."""
 _SILENCE = 1e-4
-"""A stretch whose amplitude stays below -80 dB re full scale says nothing about its source."""
+"""Amplitude below which a stretch is silence and is not analysed (-80 dB re full scale)."""
 _SHIFTED = 0.75
-"""What is shifted on either side, as a share of the own frequency; its mirror image lies twice that frequency away."""
+"""Half width of the shifted band, as a share of the own frequency; its mirror image is twice that frequency away."""
 
 
 @dataclass(frozen=True)
@@ -67,20 +67,20 @@ class Adaptive:
         checks.number("shift_octaves", self.shift_octaves, "-", at_least=0.0, at_most=1.0, error=ConfigError)
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
-        """A fresh conversion at that rate."""
+        """Start a conversion at a sample rate."""
         checks.number("sample_rate_hz", sample_rate_hz, "Hz", at_least=1000.0, error=ConfigError)
         if context.own_hz is not None:
             return StageStream(*self.band(sample_rate_hz, context, context.own_hz))
         return StageStream(_Tracking(self, sample_rate_hz, context))
 
     def band(self, sample_rate_hz: float, context: ConversionContext, own_hz: float) -> list[Stage]:
-        """The filters for a source of that frequency, and its shift, if any."""
+        """Return the filters for a source with this own frequency, and its shift, if any."""
         own_hz = min(own_hz, _HIGHEST * sample_rate_hz)
         target_hz = min(self._target_hz(context, own_hz), _HIGHEST * sample_rate_hz)
         section = SvfBandpass(own_hz, self.q).section(sample_rate_hz)
         stages: list[Stage] = [SosStage(np.concatenate([section, section]))]
         if target_hz != own_hz:
-            # What comes from far above is wider than there is room below it.
+            # A band from far above would be too wide for the range below its target.
             half_hz = _SHIFTED * (target_hz if target_hz < own_hz / 2.0 else own_hz)
             stages.append(ShiftStage(own_hz - half_hz, own_hz + half_hz, target_hz - own_hz, sample_rate_hz))
         return stages
@@ -96,7 +96,10 @@ class Adaptive:
 
 
 def clear_of(own_hz: float, neighbours_hz: tuple[float, ...], low_hz: float, high_hz: float) -> float:
-    """The place nearest to `own_hz` within bounds that is two JNDs from all neighbours; else the one furthest off."""
+    """Return the frequency nearest to `own_hz` within bounds that is two JNDs from all neighbours [Hz].
+
+    If there is none, return the frequency furthest from its nearest neighbour.
+    """
     x = np.sort(np.append(np.linspace(np.log(low_hz), np.log(high_hz), 129), np.log(own_hz)))
     gaps = np.abs(x[:, None] - np.log(neighbours_hz)).min(axis=1) / np.log1p(FREQUENCY_WEBER)
     moves = np.abs(x - np.log(own_hz))
@@ -106,10 +109,10 @@ def clear_of(own_hz: float, neighbours_hz: tuple[float, ...], low_hz: float, hig
 
 
 class _Tracking:
-    """Looks at the sound in stretches of fixed length, whatever the blocks, and follows it with the band.
+    """Analyses the sound in stretches of fixed length, for any block size, and moves the band along.
 
-    Until the first stretch is over the band is the paper's, around 250 Hz. A narrow band gets as much louder as it lets
-    through less of the sound than that, so that nothing steps when it takes over.
+    Until the end of the first stretch, the band is the paper's, around 250 Hz. A narrower band passes less of the sound
+    and is amplified in proportion, so that the level does not jump.
     """
 
     def __init__(self, design: Adaptive, sample_rate_hz: float, context: ConversionContext) -> None:
@@ -118,7 +121,7 @@ class _Tracking:
         self._step = max(1, int(sample_rate_hz // _LOOK_RATE_HZ))
         self._seen = np.empty(round(_LOOK_S * sample_rate_hz) // self._step * self._step)
         self._n_unchanged = 0
-        self._n_seen = 0  # negative while the sound is left alone
+        self._n_seen = 0  # negative during the pause before the next stretch
         self._fade = max(1, round(_FADE_S * sample_rate_hz))
         self._anchor = TrackedAnchor(sample_rate_hz / self._step, self._level_db, context.actuator)
         self._own_hz: float | None = None
@@ -180,7 +183,7 @@ class _Tracking:
 
 
 def _bandpass(f_hz: Signal, centre_hz: float, q: float) -> Signal:
-    """Gain of a band-pass over frequency [-]."""
+    """Return the gain of a band-pass at these frequencies [-]."""
     r = np.maximum(f_hz, 1e-3) / centre_hz
     return np.asarray(1.0 / np.sqrt(1.0 + (q * (r - 1.0 / r)) ** 2))
 

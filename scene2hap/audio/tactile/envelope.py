@@ -1,4 +1,4 @@
-"""The rise and fall of a sound on a tone that the actuator renders well.
+"""Envelope converter: the envelope of a sound on a carrier that the actuator renders well.
 
     e = h * |x| pi / 2        y = e sin(2 pi f_c t)
 
@@ -41,7 +41,7 @@ class EnvelopeCarrier:
             checks.number("carrier_hz", self.carrier_hz, "Hz", above=0.0, error=ConfigError)
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
-        """A fresh conversion at that rate."""
+        """Start a conversion at a sample rate."""
         wanted = self.carrier_hz or context.target_hz or context.actuator.resonance_hz or BEST_FELT_HZ
         for name, frequency in (("carrier_hz", wanted), ("envelope_hz", self.envelope_hz)):
             checks.number(name, frequency, "Hz", at_most=0.49 * sample_rate_hz, error=ConfigError)

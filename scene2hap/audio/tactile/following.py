@@ -1,12 +1,12 @@
-"""A bed that rises and falls with the whole sound, and not by itself.
+"""Level follower: make the bed rise and fall with the whole sound, and not by itself.
 
-A narrow band of a steady noise has an envelope of its own, as beats have that of few partials: a fan whose level stays
-within 1 dB would surge by 6 dB. With the levels L of sound and bed in 60 ms, and M the mean of their difference over
-two seconds, in which loud places count for more:
+A narrow band of steady noise, or a few beating partials, has an envelope of its own: a fan whose level stays within
+1 dB would vary by 6 dB. With the levels L of sound and bed in 60 ms, and M the mean of their difference over two
+seconds, weighted by energy:
 
     difference d = L_bed - L_sound        gain -(d - M) + sign(d - M) `FREE_DB`   where |d - M| > `FREE_DB`, else 0 dB
 
-What stays within `FREE_DB` goes through untouched, bit for bit. To know a level the stage holds back 40 ms.
+A bed within `FREE_DB` is unchanged, bit for bit. The stage has a latency of 40 ms.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from scene2hap.audio.tactile.stages import Signal, Stage
 
 STEP_S = 0.01
 FREE_DB = 0.5
-"""The range of what is felt exceeds that of the sound by at most twice as much; touch notices 2.5 dB."""
+"""Deviation that stays uncorrected [dB]; twice this is below the 2.5 dB that touch notices."""
 MOST_LIFTED_DB, MOST_LOWERED_DB = 15.0, 20.0
-"""What is lifted by more is mostly noise; assumed."""
+"""Largest gain and attenuation [dB]; a weaker bed is mostly noise (assumed)."""
 _STEPS = 6
 _MEAN_S = 2.0
 _NOTHING = 1e-12
@@ -28,7 +28,7 @@ _NOTHING = 1e-12
 
 
 class Following:
-    """A `Stage`: a bed held to the level of the sound that it is made of."""
+    """A `Stage` that keeps a bed at the level of its sound, up to a constant."""
 
     def __init__(self, bed: Stage, sample_rate_hz: float) -> None:
         self._bed = bed
@@ -42,11 +42,11 @@ class Following:
         self._gain: float | None = None  # where the next step begins
 
     def run(self, x: Signal) -> Signal:
-        """The samples whose level is known by now."""
+        """Return the samples whose level is known."""
         return self._followed(x, self._bed.run(x))
 
     def rest(self) -> Signal:
-        """The last samples, after which there is silence."""
+        """Return the last samples, as if silence followed."""
         left = self._bed.rest()
         parts = [self._followed(np.zeros(len(left)), left)] if left.size else []
         n_waiting, n_after = len(self._waiting), (_STEPS // 2 + 2) * self._step
@@ -72,8 +72,8 @@ class Following:
         return self._released(gains)
 
     def _gains(self, n: int) -> Signal:
-        """The gain at the beginnings of n steps (n,), each in the middle of a window."""
-        # Sums of shifted rows, since those of a convolution depend on how a sound is cut.
+        """Return the gain at the beginnings of n steps (n,), each in the middle of a window."""
+        # Sums of shifted rows, since the rounding of a convolution depends on the block size.
         around = sum(w * self._energies[:, k : k + n] for k, w in enumerate(self._window))
         share = [1.0 - self._forget], [1.0, -self._forget]
         means, self._means = lfilter(*share, around, axis=1, zi=self._means)
@@ -84,7 +84,7 @@ class Following:
         return gains
 
     def _released(self, gains: Signal) -> Signal:
-        """The steps between gains (n,), n - 1 of them, each from one gain to the next."""
+        """Return the n - 1 steps between gains (n,), each faded from one gain to the next."""
         n = (len(gains) - 1) * self._step
         y, self._waiting = self._waiting[:n], self._waiting[n:]
         rising = np.arange(self._step) / self._step

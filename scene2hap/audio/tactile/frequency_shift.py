@@ -1,7 +1,7 @@
-"""A band of sound moved down to where the skin feels it.
+"""Frequency shift: move a band of sound down to frequencies that the skin feels.
 
-For what lives above touch: beeps, whines, glass. The band is shifted by a fixed number of hertz (`ShiftStage`), so that
-its envelope and its beats arrive unchanged.
+For sounds above the range of touch: beeps, whines, glass. The band is shifted by a fixed number of hertz
+(`ShiftStage`), so that its envelope and its beats do not change.
 Source: Okazaki, Kajimoto and Hayward 2012/2015 move audio into the tactile range so; Merchel and Altinsoy recommend it
 with compression. Differs: they divide frequencies by powers of two, which keeps harmonic ratios and needs a pitch; a
 shift by hertz needs none and works on noise as well.
@@ -19,9 +19,9 @@ from scene2hap.errors import ConfigError
 
 @dataclass(frozen=True)
 class FrequencyShift:
-    """Moves `low_hz`..`high_hz` by `shift_hz` (negative is down); what lies outside is dropped.
+    """Moves `low_hz`..`high_hz` by `shift_hz` (negative is down) and drops the rest.
 
-    The default moves 300..1250 Hz to 50..1000 Hz, the same for every context. What would land below 10 Hz is dropped.
+    The default moves 300..1250 Hz to 50..1000 Hz, in every context. Components that would end below 10 Hz are dropped.
     Raises: ConfigError: bounds that are not rising, or a band that would leave 10 Hz below itself; once the rate is
     known, a band that does not begin below 0.45 sample rates.
     """
@@ -43,7 +43,7 @@ class FrequencyShift:
         )
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
-        """A fresh conversion at that rate."""
+        """Start a conversion at a sample rate."""
         highest = 0.45 * sample_rate_hz
         checks.number("low_hz", self.low_hz, "Hz", below=highest, error=ConfigError, hint="Use a higher sample rate.")
         high = min(self.high_hz, highest)

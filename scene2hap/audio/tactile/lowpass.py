@@ -1,7 +1,7 @@
-"""Everything up to a frequency, as it is: the plainest conversion.
+"""Low-pass converter: all frequencies up to a cut-off, unchanged.
 
-Butterworth, order 4: -3 dB at the cut-off, 24 dB per octave above it. What the skin feels of a sound is left to the
-skin, low frequencies included; an actuator must be able to render those.
+Butterworth, order 4: -3 dB at the cut-off, 24 dB per octave above it. Low frequencies are kept, so the actuator must be
+able to render them.
 """
 
 from __future__ import annotations
@@ -33,6 +33,6 @@ class Lowpass:
         object.__setattr__(self, "cutoff_hz", cutoff)
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
-        """A fresh filter at that rate; this conversion is the same for every context."""
+        """Start a filter at a sample rate; the context has no effect."""
         checks.number("cutoff_hz", self.cutoff_hz, "Hz", at_most=_HIGHEST_CUTOFF * sample_rate_hz, error=ConfigError)
         return StageStream(SosStage(butter(_ORDER, self.cutoff_hz, fs=sample_rate_hz, output="sos")))

@@ -1,12 +1,13 @@
-"""Onsets apart from the bed: each sudden beginning becomes a short burst at a frequency that is felt well.
+"""Onsets: replace each sudden beginning by a short burst at a frequency that is felt well.
 
-The energy of a tick lies at 3 to 10 kHz, where no actuator reaches; what a band-pass leaves of it drowns in hum. Here
-the energy E of the whole sound, and that above 1 kHz, in steps of 2.5 ms, are held against their own slow means S:
+The energy of a tick lies at 3 to 10 kHz, which no actuator renders; its remainder after a band-pass is masked by hum.
+Here the energies E of the whole sound and of its part above 1 kHz, in steps of 2.5 ms, are compared with their slow
+means S:
 
     onset where E > 10 S in either      burst sqrt(2 (E_max - S)) hann(t / T) sin(2 pi f t),   T 8 ms (sharp) to 20 ms
 
-A machine's unevenness stays within that factor, and a steady sound goes through untouched, bit for bit. To know how
-high an onset rises, the stage holds back 10 ms.
+The irregularity of a machine stays within that factor, and a steady sound is unchanged, bit for bit. The stage has a
+latency of 10 ms, in which it measures the height of an onset.
 """
 
 from __future__ import annotations
@@ -20,36 +21,35 @@ from scene2hap.audio.tactile.stages import Signal, SosStage, Stage
 
 STEP_S = 0.0025
 LOOK = 4
-"""Steps after an onset in which its height is looked for."""
+"""Steps after an onset in which its height is measured."""
 RISE = 10.0
-"""Of energy over its slow mean, for an onset (10 dB; tuned: ticks of a clock pass, pulses of a chainsaw do not)."""
+"""Ratio of energy to its slow mean that makes an onset (tuned: ticks of a clock do, pulses of a chainsaw do not)."""
 MEAN_S = 0.06
 APART_S, LOUDER = 0.025, 4.0
-"""Onsets closer together are one, unless the later one has so much more energy: strokes often begin with a scrape."""
+"""Onsets closer than this [s] are one, unless the later has this much more energy: a stroke may begin with a scrape."""
 FAINTEST = 1e-4
-"""Of the loudest of late, below which nothing is an onset (40 dB)."""
+"""Energy relative to the recent maximum below which nothing is an onset (-40 dB)."""
 QUIETEST = 1e-7
-"""Energy that is silence (-70 dB re full scale)."""
+"""Energy below which there is silence (-70 dB re full scale)."""
 LATE_S = 5.0
 SHARP_S, DULL_S = 0.008, 0.020
 SPARED_S = 0.06
-"""After an onset the bed hears no more than there was before it for so long, or it would ring on."""
+"""How long after an onset the bed's input is limited to the energy before it [s]; otherwise its filters would ring."""
 SUSTAINED, _AFTER = 0.5, (2, 4)
-"""Share of an onset's energy that is left so many steps after its highest, from which on it is more than a tick: a
-syllable, a knock."""
+"""An onset is sustained, like a syllable or a knock, if this share of its energy remains these steps after its peak."""
 TICKS_HZ = 1000.0
 ABOVE_BED, AROUND_S = 8.0, 0.25
-"""A burst is at most so much stronger than the bed around it (18 dB): what is stronger takes the room in which the bed
-is to reach its level."""
+"""Largest ratio of a burst to the bed around it (18 dB), and the extent of that [s]; a stronger burst would use up the
+head-room in which the bed must reach its level."""
 NO_BED = 0.01
-"""Of a burst, below which a bed is none: between the ticks of a clock."""
+"""Ratio of bed to burst below which there is no bed, as between the ticks of a clock."""
 _WARM = round(MEAN_S / STEP_S)
 
 
 class WithOnsets:
-    """A `Stage`: the bed through its own stages, which are spared onsets, plus a burst of `carrier_hz` for each.
+    """A `Stage`: the bed through its own stages, without onsets, plus a burst of `carrier_hz` for each onset.
 
-    A bed that follows the level of the sound carries sustained onsets by itself.
+    A bed that follows the level of the sound renders sustained onsets by itself.
     """
 
     def __init__(self, bed: Stage, carrier_hz: float, sample_rate_hz: float, *, bed_follows: bool = False) -> None:
@@ -64,7 +64,7 @@ class WithOnsets:
         self._bursts: list[tuple[int, Signal]] = []
 
     def run(self, x: Signal) -> Signal:
-        """What is decided of the samples so far."""
+        """Return the samples for which onsets are decided."""
         self._waiting = np.concatenate([self._waiting, x])
         self._heard = np.concatenate([self._heard, [x, self._high.run(x)]], axis=1)
         n_steps = self._heard.shape[1] // self._step
@@ -80,7 +80,7 @@ class WithOnsets:
         return np.concatenate(parts)
 
     def rest(self) -> Signal:
-        """The last steps, in which no onset is looked for any more."""
+        """Return the last steps, which are not searched for onsets."""
         return np.concatenate([self._mixed(self._bed.run(self._waiting)), self._mixed(self._bed.rest())])
 
     def _burst(self, height: float, left: float) -> Signal:
@@ -94,14 +94,14 @@ class WithOnsets:
         return burst
 
     def _felt(self, end: int, share: float) -> Signal:
-        """What is felt up to a sample of the sound, of which the bed hears a share."""
+        """Return the output up to a sample of the sound; the bed gets this share of the input."""
         n = end - self._n_released
         x, self._waiting = self._waiting[:n], self._waiting[n:]
         self._n_released = end
         return self._mixed(self._bed.run(x if share == 1.0 else share * x))
 
     def _mixed(self, bed: Signal) -> Signal:
-        """The bed from where it went on, which may be later than what is decided, with its bursts."""
+        """Return the next samples of the bed, with their bursts added."""
         begin, end, out = self._n_made, self._n_made + len(bed), bed
         self._n_made = end
         self._past = np.concatenate([self._past, bed])[len(bed) :]
@@ -115,8 +115,8 @@ class WithOnsets:
 
 
 class _Step(NamedTuple):
-    """A step that is more than bed: energy of the onset that it is, 0 for none, and the share of that after `LOOK`
-    steps; what share of the sound the bed hears."""
+    """A step during or after an onset: energy of the onset that begins in it, 0 for none; the share of that energy
+    after `LOOK` steps; and the share of the sound that the bed gets."""
 
     number: int
     height: float
@@ -125,7 +125,7 @@ class _Step(NamedTuple):
 
 
 class _Rise:
-    """The slow mean of an energy, and its loudest of late."""
+    """The slow mean and the recent maximum of an energy."""
 
     _FORGET = float(np.exp(-STEP_S / LATE_S))
 
@@ -134,7 +134,7 @@ class _Rise:
         self.mean = self.loudest = 0.0
 
     def follow(self, energy: float, n_known: int) -> None:
-        """Take in a step, after so many."""
+        """Update mean and maximum with the energy of a step, after `n_known` steps."""
         if n_known < _WARM:
             self.mean += (energy - self.mean) / (n_known + 1)
         else:
@@ -145,7 +145,7 @@ class _Rise:
         self.loudest = energy if energy > faded else faded
 
     def goes_on(self, k: int, top: float) -> bool:
-        """Whether the onset at a step is sustained beyond its highest energy."""
+        """Return True if the onset at a step is sustained beyond its highest energy."""
         at = self.energies.index(top, k)
         return max(self.energies[at + _AFTER[0] : at + _AFTER[1] + 1]) > SUSTAINED * top
 
@@ -162,7 +162,7 @@ class _Watch:
         self._before = self._height = 0.0  # energy of the sound before the last onset, and of that
 
     def decided(self, whole: list[float], ticks: list[float]) -> list[_Step]:
-        """The steps that are more than bed, of those that are decided now."""
+        """Return the steps during or after onsets among those that are now decided."""
         for band, energies in zip(self._bands, (whole, ticks), strict=True):
             band.energies += energies
         n = max(0, len(self._bands[0].energies) - self._look)
@@ -174,7 +174,7 @@ class _Watch:
     def _looked_at(self, k: int) -> _Step | None:
         number, (sound, high) = self.n_decided, self._bands
         energy, step = sound.energies[k], None
-        # What a sound begins with is no onset: its mean is not known yet.
+        # The beginning of a sound is no onset: its mean is not known yet.
         if number >= _WARM and (energy > RISE * sound.mean or high.energies[k] > RISE * high.mean):
             step = self._onset(number, k)
         if energy > 2.0 * self._before and number - self._last < self._SPARED:
@@ -196,7 +196,7 @@ class _Watch:
         since = number - self._last
         if is_sustained or height <= (0.0 if since >= self._APART else LOUDER * self._height):
             return None
-        # Between strokes that follow each other at once there is nothing but these.
+        # Between strokes in quick succession the mean has not recovered, so the energy before the first is kept.
         self._before = self._bands[0].mean if since >= self._SPARED else self._before
         self._last, self._height = number, height
         return _Step(number, height, left, 1.0)

@@ -1,7 +1,7 @@
-"""Loudness and roughness heard become intensity and roughness felt: perception-level translation.
+"""Perception-level translation: loudness and roughness of the sound become intensity and roughness of the vibration.
 
-Every 93 ms the sound is summed up in two numbers and rendered as two sines, 175 and 210 Hz, whose sum A is felt as
-intensity and whose share S of the upper one as roughness (they beat at 35 Hz):
+Every 93 ms the sound is reduced to two numbers and rendered as two sines, 175 and 210 Hz. Their sum A is felt as
+intensity, the share S of the upper one as roughness, since they beat at 35 Hz:
 
     L_a = C sum_k 20 lg(c |X_k|) / L60(f_k)              loudness heard, 25..6400 Hz
     R_a = sum over pairs of spectral peaks of ((x_m x_M)^0.1 / 2) (2 x_m / (x_m + x_M))^3.11
@@ -33,7 +33,7 @@ _LOW_HZ, _HIGH_HZ = 175.0, 210.0
 _BAND_HZ = (25.0, 6400.0)
 _PEAKS_DB = -40.0
 _MAX_PEAKS = 64
-"""Pairs grow with the square of the peaks; the strongest 64 hold what is heard of a frame (assumed)."""
+"""Most peaks of a frame, since pairs grow with their square; the strongest 64 include all audible ones (assumed)."""
 _LOUDNESS, _AMPLITUDE = 0.065, 1.37
 _INTENSITY_GAIN, _INTENSITY_OFFSET = 0.035, 0.4
 
@@ -63,13 +63,13 @@ class PerceptionLevel:
         checks.number("full_scale", self.full_scale, "-", above=0.0, error=ConfigError)
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
-        """A fresh conversion at that rate; this conversion is the same for every context."""
+        """Start a conversion at a sample rate; the context has no effect."""
         rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", at_least=1000.0, error=ConfigError)
         return StageStream(_Translation(rate, self.full_scale))
 
 
 class _Translation:
-    """Holds samples back until a frame is full, so that a frame's summary is felt while it is heard."""
+    """Delays samples until a frame is full, so that the vibration of a frame plays with its sound."""
 
     def __init__(self, sample_rate_hz: float, full_scale: float) -> None:
         self._rate_hz = sample_rate_hz
@@ -110,7 +110,7 @@ class _Translation:
 
 
 def amplitudes(frame: Signal, sample_rate_hz: float) -> tuple[float, float]:
-    """Amplitudes of the two sines for a frame (n,) [unit of the model]; 0 where nothing is to be felt."""
+    """Return the amplitudes of the two sines for a frame (n,) [unit of the model]; 0 if nothing is felt."""
     # The sums are fitted to transforms of 4096 samples.
     magnitude = np.abs(np.fft.rfft(frame)) * (4096 / len(frame))
     f = np.fft.rfftfreq(len(frame), 1.0 / sample_rate_hz).astype(np.float64)

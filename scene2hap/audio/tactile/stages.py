@@ -1,8 +1,7 @@
-"""Building blocks of converters: stages in float64, and the stream that feeds them blocks.
+"""Building blocks of converters: stages in float64, and the stream that feeds blocks to them.
 
-A stage's output depends on the samples alone and never on how they were cut, bit for bit: recursive filters carry
-their state, oscillators are looked up by the number of the sample in tables of a fixed size, and sums are made in one
-order.
+A stage's output does not depend on the block size, bit for bit: recursive filters keep their state, oscillators are
+looked up by sample number in tables of a fixed size, and sums have a fixed order.
 """
 
 from __future__ import annotations
@@ -21,11 +20,11 @@ from scene2hap.errors import AudioError
 Signal = NDArray[np.float64]
 
 LOWEST_FELT_HZ = 10.0
-"""Slower movements are not felt as vibration."""
+"""Lowest frequency that is felt as vibration [Hz]."""
 _CACHED = 65_536
-"""Samples per pass: what stays in the processor's cache runs twice as fast as a long sound in one piece."""
+"""Samples per pass: passes that fit the processor's cache are twice as fast as one pass over a long sound."""
 _VANISHED = 1e-200
-"""A filter's memory below this cannot reach a float32 any more, but would slow the processor down as it decays."""
+"""A filter's state below this is set to 0: it has no effect on a float32, and denormal numbers are slow."""
 
 
 class Stage(Protocol):
@@ -36,14 +35,14 @@ class Stage(Protocol):
         ...
 
     def rest(self) -> Signal:
-        """What was held back."""
+        """Return the samples that were held back."""
         ...
 
 
 class StageStream:
-    """A `TactileStream` over stages in series: checks what comes in, bounds what goes out.
+    """A `TactileStream` over stages in series, which checks its input and clips its output.
 
-    `n_clipped` counts the samples that were beyond full scale and were cut to it.
+    `n_clipped` counts the samples that were clipped to full scale.
     """
 
     def __init__(self, *stages: Stage) -> None:
@@ -51,7 +50,7 @@ class StageStream:
         self.n_clipped = 0
 
     def process(self, block: Samples) -> Samples:
-        """The next samples; computed in float64. Raises: AudioError: a sample is not finite, or not one channel."""
+        """Return the next samples; computed in float64. Raises: AudioError: not finite, or not one channel."""
         x = np.asarray(block)
         if x.ndim != 1:
             raise AudioError(f"block has shape {x.shape}; a stream converts one channel, (n,). Use a stream for each.")
@@ -62,7 +61,7 @@ class StageStream:
         return _joined([self._through(x[at : at + _CACHED].astype(np.float64), 0) for at in range(0, len(x), _CACHED)])
 
     def finish(self) -> Samples:
-        """What is still held back."""
+        """Return the samples that are still held back."""
         return _joined([self._through(stage.rest(), i + 1) for i, stage in enumerate(self.stages)])
 
     def _through(self, x: Signal, first: int) -> Samples:
@@ -85,13 +84,13 @@ class Chain:
         self.stages = stages
 
     def run(self, x: Signal) -> Signal:
-        """The next samples (n,), less what a stage holds back."""
+        """Return the next samples; stages with latency hold some back."""
         for stage in self.stages:
             x = stage.run(x)
         return x
 
     def rest(self) -> Signal:
-        """What all stages held back."""
+        """Return the samples that all stages have held back."""
         left = np.empty(0)
         for stage in self.stages:
             left = np.concatenate([stage.run(left), stage.rest()]) if left.size else stage.rest()
@@ -153,15 +152,15 @@ class Oscillator:
 
 
 class ShiftStage:
-    """Moves a band by a number of hertz and keeps its envelope: single side-band modulation.
+    """Single-sideband modulation: moves a band by a number of hertz and keeps its envelope.
 
     With c the middle of the band, w half its width and h a low-pass of w:
 
         z = h * (x exp(-i 2 pi c t))        y = 2 Re(z exp(i 2 pi (c + shift) t))
 
-    The mirrored band lies 2 c further off and is stopped by h. So is all that would land below 10 Hz, or fold over at
-    0 Hz and come back as a false tone: the lower edge of the band is raised where it lies too near. Distances between
-    components stay, so that beats and envelopes are kept and harmonics are not.
+    The mirrored band lies 2 c away and is removed by h. The lower edge of the band is raised if components would end
+    below 10 Hz, or fold at 0 Hz into false tones. Differences between frequencies are kept, so that beats and envelopes
+    do not change; ratios of harmonics do.
     Source: D. K. Weaver, "A third method of generation and detection of single-sideband signals", Proc. IRE 44, 1956.
     """
 

@@ -1,6 +1,6 @@
-"""The paper's conversion: a state-variable filter, as band-pass around where the skin feels best.
+"""The paper's converter: a state-variable filter, as band-pass around the frequency at which the skin feels best.
 
-Pacinian corpuscles detect best near 250 Hz; what lies far from it is dropped.
+Pacinian corpuscles detect best near 250 Hz; frequencies far from it are dropped.
 
     g = tan(pi f_c / f_s)   warped centre frequency [-]         k = 1 / Q   damping [-]
     H(z) = g k (1 - z^-2) / (1 + g k + g^2 + 2 (g^2 - 1) z^-1 + (1 - g k + g^2) z^-2)
@@ -32,7 +32,7 @@ from scene2hap.audio.tactile.stages import SosStage, StageStream
 from scene2hap.errors import ConfigError
 
 _HIGHEST_CENTER = 0.49
-"""Of the sample rate; at one half the warped frequency g is infinite."""
+"""Highest centre, as a share of the sample rate; at one half the warped frequency g is infinite."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class SvfBandpass:
         object.__setattr__(self, "q", q)
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> SvfStream:
-        """A fresh filter at that rate; this conversion is the same for every context."""
+        """Start a filter at a sample rate; the context has no effect."""
         return SvfStream(self, sample_rate_hz)
 
     def section(self, sample_rate_hz: float) -> NDArray[np.float64]:
@@ -83,7 +83,7 @@ class SvfStage(SosStage):
         self._design = design
 
     def retune(self, design: SvfBandpass) -> None:
-        """Go on with another centre and Q, as the state-variable filter would."""
+        """Continue with another centre and Q, as the state-variable filter would."""
         sections = design.section(self._rate_hz)
         integrators = np.linalg.solve(self._memory(self._design, self.sections), self.state[0])
         self.state[0] = self._memory(design, sections) @ integrators
@@ -109,5 +109,5 @@ class SvfStream(StageStream):
         super().__init__(self._filter)
 
     def retune(self, *, center_hz: float, q: float) -> None:
-        """Another centre [Hz] and Q from the next block on. Raises: ConfigError: see `SvfBandpass`."""
+        """Set another centre [Hz] and Q from the next block on. Raises: ConfigError: see `SvfBandpass`."""
         self._filter.retune(SvfBandpass(center_hz, q))

@@ -97,12 +97,12 @@ def patches(pairs: Pairs, gaps: Gaps, reach_m: Floats, sunk_m: float) -> Spots:
             if len(part.counts):
                 parts.append((rows, part))
                 open_[rows] = ~part.counts[0]
-    every = _beside(parts, len(inside))
+    every = _merged(parts, len(inside))
     chosen, counts = spread_each(*every)
     return Spots(every.taken(chosen), counts)
 
 
-def _beside(parts: Sequence[tuple[Indices, Spots]], n: int) -> Spots:
+def _merged(parts: Sequence[tuple[Indices, Spots]], n: int) -> Spots:
     """Merge the points of several sets of pairs, given with their rows, into one array for n pairs.
 
     Each pair has valid points in one set at most.

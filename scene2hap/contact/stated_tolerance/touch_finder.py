@@ -29,7 +29,7 @@ from scene2hap.scene.pose_table import PoseTable
 # The products of a quaternion's components (x, y, z, w): the squares, then the terms of the off-diagonal entries.
 _LEFT, _RIGHT = np.array([[0, 1, 2, 0, 0, 0, 1, 0, 1, 2, 1, 2, 0, 1, 0], [0, 1, 2, 1, 2, 1, 2, 2, 2, 3, 3, 3, 3, 3, 3]])
 _DIAGONAL = np.array([[1, 0, 0], [2, 2, 1]])
-_BESIDE = np.array([1, 2, 3, 5, 6, 7])
+_OFF_DIAGONAL = np.array([1, 2, 3, 5, 6, 7])
 _SIGNS = np.array([-1.0, 1.0, 1.0, -1.0, -1.0, 1.0])[:, None]
 # Up to this many pairs of boxes, comparing all is cheaper than sorting.
 _FEW = 1 << 18
@@ -98,15 +98,15 @@ class TouchFinder:
         left = [self._column.pop(x) for x in gone]
         if left:
             self._low[:, left], self._high[:, left] = np.inf, -np.inf
-        came = [self._enter(item) for item in added]
+        came = [self._add(item) for item in added]
         if left or came:
             self._columns_of = ((), np.empty(0, dtype=np.intp))
             self._rank_ids()
         columns = self._move(moved)
         if came:
             columns = np.unique(np.concatenate([columns, np.array(came, dtype=np.intp)]))
-        self._turn_boxes(columns)
-        changed = self._look(columns, left)
+        self._update_boxes(columns)
+        changed = self._update_touches(columns, left)
         names = self._names.of
         changes = (names(changed.appeared), names(changed.vanished), names(changed.shifted))
         if left:
@@ -114,14 +114,14 @@ class TouchFinder:
             self._names.forget()
         return changes
 
-    def _enter(self, item: SceneObject) -> int:
+    def _add(self, item: SceneObject) -> int:
         """Reserve and fill a column for a new object."""
         column = self._free.pop() if self._free else len(self._ids)
         if column == len(self._ids):
             self._ids.append(item.id)
             self._shapes.append(shape_of(item.geometry.mesh))
             if column == self._size.shape[0]:
-                self._widen()
+                self._grow_columns()
         shape = shape_of(item.geometry.mesh)
         self._ids[column], self._shapes[column], self._column[item.id] = item.id, shape, column
         self._position[:, column], self._rotation[:, column] = item.pose.position_m, item.pose.rotation_xyzw
@@ -129,7 +129,7 @@ class TouchFinder:
         self._size[column], self._is_cuboid[column] = shape.size_m, shape.is_cuboid
         return column
 
-    def _widen(self) -> None:
+    def _grow_columns(self) -> None:
         for name in (
             *("_position", "_rotation", "_own_middle", "_place"),
             *("_low", "_high", "_size", "_rank", "_is_cuboid"),
@@ -158,12 +158,13 @@ class TouchFinder:
         self._position[:, columns], self._rotation[:, columns] = position, rotation
         return columns
 
-    def _turn_boxes(self, columns: Indices) -> None:
+    def _update_boxes(self, columns: Indices) -> None:
+        """Compute axes, middles and AABBs of the objects in these columns."""
         q = self._rotation.take(columns, axis=1)
         products = q.take(_LEFT, axis=0) * q.take(_RIGHT, axis=0)
         place = np.empty((12, len(columns)))
         place[0:9:4] = 1 - 2 * (products[_DIAGONAL[0]] + products[_DIAGONAL[1]])
-        place[_BESIDE] = 2 * (products[3:9] + products[9:] * _SIGNS)
+        place[_OFF_DIAGONAL] = 2 * (products[3:9] + products[9:] * _SIGNS)
         turn = place[:9].reshape(3, 3, -1)
         middle = self._position[:, columns] + times(turn, self._own_middle[:, None, columns])[:, 0]
         wide = times(np.abs(turn), self._place[12:, None, columns])[:, 0]
@@ -171,11 +172,11 @@ class TouchFinder:
         self._place[:12, columns] = place
         self._low[:, columns], self._high[:, columns] = middle - wide, middle + wide
 
-    def _look(self, columns: Indices, left: Sequence[int]) -> Difference:
+    def _update_touches(self, columns: Indices, left: Sequence[int]) -> Difference:
         """Update the contacts of all objects that moved or were removed. Returns the difference."""
         stirred = np.zeros(len(self._ids), dtype=bool)
         stirred[columns] = True
-        i, j = self._meeting(columns, stirred)
+        i, j = self._overlapping(columns, stirred)
         # The larger of two is the host; of equal sizes, the one with the lower id.
         swap = (self._size[i] < self._size[j]) | ((self._size[i] == self._size[j]) & (self._rank[i] > self._rank[j]))
         host, guest = np.where(swap, j, i), np.where(swap, i, j)
@@ -194,7 +195,7 @@ class TouchFinder:
         self._touches = others.with_more(now)
         return difference(before, now)
 
-    def _meeting(self, columns: Indices, stirred: Marks) -> tuple[Indices, Indices]:
+    def _overlapping(self, columns: Indices, stirred: Marks) -> tuple[Indices, Indices]:
         """Return the columns of pairs whose AABBs overlap within the tolerance; the first moved; each pair once."""
         n, within_m = len(self._ids), self._within_m
         low, high = self._low[:, columns] - within_m, self._high[:, columns] + within_m

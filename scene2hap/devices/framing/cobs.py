@@ -1,4 +1,4 @@
-"""Consistent overhead byte stuffing: any bytes, without a zero among them.
+"""Consistent overhead byte stuffing: encode any bytes without zeros.
 
 Source: Cheshire and Baker, Consistent Overhead Byte Stuffing, IEEE/ACM Transactions on Networking 7(2), 1999.
 """
@@ -6,11 +6,11 @@ Source: Cheshire and Baker, Consistent Overhead Byte Stuffing, IEEE/ACM Transact
 from __future__ import annotations
 
 LONGEST_RUN = 254
-"""Bytes after which a run without a zero is cut; the overhead is at most one byte in as many, and one."""
+"""Most bytes of a run without zeros; the overhead is at most one byte for each such run, and one."""
 
 
 def encode(data: bytes) -> bytes:
-    """The bytes without zeros, without a delimiter."""
+    """Encode bytes without zeros; no delimiter is added."""
     out = bytearray()
     runs = data.split(b"\0")
     for number, run in enumerate(runs):
@@ -18,7 +18,7 @@ def encode(data: bytes) -> bytes:
             out.append(0xFF)
             out += run[:LONGEST_RUN]
             run = run[LONGEST_RUN:]
-            # A full run stands for no zero; at the very end nothing is left to say.
+            # A full run encodes no zero, so at the end of the data it needs no further code.
             if not run and number == len(runs) - 1:
                 return bytes(out)
         out.append(len(run) + 1)

@@ -8,7 +8,7 @@ CRC_SIZE = 4
 
 
 def with_crc32(data: bytes) -> bytes:
-    """The bytes and their CRC-32 behind them, little-endian (reflected 0x04C11DB7, as in Ethernet and zip)."""
+    """Append the CRC-32 of bytes, little-endian (reflected 0x04C11DB7, as in Ethernet and zip)."""
     return data + zlib.crc32(data).to_bytes(CRC_SIZE, "little")
 
 
@@ -21,7 +21,7 @@ def without_crc32(data: bytes) -> bytes | None:
 
 
 def fletcher16(data: bytes, start: int = 1) -> int:
-    """Fletcher's 16-bit sum modulo 255 (Fletcher 1982), going on from `start`; VHP boards begin at 1."""
+    """Return Fletcher's 16-bit sum modulo 255 (Fletcher 1982), beginning at `start`; VHP boards begin at 1."""
     low, high = start & 0xFF, start >> 8
     for byte in data:
         low = (low + byte) % 255

@@ -42,7 +42,7 @@ class FrameType(IntEnum):
 
 
 class SampleFormat(IntEnum):
-    """How samples are written; NONE where there are none."""
+    """Encoding of the samples; NONE for frames without samples."""
 
     NONE = 0
     INT16 = 1
@@ -93,7 +93,7 @@ def pcm(block: Block, *, sequence: int, time_us: int = 0, format: SampleFormat =
 
 
 def to_int16(block: Block) -> bytes:
-    """Samples as 16-bit integers, 1.0 as 32767, rounded to nearest, clipped; what is not a number is silence."""
+    """Convert samples to 16-bit integers: 1.0 becomes 32767, rounded to nearest and clipped; nan becomes silence."""
     within = np.clip(np.nan_to_num(block, nan=0.0), -1.0, 1.0)
     whole: NDArray[np.int16] = np.rint(within * np.float32(_FULL_SCALE)).astype("<i2")
     return whole.tobytes()
@@ -128,7 +128,7 @@ def from_datagram(data: bytes) -> Frame | None:
 
 
 def to_wire(frame: Frame) -> bytes:
-    """COBS between two zeros: a frame that follows a damaged one begins afresh, whatever came before."""
+    """Return the frame in COBS between two zeros, so that a damaged frame does not affect the next."""
     return b"\0" + cobs.encode(to_datagram(frame)) + b"\0"
 
 

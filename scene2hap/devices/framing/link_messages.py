@@ -23,7 +23,7 @@ MUTED = 4
 
 @dataclass(frozen=True)
 class Hello:
-    """The host greets: which rate [Hz] and how many channels it would like; 0 Hz for the device's own."""
+    """The host's greeting: requested rate [Hz] and number of channels; 0 Hz for the device's own rate."""
 
     sample_rate_hz: int
     channels: int
@@ -40,7 +40,7 @@ class Hello:
 
 @dataclass(frozen=True)
 class DeviceFormat:
-    """The device answers: what it plays, how many frames it can queue, and how many it takes in one PCM frame."""
+    """The device's answer: its format, the length of its queue, and the most sample frames in one PCM frame."""
 
     sample_rate_hz: int
     channels: int
@@ -94,7 +94,7 @@ class Credit:
 
 
 def is_newer(sequence: int, than: int) -> bool:
-    """Whether a 16-bit sequence number comes after another one, across the wrap."""
+    """Return True if a 16-bit sequence number comes after another one, across the wrap."""
     return 0 < (sequence - than) % 2**16 < 2**15
 
 

@@ -27,7 +27,7 @@ SLIM_HEADER = bytes([0xC8, 0xC9, 0x11, 0x80])
 """The board counts bytes and ignores these; the last should be 96 and is 128 in everything that talks to it."""
 
 SLIM_CREDIT = b"buffer_copied"
-"""The line that the slim board prints when it wants a frame."""
+"""The line by which the slim board requests a frame."""
 
 SLIM_QUEUE_FRAMES = 8
 """Slim frames that the board gathers before it swaps buffers; its counter must land on exactly their 800 bytes."""
@@ -98,7 +98,7 @@ def slim_frame(block: Block) -> bytes:
 
 
 def slim_ending() -> bytes:
-    """Eight frames of rest: an idle board repeats its last buffer for ever, so this must be what it holds."""
+    """Return eight frames of rest: an idle board repeats its last buffer for ever, which must be silence."""
     return (SLIM_HEADER + bytes([MIDDLE]) * (FRAMES * CHANNELS)) * SLIM_QUEUE_FRAMES
 
 

@@ -1,7 +1,7 @@
 """HJIF, the JSON form of MPEG haptics coding (ISO/IEC 23090-31). One file a track, one channel a hand.
 
 The continuous part is a band of vectorial waves, sine waves whose amplitude and frequency follow keyframes; transients
-are a band of their own. What a file must hold follows the loader of MPEG's reference software (`IOJson`).
+are a band of their own. The required fields are those of the loader of MPEG's reference software (`IOJson`).
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Profile = Literal["Simple Parametric", "Main"]
 _TIMESCALE = {"Simple Parametric": 1000, "Main": 48_000}
 """Ticks a second: the number that the profile requires, and the most that it allows."""
 _DATE = "2023-01-01"
-"""Of the edition of the standard; a date of writing would make equal exports differ."""
+"""Date of the edition of the standard; the date of writing would make equal exports differ."""
 _MOST_CHANNELS = 127
 _BODY_PARTS = {"left": ["Left", "Hand"], "right": ["Right", "Hand"]}
 _TRANSIENT_HZ = (65.0, 300.0)
@@ -75,7 +75,7 @@ class HjifExport:
 
 
 def _on_ticks(clip: HapticClip, ticks: int) -> HapticClip:
-    """The clip as the file holds it: times in whole ticks, frequencies in whole hertz."""
+    """Return the clip with times in whole ticks and frequencies in whole hertz, as in the file."""
     low, high = clip.range_hz
     times = np.round(clip.amplitude.times_s * ticks) / ticks
     times[-1] = max(times[-1], 1 / ticks)  # a clip has a length

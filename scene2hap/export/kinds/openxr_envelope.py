@@ -11,7 +11,7 @@ from scene2hap.export.protocol import Exported, file_name, json_bytes, nanosecon
 from scene2hap.export.track import Channel, Track
 
 MAX_AMPLITUDES = 4000
-"""Of one call (XR_MAX_HAPTIC_AMPLITUDE_ENVELOPE_SAMPLES_FB)."""
+"""Most amplitudes of one call (XR_MAX_HAPTIC_AMPLITUDE_ENVELOPE_SAMPLES_FB)."""
 
 
 class OpenXrEnvelopeExport:

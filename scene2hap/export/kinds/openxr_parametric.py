@@ -19,7 +19,7 @@ from scene2hap.export.protocol import Exported, file_name, json_bytes, nanosecon
 from scene2hap.export.track import Track
 
 MAX_POINTS = 500
-"""Of each kind in one call (XR_HAPTIC_PARAMETRIC_MAX_POINTS_TRANSIENTS_EXT)."""
+"""Most points of each kind in one call (XR_HAPTIC_PARAMETRIC_MAX_POINTS_TRANSIENTS_EXT)."""
 _LEAST_HZ = 1.0
 """XR_HAPTIC_PARAMETRIC_FREQUENCY_MIN_HZ_EXT."""
 
@@ -80,7 +80,7 @@ class OpenXrParametricExport:
             now = [
                 [row for row in rows if start < row["time_ns"] <= edge] for rows in (amplitude, frequency, transients)
             ]
-            # A runtime draws no line to a point that it has not got yet, so each frame ends with points of its own.
+            # A runtime cannot interpolate to a point of a later frame, so each frame ends with points of its own.
             for curve, points in ((clip.amplitude, now[0]), (clip.frequency, now[1])):
                 if curve is not None and (not points or points[-1]["time_ns"] < edge):
                     value = float(curve.at(np.array([edge / 1e9]))[0])

@@ -22,7 +22,7 @@ from scene2hap.llm.wrappers.prices import PriceList
 TIER = "batch"
 """The tier of prices."""
 _TRIES = 3
-"""How often a request is sent on which the server failed; what it had no time for is sent again without limit."""
+"""Most attempts for a request that fails on the server; one that the server had no time for is always repeated."""
 _NO_FAULT = frozenset({"batch_expired", "batch_cancelled"})
 
 
@@ -36,8 +36,8 @@ class AnswerPending(BackendUnavailable):
 class BatchBackend:
     """Answers of `model` from a folder of batches.
 
-    A question without an answer is written for the next batch, once, unless an open batch has it. Parameters
-    that the model turned out not to take are left out from then on.
+    A question without an answer is written for the next batch, once, unless an open batch has it. Parameters that the
+    model has rejected are left out from then on.
     """
 
     def __init__(self, model: OpenAIBackend, folder: BatchFolder, prices: PriceList) -> None:
@@ -70,11 +70,11 @@ class BatchBackend:
 
     @property
     def n_answers(self) -> int:
-        """How many requests were answered."""
+        """The number of answered requests."""
         return len(self._answers)
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """The answer. Raises: AnswerPending: it is still to come; BadAnswer: it came to nothing, or is unusable."""
+        """Return the answer. Raises: AnswerPending: there is none yet; BadAnswer: it failed, or is unusable."""
         body = self._body(request)
         key = _key(body)
         about = chat.about(request)
@@ -90,7 +90,7 @@ class BatchBackend:
         raise AnswerPending(f"{about}: no batch has answered yet.")
 
     def close(self) -> None:
-        """Finish the file of what was noted."""
+        """Complete the file of new requests."""
         self._writer.close()
 
     @property
@@ -102,7 +102,7 @@ class BatchBackend:
         return {name: value for name, value in self._model.body(request).items() if name != "service_tier"}
 
     def _take(self, key: str, outcome: Outcome) -> None:
-        """Note what came of a request: an answer, a lesson about parameters, a failure, or nothing."""
+        """Store the result of a request: an answer, a rejected parameter, a failure, or nothing."""
         if outcome.code:
             if outcome.code not in _NO_FAULT:
                 self._failures[key] += 1
@@ -117,7 +117,7 @@ class BatchBackend:
                 # Every later run reads this line again.
                 warnings.simplefilter("ignore", chat.BackendWarning)
                 is_lesson = self._model.learns(reply)
-            # After a lesson the question is another one, without the parameter.
+            # Without a rejected parameter, the question has another key.
             self._failures[key] += 1 if problem.retryable or is_lesson else _TRIES
             self._why[key] = str(problem)
         except Scene2HapError as problem:
@@ -128,5 +128,5 @@ class BatchBackend:
 
 
 def _key(body: dict[str, Any]) -> str:
-    """A name for all that is sent."""
+    """Return a digest of the whole request."""
     return hashlib.sha256(canonical(body).encode()).hexdigest()

@@ -5,7 +5,7 @@ FOLDER/0001.input.jsonl    what is sent, until the server has it
 FOLDER/0001.output.jsonl   what came back, as it came
 FOLDER/0001.error.jsonl    requests that came to nothing, as it came
 
-Every file is written whole or not at all. What a request has come to is read from these files alone, so that reading
+Every file is written whole or not at all. The state of each request follows from these files alone, so that reading
 them again changes nothing.
 """
 
@@ -25,7 +25,7 @@ from scene2hap.text_files import write_whole
 Stage = Literal["written", "uploaded", "begun", "collected"]
 
 _PART_BYTES, _PART_REQUESTS = MOST_BYTES * 9 // 10, MOST_REQUESTS // 5
-"""Of one batch of ours: a part that fails as a whole costs less, and answers stay far below what is read at once."""
+"""Our limits of one batch: a batch that fails as a whole then costs less, and its answers fit the reader's limit."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class BatchRow:
 
 @dataclass(frozen=True)
 class Outcome:
-    """Result of a request: the status and the body of the server's answer, or in place of both an error's code."""
+    """Result of a request: status and body of the server's answer, or instead the code of an error."""
 
     status: int
     body: Any
@@ -87,7 +87,7 @@ class BatchFolder:
         return found
 
     def save(self, row: BatchRow) -> BatchRow:
-        """Write a row, and forget its requests' text once the server has it."""
+        """Write a row, and delete the text of its requests once the server has it."""
         self._write(f"{row.number:04d}.json", json.dumps(asdict(row), indent=1).encode())
         if row.stage in ("begun", "collected"):
             self.input_path(row).unlink(missing_ok=True)
@@ -98,7 +98,7 @@ class BatchFolder:
         return self.path / f"{row.number:04d}.input.jsonl"
 
     def keep(self, row: BatchRow, output: str, error: str) -> BatchRow:
-        """Store what came back, and the row as collected."""
+        """Store the results, and mark the row as collected."""
         for name, text in (("output", output), ("error", error)):
             if text:
                 self._write(f"{row.number:04d}.{name}.jsonl", text.encode())
@@ -107,7 +107,7 @@ class BatchFolder:
     # -- outcomes -----------------------------------------------------------------------------------------------------
 
     def outcomes(self) -> Iterator[tuple[str, Outcome]]:
-        """All that came back, by the key of its request, in the order of the batches; damaged lines are left out."""
+        """Yield all results, by the key of the request, in the order of the batches; damaged lines are left out."""
         for path in sorted(self.path.glob("[0-9]*.jsonl")):
             if not path.name.endswith(".input.jsonl"):
                 with path.open("rb") as lines:
@@ -116,11 +116,11 @@ class BatchFolder:
     # -- requests -----------------------------------------------------------------------------------------------------
 
     def writer(self) -> RequestWriter:
-        """Takes new requests into new rows."""
+        """Return a writer that adds new requests in new rows."""
         return RequestWriter(self)
 
     def discard_unfinished(self) -> None:
-        """Remove files of requests that no row speaks of: their run ended before they were whole."""
+        """Remove files of requests without a row: their run ended before they were complete."""
         known = {self.input_path(row) for row in self.rows()}
         for path in (*self.path.glob("*.input.jsonl"), *self.path.glob(".*.part")):
             if path not in known:
@@ -137,7 +137,7 @@ class BatchFolder:
 
 
 class RequestWriter:
-    """Writes requests into files of at most so many, and a row for each file once it is whole."""
+    """Writes requests into files of limited size, and a row for each complete file."""
 
     def __init__(self, folder: BatchFolder) -> None:
         self._folder = folder
@@ -148,7 +148,7 @@ class RequestWriter:
         self._estimate_usd: float | None = 0.0
 
     def add(self, key: str, body: dict[str, Any], estimate_usd: float | None) -> None:
-        """Take one request, whose cost is estimated. Raises: ConfigError: it cannot be written."""
+        """Add one request with its estimated cost. Raises: ConfigError: it cannot be written."""
         line = {"custom_id": key, "method": "POST", "url": COMPLETIONS, "body": body}
         content = json.dumps(line, ensure_ascii=False, allow_nan=False).encode("utf-8", "replace") + b"\n"
         if self._n_bytes + len(content) > _PART_BYTES or len(self._keys) >= _PART_REQUESTS:

@@ -16,7 +16,7 @@ COMPLETIONS = "/v1/chat/completions"
 """The endpoint of every request of a batch."""
 MOST_REQUESTS = 50_000
 MOST_BYTES = 200 * 10**6
-"""Of one batch; the service's own limits."""
+"""Limits of one batch, set by the service."""
 
 _ENDED = frozenset({"completed", "failed", "expired", "cancelled"})
 _WAITS_S = (1.0, 4.0, 16.0)
@@ -38,7 +38,7 @@ class BatchStatus:
 
     @property
     def has_ended(self) -> bool:
-        """Whether nothing more will come."""
+        """True if nothing more will come."""
         return self.status in _ENDED
 
 
@@ -58,16 +58,16 @@ class BatchService:
         return _id(reply, "file")
 
     async def create(self, input_file: str) -> BatchStatus:
-        """Begin a batch, which costs money: never sent twice by itself."""
+        """Begin a batch. Since it costs money, this is never retried automatically."""
         body = {"input_file_id": input_file, "endpoint": COMPLETIONS, "completion_window": "24h"}
         return _status(chat.json_object(await self._endpoint.post("batches", body)))
 
     async def status(self, batch: str) -> BatchStatus:
-        """How far a batch is."""
+        """Return the state of a batch."""
         return _status(chat.json_object(await self._get(f"batches/{batch}")))
 
     async def begun_with(self, input_file: str) -> BatchStatus | None:
-        """The batch that was begun with a file, should its answer have been lost; None if there is none."""
+        """Return the batch that was begun with a file, in case the server's reply was lost; None if there is none."""
         after = ""
         while True:
             page = chat.json_object(await self._get(f"batches?limit={_PAGE}{after}"))
@@ -80,7 +80,7 @@ class BatchService:
             after = f"&after={chat.text_of(rows[-1].get('id'))}"
 
     async def cancel(self, batch: str) -> BatchStatus:
-        """End a batch early; what is answered by then is kept and billed."""
+        """End a batch early; answers until then are kept and billed."""
         return _status(chat.json_object(await self._endpoint.post(f"batches/{batch}/cancel", {})))
 
     async def content(self, file: str) -> str:

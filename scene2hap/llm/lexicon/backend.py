@@ -20,7 +20,7 @@ _Facts = Mapping[str, Any]
 class LexiconBackend:
     """Answers from `request.facts` alone; prompt, pictures and temperature do not matter.
 
-    What the table does not know becomes category "unknown" with confidence of at most 0.2 and stays silent.
+    An object that is not in the table gets the category "unknown", a confidence of at most 0.2, and is silent.
     Raises (from `complete`): BadAnswer: a fact is missing or of the wrong kind, or no row of the material table has
     the requested material.
     """

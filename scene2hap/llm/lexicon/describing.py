@@ -51,6 +51,6 @@ def _state(category: str, state_name: str) -> StateRow:
 
 
 def _words(text: str, most: int) -> str:
-    """The first words of a text. Forms of "vibrate" are left out: they say that, not how, a thing moves."""
+    """Return the first words of a text, without forms of "vibrate", which say that an object moves, but not how."""
     kept = [word[:_MAX_LETTERS] for word in text.split() if "vibrat" not in word.casefold()]
     return " ".join(kept[:most])

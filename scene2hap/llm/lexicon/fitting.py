@@ -54,7 +54,7 @@ _TOO_HIGH, _TOO_SHORT, _TOO_THIN, _TOO_SLENDER, _PART, _BESIDE_SAME = 0.4, 0.5, 
 
 @dataclass(frozen=True)
 class Fit:
-    """How far measurements bear a reading out: factor of its confidence, why, and the machine that it is a part of."""
+    """The agreement of a reading with measurements: confidence factor, reasons, and the machine it is a part of."""
 
     trust: float = 1.0
     doubts: tuple[str, ...] = ()
@@ -69,7 +69,7 @@ def fit(
     height_m: float | None,
     neighbour_names: Sequence[str],
 ) -> Fit:
-    """Hold a reading against size, height above the lowest thing [m] (None if unknown) and neighbours."""
+    """Compare a reading with size, height above the lowest object [m] (None if unknown) and neighbours."""
     beside = [other.row for other in map(read_name, neighbour_names) if other.row is not None and not other.toy]
     found = [*_by_height(row, height_m, beside), *_by_size(row, size_m, flags), *_by_name(reading, row)]
     part_of = _machine_around(reading, row, beside)

@@ -15,8 +15,8 @@ from scene2hap.scene import sizes
 
 UNKNOWN = "unknown"
 
-# Below half of the smallest real one a thing is a miniature; beyond three times the largest, the scene's unit is in
-# doubt. Both assumed, wide enough for asset kits at half or double scale.
+# An object below half of the smallest real size is a miniature; beyond three times the largest, the scene's unit is
+# doubtful. Both are assumed, wide enough for asset kits at half or double scale.
 _MINIATURE = 0.5
 _GIANT = 3.0
 _MINIATURE_TRUST = 0.8
@@ -24,7 +24,7 @@ _GIANT_TRUST = 0.5
 
 _LONGEST_REASON = 600  # letters, as in ObjectAnswer
 _MOST_SHOWN = 100  # letters of a name
-_LARGEST_M = 1e5  # the bound of ObjectAnswer; only a scene in a wrong unit has larger things
+_LARGEST_M = 1e5  # the bound of ObjectAnswer; only a scene in a wrong unit has larger objects
 _THINNEST_M = 1e-3  # a plate measured below this is taken as modelled without thickness
 _MINIATURE_MATERIAL = "plastic"  # assumed for all of them
 _MINIATURE_THICKNESS_M = 2e-3  # assumed
@@ -36,7 +36,7 @@ _VOWEL_FIRST = re.compile(r"[aeio]|u(?!fo|k|ni|ri|sb|t)|hour|led\b|mri\b|x-ray")
 
 @dataclass(frozen=True)
 class Measured:
-    """An object as the scene has it: authored name, size of its dominant surface and the doubts about it.
+    """The data of an object in the scene: authored name, size of its dominant surface, and doubts about it.
 
     `scene_category` and `material_names`, the authored names of what it is painted with, are empty where unknown;
     `height_m` is that of its lowest point above the scene's [m], None where unknown.
@@ -51,7 +51,7 @@ class Measured:
 
 
 def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
-    """The Object Analyzer's answer; category "unknown", silent and unsure where the name says nothing."""
+    """Return the Object Analyzer's answer; "unknown", silent and of low confidence if the name says nothing."""
     length, width, thickness = (min(edge, _LARGEST_M) for edge in item.size_m)
     item = replace(item, size_m=(length, width, thickness))
     reading = read_name(item.name)
@@ -136,7 +136,7 @@ def _as_miniature(item: Measured, reading: NameReading, row: ObjectRow, why: str
 
 
 def _miniature(reading: NameReading, row: ObjectRow, size_m: tuple[float, float, float]) -> str:
-    """Why this is not the real thing; "" where it may be."""
+    """Return why the object is a miniature or a toy, "" if it may be real."""
     if reading.toy:
         return "The name says that it is not a real one."
     longest = max(size_m)
@@ -157,7 +157,7 @@ def _shown(name: str) -> str:
 
 
 def _cut(reason: str) -> str:
-    """A reason no longer than an answer may have it; names and their words may be of any length."""
+    """Cut a reason to the length that an answer allows, since names may be of any length."""
     return reason if len(reason) <= _LONGEST_REASON else f"{reason[: _LONGEST_REASON - 3]}..."
 
 
@@ -171,10 +171,10 @@ def _thickness(item: Measured, plausible_m: float, category: str) -> tuple[float
 
 
 def _states(row: ObjectRow, neighbour_names: Sequence[str]) -> tuple[list[StateAnswer], str]:
-    """The states that hold here, and why; a pan's only where it touches something that heats it.
+    """Return the states of an object, and the reasons; those of a pan only if it touches a heater.
 
-    A pan that touches nothing (held in the air, or looked at by itself) is not known to stand elsewhere: its states
-    name the heater that they wait for. On a table it is still, as in the paper, section "Study 1".
+    A pan that touches nothing (held in the air, or analysed alone) may be put on a heater later: its states name the
+    heater that they need. On a table it is silent, as in the paper, section "Study 1".
     """
     own = [state for state in row.states if not state.needs_contact]
     if own:

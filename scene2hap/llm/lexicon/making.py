@@ -30,7 +30,7 @@ def _painted_with(material_name: str) -> str | None:
 def make(reading: NameReading, row: ObjectRow, scene_category: str, material_names: Sequence[str]) -> tuple[str, float]:
     """Material and plate thickness [m]: the table's, the whole's for a part, or what name, paint or place tell.
 
-    A machine keeps its own: beside a machine an adjective tells what it works on (wood chipper, metal saw).
+    A machine keeps the table's material: its adjective names what it works on (wood chipper, metal saw).
     """
     whole = reading.whole
     material, thickness_m = row.material, row.thickness_m

@@ -188,7 +188,7 @@ def _whole(tokens: Sequence[str], head: _Noun, nouns: Sequence[_Noun]) -> Object
 
 
 def _is_beside(word: str) -> bool:
-    """Whether a word behind the noun leaves it the object: a side, a room, a material, a serial."""
+    """Return True if a word behind the noun leaves it the object: a side, a room, a material, a serial."""
     return len(word) < 3 or any(
         form in spelling.side_words() or form in words.MATERIAL_WORDS for form in words.forms(word)
     )

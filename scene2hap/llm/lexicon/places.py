@@ -18,10 +18,10 @@ _ENOUGH_VOICES = 2  # one word may always be a misreading
 
 
 def kind_of_place(scene_name: str, object_names: Sequence[str]) -> str:
-    """The place that most objects belong to, such as "living room"; "undefined" on a tie or too little to go by.
+    """Return the place to which most objects belong, such as "living room"; "undefined" on a tie or too few votes.
 
-    Each noun votes once however often it occurs, since a place does not change with its number of chairs, and shares
-    its vote among the places where it may stand. What stands anywhere does not vote.
+    Each noun votes once, also if it occurs often, since a place does not change with its number of chairs. It shares
+    its vote among the places where it may stand. Objects that may stand anywhere do not vote.
     """
     ballots: list[tuple[str, Fraction]] = []
     readings = [(read_name(name), name) for name in object_names]

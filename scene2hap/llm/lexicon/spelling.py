@@ -60,7 +60,7 @@ def _at_capitals(run: str) -> Iterator[str]:
 
 
 def is_known(word: str) -> bool:
-    """Whether the lexicon knows the word, as part of a noun or beside one."""
+    """Return True if the lexicon knows the word, as part of a noun or beside one."""
     if len(word) < 3:
         return True  # a serial, a side (L, R) or an exporter's mark
     return any(form in _vocabulary() or form in side_words() for form in words.forms(word))
@@ -97,7 +97,7 @@ def _cut(word: str) -> tuple[str, ...]:
 
 @lru_cache(maxsize=4096)
 def _is_piece(text: str) -> bool:
-    """Whether a word can stand in a run-together one: a noun of its own or a word beside nouns, no fragment."""
+    """Return True if a word can stand in a run-together one: a noun of its own or a word beside nouns, no fragment."""
     if text in _SHORT_PIECES:
         return True
     if len(text) < _SHORTEST_PIECE or text in words.PREPOSITIONS:
@@ -117,7 +117,7 @@ def _meant(word: str) -> str | None:
 
 
 def _is_slip(written: str, known: str) -> bool:
-    """Whether one letter is missing, surplus, swapped with its neighbour, or another vowel.
+    """Return True if one letter is missing, surplus, swapped with its neighbour, or another vowel.
 
     A consonant for another one is left out: that is more often a different word (painter, printer).
     """

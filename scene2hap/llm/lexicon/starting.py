@@ -1,4 +1,4 @@
-"""How long everyday things take to start and to stop, and which switch themselves: a table by noun and by verb."""
+"""Times in which everyday objects start and stop, and which of them switch themselves: a table by noun and verb."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from scene2hap.llm.lexicon.table import ObjectRow, starting_text
 
 
 def starting_of(row: ObjectRow | None, verb: str) -> Mapping[str, Any]:
-    """`start_up_s`, `wind_down_s` [s], `spins`, `on_s` and `off_s` [s] of a thing that does so; empty if unknown.
+    """Return `start_up_s`, `wind_down_s` [s], `spins`, `on_s` and `off_s` [s] of an object; empty if unknown.
 
-    A noun of the table, then its verb; a thing that is not in the lexicon is described by its verb.
+    The noun is looked up first, then the verb; an object that is not in the lexicon is described by its verb.
     """
     table = _table()
     return table.get(row.noun if row is not None else "") or table.get(verb, {})

@@ -88,7 +88,7 @@ def version() -> str:
 
 @cache
 def starting_text() -> str:
-    """How things start and stop, as it is in its file; see `lexicon.starting`."""
+    """The content of the file of start and stop times; see `lexicon.starting`."""
     return files(__package__).joinpath("starting.csv").read_text(encoding="utf-8")
 
 

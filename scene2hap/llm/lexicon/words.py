@@ -126,10 +126,10 @@ PAINT_WORDS = {
     "plexiglass": "plexiglass",
     "nylon": "nylon",
 }
-"""Words in the names of surface materials; in the names of objects some of these words would be things."""
+"""Words in the names of surface materials; in the names of objects some of these words would be objects."""
 
 MATERIAL_NOUNS = frozenset({"glass", "paper", "brick", "stone"})
-"""Nouns that after another noun name its material (tableGlass), not a thing of their own."""
+"""Nouns that after another noun name its material (tableGlass), not another object."""
 
 LEFTOVER_NOUNS = frozenset({"mat", "trash", "orange", "cream", "mobile", "house", "backsplash", "splashback"})
 """Nouns that after another noun are none: exporters write "Burner_mat_0", designers "ham_trash", "sofa_orange" and

@@ -21,8 +21,8 @@ class BudgetBackend(Wrapper):
     prices : model name -> `Price`, or (input, output) or (input, output, cached input) [US dollars per million
     tokens], beside or instead of those of the dated list (`price_list()`); a model in neither has an unknown price,
     never none.
-    Checked before each call, with what is known then: calls under way at the same time can pass a limit on tokens or
-    cost by what they use, a limit on calls never.
+    Limits are checked before each call, with the usage known by then. Concurrent calls can exceed a limit on tokens or
+    cost by their own usage, a limit on calls never.
     Raises: ConfigError: a limit that is negative or a price that is none.
     """
 
@@ -66,17 +66,17 @@ class BudgetBackend(Wrapper):
                 self._meter(problem)
             raise
         if reply.is_kept:
-            self._calls -= 1  # a cache further in had it
+            self._calls -= 1  # an inner cache answered it
         else:
             self._meter(reply)
         return reply
 
     def report(self) -> dict[str, Any]:
-        """Calls, tokens and cost [US dollars] (None: unknown), the date of the prices, and what the sums lack.
+        """Return calls, tokens and cost [US dollars] (None: unknown), the date of the prices, and missing items.
 
-        Answers that were cut short, refused or empty are among the failed calls and are paid for. Calls that failed
-        without any answer are in no sum, though a service may bill some; neither are answers without their usage.
-        Input that the service had in its prompt cache, and cheaper service tiers, count at their own price.
+        Answers that were cut short, refused or empty are failed calls that are billed. Calls without any answer are in
+        no sum, though a service may bill some; neither are answers without their usage. Input in the service's prompt
+        cache, and cheaper service tiers, have their own prices.
         """
         return {
             "calls": self._calls,

@@ -47,11 +47,11 @@ class _Entry(BaseModel):
 class CacheBackend(Wrapper):
     """Answer from `folder` if possible; else call `inner` and keep the answer if it is valid.
 
-    The key is that of a recording plus the inner backend's `identity`: model, base address, what else decides the
-    answer. A hit reports no usage, since it costs nothing. Equal questions at the same time cause one call, in
-    this process and between processes. A file that cannot be read back, or whose answer the rules of today no
-    longer allow, counts as absent and is written again. The lock of a run that died is free: the system holds it for a
-    process, and its empty file stays in `locks/`.
+    The key is that of a recording plus the inner backend's `identity`: model, base address, and other settings that
+    affect the answer. A hit reports no usage, since it costs nothing. Equal questions at the same time cause one call,
+    in this process and between processes. A file that cannot be read, or whose answer is no longer valid, counts as
+    absent and is written again. The system releases the locks of a process that died; their empty files stay in
+    `locks/`.
     Raises: ConfigError: the folder cannot be written, or `inner` has no identity.
     """
 
@@ -128,7 +128,7 @@ class CacheBackend(Wrapper):
         if reply.finish_reason != "stop" or find_fault(request.component, reply.text) is not None:
             self._rejected += 1
             return reply
-        # Read again: a backend in a wrapper that does not hand `ready` on learns its model while it answers.
+        # Read again, since behind a wrapper without `ready` a backend learns its model only while it answers.
         identity = self.identity
         key = _key(request, identity)
         entry = _Entry(

@@ -93,7 +93,7 @@ def _price(model: str, price: Price | Given) -> Price:
         return Price(*price)
     except ConfigError:
         raise
-    except Exception as cause:  # what is no pair of numbers raises what it likes
+    except Exception as cause:  # a value that is no pair of numbers may raise anything
         raise ConfigError(
             f"the price of {model!r} is {checks.represented(price)}; it must be (input, output) or (input, output, "
             "cached input) per million tokens."

@@ -16,7 +16,7 @@ from scene2hap.llm.validation import Fault, find_fault
 from scene2hap.llm.wrappers.stack import Spec, Wrapper
 
 _LONGEST_QUOTED = 4000
-"""Characters of a bad answer that are handed back; assumed, three times the longest good one."""
+"""Characters of a bad answer that are sent back (assumed: three times the longest good one)."""
 
 
 @clear_construction

@@ -23,7 +23,7 @@ def identity(backend: object) -> Mapping[str, Any]:
 
 
 def is_remote(backend: object) -> bool:
-    """Whether a backend is behind an address, so that pictures are worth taking."""
+    """Return True if a backend has an address, so that rendering pictures for it is worth the time."""
     return "base_url" in identity(backend)
 
 

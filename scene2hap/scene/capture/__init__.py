@@ -2,12 +2,12 @@
 
     scene = capture_images(load_scene("kitchen.glb"))
     scene.images[0]                                   # PNG: the scene from above
-    scene.object("kettle").images.context[0]          # PNG: the kettle among other things, outlined in pink
+    scene.object("kettle").images.context[0]          # PNG: the kettle in its surroundings, outlined in pink
     render_all(scene, workers=2)                      # all of them now, on two cores
 
 Source: Scene2Hap, sections "Automatic Data Extraction" and "Collecting Multimodal Information".
-Differs: what stands in the way is removed by the rules of `scene2hap.scene.capture.culling`, which keep an object's
-support and neighbours; the outline encloses exactly the visible pixels.
+Differs: objects that hide the target are removed by the rules of `scene2hap.scene.capture.culling`, which keep an
+object's support and neighbours; the outline encloses exactly the visible pixels.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def capture_images(
     config: CaptureConfig | Mapping[str, Any] | None = None,
     alone: bool = False,
 ) -> SceneSnapshot:
-    """The same scene with images. Nothing is rendered here: a picture is taken when it is first read.
+    """Return the scene with images. Each picture is rendered when it is first read.
 
     Parameters:
     object_ids : the objects that get images, None for all. The scene gets its own in any case.

@@ -14,7 +14,7 @@ SUBJECT = "object"
 """The id of the object in a scene of its own."""
 
 _DIGITS = 6
-"""Of rotations: what one mesh is turned by in two scenes differs in the last digits."""
+"""Decimals to which rotations are rounded, since those of one mesh in two scenes may differ in the last digits."""
 
 
 def by_itself(item: SceneObject, up_axis: UpAxis) -> SceneSnapshot:

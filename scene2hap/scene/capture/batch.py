@@ -30,7 +30,7 @@ _AHEAD = 2
 
 
 def render_all(scene: SceneSnapshot, workers: int | None = None, *, progress: Progress | None = None) -> CaptureStats:
-    """Take every picture of a captured scene that was not taken yet; reading them afterwards costs nothing.
+    """Render all pictures of a captured scene that are not cached, so that reading them is immediate.
 
     Parameters: workers : processes, of which this is one; None means what the configuration says. The others import the
         main module, so that a script guards its entry with ``if __name__ == "__main__"``.
@@ -48,7 +48,7 @@ def render_all(scene: SceneSnapshot, workers: int | None = None, *, progress: Pr
     is_alone = workers <= 1 or len(wanted) <= 1
     taken = _alone(studio, wanted) if is_alone else _shared(studio, wanted, workers - 1)
     total = len(wanted) + sum(map(len, by_themselves))
-    # What is shown without its surroundings is a small stage of its own, which no other process need be sent.
+    # An object shown alone has a small stage of its own, which need not be sent to another process.
     for n_done, _ in enumerate(chain(taken, chain.from_iterable(by_themselves)), start=1):
         if progress is not None:
             progress(n_done, total)
@@ -77,7 +77,7 @@ def _alone(studio: Studio, wanted: list[Shot]) -> Iterator[Shot]:
 
 
 def _shared(studio: Studio, wanted: list[Shot], others: int) -> Iterator[Shot]:
-    """Take pictures in this process, which need not start, and in others."""
+    """Render pictures in this process, which needs no start-up time, and in others."""
     # Spawned processes are the same on every system, and inherit no thread that holds a lock.
     context = multiprocessing.get_context("spawn")
     # An object's pictures go together: its search tree is built in one process.
@@ -110,7 +110,7 @@ _photographer: Photographer | None = None
 
 @contextmanager
 def _written(setting: tuple[Stage, CaptureConfig, RendererFactory, tuple[int | None, ...]]) -> Iterator[Path]:
-    """A file with what the other processes need, while it is needed."""
+    """Yield a temporary file with the data for the other processes."""
     with tempfile.TemporaryDirectory(prefix="scene2hap-") as folder:
         path = Path(folder) / "stage.pickle"
         path.write_bytes(pickle.dumps(setting, pickle.HIGHEST_PROTOCOL))

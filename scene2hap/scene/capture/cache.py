@@ -1,4 +1,4 @@
-"""Pictures kept by what they show: in memory for this process, and in a folder between runs."""
+"""Caches of pictures by their content: in memory for this process, and in a folder between runs."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class MemoryCache:
                 self._size -= len(self._kept.popitem(last=False)[1])
 
     def clear(self) -> None:
-        """Forget everything."""
+        """Empty the cache."""
         with self._lock:
             self._kept.clear()
             self._size = 0

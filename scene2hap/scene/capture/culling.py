@@ -1,22 +1,22 @@
 """Removal of objects that hide the target of a picture.
 
-The paper casts a ray to the object and removes all that it meets, which it names a flaw: what the object stands on and
-what stands beside it, its context, may go as well. Here rays go to all of the target's silhouette, on a coarse grid,
-and what they meet on the way is
+The paper casts a ray to the object and removes all objects that it meets. It calls this a flaw, since the object's
+support and neighbours, its context, may be removed as well. Here rays go to all of the target's silhouette, on a coarse
+grid. An object that they meet on the way is
 
 1. *opened*, if it is a shell (`surroundings.shells`: walls, floor, ceiling, a room in one piece): it loses only the
    faces whose plane separates the eye from the target's middle, and so keeps floor and far walls. All shells are opened
-   where they hide more than `_UNCOVERED` of the other things in the picture, so that walls seen from outside do not
-   hide the room, nor the floor what is seen from below;
+   where they hide more than `_UNCOVERED` of the other objects in the picture, so that walls do not hide the room from
+   outside, nor the floor the objects from below;
 2. *kept*, if it is the target's support or near it (`surroundings.near`), as long as all that is kept hides no more
    than `hidden_share` of the silhouette together; the support comes first, then what hides least;
 3. *opened* like a shell, if it would be kept but hides too much, and holds the target inside it: a cabinet around
    plates;
-4. *culled*, that is left out, in all other cases: what is far, and what still hides too much once opened, where for
-   the far too much is `_REMAINDER`.
+4. *culled*, that is left out, in all other cases: distant objects, and those that hide too much even when opened,
+   where too much is `_REMAINDER` for distant ones.
 
-Scene pictures have no target. As in the paper, what the ray from the eye to the middle of the scene meets on its way is
-culled, but for what has that middle inside its box; shells are opened by rule 1.
+Scene pictures have no target. As in the paper, objects on the ray from the eye to the middle of the scene are culled,
+except those whose box contains that middle; shells are opened by rule 1.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ _GRID_PX = 64
 
 _UNCOVERED = 0.05
 _REMAINDER = 0.02
-# Layers of things that are looked behind; what is hidden by more than that stays hidden (assumed).
+# Most layers of blockers that are searched; a target behind more layers stays hidden (assumed).
 _MAX_LAYERS = 64
 
 
@@ -64,7 +64,7 @@ class Culler:
         hidden_share: float,
         below: tuple[int | None, ...] | None = None,
     ) -> Culler:
-        """A culler that knows what stands on what, `below` as `supports` gives it, if known before."""
+        """Build a culler for a stage; `below` is the result of `supports`, if known."""
         below = supports(stage) if below is None else below
         return cls(stage, renderer, below, shells(stage), near_share, hidden_share)
 
@@ -98,7 +98,7 @@ class Culler:
         return Selection(self.stage.everyone - culled, opened, focus)
 
     def _hiding_shells(self, shells: frozenset[int], wide: Camera, focus: Triple) -> frozenset[int]:
-        """The shells, if opening them uncovers much of the other things in the picture; else none."""
+        """Return the shells, if opening them uncovers much of the other objects in the picture; else none."""
         if not shells:
             return shells
         coarse, everyone = wide.resized(_GRID_PX), self.stage.everyone
@@ -124,7 +124,7 @@ class Culler:
 
 
 class _Aim:
-    """A target in its frame, and what hides its silhouette from the eye."""
+    """A target in its frame, and the actors that hide its silhouette from the eye."""
 
     def __init__(self, culler: Culler, target: int, close: Camera) -> None:
         self._culler, self._target, self._close = culler, target, close
@@ -157,7 +157,7 @@ class _Aim:
 
 
 def _segment_meets(low: Floats, high: Floats, start: Floats, end: Floats) -> bool:
-    """Whether the straight way from start to end passes through a box (slab method)."""
+    """Return True if the segment from start to end passes through a box (slab method)."""
     way = end - start
     with np.errstate(divide="ignore", invalid="ignore"):
         to_low, to_high = (low - start) / way, (high - start) / way

@@ -1,10 +1,10 @@
 """Pictures by ray casting with Intel Embree: exact ids in the same pass, and no system package.
 
-A tree over the whole stage is built once. What a picture leaves out stays in the tree: rays whose first hit belongs to
-it go on behind it. Only opened shells, which half of a picture's rays would have to pass, are kept out: a second tree
-holds the few large faces that they show in this view. Objects alone have trees of their own.
+A tree over the whole stage is built once. Actors that a picture leaves out stay in the tree: rays that hit them are
+continued behind them. Only opened shells are left out of the tree, since half of a picture's rays would have to pass
+them; a second tree holds the few large faces that they show in this view. Objects alone have trees of their own.
 
-Embree is single precision; a ray goes on a little behind what it passed, so that it does not meet it again.
+Embree uses single precision; a ray is continued a little behind the surface that it passed, so as not to hit it again.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ Levels = NDArray[np.uint8]
 
 # Step behind a passed hit, as a part of its depth and of the scene's size: some ulps of float32 (tuned).
 _STEP_OF_DEPTH, _STEP_OF_SCENE = 1e-6, 1e-6
-# Things passed along one ray at most; beyond it the ray counts as free (assumed: no scene is that deep).
+# Most actors that one ray passes; beyond it the ray counts as free (assumed: no scene is that deep).
 _MAX_PASSES = 512
 # Pictures of up to this many actors use the actors' own trees.
 _FEW = 2
@@ -128,7 +128,7 @@ class EmbreeRenderer:
         return np.flatnonzero(is_covered)
 
     def _cast(self, camera: Camera, directions: Floats, selection: Selection) -> _Hits:
-        """First hits on what the selection shows."""
+        """Return the first hits on actors that the selection shows."""
         passed = self._passed(camera, selection)
         if len(selection.shown) <= _FEW:
             trees = [self._tree(frozenset({number})) for number in sorted(selection.shown)]
@@ -159,7 +159,7 @@ class EmbreeRenderer:
         return hits
 
     def _is_passed(self, hits: _Hits, passed: Flags | None) -> Flags:
-        """Which rays go on: what they met is not shown, or is a hole in a texture."""
+        """Mark the rays to continue: their hit is not shown, or is in a hole of a texture."""
         triangle = hits.triangle
         is_passed = np.zeros(len(triangle), bool) if passed is None else passed.take(triangle)
         if self._has_cutouts:
@@ -247,7 +247,7 @@ def _nothing(n_rays: int) -> _Hits:
 
 
 def _nearest(found: list[_Hits]) -> _Hits:
-    """Of each ray, the hit that comes first."""
+    """Return the nearer hit of each ray."""
     best = found[0]
     for other in found[1:]:
         is_nearer = (other.triangle >= 0) & ((best.triangle < 0) | (other.depth < best.depth))
@@ -260,7 +260,7 @@ def _nearest(found: list[_Hits]) -> _Hits:
 
 
 def _edges(picture: Pixels) -> Flags:
-    """Which pixels differ visibly from the one to the right or below, or are differed from."""
+    """Mark both pixels of each pair of neighbours, to the right or below, that differ visibly."""
     is_edge = np.zeros(picture.shape[:2], bool)
     across, down = is_edge[:, 1:].copy(), is_edge[1:].copy()
     for level in np.moveaxis(picture, 2, 0):

@@ -29,7 +29,7 @@ def planes(triangles_m: Floats32) -> Floats:
 
 
 def separates(planes_m: Floats, eye_m: Floats, focus_m: Floats) -> NDArray[np.bool_]:
-    """Whether each plane (m, 4) has eye and focus on different sides; only then can a face on it hide the focus."""
+    """Mark the planes (m, 4) that separate eye and focus; only a face on such a plane can hide the focus."""
     of_eye = planes_m[:, :3] @ eye_m - planes_m[:, 3]
     of_focus = planes_m[:, :3] @ focus_m - planes_m[:, 3]
     is_between: NDArray[np.bool_] = of_eye * of_focus < 0
@@ -38,9 +38,9 @@ def separates(planes_m: Floats, eye_m: Floats, focus_m: Floats) -> NDArray[np.bo
 
 @dataclass(frozen=True, eq=False)
 class Extents:
-    """Where triangles lie from an eye: `low`, `high` (2, n) right and down at depth 1 [-], of those that `is_ahead`.
+    """Bounds of projected triangles: `low`, `high` (2, n) right and down at depth 1 [-], of those that are `is_ahead`.
 
-    `is_cut` : those that reach behind the eye's plane, which have no such place.
+    `is_cut` : triangles that extend behind the eye's plane, and have no bounds.
     """
 
     low: Floats32
@@ -50,7 +50,7 @@ class Extents:
 
 
 def extents(by_axis_m: Floats32, camera: Camera) -> Extents:
-    """Of triangles (3 axes, 3 corners, n), for all cameras that share eye and axes with this one."""
+    """Return the bounds of triangles (3 axes, 3 corners, n), for all cameras with the eye and axes of this one."""
     right, up, forward = camera.axes
     axes = np.stack((right, -up, forward))
     offsets = (axes @ camera.eye_m).astype(np.float32)
@@ -68,10 +68,10 @@ def extents(by_axis_m: Floats32, camera: Camera) -> Extents:
 
 
 def in_view(seen: Extents, camera: Camera) -> Flags:
-    """Which triangles (n,) can colour a pixel where corners are rounded down to whole pixels, as p3tinydisplay does.
+    """Mark the triangles (n,) that can colour a pixel if corners are rounded down to whole pixels (p3tinydisplay).
 
-    Those are left out that lie behind the eye or beside the picture, or whose corners all fall into one row or column
-    of it, as most of a finely meshed scene's do.
+    Triangles behind the eye or beside the picture are left out, and those whose corners all fall into one row or column
+    of pixels, as most do in a finely meshed scene.
     """
     # The picture's last half pixel is never reached: so the rasteriser scales.
     edge = np.float32(camera.size_px - 0.5)

@@ -21,14 +21,14 @@ Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
 
 BACKGROUND_RGB = (190, 194, 200)
-"""The background: light enough for black things, dark enough for white ones (assumed)."""
+"""The background: light enough for black objects, dark enough for white ones (assumed)."""
 
 AMBIENT, HEADLIGHT, SKYLIGHT = 0.40, 0.50, 0.10
-"""Parts of a colour that show regardless of angle, facing the eye, and facing up (minus facing down) (tuned by eye)."""
+"""Weights of ambient light, of light from the eye, and of light from above (minus below) (tuned by eye)."""
 
 # Textures are shrunk to this edge, which is what a picture of 512 pixels can show, and what memory is spent on.
 _TEXTURE_PX = 512
-# What shows through glass, which is drawn as a pale surface: it must be seen, and what lies behind it seldom matters.
+# Brightness that shows through glass, instead of the objects behind it: glass must be visible as a pale surface.
 _BEHIND_GLASS = 0.85
 
 
@@ -90,7 +90,7 @@ class Palette:
     is_cutout: NDArray[np.bool_]
 
     def texel(self, material: Ints, uv: Floats) -> Ints:
-        """Where in `texels` the nearest texel to uv (n, 2) of materials (n,) stands."""
+        """Return the index in `texels` of the texel nearest to uv (n, 2) for materials (n,)."""
         width, height = self.width.take(material), self.height.take(material)
         # Coordinates that are no numbers occur in broken files; any texel will do for them.
         u, v = np.nan_to_num(uv - np.floor(uv), copy=False).T
@@ -105,12 +105,12 @@ class Palette:
 
     @cached_property
     def is_patterned(self) -> NDArray[np.bool_]:
-        """Which rows have a texture."""
+        """Marks of the rows with a texture."""
         return self.width * self.height > 1
 
 
 def light(normals: Floats, forward: NDArray[np.float64], up: NDArray[np.float64]) -> Floats:
-    """How bright faces with unit normals (n, 3) are, looking along `forward`: 0..1, before rounding below 0."""
+    """Return the brightness (n,) of faces with unit normals (n, 3), looking along `forward`, 0..1."""
     along = normals @ forward.astype(np.float32)
     upward = -np.sign(along) * (normals @ up.astype(np.float32))
     brightness: Floats = np.clip(AMBIENT + HEADLIGHT * np.abs(along) + SKYLIGHT * upward, 0.0, 1.0)

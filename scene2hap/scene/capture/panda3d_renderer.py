@@ -31,7 +31,7 @@ _MOST_DIRECTIONS = 72
 
 
 class Panda3DRenderer:
-    """Draws a stage with a software rasteriser. See `Renderer`; smooth edges are not to be had."""
+    """Draws a stage with a software rasteriser, without smooth edges. See `Renderer`."""
 
     def __init__(self, stage: Stage, antialias: bool = False) -> None:
         self._stage = stage

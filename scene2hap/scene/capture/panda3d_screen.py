@@ -1,4 +1,4 @@
-"""Triangles to pixels by p3tinydisplay: what of Panda3D itself the renderer needs."""
+"""Rasterisation of triangles by p3tinydisplay: the part of the renderer that uses Panda3D."""
 
 from __future__ import annotations
 
@@ -116,7 +116,7 @@ class Screen:
         self._aim(camera)
         buffer, texture = self._buffer(camera.size_px)
         buffer.set_clear_color(core.LColor(*(channel / 255 for channel in background), 0.0))
-        # The engine is everybody's: it draws all active buffers of this process.
+        # The engine is global: it draws all active buffers of this process.
         buffer.set_active(True)
         self._engine.render_frame()
         buffer.set_active(False)

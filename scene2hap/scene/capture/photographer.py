@@ -32,11 +32,11 @@ class Photographer:
 
     @cached_property
     def culler(self) -> Culler:
-        """Decides what is left out."""
+        """Decides which objects are left out."""
         return Culler.of(self.stage, self.renderer, self.config.near_share, self.config.hidden_share, self.below)
 
     def aim(self, shot: Shot) -> tuple[Camera, Selection]:
-        """The camera, and what it shows."""
+        """Return the camera, and the selection that it shows."""
         config = self.config
         angles = (shot.azimuth_deg, shot.elevation_deg, self.stage.up_axis)
         if shot.subject is None:

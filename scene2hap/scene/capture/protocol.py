@@ -18,7 +18,7 @@ from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import Camera
 
 Ids = NDArray[np.int32]
-"""Which actor each pixel shows (size_px, size_px), numbered as in the stage; -1 for the background."""
+"""The actor that each pixel shows (size_px, size_px), numbered as in the stage; -1 for the background."""
 
 Pixels = NDArray[np.uint8]
 """Colours (size_px, size_px, 3), sRGB."""
@@ -56,7 +56,7 @@ _RENDERER: Members = {"identify": ("camera", "selection"), "draw": ("camera", "s
 
 
 def drawn(renderer: Renderer, camera: Camera, selection: Selection) -> tuple[Pixels, Ids]:
-    """A picture. Raises: ConfigError: the renderer gave something else."""
+    """Draw a picture. Raises: ConfigError: the renderer returned something else."""
     size, given = (camera.size_px, camera.size_px), renderer.draw(camera, selection)
     by = f"{type(renderer).__name__}.draw"
     if not isinstance(given, tuple) or len(given) != 2:
@@ -71,7 +71,7 @@ def drawn(renderer: Renderer, camera: Camera, selection: Selection) -> tuple[Pix
 
 
 def made_renderer(factory: RendererFactory, stage: Stage, smooth: bool) -> Renderer:
-    """A renderer for a stage. Raises: ConfigError: what the factory gave is none."""
+    """Build a renderer for a stage. Raises: ConfigError: the factory returned something else."""
     name = getattr(factory, "__qualname__", repr(factory))
     if misfit(factory, (stage, smooth), {}):
         raise ConfigError(f"{name}{signature(factory)} must take (stage, smooth) and give a Renderer.")

@@ -29,7 +29,7 @@ _CUT = 0.8
 def contact_sheet(item: SceneObject, *, thumb_px: int = _THUMB_PX) -> bytes:
     """All images of a captured object in a labelled grid, as a PNG file.
 
-    Rows: alone from above, alone from below, among other things from above, from below.
+    Rows: alone from above, alone from below, in its surroundings from above, from below.
     Raises: ConfigError: the object has no images.
     """
     if item.images is None:
@@ -57,7 +57,7 @@ def _rows(item: SceneObject) -> tuple[tuple[str, ImageSet], ...]:
 def plan_view(scene: SceneSnapshot, *, width_px: int = _PLAN_PX) -> bytes:
     """The scene straight from above with every object's id, as a PNG file; needs no renderer.
 
-    What lies above the cut at four fifths of the scene's height is left out. Front is at the bottom (`axes_of`).
+    Objects above four fifths of the scene's height are cut off. The front is at the bottom (`axes_of`).
     """
     stage = Stage.of(scene)
     right, up, front = axes_of(stage.up_axis)

@@ -55,7 +55,7 @@ class Actor:
 
     @property
     def diagonal_m(self) -> float:
-        """Of its box."""
+        """The diagonal of its box [m]."""
         return float(np.linalg.norm(self.box_m[1] - self.box_m[0]))
 
 
@@ -137,8 +137,8 @@ def _actor(item: SceneObject, origin: Vector, inset_m: float, palette: PaletteBu
 def _drawn_in(corners_m: Vector, box_m: Vector, inset_m: float) -> Floats:
     """Corners (n, 3) scaled about their box's middle so that its faces move in by the inset, or a tenth of its size.
 
-    So faces of things that touch do not lie in one plane, where it would be chance which of them a ray meets first. A
-    room in one piece, which has the scene's middle inside, would move towards what it holds, and stays.
+    So faces of touching objects do not lie in one plane, where the first hit of a ray would depend on rounding. A room
+    in one piece, whose box contains the scene's middle, is not scaled: it would move towards its contents.
     """
     low, high = box_m
     if (low < 0).all() and (high > 0).all():

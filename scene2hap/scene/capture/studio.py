@@ -1,4 +1,4 @@
-"""Takes the pictures that somebody reads, each once, and remembers them."""
+"""Renders each picture once, when it is first read, and caches it."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Studio:
         return (Studio, (self.scene, self.config, self.factory, self.name))
 
     def image(self, shot: Shot) -> bytes:
-        """The picture, which is another object's where copies share."""
+        """Return the picture; copies share that of another object."""
         shot = self.shared(shot)
         with self._lock:
             picture = self.find(shot)
@@ -58,7 +58,7 @@ class Studio:
             return picture
 
     def shared(self, shot: Shot) -> Shot:
-        """The shot that stands for this one."""
+        """Return the shot whose picture this one shares."""
         if shot.subject is None:
             return shot
         with self._lock:
@@ -66,7 +66,7 @@ class Studio:
             return replace(shot, subject=first[shot.subject])
 
     def find(self, shot: Shot) -> bytes | None:
-        """The picture of a shared shot if it was taken before, here or elsewhere."""
+        """Return the picture of a shared shot if it is cached in memory or on disk."""
         with self._lock:
             if shot in self._taken:
                 return self._taken[shot]
@@ -84,7 +84,7 @@ class Studio:
             return picture
 
     def keep(self, shot: Shot, picture: bytes) -> None:
-        """Remember a picture of a shared shot that was just taken."""
+        """Cache a new picture of a shared shot."""
         key = self._key(shot)
         with self._lock:
             self.stats = replace(self.stats, rendered=self.stats.rendered + 1)
@@ -94,7 +94,7 @@ class Studio:
                 self._folder.put(key, picture)
 
     def missing(self, shots: Iterable[Shot]) -> list[Shot]:
-        """Which pictures are to be taken so that all shots can be read, each once, in order."""
+        """Return the shots that must be rendered so that all shots can be read, each once, in order."""
         return [shot for shot in dict.fromkeys(map(self.shared, shots)) if self.find(shot) is None]
 
     @cached_property
@@ -118,7 +118,7 @@ class Studio:
         return Photographer(self.stage, renderer, self.config, self.below)
 
     def _key(self, shot: Shot) -> str:
-        """A name for all that the picture depends on; an isolated image does not depend on the rest of the scene."""
+        """Return a digest of all inputs of the picture; for an isolated image, without the rest of the scene."""
         number = -1 if shot.subject is None else self.stage.index[shot.subject]
         seen = self.stage.actors[number].digest if shot.kind == "isolated" else f"{self.stage.digest} {number}"
         angles = (shot.azimuth_deg, shot.elevation_deg, self.stage.up_axis)

@@ -1,6 +1,6 @@
-"""How the objects of a stage lie to each other: what stands on what, what is near, what is a wall or a room.
+"""Spatial relations of the objects of a stage: supports, neighbours, containers, walls and rooms.
 
-Boxes decide all but support, so that this costs milliseconds and needs no renderer.
+All but the supports follow from boxes, so that this takes milliseconds and needs no renderer.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ Floats = NDArray[np.float64]
 # How much of the scene a shell spans; how thin a piece of wall is for its height; how near the scene's rim it stands,
 # as a part of the scene (assumed).
 _SHELL_SPAN, _THIN, _RIM = 0.6, 0.15, 0.1
-# What holds this part of an object's box is a container, such as a cabinet around plates (assumed).
+# A container holds this part of an object's box, as a cabinet around plates (assumed).
 _CONTAINED = 0.9
-# Support is looked for under a grid of this many points a side, kept off the rim of the footprint (assumed).
+# Supports are searched below a grid of this many points a side, away from the rim of the footprint (assumed).
 _FEET, _INSET = 5, 0.1
 # An object may be sunk into its support by this part of its height (assumed; real scenes overlap as often as they gap).
 _SUNK = 0.2
@@ -122,7 +122,7 @@ def _cross(a: Floats, b: Floats) -> Floats:
 class Copies:
     """The groups of objects that share pictures.
 
-    Objects of one `instance_key` share isolated images, whatever their names: those of the first of them in scene
+    Objects of one `instance_key` share isolated images, also if their names differ: those of the first in scene
     order, at its own rotation. A *context class* is the kind of an object (`likeness.copy_key`) and that of the object
     below it (`supports`). The objects of one class share context images: those of the first of the class, among its
     own surroundings. An object without a key has pictures of its own.

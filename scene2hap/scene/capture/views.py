@@ -67,21 +67,21 @@ class Camera:
         return (int(low[1]), int(high[1]), int(low[0]), int(high[0]))
 
     def at_pixel(self, pixel: Floats) -> Camera:
-        """The same eye with a window of one pixel around a place in the picture (2,), right and down."""
+        """Return a camera at the same eye, with a window of one pixel around a place (2,), right and down."""
         away = (pixel / self.size_px - 0.5) * (1, -1) * 2 * self.half
         return replace(self, centre=self.centre + away, half=self.half / self.size_px, size_px=1)
 
     def widened(self, factor: float) -> Camera:
-        """The same eye and angle with a window `factor` times as wide."""
+        """Return a camera at the same eye and angle, with a window `factor` times as wide."""
         return replace(self, half=self.half * factor)
 
     def resized(self, size_px: int) -> Camera:
-        """The same view in another number of pixels."""
+        """Return the view with another number of pixels."""
         return replace(self, size_px=size_px)
 
 
 def axes_of(up_axis: UpAxis) -> Floats:
-    """Rows right, up, front of the world: front is where azimuth 0 looks from."""
+    """Return the world's directions right, up and front as rows; azimuth 0 looks from the front."""
     if up_axis == "y":
         return np.array([(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)])
     return np.array([(1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, -1.0, 0.0)])

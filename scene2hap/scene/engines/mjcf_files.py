@@ -1,4 +1,4 @@
-"""Which files an MJCF file makes MuJoCo read, found out and bounded before MuJoCo sees any.
+"""Find and bound the files that an MJCF file makes MuJoCo read, before MuJoCo opens any.
 
 MuJoCo opens whatever an MJCF file names, `../../x` and absolute paths included, and builds as many copies as it asks
 for. So the include graph is read here first. Where a name may mean several files, since MuJoCo's versions differ in
@@ -28,13 +28,13 @@ MAX_FILES_DEEP = 20
 MAX_COPIES = 10_000
 """Bodies that one place in the file may be multiplied to (assumed: MuJoCo takes 14 s to compile 10,000)."""
 MAX_COPIED_ELEMENTS = 50_000
-"""Elements that all copies come to together (assumed: MuJoCo takes some seconds for as many)."""
+"""Most elements of all copies together (assumed: MuJoCo takes some seconds for them)."""
 MAX_CELLS = 1 << 25
 """Cells of all textures and height fields together, those that pictures store apart (assumed: eight of 2048 x 2048)."""
 _CELLS_PER_BYTE = 20.0
 """Cells that a byte of a picture may unpack to (assumed: ten times the cells of photographs)."""
 MAX_INCLUDED = 1_000
-"""Files that one model includes (assumed: a kitchen of hundreds of things has as many)."""
+"""Most files that one model includes (assumed: those of a kitchen with hundreds of objects)."""
 MAX_MODELS = 200
 """Models within models, each as often as it is named (assumed)."""
 MAX_RESERVED = 1_000
@@ -160,7 +160,7 @@ class _Model:
             raise SceneError(self._refusal())
 
     def read(self, path: Path, copies: int, depth: int) -> None:
-        """Walk through the model's own file or an included one, which stands in an element of so many copies."""
+        """Read the model's own file or an included one, inside an element that is copied `copies` times."""
         _not_too_deep(path, depth)
         if path in self.seen or path in self.around:
             raise SceneFormatError(f"{path.name!r} is included twice; MuJoCo takes every file once.")
@@ -174,7 +174,7 @@ class _Model:
         try:
             candidates = [(base / self._name(wanted)).resolve() for base in self._bases(wanted)]
             existing = [path for path in candidates if _is_there(path)]
-        # What a name that is too long and a ring of links raise.
+        # Raised by a too long name and by a ring of links.
         except (ValueError, OSError, RuntimeError) as cause:
             raise SceneError(f"{wanted.place} wants {wanted.name!r}, which is no usable file name: {cause}.") from cause
         beyond = [path for path in existing or candidates if not path.is_relative_to(self.root)]
@@ -271,7 +271,7 @@ class _Reader:
                     self.model.read(found, self.open_copies[-1], self.depth + 1)
 
     def _counted(self, tag: str, attributes: Mapping[str, str], place: str, around: int) -> int:
-        """How many copies are made of what stands in this element."""
+        """Return the number of copies that are made of the content of this element."""
         if tag in _COPIES:
             around *= _product(attributes.get(_COPIES[tag], ""))
             if around > MAX_COPIES:
@@ -329,7 +329,7 @@ def _at_most(what: str, number: str, most: int) -> None:
 
 
 def _is_there(path: Path) -> bool:
-    """Whether a path leads to something. Raises: OSError: it cannot be one; `exists` is silent there from 3.14 on."""
+    """Return True if a path exists. Raises: OSError: it is invalid; `exists` does not raise from Python 3.14 on."""
     try:
         path.stat()
     except (FileNotFoundError, NotADirectoryError):

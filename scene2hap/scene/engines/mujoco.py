@@ -96,7 +96,7 @@ def snapshot(
 
 
 def poses(model: Any, data: Any, *, geom_groups: Collection[int] | None = None, unit_m: float = 1.0) -> PoseTable:
-    """Where every object of the last `snapshot` with the same arguments is now, for `HapticSession.update`."""
+    """Return the present pose of every object of the last `snapshot` with the same arguments."""
     unit_m = checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
     return _poses(model, data, _layout(_engine(model, data), model, geom_groups), unit_m)
 
@@ -110,7 +110,7 @@ def contacts(
 
 
 def geoms_below(model: Any, data: Any, body: str) -> NDArray[np.bool_]:
-    """Which geoms belong to a body or to what hangs on it (n_geoms + 1,), as the fingers on a hand; the last is False.
+    """Mark the geoms (n_geoms + 1,) of a body and of the bodies below it, as the fingers of a hand; the last is False.
 
     Raises: UnknownObject: the model has no body of that name. SceneError: none of them can collide.
     """
@@ -214,7 +214,7 @@ def _engine(model: Any, data: Any) -> Any:
 
 @dataclass(frozen=True)
 class _Item:
-    """An object to be: the geoms that a body draws, or one geom of the world body."""
+    """A future object: the geoms that a body draws, or one geom of the world body."""
 
     id: str
     body: int
@@ -222,7 +222,7 @@ class _Item:
 
 
 class _Items:
-    """All objects to be, and how their poses are read."""
+    """All future objects, and the rows of their poses."""
 
     def __init__(self, items: Sequence[_Item]) -> None:
         self.all = tuple(items)
@@ -277,7 +277,7 @@ def _items(mujoco: Any, model: Any, geom_groups: frozenset[int] | None) -> list[
 
 
 def _drawn(model: Any, geom_groups: frozenset[int] | None) -> NDArray[np.bool_]:
-    """Which geoms are seen (n_geoms,), by rule 3."""
+    """Mark the geoms (n_geoms,) that are drawn, by rule 3."""
     drawn: NDArray[np.bool_]
     if geom_groups is not None:
         drawn = np.isin(model.geom_group, list(geom_groups))

@@ -181,7 +181,7 @@ def pose(position: NDArray[np.float64], quaternion_wxyz: NDArray[np.float64]) ->
 
 
 def authored_pose(model: Any, geom: int) -> Pose:
-    """Where a geom of the world body stands, without the frame that compiling gave to its mesh."""
+    """Return the pose of a geom of the world body, without the frame that compiling gave to its mesh."""
     compiled = pose(model.geom_pos[geom], model.geom_quat[geom])
     mesh = int(model.geom_dataid[geom])
     if mesh < 0 or model.geom_type[geom] <= _BOX:

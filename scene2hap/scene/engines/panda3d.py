@@ -57,7 +57,7 @@ def nodes(render: Any, *, group: Grouping = "authored") -> dict[str, Any]:
 
 
 def poses(render_or_nodes: Any, snapshot: SceneSnapshot) -> dict[str, Pose]:
-    """Where the objects of a snapshot are now, for `HapticSession.update`.
+    """Return the present poses of the objects of a snapshot, for `HapticSession.update`.
 
     Parameters: render_or_nodes : what `nodes` gave, or a NodePath. The latter reads the whole graph again, by the rule
     "authored"; do that once rather than every frame.
@@ -75,8 +75,8 @@ def poses(render_or_nodes: Any, snapshot: SceneSnapshot) -> dict[str, Pose]:
 class PoseReader:
     """Reads the poses of the objects of `snapshot` with the same arguments again and again. Nodes are looked up once.
 
-    A node at rest costs next to nothing: Panda3D shares transforms and never changes one, so that the same address, of
-    one that is kept alive here, is the same place.
+    A node at rest costs almost nothing: Panda3D never changes a transform object, and the last one is kept alive here,
+    so that an equal address means an equal transform.
     """
 
     def __init__(self, render: Any, *, group: Grouping = "authored") -> None:
@@ -84,7 +84,7 @@ class PoseReader:
         self._last: dict[str, tuple[Any, Pose]] = {}
 
     def read(self) -> dict[str, Pose]:
-        """Where every object is now, by id; without those whose node the game took out of the graph."""
+        """Return the present pose of every object, by id; without those whose node is no longer in the graph."""
         last, placed = self._last, {}
         for object_id, path in self._nodes.items():
             if path.is_empty() or not (path == self._render or self._render.is_ancestor_of(path)):
@@ -156,7 +156,7 @@ class _Graph:
         return [child for child in children if not child.is_hidden()]
 
     def _name(self, path: Any, is_below: bool) -> str:
-        """The authored name. A graph's top is never a thing; a loaded model is called by its file: `lamp.egg`."""
+        """Return the authored name. The top of a graph names no object; a loaded model has its file's: `lamp.egg`."""
         if not is_below and not path.has_parent():
             return ""
         name = str(path.get_name()).strip()

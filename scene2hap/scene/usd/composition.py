@@ -1,10 +1,10 @@
-"""How much composing a stage takes, counted before usd-core begins.
+"""Bound on the work of composing a stage, counted before usd-core begins.
 
-A few lines of references to references, two at each step, come to any number of prims, and usd-core composes all of
-them before it hands over the first. So the places that opinions come from are counted here, each as often as it is
-used: a prim counts once for each layer and arc that says something about it. Copies of a native instance count one by
-one, as they do among the nodes of a scene. The count is approximate: of the variants of a set the largest counts, and
-arcs to prims that only exist by other arcs count nothing; time and memory of the child bound what it misses.
+A few lines of references to references, two at each step, expand to any number of prims, and usd-core composes all of
+them before it returns the first. So the sources of opinions are counted here, each as often as it is used: a prim
+counts once for each layer and arc with an opinion about it. Copies of a native instance count one by one, as they do
+among the nodes of a scene. The count is approximate: only the largest variant of a set counts, and arcs to prims that
+exist only by other arcs do not count. The child's limits of time and memory bound the rest.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Composition:
 
     @property
     def n_prims(self) -> int:
-        """How many prims the layers describe."""
+        """The number of prims that the layers describe."""
         return len(self._prims)
 
     def add_layer(self, identifier: str, default_prim: Any, sublayers: Iterable[str]) -> None:
@@ -86,7 +86,7 @@ class Composition:
             budget.spend(self._size(top, sizes), f"prim {top[1]}")
 
     def _size(self, top: Key, sizes: dict[Key, int]) -> int:
-        """How many opinions come from a prim, from those below it, and from what they refer to."""
+        """Return the number of opinions of a prim, of the prims below it, and of those they refer to."""
         # By a list of what is to be done, since arcs follow arcs for longer than Python can recurse.
         to_do = [(top, False)]
         while to_do:
@@ -100,7 +100,7 @@ class Composition:
                 size += sum(max((sizes.get(each, 0) for each in one), default=0) for one in prim.variants)
                 sizes[key] = min(size, _MANY)
             else:
-                # What leads back here counts nothing: usd-core refuses such arcs.
+                # Arcs that lead back here do not count: usd-core refuses them.
                 sizes[key] = 0
                 to_do.append((key, True))
                 below = (*prim.children, *(each for one in prim.variants for each in one), *arcs)

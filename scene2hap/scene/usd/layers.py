@@ -63,7 +63,7 @@ class Layers:
     ) -> None:
         self._path, self._assets_root, self.textures, self._allow = path, assets_root, textures, allow
         self.n_bytes = 0
-        # Anonymous layers live as long as somebody holds them.
+        # Anonymous layers live as long as a reference to them.
         self._kept: list[Any] = []
         self._homes: dict[str, _Home] = {}
         self._names: dict[str, str] = {}

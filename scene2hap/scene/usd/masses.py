@@ -1,8 +1,9 @@
 """Masses of the prims of a USD stage, as far as the file has them.
 
-A mass of a prim is that of all below it, whatever is written there. Without one, density times volume counts: the
-density of the prim, else of the nearest prim above, else of its physics material. Volume is that of closed meshes
-alone. What has neither is unknown, and so is a prim above it; the 1000 kg/m3 that simulators take then is not used.
+The mass of a prim includes all prims below it; masses there are ignored. Without a mass, density times volume counts:
+the density of the prim, else of the nearest prim above, else of its physics material. Only closed meshes have a volume.
+The mass of a prim with neither is unknown, and so is that of a prim above it; the simulators' default of 1000 kg/m3 is
+not used.
 
 Source: OpenUSD 26.11, UsdPhysics: MassAPI and MaterialAPI, "physics:mass" and "physics:density".
 """

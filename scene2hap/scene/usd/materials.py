@@ -1,7 +1,7 @@
 """Looks of USD prims: UsdPreviewSurface with its texture, else the primvar displayColor.
 
-What is wrong with a material costs its texture, never the scene. Wrap modes are not read: textures repeat. Materials
-of other renderers (MDL, MaterialX) are known by their names alone.
+A broken material loses its texture; the scene is read all the same. Wrap modes are not read: textures repeat. Of
+materials of other renderers (MDL, MaterialX), only the names are read.
 
 Source: OpenUSD, "UsdPreviewSurface Specification", version 2.6: nodes UsdPreviewSurface, UsdUVTexture,
 UsdPrimvarReader_float2, UsdTransform2d.

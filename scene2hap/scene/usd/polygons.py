@@ -60,7 +60,7 @@ def _normals(outlines: Floats) -> Floats:
 
 
 def _is_fan(outlines: Floats) -> NDArray[np.bool_]:
-    """Whether all triangles from the first corner turn as their outline does (k,)."""
+    """Mark the outlines (k,) whose triangles from the first corner all turn as the outline does."""
     with np.errstate(all="ignore"):
         spokes, normals = outlines - outlines[:, :1], _normals(outlines)
         areas = np.einsum("kni,ki->kn", _cross_3d(spokes[:, 1:-1], spokes[:, 2:]), normals)

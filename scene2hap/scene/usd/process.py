@@ -29,7 +29,7 @@ MEMORY_BYTES, MEMORY_PER_BYTE = 1 << 30, 40
 # Each thread of usd-core counts its stack as memory, and a large machine has hundreds.
 _THREADS = "PXR_WORK_THREAD_LIMIT"
 TIMED_OUT = "Timeout ("
-"""How the word begins that the child leaves when its time is over."""
+"""Start of the message that the child leaves when its time is over."""
 
 
 class Request(NamedTuple):
@@ -81,7 +81,7 @@ def read_in_child(path: Path, assets_root: Path) -> AuthoredScene:
 
 
 def can_start_python() -> bool:
-    """Whether `sys.executable` is a Python interpreter, not a program that Python is built into."""
+    """Return True if `sys.executable` is a Python interpreter, not a program that Python is built into."""
     is_frozen = getattr(sys, "frozen", False)
     return not is_frozen and bool(sys.executable) and Path(sys.executable).stem.lower().startswith(("python", "pypy"))
 

@@ -52,7 +52,7 @@ def test_a_swept_box_holds_its_whole_way() -> None:
     assert swept.high.T.tolist() == [[3.0, 1.0, 1.0]]
 
 
-def test_meeting_tells_the_rows_among_those_marked() -> None:
+def test_meeting_is_limited_to_marked_boxes() -> None:
     rng = np.random.default_rng(5)
     boxes, one = random_boxes(rng, 200), random_boxes(rng, 1)
     expected = [i for i, _ in sorted(all_with_all(boxes, one))]

@@ -1,4 +1,4 @@
-"""Neighbour lists: nobody who matters is ever missing, however things wander."""
+"""Neighbour lists: no relevant neighbour is ever missing, for any motion."""
 
 import numpy as np
 
@@ -45,7 +45,7 @@ def test_a_list_holds_all_whose_zones_meet_and_both_know_it() -> None:
             assert crowd.neighbours[x] <= may
 
 
-def test_what_stays_in_its_zone_is_not_asked_about() -> None:
+def test_a_body_within_its_inner_box_is_not_searched_again() -> None:
     crowd = BroadPhase(1, lambda _: (0.01, 0.02))
     body = Body.of(box("b", (0.1, 0.1, 0.1), (0, 0, 0)), 1)
     assert crowd.update([body]) == {"b": set()}

@@ -1,4 +1,4 @@
-"""Certificates end where building from nothing does, and spare the narrow phase where they should."""
+"""Certificates give the same contacts as a new graph, and skip the narrow phase where they should."""
 
 import math
 from collections.abc import Callable
@@ -35,15 +35,15 @@ Looked = Callable[[ContactGraph], list[str]]
 
 @pytest.fixture
 def looked_at(monkeypatch: pytest.MonkeyPatch) -> Looked:
-    """The ids of the bodies of a graph that went through the narrow phase since it was last asked, in their order."""
+    """Return the ids of the bodies of a graph that entered the narrow phase since the last call, in order."""
     names: dict[int, list[str]] = {}
-    look = finder.ContactFinder._look_around
+    look = finder.ContactFinder._pair_with_neighbours
 
     def watched(self: finder.ContactFinder, body: Body, *given: Any) -> None:
         names.setdefault(id(self), []).append(body.id)
         look(self, body, *given)
 
-    monkeypatch.setattr(finder.ContactFinder, "_look_around", watched)
+    monkeypatch.setattr(finder.ContactFinder, "_pair_with_neighbours", watched)
     return lambda graph: names.pop(id(graph._finder), [])
 
 
@@ -82,7 +82,7 @@ def test_landing(others: list[SceneObject], moved: dict[str, Pose], is_certified
     ("gap_m", "is_certified"),
     [pytest.param(0.2, True, id="far from the wall"), pytest.param(0.006, False, id="on the wall")],
 )
-def test_what_is_lifted_needs_no_narrow_phase_unless_it_may_hang(
+def test_a_lifted_body_needs_no_narrow_phase_unless_it_may_hang(
     gap_m: float, is_certified: bool, looked_at: Looked
 ) -> None:
     wall = box("wall", (2.0, 3.0, 0.1), (0.0, 1.5, -0.55))
@@ -98,7 +98,7 @@ def test_what_is_lifted_needs_no_narrow_phase_unless_it_may_hang(
 
 @pytest.mark.parametrize("apart_m", [0.3, 0.24, 0.12])
 def test_a_step_needs_no_narrow_phase_while_others_pass_by(apart_m: float, looked_at: Looked) -> None:
-    """A crate is pushed to and fro; two cups pass by, one of them lifted and put down again."""
+    """A crate is pushed back and forth; two cups pass by, one of them lifted and put down again."""
     table = on_floor("table", (2.0, 0.7, 1.0), 0, 0)
     objects = [floor(), table, box("crate", (0.1, 0.1, 0.1), (-0.4, 0.75, 0.0)), CUP, replace(CUP, id="other cup")]
     graph = ContactGraph(scene(*objects))
@@ -134,7 +134,7 @@ def test_a_certificate_holds_to_the_rim(angle: float, looked_at: Looked) -> None
 
 
 def test_two_that_come_near_share_what_is_free(looked_at: Looked) -> None:
-    """Two crates, askew, go towards each other until they touch: the narrow phase is for the last steps."""
+    """Two rotated crates approach until they touch: only the last steps need the narrow phase."""
     crate = box("crate", (0.1, 0.1, 0.1), (-0.2, 0.75, 0.0), yaw(0.3))
     objects = [floor(), TABLE, crate, replace(crate, id="other")]
     graph = ContactGraph(scene(*objects[:3]))
@@ -152,7 +152,7 @@ def test_two_that_come_near_share_what_is_free(looked_at: Looked) -> None:
     assert min(near) >= next(s for s in steps if 0.2 - 0.0027 * s - touching < 0.009)
 
 
-def test_what_is_below_a_support_matters_once_that_is_gone(looked_at: Looked) -> None:
+def test_a_body_below_a_removed_support_is_checked(looked_at: Looked) -> None:
     """A jar slides over a worktop that is 20 mm thick, from above one cupboard to above another; then it has none."""
     objects = [
         floor(),
@@ -173,8 +173,8 @@ def test_what_is_below_a_support_matters_once_that_is_gone(looked_at: Looked) ->
     assert graph.neighbours("jar") == ("drawers",)
 
 
-def test_what_is_below_a_support_is_asked_where_things_are_then() -> None:
-    """A jar slides over a cupboard that nothing holds, is asked about when a lamp beside it goes, and slides on, out
+def test_a_body_below_a_support_is_checked_at_its_present_pose() -> None:
+    """A jar slides over a cupboard that nothing holds, is checked when a lamp beside it is removed, and slides on, out
     over the cupboard's side; then it has no worktop any more."""
     lamp = box("lamp", (0.1, 0.1, 0.1), (-0.4, 0.77, 0.24))
     objects = [
@@ -211,7 +211,7 @@ def test_a_neighbour_may_be_removed_and_come_back(goes_away: bool) -> None:
         assert is_as_built(graph, *objects)
 
 
-def test_a_larger_thing_near_what_loses_its_support_is_looked_at(looked_at: Looked) -> None:
+def test_larger_neighbours_of_a_body_that_loses_its_support_are_checked(looked_at: Looked) -> None:
     """A crate slides 10 mm beside a picture on a shelf, without touching it; the shelf goes, and the picture hangs."""
     shelf = box("shelf", (0.2, 0.1, 0.1), (-0.25, 0.75, 0.0))
     picture = box("picture", (0.2, 0.2, 0.02), (-0.25, 0.9, 0.0))
@@ -230,8 +230,8 @@ def test_a_larger_thing_near_what_loses_its_support_is_looked_at(looked_at: Look
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.2, 1.1])
-def test_in_a_shelf_askew_a_step_needs_no_narrow_phase(angle: float, looked_at: Looked) -> None:
-    """A cup goes to and fro on a board between two others, as much askew as the shelf is."""
+def test_a_step_in_a_rotated_shelf_needs_no_narrow_phase(angle: float, looked_at: Looked) -> None:
+    """A cup moves back and forth on a board between two others, at the rotation of the shelf."""
     boards = [((0.8, 0.02, 0.3), (0.0, h, 0.0)) for h in (0.01, 0.4, 0.8)]
     sides = [((0.02, 0.8, 0.3), (x, 0.4, 0.0)) for x in (-0.41, 0.41)]
     shelf = replace(boxes("shelf", *boards, *sides), pose=Pose((0.0, 0.0, 0.0), yaw(angle)))
@@ -249,7 +249,7 @@ def test_in_a_shelf_askew_a_step_needs_no_narrow_phase(angle: float, looked_at: 
 
 
 def test_planes_divide_what_is_free_in_halves() -> None:
-    """Two cubes 60 mm apart: each may come nearer by half of what is free, one alone by all of it."""
+    """Two cubes 60 mm apart: each may move by half of the free distance, one alone by all of it."""
     one, other = (Body.of(box(x, (0.1, 0.1, 0.1), (at, 0.0, 0.0)), 1) for x, at in (("a", 0.0), ("b", 0.16)))
     room = ((-1.0,) * 3, (1.0,) * 3)
     both = [Extent(body, room, -math.inf, False) for body in (one, other)]

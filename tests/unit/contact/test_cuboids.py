@@ -1,4 +1,4 @@
-"""Cuboids many at a time, against their triangles one pair at a time, and against quadratic programs."""
+"""Many cuboids at once, against their triangles one pair at a time, and against quadratic programs."""
 
 import math
 
@@ -24,7 +24,7 @@ SEEDS = st.integers(0, 10**6)
 
 
 def cases(seed: int, n: int, plain: bool) -> list[Case]:
-    """Edges of host and guest [m], and where the guest is in the host's frame; `plain`: in tenths and right angles."""
+    """Edges of host and guest [m], and the guest's pose in the host's frame; `plain`: in tenths and right angles."""
     rng = np.random.default_rng(seed)
     found = []
     for _ in range(n):
@@ -85,7 +85,7 @@ def test_distances_of_cuboids_apart_are_those_of_bounded_least_squares(seed: int
 @pytest.mark.parametrize("plain", [False, True])
 @given(seed=SEEDS)
 @settings(derandomize=True, deadline=None, max_examples=4)
-def test_a_pair_is_told_the_same_alone_to_the_last_bit(plain: bool, seed: int) -> None:
+def test_a_pair_has_the_same_bits_alone_and_among_others(plain: bool, seed: int) -> None:
     every = pairs_of(cases(seed, 25, plain))
     rows, found = gaps(every, 0.1)
     spots = patches(every.rows(rows), found, found.distance_m + SLACK_M, SUNK_M)
@@ -102,7 +102,7 @@ def test_a_pair_is_told_the_same_alone_to_the_last_bit(plain: bool, seed: int) -
 @pytest.mark.parametrize("plain", [False, True])
 @given(seed=SEEDS)
 @settings(derandomize=True, deadline=None, max_examples=4)
-def test_ends_that_are_kept_give_the_points_that_looking_anew_does(plain: bool, seed: int) -> None:
+def test_stored_ends_give_the_same_points_as_computed_ones(plain: bool, seed: int) -> None:
     every = pairs_of(cases(seed, 40, plain))
     rows, found = gaps(every, 0.1)
     # One at a time, so that each has all its ends known or none.
@@ -176,7 +176,7 @@ def test_a_post_through_a_plate_touches_where_it_runs_through() -> None:
     assert {(abs(x), abs(y), abs(z)) for x, y, z in found} == {(0.05, 0.01, 0.05)}
 
 
-def test_what_is_near_a_side_inside_another_touches_that_side() -> None:
+def test_a_cuboid_near_a_side_inside_another_touches_that_side() -> None:
     case = (np.array([1.0, 1.0, 1.0]), np.array([0.2, 0.2, 0.2]), Pose((0.399, 0.1, 0.0)))
     _, found = gaps(pairs_of([case]), 0.05)
     assert found.distance_m[0] == pytest.approx(0.001)

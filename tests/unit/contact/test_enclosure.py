@@ -1,4 +1,4 @@
-"""What is built into another with play, and what only stands near it."""
+"""Objects enclosed by another with play, and objects that only stand near it."""
 
 import math
 
@@ -31,7 +31,7 @@ def drawer(at_m: Triple = (0, 0, 0)) -> SceneObject:
 
 
 def graph_of(play_m: float, at_m: Triple = (0, 0, 0)) -> ContactGraph:
-    """The drawer lies on a board, lest it hang, and is in the carcass."""
+    """The drawer is in the carcass, and lies on a board, so that it does not hang."""
     board = box("board", (0.3, 0.02, 1.4), (0, -0.07, 0.5))
     return ContactGraph(scene(carcass(play_m), drawer(at_m), board))
 
@@ -47,7 +47,7 @@ def test_a_drawer_is_built_into_its_carcass(play_m: float) -> None:
         assert {c.normal for c in graph.contacts if (c.a, c.b) == ("carcass", "drawer")} == {None}
 
 
-def test_play_lets_the_weight_fall_smoothly_from_one_to_nothing() -> None:
+def test_the_weight_falls_smoothly_with_play() -> None:
     plays = np.arange(0.0045, 0.022, 0.0005)
     weights = [weight(graph_of(float(play)), "carcass", "drawer") for play in plays]
     share = np.clip(3 * plays / REACH_M - 2, 0, 1)
@@ -71,7 +71,7 @@ def test_a_drawer_drawn_out_leaves_its_carcass_smoothly() -> None:
 
 
 @pytest.mark.parametrize(("play_m", "expected"), [(0.0005, 1.0), (0.008, 0.0)])
-def test_a_small_thing_has_less_play(play_m: float, expected: float) -> None:
+def test_a_small_object_has_less_play(play_m: float, expected: float) -> None:
     remote = boxes("remote", *[((0.004, 0.02, 0.06), (s * 0.0125, 0, 0)) for s in (-1, 1)])
     battery = box("battery", (0.021 - 2 * play_m, 0.02, 0.055), (0, 0, 0))
     assert enclosed(Body.of(remote, 1), Body.of(battery, 1))[0] == expected
@@ -147,7 +147,7 @@ def test_it_goes_along_with_any_motion_of_both() -> None:
     assert enclosed(*items[::-1]) == enclosed(*items)
 
 
-def test_a_ray_tells_the_first_triangle_on_its_way() -> None:
+def test_a_ray_finds_the_first_triangle() -> None:
     shape = Body.of(box("cube", (1, 1, 1), (0, 0, 0)), 1).shape
     start = np.array([[-2.0, 0.1, 0.2], [0.0, 0.0, 0.0], [-2.0, 0.7, 0.0], [0.2, 0.3, 3.0]])
     way = np.array([[3.0, 0, 0], [0, 1.0, 0], [3.0, 0, 0], [0, 0, -10.0]])

@@ -1,4 +1,4 @@
-"""What is told of a guest's surroundings, against all the triangles of its host."""
+"""Free space around a guest, against all triangles of its host."""
 
 import math
 from dataclasses import replace
@@ -40,14 +40,14 @@ SIZES = st.sampled_from([(0.1, 0.1, 0.1), (0.3, 0.2, 0.1), (0.5, 0.02, 0.5)])
 
 @given(PLACES, TURNS, TURNS, SIZES, st.tuples(*[st.floats(-0.05, 0.05)] * 2))
 @settings(derandomize=True, deadline=None, max_examples=400)
-def test_what_is_told_is_what_triangles_tell(
+def test_free_space_agrees_with_triangles(
     at: tuple[float, float, float],
     turn: float,
     turn_of_all: float,
     size: tuple[float, float, float],
     step: tuple[float, float],
 ) -> None:
-    """At a place, and at another near it where what is known of the first may still hold."""
+    """Compare at a place, and at another near it where the first free region may still hold."""
     all_of_it = Pose((0.3, 0.1, -0.2), turned(turn_of_all))
     host = Body.of(replace(HOUSE, pose=all_of_it), 1)
     for dx, dz in ((0.0, 0.0), step):
@@ -69,7 +69,7 @@ def test_what_is_told_is_what_triangles_tell(
             assert meeting.gap(hang_reach_m(guest.size_m)) is None
 
 
-def test_most_of_a_room_is_told_without_triangles(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_most_of_a_room_needs_no_triangles(monkeypatch: pytest.MonkeyPatch) -> None:
     met: list[object] = []
     made = MeshPair.__init__
 
@@ -91,7 +91,7 @@ def test_most_of_a_room_is_told_without_triangles(monkeypatch: pytest.MonkeyPatc
     assert not met
 
 
-def test_a_thing_between_boards_stands_on_the_lower() -> None:
+def test_an_object_between_boards_stands_on_the_lower() -> None:
     graph = ContactGraph(scene(SHELF, box("pot", (0.1, 0.1, 0.1), (0.1, 0.463, 0.0))))
     (points, _), junction = graph.patch("pot", "shelf"), graph.junctions["pot", "shelf"]
     assert junction.weights[0] == 1.0
@@ -102,7 +102,7 @@ def test_a_thing_between_boards_stands_on_the_lower() -> None:
 
 
 def alone(*things: SceneObject) -> ContactGraph:
-    """The graph that triangles tell without any free region."""
+    """The graph from triangles alone, without free regions."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(narrow_phase, "ledge_under", lambda guest, host: None)
         patch.setattr(narrow_phase, "has_nothing_near", lambda guest, host: False)
@@ -111,7 +111,7 @@ def alone(*things: SceneObject) -> ContactGraph:
 
 
 @pytest.mark.parametrize("depth_m", [0.001, 0.0035, 0.015, 0.0235, 0.03, 0.05])
-def test_what_is_sunk_in_a_ledge_is_in_contact_as_triangles_tell(depth_m: float) -> None:
+def test_contacts_of_an_object_sunk_in_a_ledge_agree_with_triangles(depth_m: float) -> None:
     """A plate 20 mm thick in a podium; with its top up to 4 mm below that it is sunk in."""
     plate = box("plate", (0.1, 0.02, 0.1), (-1.1, 0.13 - depth_m, -1.1))
     told, by_triangles = ContactGraph(scene(HOUSE, plate)), alone(HOUSE, plate)
@@ -122,7 +122,7 @@ def test_what_is_sunk_in_a_ledge_is_in_contact_as_triangles_tell(depth_m: float)
         assert junction.normals[0] == pytest.approx(other.normals[0])
 
 
-def test_where_a_step_is_in_the_way_nothing_is_told() -> None:
+def test_a_step_in_the_floor_gives_no_free_region() -> None:
     host = Body.of(HOUSE, 1)
     on_podium = Body.of(box("a", (0.2, 0.1, 0.2), (-1.1, 0.17, -1.1)), 1)
     beside = Body.of(box("b", (0.2, 0.1, 0.2), (-0.55, 0.05, -1.1)), 1)
@@ -137,10 +137,10 @@ def test_where_a_step_is_in_the_way_nothing_is_told() -> None:
     assert not has_nothing_near(on_podium, host)
 
 
-def test_what_is_known_of_a_floor_serves_whoever_comes(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_free_region_of_a_floor_serves_other_guests(monkeypatch: pytest.MonkeyPatch) -> None:
     host = Body.of(HOUSE, 1)
     first = ledge_under(Body.of(box("first", (0.1, 0.1, 0.1), (0.0, 0.05, 0.9)), 1), host)
-    monkeypatch.setattr(free_space, "_drawn", lambda *_: pytest.fail("searched again"))
+    monkeypatch.setattr(free_space, "_computed_region", lambda *_: pytest.fail("searched again"))
     for n, x in enumerate((0.1, 0.2, -0.1)):
         guest = Body.of(box(f"copy_{n}", (0.1, 0.1, 0.1), (x, 0.05, 0.9)), 1)
         assert ledge_under(guest, host) is first
@@ -153,13 +153,13 @@ def test_many_guests_keep_few_regions() -> None:
     taken = (4990.2, 0.2, 0.2), (4990.4, 0.4, 0.4)
     found = regions.find("other", lambda known: known.holds(taken))
     assert found is not None
-    assert found.room[0][0] == 4990
+    assert found.box[0][0] == 4990
     assert regions.of("other") is found
-    assert regions.find("old", lambda known: known.room[0][0] == 0) is None
+    assert regions.find("old", lambda known: known.box[0][0] == 0) is None
     assert regions.of("copy_0") is None
 
 
-def test_a_leaning_host_tells_nothing() -> None:
+def test_a_leaning_host_has_no_free_region() -> None:
     leaning = Body.of(house((0.05, 0.0, 0.0, 1.0)), 1)
     guest = Body.of(box("a", (0.2, 0.1, 0.2), (0.0, 1.0, 0.0)), 1)
     assert ledge_under(guest, leaning) is None
@@ -206,7 +206,7 @@ def pen(x: float) -> SceneObject:
     return boxes("pen", *(((0.02, 0.2, 0.8), (dx, 0.1, 0.0)) for dx in (-0.4, 0.4)), at_m=(x, 0.0, 0.3))
 
 
-def test_what_goes_on_in_a_clearing_notices_that_its_host_has_moved() -> None:
+def test_a_guest_moving_in_free_space_notices_that_its_host_has_moved() -> None:
     """A box slides, and one hangs in the air, between two walls, one of which then comes near."""
     low, high = box("low", (0.1, 0.1, 0.1), (-0.19, 0.05, 0.55)), box("high", (0.1, 0.1, 0.1), (-0.19, 0.17, 0.05))
     graph = ContactGraph(scene(HOUSE, pen(-0.5), low, high))
@@ -230,8 +230,8 @@ def test_what_goes_on_in_a_clearing_notices_that_its_host_has_moved() -> None:
     assert pairs(graph) == {("house", "low"), ("house", "pen"), ("low", "pen"), ("high", "pen")}
 
 
-def test_what_comes_from_below_a_ledge_does_not_stand_on_it() -> None:
-    """A slab that has come through a floor, which may then fall onto it, and rises again to over its lower face."""
+def test_an_object_from_below_a_ledge_does_not_stand_on_it() -> None:
+    """A slab has moved through a floor, which may then fall onto it; it rises again above the lower face."""
     base, slab = box("base", (3.0, 0.1, 3.0), (0.0, -0.05, 0.0)), box("slab", (0.5, 0.04, 0.4), (0.0, 0.02, 0.0))
     graph = ContactGraph(scene(base, slab))
     for height in (-0.092, -0.064):

@@ -42,7 +42,7 @@ def test_graph_neighbours_and_poses_tell_the_same() -> None:
     assert graph.poses["cup"] == CUP.pose
 
 
-def test_contacts_are_sorted_by_pair_whatever_the_order_of_objects() -> None:
+def test_contacts_are_sorted_by_pair_for_any_order_of_objects() -> None:
     objects = [floor(), TABLE, CUP, box("plate", (0.2, 0.01, 0.2), (-0.2, 0.706, 0.0))]
     forward, backward = ContactGraph(scene(*objects)), ContactGraph(scene(*reversed(objects)))
     assert forward.contacts == backward.contacts
@@ -50,7 +50,7 @@ def test_contacts_are_sorted_by_pair_whatever_the_order_of_objects() -> None:
     assert all(c.a < c.b for c in forward.contacts)
 
 
-def test_names_do_not_decide_where_things_touch() -> None:
+def test_names_have_no_effect_on_contacts() -> None:
     renamed = ContactGraph(
         scene(box("a", (1.0, 0.7, 1.0), (0, 0.35, 0)), box("b", (0.08, 0.1, 0.08), (0.2, 0.75, 0.1)))
     )
@@ -105,7 +105,7 @@ def test_a_tolerance_that_is_no_length_is_refused(tolerance: object) -> None:
         ContactGraph(scene(TABLE), tolerance_m=tolerance)  # type: ignore[arg-type]
 
 
-def test_update_tells_what_appears_shifts_and_vanishes() -> None:
+def test_update_returns_appeared_shifted_and_vanished_pairs() -> None:
     graph = room(on_floor("shelf", (0.4, 0.4, 0.4), 2.0, 0.0))
     assert graph.update({"cup": Pose((0.3, 0.75, 0.1))}) == ContactChange(shifted=frozenset({("cup", "table")}))
     assert points(graph, "cup", "table")[:, 0].mean() == pytest.approx(0.3)
@@ -128,7 +128,7 @@ def test_a_change_of_weight_alone_is_a_shift() -> None:
     )
 
 
-def test_what_does_not_move_is_not_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_bodies_at_rest_are_not_searched(monkeypatch: pytest.MonkeyPatch) -> None:
     from scene2hap.contact import finder
     from scene2hap.contact.mesh_distance import MeshPair
 
@@ -168,7 +168,7 @@ def test_objects_come_and_go() -> None:
     assert graph.contacts == ContactGraph(scene(floor(), TABLE, box("plate", (0.2, 0.01, 0.2), (1, 0.005, 1)))).contacts
 
 
-def test_what_is_gone_leaves_nothing_behind() -> None:
+def test_a_removed_object_leaves_no_contacts() -> None:
     graph = ContactGraph(scene(box("table", (1.0, 0.1, 1.0), (0.0, 0.0, 0.0))))
     for n in range(3):
         graph.update({}, added=[box(f"cup_{n}", (0.1, 0.1, 0.1), (0.0, 0.1, 0.0))])

@@ -1,4 +1,4 @@
-"""Where a ledge ends, against outlines that are known."""
+"""Rims of ledges, against known outlines."""
 
 import math
 
@@ -62,7 +62,7 @@ def test_a_stretch_of_an_l_is_found_where_there_is_one_and_holds_the_foot(
         assert stretch[3] >= foot[3]
 
 
-def test_a_stretch_goes_on_to_the_rim_and_no_further_than_asked() -> None:
+def test_a_stretch_ends_at_the_rim_or_at_its_limit() -> None:
     found = shape_of(house().geometry.mesh).ledges(UP)
     stretch = stretched(found, found.heights.index(0.0), (-0.1, -0.1, 0.1, 0.1), (-0.3, -9.0, 9.0, 9.0))
     assert stretch is not None
@@ -104,7 +104,7 @@ def test_a_stretch_of_a_round_table_is_in_its_circle(away: float, bearing: float
         assert math.hypot(max(-stretch[0], stretch[2]), max(-stretch[1], stretch[3])) <= 1 + 1e-9
 
 
-def test_heights_are_told_upwards_whichever_axis_that_is() -> None:
+def test_heights_are_along_the_vertical_axis() -> None:
     shape = shape_of(house().geometry.mesh)
     assert shape.ledges(UP).heights == pytest.approx([0.0, 0.12, 0.88, 0.9, 2.4])
     assert shape.ledges(Upright(1, -1, 0, 2)).heights == pytest.approx([-2.4, -0.9, -0.88, -0.12, 0.0])

@@ -85,7 +85,7 @@ def test_a_clipped_square_loses_its_corner() -> None:
     assert {(round(u, 9), round(v, 9)) for u, v in ring} == {(0, 0), (1, 0), (1, 0.5), (0.5, 1), (0, 1)}
 
 
-def test_what_leans_stands_on_its_lowest_edge() -> None:
+def test_a_leaning_body_stands_on_its_lowest_edge() -> None:
     angle = 0.3
     leaning = Body.of(
         box("leaning", (0.1, 0.2, 0.3), (0, 0, 0), (math.sin(angle / 2), 0.0, 0.0, math.cos(angle / 2))), 1

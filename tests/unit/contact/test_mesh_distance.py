@@ -1,4 +1,4 @@
-"""Distance, contact points and drop of pairs of meshes: boxes in closed form, and what must hold for any."""
+"""Distance, contact points and fall distance of pairs of meshes: boxes in closed form, and invariants of any."""
 
 import math
 
@@ -108,7 +108,7 @@ def test_a_tip_touches_at_one_point() -> None:
     assert on_a[0] == pytest.approx(on_b[0], abs=2e-4)
 
 
-def test_a_way_moves_a_to_its_place_and_points_are_told_for_where_it_is() -> None:
+def test_patch_displaces_a_and_returns_points_at_its_present_pose() -> None:
     floating, table = box("a", (0.2, 0.2, 0.2), (0, 0.13, 0)), box("b", (1, 0.1, 1), (0, -0.05, 0))
     assert patch_of(floating, table).shape == (2, 0, 3)
     on_a, on_b = patch_of(floating, table, way=(0, -0.03, 0))
@@ -141,7 +141,7 @@ SHAPES = [
 
 
 def heap(seed: int, up_axis: int) -> list[Body]:
-    """Objects on, in and over each other, leaning every way."""
+    """Objects on, in and above each other, at any tilt."""
     rng = np.random.default_rng(seed)
     found = []
     for k in range(7):
@@ -156,8 +156,8 @@ def heap(seed: int, up_axis: int) -> list[Body]:
 @pytest.mark.parametrize("up_axis", [1, 2])
 @given(seed=st.integers(0, 10**6))
 @settings(derandomize=True, deadline=None, max_examples=25)
-def test_what_falls_comes_to_rest_on_the_other(up_axis: int, seed: int) -> None:
-    """Once it has fallen as far as told, an object touches the other, be it the host or the guest."""
+def test_an_object_moved_by_its_fall_distance_touches_the_other(up_axis: int, seed: int) -> None:
+    """After its fall distance an object touches the other, as the host or as the guest."""
     bodies, n_fell = heap(seed, up_axis), 0
     for faller in bodies:
         for other in bodies:

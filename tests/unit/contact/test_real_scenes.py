@@ -47,7 +47,7 @@ def test_exactly_the_composed_contacts_are_found(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ROOMS)
-def test_contact_points_lie_where_both_things_are(name: str) -> None:
+def test_contact_points_lie_on_both_objects(name: str) -> None:
     """Within the boxes around both, which were put a millimetre apart at most, and the picture 20 mm off its wall."""
     scene = load_scene(room_file(name))
     for contact in graph_of(name).contacts:
@@ -57,7 +57,7 @@ def test_contact_points_lie_where_both_things_are(name: str) -> None:
         assert (np.asarray(contact.point_m) <= high + apart_m + 1e-6).all()
 
 
-def test_contact_points_of_the_kitchen_lie_where_things_stand() -> None:
+def test_contact_points_of_the_kitchen() -> None:
     graph = graph_of(COMPOSED)
     for a, b, height in (("pot", "stove", 0.864), ("plate_1", "table", 0.723), ("bowl", "cutting_board", 0.774)):
         assert points(graph, a, b)[:, 1] == pytest.approx(height, abs=1e-3)

@@ -1,4 +1,4 @@
-"""Who holds whom, in scenes whose answer anybody would give."""
+"""Holders of objects, in scenes with an obvious answer."""
 
 import numpy as np
 import pytest
@@ -38,16 +38,16 @@ def weights_of(*objects: SceneObject) -> dict[tuple[str, str], float]:
         ((0.5, 0.5, 0.5), -0.010),  # sunk in
     ],
 )
-def test_gaps_that_real_scenes_leave_under_resting_things_are_full_contact(size: Triple, gap_m: float) -> None:
+def test_gaps_below_resting_objects_of_real_scenes_weigh_one(size: Triple, gap_m: float) -> None:
     assert floating_weight(on_floor("thing", size, 0.3, 0.2), gap_m) == 1.0
 
 
-def test_what_hovers_higher_than_its_reach_touches_nothing() -> None:
+def test_an_object_above_its_fall_reach_touches_nothing() -> None:
     assert found(floor(), on_floor("cup", CUP, 0, 0, gap_m=0.05)) == set()
     assert found(floor(), on_floor("sofa", (2, 1, 1), 0, 0, gap_m=0.1)) == set()
 
 
-def test_lifting_lets_the_weight_fall_smoothly_from_one_to_nothing() -> None:
+def test_the_weight_falls_smoothly_with_height() -> None:
     cup = on_floor("cup", CUP, 0, 0)
     reach = rule.fall_reach_m(float(np.linalg.norm(CUP)))
     lifts = np.arange(0.0, 0.05, 0.0005)
@@ -67,7 +67,7 @@ def test_weight_is_a_raised_cosine_over_the_last_third(share: float, expected: f
     assert rule.weight(share * 0.03, 0.03) == pytest.approx(expected, abs=1e-6)
 
 
-def test_weight_at_tolerance_zero_asks_for_touch() -> None:
+def test_weight_at_tolerance_zero_needs_a_gap_of_zero() -> None:
     assert rule.weight(0.0, 0.0) == 1.0
     assert rule.weight(1e-6, 0.0) == 0.0
 
@@ -98,7 +98,7 @@ def test_a_chair_half_on_the_carpet_stands_on_both() -> None:
     assert found(floor(), carpet, chair((0, 0.025, 0))) == expected
 
 
-def test_a_refrigerator_that_floats_stands_on_the_floor_whatever_it_touches_beside() -> None:
+def test_a_floating_refrigerator_stands_on_the_floor_despite_contacts_beside() -> None:
     wall = on_floor("wall", (3, 3, 0.2), 0, -1.1)
     counter = on_floor("counter", (1, 0.9, 0.6), 0.95, -0.7)
     fridge = on_floor("fridge", (0.901, 1.8, 0.7), 0, -0.651, gap_m=0.012)  # 1 mm deep in wall and counter
@@ -112,12 +112,12 @@ def test_a_refrigerator_that_floats_stands_on_the_floor_whatever_it_touches_besi
     assert weight(graph, "floor", "fridge") == 1.0
 
 
-def test_things_side_by_side_do_not_hold_each_other() -> None:
+def test_objects_side_by_side_do_not_hold_each_other() -> None:
     left, right = on_floor("left", (0.5, 0.5, 0.5), 0, 0, 0.02), on_floor("right", (0.5, 0.9, 0.5), 0.506, 0, 0.02)
     assert found(floor(), left, right) == {("floor", "left"), ("floor", "right")}
 
 
-def test_things_side_by_side_that_cut_each_other_a_little_do_not_hold_each_other() -> None:
+def test_objects_side_by_side_that_intersect_a_little_do_not_hold_each_other() -> None:
     left, right = on_floor("left", (0.5, 0.5, 0.5), 0, 0, 0.02), on_floor("right", (0.5, 0.9, 0.5), 0.498, 0, 0.022)
     assert found(floor(), left, right) == {("floor", "left"), ("floor", "right"), ("left", "right")}
 
@@ -138,7 +138,7 @@ def test_equal_boxes_may_be_stacked(gap_m: float) -> None:
     assert {c.normal for c in graph.contacts} == {(0.0, -1.0, 0.0)}
 
 
-def test_small_things_hover_over_small_things() -> None:
+def test_small_objects_hover_over_small_objects() -> None:
     saucer = box("saucer", (0.15, 0.006, 0.15), (0, 0.003, 0))
     assert found(saucer, box("cup", CUP, (0, 0.056 + 0.016, 0))) == {("cup", "saucer")}
 
@@ -148,7 +148,7 @@ def test_an_ajar_door_leaf_does_not_touch_the_other() -> None:
     assert found(floor(), *leaves) == {("floor", "left"), ("floor", "right")}
 
 
-def test_a_thing_in_a_bin_stands_on_the_bins_bottom() -> None:
+def test_an_object_in_a_bin_stands_on_its_bottom() -> None:
     sides = [((0.3, 0.3, 0.01), (0, 0.15, z)) for z in (-0.145, 0.145)] + [
         ((0.01, 0.3, 0.3), (x, 0.15, 0)) for x in (-0.145, 0.145)
     ]
@@ -197,7 +197,7 @@ def test_a_knob_hangs_before_its_leaf_if_it_is_no_farther_off_than_a_quarter_of_
     assert (("knob", "leaf") in weights_of(leaf, knob)) == hangs
 
 
-def test_what_is_farther_off_a_leaf_than_handles_are_does_not_hang_on_it() -> None:
+def test_an_object_farther_from_a_leaf_than_handles_does_not_hang_on_it() -> None:
     leaf = box("leaf", (0.6, 0.7, 0.018), (0, 0.5, 0))
     handle = box("handle", (0.012, 0.16, 0.012), (0.25, 0.5, 0.009 + 0.026 + 0.006))
     assert weights_of(leaf, handle) == {}
@@ -219,7 +219,7 @@ def test_a_wall_cabinet_does_not_hang_on_what_is_much_farther_off_than_its_wall(
     assert ("cabinet", "tall") not in weights_of(floor(), wall, tall, cabinet)
 
 
-def test_what_stands_near_a_wall_does_not_hang_on_it() -> None:
+def test_an_object_standing_near_a_wall_does_not_hang_on_it() -> None:
     wall = on_floor("wall", (3, 3, 0.2), 0, 0)
     assert found(floor(), wall, on_floor("desk", (1, 0.7, 0.6), 0, 0.412)) == {("floor", "wall"), ("desk", "floor")}
 

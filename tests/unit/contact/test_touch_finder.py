@@ -1,4 +1,4 @@
-"""A stated tolerance: tables of poses, things that come and go, and records made only when asked for."""
+"""A stated tolerance: tables of poses, added and removed objects, and records made on demand."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ def heap(seed: int) -> tuple[np.ndarray, np.ndarray]:
     return rng.uniform(0.0, 0.6, (len(IDS), 3)), turns / np.linalg.norm(turns, axis=1, keepdims=True)
 
 
-def test_a_table_of_poses_leads_where_poses_and_building_from_nothing_do() -> None:
+def test_a_pose_table_gives_the_same_contacts_as_poses_and_a_new_graph() -> None:
     others = [floor(), chair((0.0, 0.0, 0.0))]
     by_table, by_pose, fresh = (
         ContactGraph(scene(*others, *boxes_at(*heap(seed))), tolerance_m=0.02) for seed in (0, 0, 1)
@@ -55,7 +55,7 @@ def test_arrays_tell_what_contacts_tell() -> None:
     assert [tuple(n) if n[0] == n[0] else None for n in arrays.normals.tolist()] == [c.normal for c in contacts]
 
 
-def test_what_was_lent_follows_updates_and_keeps_what_did_not_move() -> None:
+def test_shared_views_follow_updates() -> None:
     graph = ContactGraph(
         scene(floor(), on_floor("a", (0.1, 0.1, 0.1), 0, 0), on_floor("b", (0.1, 0.1, 0.1), 1, 1)), tolerance_m=0.004
     )
@@ -84,7 +84,7 @@ def test_tables_of_several_sets_of_ids_may_take_turns() -> None:
     assert graph.pose("b03") == expected["b03"]
 
 
-def test_an_id_may_leave_and_another_thing_take_its_place() -> None:
+def test_a_new_object_may_take_the_column_of_a_removed_one() -> None:
     graph = ContactGraph(scene(floor(), *boxes_at(*heap(5))), tolerance_m=0.01)
     change = graph.update({}, removed=IDS, added=[on_floor("new", (0.2, 0.2, 0.2), 0, 0)])
     assert change.appeared == {("floor", "new")}

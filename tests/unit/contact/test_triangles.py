@@ -1,4 +1,4 @@
-"""Distances of triangles against quadratic and linear programs, dense sampling, and cases that can be told by hand."""
+"""Distances of triangles against quadratic and linear programs, dense sampling, and cases known by hand."""
 
 import numpy as np
 import pytest
@@ -111,12 +111,12 @@ def test_no_sampled_pair_of_points_is_nearer() -> None:
         ([[-1.0, 0.3, 0.25], [1.0, 0.3, 0.25], [0.0, 0.3, 0.25]], 0.25),  # a line
     ],
 )
-def test_distance_told_by_hand(q: list[list[float]], distance: float) -> None:
+def test_distance_known_by_hand(q: list[list[float]], distance: float) -> None:
     for first, second in ((FLAT, q), (q, FLAT)):
         assert one(first, second)[0] == pytest.approx(distance, abs=1e-12)
 
 
-def test_every_corner_of_two_faces_on_each_other_is_told() -> None:
+def test_every_corner_of_two_faces_on_each_other_is_found() -> None:
     """A square's half hangs over the other's slanted edge: the common patch has the corners below."""
     q = np.array([[[0.5, 0.1, 0.0], [2.0, 0.1, 0.0], [0.5, 1.6, 0.0]]])
     every = all_meetings([FLAT], q)
@@ -133,7 +133,7 @@ def test_a_clearance_is_a_lower_bound_of_the_distance(seed: int) -> None:
     assert (clearances(axes_first(p), axes_first(q)) <= distances(p, q) + 1e-12).all()
 
 
-def test_parallel_faces_are_told_apart_by_their_planes() -> None:
+def test_parallel_faces_are_separated_by_their_planes() -> None:
     beside = axes_first([np.add(FLAT, [5.0, 5.0, -0.25])])
     assert clearances(axes_first([FLAT]), beside)[0] == pytest.approx(0.25)
 

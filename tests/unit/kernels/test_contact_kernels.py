@@ -140,7 +140,7 @@ def test_triangles_in_a_box(seed: int) -> None:
 
 @steady
 @given(seed=seeds)
-def test_what_a_ledge_covers(seed: int) -> None:
+def test_rectangles_covered_by_a_ledge(seed: int) -> None:
     rng = np.random.default_rng(seed)
     plain, twin = both("contact.ledge.covers")
     k, n = int(rng.integers(0, 6)), int(rng.integers(0, 9))

@@ -130,7 +130,7 @@ def test_lengths_in_bands(seed: int, n_own: list[int], n: int) -> None:
 
 @steady
 @given(seed=seeds, n=st.integers(0, 3), own=st.integers(-1, 4))
-def test_what_an_object_is_asked(seed: int, n: int, own: int) -> None:
+def test_responses_of_an_object(seed: int, n: int, own: int) -> None:
     rng = np.random.default_rng(seed)
     columns = rng.choice(5, int(rng.integers(0, 5)), replace=False)
     arriving = rng.uniform(0, 1, (n, len(columns), 3))

@@ -13,7 +13,7 @@ from kernels import both, seeds, steady
 
 @steady
 @given(seed=seeds, n=st.integers(0, 3))
-def test_what_is_within_its_horizon(seed: int, n: int) -> None:
+def test_sources_within_the_cutoff(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
     prices = rng.choice([0.0, 1.0, 2.0, math.inf], (n, 5)).tolist()
     cutoff = rng.choice([-1.0, 0.0, 1.5, math.inf], 5).tolist()
@@ -37,7 +37,7 @@ def test_silent_bands(seed: int, n: int) -> None:
 
 @steady
 @given(seed=seeds, n=st.integers(0, 3), m=st.integers(0, 4), has_peaks=st.booleans(), has_least=st.booleans())
-def test_what_is_worth_mixing(seed: int, n: int, m: int, has_peaks: bool, has_least: bool) -> None:
+def test_audible_sources(seed: int, n: int, m: int, has_peaks: bool, has_least: bool) -> None:
     rng = np.random.default_rng(seed)
     gains = rng.choice([0.0, 1e-9, 0.1, 0.5], (n, m, 5), p=[0.6, 0.1, 0.2, 0.1]).astype(np.float32)
     peaks = rng.uniform(0, 2, (m, 5)).astype(np.float32) if has_peaks else None
@@ -60,7 +60,7 @@ def test_caps(seed: int, n: int) -> None:
 
 @steady
 @given(seed=seeds, n=st.integers(0, 4), n_theirs=st.integers(0, 5))
-def test_what_a_last_field_answers(seed: int, n: int, n_theirs: int) -> None:
+def test_answers_of_the_last_field(seed: int, n: int, n_theirs: int) -> None:
     rng = np.random.default_rng(seed)
     own = [rows.tolist() for rows in np.split(rng.permutation(n), sorted(rng.integers(0, n + 1, 2)))]
     answers = [rng.uniform(0, 2, (len(rows), n_theirs, 3)) for rows in own]

@@ -1,7 +1,7 @@
 """Queries for a sound, from the fullest wording to the shortest.
 
-Freesound wants every word to match, so fewer words find more. The last rung is the thing's name alone, unless that
-says nothing ("machine").
+Freesound requires every word to match, so fewer words find more. The last query is the object's name alone, unless that
+is too general ("machine").
 """
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ MINUTE_S, DAY_S = 60.0, 86_400.0
 
 
 class RateLimit:
-    """At most so many requests within any minute, and within any day, of this object's life.
+    """Bounds the number of requests within any minute, and within any day, of this object's life.
 
     clock : seconds that never run backwards; sleep : waits that many seconds.
     """
@@ -43,7 +43,7 @@ class RateLimit:
             self._times.append(self._clock())
 
     def block(self, wait_s: float = MINUTE_S) -> None:
-        """Let nothing out for a while: the service has counted more than we did."""
+        """Block requests for a while, because the service has counted more than this client."""
         self._blocked_until = max(self._blocked_until, self._clock() + wait_s)
 
     def _wait_s(self, now_s: float) -> float:

@@ -1,4 +1,4 @@
-"""Freesound's API as two questions: which sounds are there, and how does one sound.
+"""Freesound's API: search for sounds, and download of previews.
 
 Source: Freesound API documentation, "Search", "Authentication", "Throttling" (freesound.org/docs/api).
 """
@@ -22,14 +22,14 @@ if TYPE_CHECKING:
     from scene2hap.web import Transport
 
 RESULTS_ASKED = 15
-"""Three times what is wanted, since some previews turn out to be too short or broken; the API's own default."""
+"""Results per search: three times the candidates, since some previews are too short or broken; the API's default."""
 MAX_ANSWER_BYTES = 2_000_000
 MAX_PREVIEW_BYTES = 20_000_000
 
 _RETRIES = 2
 _FIRST_WAIT_S = 0.5
 _REST_S = 120.0
-"""How long a service that failed is left alone; assumed."""
+"""Pause after a failure of the service [s] (assumed)."""
 _LONGEST_WAIT_S = 120.0
 _HINTS = {
     401: "Check the token in {variable}; freesound.org/apiv2/apply gives one.",
@@ -44,7 +44,7 @@ class _NotUnderstood(BackendUnavailable):
 
 @dataclass
 class Service:
-    """Asks, waits as the rate limit wants, tries again where that can help, and leaves a failed service alone.
+    """Sends requests within the rate limit, retries if that can help, and pauses after failures.
 
     The token goes into the header of requests below `base_url` and nowhere else: a redirect of the API is an error, and
     previews, which may lie on another host, are fetched without it.
@@ -88,7 +88,7 @@ class Service:
             raise
 
     def preview(self, sound: Sound) -> bytes:
-        """The encoded preview. Raises: BackendUnavailable: it cannot be had."""
+        """Return the encoded preview. Raises: BackendUnavailable: it cannot be downloaded."""
         reply = web.get(sound.preview, web.Limits(self.timeout_s, MAX_PREVIEW_BYTES), transport=self.transport)
         if reply.status != 200:
             raise BackendUnavailable(
@@ -120,7 +120,7 @@ class Service:
             scrub=self.token.scrub,
             transport=self.transport,
         )
-        # Whatever the service echoes would reach titles and credits.
+        # Text that the service echoes would reach titles and credits.
         reply = replace(reply, content=self.token.scrub(reply.text).encode("utf-8"))
         if reply.status != 200:
             raise self._error(reply)

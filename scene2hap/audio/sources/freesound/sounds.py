@@ -43,7 +43,7 @@ class Sound(BaseModel):
         return next((self.previews[name] for name in _PREVIEWS if is_safe(self.previews.get(name, ""))), "")
 
     def credit(self, query: str) -> Credit:
-        """Whom it is owed to."""
+        """The credit of the sound."""
         deed = read_deed(self.license)
         return Credit(
             plain_line(self.name) or f"sound {self.id}",

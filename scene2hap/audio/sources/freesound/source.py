@@ -39,11 +39,11 @@ SORTS = tuple(
 )
 
 _PATIENCE = 2
-"""Previews in a row that may not be had before their host is taken to be away."""
+"""Failed downloads of previews in a row after which their host counts as unavailable."""
 
 
 class UnusableSound(UserWarning):
-    """A sound that was found cannot be used, and the next one was taken."""
+    """A found sound cannot be used, and the next one was used instead."""
 
 
 class Freesound:
@@ -128,7 +128,7 @@ class Freesound:
         return clips
 
     def _search(self, query: str) -> list[Sound]:
-        """Kept results, or the service's, kept before they are used; only those that may be used."""
+        """Return the results that may be used, from the cache or the service; new ones are cached first."""
         search = {"base_url": self._service.base_url, "query": query, "filter": self._filter, "sort": self._sort}
         name = f"searches/{digest(search)}.json"
         kept = self._store.document(name)
@@ -140,7 +140,7 @@ class Freesound:
         return [sound for sound in sounds if self._may_use(sound)]
 
     def _may_use(self, sound: Sound) -> bool:
-        """Whether a result has an allowed licence and duration. Checked again instead of trusting the service's
+        """Return True if a result has an allowed licence and duration. Checked again instead of trusting the service's
         filter."""
         return (
             bool(sound.preview)
@@ -149,7 +149,7 @@ class Freesound:
         )
 
     def _clip(self, sound: Sound, query: str) -> AudioClip:
-        """The preview, from disk if it has been fetched before, and on disk before it is used."""
+        """Return the preview, from the cache or the service; a new one is cached first."""
         name = f"previews/{sound.id}-{digest(sound.preview)[:12]}{'.ogg' if 'ogg' in sound.preview else '.mp3'}"
         credit = sound.credit(query)
         kept = self._store.clip(name, credit)

@@ -1,4 +1,4 @@
-"""What every runner shares: reading the request, writing sounds and the reply, rehearsing without a model.
+"""Shared part of all runners: read the request, write sounds and the reply, rehearse without a model.
 
 Only the standard library of Python 3.9 on, since runners live in the environments of their models, where scene2hap is
 not installed. The contract is described in docs/sound-sources.md.
@@ -31,7 +31,7 @@ class RequestError(Exception):
 
 
 class Request:
-    """What is wanted: `count` takes of `duration_s` [s] of what `prompt` says, repeatable by `seed`."""
+    """A request for `count` takes of `duration_s` [s], described by `prompt`, repeatable by `seed`."""
 
     def __init__(self, document: Any) -> None:
         if not isinstance(document, dict) or document.get("contract") != CONTRACT:
@@ -140,7 +140,7 @@ def tones(request: Request, arguments: argparse.Namespace) -> tuple[int, Takes]:
 
 
 def check(origin: dict[str, str], packages: Sequence[str]) -> int:
-    """Play a request through with tones and print, as JSON, what came of it and which packages are missing."""
+    """Serve a request with tones, and print the result and missing packages as JSON."""
     missing = [name for name in packages if importlib.util.find_spec(name) is None]
     with tempfile.TemporaryDirectory() as folder:
         request = os.path.join(folder, "request.json")

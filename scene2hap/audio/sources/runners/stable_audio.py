@@ -29,7 +29,7 @@ def generate(request: Any, arguments: Any) -> tuple[int, Any]:
         prompt=request.prompt,
         duration=request.duration_s,
         steps=STEPS,
-        # Its seed has 32 bits, and -1 stands for any.
+        # The model's seed has 32 bits, and -1 means a random one.
         seed=request.seed % 2**31,
         batch_size=request.count,
     )

@@ -20,7 +20,7 @@ SIZE_FACTOR_BOUNDS = (0.75, 4.0 / 3.0)
 
 @dataclass(frozen=True)
 class Rhythm:
-    """A load that comes and goes: so many times a second, by a share of the amplitude, with a wavering rate.
+    """A periodic load: its rate [Hz], its depth as a share of the amplitude, and the irregularity of the rate.
 
     Rates are those of what turns or is worked on; depths are assumed, below 5 dB of range for what is steady.
     """
@@ -51,7 +51,7 @@ class Patch:
     rhythm: Rhythm | None = None
 
     def size_factor(self, longest_m: float) -> float:
-        """What multiplies frequencies for a machine of that size [m]; 1 where the size is unknown (0)."""
+        """Return the factor on frequencies for a machine of this size [m]; 1 if the size is unknown (0)."""
         if self.reference_m is None or longest_m <= 0.0:
             return 1.0
         return float(np.clip((self.reference_m / longest_m) ** SIZE_POWER, *SIZE_FACTOR_BOUNDS))

@@ -101,8 +101,8 @@ def power_tool(
 ) -> Signal:
     """A universal motor behind a gear: motor and spindle imbalance, gear mesh (teeth) and commutator (segments).
 
-    What the spindle cuts loads the motor twice per turn. `spindle` is its level; above 1 it dominates, as the disc of a
-    grinder does.
+    The cut material loads the motor twice per turn of the spindle. `spindle` is the spindle's level; above 1 it
+    dominates, as the disc of a grinder does.
     """
     motor_speed = take.speed_hz(motor_hz) * (1.0 + 0.004 * wander(take.rng, 2.0))
     turn = phase(motor_speed)

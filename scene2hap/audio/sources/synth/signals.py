@@ -1,4 +1,4 @@
-"""What voices are built from: phases, partials, wander, noise.
+"""Building blocks of voices: phases, partials, wander, noise.
 
 t [s] time, f [Hz] frequency, phi [rad] phase, k [-] order of a partial, n number of samples
 """
@@ -23,8 +23,8 @@ REFERENCE_MAINS_HZ = 50.0
 class Take:
     """Parameters of a voice besides its own constants.
 
-    `rng` is the only source of chance. `drive` 0..1 is how hard the thing works: harder is brighter and, where nothing
-    holds the speed, faster. `size_factor` multiplies the frequencies that depend on the machine's size. `mains_hz` is
+    `rng` is the only source of randomness. `drive` 0..1 is the load of the machine: more is brighter and, if the speed
+    is not regulated, faster. `size_factor` multiplies the frequencies that depend on the machine's size. `mains_hz` is
     what it is plugged into.
     """
 

@@ -56,7 +56,7 @@ def _geared(
 
 
 def _strokes(per_second: float, body_hz: float, decay_s: float, *, click: float = 0.2) -> Patch:
-    """Whether blows follow each other too fast to be felt apart; slower ones do not loop by themselves."""
+    """Blows on a ringing body. It is steady if they are too fast to be felt apart; slower ones do not loop."""
     voice = partial(blows, per_second=per_second, body_hz=body_hz, decay_s=decay_s, click=click)
     # The strongest line of a quick train is the multiple of its rate nearest to the body's pitch.
     spread = max(0.06 * body_hz, 0.6 * per_second)

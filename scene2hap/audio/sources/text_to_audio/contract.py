@@ -38,12 +38,12 @@ class Request:
     seed: int
 
     def to_document(self) -> dict[str, object]:
-        """As it stands in the file."""
+        """Return the request as plain data, for the file."""
         return {"contract": CONTRACT, "version": VERSION, **asdict(self)}
 
 
 class Reply(BaseModel):
-    """Which model made the sounds, under which licence, and where they lie: names in the reply's own folder."""
+    """The model that made the sounds, its licence, and the file names of the sounds in the reply's folder."""
 
     model_config = ConfigDict(extra="ignore", frozen=True)
 
@@ -57,7 +57,7 @@ class Reply(BaseModel):
 
 
 def read_reply(folder: Path, scrub: Callable[[str], str] = str) -> Reply:
-    """What the generator says it did; `scrub` takes out of its text what nobody shall see.
+    """Read the generator's reply; `scrub` removes secrets from its text.
 
     Raises: BackendUnavailable: it says that it failed; BadAnswer: it says nothing, or not in the words of the contract.
     """

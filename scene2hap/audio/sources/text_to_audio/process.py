@@ -1,7 +1,7 @@
-"""A foreign program, held to its time and to its share of the disk.
+"""Run an external program with limits of time and disk space.
 
-It gets a folder of its own, no standard input, and no keys; what it prints goes to a file in that folder. Whatever it
-started dies with it.
+It gets a folder of its own, no standard input, and no keys; its output goes to a file in that folder. Processes that it
+started end with it.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class CannotStart(BackendUnavailable):
 
 @dataclass(frozen=True)
 class Allowance:
-    """How long a program may run [s] and how much it may write, its output included [bytes]."""
+    """Limits of a program: running time [s], and written data including its output [bytes]."""
 
     timeout_s: float
     max_bytes: int

@@ -149,7 +149,7 @@ class TextToAudio:
         return clips
 
     def _kept(self, key: str) -> list[AudioClip] | None:
-        """What an earlier run made of the same request; None where any of it is missing."""
+        """Return the takes of an earlier run for the same request; None if any of them is missing."""
         entry: Any = self._store.document(f"{key}/{_ENTRY}")
         try:
             names = [str(name) for name in entry["files"]]
