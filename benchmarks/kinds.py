@@ -7,7 +7,7 @@ python benchmarks/kinds.py [--set home|flat|workshop] [--seeds 3] [--first 0] [-
    `pip install vibromaf` brings; without it this part is left out. Two loops are compared in blocks of 64 ms by which
    components are felt in both, at the lag at which they are most alike, since no two machines start together.
    - *takes*: a pair is distinct if its loops are less alike than 95 % of takes of either kind, which differ in their
-     seed and are felt at one place. Are two kinds more different than two takes of one kind?
+     seed and are moved by as much. Are two kinds more different than two takes of one kind?
    - *all*: the same, with the takes of all kinds as one threshold.
    - *halves*: the rule before, at 2.8 kHz and without scale or lag: less alike than 95 % of all loops of all seeds are
      to themselves, first half against second.
@@ -33,6 +33,7 @@ from scene2hap import bake as bake_scene
 from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.distinctness import distinctness, feel_of
 from scene2hap.audio.felt_loop import Plan, felt_loop
+from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.threshold import threshold_db
@@ -84,10 +85,12 @@ def baked(names: tuple[str, ...], seed: int, n_takes: int, tactile: str) -> Kind
 
 
 def take(bundle: HapticBundle, name: str, config: BakeConfig, seed: int) -> AudioClip:
-    """The tactile loop of another take of the first state of an object, felt at its place and level."""
-    haptics, felt = bundle.objects[name], next(iter(bundle.loops[name].values())).felt
+    """The tactile loop of another take of the first state of an object, at its level and moved by as much."""
+    haptics, loop = bundle.objects[name], next(iter(bundle.loops[name].values()))
+    felt, state = loop.felt, haptics.states[0]
     assert felt is not None
-    state = haptics.states[0]
+    assert felt.target_hz is not None
+    assert loop.source is not None
     clip = Synthesizer().find(
         VibrationDescription(
             haptics.object_category,
@@ -100,13 +103,15 @@ def take(bundle: HapticBundle, name: str, config: BakeConfig, seed: int) -> Audi
             seed,
         )
     )[0]
-    anchor = anchor_of(clip.samples, clip.sample_rate_hz, felt.asked_level_db, config.actuator)
+    level_db = sensation_level_db(state.intensity)
+    stays, anchor = (anchor_of(x.samples, x.sample_rate_hz, level_db, config.actuator) for x in (loop.source, clip))
+    assert stays is not None
     assert anchor is not None
     context = ConversionContext(
         config.actuator,
         state.intensity,
         own_hz=anchor.frequency_hz,
-        target_hz=felt.target_hz,
+        target_hz=anchor.felt_hz * felt.target_hz / stays.felt_hz,
         rough_hz=anchor.rough_hz,
     )
     return felt_loop(clip, config.tactile, Plan(context, felt.asked_level_db)).tactile
