@@ -1,6 +1,6 @@
 """How many pairs of twenty kinds of machine feel distinct in one scene, by two measures, as a table in Markdown.
 
-python benchmarks/kinds.py [--set home|flat|workshop] [--seeds 3] [--first 0] [--takes 4] [--tactile auto]
+python benchmarks/kinds.py [--set home|flat|workshop|compressors] [--seeds 3] [--first 0] [--takes 4] [--tactile auto]
 
 1. The project's own (`scene2hap.audio.distinctness`): just noticeable differences in frequency, rhythm and level.
 2. An independent one, the spectral part of ST-SIM (Hassen and Steinbach 2019) as `vibromaf` computes it, which
@@ -12,7 +12,8 @@ python benchmarks/kinds.py [--set home|flat|workshop] [--seeds 3] [--first 0] [-
    - *halves*: the rule before, at 2.8 kHz and without scale or lag: less alike than 95 % of all loops of all seeds are
      to themselves, first half against second.
 
-`--tactile svf_bandpass` is the control: one fixed filter for all kinds, and nothing is moved apart.
+Controls: with `--tactile svf_bandpass` there is one fixed filter for all kinds, and nothing is moved apart. The ten
+compressors have one voice, so that only their speeds and intensities differ.
 """
 
 from __future__ import annotations
@@ -47,6 +48,8 @@ SETS = {
     "workshop": "drill, jigsaw, grinder, lathe, jackhammer, impact driver, air compressor, welding machine, "
     "3D printer, vacuum cleaner, leafblower, lawnmower, generator, chainsaw, concrete mixer, conveyor belt, forklift, "
     "pump, heat gun, car",
+    "compressors": "refrigerator, freezer, minibar, wine cooler, water cooler, dehumidifier, water dispenser, "
+    "vending machine, heat pump, ice machine",
 }
 RATE_HZ, N_SAMPLES = 8000, 40960
 """The rate of the table of thresholds in `vibromaf`, and 5.12 s."""
