@@ -74,7 +74,11 @@ FIGURES = {
         "contacts", f"stress/contacts.py {MOVERS} --moves 1500", 60, is_text=True, needs="scenes"
     ),
     "distinctness": Figure("conversion", "benchmarks/distinctness.py", 1),
-    "kinds": Figure("conversion", "benchmarks/kinds.py --seeds 5", 1),
+    "kinds": Figure("conversion", "benchmarks/kinds.py --seeds 5", 5),
+    "kinds-flat": Figure("conversion", "benchmarks/kinds.py --set flat --seeds 2 --first 11", 2),
+    "kinds-workshop": Figure("conversion", "benchmarks/kinds.py --set workshop --seeds 2 --first 11", 2),
+    "kinds-alike": Figure("conversion", "benchmarks/kinds.py --set compressors --seeds 2 --tactile svf_bandpass", 1),
+    "kinds-one-filter": Figure("conversion", "benchmarks/kinds.py --seeds 2 --tactile svf_bandpass", 2),
     "many-scenes": Figure("many-scenes", "benchmarks/bake_many.py", 6, has_times=True, needs="scenes"),
     "many-scenes-200": Figure(
         "many-scenes",

@@ -8,6 +8,9 @@ search takes two steps:
 1. coarse, at 8 kHz: twelve starts, and every length from half to all of the sound behind them;
 2. at the full rate: those lengths for which a cosine through a peak of the coarse curve is highest at a whole number
    of samples.
+
+Where the level repeats, as that of a ringing phone, lengths of whole periods are preferred. A seam within a ring would
+make that ring longer or shorter than the others.
 """
 
 from __future__ import annotations
@@ -24,6 +27,8 @@ from scene2hap.audio.loops.seam import Seam
 from scene2hap.errors import AudioError
 
 Signal = NDArray[np.float64]
+Candidate = tuple[float, int, int]
+"""Likeness [-], length and start [samples] of a seam."""
 
 MIN_CLIP_S = 0.1
 MAX_LOOP_S = 10.0
@@ -45,9 +50,16 @@ candidates must include some of these."""
 _AS_GOOD = 3e-5
 """Differences of similarity that count as equal; then the longest loop wins. A phase error of 0.44 degrees in a tone
 gives this difference."""
-_LONG_SHARES, _WORTH_LENGTH = (0.8, 0.65), 0.5
-"""A loop longer than this share of the clip is preferred if its dissimilarity exceeds the best one's by at most half.
-In noise all seams are alike, and a longer loop is noticed later. A rhythm has few seams, long or not."""
+_LONG_SHARES, _WORTH = (0.8, 0.65), 0.5
+"""A loop longer than this share of the clip, or one that keeps the beat, is preferred if its dissimilarity exceeds the
+best one's by at most half. In noise all seams are alike, and a longer loop is noticed later. A rhythm has few seams."""
+_LEVEL_STEP_S, _SHORTEST_PERIOD_S = 0.01, 0.2
+"""Resolution of the level; shorter periods lie within the stretches that are compared."""
+_LEAST_DEPTH, _LEAST_LIKENESS, _TIE = 0.3, 0.8, 0.05
+"""Bounds of a level that repeats: standard deviation over mean; autocorrelation at one period, and by how much less the
+first period may have than the best [-]; assumed."""
+_PERIOD_TOLERANCE = 0.02
+"""Largest difference from a whole number of periods [periods]; touch notices 0.18 of a rate."""
 _SILENT = 1e-9
 """Share of the whole energy below which the similarity would be a ratio of rounding errors."""
 
@@ -74,14 +86,16 @@ def find_seam(samples: ArrayLike, sample_rate_hz: float, *others: ArrayLike) -> 
     offset = (n - usable) // 2
     cut = [signal[offset : offset + usable] for signal in signals]
     weights = [_mean_power(x, fade) for x in cut]
-    found = _refined(cut, weights, fade, _promising(cut, weights, fade, min(1.0, _COARSE_HZ / rate)))
-    best = max(likeness for likeness, _, _ in found)
+    period = _level_period(cut[0], rate)
+    found = _refined(cut, weights, fade, _promising(cut, weights, fade, min(1.0, _COARSE_HZ / rate), period))
+    if period is not None:
+        found = _preferred([seam for seam in found if _in_beat(seam[1], period)], found)
     for share in _LONG_SHARES:
-        long = [seam for seam in found if seam[1] >= share * (usable - fade)]
-        likest = max((seam[0] for seam in long), default=-1.0)
-        if likest >= best - max(_AS_GOOD, _WORTH_LENGTH * (1.0 - best)):
-            found, best = long, likest
+        long = _preferred([seam for seam in found if seam[1] >= share * (usable - fade)], found)
+        if long is not found:
+            found = long
             break
+    best = max(likeness for likeness, _, _ in found)
     _, length, start = max((seam for seam in found if seam[0] >= best - _AS_GOOD), key=lambda seam: (seam[1], -seam[2]))
     return Seam(offset + start, length, fade, "linear").fitted(signals[0])
 
@@ -94,7 +108,42 @@ def _mean_power(x: Signal, width: int) -> Signal:
     return np.asarray(power / power.max() if power.any() else np.ones_like(power))
 
 
-def _promising(signals: Sequence[Signal], weights: Sequence[Signal], fade: int, ratio: float) -> NDArray[np.int64]:
+def _preferred(some: list[Candidate], found: list[Candidate]) -> list[Candidate]:
+    """Return `some` of the candidates if one of them is about as good as the best, else all that were `found`."""
+    best, likest = (max((likeness for likeness, _, _ in seams), default=-1.0) for seams in (found, some))
+    return some if likest >= best - max(_AS_GOOD, _WORTH * (1.0 - best)) else found
+
+
+def _in_beat(lengths: ArrayLike, period: float) -> NDArray[np.bool_]:
+    """Return a mask of the lengths that are whole numbers of a period."""
+    periods = np.asarray(lengths) / period
+    return np.asarray(np.abs(periods - np.round(periods)) <= _PERIOD_TOLERANCE)
+
+
+def _level_period(x: Signal, rate: float) -> float | None:
+    """Return the period of the level of a sound (n,) [samples], None where it does not repeat."""
+    step = max(1, round(_LEVEL_STEP_S * rate))
+    level = np.sqrt((x[: len(x) // step * step].reshape(-1, step) ** 2).mean(axis=1))
+    n, shortest = len(level), round(_SHORTEST_PERIOD_S * rate / step)
+    if n <= 4 * shortest or level.std() <= _LEAST_DEPTH * level.mean():
+        return None
+    level -= level.mean()
+    products = scipy.fft.irfft(np.abs(scipy.fft.rfft(level, 2 * n)) ** 2)[: n // 2]
+    energies = np.concatenate([[0.0], np.cumsum(level**2)])
+    shifts = np.arange(n // 2)
+    likeness = 2.0 * products / (energies[n - shifts] + energies[n] - energies[shifts])
+    repeats = _peaks(likeness[shortest:-1]) + shortest
+    repeats = repeats[likeness[repeats] >= max(_LEAST_LIKENESS, likeness[repeats].max(initial=0.0) - _TIE)]
+    if repeats.size == 0:
+        return None
+    _, after = _at_whole_samples(likeness, repeats, 0, step)
+    # The last repetition measures the period most exactly.
+    return float(after[-1] / round(after[-1] / after[0]))
+
+
+def _promising(
+    signals: Sequence[Signal], weights: Sequence[Signal], fade: int, ratio: float, period: float | None
+) -> NDArray[np.int64]:
     """Return starts and lengths (n, 2) [samples] for the second step, best first."""
     size = scipy.fft.next_fast_len(len(signals[0]), real=True)
     coarse_size = scipy.fft.next_fast_len(max(_FEWEST_SAMPLES, round(ratio * size)), real=True)
@@ -120,7 +169,10 @@ def _promising(signals: Sequence[Signal], weights: Sequence[Signal], fade: int, 
     # Of equal similarity the longer first: a longer loop is noticed later.
     order = np.lexsort((-rows[:, 2], -np.round(rows[:, 0] / _AS_GOOD)))
     length, longest = rows[order, 2], len(signals[0]) - fade
-    chosen = [order[length >= share * longest][:_N_REFINED] for share in (*_LONG_SHARES, 0.0)]
+    wanted = [length >= share * longest for share in (*_LONG_SHARES, 0.0)]
+    if period is not None:
+        wanted += [_in_beat(length, period) & long for long in wanted]
+    chosen = [order[mask][:_N_REFINED] for mask in wanted]
     return rows[np.concatenate(chosen), 1:].astype(np.int64)
 
 
@@ -162,7 +214,7 @@ def _at_whole_samples(curve: Signal, peaks: NDArray[np.int64], first: int, scale
 
 def _refined(
     signals: Sequence[Signal], weights: Sequence[Signal], fade: int, candidates: NDArray[np.int64]
-) -> list[tuple[float, int, int]]:
+) -> list[Candidate]:
     """Return similarity, length and start of each candidate."""
     starts, lengths = np.unique(candidates, axis=0).T
     lengths = np.clip(lengths, fade, len(signals[0]) - fade - starts)

@@ -124,6 +124,21 @@ def test_a_rhythm_keeps_its_beat() -> None:
     assert beats == pytest.approx(round(beats), abs=0.001)
 
 
+@pytest.mark.parametrize(("on_s", "off_s"), [(1.0, 0.5), (0.25, 0.25), (0.4, 0.8)])
+@pytest.mark.parametrize("frequency_hz", [97.0, 187.3])
+def test_a_ringing_phone_keeps_its_pauses(on_s: float, off_s: float, frequency_hz: float) -> None:
+    """A seam amid a ring fits wherever the tone does; that ring lasted longer or shorter than the others."""
+    t = np.arange(5 * RATE) / RATE
+    since_s = t % (on_s + off_s)
+    speed = (since_s < on_s) * (1 - np.exp(-since_s / 0.05))
+    x = speed**2 * np.sin(2 * np.pi * np.cumsum(frequency_hz * speed) / RATE) + 1e-4 * noise(5.0)
+    loop = apply_seam(x, find_seam(x, RATE))
+    step = round(0.02 * RATE)
+    level = np.sqrt((np.tile(loop, 3)[: 3 * len(loop) // step * step].reshape(-1, step) ** 2).mean(axis=1))
+    lasts_s = 0.02 * np.diff(np.flatnonzero(np.diff((level > 0.35).astype(int))))
+    assert np.minimum(np.abs(lasts_s - on_s), np.abs(lasts_s - off_s)).max() < 0.1 * (on_s + off_s)
+
+
 def test_noise_keeps_its_level_through_an_equal_power_fade() -> None:
     levels = []
     for seed in range(6):

@@ -24,20 +24,25 @@ from scene2hap.audio.sources.synth.signals import (
 
 _BUBBLE_CLASSES = 10
 _BUBBLE_CYCLES = 3.0
+_BUBBLE_SPREAD = 0.3
+"""Standard deviation of the bubbles' pitches, of their whole range on a logarithmic scale [-]. With all sizes alike a
+kettle was felt anywhere within two octaves, by chance."""
 
 
 def bubbles(take: Take, *, largest_hz: float, smallest_hz: float, per_second: float = 600.0) -> Signal:
     """Boiling or sizzling: bubbles of many sizes at random, each ringing at its own pitch, more of them when driven.
 
     A bubble of radius R rings at 3.26 / R [Hz] (Minnaert, Phil. Mag. 16, 1933): 100 Hz for 33 mm, 400 Hz for 8 mm.
+    Sizes in the middle are the most frequent, as in a log-normal distribution: the ends are 12 dB weaker (assumed).
     """
     pitches = np.geomspace(largest_hz, smallest_hz, _BUBBLE_CLASSES)
+    levels = np.exp(-0.5 * (np.linspace(-0.5, 0.5, _BUBBLE_CLASSES) / _BUBBLE_SPREAD) ** 2)
     n = round(per_second * (0.6 + 0.8 * take.drive) * DURATION_S / _BUBBLE_CLASSES)
     y = np.zeros(N_SAMPLES)
-    for pitch in pitches:
+    for pitch, level in zip(pitches, levels, strict=True):
         at = take.rng.uniform(0.0, DURATION_S, n)
         strength = take.rng.uniform(0.5, 1.0, n) * take.rng.choice((-1.0, 1.0), n)
-        y += unit_rms(ringing(at, strength, pitch, _BUBBLE_CYCLES / pitch))
+        y += level * unit_rms(ringing(at, strength, pitch, _BUBBLE_CYCLES / pitch))
     return unit_rms(y) + 0.1 * noise(take.rng, 60.0, 1500.0, -3.0)
 
 

@@ -49,9 +49,24 @@ def _shaker(motor_hz: float, size_m: float | None = None) -> Patch:
 
 
 def _geared(
-    motor_hz: float, output_hz: float, size_m: float, *, load: float = 0.2, rumble: float = 0.2, thump_hz: float = 0.0
+    motor_hz: float,
+    output_hz: float,
+    size_m: float | None,
+    *,
+    load: float = 0.2,
+    rumble: float = 0.2,
+    thump_hz: float = 0.0,
 ) -> Patch:
-    voice = partial(geared, motor_hz=motor_hz, output_hz=output_hz, load=load, rumble=rumble, thump_hz=thump_hz)
+    """Without a size for an induction motor, whose speed the mains holds however large the machine is."""
+    voice = partial(
+        geared,
+        motor_hz=motor_hz,
+        output_hz=output_hz,
+        load=load,
+        rumble=rumble,
+        thump_hz=thump_hz,
+        on_mains=size_m is None,
+    )
     return Patch(voice, (0.96 * motor_hz, 1.04 * motor_hz), size_m)
 
 
@@ -117,11 +132,11 @@ _BLOWER = replace(_fan(220.0, 9, 0.22, blade=0.2, flow=0.7), rhythm=Rhythm(10.7,
 _COMPUTER = replace(_fan(26.0, 7, 0.12, rotor=0.4, blade=1.0, flow=1.8), rhythm=Rhythm(1.45, 0.32, 0.02))
 _CASE_FAN = replace(_fan(26.0, 7, 0.12, rotor=0.6, blade=1.0, flow=2.3), rhythm=Rhythm(0.7, 0.12, 0.02))
 _CENTRIFUGE = _fan(66.0, 4, 0.4, blade=0.1, flow=0.2)
-_KNEADER = _geared(48.0, 3.5, 0.35, load=0.25)
-_CONVEYOR = _geared(48.0, 9.0, 3.0, rumble=0.4)
-_WINCH = _geared(48.0, 6.0, 1.5)
+_KNEADER = _geared(48.0, 3.5, None, load=0.25)
+_CONVEYOR = _geared(48.0, 9.0, None, rumble=0.4)
+_WINCH = _geared(48.0, 6.0, None)
 _ELECTRIC_DRIVE = _geared(90.0, 8.0, 1.5)
-_TUMBLER = replace(_geared(48.0, 0.85, 0.6, load=0.1, thump_hz=70.0), rhythm=Rhythm(0.85, 0.28, 0.0))
+_TUMBLER = replace(_geared(48.0, 0.85, None, load=0.1, thump_hz=70.0), rhythm=Rhythm(0.85, 0.28, 0.0))
 # Each move begins with a jerk.
 _STEPPER = Patch(stepper, (85.0, 265.0), rhythm=Rhythm(2.7, 0.28, 0.02))
 _ROLLING = Patch(rolling, (40.0, 60.0))
@@ -209,7 +224,7 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("jackhammer, rammer, compactor, breaker, hammer drill, demolition hammer", "", _JACKHAMMER),
     ("impact driver, impact wrench", "", _strokes(58.0, 174.0, 0.01)),
     ("nail gun, stapler", "", _strokes(1.5, 150.0, 0.04)),
-    ("lathe, milling machine", "", _geared(48.0, 12.0, 1.5)),
+    ("lathe, milling machine", "", _geared(48.0, 12.0, None)),
     ("compressor, air pump", "", _PISTONS),
     ("motor", "", MOTOR),
     ("conveyor, conveyor belt, escalator, travelator, stair climber", "", _CONVEYOR),
@@ -222,7 +237,7 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("leafblower, string trimmer, brush cutter", "", _TWO_STROKE),
     ("lawnmower, generator, tiller, scarifier, snow blower, cultivator", "", _SMALL_ENGINE),
     ("robot mower", "", _fan(50.0, 3, 0.6)),
-    ("concrete mixer, cement mixer", "", _geared(48.0, 0.5, 1.2, load=0.1, rumble=0.4, thump_hz=60.0)),
+    ("concrete mixer, cement mixer", "", _geared(48.0, 0.5, None, load=0.1, rumble=0.4, thump_hz=60.0)),
     ("concrete poker", "", _shaker(200.0)),
     ("power plate, vibration plate, road roller", "", _shaker(45.0)),
     ("pile driver", "", _strokes(0.8, 55.0, 0.15)),

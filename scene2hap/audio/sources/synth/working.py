@@ -25,14 +25,23 @@ from scene2hap.audio.sources.synth.signals import (
 
 
 def geared(
-    take: Take, *, motor_hz: float, output_hz: float, load: float = 0.2, rumble: float = 0.2, thump_hz: float = 0.0
+    take: Take,
+    *,
+    motor_hz: float,
+    output_hz: float,
+    load: float = 0.2,
+    rumble: float = 0.2,
+    thump_hz: float = 0.0,
+    on_mains: bool = False,
 ) -> Signal:
     """An electric motor that drives something slow through a gear: paddles, rollers, chains, drums.
 
+    An induction motor `on_mains` turns at `motor_hz` on a mains of 50 Hz.
     The output loads the motor once per turn, by the share `load`; `rumble` is the level of what rolls or slides. With a
     `thump_hz` something falls or passes once per turn of the output, on a body that rings at that pitch.
     """
-    turn = phase(take.shaft_hz(motor_hz) * (1.0 + 0.003 * wander(take.rng)))
+    speed_hz = take.mains_speed_hz(motor_hz) if on_mains else take.shaft_hz(motor_hz)
+    turn = phase(speed_hz * (1.0 + 0.003 * wander(take.rng)))
     tone = unit_rms(partials(turn, take.roll_off(6), take.rng))
     y = tone * (1.0 + load * np.cos(turn * (output_hz / motor_hz)))
     y += rumble * (0.6 + 0.8 * take.drive) * noise(take.rng, 40.0, 1500.0, -6.0)

@@ -154,6 +154,15 @@ def test_what_runs_on_the_mains_does_not_change_with_size() -> None:
         )
 
 
+@pytest.mark.parametrize("mains_hz", [50.0, 60.0])
+@pytest.mark.parametrize("thing", ["tumble dryer", "bread maker", "conveyor belt"])
+def test_an_induction_motor_slips_behind_the_mains_whatever_the_size(thing: str, mains_hz: float) -> None:
+    for size in (0.3, 1.0):
+        asked = describe(thing, f"{thing} running", size_m=(size, size, size))
+        (clip,) = Synthesizer(mains_hz=mains_hz).find(asked)
+        assert 0.92 * mains_hz < strongest_hz(clip.samples) < mains_hz
+
+
 def test_intensity_is_brightness() -> None:
     def centroid_hz(clip: AudioClip) -> float:
         power = np.abs(np.fft.rfft(clip.samples)) ** 2

@@ -7,6 +7,7 @@ at how a voice is made.
 from __future__ import annotations
 
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -173,6 +174,18 @@ def test_bubbles_ring_where_their_radii_say() -> None:
     f, magnitude = spectrum(y)
     power = magnitude**2
     assert power[(f > 80.0) & (f < 440.0)].sum() > 0.9 * power.sum()
+
+
+def test_a_kettle_boils_at_one_pitch_whatever_the_seed() -> None:
+    """With bubbles of all sizes alike the strongest third octave was anywhere within two octaves."""
+    strongest = []
+    for seed in range(12):
+        f, magnitude = spectrum(bubbles(take(seed=seed), largest_hz=90.0, smallest_hz=380.0))
+        edges = 90.0 * 2.0 ** (np.arange(8) / 3.0)
+        power = [(magnitude[(f >= a) & (f < b)] ** 2).sum() for a, b in pairwise(edges)]
+        strongest.append(int(np.argmax(power)))
+    near = np.abs(np.array(strongest) - np.median(strongest)) <= 1
+    assert near.sum() >= 11
 
 
 def test_blows_come_at_their_rate() -> None:
