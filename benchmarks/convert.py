@@ -82,9 +82,9 @@ def main() -> None:
     runs = parser.parse_args().runs
     print(f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores, {runs} runs in turn")
     with tempfile.TemporaryDirectory() as folder:
+        memory(Path(folder))  # first: a process begins with the peak of the one that starts it
         default_speed(Path(folder), runs)
         speed(Path(folder), runs)
-        memory(Path(folder))
 
 
 def kinds_of_sound() -> dict[str, NDArray[np.float64]]:

@@ -14,6 +14,8 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
+from functools import cache
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -89,6 +91,12 @@ class Strike:
     impulse_n_s: float | None = None
 
 
+@cache
+def _answers_for_points(kind: type) -> bool:
+    """Whether fields of that type are `PointField`, which takes as long to find out as all else of a faint impact."""
+    return issubclass(kind, PointField)
+
+
 class Impacts:
     """Turns impacts into bursts of a session's mix.
 
@@ -150,12 +158,13 @@ class Impacts:
         def sound(gains: Floats, begin: int) -> None:
             # Most impacts of a busy scene are too far from every hand.
             if gains.max() * PEAK >= LEAST_GAIN:
-                levels = self._levels(burst, [*channels.values()], profile)
-                self._sound(impact, burst, levels * self._capped(gains), channels, begin)
+                waves = self._waves(burst)
+                levels = self._levels(burst, waves, [*channels.values()], profile)
+                self._sound(impact, waves, levels * self._capped(gains), channels, begin)
 
         live = self._field()
-        if isinstance(live, PointField):
-            sound(struck_live(live, impact.object_id, impact.point_m, touched, f), at_frame)
+        if _answers_for_points(type(live)):
+            sound(struck_live(cast("PointField", live), impact.object_id, impact.point_m, touched, f), at_frame)
             return
         model = self._config.propagation
         prepared = struck_later(model, self._state, impact.object_id, impact.point_m, touched, f)
@@ -177,11 +186,11 @@ class Impacts:
         """Wait for impacts that a worker computes; false after the timeout [s]."""
         return not wait(self._waiting, timeout_s).not_done
 
-    def _levels(self, burst: Burst, hands: list[str], profile: UserProfile) -> Floats:
+    def _levels(self, burst: Burst, waves: list[Samples], hands: list[str], profile: UserProfile) -> Floats:
         """Amplitude of each sine at each of these hands, were it at the struck point (n_hands, n) [-]."""
         actuator, f = self._config.actuator, burst.frequencies_hz
         accelerations = burst.accelerations_m_s2
-        peak = peak_of(self._waves(burst), accelerations, burst.decays_s, self._config.sample_rate_hz)
+        peak = peak_of(waves, accelerations, burst.decays_s, self._config.sample_rate_hz)
         strength = min(1.0, math.sqrt(accelerations.sum() / LOUDEST_M_S2)) * self._user_factor()
         drives = accelerations / peak * PEAK * strength
         drives[(f < actuator.min_frequency_hz) | (f > actuator.max_frequency_hz)] = 0.0
@@ -218,12 +227,14 @@ class Impacts:
         capped = np.fmax(gains, 0.0)
         return capped if limit_db is None else np.minimum(capped, 10 ** (limit_db / 20))
 
-    def _sound(self, impact: Impact, burst: Burst, weights: Floats, channels: Mapping[int, str], at_frame: int) -> None:
-        waves, samples = self._waves(burst), dict[int, Samples]()
+    def _sound(
+        self, impact: Impact, waves: list[Samples], weights: Floats, channels: Mapping[int, str], at_frame: int
+    ) -> None:
+        samples: dict[int, Samples] = {}
         for (channel, hand), row in zip(channels.items(), weights, strict=True):
             if row.max() >= LEAST_GAIN:
-                samples[channel] = summed(waves, row.tolist())
-                impact.felt[hand] = float(np.abs(samples[channel]).max())
+                samples[channel] = one = summed(waves, row.tolist())
+                impact.felt[hand] = float(max(one.max(), -one.min()))
         if samples:
             self._playback.start_burst(samples, at_frame)
             self._recent.append(impact)
