@@ -33,11 +33,15 @@ from scene2hap.propagation.legged_body import legged
 from scene2hap.propagation.object_response import ObjectResponse
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import as_points
-from scene2hap.propagation.protocol import Carrier, ContactNetwork, Excitation, require_input
+from scene2hap.propagation.protocol import Carrier, ContactNetwork, CoupledModel, Excitation, require_input
 from scene2hap.propagation.rigid import RigidMotion, is_compact
 from scene2hap.propagation.sampling import Sampling
 from scene2hap.propagation.solved_object import SolvedObject
+from scene2hap.propagation.struck_object import IMPACT_BANDS, StruckObject
+from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
+
+_PROBE, _PROBE_KG = "\0probe", 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,17 +66,31 @@ class Assembly:
         Parameters: density : frequencies per band over what is needed; hand : what loads an object where it is touched.
         """
         source_ids = tuple(item.source_id for item in self.excitations)
-        bodies: dict[str, ElasticBody] = {**self.rigid, **{key: self._legged(key, elastic[key]) for key in elastic}}
-        for object_id in inclined_in([joint for _, joints in self.groups for joint in joints]):
-            bodies[object_id] = self._inclined(object_id, elastic.get(object_id))
-        losses = [body.loss_factor for body in bodies.values()]
-        losses += [joint.loss_factor for _, joints in self.groups for joint in joints]
-        sampling = Sampling.of(self.bands, self.excitations, min(losses, default=1.0), density)
+        bodies = self._bodies(elastic)
+        sampling = self._sampling(bodies, density)
         reach: dict[str, SolvedObject] = {}
         for sources, joints in self.groups:
             if joints:
                 reach |= _solved(bodies, joints, sources, source_ids, sampling, hand)
         return CoupledField(source_ids, self.bands, self.network, sampling, reach)
+
+    def struck(self, object_id: str, elastic: Mapping[str, ElasticBody]) -> StruckObject:
+        """An object that a source touches, for impacts, given a body for each of the plates."""
+        bodies = self._bodies(elastic)
+        joints = next(joints for _, joints in self.groups if any(object_id in (one.a, one.b) for one in joints))
+        return StruckObject(object_id, couple(bodies, joints, (), self._sampling(bodies, 1.0).frequencies_hz))
+
+    def _bodies(self, elastic: Mapping[str, ElasticBody]) -> dict[str, ElasticBody]:
+        """All bodies, with their legs, and inclined where a joint pulls aside."""
+        bodies: dict[str, ElasticBody] = {**self.rigid, **{key: self._legged(key, elastic[key]) for key in elastic}}
+        for object_id in inclined_in([joint for _, joints in self.groups for joint in joints]):
+            bodies[object_id] = self._inclined(object_id, elastic.get(object_id))
+        return bodies
+
+    def _sampling(self, bodies: Mapping[str, ElasticBody], density: float) -> Sampling:
+        losses = [body.loss_factor for body in bodies.values()]
+        losses += [joint.loss_factor for _, joints in self.groups for joint in joints]
+        return Sampling.of(self.bands, self.excitations, min(losses, default=1.0), density)
 
     def _legged(self, object_id: str, plate: ElasticBody) -> ElasticBody:
         """A plate, and what the rest of its object weighs, where it stands."""
@@ -137,6 +155,22 @@ def prepare_coupled(
     scene = assemble(network, excitations, bands, law, outside_domain)
     top_hz = scene.top_hz if bands.edges_hz else _next_step_hz(scene.top_hz)
     return scene.solve({key: elastic_body(plate, top_hz) for key, plate in scene.plates.items()}, density, hand)
+
+
+def prepare_struck(model: CoupledModel, network: ContactNetwork, object_id: str) -> StruckObject:
+    """An object of a scene, for impacts on any of its points; the model's hand is left out.
+
+    The only source is a probe on the object, too light to change anything.
+    Raises: ModelDomainError: as the model's `prepare`.
+    """
+    contacts = (*network.contacts, Contact(_PROBE, object_id, network.poses.get(object_id, Pose()).position_m))
+    with_probe = ContactNetwork(network.bodies, contacts, network.poses)
+    probe = Excitation(_PROBE, 100.0, 100.0, _PROBE_KG)
+    # Whoever prepares the field in use is warned of thick plates.
+    scene = assemble(with_probe, [probe], IMPACT_BANDS, model.contact, "ignore")
+    return scene.struck(
+        object_id, {key: model.elastic_body(plate, scene.top_hz) for key, plate in scene.plates.items()}
+    )
 
 
 def _next_step_hz(frequency_hz: float) -> float:

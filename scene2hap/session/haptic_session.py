@@ -205,6 +205,7 @@ class HapticSession:
             for landing in self._landings.look(moved or {}, stamp / self.config.sample_rate_hz):
                 strike = Strike(landing.onto, landing.point_m, landing.object_id, landing.speed_m_s)
                 self._impacts.land(strike, self._hand_frames.felt, self.hands, self._user, stamp)
+        self._impacts.expect(felt)
         self._updates += 1
         self._output.feed(frame)
         if felt:

@@ -11,11 +11,10 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
-from functools import cache
-from typing import cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +25,7 @@ from scene2hap.audio.levels import TACTILE_HEADROOM_DB
 from scene2hap.errors import Scene2HapError
 from scene2hap.propagation.impact import Burst, burst_of
 from scene2hap.propagation.live import PointField, TouchedPoint
+from scene2hap.propagation.protocol import CoupledModel
 from scene2hap.render.bursts import MOST_PLAYING, Samples, peak_of, summed, wave_of
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.hand_gains import Felt
@@ -33,6 +33,9 @@ from scene2hap.session.playback import Playback
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.struck import struck_later, struck_live
 from scene2hap.session.user_profile import UserProfile
+
+if TYPE_CHECKING:
+    from scene2hap.session.struck_ahead import StruckAhead
 
 Floats = NDArray[np.float64]
 Point = tuple[float, float, float]
@@ -91,12 +94,6 @@ class Strike:
     impulse_n_s: float | None = None
 
 
-@cache
-def _answers_for_points(kind: type) -> bool:
-    """Whether fields of that type are `PointField`, which takes as long to find out as all else of a faint impact."""
-    return issubclass(kind, PointField)
-
-
 class Impacts:
     """Turns impacts into bursts of a session's mix.
 
@@ -114,8 +111,11 @@ class Impacts:
         self._config, self._state, self._playback = config, state, playback
         self._field, self._user_factor = field, user_factor
         self._last: dict[tuple[str, str | None], int] = {}
+        self._looked_at: object = None
+        self._point_field: PointField | None = None
         self._worker: ThreadPoolExecutor | None = None
         self._waiting: list[Future[None]] = []
+        self._ahead = self._prepares_ahead() if config.impacts and config.prepare == "background" else None
         self._recent: deque[Impact] = deque(maxlen=KEPT)
         self.n_reported = self.n_felt = self.n_left_out = 0
 
@@ -151,27 +151,63 @@ class Impacts:
         )
 
     def _play(self, impact: Impact, burst: Burst, felt: Felt, hands: tuple[str, ...], profile: UserProfile) -> None:
-        at_frame = impact.at_sample
-        touched: list[list[TouchedPoint]] = [[(x.object_id, x.point_m) for x in felt[i]] for i in felt]
-        channels, f = dict(zip(felt, (hands[i] for i in felt), strict=True)), burst.frequencies_hz
+        at_frame, f = impact.at_sample, burst.frequencies_hz
+        channels = dict(zip(felt, (hands[i] for i in felt), strict=True))
+        touched: dict[int, list[TouchedPoint]] = {i: [(x.object_id, x.point_m) for x in felt[i]] for i in felt}
 
-        def sound(gains: Floats, begin: int) -> None:
+        def sound(gains: Floats, begin: int, among: Collection[int]) -> None:
             # Most impacts of a busy scene are too far from every hand.
-            if gains.max() * PEAK >= LEAST_GAIN:
-                waves = self._waves(burst)
-                levels = self._levels(burst, waves, [*channels.values()], profile)
-                self._sound(impact, waves, levels * self._capped(gains), channels, begin)
+            if len(gains) and gains.max() * PEAK >= LEAST_GAIN:
+                waves, its = self._waves(burst), {i: channels[i] for i in among}
+                levels = self._levels(burst, waves, [*its.values()], profile)
+                self._sound(impact, waves, levels * self._capped(gains), its, begin)
 
-        live = self._field()
-        if _answers_for_points(type(live)):
-            sound(struck_live(cast("PointField", live), impact.object_id, impact.point_m, touched, f), at_frame)
+        live = self._live()
+        if live is not None:
+            answer = struck_live(live, impact.object_id, impact.point_m, [*touched.values()], f)
+            sound(answer, at_frame, touched)
+            return
+        late = self._sound_now(impact, f, touched, sound)
+        if not late:
             return
         model = self._config.propagation
-        prepared = struck_later(model, self._state, impact.object_id, impact.point_m, touched, f)
+        prepared = struck_later(model, self._state, impact.object_id, impact.point_m, [touched[i] for i in late], f)
         if self._config.prepare == "blocking":
-            sound(prepared(), at_frame)
+            sound(prepared(), at_frame, late)
         else:
-            self._order(prepared, sound, at_frame)
+            self._order(prepared, lambda gains, begin: sound(gains, begin, late), at_frame)
+
+    def _live(self) -> PointField | None:
+        """The field in use if it answers for points, which takes as long to find out as all else of a faint impact."""
+        field_in_use = self._field()
+        if field_in_use is not self._looked_at:
+            self._looked_at = field_in_use
+            self._point_field = field_in_use if isinstance(field_in_use, PointField) else None
+        return self._point_field
+
+    def _sound_now(
+        self,
+        impact: Impact,
+        frequencies_hz: Floats,
+        touched: Mapping[int, list[TouchedPoint]],
+        sound: Callable[[Floats, int, Collection[int]], None],
+    ) -> list[int]:
+        """Let hands on the struck object feel an impact at once, if that is prepared; which hands are left."""
+        if self._ahead is None:
+            return list(touched)
+        on_it = {i: hand for i, hand in touched.items() if all(x == impact.object_id for x, _ in hand)}
+        if not on_it:
+            return list(touched)
+        gains = self._ahead.gains(impact.object_id, impact.point_m, [*on_it.values()], frequencies_hz)
+        if gains is None:
+            return list(touched)
+        sound(gains, impact.at_sample, on_it)
+        return [i for i in touched if i not in on_it]
+
+    def expect(self, felt: Felt) -> None:
+        """Prepare for impacts on what hands touch. Call it in every update."""
+        if self._ahead is not None:
+            self._ahead.expect({touch.object_id for touches in felt.values() for touch in touches})
 
     def felt_by(self, hand: str) -> tuple[Impact, ...]:
         """The impacts of the last second that a hand felt, the latest first."""
@@ -183,8 +219,8 @@ class Impacts:
         return tuple(one for one in reversed(self._recent) if one.at_sample >= since)
 
     def wait(self, timeout_s: float | None) -> bool:
-        """Wait for impacts that a worker computes; false after the timeout [s]."""
-        return not wait(self._waiting, timeout_s).not_done
+        """Wait for all that a worker computes; false after the timeout [s]."""
+        return not wait(self._waiting, timeout_s).not_done and (self._ahead is None or self._ahead.wait(timeout_s))
 
     def _levels(self, burst: Burst, waves: list[Samples], hands: list[str], profile: UserProfile) -> Floats:
         """Amplitude of each sine at each of these hands, were it at the struck point (n_hands, n) [-]."""
@@ -231,14 +267,16 @@ class Impacts:
         self, impact: Impact, waves: list[Samples], weights: Floats, channels: Mapping[int, str], at_frame: int
     ) -> None:
         samples: dict[int, Samples] = {}
+        was_felt = bool(impact.felt)
         for (channel, hand), row in zip(channels.items(), weights, strict=True):
             if row.max() >= LEAST_GAIN:
                 samples[channel] = one = summed(waves, row.tolist())
                 impact.felt[hand] = float(max(one.max(), -one.min()))
         if samples:
             self._playback.start_burst(samples, at_frame)
-            self._recent.append(impact)
-            self.n_felt += 1
+            if not was_felt:
+                self._recent.append(impact)
+                self.n_felt += 1
 
     def _order(self, prepared: Callable[[], Floats], sound: Callable[[Floats, int], None], at_frame: int) -> None:
         """Have a worker prepare what arrives, and let it sound then, unless that is too late to be of that impact."""
@@ -256,6 +294,18 @@ class Impacts:
                 else:
                     self.n_left_out += 1
 
+        self._waiting.append(self._submit(work))
+
+    def _prepares_ahead(self) -> StruckAhead | None:
+        model = self._config.propagation
+        if not isinstance(model, CoupledModel) or model.hand is not None:
+            return None
+        from scene2hap.session.struck_ahead import StruckAhead  # by need: the physical models
+
+        return StruckAhead(model, self._state, self._submit)
+
+    def _submit(self, work: Callable[[], None]) -> Future[None]:
         if self._worker is None:
-            self._worker = ThreadPoolExecutor(1, thread_name_prefix="scene2hap impacts")
-        self._waiting.append(self._worker.submit(work))
+            # One for what is prepared ahead, which takes longer than an impact may wait.
+            self._worker = ThreadPoolExecutor(2, thread_name_prefix="scene2hap impacts")
+        return self._worker.submit(work)

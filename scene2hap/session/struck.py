@@ -1,6 +1,7 @@
 """How much of an impact on an object arrives at each hand, by the model in use.
 
-A model with a live field answers at once (`PointField`). Others prepare a field of their own for the impact, in which a
+A model with a live field answers at once (`PointField`), and so does one that was prepared for impacts on what hands
+touch (`struck_ahead`). Others prepare a field of their own for the impact, in which a
 small source stands on the struck point; what arrives is taken re what that point does itself, so that neither the mass
 of that source nor the stiffness of its contact matters.
 """
@@ -29,7 +30,7 @@ def struck_live(
 ) -> Floats:
     """Gains (n_hands, n_frequencies) [-], >= 0, from a live field."""
     gains = np.array(field.from_point(object_id, point_m, hands, frequencies_hz))
-    return _at_least_itself(gains, object_id, hands)
+    return at_least_itself(gains, object_id, hands)
 
 
 def struck_later(
@@ -62,12 +63,12 @@ def struck_later(
         passes = itself > 0
         gains[:, passes] /= itself[passes]
         gains[:, ~passes] = 0.0
-        return _at_least_itself(gains, object_id, hands)
+        return at_least_itself(gains, object_id, hands)
 
     return prepared
 
 
-def _at_least_itself(gains: Floats, object_id: str, hands: Sequence[Sequence[TouchedPoint]]) -> Floats:
+def at_least_itself(gains: Floats, object_id: str, hands: Sequence[Sequence[TouchedPoint]]) -> Floats:
     """Set gain 1 at hands on the struck object whose gains are all 0, since the impact itself is always felt."""
     for row, hand in zip(gains, hands, strict=True):
         if not row.any() and any(touched_id == object_id for touched_id, _ in hand):
