@@ -20,10 +20,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
-from scene2hap.errors import ConfigError
+from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupling import ElasticBody, Joint, couple, inclined_in
+from scene2hap.propagation.coupling import ElasticBody, Joint, couple, ends_of, inclined_in
 from scene2hap.propagation.domain import OutsideDomain, check_choice, check_thin
 from scene2hap.propagation.hand import Hand
 from scene2hap.propagation.hand_load import HandLoad
@@ -37,10 +37,12 @@ from scene2hap.propagation.protocol import Carrier, ContactNetwork, CoupledModel
 from scene2hap.propagation.rigid import RigidMotion, is_compact
 from scene2hap.propagation.sampling import Sampling
 from scene2hap.propagation.solved_object import SolvedObject
-from scene2hap.propagation.struck_object import IMPACT_BANDS, StruckObject
+from scene2hap.propagation.struck_object import DENSITY, IMPACT_BANDS, StruckObject
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
 
+MOST_HELD_BYTES = 64_000_000
+"""Of an object that is prepared for impacts: some 70 contacts of a wooden floor."""
 _PROBE, _PROBE_KG = "\0probe", 1e-9
 
 
@@ -75,10 +77,24 @@ class Assembly:
         return CoupledField(source_ids, self.bands, self.network, sampling, reach)
 
     def struck(self, object_id: str, elastic: Mapping[str, ElasticBody]) -> StruckObject:
-        """An object that a source touches, for impacts, given a body for each of the plates."""
+        """An object that a source touches, for impacts, given a body for each of the plates.
+
+        Raises: ModelDomainError: it has so many contacts that what holds it takes more than `MOST_HELD_BYTES`.
+        """
         bodies = self._bodies(elastic)
         joints = next(joints for _, joints in self.groups if any(object_id in (one.a, one.b) for one in joints))
-        return StruckObject(object_id, couple(bodies, joints, (), self._sampling(bodies, 1.0).frequencies_hz))
+        frequencies_hz = self._sampling(bodies, DENSITY).frequencies_hz
+        ends = ends_of(joints)[object_id]
+        n_own, of_row = len(ends.rows), 16 * len(frequencies_hz) * len(ends.rows)
+        if of_row * n_own > MOST_HELD_BYTES:
+            raise ModelDomainError(
+                f"{object_id!r} has {n_own} contacts, whose answers to impacts take {of_row * n_own / 1e6:.0f} MB at "
+                f"{len(frequencies_hz)} frequencies; at most {MOST_HELD_BYTES / 1e6:.0f} MB are kept."
+            )
+        # The forces in all joints are only needed a few frequencies at a time.
+        parts = np.array_split(frequencies_hz, -(-of_row * len(joints) // MOST_HELD_BYTES))
+        held = [couple(bodies, joints, (), part).holding(object_id) for part in parts]
+        return StruckObject(bodies[object_id], ends.points_m, np.concatenate(held), frequencies_hz)
 
     def _bodies(self, elastic: Mapping[str, ElasticBody]) -> dict[str, ElasticBody]:
         """All bodies, with their legs, and inclined where a joint pulls aside."""

@@ -164,18 +164,39 @@ class Impacts:
 
         live = self._live()
         if live is not None:
-            answer = struck_live(live, impact.object_id, impact.point_m, [*touched.values()], f)
-            sound(answer, at_frame, touched)
+            sound(struck_live(live, impact.object_id, impact.point_m, [*touched.values()], f), at_frame, touched)
             return
-        late = self._sound_now(impact, f, touched, sound)
-        if not late:
-            return
-        model = self._config.propagation
-        prepared = struck_later(model, self._state, impact.object_id, impact.point_m, [touched[i] for i in late], f)
-        if self._config.prepare == "blocking":
-            sound(prepared(), at_frame, late)
+        left = touched
+        if self._ahead is not None:
+            on_it = {i: hand for i, hand in touched.items() if {x for x, _ in hand} == {impact.object_id}}
+            answer = self._ahead.answer(impact.object_id, impact.point_m, [*on_it.values()], f) if on_it else None
+            if answer is not None:
+                self._answered(answer.gains, sound, at_frame, on_it, now=answer.is_quick)
+                left = {i: hand for i, hand in touched.items() if i not in on_it}
+        if left:
+            model, hands_left = self._config.propagation, [*left.values()]
+            prepared = struck_later(model, self._state, impact.object_id, impact.point_m, hands_left, f)
+            self._answered(prepared, sound, at_frame, left, now=self._config.prepare == "blocking")
+
+    def _answered(
+        self,
+        gains: Callable[[], Floats],
+        sound: Callable[[Floats, int, Collection[int]], None],
+        at_frame: int,
+        among: Collection[int],
+        *,
+        now: bool,
+    ) -> None:
+        """Let some hands feel an impact, now or once a worker has computed its gains."""
+        if now:
+            sound(gains(), at_frame, among)
         else:
-            self._order(prepared, lambda gains, begin: sound(gains, begin, late), at_frame)
+            self._order(gains, lambda found, begin: sound(found, begin, among), at_frame)
+
+    def expect(self, felt: Felt) -> None:
+        """Prepare for impacts on what hands touch. Call it in every update."""
+        if self._ahead is not None:
+            self._ahead.expect({touch.object_id for touches in felt.values() for touch in touches})
 
     def _live(self) -> PointField | None:
         """The field in use if it answers for points, which takes as long to find out as all else of a faint impact."""
@@ -184,30 +205,6 @@ class Impacts:
             self._looked_at = field_in_use
             self._point_field = field_in_use if isinstance(field_in_use, PointField) else None
         return self._point_field
-
-    def _sound_now(
-        self,
-        impact: Impact,
-        frequencies_hz: Floats,
-        touched: Mapping[int, list[TouchedPoint]],
-        sound: Callable[[Floats, int, Collection[int]], None],
-    ) -> list[int]:
-        """Let hands on the struck object feel an impact at once, if that is prepared; which hands are left."""
-        if self._ahead is None:
-            return list(touched)
-        on_it = {i: hand for i, hand in touched.items() if all(x == impact.object_id for x, _ in hand)}
-        if not on_it:
-            return list(touched)
-        gains = self._ahead.gains(impact.object_id, impact.point_m, [*on_it.values()], frequencies_hz)
-        if gains is None:
-            return list(touched)
-        sound(gains, impact.at_sample, on_it)
-        return [i for i in touched if i not in on_it]
-
-    def expect(self, felt: Felt) -> None:
-        """Prepare for impacts on what hands touch. Call it in every update."""
-        if self._ahead is not None:
-            self._ahead.expect({touch.object_id for touches in felt.values() for touch in touches})
 
     def felt_by(self, hand: str) -> tuple[Impact, ...]:
         """The impacts of the last second that a hand felt, the latest first."""
@@ -306,6 +303,6 @@ class Impacts:
 
     def _submit(self, work: Callable[[], None]) -> Future[None]:
         if self._worker is None:
-            # One for what is prepared ahead, which takes longer than an impact may wait.
-            self._worker = ThreadPoolExecutor(2, thread_name_prefix="scene2hap impacts")
+            # What is prepared ahead takes longer than an impact may wait, and so may an impact that was not.
+            self._worker = ThreadPoolExecutor(3, thread_name_prefix="scene2hap impacts")
         return self._worker.submit(work)

@@ -10,6 +10,7 @@ import math
 import time
 from collections.abc import Callable, Collection, Sequence
 from concurrent.futures import Future, wait
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,8 +32,15 @@ MOST = 4
 """Objects that are kept; two hands touch two."""
 
 
+class Answer(NamedTuple):
+    """Gains (n_hands, n_frequencies) [-], in any thread, and whether an update can spare the time for them."""
+
+    gains: Callable[[], Floats]
+    is_quick: bool
+
+
 class StruckAhead:
-    """Prepares objects as hands touch them. `expect` and `gains` belong to the game's thread.
+    """Prepares objects as hands touch them. `expect` and `answer` belong to the game's thread.
 
     Parameters: submit : has a worker call a function.
     """
@@ -66,19 +74,23 @@ class StruckAhead:
             if not self._order_next(self._state.graph.version, rests=True):
                 return True
 
-    def gains(
+    def answer(
         self, object_id: str, point_m: Point, hands: Sequence[Sequence[TouchedPoint]], frequencies_hz: Floats
-    ) -> Floats | None:
-        """Gains (n_hands, n_frequencies) [-] of an impact at hands that touch nothing but the struck object, each the
-        largest over what it touches; None for an object that is not prepared."""
+    ) -> Answer | None:
+        """The answer to an impact at hands that touch nothing but the struck object, each at its largest over what it
+        touches; None for an object that is not prepared."""
         body, struck = self._prepared.get(object_id, (None, None))
         if struck is None or body is not self._state.bodies.get(object_id):
             return None
-        places = [point_m, *(at for hand in hands for _, at in hand)]
+        ready, places = struck, [point_m, *(at for hand in hands for _, at in hand)]
         points = np.array([self._state.on_plate(object_id, place) for place in places], dtype=np.float64)
-        found = struck.gains(points[:1], points[1:], frequencies_hz)
         starts = np.cumsum([0, *map(len, hands)])[:-1]
-        return at_least_itself(np.maximum.reduceat(found, starts, axis=0), object_id, hands)
+
+        def gains() -> Floats:
+            found = ready.gains(points[:1], points[1:], frequencies_hz)
+            return at_least_itself(np.maximum.reduceat(found, starts, axis=0), object_id, hands)
+
+        return Answer(gains, ready.is_quick)
 
     def _order_next(self, version: int, *, rests: bool) -> bool:
         """Order the first that is missing, or out of date if contacts rest; whether there was one."""

@@ -141,8 +141,9 @@ def test_what_was_prepared_is_what_the_model_prepares_for_the_impact_alone() -> 
         burst, hands = burst_at(made, STRUCK), [[("table", NEAR)], [("table", FAR), ("table", STRUCK)]]
         f = burst.frequencies_hz
         expected = struck_later(model, made._state, "table", STRUCK, hands, f)()
-        found = made._impacts._ahead.gains("table", STRUCK, hands, f)
-        assert found is not None
+        answer = made._impacts._ahead.answer("table", STRUCK, hands, f)
+        assert answer is not None
+        found = answer.gains()
         assert np.abs(20 * np.log10(found / expected)).max() < 0.5
         assert (found[1] > 0.999).all()  # this hand is where it is struck
 
