@@ -81,14 +81,10 @@ def burst_of(
     from the corner of a plate along length and width [m], None for its middle; striker : the other body, None for an
     unknown one, or a finger; speed_m_s : at which they meet; impulse_n_s : exchanged, instead of a speed.
     """
-    striker_kg = FINGER_KG if is_finger else 1.0 if striker is None else striker.moving_mass_kg
-    struck_kg = striker_kg if struck is None else struck.moving_mass_kg
-    per_kg = 1 / striker_kg + 1 / struck_kg
-    stiffness = FINGER_N_M if is_finger else _stiffness_n_m(struck, striker, min(striker_kg, struck_kg))
-    contact_hz = math.sqrt(stiffness * per_kg) / (2 * math.pi)
+    per_kg, contact_hz = _contact(struck, striker, is_finger)
     momentum = (1 + RESTITUTION) * speed_m_s / per_kg if impulse_n_s is None else impulse_n_s
     felt_hz = min(max(contact_hz, SLOWEST_HZ), FASTEST_HZ)
-    yields = 1 / struck_kg
+    yields = 1 / _masses_kg(struck, striker, is_finger)[0]
     modes = np.empty((3, 0))
     if isinstance(struck, Plate):
         per_area = struck.mass_kg / struck.area_m2
@@ -99,9 +95,21 @@ def burst_of(
     return Burst(f, decays, momentum * accelerations)
 
 
-def _stiffness_n_m(struck: Body | None, striker: Body | None, lighter_kg: float) -> float:
+@lru_cache(maxsize=1024)
+def _contact(struck: Body | None, striker: Body | None, is_finger: bool) -> tuple[float, float]:
+    """1/m + 1/m_s [1/kg] and f_c [Hz]."""
+    struck_kg, striker_kg = _masses_kg(struck, striker, is_finger)
+    per_kg = 1 / striker_kg + 1 / struck_kg
     law = ContactLaw()
-    return law.stiffness(_material(struck), _material(striker), None, law.preload([lighter_kg], 1))[0]
+    preload = law.preload([min(striker_kg, struck_kg)], 1)
+    stiffness = FINGER_N_M if is_finger else law.stiffness(_material(struck), _material(striker), None, preload)[0]
+    return per_kg, math.sqrt(stiffness * per_kg) / (2 * math.pi)
+
+
+def _masses_kg(struck: Body | None, striker: Body | None, is_finger: bool) -> tuple[float, float]:
+    """m and m_s [kg]."""
+    striker_kg = FINGER_KG if is_finger else 1.0 if striker is None else striker.moving_mass_kg
+    return striker_kg if struck is None else struck.moving_mass_kg, striker_kg
 
 
 def _material(body: Body | None) -> Material | None:
@@ -110,41 +118,51 @@ def _material(body: Body | None) -> Material | None:
 
 def _modes(plate: Plate, at_m: tuple[float, float] | None, per_area_kg_m2: float, lasts_s: float) -> Floats:
     """Frequency [Hz], decay [s] and acceleration per momentum [m/s2 / (N s)] of the strongest modes (3, n)."""
-    (along, across), (i, j), f = _supported(plate)
+    modes, shares = _supported(plate), _excited(plate, lasts_s)
     x, y = (plate.length_m / 2, plate.width_m / 2) if at_m is None else at_m
-    squares = (np.sin(along * x) ** 2)[i] * (np.sin(across * y) ** 2)[j]
-    velocities = 4 / (per_area_kg_m2 * plate.area_m2) * squares * _share(f * lasts_s)
+    velocities = (np.sin(modes.along * x) ** 2)[:, None] * np.sin(modes.across * y) ** 2
+    velocities = (velocities * shares).ravel()
+    n_weaker = max(0, len(velocities) - MOST_MODES)
+    strongest = np.argpartition(velocities, n_weaker)[n_weaker:] if n_weaker else np.arange(len(velocities))
     # By velocity, since the threshold of touch rises about as frequency does.
-    strongest = np.argsort(-velocities)[:MOST_MODES]
-    strongest = strongest[velocities[strongest] > LEAST_SHARE * velocities.max(initial=0.0)]
-    f, velocities = f[strongest], velocities[strongest]
+    strongest = strongest[np.argsort(-velocities[strongest], kind="stable")]
+    most = velocities[strongest[0]] if len(strongest) else 0.0
+    strongest = strongest[velocities[strongest] > LEAST_SHARE * most]
+    f = modes.frequencies_hz.ravel()[strongest]
+    velocities = 4 / (per_area_kg_m2 * plate.area_m2) * velocities[strongest]
     decays = np.clip(1 / (np.pi * f * max(plate.material.loss_factor, 1e-6)), SHORTEST_S, LONGEST_S)
     return np.stack([f, decays, 2 * np.pi * f * velocities])
 
 
 class _Supported(NamedTuple):
     """Modes of a plate that is supported along its edges: wavenumbers along its length (m,) and width (n,) [rad/m], and
-    of each mode the rows of both (2, n_modes) and the frequency (n_modes,) [Hz]."""
+    the frequency of each pair (m, n) [Hz]."""
 
-    waves: tuple[Floats, Floats]
-    rows: NDArray[np.intp]
+    along: Floats
+    across: Floats
     frequencies_hz: Floats
 
 
 @lru_cache(maxsize=1024)
 def _supported(plate: Plate) -> _Supported:
-    """The modes up to `HIGHEST_MODE_HZ`; none of a plate that is too thick to bend."""
+    """The modes up to `HIGHEST_MODE_HZ` and some above; none of a plate that is too thick to bend."""
     length, width = plate.extent_m
     if plate.thickness_m > COMPACT_THICKNESS * min(length, width):
-        return _Supported((np.empty(0), np.empty(0)), np.empty((2, 0), dtype=np.intp), np.empty(0))
+        return _Supported(np.empty(0), np.empty(0), np.empty((0, 0)))
     lowest = math.pi / 2 / plate.wavenumber_per_root_omega**2
     # No more than a floor needs to have its strongest.
     m, n = (min(40, int(side * math.sqrt(HIGHEST_MODE_HZ / lowest)) + 1) for side in (length, width))
     along: Floats = np.arange(1, m + 1, dtype=np.float64) * (math.pi / length)
     across: Floats = np.arange(1, n + 1, dtype=np.float64) * (math.pi / width)
-    f = lowest / np.pi**2 * (along[:, None] ** 2 + across**2)
-    rows = np.nonzero(f <= HIGHEST_MODE_HZ)
-    return _Supported((along, across), np.array(rows), f[rows])
+    return _Supported(along, across, lowest / np.pi**2 * (along[:, None] ** 2 + across**2))
+
+
+@lru_cache(maxsize=256)
+def _excited(plate: Plate, lasts_s: float) -> Floats:
+    """S of each mode (m, n) for an impact of that length, 0 above `HIGHEST_MODE_HZ`. Kept: the same things land again
+    and again on the same plates."""
+    f = _supported(plate).frequencies_hz
+    return np.where(f <= HIGHEST_MODE_HZ, _share(f * lasts_s), 0.0)
 
 
 def _share(cycles: Floats) -> Floats:

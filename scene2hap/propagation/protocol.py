@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,6 +22,11 @@ from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import InRectangle, as_points
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
+
+if TYPE_CHECKING:
+    from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+    from scene2hap.propagation.coupled.coupling import ElasticBody
+    from scene2hap.propagation.coupled.hand import Hand
 
 Body = Plate | RigidBody
 
@@ -166,6 +171,25 @@ class PropagationModel(Protocol):
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> PropagationField:
         """The field of a whole scene, over any number of contacts that the model allows."""
+        ...
+
+
+@runtime_checkable
+class CoupledModel(PropagationModel, Protocol):
+    """A model whose bodies are coupled at their contacts, see `substructuring`."""
+
+    @property
+    def contact(self) -> ContactLaw:
+        """Stiffness of contacts."""
+        ...
+
+    @property
+    def hand(self) -> Hand | None:
+        """What loads an object where it is touched."""
+        ...
+
+    def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
+        """A plate that is not compact, ready to be coupled, for frequencies up to some top [Hz]."""
         ...
 
 

@@ -14,6 +14,7 @@ from scene2hap.haptics import ActuatorProfile, Bands
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.exponential_plate import ExponentialPlate
+from scene2hap.propagation.protocol import CoupledModel
 from scene2hap.settings import Settings
 
 MIN_RAMP_S = 0.010
@@ -115,3 +116,9 @@ class SessionConfig(Settings):
                 f"{2.5 * top_hz:g} Hz. Raise it, or use lower bands"
             )
         return self
+
+    @property
+    def prepares_impacts(self) -> bool:
+        """True if a worker prepares touched objects for impacts: with a coupled model that no hand loads."""
+        model = self.propagation
+        return self.impacts and self.prepare == "background" and isinstance(model, CoupledModel) and model.hand is None

@@ -118,7 +118,7 @@ class HapticSession:
         self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
         self._mistakes = LikelyMistakes(self._state)
         self._landings = Landings(self._state.graph, self._state.middle_m, self.config.control_period_s)
-        self._follows_landings = self.config.impacts
+        self._follows_landings, self._prepares_impacts = self.config.impacts, self.config.prepares_impacts
         self._output = Output(sink, self.config)
         self._user: UserProfile | None = None
         self._limit: PersonalLimit | None = None
@@ -200,6 +200,8 @@ class HapticSession:
             for landing in self._landings.look(moved or {}, stamp / self.config.sample_rate_hz):
                 strike = Strike(landing.onto, landing.point_m, landing.object_id, landing.speed_m_s)
                 self._impacts.land(strike, self._hand_frames.felt, self.hands, self._user, stamp)
+        if self._prepares_impacts:
+            self._impacts.expect(felt)
         self._updates += 1
         self._output.feed(frame)
         if felt:

@@ -2,10 +2,6 @@
 
     impact ── propagation.impact ──► Burst (decaying sines) ── model in use ──► at each hand ──► the mix
 
-A model with a live field gives the gain at each hand at once (`PointField`). Others prepare a field of their own for
-the impact, in which a small source stands on the struck point. The gains are relative to that point, so that neither
-the mass of that source nor the stiffness of its contact counts.
-
 Bounds: a pair of objects strikes once in `LEAST_INTERVAL_S`, `render.bursts.MOST_PLAYING` bursts sound at once, and
 each stays `PEAK` below full scale, as a source of full intensity does. Nothing is computed for an impact that no hand
 could feel.
@@ -15,9 +11,10 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,17 +23,18 @@ from scene2hap.audio.actuators import inverse_db, is_flat
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB
 from scene2hap.calls import clear_attributes
 from scene2hap.errors import Scene2HapError
-from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.impact import Burst, burst_of
 from scene2hap.propagation.live import PointField, TouchedPoint
-from scene2hap.propagation.protocol import ContactNetwork, Excitation, PropagationModel
 from scene2hap.render.bursts import MOST_PLAYING, Samples, peak_of, summed, wave_of
-from scene2hap.scene.objects import Contact
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.playback import Playback
 from scene2hap.session.scene_state import SceneState
+from scene2hap.session.struck import struck_later, struck_live
 from scene2hap.session.user_profile import UserProfile
+
+if TYPE_CHECKING:
+    from scene2hap.session.struck_ahead import StruckAhead
 
 Floats = NDArray[np.float64]
 Point = tuple[float, float, float]
@@ -57,8 +55,6 @@ LATEST_S = 0.3
 KEPT = 64
 KNOCK_M_S = 0.5
 """Of a finger that knocks; assumed."""
-
-_STRIKER, _STRIKER_KG = "\0striker", 1e-3
 
 
 @clear_attributes
@@ -114,8 +110,11 @@ class Impacts:
         self._config, self._state, self._playback = config, state, playback
         self._field, self._user_factor = field, user_factor
         self._last: dict[tuple[str, str | None], int] = {}
+        self._looked_at: object = None
+        self._point_field: PointField | None = None
         self._worker: ThreadPoolExecutor | None = None
         self._waiting: list[Future[None]] = []
+        self._ahead = self._prepared_ahead() if config.prepares_impacts else None
         self._recent: deque[Impact] = deque(maxlen=KEPT)
         self.n_reported = self.n_felt = self.n_left_out = 0
 
@@ -157,26 +156,60 @@ class Impacts:
     def _play(
         self, impact: Impact, burst: Burst, felt: Felt, hands: tuple[str, ...], profile: UserProfile | None
     ) -> None:
-        at_frame = impact.at_sample
-        touched: list[list[TouchedPoint]] = [[(x.object_id, x.point_m) for x in felt[i]] for i in felt]
-        channels, f = dict(zip(felt, (hands[i] for i in felt), strict=True)), burst.frequencies_hz
+        at_frame, f = impact.at_sample, burst.frequencies_hz
+        channels = dict(zip(felt, (hands[i] for i in felt), strict=True))
+        touched: dict[int, list[TouchedPoint]] = {i: [(x.object_id, x.point_m) for x in felt[i]] for i in felt}
 
-        def sound(gains: Floats, begin: int) -> None:
+        def sound(gains: Floats, begin: int, among: Collection[int]) -> None:
             # Most impacts of a busy scene are too far from every hand.
-            if gains.max() * PEAK >= LEAST_GAIN:
-                levels = self._levels(burst, [*channels.values()], profile)
-                self._sound(impact, burst, levels * self._capped(gains), channels, begin)
+            if len(gains) and gains.max() * PEAK >= LEAST_GAIN:
+                waves, its = self._waves(burst), {i: channels[i] for i in among}
+                levels = self._levels(burst, waves, [*its.values()], profile)
+                self._sound(impact, waves, levels * self._capped(gains), its, begin)
 
-        live = self._field()
-        if isinstance(live, PointField):
-            sound(struck_live(live, impact.object_id, impact.point_m, touched, f), at_frame)
+        live = self._live()
+        if live is not None:
+            sound(struck_live(live, impact.object_id, impact.point_m, [*touched.values()], f), at_frame, touched)
             return
-        model = self._config.propagation
-        prepared = struck_later(model, self._state, impact.object_id, impact.point_m, touched, f)
-        if self._config.prepare == "blocking":
-            sound(prepared(), at_frame)
+        left = touched
+        if self._ahead is not None:
+            on_it = {i: hand for i, hand in touched.items() if {x for x, _ in hand} == {impact.object_id}}
+            answer = self._ahead.answer(impact.object_id, impact.point_m, [*on_it.values()], f) if on_it else None
+            if answer is not None:
+                self._answered(answer.gains, sound, at_frame, on_it, now=answer.is_quick)
+                left = {i: hand for i, hand in touched.items() if i not in on_it}
+        if left:
+            model, hands_left = self._config.propagation, [*left.values()]
+            prepared = struck_later(model, self._state, impact.object_id, impact.point_m, hands_left, f)
+            self._answered(prepared, sound, at_frame, left, now=self._config.prepare == "blocking")
+
+    def _answered(
+        self,
+        gains: Callable[[], Floats],
+        sound: Callable[[Floats, int, Collection[int]], None],
+        at_frame: int,
+        among: Collection[int],
+        *,
+        now: bool,
+    ) -> None:
+        """Let some hands feel an impact, now or once a worker has computed its gains."""
+        if now:
+            sound(gains(), at_frame, among)
         else:
-            self._order(prepared, sound, at_frame)
+            self._order(gains, lambda found, begin: sound(found, begin, among), at_frame)
+
+    def expect(self, felt: Felt) -> None:
+        """Prepare for impacts on what hands touch. Call it in every update."""
+        if self._ahead is not None:
+            self._ahead.expect({touch.object_id for touches in felt.values() for touch in touches})
+
+    def _live(self) -> PointField | None:
+        """The field in use if it answers for points, which takes as long to find out as all else of a faint impact."""
+        field_in_use = self._field()
+        if field_in_use is not self._looked_at:
+            self._looked_at = field_in_use
+            self._point_field = field_in_use if isinstance(field_in_use, PointField) else None
+        return self._point_field
 
     def felt_by(self, hand: str) -> tuple[Impact, ...]:
         """The impacts of the last second that a hand felt, the latest first."""
@@ -188,14 +221,14 @@ class Impacts:
         return tuple(one for one in reversed(self._recent) if one.at_sample >= since)
 
     def wait(self, timeout_s: float | None) -> bool:
-        """Wait for impacts that a worker computes; false after the timeout [s]."""
-        return not wait(self._waiting, timeout_s).not_done
+        """Wait for all that a worker computes; false after the timeout [s]."""
+        return not wait(self._waiting, timeout_s).not_done and (self._ahead is None or self._ahead.wait(timeout_s))
 
-    def _levels(self, burst: Burst, hands: list[str], profile: UserProfile | None) -> Floats:
+    def _levels(self, burst: Burst, waves: list[Samples], hands: list[str], profile: UserProfile | None) -> Floats:
         """Amplitude of each sine at each of these hands, as if it touched the struck point (n_hands, n) [-]."""
         actuator, f = self._config.actuator, burst.frequencies_hz
         accelerations = burst.accelerations_m_s2
-        peak = peak_of(self._waves(burst), accelerations, burst.decays_s, self._config.sample_rate_hz)
+        peak = peak_of(waves, accelerations, burst.decays_s, self._config.sample_rate_hz)
         strength = min(1.0, math.sqrt(accelerations.sum() / LOUDEST_M_S2)) * self._user_factor()
         drives = accelerations / peak * PEAK * strength
         drives[(f < actuator.min_frequency_hz) | (f > actuator.max_frequency_hz)] = 0.0
@@ -232,16 +265,20 @@ class Impacts:
         capped = np.fmax(gains, 0.0)
         return capped if limit_db is None else np.minimum(capped, 10 ** (limit_db / 20))
 
-    def _sound(self, impact: Impact, burst: Burst, weights: Floats, channels: Mapping[int, str], at_frame: int) -> None:
-        waves, samples = self._waves(burst), dict[int, Samples]()
+    def _sound(
+        self, impact: Impact, waves: list[Samples], weights: Floats, channels: Mapping[int, str], at_frame: int
+    ) -> None:
+        samples: dict[int, Samples] = {}
+        was_felt = bool(impact.felt)
         for (channel, hand), row in zip(channels.items(), weights, strict=True):
             if row.max() >= LEAST_GAIN:
-                samples[channel] = summed(waves, row.tolist())
-                impact.felt[hand] = float(np.abs(samples[channel]).max())
+                samples[channel] = one = summed(waves, row.tolist())
+                impact.felt[hand] = float(max(one.max(), -one.min()))
         if samples:
             self._playback.start_burst(samples, at_frame)
-            self._recent.append(impact)
-            self.n_felt += 1
+            if not was_felt:
+                self._recent.append(impact)
+                self.n_felt += 1
 
     def _order(self, prepared: Callable[[], Floats], sound: Callable[[Floats, int], None], at_frame: int) -> None:
         """Let a worker prepare the gains and start the burst, unless it is more than `LATEST_S` late by then."""
@@ -259,57 +296,15 @@ class Impacts:
                 else:
                     self.n_left_out += 1
 
+        self._waiting.append(self._submit(work))
+
+    def _prepared_ahead(self) -> StruckAhead:
+        from scene2hap.session.struck_ahead import StruckAhead  # by need: the physical models
+
+        return StruckAhead(self._config.propagation, self._state, self._submit)
+
+    def _submit(self, work: Callable[[], None]) -> Future[None]:
         if self._worker is None:
-            self._worker = ThreadPoolExecutor(1, thread_name_prefix="scene2hap impacts")
-        self._waiting.append(self._worker.submit(work))
-
-
-def struck_live(
-    field: PointField, object_id: str, point_m: Point, hands: Sequence[Sequence[TouchedPoint]], frequencies_hz: Floats
-) -> Floats:
-    """Gains (n_hands, n_frequencies) [-], >= 0, from a live field."""
-    gains = np.array(field.from_point(object_id, point_m, hands, frequencies_hz))
-    return _at_least_itself(gains, object_id, hands)
-
-
-def struck_later(
-    model: PropagationModel,
-    state: SceneState,
-    object_id: str,
-    point_m: Point,
-    hands: Sequence[Sequence[TouchedPoint]],
-    frequencies_hz: Floats,
-) -> Callable[[], Floats]:
-    """A function that prepares the model and returns these gains; it may be called in any thread, and later."""
-    # An object without contacts is in no network of connected objects, so that the whole scene is prepared for it.
-    put_together = state.network([object_id] if state.graph.beside.get(object_id) else None)
-    touched = {touched_id for hand in hands for touched_id, _ in hand}
-
-    def prepared() -> Floats:
-        network = put_together(touched).network
-        strikers = [f"{_STRIKER}{i}" for i in range(len(frequencies_hz))]
-        contacts = [Contact(striker, object_id, point_m) for striker in strikers]
-        excitations = [
-            Excitation(striker, f, f, _STRIKER_KG) for striker, f in zip(strikers, frequencies_hz.tolist(), strict=True)
-        ]
-        with_them = ContactNetwork(network.bodies, (*network.contacts, *contacts), network.poses)
-        field = model.prepare(with_them, excitations, AROUND)
-        itself = field.attenuation(object_id, [point_m])[0, :, 0]
-        gains = np.zeros((len(hands), len(frequencies_hz)))
-        for row, hand in zip(gains, hands, strict=True):
-            for touched_id, touched_m in hand:
-                np.fmax(row, field.attenuation(touched_id, [touched_m])[0, :, 0], out=row)
-        passes = itself > 0
-        gains[:, passes] /= itself[passes]
-        gains[:, ~passes] = 0.0
-        return _at_least_itself(gains, object_id, hands)
-
-    return prepared
-
-
-def _at_least_itself(gains: Floats, object_id: str, hands: Sequence[Sequence[TouchedPoint]]) -> Floats:
-    """Set gain 1 at hands on the struck object whose gains are all 0, since the impact itself is always felt."""
-    for row, hand in zip(gains, hands, strict=True):
-        if not row.any() and any(touched_id == object_id for touched_id, _ in hand):
-            row[:] = 1.0
-    return gains
+            # What is prepared ahead takes longer than an impact may wait, and so may an impact that was not.
+            self._worker = ThreadPoolExecutor(3, thread_name_prefix="scene2hap impacts")
+        return self._worker.submit(work)

@@ -126,23 +126,23 @@ class Landings:
         stopped: list[str] = []
         found: list[Landing] = []
         rests: list[str] = []
+        beside = self._graph.beside  # what touches nothing has not landed
         for object_id, track in self._tracks.items():
             pose = moved.get(object_id)
             if pose is not None and pose.position_m != track.position_m:
                 (x, y, z), (a, b, c) = pose.position_m, track.position_m
                 onward = (x - a, y - b, z - c)
                 moving.append((track, pose, onward))
-                if track.is_sudden(onward):
+                if beside.get(object_id) and track.is_sudden(onward):
                     stopped.append(object_id)
                 continue
             late = now - track.steps[-1][0]
-            if late == track.stride and track.is_falling:
+            if late == track.stride and beside.get(object_id) and track.is_falling:
                 stopped.append(object_id)
             elif late > track.stride:
                 rests.append(object_id)
         for object_id in stopped:
-            if self._graph.beside.get(object_id):
-                found += self._landing(object_id, self._tracks[object_id])
+            found += self._landing(object_id, self._tracks[object_id])
         for track, pose, onward in moving:
             track.follow(now, time_s, pose, onward)
         for landing in found:

@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.signal import lfilter
 
-from scene2hap.audio.tactile.stages import Signal, Stage
+from scene2hap.audio.tactile.stages import Signal, Stage, StepEnergies
 
 STEP_S = 0.01
 FREE_DB = 0.5
@@ -33,7 +33,8 @@ class Following:
     def __init__(self, bed: Stage, sample_rate_hz: float) -> None:
         self._bed = bed
         self._step = max(1, round(STEP_S * sample_rate_hz))
-        self._waiting, self._unheard = np.empty(0), np.empty((2, 0))
+        self._waiting = np.empty(0)
+        self._heard = StepEnergies(self._step), StepEnergies(self._step)
         self._energies = np.zeros((2, _STEPS // 2))  # of sound and bed, by steps, from half a window before
         window = np.hanning(_STEPS + 2)[1:-1]
         self._window = window / window.sum()
@@ -55,11 +56,8 @@ class Following:
         return np.concatenate(parts)
 
     def _followed(self, x: Signal, y: Signal) -> Signal:
-        self._waiting = np.concatenate([self._waiting, y])
-        self._unheard = np.concatenate([self._unheard, [x, y]], axis=1)
-        n_heard = self._unheard.shape[1] // self._step
-        whole, self._unheard = np.split(self._unheard, [n_heard * self._step], axis=1)
-        energies = (whole.reshape(2, n_heard, self._step) ** 2).mean(axis=2)
+        self._waiting = np.concatenate([self._waiting, y]) if self._waiting.size else y
+        energies = [of.next(part) for of, part in zip(self._heard, (x, y), strict=True)]
         self._energies = np.concatenate([self._energies, energies], axis=1)
         n = self._energies.shape[1] - _STEPS + 1
         if n < 1:
@@ -88,5 +86,8 @@ class Following:
         n = (len(gains) - 1) * self._step
         y, self._waiting = self._waiting[:n], self._waiting[n:]
         rising = np.arange(self._step) / self._step
-        ramp = gains[:-1, None] + (gains[1:] - gains[:-1])[:, None] * rising
-        return np.asarray(y * ramp.ravel())
+        ramp = (gains[1:] - gains[:-1])[:, None] * rising
+        ramp += gains[:-1, None]
+        felt = ramp.reshape(-1)
+        felt *= y
+        return felt

@@ -12,12 +12,14 @@ latency of 10 ms, in which it measures the height of an onset.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.signal import butter
 
-from scene2hap.audio.tactile.stages import Signal, SosStage, Stage
+from scene2hap.audio.tactile.stages import Signal, SosStage, Stage, StepEnergies
 
 STEP_S = 0.0025
 LOOK = 4
@@ -57,7 +59,7 @@ class WithOnsets:
         self._step = max(1, round(STEP_S * sample_rate_hz))
         ticks_hz = min(TICKS_HZ, 0.4 * sample_rate_hz)
         self._high = SosStage(butter(2, ticks_hz, "highpass", fs=sample_rate_hz, output="sos"))
-        self._heard = np.empty((2, 0))  # the sound and its ticks, not yet a whole step
+        self._energies = StepEnergies(self._step), StepEnergies(self._step)  # of the sound and of its ticks
         self._waiting = np.empty(0)  # of the sound, not decided
         self._watch, self._n_released, self._n_made = _Watch(spares_sustained=bed_follows), 0, 0
         self._past = np.zeros(round(AROUND_S * sample_rate_hz))  # of the bed
@@ -66,18 +68,17 @@ class WithOnsets:
     def run(self, x: Signal) -> Signal:
         """Return the samples for which onsets are decided."""
         self._waiting = np.concatenate([self._waiting, x])
-        self._heard = np.concatenate([self._heard, [x, self._high.run(x)]], axis=1)
-        n_steps = self._heard.shape[1] // self._step
-        whole, self._heard = np.split(self._heard, [n_steps * self._step], axis=1)
-        parts = [np.empty(0)]
-        for step in self._watch.decided(*(whole.reshape(2, n_steps, self._step) ** 2).mean(axis=2).tolist()):
-            parts.append(self._felt(step.number * self._step, 1.0))
+        energies = [of.next(heard) for of, heard in zip(self._energies, (x, self._high.run(x)), strict=True)]
+        parts = []
+        for step in self._watch.decided(energies):
+            begin = step.number * self._step
             if step.height > 0.0:
-                self._bursts.append((self._n_released, self._burst(step.height, step.left)))
-            if step.share < 1.0:
-                parts.append(self._felt((step.number + 1) * self._step, step.share))
-        parts.append(self._felt(self._watch.n_decided * self._step, 1.0))
-        return np.concatenate(parts)
+                parts.append(self._felt(begin))
+                self._bursts.append((begin, self._burst(step.height, step.left)))
+            first = begin - self._n_released
+            self._waiting[first : first + self._step] *= step.share
+        parts.append(self._felt(self._watch.n_decided * self._step))
+        return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
     def rest(self) -> Signal:
         """Return the last steps, which are not searched for onsets."""
@@ -93,18 +94,19 @@ class WithOnsets:
         burst: Signal = amplitude * shape * np.sin(2 * np.pi * self._carrier_hz / self._rate_hz * t)
         return burst
 
-    def _felt(self, end: int, share: float) -> Signal:
-        """Return the output up to a sample of the sound; the bed gets this share of the input."""
+    def _felt(self, end: int) -> Signal:
+        """Return the output up to a sample of the sound."""
         n = end - self._n_released
         x, self._waiting = self._waiting[:n], self._waiting[n:]
         self._n_released = end
-        return self._mixed(self._bed.run(x if share == 1.0 else share * x))
+        return self._mixed(self._bed.run(x))
 
     def _mixed(self, bed: Signal) -> Signal:
         """Return the next samples of the bed, with their bursts added."""
         begin, end, out = self._n_made, self._n_made + len(bed), bed
         self._n_made = end
-        self._past = np.concatenate([self._past, bed])[len(bed) :]
+        n_past = len(self._past)
+        self._past = bed[-n_past:] if len(bed) >= n_past else np.concatenate([self._past[len(bed) :], bed])
         for start, burst in self._bursts:
             first, last = max(start, begin), min(start + len(burst), end)
             if first < last:
@@ -119,30 +121,46 @@ class _Step(NamedTuple):
     after `LOOK` steps; and the share of the sound that the bed gets."""
 
     number: int
-    height: float
-    left: float
-    share: float
+    height: float = 0.0
+    left: float = 0.0
+    share: float = 1.0
 
 
 class _Rise:
-    """The slow mean and the recent maximum of an energy."""
+    """Energies by step, with the slow mean and the recent maximum before each step."""
 
     _FORGET = float(np.exp(-STEP_S / LATE_S))
 
     def __init__(self) -> None:
         self.energies: list[float] = []
-        self.mean = self.loudest = 0.0
+        self.means: list[float] = []
+        self.loudests: list[float] = []
+        self._mean = self._loudest = 0.0
 
-    def follow(self, energy: float, n_known: int) -> None:
-        """Update mean and maximum with the energy of a step, after `n_known` steps."""
-        if n_known < _WARM:
-            self.mean += (energy - self.mean) / (n_known + 1)
-        else:
-            # An onset raises the mean little by little, or the next one would be missed.
-            most = 8.0 * self.mean + QUIETEST
-            self.mean += ((energy if energy < most else most) - self.mean) / _WARM
-        faded = self._FORGET * self.loudest
-        self.loudest = energy if energy > faded else faded
+    def follow(self, energies: list[float], n_known: int) -> None:
+        """Append the energies of steps, after `n_known` earlier ones."""
+        mean, loudest = self._mean, self._loudest
+        for n, energy in enumerate(energies, n_known):
+            self.means.append(mean)
+            self.loudests.append(loudest)
+            if n < _WARM:
+                mean += (energy - mean) / (n + 1)
+            else:
+                # An onset raises the mean little by little, or the next one would be missed.
+                most = 8.0 * mean + QUIETEST
+                mean += ((energy if energy < most else most) - mean) / _WARM
+            faded = self._FORGET * loudest
+            loudest = energy if energy > faded else faded
+        self._mean, self._loudest = mean, loudest
+        self.energies += energies
+
+    def rises(self, n: int) -> NDArray[np.bool_]:
+        """Return a mask (n,) of the first n steps: True where the energy rises over the mean before it."""
+        return np.array(self.energies[:n]) > RISE * np.array(self.means[:n])
+
+    def drop(self, n: int) -> None:
+        """Drop the first n steps."""
+        del self.energies[:n], self.means[:n], self.loudests[:n]
 
     def goes_on(self, k: int, top: float) -> bool:
         """Return True if the onset at a step is sustained beyond its highest energy."""
@@ -161,42 +179,40 @@ class _Watch:
         self.n_decided, self._last = 0, -self._SPARED
         self._before = self._height = 0.0  # energy of the sound before the last onset, and of that
 
-    def decided(self, whole: list[float], ticks: list[float]) -> list[_Step]:
-        """Return the steps during or after onsets among those that are now decided."""
-        for band, energies in zip(self._bands, (whole, ticks), strict=True):
-            band.energies += energies
+    def decided(self, energies: Sequence[Signal]) -> list[_Step]:
+        """Return the steps during or after onsets that these energies (n,) of the sound and its ticks decide."""
+        n_known = self.n_decided + len(self._bands[0].energies)
+        for band, of_band in zip(self._bands, energies, strict=True):
+            band.follow(of_band.tolist(), n_known)
         n = max(0, len(self._bands[0].energies) - self._look)
-        found = [step for k in range(n) if (step := self._looked_at(k)) is not None]
+        rises = [band.rises(n) for band in self._bands]
+        found = []
+        for k, is_rise in enumerate((rises[0] | rises[1]).tolist()):
+            number = self.n_decided
+            # The beginning of a sound is no onset: its mean is not known yet.
+            step = self._onset(number, k) if is_rise and number >= _WARM else None
+            energy = self._bands[0].energies[k]
+            if number - self._last < self._SPARED and energy > 2.0 * self._before:
+                step = (step or _Step(number))._replace(share=(self._before / energy) ** 0.5)
+            if step is not None:
+                found.append(step)
+            self.n_decided += 1
         for band in self._bands:
-            del band.energies[:n]
+            band.drop(n)
         return found
-
-    def _looked_at(self, k: int) -> _Step | None:
-        number, (sound, high) = self.n_decided, self._bands
-        energy, step = sound.energies[k], None
-        # The beginning of a sound is no onset: its mean is not known yet.
-        if number >= _WARM and (energy > RISE * sound.mean or high.energies[k] > RISE * high.mean):
-            step = self._onset(number, k)
-        if energy > 2.0 * self._before and number - self._last < self._SPARED:
-            share = (self._before / energy) ** 0.5
-            step = _Step(number, 0.0, 0.0, share) if step is None else step._replace(share=share)
-        sound.follow(energy, number)
-        high.follow(high.energies[k], number)
-        self.n_decided += 1
-        return step
 
     def _onset(self, number: int, k: int) -> _Step | None:
         height, left, is_sustained = 0.0, 0.0, False
         for band in self._bands:
-            if band.energies[k] > max(RISE * band.mean, QUIETEST, FAINTEST * band.loudest):
+            if band.energies[k] > max(RISE * band.means[k], QUIETEST, FAINTEST * band.loudests[k]):
                 top = max(band.energies[k : k + LOOK + 1])
-                if top - band.mean > height:
-                    height, left = top - band.mean, min(band.energies[k + LOOK] / top, 1.0)
+                if top - band.means[k] > height:
+                    height, left = top - band.means[k], min(band.energies[k + LOOK] / top, 1.0)
                     is_sustained = self._spares_sustained and band.goes_on(k, top)
         since = number - self._last
         if is_sustained or height <= (0.0 if since >= self._APART else LOUDER * self._height):
             return None
         # Between strokes in quick succession the mean has not recovered, so the energy before the first is kept.
-        self._before = self._bands[0].mean if since >= self._SPARED else self._before
+        self._before = self._bands[0].means[k] if since >= self._SPARED else self._before
         self._last, self._height = number, height
-        return _Step(number, height, left, 1.0)
+        return _Step(number, height, left)

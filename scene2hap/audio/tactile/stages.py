@@ -12,9 +12,10 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import ellip, ellipord, sosfilt
+from scipy.signal import ellip, ellipord
 
 from scene2hap.audio.clip import Samples
+from scene2hap.audio.tactile.sections import through_sections
 from scene2hap.errors import AudioError
 
 Signal = NDArray[np.float64]
@@ -23,8 +24,6 @@ LOWEST_FELT_HZ = 10.0
 """Lowest frequency that is felt as vibration [Hz]."""
 _CACHED = 65_536
 """Samples per pass: passes that fit the processor's cache are twice as fast as one pass over a long sound."""
-_VANISHED = 1e-200
-"""A filter's state below this is set to 0: it has no effect on a float32, and denormal numbers are slow."""
 
 
 class Stage(Protocol):
@@ -67,8 +66,10 @@ class StageStream:
     def _through(self, x: Signal, first: int) -> Samples:
         for stage in self.stages[first:]:
             x = stage.run(x)
-        self.n_clipped += int(np.count_nonzero(np.abs(x) > 1.0))
-        return np.clip(x, -1.0, 1.0).astype(np.float32)
+        if x.size and not -1.0 <= x.min() <= x.max() <= 1.0:
+            self.n_clipped += int(np.count_nonzero(np.abs(x) > 1.0))
+            x = np.clip(x, -1.0, 1.0)
+        return x.astype(np.float32)
 
 
 def _joined(parts: list[Samples]) -> Samples:
@@ -108,13 +109,31 @@ class SosStage:
         """Equally many samples."""
         if x.size == 0:
             return x
-        y, self.state = sosfilt(self.sections, x, zi=self.state)
-        self.state[np.abs(self.state) < _VANISHED] = 0.0
-        return np.asarray(y)
+        y: Signal = through_sections(self.sections, x[None], self.state[:, None])[0]
+        return y
 
     def rest(self) -> Signal:
         """Nothing."""
         return np.empty(0)
+
+
+class StepEnergies:
+    """Mean squares of a signal in steps of so many samples, however it is cut."""
+
+    def __init__(self, step: int) -> None:
+        self._step, self._left = step, np.empty(0)
+
+    def next(self, x: Signal) -> Signal:
+        """Of the steps (n,) that are whole with the next samples."""
+        n_first = -len(self._left) % self._step
+        if len(x) < n_first:
+            self._left = np.concatenate([self._left, x])
+            return np.empty(0)
+        first, whole = np.concatenate([self._left, x[:n_first]]), x[n_first:]
+        n = len(whole) // self._step * self._step
+        self._left = whole[n:].copy()
+        steps = [part.reshape(-1, self._step) for part in (first, whole[:n])]
+        return np.concatenate([(part**2).mean(axis=1) for part in steps])
 
 
 class Oscillator:
@@ -185,8 +204,7 @@ class ShiftStage:
         if x.size == 0:
             return x
         mixed = self._down.values(self._position, len(x)) * x
-        z, self._state = sosfilt(self._sections, mixed, zi=self._state)
-        self._state[np.abs(self._state) < _VANISHED] = 0.0
+        z = through_sections(self._sections, mixed, self._state)
         # The lower oscillator turns backwards, exp(-i...), hence the plus in the product's real part.
         y = z * self._up.values(self._position, len(x))
         self._position += len(x)

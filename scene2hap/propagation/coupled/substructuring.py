@@ -20,11 +20,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
-from scene2hap.errors import ConfigError
+from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.sampling import Sampling
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.coupling import ElasticBody, Joint, couple, inclined_in
+from scene2hap.propagation.coupled.coupling import ElasticBody, Joint, couple, ends_of, inclined_in
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.hand_load import HandLoad
 from scene2hap.propagation.coupled.joints import joints_of, legs_of, source_groups
@@ -32,12 +32,18 @@ from scene2hap.propagation.coupled.legged_body import legged
 from scene2hap.propagation.coupled.object_response import ObjectResponse
 from scene2hap.propagation.coupled.rigid import RigidMotion, is_compact
 from scene2hap.propagation.coupled.solved_object import SolvedObject
+from scene2hap.propagation.coupled.struck_object import DENSITY, IMPACT_BANDS, StruckObject
 from scene2hap.propagation.domain import OutsideDomain, check_choice, check_thin
 from scene2hap.propagation.inclined_body import InclinedBody, inclined
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import as_points
-from scene2hap.propagation.protocol import Carrier, ContactNetwork, Excitation, require_input
+from scene2hap.propagation.protocol import Carrier, ContactNetwork, CoupledModel, Excitation, require_input
+from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
+
+MOST_HELD_BYTES = 64_000_000
+"""Of an object that is prepared for impacts: some 90 contacts at a loss of 0.01."""
+_PROBE, _PROBE_KG = "\0probe", 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,17 +68,45 @@ class Assembly:
         Parameters: density : frequencies per band relative to the needed ones; hand : load at touched points.
         """
         source_ids = tuple(item.source_id for item in self.excitations)
-        bodies: dict[str, ElasticBody] = {**self.rigid, **{key: self._legged(key, elastic[key]) for key in elastic}}
-        for object_id in inclined_in([joint for _, joints in self.groups for joint in joints]):
-            bodies[object_id] = self._inclined(object_id, elastic.get(object_id))
-        losses = [body.loss_factor for body in bodies.values()]
-        losses += [joint.loss_factor for _, joints in self.groups for joint in joints]
-        sampling = Sampling.of(self.bands, self.excitations, min(losses, default=1.0), density)
+        bodies = self._bodies(elastic)
+        sampling = self._sampling(bodies, density)
         reach: dict[str, SolvedObject] = {}
         for sources, joints in self.groups:
             if joints:
                 reach |= _solved(bodies, joints, sources, source_ids, sampling, hand)
         return CoupledField(source_ids, self.bands, self.network, sampling, reach)
+
+    def struck(self, object_id: str, elastic: Mapping[str, ElasticBody]) -> StruckObject:
+        """An object that a source touches, for impacts, given a body for each of the plates.
+
+        Raises: ModelDomainError: it has so many contacts that what holds it takes more than `MOST_HELD_BYTES`.
+        """
+        bodies = self._bodies(elastic)
+        joints = next(joints for _, joints in self.groups if any(object_id in (one.a, one.b) for one in joints))
+        frequencies_hz = self._sampling(bodies, DENSITY).frequencies_hz
+        ends = ends_of(joints)[object_id]
+        n_own, of_row = len(ends.rows), 16 * len(frequencies_hz) * len(ends.rows)
+        if of_row * n_own > MOST_HELD_BYTES:
+            raise ModelDomainError(
+                f"{object_id!r} has {n_own} contacts, whose answers to impacts take {of_row * n_own / 1e6:.0f} MB at "
+                f"{len(frequencies_hz)} frequencies; at most {MOST_HELD_BYTES / 1e6:.0f} MB are kept."
+            )
+        # The forces in all joints are only needed a few frequencies at a time.
+        parts = np.array_split(frequencies_hz, -(-of_row * len(joints) // MOST_HELD_BYTES))
+        held = [couple(bodies, joints, (), part).holding(object_id) for part in parts]
+        return StruckObject(bodies[object_id], ends.points_m, np.concatenate(held), frequencies_hz)
+
+    def _bodies(self, elastic: Mapping[str, ElasticBody]) -> dict[str, ElasticBody]:
+        """All bodies, with their legs, and inclined where a joint pulls aside."""
+        bodies: dict[str, ElasticBody] = {**self.rigid, **{key: self._legged(key, elastic[key]) for key in elastic}}
+        for object_id in inclined_in([joint for _, joints in self.groups for joint in joints]):
+            bodies[object_id] = self._inclined(object_id, elastic.get(object_id))
+        return bodies
+
+    def _sampling(self, bodies: Mapping[str, ElasticBody], density: float) -> Sampling:
+        losses = [body.loss_factor for body in bodies.values()]
+        losses += [joint.loss_factor for _, joints in self.groups for joint in joints]
+        return Sampling.of(self.bands, self.excitations, min(losses, default=1.0), density)
 
     def _legged(self, object_id: str, plate: ElasticBody) -> ElasticBody:
         """A plate with the mass of the rest of its object at its feet."""
@@ -137,6 +171,22 @@ def prepare_coupled(
     scene = assemble(network, excitations, bands, law, outside_domain)
     top_hz = scene.top_hz if bands.edges_hz else _next_step_hz(scene.top_hz)
     return scene.solve({key: elastic_body(plate, top_hz) for key, plate in scene.plates.items()}, density, hand)
+
+
+def prepare_struck(model: CoupledModel, network: ContactNetwork, object_id: str) -> StruckObject:
+    """An object of a scene, for impacts on any of its points; the model's hand is left out.
+
+    The only source is a probe on the object, too light to change anything.
+    Raises: ModelDomainError: as the model's `prepare`.
+    """
+    contacts = (*network.contacts, Contact(_PROBE, object_id, network.poses.get(object_id, Pose()).position_m))
+    with_probe = ContactNetwork(network.bodies, contacts, network.poses)
+    probe = Excitation(_PROBE, 100.0, 100.0, _PROBE_KG)
+    # Whoever prepares the field in use is warned of thick plates.
+    scene = assemble(with_probe, [probe], IMPACT_BANDS, model.contact, "ignore")
+    return scene.struck(
+        object_id, {key: model.elastic_body(plate, scene.top_hz) for key, plate in scene.plates.items()}
+    )
 
 
 def _next_step_hz(frequency_hz: float) -> float:

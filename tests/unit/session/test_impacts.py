@@ -8,7 +8,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scene2hap import ExponentialPlate, HapticSession, InfinitePlate, ModalPlate, Pose, Touch, UserProfile
+from scene2hap import (
+    AutoFidelity,
+    ExponentialPlate,
+    HapticSession,
+    InfinitePlate,
+    MassSpringDamper,
+    ModalPlate,
+    Pose,
+    Touch,
+    UserProfile,
+)
 from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.propagation.plate import Plate
 from scene2hap.render.bursts import wave_of
@@ -91,6 +101,77 @@ def test_by_a_physical_model_it_follows_that_model(model: ModalPlate | InfiniteP
         )
         for found, one in zip(gains[:, k], others, strict=True):
             assert 20 * abs(math.log10(found / (one / itself))) < 1.0
+
+
+@pytest.mark.parametrize("model", [ModalPlate(), InfinitePlate()])
+def test_a_touched_object_that_was_prepared_feels_an_impact_with_the_next_block_as_the_model_says(
+    model: ModalPlate | InfinitePlate,
+) -> None:
+    scene, bundle = table_with_two_phones()
+    made = HapticSession(scene, bundle, {"propagation": model, "gain_limit_db": None})
+    for source_id in made.source_ids:
+        made.set_source(source_id, on=False)
+    away = {x: Pose((10.0 + i, 10.0, 10.0)) for i, x in enumerate(("phone", "alarm", "block"))}
+    made.update(away, touches())
+    assert made.wait_prepared(30.0)
+    impact = made.strike("table", STRUCK, with_object="cup", speed_m_s=1.0)
+    assert set(impact.felt) == {"left", "right"}
+    burst = burst_at(made, STRUCK)
+    found = amplitudes(rendered(made), burst)
+    plate = made._state.bodies["table"]
+    assert isinstance(plate, Plate)
+    at, near, far = (np.array(made._state.on_plate("table", point)) for point in (STRUCK, NEAR, FAR))
+    for k, f in enumerate(burst.frequencies_hz):
+        band = np.linspace(f * 2**-0.25, f * 2**0.25, 400)
+        one, other = (
+            np.sqrt((np.abs(model.plate_receptance(plate, at, [to], band) * band**2) ** 2).mean()) for to in (near, far)
+        )
+        assert 20 * abs(math.log10(found[1, k] / found[0, k] * one / other)) < 1.0
+
+
+def test_what_was_prepared_is_what_the_model_prepares_for_the_impact_alone() -> None:
+    """On a table on a block, with two phones on it."""
+    for model in (ModalPlate(), InfinitePlate(), MassSpringDamper(), AutoFidelity()):
+        scene, bundle = table_with_two_phones()
+        made = HapticSession(scene, bundle, {"propagation": model})
+        made.update(touches=touches())
+        assert made.wait_prepared(60.0)
+        assert made._impacts._ahead is not None
+        burst, hands = burst_at(made, STRUCK), [[("table", NEAR)], [("table", FAR), ("table", STRUCK)]]
+        f = burst.frequencies_hz
+        expected = struck_later(model, made._state, "table", STRUCK, hands, f)()
+        answer = made._impacts._ahead.answer("table", STRUCK, hands, f)
+        assert answer is not None
+        found = answer.gains()
+        assert np.abs(20 * np.log10(found / expected)).max() < 0.5
+        assert (found[1] > 0.999).all()  # this hand is where it is struck
+
+
+def test_after_a_contact_changed_the_last_answer_plays_on_until_there_is_a_new_one() -> None:
+    made = session(propagation="modal_plate")
+    made.update(touches=touches())
+    assert made.wait_prepared(30.0)
+    made.update({"cup": Pose((0.6, TOP_M + 0.05, 0.4))}, touches())
+    first = made.strike("table", STRUCK, with_object="cup", speed_m_s=1.0)
+    assert set(first.felt) == {"left", "right"}
+    rendered(made, 1.0)
+    assert made.wait_prepared(30.0)
+    second = made.strike("table", STRUCK, with_object="cup", speed_m_s=1.0)
+    assert set(second.felt) == {"left", "right"}
+    assert second.felt != first.felt
+
+
+def test_a_hand_on_another_object_waits_for_the_worker_and_counts_once() -> None:
+    made = session(propagation="modal_plate")
+    both = [Touch("left", "table", NEAR), Touch("right", "phone", made._state.poses["phone"].position_m)]
+    made.update(touches=both)
+    assert made.wait_prepared(30.0)
+    impact = made.strike("table", STRUCK, with_object="cup", speed_m_s=2.0)
+    assert "left" in impact.felt
+    assert made.wait_prepared(30.0)
+    assert set(impact.felt) == {"left", "right"}
+    assert made.stats.impacts_felt == 1
+    assert made.impacts == (impact,)
 
 
 def test_it_sounds_with_the_next_block_and_ends() -> None:

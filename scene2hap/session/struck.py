@@ -1,0 +1,76 @@
+"""Gains of an impact on an object at each hand, by the model in use.
+
+A model with a live field answers at once (`PointField`), and so does one that was prepared for impacts on what hands
+touch (`struck_ahead`). Others prepare a field of their own for the impact, in which a small source stands on the struck
+point. The gains are relative to that point, so that neither the mass of that source nor the stiffness of its contact
+counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.propagation.bands.sampling import AROUND
+from scene2hap.propagation.live import PointField, TouchedPoint
+from scene2hap.propagation.protocol import ContactNetwork, Excitation, PropagationModel
+from scene2hap.scene.objects import Contact
+from scene2hap.session.scene_state import SceneState
+
+Floats = NDArray[np.float64]
+Point = tuple[float, float, float]
+
+_STRIKER, _STRIKER_KG = "\0striker", 1e-3
+
+
+def struck_live(
+    field: PointField, object_id: str, point_m: Point, hands: Sequence[Sequence[TouchedPoint]], frequencies_hz: Floats
+) -> Floats:
+    """Gains (n_hands, n_frequencies) [-], >= 0, from a live field."""
+    gains = np.array(field.from_point(object_id, point_m, hands, frequencies_hz))
+    return at_least_itself(gains, object_id, hands)
+
+
+def struck_later(
+    model: PropagationModel,
+    state: SceneState,
+    object_id: str,
+    point_m: Point,
+    hands: Sequence[Sequence[TouchedPoint]],
+    frequencies_hz: Floats,
+) -> Callable[[], Floats]:
+    """A function that prepares the model and returns these gains; it may be called in any thread, and later."""
+    # An object without contacts is in no network of connected objects, so that the whole scene is prepared for it.
+    put_together = state.network([object_id] if state.graph.beside.get(object_id) else None)
+    touched = {touched_id for hand in hands for touched_id, _ in hand}
+
+    def prepared() -> Floats:
+        network = put_together(touched).network
+        strikers = [f"{_STRIKER}{i}" for i in range(len(frequencies_hz))]
+        contacts = [Contact(striker, object_id, point_m) for striker in strikers]
+        excitations = [
+            Excitation(striker, f, f, _STRIKER_KG) for striker, f in zip(strikers, frequencies_hz.tolist(), strict=True)
+        ]
+        with_them = ContactNetwork(network.bodies, (*network.contacts, *contacts), network.poses)
+        field = model.prepare(with_them, excitations, AROUND)
+        itself = field.attenuation(object_id, [point_m])[0, :, 0]
+        gains = np.zeros((len(hands), len(frequencies_hz)))
+        for row, hand in zip(gains, hands, strict=True):
+            for touched_id, touched_m in hand:
+                np.fmax(row, field.attenuation(touched_id, [touched_m])[0, :, 0], out=row)
+        passes = itself > 0
+        gains[:, passes] /= itself[passes]
+        gains[:, ~passes] = 0.0
+        return at_least_itself(gains, object_id, hands)
+
+    return prepared
+
+
+def at_least_itself(gains: Floats, object_id: str, hands: Sequence[Sequence[TouchedPoint]]) -> Floats:
+    """Set gain 1 at hands on the struck object whose gains are all 0, since the impact itself is always felt."""
+    for row, hand in zip(gains, hands, strict=True):
+        if not row.any() and any(touched_id == object_id for touched_id, _ in hand):
+            row[:] = 1.0
+    return gains

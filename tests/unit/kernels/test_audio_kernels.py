@@ -1,0 +1,30 @@
+"""The kernels of `audio`: the compiled one of every pair answers as the plain one does."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.signal import butter
+
+from kernels import both, seeds, steady
+
+
+@steady
+@given(seed=seeds, n_sections=st.integers(1, 5), n_rows=st.integers(1, 3))
+def test_filters_of_sounds_in_stretches(seed: int, n_sections: int, n_rows: int) -> None:
+    """Silence within the sound lets the memory of a filter fade away, and each cut carries it on."""
+    rng = np.random.default_rng(seed)
+    low, high = np.sort(np.exp(rng.uniform(np.log(20.0), np.log(20_000.0), 2))) * (1.0, 1.05)
+    sections = butter(n_sections, [low, min(high, 23_000.0)], "bandpass", fs=48_000, output="sos")
+    x = rng.standard_normal((n_rows, 9000))
+    x[:, 3000:8000] = 0.0
+    cuts = np.sort(rng.integers(0, 9000, 4))
+    answers = []
+    for kernel in both("audio.tactile.sections.through_sections"):
+        state = np.zeros((n_sections, n_rows, 2))
+        y = [kernel(sections, np.ascontiguousarray(part), state) for part in np.split(x, cuts, axis=1) if part.size]
+        answers.append((np.concatenate(y, axis=1), state))
+    (plain, plain_state), (compiled, compiled_state) = answers
+    np.testing.assert_allclose(compiled, plain, atol=1e-11 * np.abs(plain).max())
+    np.testing.assert_allclose(compiled_state, plain_state, atol=1e-11 * max(np.abs(plain).max(), 1.0))
