@@ -36,6 +36,8 @@ MADE = prepared_loops._made
 
 @pytest.fixture
 def notes(monkeypatch: pytest.MonkeyPatch) -> Iterator[Notes]:
+    # Loops that earlier tests ordered and did not wait for are not to be counted here.
+    prepared_loops._worker().submit(lambda: None).result(SECONDS)
     noted = Notes()
     monkeypatch.setattr(prepared_loops, "_made", noted.made)
     for remembered in ("_OF_CLIP", "_BY_CONTENT", "_NEWEST"):
