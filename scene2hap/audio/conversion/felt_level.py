@@ -13,6 +13,8 @@ from scene2hap.audio.levels import TACTILE_RANGE_HZ, threshold_db
 from scene2hap.haptics import ActuatorProfile
 
 _SEGMENT_S, _OVERLAP = 1.0, 0.1
+_AT_ONCE = 4
+"""Channels that are transformed together, a third as long each: as many as a processor's registers hold."""
 
 Block = NDArray[np.float32]
 """Samples (n, channels)."""
@@ -31,6 +33,7 @@ class FeltLevel:
         self._overlap = max(1, round(_OVERLAP * size))
         self.peak = 0.0
         self._segment, self._filled = np.zeros((channels, size), dtype=np.float32), self._overlap
+        self._full: list[Block] = []
         self._n_frames = 0
         slope = np.sin(0.5 * np.pi * (np.arange(self._overlap) + 0.5) / self._overlap)
         self._window = np.concatenate([slope, np.ones(size - 2 * self._overlap), slope[::-1]]).astype(np.float32)
@@ -52,24 +55,33 @@ class FeltLevel:
             self._segment[:, self._filled : self._filled + n] = block[at : at + n].T
             self._filled, at = self._filled + n, at + n
             if self._filled == size:
-                self._energy += self._heard(self._segment)
+                self._full.append(self._segment.copy())
+                if len(self._full) * len(self._segment) >= _AT_ONCE:
+                    self._hear_full()
                 self._segment[:, : self._overlap] = self._segment[:, -self._overlap :]
                 self._filled = self._overlap
 
     def level_db(self) -> float:
         """Return the sensation level of the strongest channel [dB], minus infinity for silence."""
+        self._hear_full()
         rest = self._segment.copy()
         rest[:, self._filled :] = 0.0
-        energy = self._energy + self._heard(rest)
-        rest[:, : self._overlap], rest[:, self._overlap :] = rest[:, -self._overlap :], 0.0
-        energy = energy + self._heard(rest)
+        after = np.zeros_like(rest)
+        after[:, : self._overlap] = rest[:, -self._overlap :]
+        energy = self._energy + self._heard([rest, after])
         most = float(energy.max()) / max(self._n_frames, 1)
         return 10.0 * math.log10(most) if most > 0.0 else -math.inf
 
-    def _heard(self, piece: Block) -> NDArray[np.float64]:
-        """Return, for each channel of a piece (channels, n), the squared ratios of its components' amplitudes to their
-        thresholds, summed over components and multiplied by time [samples]."""
-        spectrum = scipy.fft.rfft(piece * self._window, axis=1)[:, self._inside]
+    def _hear_full(self) -> None:
+        self._energy += self._heard(self._full)
+        self._full = []
+
+    def _heard(self, pieces: list[Block]) -> NDArray[np.float64] | float:
+        """Return, for each channel of pieces (channels, n), the squared ratios of its components' amplitudes to their
+        thresholds, summed over components and pieces and multiplied by time [samples]."""
+        if not pieces:
+            return 0.0
+        spectrum = scipy.fft.rfft(np.stack(pieces) * self._window, axis=2)[:, :, self._inside]
         power = spectrum.real.astype(np.float64) ** 2 + spectrum.imag.astype(np.float64) ** 2
         # Both sides of the spectrum, and the square of an amplitude is twice its mean power (Parseval).
-        return np.asarray(4.0 / piece.shape[1] * (power @ self._weight))
+        return np.asarray(4.0 / len(self._window) * (power @ self._weight).sum(axis=0))

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from scipy.signal import butter
 
 from scene2hap.audio.tactile.stages import Signal, SosStage, Stage, StepEnergies
+from scene2hap.compiled import compiled
 
 STEP_S = 0.0025
 LOOK = 4
@@ -45,7 +46,9 @@ ABOVE_BED, AROUND_S = 8.0, 0.25
 head-room in which the bed must reach its level."""
 NO_BED = 0.01
 """Ratio of bed to burst below which there is no bed, as between the ticks of a clock."""
-_WARM = round(MEAN_S / STEP_S)
+WARM = round(MEAN_S / STEP_S)
+"""Number of steps after which the mean of a sound is known."""
+FORGET = float(np.exp(-STEP_S / LATE_S))
 
 
 class WithOnsets:
@@ -126,46 +129,47 @@ class _Step(NamedTuple):
     share: float = 1.0
 
 
-class _Rise:
-    """Energies by step, with the slow mean and the recent maximum before each step."""
+@compiled
+def followed(energies: Signal, mean: float, loudest: float, n_known: int) -> tuple[Signal, Signal, float, float]:
+    """Return the slow mean and the recent maximum of energies (n,) before each of them (n,), and both at the end.
 
-    _FORGET = float(np.exp(-STEP_S / LATE_S))
+    Parameters: mean, loudest : both after the n_known earlier steps.
+    """
+    means, loudests = [], []
+    for n, energy in enumerate(energies.tolist(), n_known):
+        means.append(mean)
+        loudests.append(loudest)
+        if n < WARM:
+            mean += (energy - mean) / (n + 1)
+        else:
+            # An onset raises the mean little by little, or the next one would be missed.
+            mean += (min(energy, 8.0 * mean + QUIETEST) - mean) / WARM
+        loudest = max(energy, FORGET * loudest)
+    return np.array(means), np.array(loudests), mean, loudest
+
+
+class _Rise:
+    """Energies by step, with the slow mean and the recent maximum before each step (3, n)."""
 
     def __init__(self) -> None:
-        self.energies: list[float] = []
-        self.means: list[float] = []
-        self.loudests: list[float] = []
+        self.steps = np.empty((3, 0))
         self._mean = self._loudest = 0.0
 
-    def follow(self, energies: list[float], n_known: int) -> None:
+    def follow(self, energies: Signal, n_known: int) -> None:
         """Append the energies of steps, after `n_known` earlier ones."""
-        mean, loudest = self._mean, self._loudest
-        for n, energy in enumerate(energies, n_known):
-            self.means.append(mean)
-            self.loudests.append(loudest)
-            if n < _WARM:
-                mean += (energy - mean) / (n + 1)
-            else:
-                # An onset raises the mean little by little, or the next one would be missed.
-                most = 8.0 * mean + QUIETEST
-                mean += ((energy if energy < most else most) - mean) / _WARM
-            faded = self._FORGET * loudest
-            loudest = energy if energy > faded else faded
-        self._mean, self._loudest = mean, loudest
-        self.energies += energies
+        means, loudests, self._mean, self._loudest = followed(energies, self._mean, self._loudest, n_known)
+        self.steps = np.concatenate([self.steps, [energies, means, loudests]], axis=1)
 
-    def rises(self, n: int) -> NDArray[np.bool_]:
-        """Return a mask (n,) of the first n steps: True where the energy rises over the mean before it."""
-        return np.array(self.energies[:n]) > RISE * np.array(self.means[:n])
-
-    def drop(self, n: int) -> None:
-        """Drop the first n steps."""
-        del self.energies[:n], self.means[:n], self.loudests[:n]
+    @property
+    def rises(self) -> NDArray[np.bool_]:
+        """A mask (n,) of the steps: True where the energy rises over the mean before it."""
+        rises: NDArray[np.bool_] = self.steps[0] > RISE * self.steps[1]
+        return rises
 
     def goes_on(self, k: int, top: float) -> bool:
         """Return True if the onset at a step is sustained beyond its highest energy."""
-        at = self.energies.index(top, k)
-        return max(self.energies[at + _AFTER[0] : at + _AFTER[1] + 1]) > SUSTAINED * top
+        at = k + int(np.argmax(self.steps[0, k:] == top))
+        return float(self.steps[0, at + _AFTER[0] : at + _AFTER[1] + 1].max()) > SUSTAINED * top
 
 
 class _Watch:
@@ -181,38 +185,48 @@ class _Watch:
 
     def decided(self, energies: Sequence[Signal]) -> list[_Step]:
         """Return the steps during or after onsets that these energies (n,) of the sound and its ticks decide."""
-        n_known = self.n_decided + len(self._bands[0].energies)
+        sound, ticks = self._bands
+        n_known = self.n_decided + sound.steps.shape[1]
         for band, of_band in zip(self._bands, energies, strict=True):
-            band.follow(of_band.tolist(), n_known)
-        n = max(0, len(self._bands[0].energies) - self._look)
-        rises = [band.rises(n) for band in self._bands]
-        found = []
-        for k, is_rise in enumerate((rises[0] | rises[1]).tolist()):
-            number = self.n_decided
-            # The beginning of a sound is no onset: its mean is not known yet.
-            step = self._onset(number, k) if is_rise and number >= _WARM else None
-            energy = self._bands[0].energies[k]
-            if number - self._last < self._SPARED and energy > 2.0 * self._before:
-                step = (step or _Step(number))._replace(share=(self._before / energy) ** 0.5)
-            if step is not None:
-                found.append(step)
-            self.n_decided += 1
+            band.follow(of_band, n_known)
+        n = max(0, sound.steps.shape[1] - self._look)
+        is_rise = (sound.rises | ticks.rises)[:n]
+        # The beginning of a sound is no onset: its mean is not known yet.
+        is_rise[: max(0, WARM - self.n_decided)] = False
+        rising, found, k = np.flatnonzero(is_rise), [], 0
+        while k < n:
+            number = self.n_decided + k
+            is_spared = number - self._last < self._SPARED
+            if is_rise[k] or is_spared:
+                step = self._onset(number, k) if is_rise[k] else None
+                energy = float(sound.steps[0, k])
+                if number - self._last < self._SPARED and energy > 2.0 * self._before:
+                    step = (step or _Step(number))._replace(share=(self._before / energy) ** 0.5)
+                if step is not None:
+                    found.append(step)
+                k += 1
+            else:
+                later = int(np.searchsorted(rising, k))
+                k = int(rising[later]) if later < len(rising) else n
         for band in self._bands:
-            band.drop(n)
+            band.steps = band.steps[:, n:]
+        self.n_decided += n
         return found
 
     def _onset(self, number: int, k: int) -> _Step | None:
         height, left, is_sustained = 0.0, 0.0, False
         for band in self._bands:
-            if band.energies[k] > max(RISE * band.means[k], QUIETEST, FAINTEST * band.loudests[k]):
-                top = max(band.energies[k : k + LOOK + 1])
-                if top - band.means[k] > height:
-                    height, left = top - band.means[k], min(band.energies[k + LOOK] / top, 1.0)
+            energy, mean, loudest = band.steps[:, k].tolist()
+            if energy > max(RISE * mean, QUIETEST, FAINTEST * loudest):
+                around = band.steps[0, k : k + LOOK + 1].tolist()
+                top = max(around)
+                if top - mean > height:
+                    height, left = top - mean, min(around[LOOK] / top, 1.0)
                     is_sustained = self._spares_sustained and band.goes_on(k, top)
         since = number - self._last
         if is_sustained or height <= (0.0 if since >= self._APART else LOUDER * self._height):
             return None
         # Between strokes in quick succession the mean has not recovered, so the energy before the first is kept.
-        self._before = self._bands[0].means[k] if since >= self._SPARED else self._before
+        self._before = float(self._bands[0].steps[1, k]) if since >= self._SPARED else self._before
         self._last, self._height = number, height
         return _Step(number, height, left)

@@ -28,3 +28,14 @@ def test_filters_of_sounds_in_stretches(seed: int, n_sections: int, n_rows: int)
     (plain, plain_state), (compiled, compiled_state) = answers
     np.testing.assert_allclose(compiled, plain, atol=1e-11 * np.abs(plain).max())
     np.testing.assert_allclose(compiled_state, plain_state, atol=1e-11 * max(np.abs(plain).max(), 1.0))
+
+
+@steady
+@given(seed=seeds, n_known=st.sampled_from([0, 5, 23, 24, 1000]))
+def test_the_mean_and_the_loudest_of_late(seed: int, n_known: int) -> None:
+    rng = np.random.default_rng(seed)
+    energies = np.exp(rng.uniform(-20.0, 0.0, 200)) * (rng.random(200) < 0.8)
+    kinds = both("audio.tactile.onsets.followed")
+    plain, compiled = (kind(energies, 1e-5, 1e-3, n_known) for kind in kinds)
+    for one, other in zip(compiled, plain, strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-13)
