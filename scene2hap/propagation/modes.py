@@ -60,6 +60,7 @@ class Fineness:
     A polynomial needs pi per wavelength, which is 1 / 2 for k L. What is stiffer than the modes takes `wider` times as
     many: where a basis ends, responses ripple along both axes through the force, by 1 % of their rms, which is 1 dB
     where the plate hardly moves. More functions to factorise cost much less than more functions to find modes in.
+    Blocks above `QUICK_BLOCK` are left as they are.
     """
 
     per_k_length: float = 1.75 / math.pi
@@ -276,7 +277,10 @@ def _modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FIN
     shift = SHIFT * max(k, math.pi / max(plate.length_m, plate.width_m)) ** 4
     # Rigid motions lie below a thousandth of the shift, and any bending above five times of it.
     limit = max(k**4 * (1 + 1e-9), 1e-3 * shift)
-    nu, few, many = plate.material.poisson_ratio, _pairs(plate, terms), _pairs(plate, _wider(plate, terms, fineness))
+    # No block grows past those that take a second.
+    times = min(fineness.wider, max(math.sqrt(QUICK_BLOCK / largest), 1.0))
+    wider = _paired(plate, math.ceil(times * terms[0]), math.ceil(times * terms[1]))
+    nu, few, many = plate.material.poisson_ratio, _pairs(plate, terms), _pairs(plate, wider)
     blocks = []
     for own, pair in zip(few, many, strict=True):
         k4, vectors = _solve(*own, nu, shift, limit)
@@ -296,10 +300,6 @@ def _terms(plate: Plate, k: float, fineness: Fineness) -> tuple[int, int]:
     k_along = max(k, _HELD_WAVE / plate.width_m) if _is_held(plate.edges[2:]) else k
     k_across = max(k, _HELD_WAVE / plate.length_m) if _is_held(plate.edges[:2]) else k
     return _paired(plate, _n_terms(k_along * plate.length_m, fineness), _n_terms(k_across * plate.width_m, fineness))
-
-
-def _wider(plate: Plate, terms: tuple[int, int], fineness: Fineness) -> tuple[int, int]:
-    return _paired(plate, math.ceil(fineness.wider * terms[0]), math.ceil(fineness.wider * terms[1]))
 
 
 def _paired(plate: Plate, along: int, across: int) -> tuple[int, int]:
