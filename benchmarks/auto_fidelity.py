@@ -165,7 +165,7 @@ def forget() -> None:
         cached.cache_clear()
     for kept in (lattice_modes._modes_up_to, lattice_body.lattice_body, bending_lattice.bending_lattice):
         kept.cache_clear()
-    bending_lattice.axes_of.cache_clear()
+    bending_lattice.lines_of.cache_clear()
     infinite_plate._table.cache_clear()
 
 

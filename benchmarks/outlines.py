@@ -29,7 +29,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 from plate_fe import fe_receptance_within, outline_mesh, refined_at
 from scene2hap import ModalPlate, Outline, Plate, materials
 from scene2hap.propagation.domain import ThinPlateWarning
-from scene2hap.propagation.lattice.bending_lattice import axes_of, bending_lattice
+from scene2hap.propagation.lattice.bending_lattice import bending_lattice, lines_of
 from scene2hap.propagation.lattice.lattice_body import lattice_body
 from scene2hap.propagation.lattice.lattice_modes import _modes_up_to
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
@@ -98,7 +98,7 @@ def cold_s(ask: Callable[[float], object]) -> float:
     """Least processor time of five asks, each of a slightly different plate [s]."""
     taken = []
     for k in range(5):
-        for kept in (bending_lattice, axes_of, _modes_up_to, lattice_body):
+        for kept in (bending_lattice, lines_of, _modes_up_to, lattice_body):
             kept.cache_clear()
         begin = time.process_time()
         ask(1 + 1e-5 * (k + 1))

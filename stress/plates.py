@@ -15,11 +15,11 @@ to 10 kHz, one of them exactly on a resonance of a plate that is held or free. C
 
 On every fourth plate a source of 1e-6 to 1e4 kg stands too, and a scene of both is solved: gains must be finite and at
 least 0. A plate that a model announces by a `SlowPlateWarning` is left there and counted; every hundredth plate is
-worked out whatever it takes. A plate takes some 0.21 s of a processor in all models together.
+worked out whatever it takes. A plate takes some 0.23 s of a processor in all models together.
 
-Each plate is drawn from its own number: `--only N` repeats one, `--first N` goes on where `--minutes` ended. A process
-takes `PIECE` plates at a time, and finishes them when the minutes are over, so that those asked have no gaps. Each uses
-one thread of BLAS; more would count as processor time without being any faster. Exits with 1 if anything is bad.
+Each plate is drawn from its own number: `--only N` repeats one, `--first N` goes on where `--minutes` or Ctrl-C ended.
+A process takes `PIECE` plates at a time, and finishes them, so that those asked have no gaps. Each uses one thread of
+BLAS; more would count as processor time without being any faster. Exits with 1 if anything is bad.
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ import collections
 import gc
 import math
 import random
+import signal
 import time
 import warnings
 from collections.abc import Sequence
@@ -73,7 +74,7 @@ KEPT: tuple[Any, ...] = (
     lattice_body.lattice_body,
     lattice_modes._modes_up_to,
     bending_lattice.bending_lattice,
-    bending_lattice.axes_of,
+    bending_lattice.lines_of,
 )
 """What is remembered of plates, which would fill some gigabytes: no plate comes twice."""
 EDGES = ("FFFF", "CCCC", "SSSS", "CFFF", "SSFF", "CCFF", "SFSF", "CFSF", "FFCC", "CFFC", "SFFF", "FFSS")
@@ -261,6 +262,12 @@ class Campaign:
         return len(numbers), outcomes
 
 
+def begin_process() -> None:
+    """Leave Ctrl-C to the process that counts."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    gc.freeze()
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--plates", type=int, default=100_000, help="number of the last plate, plus 1")
@@ -278,11 +285,14 @@ def main() -> int:
     numbers = range(given.first, given.plates) if given.only is None else range(given.only, given.only + 1)
     pieces = [numbers[begin : begin + PIECE] for begin in range(0, len(numbers), PIECE)]
     asked, outcomes = 0, {name: Outcome() for name in models}
-    with ProcessPoolExecutor(given.processes, initializer=gc.freeze) as pool:
-        for n_asked, found in pool.map(campaign.ask, pieces):
-            asked += n_asked
-            for name, outcome in found.items():
-                outcomes[name].add(outcome)
+    with ProcessPoolExecutor(given.processes, initializer=begin_process) as pool:
+        try:
+            for n_asked, found in pool.map(campaign.ask, pieces):
+                asked += n_asked
+                for name, outcome in found.items():
+                    outcomes[name].add(outcome)
+        except KeyboardInterrupt:
+            pool.shutdown(cancel_futures=True)
     print(f"\n{asked} plates from number {numbers[0]}, seed {given.seed}\n")
     print("| model | answered | in scenes | announced and left | with a warning | refused | bad | slowest [s] |")
     print("|---|---|---|---|---|---|---|---|")

@@ -35,8 +35,8 @@ FLOOR_DB = -40.0
 """Gains below this are as good as none: errors are counted from here, re the source."""
 RIGID_DB = 250.0
 FINENESS = {
-    "coarse": Fineness(1.2 / math.pi, 3, 6),
-    "medium": Fineness(1.6 / math.pi, 3, 12),
+    "coarse": Fineness(1.1 / math.pi, 3, 6),
+    "medium": Fineness(1.45 / math.pi, 3, 12),
     "modal": FINE,
 }
 MODAL_DB = {

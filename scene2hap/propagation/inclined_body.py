@@ -100,7 +100,10 @@ class InclinedBody:
         """See `ElasticBody`; both are ports."""
         pushed = self.motions.shapes(forces_m)
         moved = pushed if points_m is forces_m else self.motions.shapes(points_m)
-        answer: Complex = (moved * self.yielding(frequencies_hz)[:, None, :]) @ pushed.T
+        # One real product for all frequencies takes a third of the time of one complex product for each.
+        shapes = (moved[:, None] * pushed).reshape(-1, pushed.shape[1])
+        answer = real_times(shapes, self.yielding(frequencies_hz).T)
+        answer = answer.reshape(len(moved), len(pushed), -1).transpose(2, 0, 1)
         if self.bending is None:
             return answer
         rows, places, normal = _bending(points_m)

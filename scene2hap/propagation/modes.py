@@ -6,7 +6,7 @@ K is the Ritz stiffness of `ritz`. A plate with alike edges on both ends of an a
 along it, so the eigenproblem falls into up to four smaller ones. Each is solved for the compliance (K + s)^-1, whose
 largest eigenvalues are the lowest modes: those of K grow as the eighth power of the basis size, and would bury rigid
 motions and the lowest modes of large or slender plates in rounding. What is stiffer than the modes is never solved for:
-powers of the compliance approximate its response.
+powers of the compliance approximate its response, in a basis that is wider than that of the modes (`Fineness`).
 
 Letters: k [rad/m] wavenumber, D [N m], m [kg/m2] mass per area, omega [rad/s], phi [kg^-1/2] shape, s [m^-4] shift.
 Source: as `ritz`.
@@ -42,26 +42,31 @@ SHIFT = 1e-2
 """s over k^4 of the highest mode wanted. Tuned: anywhere between 1e-4 and 1 the frequencies agree to 1e-9."""
 
 
-SMALL = 200
-"""Functions up to which an eigenproblem is solved whole; above, for its modes alone. Tuned: they take equal time."""
 _HELD_WAVE = 5.0
 """Along a side that is held, a deflection falls off within the plate's width b: functions follow waves up to this k b.
 Tuned: the static deflection of a long strip is within 0.2 dB of Timoshenko's; with 7 within 0.1 dB, at thrice the cost.
 """
-ORDERS = 12
-"""Powers of compliance in `ModeBlock.beyond`: each is worth a factor of 2.25 below the top frequency, 6e-5 in all."""
+ORDERS = 4
+"""Powers of compliance in `ModeBlock.beyond`: each is worth a factor of 6.8 below the top frequency, 5e-4 in all."""
+_PLACES = (1 + np.cos(np.pi * (np.arange(ORDERS) + 0.5) / ORDERS)) / 2
+_THROUGH = np.linalg.inv(np.vander(_PLACES, increasing=True))
+"""From values at Chebyshev's places between 0 and 1 to the coefficients of the polynomial through them."""
 
 
 @dataclass(frozen=True)
 class Fineness:
     """How many functions an axis of length L has, for waves up to k: per_k_length * k L + more, at least `least`.
 
-    A polynomial needs pi per wavelength, which is 1 / 2 for k L.
+    A polynomial needs pi per wavelength, which is 1 / 2 for k L. What is stiffer than the modes takes `wider` times as
+    many: where a basis ends, responses ripple along both axes through the force, by 1 % of their rms, which is 1 dB
+    where the plate hardly moves. More functions to factorise cost much less than more functions to find modes in.
+    Blocks above `QUICK_BLOCK` are left as they are.
     """
 
-    per_k_length: float = 1.85 / math.pi
+    per_k_length: float = 1.75 / math.pi
     more: int = 4
     least: int = 16
+    wider: float = 1.25
 
 
 FINE = Fineness()
@@ -70,45 +75,52 @@ FINE = Fineness()
 
 @dataclass(frozen=True, eq=False)
 class ModeBlock:
-    """The modes of one symmetry, and the compliance of all else.
+    """The modes of one symmetry, and how all that is stiffer answers.
 
-    x, y : the basis of each axis, n = n_x n_y products; k4 : (n_modes,) k^4 [m^-4], rising, 0 for rigid motions;
-    vectors : (n, n_modes) orthonormal columns; compliance : (n, n) of (K + shift)^-1 [m^4]; shift [m^-4]; rest : what
-    of the spectrum is no mode, its k^4 and vectors, where it is known.
+    x, y : the wider basis of each axis, n = n_x n_y products; k4 : (n_modes,) k^4 [m^-4], rising, 0 for rigid motions;
+    vectors : (n, n_modes) orthonormal columns; shift : s [m^-4]; stiffer_k4 : below the k^4 of all that is no mode
+    [m^-4].
     """
 
     x: AxisBasis
     y: AxisBasis
     k4: NDArray[np.float64]
     vectors: NDArray[np.float64]
-    compliance: NDArray[np.float64]
+    poisson_ratio: float
     shift: float
-    rest: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
+    stiffer_k4: float
 
     def deflections(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
         """Every mode at points (n_points, 2) [m], normalised over the area -> (n_points, n_modes) [1/m]."""
         return products(self.x, self.y, points_m) @ self.vectors
 
+    @cached_property
+    def _factor(self) -> NDArray[np.float64]:
+        """Cholesky's factor of K + shift."""
+        return _cholesky(self.x, self.y, self.poisson_ratio, self.shift)
+
     def beyond(self, forces: NDArray[np.float64], q: NDArray[Number]) -> NDArray[Number]:
         """How what is stiffer than the modes answers to forces (n, n_forces), for q (n_q,) = k^4 / (1 + j eta) [m^-4]:
-        (K - q)^-1 without its modes -> (n, n_forces, n_q), by the rest of the spectrum, or else
+        (K - q)^-1 without its modes -> (n, n_forces, n_q), by a polynomial in the compliance
 
-            sum over j of (q + shift)^j C^(j+1) forces          C = (K + shift)^-1
+            C sum over j of a_j(q) C^j forces          C = (K + s)^-1
+
+        The sum equals 1 / (1 - (q + s) C) at Chebyshev's places between 0 and the largest compliance without modes.
         """
+        from scipy.linalg.lapack import dpotrs
+
         n, n_forces = forces.shape
-        answers: NDArray[Number]
-        if self.rest is not None:
-            k4, vectors = self.rest
-            weighted = (vectors.T @ forces)[:, :, None] / (k4[:, None, None] - q)
-            answers = vectors @ weighted.reshape(len(k4), -1)
-            return answers.reshape(n, n_forces, -1)
-        answer, orders = forces, []
-        for _ in range(ORDERS):
-            answer = self.compliance @ (answer - self.vectors @ (self.vectors.T @ answer))
-            orders.append(answer)
-        powers = (q + self.shift) ** np.arange(ORDERS)[:, None]
-        answers = np.stack(orders).reshape(ORDERS, -1).T @ powers
+        most = 1 / (self.stiffer_k4 + self.shift)
+        powers = _THROUGH @ (1 / (1 - most * _PLACES[:, None] * (q + self.shift)))
+        answer, orders = self._without_modes(forces), np.empty((ORDERS, n, n_forces))
+        for order in orders:
+            order[:] = self._without_modes(dpotrs(self._factor, answer, lower=1)[0])
+            answer = order / most
+        answers: NDArray[Number] = orders.reshape(ORDERS, -1).T @ powers
         return answers.reshape(n, n_forces, -1)
+
+    def _without_modes(self, columns: NDArray[np.float64]) -> NDArray[np.float64]:
+        return columns - self.vectors @ (self.vectors.T @ columns)
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +128,7 @@ class PlateModes:
     """Modes of a plate, from the lowest.
 
     x, y : the bases of each axis; blocks : modes by symmetry, one for each of their pairs; block, column : (n_modes,)
-    where in them each mode is.
+    where in them each mode is; of_modes : functions along length and width that modes are made of, the first ones.
     """
 
     plate: Plate
@@ -125,6 +137,7 @@ class PlateModes:
     blocks: tuple[ModeBlock, ...]
     block: NDArray[np.intp]
     column: NDArray[np.intp]
+    of_modes: tuple[int, int]
 
     @cached_property
     def terms(self) -> tuple[int, int]:
@@ -261,33 +274,54 @@ def _modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FIN
             f"{largest} functions in one eigenproblem; at most {LARGEST_BLOCK} are allowed. {remedy}"
         )
     warn_if_slow(plate, largest, QUICK_BLOCK, "functions in one eigenproblem")
-    bases_x = axis_bases(plate.edges[:2], plate.length_m, terms[0])
-    bases_y = axis_bases(plate.edges[2:], plate.width_m, terms[1])
     shift = SHIFT * max(k, math.pi / max(plate.length_m, plate.width_m)) ** 4
-    # Rigid motions lie below a thousandth of the shift, and any bending above it.
+    # Rigid motions lie below a thousandth of the shift, and any bending above five times of it.
     limit = max(k**4 * (1 + 1e-9), 1e-3 * shift)
-    nu = plate.material.poisson_ratio
-    pairs = [(x, y) for x in bases_x for y in bases_y]
-    if largest <= SMALL:
-        blocks = _solve_whole(pairs, nu, shift, limit)
-    else:
-        blocks = tuple(_solve(x, y, nu, shift, limit) for x, y in pairs)
+    # No block grows past those that take a second.
+    times = min(fineness.wider, max(math.sqrt(QUICK_BLOCK / largest), 1.0))
+    wider = _paired(plate, math.ceil(times * terms[0]), math.ceil(times * terms[1]))
+    nu, few, many = plate.material.poisson_ratio, _pairs(plate, terms), _pairs(plate, wider)
+    blocks = []
+    for own, pair in zip(few, many, strict=True):
+        k4, vectors = _solve(*own, nu, shift, limit)
+        blocks.append(ModeBlock(*pair, k4, _padded(vectors, own, pair), nu, shift, max(limit, 5 * shift)))
     k4 = np.concatenate([block.k4 for block in blocks])
     block = np.concatenate([np.full(len(block.k4), i) for i, block in enumerate(blocks)])
     column = np.concatenate([np.arange(len(block.k4)) for block in blocks])
     order = np.argsort(k4, kind="stable")
     for rigid in order[: n_rigid_motions(plate)]:
         blocks[block[rigid]].k4[column[rigid]] = k4[rigid] = 0.0  # rather than what rounding left of it
-    return PlateModes(plate, bases_x, bases_y, blocks, block[order], column[order])
+    bases_x, bases_y = (tuple(dict.fromkeys(axis)) for axis in zip(*many, strict=True))
+    return PlateModes(plate, bases_x, bases_y, tuple(blocks), block[order], column[order], terms)
 
 
 def _terms(plate: Plate, k: float, fineness: Fineness) -> tuple[int, int]:
     """Functions along length and width; even and odd ones are as many, so that blocks of all symmetries are alike."""
     k_along = max(k, _HELD_WAVE / plate.width_m) if _is_held(plate.edges[2:]) else k
     k_across = max(k, _HELD_WAVE / plate.length_m) if _is_held(plate.edges[:2]) else k
-    wanted = (_n_terms(k_along * plate.length_m, fineness), _n_terms(k_across * plate.width_m, fineness))
+    return _paired(plate, _n_terms(k_along * plate.length_m, fineness), _n_terms(k_across * plate.width_m, fineness))
+
+
+def _paired(plate: Plate, along: int, across: int) -> tuple[int, int]:
     is_even = (plate.edges[0] == plate.edges[1], plate.edges[2] == plate.edges[3])
-    return wanted[0] + (is_even[0] and wanted[0] % 2), wanted[1] + (is_even[1] and wanted[1] % 2)
+    return along + (is_even[0] and along % 2), across + (is_even[1] and across % 2)
+
+
+def _pairs(plate: Plate, terms: tuple[int, int]) -> list[tuple[AxisBasis, AxisBasis]]:
+    """The bases of each block."""
+    along = axis_bases(plate.edges[:2], plate.length_m, terms[0])
+    across = axis_bases(plate.edges[2:], plate.width_m, terms[1])
+    return [(x, y) for x in along for y in across]
+
+
+def _padded(
+    vectors: NDArray[np.float64], few: tuple[AxisBasis, AxisBasis], many: tuple[AxisBasis, AxisBasis]
+) -> NDArray[np.float64]:
+    """Vectors over products of few functions, as those over products of many, whose first ones these are."""
+    (n_x, n_y), (more_x, more_y) = ((x.n_functions, y.n_functions) for x, y in (few, many))
+    padded = np.zeros((more_x, more_y, vectors.shape[1]))
+    padded[:n_x, :n_y] = vectors.reshape(n_x, n_y, -1)
+    return padded.reshape(more_x * more_y, -1)
 
 
 def _is_held(edges: str) -> bool:
@@ -298,44 +332,32 @@ def _n_terms(k_length: float, fineness: Fineness) -> int:
     return max(fineness.least, math.ceil(fineness.per_k_length * k_length) + fineness.more)
 
 
-def _solve_whole(
-    pairs: list[tuple[AxisBasis, AxisBasis]], poisson_ratio: float, shift: float, limit: float
-) -> tuple[ModeBlock, ...]:
-    """The spectra of several blocks of one size, together: small ones cost more to call for than to solve."""
-    matrices = np.stack([stiffness(x, y, poisson_ratio) for x, y in pairs])
-    diagonal = np.arange(matrices.shape[1])
-    matrices[:, diagonal, diagonal] += shift
-    compliances = np.linalg.inv(matrices)
-    values, vectors = np.linalg.eigh((compliances + compliances.transpose(0, 2, 1)) / 2)
-    # The stiffest functions lie below rounding; they take no part in any answer.
-    k4 = 1 / np.maximum(values[:, ::-1], 1e-18 / shift) - shift
-    vectors = np.ascontiguousarray(vectors[:, :, ::-1])  # a product with a reversed view does without BLAS
-    counts = (k4 <= limit).sum(axis=1)
-    return tuple(
-        ModeBlock(*pair, own[:n].copy(), columns[:, :n], compliance, shift, (own[n:], columns[:, n:]))
-        for pair, own, columns, compliance, n in zip(pairs, k4, vectors, compliances, counts, strict=True)
-    )
-
-
-def _solve(x: AxisBasis, y: AxisBasis, poisson_ratio: float, shift: float, limit: float) -> ModeBlock:
-    """The modes of K c = k^4 c up to k^4 = `limit`. Most of the time of a whole spectrum goes into unused
-    vectors."""
-    from scipy.linalg import eigh_tridiagonal
-    from scipy.linalg.lapack import dormqr, dpotrf, dpotri, dsytrd
+def _cholesky(x: AxisBasis, y: AxisBasis, poisson_ratio: float, shift: float) -> NDArray[np.float64]:
+    """L of K + shift = L L^T, below its diagonal."""
+    from scipy.linalg.lapack import dpotrf
 
     matrix = stiffness(x, y, poisson_ratio)
     matrix.flat[:: len(matrix) + 1] += shift
     # Turned, it is the same matrix in the order that LAPACK wants, which then need not copy it.
-    factor = dpotrf(matrix.T, lower=1, overwrite_a=1)[0]
-    half = np.tril(dpotri(factor, lower=1, overwrite_c=1)[0])
-    compliance: NDArray[np.float64] = half + half.T
-    compliance.flat[:: len(matrix) + 1] /= 2
-    reflectors, diagonal, beside, tau, _ = dsytrd(compliance, lower=1, lwork=64 * len(matrix))
-    least = 1 / (limit + shift)
-    values, vectors = eigh_tridiagonal(
-        diagonal, beside, select="v", select_range=(least, np.inf), lapack_driver="stemr"
-    )
+    factor: NDArray[np.float64] = dpotrf(matrix.T, lower=1, overwrite_a=1)[0]
+    return factor
+
+
+def _solve(
+    x: AxisBasis, y: AxisBasis, poisson_ratio: float, shift: float, limit: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The modes of K c = k^4 c up to k^4 = `limit`: k^4 (n_modes,), rising, and vectors (n, n_modes)."""
+    from scipy.linalg.lapack import dormqr, dpotri, dstein, dsterf, dsytrd
+
+    compliance = dpotri(_cholesky(x, y, poisson_ratio, shift), lower=1, overwrite_c=1)[0]
+    n = len(compliance)
+    reflectors, diagonal, beside, tau, _ = dsytrd(compliance, lower=1, lwork=64 * n, overwrite_a=1)
+    values, _ = dsterf(diagonal, beside)
+    wanted = values[values > 1 / (limit + shift)]
+    # Inverse iteration: the few vectors take less than half as long as by relatively robust representations.
+    vectors, failed = dstein(diagonal, beside, wanted, np.ones(n, dtype=np.intc), np.full(n, n, dtype=np.intc))
+    if failed:
+        vectors = np.linalg.eigh(np.diag(diagonal) + np.diag(beside, 1) + np.diag(beside, -1))[1][:, n - len(wanted) :]
     turned = dormqr("L", "N", reflectors[1:, :-1], tau, vectors[1:], 64 * vectors.shape[1] + 64)[0]
     shapes: NDArray[np.float64] = np.vstack([vectors[:1], turned]).astype(np.float64, copy=False)
-    shapes = np.ascontiguousarray(shapes[:, ::-1])  # as above
-    return ModeBlock(x, y, 1 / values[::-1] - shift, shapes, compliance, shift)
+    return 1 / wanted[::-1] - shift, shapes[:, ::-1]

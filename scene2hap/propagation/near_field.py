@@ -194,11 +194,11 @@ def _extent(plate: Plate, terms: tuple[int, int]) -> _Extent:
 
 def beyond_cutoff(a: Floats) -> Floats:
     """g(a) = 2 integral from 1 to infinity of J0(a t) / t^3 dt = J0(a) - (a J1(a) + a^2 C(a)) / 2, with C(a) the
-    integral of J0(u) / u from a; set to 0 beyond `FAR`."""
+    integral of J0(u) / u from a; brought to 0 within the last 1 before `FAR`, lest rounding there decide anything."""
     from scipy.special import it2j0y0, j0, j1
 
-    far = a > FAR
+    near = np.clip(FAR - a, 0.0, 1.0)
     a = np.clip(a, 1e-9, FAR)
     c = it2j0y0(a)[0] - np.log(a / 2) - np.euler_gamma
-    g: Floats = np.where(far, 0.0, j0(a) - (a * j1(a) + a**2 * c) / 2)
+    g: Floats = near * (j0(a) - (a * j1(a) + a**2 * c) / 2)
     return g

@@ -40,8 +40,9 @@ Complex = NDArray[np.complex128]
 class ForcedPlate:
     """A plate under forces at given points.
 
-    modes : (n_products, n_modes), phi : (n_forces, n_modes) shapes, in cosines and at the forces; rest : (n_products,
-    n_forces N_NODES), what is stiffer; near : what lies beyond the basis; k2 : (N_NODES,) [m^-2].
+    modes : (n_first, n_modes), phi : (n_forces, n_modes) shapes, in the first cosines along each axis and at the
+    forces; rest : (n_products, n_forces N_NODES), what is stiffer, in all cosines; near : what lies beyond the basis;
+    k2 : (N_NODES,) [m^-2].
     """
 
     plate: PlateTerms
@@ -56,7 +57,7 @@ class ForcedPlate:
         (n_forces, n_modes), n_points = self.phi.shape, len(points_m)
         cosines = self.plate.cosines(points_m)
         terms = np.empty((n_points, n_forces, n_modes + N_NODES))
-        np.multiply((cosines @ self.modes)[:, None], self.phi, out=terms[:, :, :n_modes])
+        np.multiply((self.plate.first(cosines) @ self.modes)[:, None], self.phi, out=terms[:, :, :n_modes])
         rest = (cosines @ self.rest).reshape(n_points, n_forces, N_NODES)
         np.add(rest, self.near(points_m, self.k2), out=terms[:, :, n_modes:])
         return terms
@@ -72,7 +73,7 @@ class ForcedPlate:
 
         Products of cosines are so; near fields are left out, since all of a force's nodes have theirs.
         """
-        sizes: Floats = np.sqrt(np.square(np.concatenate([self.modes, self.rest], axis=1)).sum(axis=0))
+        sizes: Floats = np.sqrt(np.concatenate([np.square(one).sum(axis=0) for one in (self.modes, self.rest)]))
         return sizes
 
     def weights(self, spectrum: Complex, forces: Complex) -> Complex:
@@ -88,10 +89,10 @@ class ForcedPlate:
         """Sums of these shapes, see `ResponseBasis`."""
         n_modes = self.phi.shape[1]
         beyond = np.ascontiguousarray(weights[n_modes:])
-        smooth = (self.modes @ weights[:n_modes] + self.rest @ beyond).astype(weights.dtype)
-        return ContractedShapes(
-            (*self.plate.per_size, *self.plate.n_cosines), smooth, self.near.dimples, self.k2, beyond
-        )
+        smooth = self.rest @ beyond
+        self.plate.add_first(smooth, self.modes @ weights[:n_modes])
+        size = (*self.plate.per_size, *self.plate.n_cosines)
+        return ContractedShapes(size, smooth.astype(weights.dtype), self.near.dimples, self.k2, beyond)
 
 
 @compiled
@@ -154,7 +155,20 @@ class PlateTerms:
         k4 = np.concatenate([block.k4 for block in self.modes.blocks])
         order = np.argsort(k4, kind="stable")
         self._k4 = k4[order]
-        self._phi = self._in_cosines(self._spread([block.vectors for block in self.modes.blocks])[:, order])
+        along, across = np.subtract(self.n_cosines, self.modes.terms) + self.modes.of_modes
+        self._n_first = int(along), int(across)
+        shapes = self._in_cosines(self._spread([block.vectors for block in self.modes.blocks])[:, order])
+        self._phi = self.first(shapes.T).T.copy()
+
+    def first(self, values: Floats) -> Floats:
+        """Of values (n, n_products), those of the products that modes are made of (n, n_first)."""
+        along, across = self._n_first
+        return values.reshape(len(values), *self.n_cosines)[:, :along, :across].reshape(len(values), along * across)
+
+    def add_first(self, values: Floats, more: Floats) -> None:
+        """Add to values (n_products, n) those of the products that modes are made of (n_first, n)."""
+        along, across = self._n_first
+        values.reshape(*self.n_cosines, -1)[:along, :across] += more.reshape(along, across, -1)
 
     @property
     def n_cosines(self) -> tuple[int, int]:
@@ -184,7 +198,7 @@ class PlateTerms:
 
     def of_forces(self, forces_m: Floats) -> ForcedPlate:
         """The plate under forces at points (n_forces, 2) [m]."""
-        phi = self.cosines(forces_m) @ self._phi
+        phi = self.first(self.cosines(forces_m)) @ self._phi
         by_axes = self._basis(forces_m).reshape(-1, *self.modes.terms)
         stiff = []
         for block, (along, across) in zip(self.modes.blocks, self._places(), strict=True):

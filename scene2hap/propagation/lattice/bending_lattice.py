@@ -6,11 +6,12 @@ import math
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.lattice.lattice import Lattice
-from scene2hap.propagation.lattice.outline_axes import outline_axes
 from scene2hap.propagation.lattice.outline_lattice import outline_lattice
+from scene2hap.propagation.lattice.outline_lines import outline_lines
 from scene2hap.propagation.lattice.rectangle_lattice import rectangle_lattice
 from scene2hap.propagation.lattice.spline_axis import SplineAxis
 from scene2hap.propagation.plate import Plate
@@ -31,21 +32,18 @@ def cells_of(plate: Plate, resolution: int) -> tuple[int, int]:
 
 
 @lru_cache(maxsize=16)
-def axes_of(plate: Plate, resolution: int) -> tuple[SplineAxis, SplineAxis]:
-    """Positions of the lines of a plate's lattice, along length and width."""
-    if plate.outline is not None:
-        return outline_axes(plate.outline, cells_of(plate, resolution))
+def lines_of(plate: Plate, resolution: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Positions of the lines of a plate's lattice, along length and width [m]."""
     along, across = cells_of(plate, resolution)
-    return (
-        SplineAxis.of(np.linspace(0.0, plate.length_m, along + 1)),
-        SplineAxis.of(np.linspace(0.0, plate.width_m, across + 1)),
-    )
+    if plate.outline is not None:
+        return outline_lines(plate.outline, (along, across))
+    return np.linspace(0.0, plate.length_m, along + 1), np.linspace(0.0, plate.width_m, across + 1)
 
 
 def n_nodes_of(plate: Plate, resolution: int) -> int:
     """Number of nodes of its lattice, those held by edges included."""
     if plate.outline is not None:
-        return math.prod(axis.n_nodes for axis in axes_of(plate, resolution))
+        return math.prod(len(lines) + 2 for lines in lines_of(plate, resolution))
     return math.prod(n + 3 for n in cells_of(plate, resolution))
 
 
@@ -60,5 +58,6 @@ def bending_lattice(plate: Plate, resolution: int) -> Lattice:
             f"a lattice of {' × '.join(map(str, cells_of(plate, resolution)))} cells has {n_nodes} nodes; at most "
             f"{MOST_NODES} are allowed. Ask for a resolution below {resolution}, or use ModalPlate."
         )
-    axes = axes_of(plate, resolution)
+    x, y = lines_of(plate, resolution)
+    axes = SplineAxis.of(x), SplineAxis.of(y)
     return rectangle_lattice(plate, axes) if plate.outline is None else outline_lattice(plate, plate.outline, axes)

@@ -71,6 +71,19 @@ class Lattice:
         """About the largest eigenvalue of K over A [m^-4]: neighbours swinging against each other."""
         return _STIFFEST * sum(h**-2 for h in self.cell_m) ** 2
 
+    def resized(self, plate: Plate, times: float) -> Lattice:
+        """That of a plate of the same shape, so many times as large, with a node's value counted in as many metres: so
+        the springs stay, and all else scales."""
+        x, y = self.cell_m
+        return Lattice(
+            plate,
+            (x * times, y * times),
+            self.springs,
+            self.weights,
+            self.masses * times**4,
+            lambda points_m: self.interpolation(points_m / times) * times,
+        )
+
     def restoring(self, deflections: NDArray[np.float64]) -> NDArray[np.float64]:
         """K u by way of the springs, which keeps the digits of long waves that differences of K would lose."""
         forces: NDArray[np.float64] = self.springs.T @ (self.weights @ (self.springs @ deflections))

@@ -77,11 +77,17 @@ class LatticeBody:
         """See `ElasticBody`."""
         look = self.modes.lattice.interpolation(points_m)
         shares, stiffer = self._from_forces(forces_m)
-        resonant = (look @ self.modes.shapes)[:, None, :] * shares
-        # (n_points, n_forces, n_modes + TERMS)
-        terms = np.concatenate([resonant, (look @ stiffer).reshape(*resonant.shape[:2], TERMS)], axis=2)
-        flat = terms.reshape(-1, terms.shape[2]) @ self._spectra(frequencies_hz)
-        return flat.view(np.complex128).reshape(*terms.shape[:2], -1).transpose(2, 0, 1)
+        static = (look @ stiffer).reshape(len(points_m), len(forces_m), TERMS)
+        # Among the same points every pair counts once.
+        row, column = np.indices(static.shape[:2])
+        pair = np.nonzero(row >= column if points_m is forces_m else row >= 0)
+        resonant = (look @ self.modes.shapes)[pair[0]] * shares[pair[1]]
+        sums = (np.concatenate([resonant, static[pair]], axis=1) @ self._spectra(frequencies_hz)).view(np.complex128)
+        answer = np.empty((*row.shape, len(frequencies_hz)), dtype=np.complex128)
+        answer[pair] = sums
+        if points_m is forces_m:
+            answer[pair[::-1]] = sums
+        return answer.transpose(2, 0, 1)
 
     def response_basis(self, forces_m: NDArray[np.float64]) -> LatticeBasis:
         """See `HasResponseBasis`."""

@@ -25,12 +25,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import ModelDomainError
+from scene2hap.materials import Material
 from scene2hap.propagation.domain import warn_if_slow
 from scene2hap.propagation.lattice.bending_lattice import MOST_NODES, bending_lattice, n_nodes_of
 from scene2hap.propagation.lattice.block_lanczos import largest
 from scene2hap.propagation.lattice.lattice import Lattice
 from scene2hap.propagation.modes import n_rigid_motions
 from scene2hap.propagation.plate import Plate
+from scene2hap.scene.outline import Outline
 
 if TYPE_CHECKING:
     from scipy.sparse.linalg import SuperLU
@@ -53,6 +55,9 @@ QUICK_WORK = 5e7
 DENSE_SHARE = 0.2
 """Share of its modes from which a lattice is solved for all of them at once, which is then faster than Lanczos' method.
 Tuned."""
+_SMALL = 200
+"""Nodes up to which the lowest modes are found in full matrices, where none is missed. Tuned: above, Lanczos' method is
+faster."""
 _BURIED = 1e-6
 """Part of a solution that rounding may bury in Lanczos' method, since the springs then decide the modes."""
 
@@ -76,6 +81,13 @@ class LatticeModes:
         found: NDArray[np.float64] = np.sqrt(self.k4) / self.lattice.plate.wavenumber_per_root_omega**2 / (2 * math.pi)
         return found
 
+    def resized(self, plate: Plate, size_m: float) -> LatticeModes:
+        """Those of a plate of the same shape, so many times as large. It keeps the factors: K + s A is the same."""
+        lattice = self.lattice.resized(plate, size_m)
+        return LatticeModes(
+            lattice, self.k4 / size_m**4, self.shapes / size_m**2, self.shift_k4 / size_m**4, self.factors
+        )
+
     def stiffer(self, forces: NDArray[np.float64]) -> NDArray[np.float64]:
         """The series' terms R_j for forces (n_nodes, n_forces) -> (TERMS, n_nodes, n_forces)."""
         masses = self.lattice.masses
@@ -90,15 +102,38 @@ class LatticeModes:
 
 
 def lattice_modes(plate: Plate, resolution: int, top_frequency_hz: float) -> LatticeModes:
-    """Modes that answer up to a frequency [Hz]; remembered by plate, resolution and frequency in thirds of an octave.
+    """Modes that answer up to a frequency [Hz].
 
+    They are remembered by shape, resolution and frequency in thirds of an octave: plates that differ in size, thickness
+    or material have the same ones, as long as Poisson's ratio is the same.
     Raises: ModelDomainError: too many nodes, see `bending_lattice`; too many modes, see `MOST_WORK`.
     """
     lowest_hz = (math.pi / max(plate.extent_m) / plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
     thirds = math.ceil(3 * math.log2(max(top_frequency_hz / lowest_hz, 1.0)) - 1e-9)
-    rounded_hz = lowest_hz * 2 ** (thirds / 3)
-    check_work(plate, resolution, n_modes_up_to(plate, MARGIN * rounded_hz))
-    return _modes_up_to(plate, resolution, rounded_hz)
+    check_work(plate, resolution, n_modes_up_to(plate, MARGIN * lowest_hz * 2 ** (thirds / 3)))
+    alike, size_m = _of_size_one(plate)
+    warn_if_slow(plate, bending_lattice(alike, resolution).n_nodes, QUICK_NODES, "nodes of a lattice")
+    return _modes_up_to(alike, resolution, thirds).resized(plate, size_m)
+
+
+def _of_size_one(plate: Plate) -> tuple[Plate, float]:
+    """A plate of the same shape, of 1 m and of a material that has the same Poisson's ratio; and how large the other is
+    [m]. Corners count to a thousand millionth, so that rounding makes no other shape."""
+    size_m = max(plate.extent_m)
+    outline = plate.outline
+    if outline is not None:
+        outline = Outline(
+            tuple(tuple((round(x / size_m, 9), round(y / size_m, 9)) for x, y in ring) for ring in outline.rings_m)
+        )
+    alike = Plate(
+        plate.length_m / size_m,
+        plate.width_m / size_m,
+        1e-3,
+        Material("any", 1e3, 1e9, plate.material.poisson_ratio, 0.0),
+        plate.boundary,
+        outline=outline,
+    )
+    return alike, size_m
 
 
 def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArray[np.float64]:
@@ -109,6 +144,7 @@ def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArra
     """
     check_work(plate, resolution, n_modes)
     n_nodes = bending_lattice(plate, resolution).n_nodes
+    warn_if_slow(plate, n_nodes, QUICK_NODES, "nodes of a lattice")
     if n_modes > n_nodes:
         raise ModelDomainError(
             f"n_modes is {n_modes}; a lattice of resolution {resolution} has {n_nodes} modes. Raise the resolution."
@@ -159,10 +195,11 @@ def check_work(plate: Plate, resolution: int, n_modes: float) -> None:
 
 
 @lru_cache(maxsize=8)  # bodies keep their own
-def _modes_up_to(plate: Plate, resolution: int, top_frequency_hz: float) -> LatticeModes:
-    wanted = float(plate.wavenumber_rad_m(MARGIN * top_frequency_hz)) ** 4
+def _modes_up_to(plate: Plate, resolution: int, thirds: int) -> LatticeModes:
+    """Modes up to `MARGIN` times a frequency, so many thirds of an octave above that of a half wave along the plate."""
+    wanted = MARGIN**2 * (math.pi / max(plate.extent_m)) ** 4 * 4 ** (thirds / 3)
     lattice, factors, shift = _factorised(plate, resolution, wanted)
-    expected = n_modes_below(lattice, wanted)
+    expected = 0 if _is_small(lattice, shift) else n_modes_below(lattice, wanted)
     count = max(expected, 7)
     while True:
         count += 1
@@ -178,7 +215,6 @@ def _modes_up_to(plate: Plate, resolution: int, top_frequency_hz: float) -> Latt
 def _factorised(plate: Plate, resolution: int, top_k4: float) -> tuple[Lattice, SuperLU, float]:
     """The lattice, the factors of K + s A, and s, for modes up to k^4."""
     lattice = bending_lattice(plate, resolution)
-    warn_if_slow(plate, lattice.n_nodes, QUICK_NODES, "nodes of a lattice")
     # Large enough beside the stiffest springs for refinement to converge, small beside the modes of interest.
     shift = max(1e-2 * top_k4, STIFFEST * lattice.stiffest_k4)
     return lattice, _factors(lattice, shift), shift
@@ -227,7 +263,10 @@ def _lowest(
         return solve_shifted(lattice, factors, shift_k4, force)
 
     is_clear = _lost(lattice, shift_k4) < _BURIED
-    if count < DENSE_SHARE * n:
+    if _is_small(lattice, shift_k4):
+        stiffness, whole = lattice.stiffness.toarray(), masses.toarray()
+        shapes = eigh(stiffness, whole, driver="gvx", subset_by_index=[0, min(count, n) - 1])[1]
+    elif count < DENSE_SHARE * n:
         shapes = largest(factors.solve if is_clear else compliance, masses, count)
     elif is_clear:
         shapes = eigh(lattice.stiffness.toarray(), masses.toarray(), driver="gvd")[1][:, :count]
@@ -239,6 +278,10 @@ def _lowest(
     k4, turned = eigh((stiffness + stiffness.T) / 2, shapes.T @ (masses @ shapes))
     k4[: n_rigid_motions(lattice.plate)] = 0.0
     return k4, shapes @ turned
+
+
+def _is_small(lattice: Lattice, shift_k4: float) -> bool:
+    return lattice.n_nodes <= _SMALL and _lost(lattice, shift_k4) < _BURIED
 
 
 def _lost(lattice: Lattice, shift_k4: float) -> float:

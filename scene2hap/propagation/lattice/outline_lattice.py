@@ -36,7 +36,7 @@ Ints = NDArray[np.intp]
 
 def outline_lattice(plate: Plate, outline: Outline, axes: tuple[SplineAxis, SplineAxis]) -> Lattice:
     """The lattice of a plate within its outline, over these lines."""
-    from scipy.sparse import csr_array, diags_array
+    from scipy.sparse import csr_array
 
     x, y = axes
     pixels_x, pixels_y = (_Pixels.of(axis) for axis in axes)
@@ -46,25 +46,29 @@ def outline_lattice(plate: Plate, outline: Outline, axes: tuple[SplineAxis, Spli
     masses = _summed(integrals.of((3, 3), (3, 3)), nodes, nodes, n_nodes, n_nodes)
     springs, weights = _springs(nodes.reshape(-1, 4, 4), pieces.cell, integrals, axes, plate.material.poisson_ratio)
 
-    stiffness = springs.T @ weights @ springs
-    kept = np.flatnonzero(stiffness.diagonal() > _LEAST * np.median(stiffness.diagonal()))
-    scale = diags_array(np.sqrt(np.median(masses.diagonal()) / masses.diagonal()[kept]))
+    stiffness = springs.multiply(weights @ springs).sum(axis=0)  # of each node alone
+    kept = np.flatnonzero(stiffness > _LEAST * np.median(stiffness))
+    number = np.full(n_nodes, -1)
+    number[kept] = np.arange(len(kept))
+    scale = np.sqrt(np.median(masses.diagonal()) / masses.diagonal()[kept])
+    kept_alone = csr_array((scale, (kept, number[kept])), shape=(n_nodes, len(kept)))
 
     def interpolation(points_m: Floats) -> csr_array:
         piece, at_m = pieces.nearest(points_m, pixels_x.lines, pixels_y.lines)
         share_x, share_y = x.at(at_m[:, 0])[1], y.at(at_m[:, 1])[1]
-        row = np.repeat(np.arange(len(points_m)), 16)
-        shares = (share_x[:, :, None] * share_y[:, None, :]).ravel()
-        spread = csr_array((shares, (row, nodes[piece].ravel())), shape=(len(points_m), n_nodes))
-        return csr_array(spread[:, kept] @ scale)
+        node = number[nodes[piece].ravel()]
+        here = node >= 0
+        row, node = np.repeat(np.arange(len(points_m)), 16)[here], node[here]
+        shares = (share_x[:, :, None] * share_y[:, None, :]).ravel()[here] * scale[node]
+        return csr_array((shares, (row, node)), shape=(len(points_m), len(kept)))
 
     cell_m = float(np.diff(x.lines).min()), float(np.diff(y.lines).min())
     return Lattice(
         plate,
         cell_m,
-        csr_array(springs[:, kept] @ scale),
+        csr_array(springs @ kept_alone),
         weights,
-        csr_array(scale @ masses[kept][:, kept] @ scale),
+        csr_array(kept_alone.T @ masses @ kept_alone),
         interpolation,
     )
 

@@ -2,6 +2,7 @@
 
 import itertools
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,10 +11,15 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from scene2hap import Material, Plate
+from scene2hap import Material, Outline, Plate
 from scene2hap.propagation.lattice.bending_lattice import LONGEST, bending_lattice, cells_of
 from scene2hap.propagation.lattice.lattice import Lattice
-from scene2hap.propagation.lattice.lattice_modes import lattice_modes, lowest_frequencies_hz, n_modes_below
+from scene2hap.propagation.lattice.lattice_modes import (
+    _modes_up_to,
+    lattice_modes,
+    lowest_frequencies_hz,
+    n_modes_below,
+)
 
 MATERIAL = Material("test", 2500.0, 70e9, 0.3)
 Floats = NDArray[np.float64]
@@ -105,3 +111,29 @@ def test_no_mode_is_missed(size: tuple[float, float]) -> None:
     np.testing.assert_allclose(modes.frequencies_hz[3:], frequencies[3 : len(modes.k4)], rtol=1e-5)
     assert modes.k4[-1] < dense[len(modes.k4)] * (1 + 1e-9)
     np.testing.assert_allclose(modes.shapes.T @ (lattice.masses @ modes.shapes), np.eye(len(modes.k4)), atol=1e-9)
+
+
+def test_plates_of_one_shape_share_their_modes() -> None:
+    """Two discs of other sizes, thicknesses and materials: solved once, each with its own frequencies and shapes."""
+    turn = np.linspace(0.0, 2 * np.pi, 48, endpoint=False)
+    circle = np.column_stack([np.cos(turn), np.sin(turn)])
+    small, large = (
+        Plate.of_outline(Outline(((size_m * circle).tolist(),)), thickness_m, material)
+        for size_m, thickness_m, material in (
+            (0.13, 0.004, MATERIAL),
+            (0.7, 0.02, replace(MATERIAL, density_kg_m3=900.0)),
+        )
+    )
+    _modes_up_to.cache_clear()
+    for plate in (small, large):
+        lattice = bending_lattice(plate, 8)
+        k4 = eigh(lattice.stiffness.toarray(), lattice.masses.toarray(), eigvals_only=True)
+        frequencies = np.sqrt(np.maximum(k4, 0.0)) / plate.wavenumber_per_root_omega**2 / (2 * np.pi)
+        modes = lattice_modes(plate, 8, frequencies[5])
+        np.testing.assert_allclose(modes.frequencies_hz[3:], frequencies[3 : len(modes.k4)], rtol=1e-6)
+        points = plate.extent_m * np.array([[0.5, 0.5], [0.9, 0.5], [0.3, 0.2]])
+        own = lattice.interpolation(points) @ eigh(lattice.stiffness.toarray(), lattice.masses.toarray())[1][:, 5]
+        np.testing.assert_allclose(
+            np.abs(modes.lattice.interpolation(points) @ modes.shapes[:, 5]), np.abs(own), rtol=1e-5
+        )
+    assert _modes_up_to.cache_info().misses == 1

@@ -11,7 +11,6 @@ import itertools
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.lattice.spline_axis import SplineAxis
 from scene2hap.scene.outline import Outline
 
 FINER = 2.0
@@ -26,14 +25,11 @@ GROWTH = 0.7
 Floats = NDArray[np.float64]
 
 
-def outline_axes(outline: Outline, cells: tuple[int, int]) -> tuple[SplineAxis, SplineAxis]:
-    """The axes of a lattice of at least this many cells along the outline's box."""
+def outline_lines(outline: Outline, cells: tuple[int, int]) -> tuple[Floats, Floats]:
+    """The lines of a lattice of at least this many cells along the outline's box, across both axes [m]."""
     x0, y0, x1, y1 = outline.box_m
     notches, finer = outline.notches_m, min(FINER * min(cells), FINEST)
-    return (
-        SplineAxis.of(_lines(x0, x1, cells[0], notches[:, 0], finer)),
-        SplineAxis.of(_lines(y0, y1, cells[1], notches[:, 1], finer)),
-    )
+    return _lines(x0, x1, cells[0], notches[:, 0], finer), _lines(y0, y1, cells[1], notches[:, 1], finer)
 
 
 def _lines(low: float, high: float, n: int, notches: Floats, finer: float) -> Floats:
