@@ -66,7 +66,7 @@ class Fineness:
     per_k_length: float = 1.75 / math.pi
     more: int = 4
     least: int = 16
-    wider: float = 1.25
+    wider: float = 1.2
 
 
 FINE = Fineness()
