@@ -42,11 +42,14 @@ class StruckObject:
         self, body: ElasticBody, joints_m: Floats, held: NDArray[np.complex128], frequencies_hz: Floats
     ) -> None:
         self._body, self._joints_m, self._held = body, joints_m, held
-        self._frequencies_hz, self._steps_hz = frequencies_hz, np.gradient(frequencies_hz)
+        self._frequencies_hz = frequencies_hz
+        between = (frequencies_hz[1:] + frequencies_hz[:-1]) / 2
+        # Each frequency stands for the step between these (n_frequencies + 1,).
+        self._ends_hz = np.concatenate([frequencies_hz[:1], between, frequencies_hz[-1:]])
 
     @property
     def is_quick(self) -> bool:
-        """Whether `gains` takes no longer than a frame of a game may spare for it, some 2 ms."""
+        """True if `gains` takes no longer than a game can spare in a frame, some 2 ms."""
         return self._held.size < _QUICK
 
     def gains(self, struck_m: Floats, felt_m: Floats, frequencies_hz: Floats) -> Floats:
@@ -58,21 +61,23 @@ class StruckObject:
         """
         bands = [self._band(f) for f in frequencies_hz.tolist()]
         squares = np.zeros((len(felt_m) + 1, len(bands)))
-        begin, end = min(at.start for at in bands), max(at.stop for at in bands)
-        used = slice(begin, end)
-        power = np.abs(self._moved(struck_m, felt_m, used)) ** 2 * self._steps_hz[used, None]
-        for column, at in enumerate(bands):
-            squares[:, column] = power[at.start - begin : at.stop - begin].sum(axis=0)
+        begin, end = min(at.start for at, _ in bands), max(at.stop for at, _ in bands)
+        power = self._moved(struck_m, felt_m, slice(begin, end)) ** 2
+        for column, (at, covered_hz) in enumerate(bands):
+            squares[:, column] = covered_hz @ power[at.start - begin : at.stop - begin]
         itself = squares[0]
         return np.sqrt(squares[1:] / np.where(itself > 0, itself, np.inf))
 
-    def _band(self, frequency_hz: float) -> slice:
+    def _band(self, frequency_hz: float) -> tuple[slice, Floats]:
+        """Return the frequencies of the band around one, and how much of the step of each it covers [Hz]."""
         low, high = AROUND.around_hz(max(frequency_hz, IMPACT_BANDS.edges_hz[0] * 1.2))
-        begin, end = np.searchsorted(self._frequencies_hz, (low, high)).tolist()
-        return slice(begin, max(end, begin + 1))
+        begin, end = np.searchsorted(self._ends_hz, (low, high)).tolist()
+        at = slice(max(begin - 1, 0), min(end, len(self._frequencies_hz)))
+        lower, upper = self._ends_hz[at], self._ends_hz[at.start + 1 : at.stop + 1]
+        return at, np.minimum(upper, high) - np.maximum(lower, low)
 
     def _moved(self, struck_m: Floats, felt_m: Floats, used: slice) -> Floats:
-        """Lengths of the accelerations of the struck point and of the others (n_used, 1 + n_points)."""
+        """Magnitudes of the accelerations of the struck point and of the others (n_used, 1 + n_points)."""
         points, f = np.concatenate([struck_m, felt_m]), self._frequencies_hz[used]
         # An inclined body has a port for each direction; the impact pushes along the normal, which is the first.
         ports = self._body.felt(points) if isinstance(self._body, InclinedBody) else points
