@@ -242,7 +242,9 @@ def test_no_server_blocks_no_frame(trial: Callable[..., list[str]]) -> None:
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_200_damaged_messages_end_no_game(trial: Callable[..., list[str]], seed: int) -> None:
-    messages = iter([*damaged(random.Random(seed), 198), gains(1, math.nan), gains(1, math.inf)])
+    messages = iter(damaged(random.Random(seed), 200))
+    # A client that a busy machine delays reads the newest of several gains alone.
+    last = iter([*[math.nan] * 20, *[math.inf] * 20])
     n_sent = 0
     is_through = threading.Event()
 
@@ -257,7 +259,7 @@ def test_200_damaged_messages_end_no_game(trial: Callable[..., list[str]], seed:
             else:
                 is_through.set()
                 connection.send(order("order", 2, objects=["table", "phone"]))
-                connection.send(gains(sequence_of(message), 0.5))
+                connection.send(gains(sequence_of(message), next(last, 0.5)))
             return
         answer_as_desk(connection, json.loads(message))
 
