@@ -12,9 +12,9 @@ def followed(const double[::1] energies, double mean, double loudest, Py_ssize_t
     cdef Py_ssize_t k, n = energies.shape[0]
     cdef double energy, most
     means, loudests = np.empty(n), np.empty(n)
-    cdef double[::1] m = means, l = loudests
+    cdef double[::1] each_mean = means, each_loudest = loudests
     for k in range(n):
-        energy, m[k], l[k] = energies[k], mean, loudest
+        energy, each_mean[k], each_loudest[k] = energies[k], mean, loudest
         if n_known + k < WARM:
             mean += (energy - mean) / (n_known + k + 1)
         else:
