@@ -89,7 +89,7 @@ def burst_of(
     if isinstance(struck, Plate):
         per_area = struck.mass_kg / struck.area_m2
         yields += math.pi * felt_hz / (8 * math.sqrt(struck.bending_stiffness_nm * per_area))
-        modes = _modes(struck, at_m, per_area, 1 / (2 * contact_hz))
+        modes = _modes(struck, at_m, 1 / (2 * contact_hz))
     contact = (felt_hz, 2 / (CONTACT_LOSS * 2 * math.pi * felt_hz), 2 * math.pi * felt_hz * yields)
     f, decays, accelerations = np.concatenate([np.array(contact)[:, None], modes], axis=1)
     return Burst(f, decays, momentum * accelerations)
@@ -116,53 +116,56 @@ def _material(body: Body | None) -> Material | None:
     return None if body is None else body.material
 
 
-def _modes(plate: Plate, at_m: tuple[float, float] | None, per_area_kg_m2: float, lasts_s: float) -> Floats:
+def _modes(plate: Plate, at_m: tuple[float, float] | None, lasts_s: float) -> Floats:
     """Frequency [Hz], decay [s] and acceleration per momentum [m/s2 / (N s)] of the strongest modes (3, n)."""
-    modes, shares = _supported(plate), _excited(plate, lasts_s)
+    modes = _supported(plate, lasts_s)
     x, y = (plate.length_m / 2, plate.width_m / 2) if at_m is None else at_m
-    velocities = (np.sin(modes.along * x) ** 2)[:, None] * np.sin(modes.across * y) ** 2
-    velocities = (velocities * shares).ravel()
-    n_weaker = max(0, len(velocities) - MOST_MODES)
-    strongest = np.argpartition(velocities, n_weaker)[n_weaker:] if n_weaker else np.arange(len(velocities))
+    shapes = np.sin(modes.along * x)[:, None] * np.sin(modes.across * y)
     # By velocity, since the threshold of touch rises about as frequency does.
-    strongest = strongest[np.argsort(-velocities[strongest], kind="stable")]
-    most = velocities[strongest[0]] if len(strongest) else 0.0
-    strongest = strongest[velocities[strongest] > LEAST_SHARE * most]
-    f = modes.frequencies_hz.ravel()[strongest]
-    velocities = 4 / (per_area_kg_m2 * plate.area_m2) * velocities[strongest]
-    decays = np.clip(1 / (np.pi * f * max(plate.material.loss_factor, 1e-6)), SHORTEST_S, LONGEST_S)
-    return np.stack([f, decays, 2 * np.pi * f * velocities])
+    velocities: Floats = (shapes * shapes * modes.velocities).ravel()
+    n_weaker = len(velocities) - MOST_MODES
+    strongest = velocities.argpartition(n_weaker)[n_weaker:] if n_weaker > 0 else np.arange(len(velocities))
+    strongest = strongest[(-velocities[strongest]).argsort(kind="stable")]
+    its = velocities[strongest]
+    n = int((its > LEAST_SHARE * its[0]).sum()) if len(its) else 0
+    found: Floats = modes.per_velocity[:, strongest[:n]]
+    found[2] *= its[:n]
+    return found
 
 
 class _Supported(NamedTuple):
-    """Modes of a plate that is supported along its edges: wavenumbers along its length (m,) and width (n,) [rad/m], and
-    the frequency of each pair (m, n) [Hz]."""
+    """Modes of a plate that is supported along its edges, after an impact of some length.
+
+    along (m,), across (n,) : wavenumbers along its length and width [rad/m]; velocities (m, n) : of each mode's
+    antinode per momentum [m/s / (N s)], 0 above `HIGHEST_MODE_HZ`; per_velocity (3, m n) : frequency [Hz], decay [s]
+    and acceleration per velocity [rad/s].
+    """
 
     along: Floats
     across: Floats
-    frequencies_hz: Floats
+    velocities: Floats
+    per_velocity: Floats
 
 
 @lru_cache(maxsize=1024)
-def _supported(plate: Plate) -> _Supported:
-    """The modes up to `HIGHEST_MODE_HZ` and some above; none of a plate that is too thick to bend."""
+def _supported(plate: Plate, lasts_s: float) -> _Supported:
+    """The modes up to `HIGHEST_MODE_HZ` and some above; none of a plate that is too thick to bend.
+
+    Cached: the same objects land again and again on the same plates.
+    """
     length, width = plate.extent_m
     if plate.thickness_m > COMPACT_THICKNESS * min(length, width):
-        return _Supported(np.empty(0), np.empty(0), np.empty((0, 0)))
+        return _Supported(np.empty(0), np.empty(0), np.empty((0, 0)), np.empty((3, 0)))
     lowest = math.pi / 2 / plate.wavenumber_per_root_omega**2
     # No more than a floor needs to have its strongest.
     m, n = (min(40, int(side * math.sqrt(HIGHEST_MODE_HZ / lowest)) + 1) for side in (length, width))
     along: Floats = np.arange(1, m + 1, dtype=np.float64) * (math.pi / length)
     across: Floats = np.arange(1, n + 1, dtype=np.float64) * (math.pi / width)
-    return _Supported(along, across, lowest / np.pi**2 * (along[:, None] ** 2 + across**2))
-
-
-@lru_cache(maxsize=256)
-def _excited(plate: Plate, lasts_s: float) -> Floats:
-    """S of each mode (m, n) for an impact of that length, 0 above `HIGHEST_MODE_HZ`. Kept: the same things land again
-    and again on the same plates."""
-    f = _supported(plate).frequencies_hz
-    return np.where(f <= HIGHEST_MODE_HZ, _share(f * lasts_s), 0.0)
+    f: Floats = lowest / np.pi**2 * (along[:, None] ** 2 + across**2)
+    velocities: Floats = 4 / plate.mass_kg * np.where(f <= HIGHEST_MODE_HZ, _share(f * lasts_s), 0.0)
+    decays = np.clip(1 / (np.pi * f * max(plate.material.loss_factor, 1e-6)), SHORTEST_S, LONGEST_S)
+    per_velocity = np.stack([f.ravel(), decays.ravel(), 2 * np.pi * f.ravel()])
+    return _Supported(along, across, velocities, per_velocity)
 
 
 def _share(cycles: Floats) -> Floats:

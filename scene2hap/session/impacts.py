@@ -236,7 +236,7 @@ class Impacts:
             boost = 10 ** (inverse_db(actuator, f) / 20)
             drives *= boost / boost.max()
         if profile is None or profile.is_neutral:
-            return np.broadcast_to(drives, (len(hands), len(f)))
+            return drives[None].repeat(len(hands), axis=0)
         return drives * [10 ** (profile.level_db(hand, actuator.name, f) / 20) for hand in hands]
 
     def _waves(self, burst: Burst) -> list[Samples]:
