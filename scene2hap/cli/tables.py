@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -14,6 +14,9 @@ from scene2hap.llm.chain import UNKNOWN
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.wrappers.prices import Given, price_list
 from scene2hap.scene.snapshot import SceneSnapshot
+
+MOST_WARNINGS = 5
+"""Warnings of one kind that are shown after a bake."""
 
 
 def scene_outcome(scene: SceneSnapshot) -> dict[str, Any]:
@@ -168,9 +171,14 @@ def show_report(console: Console, report: InferenceReport, prices: Mapping[str, 
         cost = report.cost_usd(price_list(prices))
         said.append(f"{tokens:,} tokens, {'cost unknown' if cost is None else f'{cost:.3f} US dollars'}")
     console.say("inference: " + "; ".join(said))
-    for what, problem in report.errors.items():
-        console.warn(f"{what or 'the scene'}: {problem}")
-    for word, flags in report.flags.items():
-        console.warn(f"material {word!r}: {'; '.join(flags)}")
-    for object_id, doubts in report.doubts.items():
-        console.warn(f"{object_id}: {'; '.join(doubts)}")
+    _warn_of_some(console, [f"{what or 'the scene'}: {problem}" for what, problem in report.errors.items()])
+    _warn_of_some(console, [f"material {word!r}: {'; '.join(flags)}" for word, flags in report.flags.items()])
+    _warn_of_some(console, [f"{object_id}: {'; '.join(doubts)}" for object_id, doubts in report.doubts.items()])
+
+
+def _warn_of_some(console: Console, sentences: Sequence[str]) -> None:
+    """Show the first warnings of one kind, and count the rest: one wrong unit makes every mass doubtful."""
+    for sentence in sentences[:MOST_WARNINGS]:
+        console.warn(sentence)
+    if len(sentences) > MOST_WARNINGS:
+        console.warn(f"{len(sentences) - MOST_WARNINGS} more like this; `scene2hap report -o FILE` lists all.")

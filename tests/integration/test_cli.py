@@ -144,6 +144,17 @@ def test_trouble_is_one_line_that_a_person_can_act_on(
     assert list(tmp_path.iterdir()) == []
 
 
+def test_bake_counts_further_warnings_of_one_kind(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    # Read at a hundred metres per unit, no object weighs what its box would.
+    assert main(["bake", str(kitchen_path()), "--unit-m", "100", "-q", "-o", str(tmp_path / "bundle")]) == 0
+    account = json.loads((tmp_path / "bundle.account.json").read_text())
+    heavy = [name for name, doubts in account["doubts"].items() if "mass" in str(doubts)]
+    lines = [line for line in capsys.readouterr().err.splitlines() if "warning" in line]
+    assert len(heavy) > 10
+    assert sum("mass: " in line for line in lines) == 5
+    assert f"{len(account['doubts']) - 5} more like this" in lines[-1]
+
+
 def test_wrong_usage_is_status_2(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as caught:
         main(["bake"])
