@@ -41,9 +41,8 @@ def read_dae(data: bytes, name: str, textures: TextureFiles) -> AuthoredScene:
         raise MissingExtra(
             f"{name!r} is COLLADA, and its reader is not installed. Run: pip install pycollada"
         ) from cause
-    # A document type could name other files or expand without end, and pycollada unpacks archives. COLLADA needs
-    # neither.
-    # We search for both in ASCII, so encodings that could hide them (UTF-16, UTF-7) are refused.
+    # A document type could name other files or expand without end, and pycollada unpacks archives. COLLADA needs no
+    # such files. We search for both in ASCII, so encodings that could hide them (UTF-16, UTF-7) are refused.
     encoding = _ENCODING.match(data)
     if (
         not data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<")
@@ -64,7 +63,7 @@ def read_dae(data: bytes, name: str, textures: TextureFiles) -> AuthoredScene:
             up_axis, unit = document.assetInfo.upaxis, document.assetInfo.unitmeter
     except SceneError:
         raise
-    # pycollada raises its own errors, and lets any error through that broken numbers and references cause.
+    # pycollada raises its own errors, and broken numbers and references may raise any error in it.
     except Exception as cause:
         raise SceneFormatError(f"{name!r} cannot be read as COLLADA: {cause}.") from cause
     if up_axis == collada.asset.UP_AXIS.X_UP:

@@ -1,6 +1,6 @@
 """The dominant surface of a mesh: the plate that a person would name first, such as the top of a table.
 
-1. Box the mesh in a frame of its own (`_frame`). So a shelf authored at 30 degrees has the measures of a straight one.
+1. Box the mesh in a fitted frame (`_frame`). So a shelf authored at 30 degrees has the measures of a straight one.
 2. Cast a grid of parallel rays through the box along each of the three axes. The plate's normal is the axis with the
    largest projected area. Exception: a chair's seat. If that side is level in less than two thirds of its rectangle, a
    thin flat horizontal plate comes first. The bottom of the object is no such plate.
@@ -137,7 +137,7 @@ def _lying_plate(
 ) -> DominantSurface | None:
     """Return the horizontal plate of an object whose largest side is no plate, such as a chair's seat; else None.
 
-    A chair's projected area is larger from the front than from above: legs, rungs and back stand beside and behind each
+    A chair's projected area is larger from the front than from above: legs, rungs and back are beside and behind each
     other. But the level part in front fills too little of its rectangle. From above there is one thin flat plate, and
     it is not the bottom of the whole object, unlike the bottom of a cup.
     """

@@ -1,7 +1,7 @@
 """Grouping of an authored tree's nodes into objects that a user would point at.
 
-Authors do not mark objects. Exporters split one mesh by material into several leaves, wrap things in groups and put
-their own nodes on top. The rule "authored" undoes this:
+Authors do not mark objects. Exporters split one mesh by material into several leaves, put objects into groups and add
+their own nodes above. The rule "authored" undoes this:
 
 a. A node with a mesh of its own is an object. Its leaf children with meshes (a door, a drawer, a lid) are part of it. A
    child that has children is an object by itself.

@@ -3,11 +3,11 @@
 1. Every row of `object_instances` is one object: the whole model of its template, with all its nodes. Every row of
    `articulated_object_instances` is one object too: all links of its URDF, with their joints at 0. Y is up.
 2. The nodes of the stage (walls, floors) are grouped like those of any file.
-3. An object stands in its model's own frame. `translation_origin`, of the row or else of the scene, is "asset_local",
-   "COM" or missing. With "asset_local", `translation` is the position of the model's origin. Otherwise it is the
-   position of the centre of mass: `COM` of the configuration times its scale, or else the middle of the model's box. As
-   in Habitat, that box joins the boxes of the model's nodes, each rotated by its node's transform. With rotated nodes
-   it is larger than the box of their vertices. An articulated object is placed by the origin of its URDF.
+3. An object has the frame of its model. `translation_origin`, of the row or else of the scene, is "asset_local", "COM"
+   or missing. With "asset_local", `translation` is the position of the model's origin. Otherwise it is the position of
+   the centre of mass: `COM` of the configuration times its scale, or else the middle of the model's box. As in Habitat,
+   that box joins the boxes of the model's nodes, each rotated by its node's transform. With rotated nodes it is larger
+   than the box of their vertices. An articulated object is placed by the origin of its URDF.
 4. Scale is that of the configuration times `uniform_scale` and `non_uniform_scale`. `mass` of a configuration is
    multiplied by the product of this scale, unless `apply_scale_to_mass` is false, and by `mass_scale`. The mass is
    unknown without `mass`; a mass in `default_attributes`, which all objects share, does not count. The mass of an
@@ -109,7 +109,7 @@ class _Model:
 
 
 class _Reader:
-    """Places the models of a scene. Each model file is read once."""
+    """Reader that places the models of a scene. It reads each model file once."""
 
     def __init__(
         self,
@@ -140,7 +140,7 @@ class _Reader:
             if np.any(_translation(row, place)) or not np.allclose(_rotation(row, place), np.eye(3)):
                 warn_of(f"{place} is moved or turned, which Habitat does not apply to stages; neither is it here.")
             model = self._drawn(template.model, place)
-            # The node has no name, so that the stage's own nodes keep theirs.
+            # The node has no name, so that the stage's own nodes keep their names.
             found.append(
                 AuthoredNode("", template.frame * _column(_scale(row, place) * template.scale), (), model.roots)
             )

@@ -1,6 +1,6 @@
 """Limits and budgets of scene files. Larger files are refused, so that no file fills time or memory.
 
-All are assumed: about ten times what runs on a headset.
+All are assumed: about ten times the largest scenes that run on a headset.
 """
 
 from __future__ import annotations

@@ -52,11 +52,11 @@ def load_scene(
         objects.
     assets_root : the folder from which files beside the scene are read, with its subfolders; None means the scene's own
         folder. Nothing outside it is opened. If textures are in a sibling folder of the scene's, give the folder that
-        holds both. For a Habitat scene (`NAME.scene_instance.json`) it is the dataset's folder; None means the
-        nearest folder above the scene, up to five levels, that holds `*.scene_dataset_config.json`.
-    names : only for Habitat scenes, whose templates may be hashes: names of objects by template, or the path of a
-        table of them: JSON that maps one to the other, or CSV with columns such as id and name. HSSD's own tables are
-        found without it; see `scene2hap.scene.habitat_names`.
+        holds both. For a Habitat scene (`NAME.scene_instance.json`) it is the dataset's folder; None means the nearest
+        folder above the scene, up to five levels, that holds `*.scene_dataset_config.json`.
+    names : only for Habitat scenes, whose templates may be hashes: names of objects by template, or the path of a table
+        of them: JSON that maps one to the other, or CSV with columns such as id and name. HSSD's own tables are found
+        without it; see `scene2hap.scene.habitat_names`.
 
     Returns: the scene named after the file. An object has the pose of the node that names it, without scale. Copies of
         one mesh share one TriMesh, and one instance_key if they look alike. Ids are the authored names. The second and

@@ -75,7 +75,7 @@ def attributes(data: bytes, count: int, stride: int) -> _Bytes:
 
 
 class _GroupReader:
-    """Finds groups of 16 deltas in attribute data, and unpacks all groups found since the last call.
+    """Reader that finds groups of 16 deltas in attribute data, and unpacks all groups found since the last call.
 
     The end of a group depends on the number of its deltas that are stored in full behind it. These numbers are computed
     in advance for a group at any byte, so that finding a group is one addition.

@@ -1,7 +1,7 @@
 """Wavefront OBJ files as authored trees: one node for each `o`, or for each `g` if a file has no `o`.
 
-We do not use trimesh's reader (5.2). It merges objects of one name, returns them in reverse order, and counts negative
-vertex numbers from the end of the file instead of from the current line.
+We do not use trimesh's reader (5.2). It merges objects of one name and returns them in reverse order. It counts
+negative vertex numbers from the end of the file instead of from the current line.
 
 Source: Wavefront, Advanced Visualizer manual (1990s), appendix B1, "Object files".
 """

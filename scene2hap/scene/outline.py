@@ -28,8 +28,7 @@ class Outline:
     """The area of a plate: all points inside an odd number of rings, so a ring within another cuts a hole.
 
     Parameters: rings_m : rings of at least 3 corners (x, y) each [m], in either direction; the last corner joins the
-        first.
-        x and y run along the plate's length and width, from its corner.
+        first. x and y run along the plate's length and width, from its corner.
     Raises: SceneError: no ring, a ring of fewer corners, more than `MOST_CORNERS` corners, a corner that is not finite,
     or no area.
     """

@@ -1,8 +1,8 @@
 """The boundary between a plate and parts fixed to its edge: a television's stand, a radio's handle, a bookcase's feet.
 
-Seen along the plate's normal, the rows of such a part are filled less than half as much as those of the plate, at least
-next to the plate. And the part is not level with the plate. The arm of an L-shaped top and the wall beside a doorway
-are level with their plate and belong to it. A disc narrows gradually and has no such boundary.
+Seen along the plate's normal, the rows of such a part next to the plate are filled less than half as much as the
+plate's. And the part is not level with the plate. The arm of an L-shaped top and the wall beside a doorway are level
+with their plate and belong to it. A disc narrows gradually and has no such boundary.
 """
 
 from __future__ import annotations

@@ -25,8 +25,7 @@ _MAX_PAIRS = 1_000_000
 # (assumed: ten times the densest foliage, and some seconds).
 _MAX_LAYERS, _MAX_PAIRS_PER_TRIANGLE = 1000, 4
 # Greatest offset of a ray from the centre of its cell, in cells. Without it, rays would run along the diagonals of
-# quads
-# and meet both triangles or none. The fractions are powers of the plastic number, which fill the plane evenly.
+# quads and meet both triangles or none. The fractions are powers of the plastic number, which fill the plane evenly.
 _JITTER = 0.25
 _PLASTIC = (0.7548776662466927, 0.5698402909980532)
 # A mesh whose width is at most this share of its length counts as a line: rounding alone makes it that wide.
@@ -37,8 +36,8 @@ _EDGE_ON = 1e-12
 class Hits:
     """The hits of rays on triangles, sorted by ray and then by falling w.
 
-    Parameters: ray : (n_hits,) number of the ray; w : (n_hits,) [m]; side : (n_hits,) +1 if the triangle faces
-        against the ray as seen from above, -1 if it faces along it.
+    Parameters: ray : (n_hits,) number of the ray; w : (n_hits,) [m]; side : (n_hits,) +1 if the triangle faces against
+        the ray as seen from above, -1 if it faces along it.
     """
 
     ray: Ints

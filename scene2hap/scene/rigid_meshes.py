@@ -43,7 +43,7 @@ class Placed:
 
 @dataclass(eq=False)
 class MeshPool:
-    """Bakes groups into meshes. Groups with equal results share one TriMesh; copies share their looks.
+    """Maker of meshes from groups. Groups with equal results share one TriMesh; copies share their looks.
 
     `surfaces` measures the meshes. Its budget counts each vertex that the file stores.
     """

@@ -19,7 +19,7 @@ _PER_VERTEX = 100.0
 
 @dataclass(eq=False)
 class Surfaces:
-    """Measures meshes once each. `work` is the budget; the reader of a file raises it by the file's vertices."""
+    """Cache of measured surfaces. `work` is the budget; the reader of a file raises it by the file's vertices."""
 
     work: limits.Budget = field(
         default_factory=lambda: limits.Budget(

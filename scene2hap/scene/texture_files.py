@@ -16,7 +16,7 @@ from scene2hap.scene.textures import EncodedTexture
 
 @dataclass(eq=False)
 class TextureFiles:
-    """Reads the images of a scene in `folder`, only from inside `assets_root`. `left_out` has the reasons of
+    """Reader of the images of a scene in `folder`, only from inside `assets_root`. `left_out` has the reasons of
     refusals."""
 
     folder: Path

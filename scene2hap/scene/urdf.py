@@ -3,8 +3,8 @@
 1. Every link with geometry is an object. It has the link's name, and the pose of the link's frame with all joints at 0.
    Links with a fixed joint stay separate. A link without geometry is a frame, and no object.
 2. The <visual> geometry of a link is drawn; its <collision> geometry only if it has no other.
-3. A mesh keeps its own materials. A mesh without any, such as STL, or a box has that of its <visual>. Meshes are not
-   rotated, whatever axis their files declare as up; COLLADA's unit counts. Both are as in ROS.
+3. A mesh keeps its own materials. A mesh without any, such as STL, or a box has that of its <visual>. Meshes are never
+   rotated to another up axis; COLLADA's unit counts. Both are as in ROS.
 4. <inertial> gives the object's mass.
 
 We do not use MuJoCo's reader (4.0). It does not read COLLADA or textures, refuses flat sheets, and opens any file that
@@ -96,7 +96,7 @@ def _parsed(path: Path) -> Element:
 
 @dataclass(eq=False)
 class _Reader:
-    """Reads one robot; each mesh file is read once."""
+    """Reader of one robot. It reads each mesh file once."""
 
     path: Path
     root: Path

@@ -16,7 +16,7 @@ _PACKAGES = ("package", "model")
 
 @dataclass(frozen=True, eq=False)
 class UrdfFiles:
-    """Finds files for the URDF file `path` inside `root`; `compiler` is MuJoCo's own element in it, if any."""
+    """Search for files of the URDF file `path` inside `root`; `compiler` is MuJoCo's own element in it, if any."""
 
     path: Path
     root: Path

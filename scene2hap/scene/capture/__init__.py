@@ -71,7 +71,7 @@ def capture_images(
     size_px, renderer : replace the values of `config`, by default 512 pixels and "embree". A renderer is a kind of
         `RENDERERS`, or a factory of your own. Workers need a factory that can be pickled.
     alone : take each object upright at the origin, and without images of its surroundings. Equal objects of several
-        scenes then have equal images, so that `share_scenes` can ask one question for all.
+        scenes then have equal images, so that `share_scenes` needs only one inference for all.
 
     Returns: a scene with `images`, 4 of the scene from above, and objects with `images.isolated` and `images.context`,
         8 each, of which the first 4 are from above. A scene captured before has its pictures in memory, or in

@@ -17,20 +17,18 @@ class CaptureConfig(Settings):
     size_px : edge of the square pictures.
     azimuths : views around the vertical axis, at equal angles; the paper's four are 90 degrees apart.
     first_azimuth_deg : azimuth of the first view; 0 looks at the side that faces +z (y up) or -y (z up). The default
-        shows
-        two sides of a box at different widths.
+        shows two sides of a box at different widths.
     elevation_deg : angle above and below the horizontal; 45 in the paper.
     fill : share of the frame that the object's larger extent fills in its isolated images.
-    context_factor : context images are this many times wider, from the same eye. They are never framed wider than the
-        scene.
+    context_factor : context images are this many times wider, from the same eye. Objects that span much of the scene
+        are not framed wider than the scene.
     outline_share, outline_rgb : width of the outline as a share of `size_px`, and its colour.
     near_share : an object is part of the target's surroundings if the gap of their boxes is less than this share of the
         target's diagonal.
     hidden_share : share of the target's silhouette that its surroundings may hide together; see `culling`.
     antialias : smooth edges by two more rays where neighbouring pixels differ; costs a seventh more time.
     share_copies : objects of one `instance_key` share isolated images. They also share context images if they are
-        copies
-        (equal names and sizes, `scene.likeness`) on supports of the same kind. False renders every object.
+        copies (equal names and sizes, `scene.likeness`) on supports of the same kind. False renders every object.
     workers : processes of `render_all`, this one included; 0 and 1 render only in this process.
     cache_dir : a folder that keeps pictures between runs; None keeps them only in memory.
     """

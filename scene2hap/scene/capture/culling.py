@@ -12,11 +12,11 @@ grid. An object between the eye and the target is
    `hidden_share` of the silhouette. The support is tried first, then the objects that hide least;
 3. *opened* like a shell, if rule 2 would keep it but it hides too much, and it contains the target: a cabinet around
    plates;
-4. *culled*, that is left out, in all other cases: distant objects, and those that hide too much even when opened. For
+4. *culled*, that is left out, in all other cases: distant objects, and objects that hide too much even when opened. For
    distant objects the bound is `_REMAINDER`.
 
-Scene pictures have no target. As in the paper, objects on the ray from the eye to the middle of the scene are culled,
-except those whose box contains that middle; shells are opened by rule 1.
+Scene pictures have no target. As in the paper, objects on the ray from the eye to the middle of the scene are culled.
+Objects whose box contains that middle are kept; shells are opened by rule 1.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ _MAX_LAYERS = 64
 
 @dataclass(frozen=True)
 class Culler:
-    """Selects the objects of each picture of a `Stage`; `near_share` and `hidden_share` as in `CaptureConfig`."""
+    """Selection of the objects of each picture of a `Stage`; `near_share` and `hidden_share` as in `CaptureConfig`."""
 
     stage: Stage
     renderer: Renderer

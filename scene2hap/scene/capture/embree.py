@@ -42,8 +42,7 @@ _LARGE_TREES = 4
 # A pixel is smoothed if a channel differs from the next pixel's by more than this, of 255 (tuned by eye).
 _VISIBLE_STEP = 24
 # Offsets [px] of the added rays from the middle of a smoothed pixel, which counts as well. With them, level, upright
-# and
-# slanted edges all get three steps (assumed).
+# and slanted edges all get three steps (assumed).
 _ADDED_RAYS = ((-0.33, 0.17), (0.17, -0.33))
 
 
@@ -70,7 +69,7 @@ class _Tree:
 
 
 class EmbreeRenderer:
-    """Renders a `Stage` by ray casting. See `Renderer`."""
+    """Renderer of a `Stage` by ray casting. See `Renderer`."""
 
     def __init__(self, stage: Stage, antialias: bool = False) -> None:
         self._stage = stage

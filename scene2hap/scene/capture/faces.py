@@ -39,8 +39,7 @@ def separates(planes_m: Floats, eye_m: Floats, focus_m: Floats) -> NDArray[np.bo
 
 @dataclass(frozen=True, eq=False)
 class Extents:
-    """Bounds of projected triangles: `low`, `high` (2, n) right and down at depth 1 [-], valid for those that are
-    `is_ahead`.
+    """Bounds of projected triangles: `low`, `high` (2, n) right and down at depth 1 [-], valid if `is_ahead`.
 
     `is_cut` : triangles that extend behind the eye's plane, and have no bounds.
     """

@@ -34,7 +34,7 @@ _BEHIND_GLASS = 0.85
 
 @dataclass(eq=False)
 class PaletteBuilder:
-    """Collects materials, each once; `keys` are digests of the rows' content."""
+    """Collector of materials, each once; `keys` are digests of the rows' content."""
 
     keys: list[str] = field(default_factory=list)
     _rows: list[tuple[tuple[float, float, float], NDArray[np.uint8], bool]] = field(default_factory=list)

@@ -31,7 +31,7 @@ _MOST_DIRECTIONS = 72
 
 
 class Panda3DRenderer:
-    """Renders a `Stage` with a software rasteriser, without smooth edges. See `Renderer`."""
+    """Renderer of a `Stage` with a software rasteriser, without smooth edges. See `Renderer`."""
 
     def __init__(self, stage: Stage, antialias: bool = False) -> None:
         self._stage = stage

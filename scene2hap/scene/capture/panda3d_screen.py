@@ -63,7 +63,7 @@ class Look:
 
 
 class Screen:
-    """Draws triangles of a scene whose diagonal is `reach_m`."""
+    """Off-screen buffers that show triangles of a scene with the diagonal `reach_m`."""
 
     def __init__(self, reach_m: float) -> None:
         self._engine = core.GraphicsEngine.get_global_ptr()

@@ -23,7 +23,7 @@ _LEAST_FACTOR = 1.25
 
 @dataclass(frozen=True, eq=False)
 class Photographer:
-    """Renders pictures of a `Stage`; equal input gives equal bytes. `below` : its `supports`, if known."""
+    """Producer of pictures of a `Stage`; equal input gives equal bytes. `below` : its `supports`, if known."""
 
     stage: Stage
     renderer: Renderer
@@ -32,7 +32,7 @@ class Photographer:
 
     @cached_property
     def culler(self) -> Culler:
-        """Selects the objects that are left out."""
+        """The `Culler` that selects the objects of each picture."""
         return Culler.of(self.stage, self.renderer, self.config.near_share, self.config.hidden_share, self.below)
 
     def aim(self, shot: Shot) -> tuple[Camera, Selection]:

@@ -22,8 +22,7 @@ Ints = NDArray[np.int32]
 Vector = NDArray[np.float64]
 
 # Distance by which faces of objects are moved inwards, as a share of the scene's diagonal: 0.03 mm in a room of 10 m.
-# It
-# is far below a pixel, and larger than the errors of float32 and of a ray's step.
+# It is far below a pixel, and larger than the errors of float32 and of a ray's step.
 _INSET = 3e-6
 
 

@@ -24,8 +24,7 @@ _CONTAINED = 0.9
 # Supports are searched below a grid of this many points a side, with this margin in the footprint (assumed).
 _FEET, _INSET = 5, 0.1
 # An object may be sunk into its support by this share of its height (assumed; in real scenes overlaps are as frequent
-# as
-# gaps).
+# as gaps).
 _SUNK = 0.2
 
 

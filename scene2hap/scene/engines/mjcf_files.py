@@ -214,7 +214,7 @@ class _Model:
 
 @dataclass
 class _Reader:
-    """Reads one XML file and passes the named files to its model; `open_copies` has a row for each open element."""
+    """Reader of one XML file. It adds the named files to its model; `open_copies` has a row for each open element."""
 
     model: _Model
     path: Path

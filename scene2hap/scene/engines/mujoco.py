@@ -112,7 +112,7 @@ def contacts(
 def geoms_below(model: Any, data: Any, body: str) -> NDArray[np.bool_]:
     """Return a mask of the geoms (n_geoms + 1,) of a body and of the bodies below it, such as a hand's fingers.
 
-    The last entry is False: it stands for "no geom".
+    The last entry, for "no geom", is False.
     Raises: UnknownObject: the model has no body of that name. SceneError: none of the geoms can collide.
     """
     mujoco = _engine(model, data)
@@ -173,8 +173,7 @@ def open_mjcf(path: str | os.PathLike[str], *, assets_root: str | os.PathLike[st
     """Return `MjModel` and `MjData` of an MJCF file, for the caller to step. Only the poses of bodies are computed.
 
     Parameters: assets_root : the folder that must contain all included files, meshes and textures; None means the
-        file's
-        own folder. Nothing outside it is opened.
+        file's own folder. Nothing outside it is opened.
     Raises: MissingExtra: MuJoCo is not installed. SceneFormatError: the file is not MJCF, or MuJoCo refuses it.
     SceneError: it is missing, too large, or wants a file outside assets_root (the message names the root it needs).
     """

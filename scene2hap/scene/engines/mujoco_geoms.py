@@ -1,7 +1,7 @@
 """MuJoCo geoms as triangles with looks.
 
 MuJoCo transforms compiled meshes to the frame of their principal inertia, and moves their geoms accordingly. Both are
-used as they are, so the whole has the pose that its author gave it.
+used unchanged, so the whole has the pose that its author gave it.
 
 Source: MuJoCo documentation (Google DeepMind), XML reference, `geom`, `mesh`, `texture`, `material`; mjmodel.h.
 """
@@ -26,8 +26,7 @@ _TEXTURE_2D, _ROLE_RGB = 0, 1
 # A geom of this colour takes the colour of its material (MuJoCo's default).
 _NO_COLOUR = (0.5, 0.5, 0.5, 1.0)
 # An infinite plane is cut to this multiple of the model's extent, and to at least this size [model unit]. Assumed:
-# moving
-# objects stay above it.
+# moving objects stay above it.
 _PLANE_EXTENTS, _MIN_PLANE = 2.0, 5.0
 # Triangles allowed for geoms that are no meshes, and a number for each triangle of a mesh (assumed: a height field of
 # 1,000 x 1,000, or two thousand spheres).
@@ -37,7 +36,7 @@ _TRIANGLES_OF_A_SOLID = 2 * solids.SIDES**2
 
 @dataclass(eq=False)
 class GeomReader:
-    """Reads the geoms of one `MjModel`; materials and textures are read once."""
+    """Reader of the geoms of one `MjModel`; materials and textures are read once."""
 
     model: Any
     _colours: NDArray[np.float64] = field(init=False)

@@ -18,7 +18,7 @@ _UP = {"y": np.array([0.0, 1.0, 0.0]), "z": np.array([0.0, 0.0, 1.0])}
 
 @dataclass(eq=False)
 class ObjectMaker:
-    """Makes the objects of one scene; copies share mesh, looks and measured surface."""
+    """Maker of the objects of one scene; copies share mesh, looks and measured surface."""
 
     up_axis: UpAxis
     unit_m: float = 1.0

@@ -60,8 +60,7 @@ def poses(render_or_nodes: Any, snapshot: SceneSnapshot) -> dict[str, Pose]:
     """Return the current poses of the objects of a snapshot, for `HapticSession.update`.
 
     Parameters: render_or_nodes : the result of `nodes`, or a NodePath. With a NodePath the whole graph is read again by
-        the
-        rule "authored"; do not do that every frame.
+        the rule "authored"; do not do that every frame.
     Returns: a pose for every object whose node still exists. Scale is as it was in the snapshot.
     """
     known = render_or_nodes if isinstance(render_or_nodes, Mapping) else nodes(render_or_nodes)
@@ -74,7 +73,7 @@ def poses(render_or_nodes: Any, snapshot: SceneSnapshot) -> dict[str, Pose]:
 
 
 class PoseReader:
-    """Reads the poses of the objects of `snapshot` with the same arguments, every frame. Nodes are looked up once.
+    """Reader of the poses of the objects of `snapshot` with the same arguments. Nodes are looked up once.
 
     A node at rest costs almost nothing. Panda3D never changes a transform object, and the last one is kept alive here,
     so an equal address means an equal transform.

@@ -24,7 +24,7 @@ _WHITE = (1.0, 1.0, 1.0, 1.0)
 
 @dataclass(eq=False)
 class GeomReader:
-    """Reads the geoms of one scene graph; `core` is `panda3d.core`. Data that instances share is read once."""
+    """Reader of the geoms of one scene graph; `core` is `panda3d.core`. Data that instances share is read once."""
 
     core: Any
     _shapes: dict[tuple[Any, int, str], _Shape] = field(default_factory=dict)

@@ -66,8 +66,7 @@ class Composition:
         """Record that a prim refers to another.
 
         Parameters: layer : identifier of the target's layer, "" for the prim's own stack of layers; path : of the
-            target,
-            empty for the default prim.
+            target, empty for the default prim.
         """
         root = layer or self._root_of_stack(key[0])
         target = path or self._default.get(root)

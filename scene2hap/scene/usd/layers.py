@@ -48,11 +48,10 @@ class _Home:
 
 
 class Layers:
-    """Opens a scene's layers from inside `assets_root`, and its textures.
+    """The layers of a scene from inside `assets_root`, and its textures.
 
     Parameters: path : the root layer or archive; textures : reads textures beside the root layer; allow : called with
-        the
-        numbers of bytes and prims of each layer, so that a watched process gets more time for larger files.
+        the numbers of bytes and prims of each layer, so that a watched process gets more time for larger files.
     """
 
     def __init__(

@@ -24,7 +24,7 @@ MAX_KG = 1e9
 
 
 class Masses:
-    """Reads masses [kg] of a stage's prims."""
+    """Reader of the masses [kg] of a stage's prims."""
 
     def __init__(self, stage: Any) -> None:
         scale = UsdPhysics.GetStageKilogramsPerUnit(stage)

@@ -1,7 +1,7 @@
 """Triangulation of faces with any number of corners.
 
-A face is cut as a fan from its first corner if all triangles of the fan have the same orientation, so every convex face
-is. A concave quadrilateral is cut as a fan from its second corner, any other concave face by ear clipping.
+A face is cut as a fan from its first corner if all triangles of the fan have one orientation, as in convex faces. A
+concave quadrilateral is cut as a fan from its second corner, any other concave face by ear clipping.
 
 Source: Meisters, "Polygons have ears", American Mathematical Monthly 82(6), 1975; Newell's normal as in Foley et al.,
 "Computer Graphics: Principles and Practice", 2nd edition, section 11.1.3.

@@ -2,7 +2,7 @@
 
 usd-core parses files in C++. Of 8,000 broken binary files it crashed on 11, and deep text overflows its stack
 (`stress/fuzz_scenes.py --kinds usd`). A process cannot catch its own crash. The child also has limits of memory (only
-on Linux) and of time, since a few bytes may ask for any number of prims.
+on Linux) and of time, since a few bytes may define any number of prims.
 
 A program that is no Python interpreter, such as a frozen application, cannot start a child; it reads in process.
 """
@@ -61,7 +61,7 @@ def read_in_child(path: Path, assets_root: Path) -> AuthoredScene:
         return read_stage(path, assets_root)
     chosen = {name: value for name, value in vars(limits).items() if name.startswith("MAX_")}
     request = Request(os.path.abspath(path), os.path.abspath(assets_root), chosen)
-    # The child must find the packages of this process, whatever its working directory.
+    # The child must find the packages of this process in any working directory.
     found_in = os.pathsep.join(folder or os.getcwd() for folder in sys.path)
     try:
         done = subprocess.run(
