@@ -49,7 +49,7 @@ class TeeSink(Pulled):
             raise ConfigError("TeeSink was given one sink twice, which cannot play the mix twice; give each once.")
         self.on_event = on_event
         self._format: SinkFormat | None = None
-        self._tape: _Tape | None = None
+        self._buffer: _Buffer | None = None
         for sink in self.sinks:
             if hasattr(sink, "on_event") and getattr(sink, "on_event", None) is None:
                 sink.on_event = self._pass_on
@@ -70,22 +70,22 @@ class TeeSink(Pulled):
         """Start all sinks. Raises: DeviceError: not open."""
         if self._format is None:
             raise DeviceError("TeeSink is not open; call open(SinkFormat(...)) before start.")
-        self._tape = tape = _Tape(fill, self._format, [sink for sink in self.sinks if not has_clock(sink)])
+        self._buffer = buffer = _Buffer(fill, self._format, [sink for sink in self.sinks if not has_clock(sink)])
         for sink in self.sinks:
             if has_clock(sink):
-                sink.start(_Reader(tape, self._format).read)
+                sink.start(_Reader(buffer, self._format).read)
 
     def pull(self, n_frames: int) -> Block:
         """Request the next frames and pass them on. Raises: DeviceError: not started, or a sink has a clock."""
-        if self._tape is None or has_clock(self):
+        if self._buffer is None or has_clock(self):
             raise DeviceError("TeeSink is not started, or has a device in it that takes blocks by itself.")
-        return self._tape.advance(n_frames)
+        return self._buffer.advance(n_frames)
 
     def stop(self) -> None:
         """Stop all sinks."""
         for sink in self.sinks:
             sink.stop()
-        self._tape = None
+        self._buffer = None
 
     def close(self) -> None:
         """Close all sinks."""
@@ -127,7 +127,7 @@ class TeeSink(Pulled):
             self.on_event(event)
 
 
-class _Tape:
+class _Buffer:
     """The newest part of the mix. A reader that reaches its end renders more.
 
     Readers are sinks' own threads, never a sound card's callback, so a lock is allowed.
@@ -165,21 +165,21 @@ class _Tape:
 class _Reader:
     """The read position of one device in the buffer."""
 
-    def __init__(self, tape: _Tape, format: SinkFormat) -> None:
-        self._tape = tape
+    def __init__(self, buffer: _Buffer, format: SinkFormat) -> None:
+        self._buffer = buffer
         self._most = round(MAX_LAG_S * format.sample_rate_hz)
         self._position = 0
 
     def read(self, n_frames: int) -> Block:
-        with self._tape.lock:
-            late = self._tape.head - self._position
+        with self._buffer.lock:
+            late = self._buffer.head - self._position
             if late <= self._most:
-                block = self._tape.read(self._position, n_frames)
+                block = self._buffer.read(self._position, n_frames)
                 self._position += n_frames
                 return block
-            old = self._tape.read(self._position, n_frames) if late < 2 * self._most else None
-            self._position = self._tape.head
-            block = self._tape.read(self._position, n_frames).copy()
+            old = self._buffer.read(self._position, n_frames) if late < 2 * self._most else None
+            self._position = self._buffer.head
+            block = self._buffer.read(self._position, n_frames).copy()
             self._position += n_frames
         rising = (np.arange(1, n_frames + 1, dtype=np.float32) / np.float32(n_frames))[:, None]
         block *= rising

@@ -34,7 +34,7 @@ from scene2hap.render.guards import Gate, PeakGuard, PowerGuard, SlewGuard
 Block = NDArray[np.float32]
 
 DC_BLOCK_HZ = 4.6
-"""Corner of the DC block [Hz]. 200 ms after the fade-in began, a constant has fallen by 42 dB; 40 dB need 4.4 Hz."""
+"""Corner of the DC block [Hz]. A constant falls by 42 dB within 200 ms from the fade-in's begin; 4.4 Hz give 40 dB."""
 
 FADE_IN_S = 0.06
 """Length of the fade-in [s]: long enough that the DC block's settling on a 20 Hz tone stays below full scale."""

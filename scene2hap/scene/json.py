@@ -147,7 +147,7 @@ def _bounds_m(geometry: Geometry) -> NDArray[np.float64]:
 
 def _measured(scene: SceneData, rows: Sequence[dict[str, Any]]) -> SceneData:
     """Return the scene with surfaces and heights measured if its rows lack them."""
-    # Files that this library wrote contain all measurements.
+    # Imported only here, since files that this library wrote contain all measurements.
     from scene2hap.scene.surfaces import Surfaces
 
     surfaces = Surfaces()

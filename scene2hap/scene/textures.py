@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from PIL import Image
 
 DECODED_PX = 1024
-"""Most pixels a side of a decoded texture: twice the size of the largest picture (assumed)."""
+"""Most pixels a side of a decoded texture: twice the detail that a picture can show (assumed)."""
 
 # The first bytes of each format, its name, and the Pillow plugin that reads it. Only TGA has no signature.
 _FORMATS = (

@@ -11,7 +11,7 @@ from scene2hap.export.protocol import Exported, file_name, json_bytes
 from scene2hap.export.track import Channel, Track
 
 BUFFER_SIZE = 4000
-"""Most samples that a runtime stores; a longer signal is sent in parts of this length."""
+"""Most samples that a runtime stores; a longer signal is sent in parts of this length, appended."""
 
 
 class OpenXrPcmExport:
