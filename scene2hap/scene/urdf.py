@@ -134,7 +134,7 @@ class _Reader:
             found[name] = row
         return found
 
-    # -- where links are ---------------------------------------------------------------------------------------------
+    # -- poses of links ----------------------------------------------------------------------------------------------
 
     def _frames(self, links: dict[str, Element]) -> dict[str, Matrix]:
         """Return the world transform of each link's frame, with all joints at 0."""
@@ -165,7 +165,7 @@ class _Reader:
             raise SceneFormatError(f"link {ring!r} hangs below itself; the links of a robot form a tree.")
         return frames
 
-    # -- what links look like ----------------------------------------------------------------------------------------
+    # -- looks of links ----------------------------------------------------------------------------------------------
 
     def _link(self, name: str, row: Element, frame: Matrix) -> AuthoredNode:
         place = f"link {name!r}"

@@ -212,7 +212,7 @@ def _engine(model: Any, data: Any) -> Any:
     return mujoco
 
 
-# -- which bodies and geoms are objects ------------------------------------------------------------------------------
+# -- bodies and geoms that are objects -------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -328,7 +328,7 @@ def _name_of_geoms(mujoco: Any, model: Any, item: _Item) -> str:
     return ""
 
 
-# -- where they are, and what they touch -----------------------------------------------------------------------------
+# -- poses and contacts ----------------------------------------------------------------------------------------------
 
 
 def _poses(model: Any, data: Any, items: _Items, unit_m: float) -> PoseTable:
