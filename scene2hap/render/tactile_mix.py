@@ -161,8 +161,8 @@ class TactileMix:
 
     Parameters: ramp : samples over which a change of gains is spread, >= 1; is_skipping : leave out silent loops.
 
-    Gains may come faster than slots become free; one per millisecond does not, with ramps up to 35 ms. Then they are
-    merged: the newest of them starts when a slot is free.
+    If gains come faster than slots become free, they are merged: the newest of them starts when a slot is free. With
+    one change per millisecond this does not happen, up to ramps of 35 ms.
     """
 
     def __init__(self, bank: LoopBank, n_hands: int, ramp: int, x: Block, *, is_skipping: bool = True) -> None:

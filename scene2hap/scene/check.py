@@ -28,9 +28,10 @@ _RESTS_M = 0.06  # Largest gap below an object at rest, about that of the contac
 # along the wrong one.
 _MOST_RESTING, _MORE_RESTING = 0.5, 1.5
 _FEW = 4  # Fewer objects are not enough to find the up axis or the order of quaternions.
-# This many objects with w = +-1 in the first place are enough: read as (x, y, z, w), all would be upside down.
+# This many rotations with a first component of 1 are enough: read as (x, y, z, w), they turn objects upside down.
 _TWO = 2
-# The w of a rotation by 74 degrees. Most objects are rotated by less (assumed). Exporters that tip all use 90.
+# The w of a rotation by 74 degrees. Most objects are rotated by less (assumed). Exporters that rotate all objects to
+# another up axis use 90 degrees.
 _MOSTLY_W = 0.8
 _FLOOR_SHARE, _FLOOR_FLATNESS = 0.5, 0.2  # A floor takes up this share of the scene, and is this flat (assumed).
 _NONE = 1e-6

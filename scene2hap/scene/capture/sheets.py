@@ -22,7 +22,7 @@ _INK, _PAPER = "#22313f", "#ffffff"
 _MARGIN, _TITLE, _LABEL = 8, 34, 20
 _THUMB_PX = 256
 _PLAN_PX = 1400
-# A cut through the room at this share of its height leaves out the ceiling and objects below it (assumed).
+# A cut through the room at this share of its height leaves out higher objects, such as a ceiling (assumed).
 _CUT = 0.8
 
 

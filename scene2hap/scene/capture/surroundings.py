@@ -31,8 +31,8 @@ _SUNK = 0.2
 def shells(stage: Stage) -> frozenset[int]:
     """Return walls, floors, ceilings and rooms.
 
-    They span `_SHELL_SPAN` of the scene along two axes. Or they are pieces of wall: high, thin, and at the scene's
-    boundary.
+    They span `_SHELL_SPAN` of the scene along two axes. Or they are pieces of wall: they span the same share of its
+    height, are thin, and are at its boundary.
     """
     up = {"y": 1, "z": 2}[stage.up_axis]
     low, high = stage.box_m
